@@ -1,0 +1,98 @@
+#include "core/base/files.hpp"
+
+#include <fcntl.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <cstring>
+#include <system_error>
+
+#include "core/base/errors.hpp"
+
+namespace mapproof {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// A file descriptor that closes itself.
+class Descriptor {
+ public:
+  explicit Descriptor(int number) : number_(number) {}
+  ~Descriptor() { close(); }
+  Descriptor(const Descriptor&) = delete;
+  Descriptor& operator=(const Descriptor&) = delete;
+
+  int get() const { return number_; }
+  bool close() {
+    if (number_ < 0) return true;
+    const int number = number_;
+    number_ = -1;
+    return ::close(number) == 0;
+  }
+
+ private:
+  int number_;
+};
+
+std::string reason() { return std::strerror(errno); }
+
+bool write_all(int file, std::string_view bytes) {
+  while (!bytes.empty()) {
+    const ssize_t count = ::write(file, bytes.data(), bytes.size());
+    if (count < 0 && errno == EINTR) continue;
+    if (count <= 0) return false;
+    bytes.remove_prefix(static_cast<std::size_t>(count));
+  }
+  return true;
+}
+
+}  // namespace
+
+std::string read_file(const fs::path& path, std::size_t limit) {
+  const Descriptor file(::open(path.c_str(), O_RDONLY | O_CLOEXEC));
+  if (file.get() < 0) throw IoError(path.string(), "cannot be opened: " + reason());
+  struct stat facts {};
+  if (::fstat(file.get(), &facts) != 0) throw IoError(path.string(), reason());
+  if (S_ISDIR(facts.st_mode)) throw IoError(path.string(), "is a folder, a file was expected");
+
+  std::string bytes;
+  if (facts.st_size > 0 && static_cast<std::size_t>(facts.st_size) <= limit)
+    bytes.reserve(static_cast<std::size_t>(facts.st_size) + 1);
+  std::string block(std::size_t{1} << 16, '\0');
+  for (;;) {
+    const ssize_t count = ::read(file.get(), block.data(), block.size());
+    if (count < 0 && errno == EINTR) continue;
+    if (count < 0) throw IoError(path.string(), "cannot be read: " + reason());
+    if (count == 0) return bytes;
+    bytes.append(block, 0, static_cast<std::size_t>(count));
+    if (bytes.size() > limit)
+      throw IoError(path.string(), "is larger than " + std::to_string(limit) + " bytes");
+  }
+}
+
+void make_folder(const fs::path& path) {
+  std::error_code error;
+  fs::create_directories(path, error);
+  if (error) throw IoError(path.string(), "folder cannot be made: " + error.message());
+  if (!fs::is_directory(path, error)) throw IoError(path.string(), "is not a folder");
+}
+
+void write_file(const fs::path& path, std::string_view bytes) {
+  if (path.has_parent_path()) make_folder(path.parent_path());
+  fs::path beside = path;
+  beside += ".part-" + std::to_string(::getpid());
+  try {
+    Descriptor file(::open(beside.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0644));
+    if (file.get() < 0) throw IoError(path.string(), "cannot be written: " + reason());
+    if (!write_all(file.get(), bytes) || !file.close())
+      throw IoError(path.string(), "cannot be written: " + reason());
+    if (::rename(beside.c_str(), path.c_str()) != 0)
+      throw IoError(path.string(), "cannot be put in place: " + reason());
+  } catch (...) {
+    ::unlink(beside.c_str());
+    throw;
+  }
+}
+
+}  // namespace mapproof

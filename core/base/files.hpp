@@ -1,0 +1,20 @@
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <string_view>
+
+namespace mapproof {
+
+/// The whole file. @throws IoError if it cannot be read or holds more than `limit` bytes.
+std::string read_file(const std::filesystem::path& path, std::size_t limit = std::size_t{1} << 31);
+
+/// Makes the folder and those above it. @throws IoError if that cannot be done.
+void make_folder(const std::filesystem::path& path);
+
+/// Replaces the file at once: written beside its place and renamed. After a kill or a full disk
+/// either the old file or the new one is there, whole. Folders above it are made.
+/// @throws IoError, and leaves nothing behind.
+void write_file(const std::filesystem::path& path, std::string_view bytes);
+
+}  // namespace mapproof

@@ -1,0 +1,81 @@
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "core/model/method.hpp"
+#include "core/model/sensor.hpp"
+
+namespace mapproof {
+
+/// How landmarks are scattered in the room.
+struct WorldOptions {
+  double side_m = 2.5;
+  int landmarks = 50;
+  double landmark_diameter_m = 0.048;
+  double gap_m = 0.01;         ///< Least free space between two landmarks.
+  double wall_margin_m = 0.1;  ///< Least free space between a landmark and a wall.
+};
+
+/// The robot's random walk [yairi2007, section 4.1].
+struct WalkOptions {
+  double step_m = 0.2;
+  double turn_rad = 0.78539816339744831;  ///< The new direction is uniform in +- this.
+  double substep_m = 0.01;
+  double clearance_m = 0.02;    ///< Least distance of the robot's centre to a landmark's surface.
+  double wall_margin_m = 0.06;  ///< Least distance of the robot's centre to a wall.
+};
+
+/// One kind of sensor and what is wrong with it.
+struct SensorOptions {
+  Sensor sensor = Sensor::kVisibility;
+  double visual_angle_rad = 0.087266462599716474;  ///< Visibility: seen if it looks wider than this.
+  bool occlusion = true;       ///< Visibility: hidden if another landmark cuts the ray to the centre.
+  double noise = 0.0;          ///< Standard deviation, rad or m; visibility: share of flipped entries.
+  double dropout_share = 0.0;  ///< Share of entries lost at random.
+};
+
+/// A method and the parameter values it is tried with.
+struct MethodGrid {
+  Method method = Method::kLpca;
+  std::vector<double> parameters;  ///< Empty exactly if the method has no parameter.
+};
+
+/// How the affine map to the anchors is fitted.
+enum class AffineFit {
+  kLeastDistances,  ///< Least sum of distances, as the paper says.
+  kLeastSquares,    ///< Least sum of squared distances.
+};
+
+/// A number that a paper printed, shown beside ours.
+struct PublishedValue {
+  MethodSetting setting;
+  double mpe_m = 0.0;
+  double moe_percent = 0.0;
+};
+
+/// One sensor's part of an experiment.
+struct SensorStudy {
+  SensorOptions sensor;
+  std::vector<int> checkpoints;  ///< Steps at which maps are built, ascending.
+  std::vector<MethodGrid> methods;
+  std::string published_source;  ///< "Yairi 2007, Table 1"; empty if nothing was published.
+  std::vector<PublishedValue> published;
+};
+
+/// A simulated study: `layouts` worlds, each walked from `poses` initial poses. A run is one pair.
+struct Experiment {
+  std::string name;   ///< Letters, digits, '-' and '_'.
+  std::string title;
+  std::uint64_t seed = 0;
+  int layouts = 1;
+  int poses = 1;
+  WorldOptions world;
+  WalkOptions walk;
+  int anchors = 4;  ///< The landmarks nearest the room's corners.
+  AffineFit affine_fit = AffineFit::kLeastDistances;
+  std::vector<SensorStudy> sensors;
+};
+
+}  // namespace mapproof

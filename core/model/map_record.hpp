@@ -1,0 +1,38 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include <Eigen/Core>
+
+#include "core/model/method.hpp"
+#include "core/model/points.hpp"
+#include "core/model/score.hpp"
+#include "core/model/sensor.hpp"
+#include "core/model/status.hpp"
+
+namespace mapproof {
+
+/// The frame that a map's coordinates are in.
+enum class Frame {
+  kTruth,       ///< Metres, aligned to the anchors by an affine map.
+  kSimilarity,  ///< No anchors: shape alone; place, turn, scale and mirror are arbitrary.
+};
+
+/// One map, of a study or of a person's own observations.
+struct MapRecord {
+  std::string id;  ///< Slash-separated, e.g. "layout-1-pose-2/bearing/isomap-K9/2000".
+  Sensor sensor = Sensor::kVisibility;
+  MethodSetting setting;
+  int step = 0;  ///< Number of observations used, N.
+  Frame frame = Frame::kTruth;
+  std::vector<std::string> names;    ///< M.
+  Points estimate;                   ///< M x 2, m if frame is kTruth; NaN rows: not mapped.
+  std::optional<Points> truth_m;     ///< M x 2; NaN rows: truth unknown.
+  std::vector<Eigen::Index> anchors; ///< Rows whose true position was given.
+  std::vector<Status> statuses;
+  std::optional<Score> score;        ///< If there is a truth and the map could be scored.
+};
+
+}  // namespace mapproof

@@ -1,0 +1,62 @@
+#pragma once
+
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+
+namespace mapproof {
+
+/// The mapping methods [yairi2007, section 4.2].
+enum class Method {
+  kLpca,
+  kSmacof,
+  kSmacofKnn,
+  kIsomap,
+};
+
+/// The one number a method is tuned by.
+struct ParameterInfo {
+  std::string_view symbol;  ///< As in the paper and in files: "K".
+  std::string_view meaning;
+  bool integer;
+  double minimum;  ///< Inclusive.
+  double maximum;  ///< Inclusive; K must also be below the number of landmarks.
+};
+
+/// Everything about a method that needs no solver.
+struct MethodInfo {
+  Method method;
+  std::string_view name;   ///< In files and on the command line: "smacof-knn".
+  std::string_view label;  ///< In figures and tables: "SMACOF, kNN weights".
+  std::string_view summary;
+  std::string_view source;  ///< Author and year, with the key in docs/references.bib in brackets.
+  std::optional<ParameterInfo> parameter;
+};
+
+/// All methods in the order of the paper's tables.
+std::span<const MethodInfo> all_methods();
+
+const MethodInfo& info(Method method);
+
+/// The method of that name; empty if there is none.
+std::optional<Method> method_named(std::string_view name);
+
+/// The known method whose name is nearest to `name`, for "did you mean".
+std::string_view nearest_method_name(std::string_view name);
+
+/// A method with the value of its parameter, if it has one.
+struct MethodSetting {
+  Method method = Method::kLpca;
+  std::optional<double> parameter;
+
+  bool operator==(const MethodSetting&) const = default;
+};
+
+/// "isomap-K6", "lpca": unique among settings, safe in ids and file names.
+std::string slug(const MethodSetting& setting);
+
+/// "ISOMAP, K = 6": for captions and legends.
+std::string label(const MethodSetting& setting);
+
+}  // namespace mapproof

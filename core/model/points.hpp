@@ -1,0 +1,10 @@
+#pragma once
+
+#include <Eigen/Core>
+
+namespace mapproof {
+
+/// Positions in the plane, a point a row, metres where a name says so.
+using Points = Eigen::Matrix<double, Eigen::Dynamic, 2>;
+
+}  // namespace mapproof

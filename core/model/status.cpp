@@ -1,0 +1,25 @@
+#include "core/model/status.hpp"
+
+#include <array>
+
+namespace mapproof {
+namespace {
+
+constexpr std::array kNames = {
+    std::string_view("bridged"),           std::string_view("not_converged"),
+    std::string_view("rank_deficient"),    std::string_view("landmark_unseen"),
+    std::string_view("distances_completed"), std::string_view("anchors_missing"),
+    std::string_view("anchors_degenerate"), std::string_view("failed"),
+};
+
+}  // namespace
+
+std::string_view name(StatusCode code) { return kNames[static_cast<std::size_t>(code)]; }
+
+std::optional<StatusCode> status_code_named(std::string_view name) {
+  for (std::size_t i = 0; i < kNames.size(); ++i)
+    if (kNames[i] == name) return static_cast<StatusCode>(i);
+  return std::nullopt;
+}
+
+}  // namespace mapproof

@@ -1,0 +1,35 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <string_view>
+
+namespace mapproof {
+
+/// How a solve ended other than well. Data, never an exception: drawn on figures, listed in reports.
+enum class StatusCode {
+  kBridged,             ///< The neighbour graph was in pieces; joined by the shortest bridges.
+  kNotConverged,        ///< The iteration limit came before the stop rule.
+  kRankDeficient,       ///< Fewer than two dimensions in the data: the map is flat or a point.
+  kLandmarkUnseen,      ///< Landmarks never observed; they are missing from the map.
+  kDistancesCompleted,  ///< Pairs without a common step took the shortest path over the others.
+  kAnchorsMissing,      ///< Too few mapped anchors for an affine map: no score.
+  kAnchorsDegenerate,   ///< Anchors nearly on one line in the embedding: the affine map is arbitrary.
+  kFailed,              ///< No map came out at all; the detail says why.
+};
+
+/// One thing that went other than well, with what was done about it.
+struct Status {
+  StatusCode code;
+  std::string detail;  ///< One sentence with the numbers, for a reader.
+
+  bool operator==(const Status&) const = default;
+};
+
+/// The name used in files ("bridged", "not_converged", ...).
+std::string_view name(StatusCode code);
+
+/// The code of that name; empty if there is none.
+std::optional<StatusCode> status_code_named(std::string_view name);
+
+}  // namespace mapproof

@@ -1,0 +1,77 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "core/model/experiment.hpp"
+#include "core/model/map_record.hpp"
+#include "core/model/score.hpp"
+#include "core/model/world.hpp"
+
+namespace mapproof {
+
+/// Which layout and which initial pose, both counted from 1.
+struct RunId {
+  int layout = 1;
+  int pose = 1;
+
+  auto operator<=>(const RunId&) const = default;
+};
+
+/// "layout-1-pose-2".
+std::string slug(const RunId& run);
+
+/// How one map came out: the unit that tables and curves are made of.
+struct RunRecord {
+  Sensor sensor = Sensor::kVisibility;
+  MethodSetting setting;
+  int step = 0;
+  std::vector<Status> statuses;
+  std::optional<Score> score;  ///< Empty if no map came out.
+  int iterations = 0;
+  std::optional<double> stress;
+};
+
+/// One run: its world and every record, in order of sensor, method, parameter, step.
+struct Run {
+  RunId id;
+  World world;
+  std::vector<Eigen::Index> anchors;
+  std::vector<RunRecord> records;
+};
+
+/// What made a study: enough to make it again, nothing that varies between two makings.
+struct Provenance {
+  std::string version;        ///< Of mapproof.
+  std::string commit;         ///< Of its source; "unknown" outside a checkout.
+  std::string solver_digest;  ///< SHA-256 of the sources of core: records of another one are redone.
+  std::vector<std::pair<std::string, std::string>> libraries;  ///< Name and version.
+};
+
+/// Everything a figure or a report needs, maps apart (they are read one at a time).
+struct Study {
+  Experiment experiment;
+  Provenance provenance;
+  std::vector<Run> runs;  ///< In ascending order of id.
+};
+
+/// Seconds that one piece of a study took; kept apart since it varies from run to run.
+struct Timing {
+  RunId run;
+  Sensor sensor = Sensor::kVisibility;
+  MethodSetting setting;
+  int step = 0;
+  double seconds = 0.0;
+};
+
+/// One start of the program on a study, kept with the timings.
+struct Session {
+  std::string command;      ///< As typed, arguments quoted.
+  std::string started_utc;  ///< ISO 8601.
+  std::string host;
+  int jobs = 1;
+  double seconds = 0.0;
+};
+
+}  // namespace mapproof
