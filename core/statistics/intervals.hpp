@@ -1,0 +1,36 @@
+#pragma once
+
+#include <optional>
+#include <span>
+
+namespace mapproof {
+
+/// A mean with what is known of its uncertainty.
+struct MeanEstimate {
+  double mean = 0.0;
+  int values = 0;
+  int clusters = 0;                  ///< Independent units among the values.
+  std::optional<double> half_width;  ///< Of the confidence interval; empty with one cluster.
+};
+
+/// Mean of values, and its confidence interval where values of one cluster are not independent
+/// (runs in one layout): Student's t over the clusters. With equally many values in each, it is the
+/// t interval of the clusters' means.
+///
+/// @param clusters    The cluster of each value, as many as values.
+/// @param confidence  In (0, 1).
+/// @throws InvalidInput if there is no value, a value is not finite, or a bound is broken.
+MeanEstimate clustered_mean(std::span<const double> values, std::span<const int> clusters,
+                            double confidence = 0.95);
+
+/// @throws InvalidInput if there is no value.
+double median(std::span<const double> values);
+
+/// Regularised incomplete beta function I_x(a, b), a, b > 0, x in [0, 1]; about 1e-13.
+double incomplete_beta(double a, double b, double x);
+
+/// The x below which Student's t with `freedom` degrees lies with `probability`.
+/// @throws InvalidInput unless 0 < probability < 1 and freedom > 0.
+double student_t_quantile(double probability, double freedom);
+
+}  // namespace mapproof

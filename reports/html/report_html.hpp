@@ -1,0 +1,24 @@
+#pragma once
+
+#include <functional>
+#include <string>
+
+#include "reports/html/templates.hpp"
+#include "reports/model/report.hpp"
+
+namespace mapproof {
+
+/// The drawing of a figure by its id: an <svg> element of our own writer; empty if there is none.
+using SvgLookup = std::function<std::string(const std::string& figure_id)>;
+
+struct HtmlOptions {
+  std::string figure_folder = "figures";  ///< Links to files beside the page; empty: no links.
+  std::string table_folder = "tables";
+};
+
+/// One self-contained page: nothing is fetched, and its content security policy forbids it.
+/// @throws IoError if a template fails; InvalidInput if the report breaks its rules (see check).
+std::string report_html(const Report& report, const Templates& templates, const SvgLookup& svg,
+                        const HtmlOptions& options = {});
+
+}  // namespace mapproof

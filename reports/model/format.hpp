@@ -1,0 +1,29 @@
+#pragma once
+
+#include <string>
+
+#include "reports/model/report.hpp"
+
+namespace mapproof {
+
+/// The sign that stands for a missing value: an en dash.
+inline constexpr const char* kMissingText = "\u2013";
+
+/// `value` with `decimals` places and a true minus (U+2212); beyond a million with an exponent;
+/// "–" if it is no finite number. Zero carries no sign.
+std::string format_number(double value, int decimals, bool with_sign = false);
+
+/// As a reader sees it: "0.219", "0.191 to 0.247", "–".
+std::string format_cell(const Cell& cell);
+
+/// "1 run", "25 runs".
+std::string count_of(long count, const std::string& noun);
+
+/// "340 ms", "12.3 s", "4 min 10 s", "2 h 5 min".
+std::string format_duration(double seconds);
+
+/// `text` as valid UTF-8 that can be shown: bytes that are no UTF-8 become U+FFFD, control
+/// characters other than tab and newline their pictures (U+2400 and on).
+std::string displayable(const std::string& text);
+
+}  // namespace mapproof

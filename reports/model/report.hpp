@@ -1,0 +1,158 @@
+#pragma once
+
+#include <string>
+#include <variant>
+#include <vector>
+
+namespace mapproof {
+
+/// How a piece of text is set; no style carries meaning that the words lack.
+enum class Emphasis {
+  kPlain,
+  kStrong,
+  kCode,  ///< Commands, file names, ids.
+  kData,  ///< Text from a user's file: kept apart from the direction of the text around it.
+};
+
+/// A piece of text. Never markup: whatever it holds is shown as it is.
+struct Phrase {
+  std::string text;
+  Emphasis emphasis = Emphasis::kPlain;
+};
+
+struct Paragraph {
+  std::vector<Phrase> phrases;
+};
+
+struct BulletList {
+  std::vector<Paragraph> items;
+};
+
+/// A few numbers to be seen first.
+struct Highlights {
+  struct Item {
+    std::string label;
+    std::string value;
+    std::string detail;
+  };
+  std::vector<Item> items;
+};
+
+/// A remark that must not be missed.
+struct Callout {
+  enum class Tone { kNote, kWarning };
+  Tone tone = Tone::kNote;
+  std::string title;
+  Paragraph text;
+};
+
+struct TextCell {
+  std::string text;
+  Emphasis emphasis = Emphasis::kPlain;
+};
+
+/// Shown as missing if the value is no finite number.
+struct NumberCell {
+  double value = 0.0;
+  int decimals = 3;
+  bool with_sign = false;  ///< Positive values carry a plus.
+};
+
+struct IntervalCell {
+  double low = 0.0;
+  double high = 0.0;
+  int decimals = 3;
+};
+
+/// Nothing to show: "–".
+struct MissingCell {};
+
+using Cell = std::variant<TextCell, NumberCell, IntervalCell, MissingCell>;
+
+struct Column {
+  std::string title;
+  std::string unit;   ///< "m"; empty if none.
+  std::string group;  ///< Neighbouring columns of one group share a heading; empty if none.
+  std::string hint;   ///< One sentence on what the column holds; may be empty.
+};
+
+struct Row {
+  std::vector<Cell> cells;  ///< One a column.
+  std::string source;       ///< Which records the numbers come from.
+  bool marked = false;      ///< The best of its table.
+};
+
+struct Table {
+  std::string id;  ///< [a-z0-9-]+, unique in its report; also the name of its files.
+  std::string caption;
+  std::vector<Column> columns;
+  std::vector<Row> rows;
+  std::vector<std::string> notes;
+};
+
+/// Where a figure stands; its drawing is handed to the writer apart.
+struct FigureBlock {
+  std::string id;  ///< [a-z0-9-]+, unique in its report.
+  std::string title;
+  std::string caption;
+  std::string alt;  ///< What the figure shows, in words.
+  std::vector<std::string> record_ids;
+};
+
+/// Figures of one kind, side by side.
+struct Gallery {
+  std::vector<FigureBlock> figures;
+};
+
+struct KeyValues {
+  struct Item {
+    std::string key;
+    Phrase value;
+  };
+  std::vector<Item> items;
+};
+
+/// What ended other than well, one item a kind.
+struct StatusList {
+  struct Place {
+    std::string record_id;
+    std::string detail;
+  };
+  struct Item {
+    std::string code;     ///< As in the files: "not_converged".
+    std::string meaning;  ///< One sentence.
+    std::string where;    ///< "bearing, ISOMAP, K = 9".
+    int count = 0;        ///< Maps that carry it.
+    int of = 0;           ///< Maps of that kind in all.
+    bool failed = false;  ///< No map came out.
+    std::vector<Place> places;  ///< The first few.
+  };
+  std::vector<Item> items;
+};
+
+using Block = std::variant<Paragraph, BulletList, Highlights, Callout, Table, FigureBlock, Gallery,
+                           KeyValues, StatusList>;
+
+struct Section {
+  std::string id;  ///< [a-z0-9-]+, unique in its report.
+  std::string title;
+  std::vector<Block> blocks;
+};
+
+/// What a report says; how it looks is another matter.
+struct Report {
+  std::string title;
+  std::string subtitle;
+  std::vector<Section> sections;
+  std::string footer;
+};
+
+/// Throws unless every id is [a-z0-9-]+ and unique, and every row has a cell a column.
+/// @throws InvalidInput naming the id.
+void check(const Report& report);
+
+/// All tables and all figures of a report, in reading order.
+std::vector<const Table*> tables(const Report& report);
+std::vector<const FigureBlock*> figures(const Report& report);
+
+}  // namespace mapproof

@@ -1,0 +1,28 @@
+#pragma once
+
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "core/model/map_record.hpp"
+#include "core/model/study.hpp"
+#include "reports/model/report.hpp"
+
+namespace mapproof {
+
+/// One map made of a person's own observations, and what came before it.
+struct MapReportInput {
+  const MapRecord& record;
+  std::string title;  ///< "Map of observations.csv".
+  /// What was read, in words: {"File", "observations.csv"}, {"Landmarks", "50"}, …
+  std::vector<std::pair<std::string, std::string>> facts;
+  std::vector<std::string> remarks;  ///< "line 7: no bearing, row dropped", …
+  FigureBlock figure;                ///< figure_block(map_figure(record, id)).
+  Provenance provenance;
+  std::string command;  ///< The one that makes it again, ready to be typed.
+};
+
+/// Summary, figure, landmarks (with errors where the truth is known), remarks, statuses, provenance.
+Report map_report(const MapReportInput& input);
+
+}  // namespace mapproof

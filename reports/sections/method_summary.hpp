@@ -1,0 +1,42 @@
+#pragma once
+
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "core/model/study.hpp"
+#include "core/statistics/intervals.hpp"
+
+namespace mapproof {
+
+/// How one method with one parameter did at one step, over all runs of a study.
+struct SettingSummary {
+  Sensor sensor = Sensor::kVisibility;
+  MethodSetting setting;
+  int step = 0;
+  int runs = 0;         ///< Records found.
+  int scored = 0;       ///< Of them with a score.
+  int with_status = 0;  ///< Of them with a status of any kind.
+  std::optional<MeanEstimate> mpe_m;  ///< Over the scored; empty if there are none.
+  std::optional<MeanEstimate> moe_percent;
+  double mpe_median_m = 0.0;               ///< Of the scored; NaN if there are none, as below.
+  double mpe_all_fitted_m = 0.0;           ///< Mean.
+  double moe_unmirrored_percent = 0.0;     ///< Mean.
+  std::optional<PublishedValue> published;  ///< Of the same method, whatever its parameter.
+};
+
+/// Every parameter of every method of `sensor` at `step`, in the order of the experiment.
+std::vector<SettingSummary> summarize(const Study& study, const SensorStudy& sensor, int step);
+
+/// For each method the parameter of least mean MPE, as the paper chose; a method without any score
+/// stands with its first parameter.
+std::vector<SettingSummary> best_of_each_method(std::span<const SettingSummary> summaries);
+
+/// The last checkpoint, 0 if there is none.
+int last_step(const SensorStudy& sensor);
+
+/// "bearing/isomap-K9/2000 of 25 runs": which records a summary rests on.
+std::string source_of(const SettingSummary& summary);
+
+}  // namespace mapproof

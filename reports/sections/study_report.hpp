@@ -1,0 +1,32 @@
+#pragma once
+
+#include <span>
+#include <string>
+
+#include "core/model/study.hpp"
+#include "reports/model/report.hpp"
+#include "reports/sections/study_figures.hpp"
+
+namespace mapproof {
+
+struct StudyReportInput {
+  const Study& study;
+  std::span<const Session> sessions;
+  std::span<const Timing> timings;
+  const StudyFigures& figures;
+  std::string command;  ///< The one that makes this study and report again, ready to be typed.
+};
+
+/// The whole report of a study: summary, accuracy, curves, maps, statuses, provenance.
+Report study_report(const StudyReportInput& input);
+
+/// Its parts, each a pure function of the records.
+Section summary_section(const Study& study);
+Section accuracy_section(const Study& study, const SensorStudy& sensor);
+Section curves_section(const StudyFigures& figures);
+Section maps_section(const StudyFigures& figures);
+Section statuses_section(const Study& study);
+Section provenance_section(const Study& study, std::span<const Session> sessions,
+                           std::span<const Timing> timings, const std::string& command);
+
+}  // namespace mapproof

@@ -1,0 +1,26 @@
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "reports/model/report.hpp"
+
+namespace mapproof {
+
+/// Comma-separated values [rfc4180], numbers unrounded, an interval as two columns, a missing value
+/// as an empty field.
+std::string table_csv(const Table& table);
+
+/// A LaTeX table in booktabs style, to be \input; needs \usepackage{booktabs} alone.
+std::string table_latex(const Table& table);
+
+/// A Markdown table as GitHub reads it, with the caption above and the notes below.
+std::string table_markdown(const Table& table);
+
+/// Writes ID.csv, ID.tex and ID.md of every table into `folder`.
+/// @return The names of the files, sorted.
+/// @throws IoError if a file cannot be written; InvalidInput if an id is none.
+std::vector<std::string> write_tables(const Report& report, const std::filesystem::path& folder);
+
+}  // namespace mapproof
