@@ -1,0 +1,19 @@
+#pragma once
+
+#include <string>
+
+#include "core/model/map_record.hpp"
+#include "render/plot/figure.hpp"
+
+namespace mapproof {
+
+/// One map: truth as open circles, estimates as dots, joined by lines; anchors as triangles; the
+/// worst landmarks labelled. Estimates far outside the room become arrows at the frame, and the
+/// figure says so. Statuses are drawn below the title.
+///
+/// @param id  Of the figure, [a-z][a-z0-9-]*.
+/// @throws InvalidInput if the record's parts disagree in size.
+/// @note Pure: O(landmarks).
+Figure map_figure(const MapRecord& record, const std::string& id);
+
+}  // namespace mapproof

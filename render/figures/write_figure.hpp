@@ -1,0 +1,31 @@
+#pragma once
+
+#include <filesystem>
+#include <string>
+
+#include "render/plot/figure.hpp"
+#include "render/theme/theme.hpp"
+
+namespace mapproof {
+
+/// A whole SVG file, also fit to stand in an HTML page beside others: every id begins with the
+/// figure's, the width is the page's to choose. The same figure and theme give the same bytes.
+/// @throws InvalidInput if the figure cannot be drawn (see `problem`).
+std::string figure_svg(const Figure& figure, const Theme& theme);
+
+/// A PNG file with the figure's id and records as text chunks. Otherwise as figure_svg.
+std::string figure_png(const Figure& figure, const Theme& theme);
+
+/// A PDF file with selectable text and a fixed date. Otherwise as figure_svg.
+std::string figure_pdf(const Figure& figure, const Theme& theme);
+
+struct FigureFiles {
+  std::filesystem::path svg, png, pdf, json;
+};
+
+/// Writes ID.svg, ID.png, ID.pdf and ID.figure.json, each at once or not at all.
+/// @throws InvalidInput as figure_svg; IoError if a file cannot be written.
+FigureFiles write_figure(const Figure& figure, const Theme& theme,
+                         const std::filesystem::path& folder);
+
+}  // namespace mapproof

@@ -1,0 +1,148 @@
+#include "render/plot/figure.hpp"
+
+#include <cmath>
+#include <set>
+#include <span>
+#include <string_view>
+
+#include <fmt/format.h>
+
+#include "core/base/errors.hpp"
+
+namespace mapproof {
+namespace {
+
+bool is_slug(std::string_view text) {
+  if (text.empty()) return false;
+  for (const char c : text)
+    if (!((c >= 'a' && c <= 'z') || (c >= '0' && c <= '9') || c == '-')) return false;
+  return true;
+}
+
+bool same_size(std::size_t size, std::initializer_list<std::size_t> others) {
+  for (const std::size_t other : others)
+    if (other != size) return false;
+  return true;
+}
+
+/// Looks at the parts one by one and keeps the ids it has met.
+class Inspector {
+ public:
+  std::string figure(const Figure& figure) {
+    if (!is_slug(figure.id) || figure.id[0] < 'a' || figure.id.size() > 120)
+      return "id: '" + printable(figure.id) + "' is not [a-z][a-z0-9-]* of at most 120 characters";
+    if (figure.panels.empty()) return "panels: there is none";
+    for (std::size_t p = 0; p < figure.panels.size(); ++p)
+      if (std::string what = panel(figure.panels[p]); !what.empty())
+        return fmt::format("panels/{}/{}", p, what);
+    return {};
+  }
+
+ private:
+  std::string panel(const Panel& panel) {
+    if (std::string what = axis(panel.x); !what.empty()) return "x/" + what;
+    if (std::string what = axis(panel.y); !what.empty()) return "y/" + what;
+    if (panel.equal_aspect && (panel.x.scale == Scale::kLog || panel.y.scale == Scale::kLog))
+      return "equal_aspect: needs linear axes";
+    for (std::size_t i = 0; i < panel.layers.size(); ++i) {
+      const auto inspect = [&](const auto& layer) { return this->layer(layer, panel); };
+      if (std::string what = std::visit(inspect, panel.layers[i]); !what.empty())
+        return fmt::format("layers/{}/{}", i, what);
+    }
+    return {};
+  }
+
+  static std::string axis(const Axis& axis) {
+    if (!axis.limits) return {};
+    const auto [low, high] = *axis.limits;
+    if (!std::isfinite(low) || !std::isfinite(high) || !(low < high))
+      return "limits: not finite and ascending";
+    if (axis.scale == Scale::kLog && low <= 0.0) return "limits: not positive on a log axis";
+    return {};
+  }
+
+  std::string layer(const Polyline& line, const Panel& panel) {
+    if (!same_size(line.x.size(), {line.y.size()})) return "y: not as long as x";
+    if (std::string what = values(line.x, panel.x, "x"); !what.empty()) return what;
+    if (std::string what = values(line.y, panel.y, "y"); !what.empty()) return what;
+    return mark(line.mark);
+  }
+
+  std::string layer(const Band& band, const Panel& panel) {
+    if (!same_size(band.x.size(), {band.low.size(), band.high.size()}))
+      return "low, high: not as long as x";
+    if (std::string what = values(band.x, panel.x, "x"); !what.empty()) return what;
+    if (std::string what = values(band.low, panel.y, "low"); !what.empty()) return what;
+    if (std::string what = values(band.high, panel.y, "high"); !what.empty()) return what;
+    return mark(band.mark);
+  }
+
+  std::string layer(const Scatter& points, const Panel& panel) {
+    if (!same_size(points.x.size(), {points.y.size()})) return "y: not as long as x";
+    if (std::string what = values(points.x, panel.x, "x"); !what.empty()) return what;
+    if (std::string what = values(points.y, panel.y, "y"); !what.empty()) return what;
+    return marks(points.marks, points.x.size());
+  }
+
+  std::string layer(const Segments& lines, const Panel& panel) {
+    if (!same_size(lines.x0.size(), {lines.y0.size(), lines.x1.size(), lines.y1.size()}))
+      return "y0, x1, y1: not as long as x0";
+    if (std::string what = values(lines.x0, panel.x, "x0"); !what.empty()) return what;
+    if (std::string what = values(lines.y0, panel.y, "y0"); !what.empty()) return what;
+    if (std::string what = values(lines.x1, panel.x, "x1"); !what.empty()) return what;
+    if (std::string what = values(lines.y1, panel.y, "y1"); !what.empty()) return what;
+    return marks(lines.marks, lines.x0.size());
+  }
+
+  std::string layer(const PointLabels& labels, const Panel& panel) {
+    if (!same_size(labels.x.size(), {labels.y.size(), labels.text.size()}))
+      return "y, text: not as long as x";
+    if (std::string what = values(labels.x, panel.x, "x"); !what.empty()) return what;
+    return values(labels.y, panel.y, "y");
+  }
+
+  static std::string values(std::span<const double> values, const Axis& axis,
+                            std::string_view name) {
+    for (std::size_t i = 0; i < values.size(); ++i) {
+      if (std::isinf(values[i])) return fmt::format("{}/{}: infinite", name, i);
+      if (std::abs(values[i]) > 1e150) return fmt::format("{}/{}: beyond 1e150", name, i);
+      if (axis.scale == Scale::kLog && values[i] <= 0.0)
+        return fmt::format("{}/{}: not positive on a log axis", name, i);
+    }
+    return {};
+  }
+
+  std::string marks(const std::vector<Mark>& marks, std::size_t points) {
+    if (!marks.empty() && marks.size() != points) return "marks: not as many as points";
+    for (const Mark& one : marks)
+      if (std::string what = mark(one); !what.empty()) return what;
+    return {};
+  }
+
+  std::string mark(const Mark& mark) {
+    if (!mark.id.empty()) {
+      if (!is_slug(mark.id)) return "mark: id '" + printable(mark.id) + "' is not [a-z0-9-]+";
+      if (!ids_.insert(mark.id).second) return "mark: id '" + mark.id + "' is there twice";
+    }
+    for (const auto& [name, value] : mark.data)
+      if (!is_slug(name)) return "mark: data '" + printable(name) + "' is not [a-z0-9-]+";
+    return {};
+  }
+
+  std::set<std::string_view> ids_;
+};
+
+}  // namespace
+
+Ink series_ink(std::size_t i) {
+  return static_cast<Ink>(static_cast<std::size_t>(Ink::kSeries1) + i % 7);
+}
+
+std::string problem(const Figure& figure) { return Inspector().figure(figure); }
+
+void require_valid(const Figure& figure) {
+  if (const std::string what = problem(figure); !what.empty())
+    throw InvalidInput("figure " + printable(figure.id) + ": " + what);
+}
+
+}  // namespace mapproof

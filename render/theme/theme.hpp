@@ -1,0 +1,38 @@
+#pragma once
+
+#include <array>
+#include <string>
+
+#include "render/theme/colour.hpp"
+
+namespace mapproof {
+
+/// All that a figure's look depends on, the figure itself apart. Lengths are in points (1/72 in).
+struct Theme {
+  std::string name;
+  double width_pt = 0.0;
+  double height_pt = 0.0;
+  double dpi = 72.0;  ///< Of the PNG.
+
+  bool draws_title = true;
+  double font_pt = 0.0;  ///< Axis labels, legend, notes.
+  double tick_font_pt = 0.0;
+  double title_font_pt = 0.0;
+  double line_pt = 0.0;
+  double hairline_pt = 0.0;  ///< Frame and ticks.
+  double marker_pt = 0.0;    ///< Diameter.
+  double space_pt = 0.0;     ///< The unit of all gaps.
+
+  Colour background, text, muted, grid, warning;
+  std::array<Colour, 7> series;
+};
+
+/// For screens: 600 x 450 pt, 1200 x 900 px.
+Theme report_theme();
+
+/// For a journal: 8 pt text, 300 dpi, no title (the caption below the figure has it).
+/// @param width_in  Of the column, 2 to 20; 3.25 (single) and 6.75 (double) are usual.
+/// @throws InvalidInput outside that.
+Theme paper_theme(double width_in);
+
+}  // namespace mapproof
