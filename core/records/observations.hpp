@@ -1,0 +1,46 @@
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "core/model/observation_history.hpp"
+#include "core/model/points.hpp"
+#include "core/model/sensor.hpp"
+
+namespace mapproof {
+
+/// How a CSV file holds observations.
+enum class Layout {
+  kAuto,  ///< kLong if the header names step, landmark and value, else kWide.
+  kWide,  ///< A row a landmark, a column a step.
+  kLong,  ///< A row an observation: step, landmark, value.
+};
+
+/// A person's own observations, with what is needed to talk about the file they came from.
+struct ObservationSource {
+  ObservationHistory history;
+  std::optional<Points> truth_m;     ///< M x 2, if the source holds it; NaN rows: unknown.
+  std::vector<std::string> remarks;  ///< What was dropped or assumed, a sentence each.
+  std::vector<std::string> places;   ///< M; where a landmark stands: "line 7", "/values/6".
+  std::string path;                  ///< For errors: the file or folder that was read.
+};
+
+/// Observations from CSV (wide or long), mapproof's JSON or a folder of MRCLAM [leung2011].
+///
+/// Rows without any observation are kept: whether they are trouble is for the caller to say.
+///
+/// @param kind  What the values are. Required for CSV; must agree with a JSON file; for MRCLAM
+///              visibility if empty.
+/// @throws IoError naming file and place if the source cannot be read as such, breaks the bounds of
+///         its kind (0 or 1; |rad| <= 2 pi; 0 <= m <= 1e6), repeats a name or a (step, landmark),
+///         or exceeds 5000 landmarks, 1e6 steps or 2e8 entries.
+/// @note Linear in the size of the file; about 0.2 s for 50 x 100,000 entries.
+ObservationSource read_observations(const std::filesystem::path& path, std::optional<Sensor> kind,
+                                    Layout layout = Layout::kAuto);
+
+/// mapproof's own JSON (mapproof.observations), NaN as null.
+std::string observations_json(const ObservationHistory& history);
+
+}  // namespace mapproof

@@ -1,0 +1,30 @@
+#pragma once
+
+#include <filesystem>
+#include <functional>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace mapproof {
+
+/// What one file turned out to be.
+struct Finding {
+  std::string path;
+  std::string kind;     ///< "mapproof.run 1", "wide CSV observations"; empty if not recognised.
+  std::string problem;  ///< One line; empty if the file is fine.
+};
+
+/// Reads a JSON file of a schema that core does not know, e.g. "mapproof.figure"; throws IoError.
+/// @return Whether it knows that schema.
+using ForeignReader =
+    std::function<bool(std::string_view schema, std::string_view text, const std::string& source)>;
+
+/// Checks a file, or every file of a study's folder, in the order of their paths. Reading trouble
+/// is a finding, never an exception. A JSON schema that neither core nor `foreign` knows is
+/// accepted by its heading alone when it starts with "mapproof.".
+std::vector<Finding> validate(const std::filesystem::path& path,
+                              const ForeignReader& foreign = nullptr);
+
+}  // namespace mapproof
