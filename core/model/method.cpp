@@ -1,11 +1,11 @@
 #include "core/model/method.hpp"
 
-#include <algorithm>
 #include <array>
-#include <numeric>
 #include <vector>
 
 #include <fmt/format.h>
+
+#include "core/base/spelling.hpp"
 
 namespace mapproof {
 namespace {
@@ -43,22 +43,6 @@ constexpr std::array kMethods = {
                .parameter = kNeighbours},
 };
 
-/// Levenshtein distance.
-std::size_t edit_distance(std::string_view a, std::string_view b) {
-  std::vector<std::size_t> row(b.size() + 1);
-  std::iota(row.begin(), row.end(), std::size_t{0});
-  for (std::size_t i = 0; i < a.size(); ++i) {
-    std::size_t diagonal = row[0];
-    row[0] = i + 1;
-    for (std::size_t j = 0; j < b.size(); ++j) {
-      const std::size_t replaced = diagonal + (a[i] == b[j] ? 0 : 1);
-      diagonal = row[j + 1];
-      row[j + 1] = std::min({replaced, row[j] + 1, row[j + 1] + 1});
-    }
-  }
-  return row.back();
-}
-
 }  // namespace
 
 std::span<const MethodInfo> all_methods() { return kMethods; }
@@ -72,10 +56,9 @@ std::optional<Method> method_named(std::string_view name) {
 }
 
 std::string_view nearest_method_name(std::string_view name) {
-  const std::string_view start = name.substr(0, 64);
-  return std::ranges::min_element(kMethods, {}, [&](const MethodInfo& candidate) {
-           return edit_distance(start, candidate.name);
-         })->name;
+  std::vector<std::string_view> names;
+  for (const MethodInfo& method : kMethods) names.push_back(method.name);
+  return nearest_word(name, names);
 }
 
 std::string slug(const MethodSetting& setting) {
