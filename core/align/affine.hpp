@@ -1,0 +1,32 @@
+#pragma once
+
+#include <Eigen/Core>
+
+#include "core/model/experiment.hpp"
+#include "core/model/points.hpp"
+
+namespace mapproof {
+
+/// z -> z * linear + offset, points as rows.
+struct Affine {
+  Eigen::Matrix2d linear = Eigen::Matrix2d::Identity();
+  Eigen::RowVector2d offset = Eigen::RowVector2d::Zero();
+
+  Points operator()(const Points& points) const {
+    return (points * linear).rowwise() + offset;
+  }
+};
+
+/// How far a set of points is from lying on one line: the smaller singular value of the centred
+/// points over the larger one, in [0, 1]; 0 for fewer than 3 points.
+double planarity(const Points& points);
+
+/// The affine map that takes `from` closest to `to` [yairi2007, section 3, step 4].
+///
+/// kLeastDistances lowers the sum of distances by iteratively reweighted least squares from the
+/// least-squares solution; through 4 points the best map meets 3 of them.
+/// @param from, to  n x 2, finite, n >= 3; `from` not on one line (planarity > 1e-9).
+/// @throws InvalidInput if the bounds above are broken.
+Affine fit_affine(const Points& from, const Points& to, AffineFit fit);
+
+}  // namespace mapproof

@@ -1,0 +1,68 @@
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "core/embed/smacof.hpp"
+#include "core/model/embedding.hpp"
+#include "core/model/method.hpp"
+#include "core/observe/proximities.hpp"
+
+namespace mapproof {
+
+/// What holds for every method of an embedder.
+struct EmbedderOptions {
+  /// Leave pairs of landmarks never seen together out of the neighbour graph (visibility only;
+  /// with infinite distances they are out in any case).
+  bool only_seen_together = false;
+  SmacofOptions smacof;
+  /// Weighted SMACOF is stopped early: full convergence makes worse maps.
+  SmacofOptions smacof_knn{.relative_fall = 1e-2, .max_iterations = 1000};
+};
+
+/// Every mapping method over the same proximities; what several of them start from is computed once.
+class Embedder {
+ public:
+  /// @param proximities  Of landmarks that were all observed, n >= 3. Pairs without a common step
+  ///        (infinite distance) take the shortest path over the others where a method needs all
+  ///        distances, and the embedding says so.
+  explicit Embedder(Proximities proximities, EmbedderOptions options = {});
+
+  /// @return kFailed, with NaN coordinates, if the method cannot give a map of these data.
+  Embedding embed(const MethodSetting& setting);
+
+ private:
+  Embedding with_all_distances(Embedding embedding) const;
+  Embedding weighted_smacof(int neighbours);
+  const Embedding& linear();
+  const Embedding& equal_weights();
+
+  EmbedderOptions options_;
+  Eigen::MatrixXd distances_;           ///< May hold infinities.
+  Eigen::MatrixXd complete_distances_;  ///< All finite, if the data allow.
+  Eigen::Index completed_pairs_ = 0;
+  bool seen_apart_ = false;  ///< Some landmarks share no step even over others.
+  double cutoff_ = 0.0;
+  std::optional<Embedding> linear_;
+  std::optional<Embedding> equal_weights_;
+};
+
+/// Maps the landmarks seen in the first `steps` observations of a history; the others get NaN rows
+/// and the status kLandmarkUnseen.
+class HistoryEmbedder {
+ public:
+  /// @throws InvalidInput if `steps` is out of bounds.
+  HistoryEmbedder(const ObservationHistory& history, Eigen::Index steps,
+                  EmbedderOptions options = {});
+
+  /// @return M rows, as many as the history has landmarks.
+  Embedding embed(const MethodSetting& setting);
+
+ private:
+  Eigen::Index landmarks_;
+  std::vector<Eigen::Index> seen_;
+  std::vector<Status> statuses_;
+  std::optional<Embedder> embedder_;
+};
+
+}  // namespace mapproof

@@ -1,0 +1,24 @@
+#include "core/embed/isomap.hpp"
+
+#include <limits>
+
+#include "core/embed/connected_graph.hpp"
+#include "core/embed/lpca.hpp"
+#include "core/graph/shortest_paths.hpp"
+
+namespace mapproof {
+
+Embedding isomap(const Eigen::MatrixXd& distances, const NeighbourOptions& options) {
+  ConnectedGraph neighbours = connected_neighbour_graph(distances, options);
+  Embedding result;
+  if (neighbours.connected) {
+    result = lpca(shortest_paths(neighbours.graph).cwiseAbs2());
+  } else {
+    result.coordinates.setConstant(distances.rows(), 2, std::numeric_limits<double>::quiet_NaN());
+  }
+  result.statuses.insert(result.statuses.begin(), neighbours.statuses.begin(),
+                         neighbours.statuses.end());
+  return result;
+}
+
+}  // namespace mapproof

@@ -1,0 +1,35 @@
+#pragma once
+
+#include <limits>
+#include <vector>
+
+#include <Eigen/Core>
+
+namespace mapproof {
+
+/// An edge of a graph whose nodes are landmarks.
+struct Edge {
+  Eigen::Index to = 0;
+  double length = 0.0;
+};
+
+/// Undirected graph as neighbour lists: graph[i] lists the edges at i, ascending in `to`.
+using Graph = std::vector<std::vector<Edge>>;
+
+/// Which pairs become edges.
+struct NeighbourOptions {
+  int neighbours = 8;  ///< K, 1 <= K < n.
+  /// Pairs at this distance or farther are never edges. For visibility, sqrt(2) leaves out pairs
+  /// never seen together, whose order is arbitrary.
+  double cutoff = std::numeric_limits<double>::infinity();
+};
+
+/// Symmetric K-nearest-neighbour graph: i and j are joined if either is among the K nearest of the
+/// other. Ties, after rounding to 12 digits, go to the lower row. Infinite distances join nothing.
+///
+/// @param distances  n x n, symmetric, entries >= 0 or infinite.
+/// @throws InvalidInput if K is not in [1, n).
+/// @note O(n^2 log K) time.
+Graph neighbour_graph(const Eigen::MatrixXd& distances, const NeighbourOptions& options);
+
+}  // namespace mapproof

@@ -1,0 +1,16 @@
+#pragma once
+
+#include "core/graph/neighbours.hpp"
+
+namespace mapproof {
+
+/// Lengths of the shortest paths between all nodes; infinite between components.
+/// @return n x n, exactly symmetric, zero diagonal.
+/// @note Dijkstra from each node: O(n e log n) time for e edges.
+Eigen::MatrixXd shortest_paths(const Graph& graph);
+
+/// Shortest paths over a complete weighted graph: fills the infinite entries of `distances`.
+/// @note Floyd and Warshall's O(n^3) time.
+Eigen::MatrixXd completed_distances(const Eigen::MatrixXd& distances);
+
+}  // namespace mapproof

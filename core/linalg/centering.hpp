@@ -1,0 +1,12 @@
+#pragma once
+
+#include <Eigen/Core>
+
+namespace mapproof {
+
+/// B = -1/2 J D J with J = I - 11'/n: the inner products behind squared distances, about their
+/// centroid [torgerson1952].
+/// @param squared_distances  n x n, symmetric, finite.
+Eigen::MatrixXd double_centered(const Eigen::MatrixXd& squared_distances);
+
+}  // namespace mapproof

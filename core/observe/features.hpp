@@ -1,0 +1,23 @@
+#pragma once
+
+#include <Eigen/Core>
+
+#include "core/model/observation_history.hpp"
+
+namespace mapproof {
+
+/// The vectors whose distances the mapping methods keep, a landmark a row, zero where missing.
+struct Features {
+  Eigen::MatrixXd values;    ///< M x C; C = N, or 2 N for bearings (cosines, then sines).
+  Eigen::MatrixXd observed;  ///< M x C: 1 where a value was observed, 0 elsewhere. Empty: everywhere.
+};
+
+/// Visibility: the 0/1 entries, normalised later over common steps [yairi2007, eq. 7].
+/// Bearing: unit direction vectors, not normalised [yairi2007, section 4.4.1].
+/// Range: squared ranges less each landmark's mean over time, which are affine in its position.
+///
+/// @param steps  How many observations to use, 1 <= steps <= history.steps().
+/// @throws InvalidInput if `steps` is out of bounds.
+Features features(const ObservationHistory& history, Eigen::Index steps);
+
+}  // namespace mapproof

@@ -1,0 +1,37 @@
+#pragma once
+
+#include <vector>
+
+#include <Eigen/Core>
+
+#include "core/model/observation_history.hpp"
+
+namespace mapproof {
+
+/// How alike the observation histories of each two landmarks are.
+struct Proximities {
+  Eigen::MatrixXd inner_products;     ///< M x M; of normalised vectors for visibility.
+  Eigen::MatrixXd squared_distances;  ///< M x M, zero diagonal; infinite: no common step.
+
+  Eigen::Index landmarks() const { return squared_distances.rows(); }
+};
+
+/// Euclidean proximities of the observation vectors (see features.hpp). With missing entries the
+/// sums run over each pair's common steps and are scaled to the full length.
+///
+/// @param steps  How many observations to use, from the first.
+/// @return For visibility, squared distances are 2 - 2 cos of the angle between the vectors; the
+///         rows of landmarks never seen are meaningless (see unseen_landmarks).
+/// @throws InvalidInput if `steps` is out of bounds.
+/// @note O(M^2 N) time.
+Proximities proximities(const ObservationHistory& history, Eigen::Index steps);
+
+/// Rows without any information in the first `steps` observations: nothing but missing entries or,
+/// for visibility, nothing but "not seen".
+std::vector<Eigen::Index> unseen_landmarks(const ObservationHistory& history, Eigen::Index steps);
+
+/// The history of some landmarks alone, in the order given.
+ObservationHistory with_rows(const ObservationHistory& history,
+                             const std::vector<Eigen::Index>& rows);
+
+}  // namespace mapproof

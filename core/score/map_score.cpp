@@ -1,0 +1,77 @@
+#include "core/score/map_score.hpp"
+
+#include <algorithm>
+#include <iterator>
+#include <limits>
+
+#include <fmt/format.h>
+
+#include "core/align/affine.hpp"
+#include "core/base/errors.hpp"
+#include "core/score/orientation_error.hpp"
+
+namespace mapproof {
+namespace {
+
+constexpr double kFlat = 1e-6;  ///< Anchors flatter than this say nothing about the second axis.
+
+}  // namespace
+
+AlignedMap align_to_anchors(const Points& coordinates, const Points& anchors_m,
+                            const std::vector<Eigen::Index>& anchors, AffineFit fit) {
+  AlignedMap result{.positions_m = coordinates, .statuses = {}};
+  std::vector<Eigen::Index> mapped;
+  std::ranges::copy_if(anchors, std::back_inserter(mapped), [&](Eigen::Index anchor) {
+    return coordinates.row(anchor).allFinite();
+  });
+  if (mapped.size() < 3) {
+    result.statuses.push_back(
+        {StatusCode::kAnchorsMissing,
+         fmt::format("{} of {} anchors are on the map; an affine map needs 3.", mapped.size(),
+                     anchors.size())});
+    return result;
+  }
+  const Points from = coordinates(mapped, Eigen::all);
+  const Points to = anchors_m(mapped, Eigen::all);
+  if (planarity(to) <= kFlat) throw InvalidInput("the anchors lie on one line");
+  if (planarity(from) <= kFlat) {
+    result.statuses.push_back({StatusCode::kAnchorsDegenerate,
+                               "The anchors lie on one line in the embedding: nothing ties its "
+                               "second axis to the truth."});
+    return result;
+  }
+  result.positions_m = fit_affine(from, to, fit)(coordinates);
+  result.aligned = true;
+  return result;
+}
+
+std::optional<Score> score_map(const Points& estimate_m, const Points& truth_m,
+                               const std::vector<Eigen::Index>& anchors, AffineFit fit) {
+  std::vector<Eigen::Index> both;
+  for (Eigen::Index i = 0; i < truth_m.rows(); ++i)
+    if (estimate_m.row(i).allFinite() && truth_m.row(i).allFinite()) both.push_back(i);
+  if (both.size() < 3) return std::nullopt;
+
+  const Points estimate = estimate_m(both, Eigen::all);
+  const Points truth = truth_m(both, Eigen::all);
+  const Eigen::VectorXd errors = (estimate - truth).rowwise().norm();
+  double sum = 0.0;
+  int count = 0;
+  for (std::size_t row = 0; row < both.size(); ++row)
+    if (std::ranges::find(anchors, both[row]) == anchors.end()) {
+      sum += errors(static_cast<Eigen::Index>(row));
+      ++count;
+    }
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  Score score;
+  score.mpe_m = count > 0 ? sum / count : nan;
+  score.moe_percent = orientation_error_percent(truth, estimate);
+  score.moe_unmirrored_percent = std::min(score.moe_percent, 100.0 - score.moe_percent);
+  score.mpe_all_fitted_m =
+      planarity(estimate) > kFlat
+          ? (fit_affine(estimate, truth, fit)(estimate) - truth).rowwise().norm().mean()
+          : nan;
+  return score;
+}
+
+}  // namespace mapproof

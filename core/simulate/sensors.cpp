@@ -1,0 +1,96 @@
+#include "core/simulate/sensors.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+#include <fmt/format.h>
+
+namespace mapproof {
+namespace {
+
+double wrapped(double angle) { return std::remainder(angle, 2.0 * std::numbers::pi); }
+
+/// Whether a cylinder of that radius stands on the segment from `from` to `to`.
+bool cuts(const Eigen::RowVector2d& center, double radius, const Eigen::RowVector2d& from,
+          const Eigen::RowVector2d& to) {
+  const Eigen::RowVector2d along = to - from;
+  const double share = std::clamp((center - from).dot(along) / along.squaredNorm(), 0.0, 1.0);
+  return (from + share * along - center).squaredNorm() < radius * radius;
+}
+
+/// One column of a visibility history: what is seen from `position`.
+Eigen::VectorXd seen_from(const World& world, const Eigen::RowVector2d& position,
+                          const SensorOptions& options) {
+  const double radius = world.landmark_diameter_m / 2.0;
+  // A cylinder looks 2 asin(r / d) wide.
+  const double reach = radius / std::sin(std::min(options.visual_angle_rad, std::numbers::pi) / 2.0);
+  const Eigen::VectorXd distances = (world.landmarks_m.rowwise() - position).rowwise().norm();
+  std::vector<Eigen::Index> near;
+  for (Eigen::Index i = 0; i < distances.size(); ++i)
+    if (distances(i) <= reach) near.push_back(i);
+
+  Eigen::VectorXd seen = Eigen::VectorXd::Zero(distances.size());
+  for (const Eigen::Index i : near) {
+    const bool hidden = options.occlusion && std::ranges::any_of(near, [&](Eigen::Index j) {
+      return j != i && distances(j) < distances(i) &&
+             cuts(world.landmarks_m.row(j), radius, position, world.landmarks_m.row(i));
+    });
+    seen(i) = hidden ? 0.0 : 1.0;
+  }
+  return seen;
+}
+
+Eigen::VectorXd measured_from(const World& world, const Path& path, Eigen::Index step,
+                              const SensorOptions& options) {
+  const Eigen::RowVector2d position = path.positions_m.row(step);
+  if (options.sensor == Sensor::kVisibility) return seen_from(world, position, options);
+
+  const Points offsets = world.landmarks_m.rowwise() - position;
+  if (options.sensor == Sensor::kRange) return offsets.rowwise().norm();
+  Eigen::VectorXd bearings(offsets.rows());
+  for (Eigen::Index i = 0; i < offsets.rows(); ++i)
+    bearings(i) = wrapped(std::atan2(offsets(i, 1), offsets(i, 0)) - path.headings_rad(step));
+  return bearings;
+}
+
+double disturbed(double value, const SensorOptions& options, Random& random) {
+  if (options.noise > 0.0) switch (options.sensor) {
+      case Sensor::kVisibility:
+        value = random.uniform() < options.noise ? 1.0 - value : value;
+        break;
+      case Sensor::kBearing:
+        value = wrapped(value + options.noise * random.normal());
+        break;
+      case Sensor::kRange:
+        value = std::max(0.0, value + options.noise * random.normal());
+        break;
+    }
+  const bool lost = options.dropout_share > 0.0 && random.uniform() < options.dropout_share;
+  return lost ? std::numeric_limits<double>::quiet_NaN() : value;
+}
+
+}  // namespace
+
+ObservationHistory observe(const World& world, const Path& path, const SensorOptions& options,
+                           Random& random) {
+  const Eigen::Index M = world.landmarks_m.rows();
+  const Eigen::Index N = path.positions_m.rows();
+  ObservationHistory history{
+      .sensor = options.sensor, .names = landmark_names(M), .values = Eigen::MatrixXd(M, N)};
+  for (Eigen::Index t = 0; t < N; ++t)
+    history.values.col(t) =
+        measured_from(world, path, t, options).unaryExpr([&](double value) {
+          return disturbed(value, options, random);
+        });
+  return history;
+}
+
+std::vector<std::string> landmark_names(Eigen::Index count) {
+  std::vector<std::string> names;
+  for (Eigen::Index i = 1; i <= count; ++i) names.push_back(fmt::format("L{}", i));
+  return names;
+}
+
+}  // namespace mapproof

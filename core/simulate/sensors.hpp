@@ -1,0 +1,26 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "core/base/random.hpp"
+#include "core/model/experiment.hpp"
+#include "core/model/observation_history.hpp"
+#include "core/model/world.hpp"
+
+namespace mapproof {
+
+/// What the sensor reads of each landmark along the path: M x N.
+///
+/// Visibility: 1 if the cylinder looks wider than the visual angle [yairi2007, section 4.3.1] and no
+/// other cylinder cuts the ray to its centre. Bearing: direction to the centre relative to the
+/// heading, in (-pi, pi]. Range: distance to the centre. Noise and dropout come after that; a
+/// noisy bearing is wrapped again, a noisy range is at least 0.
+/// @note Without noise and dropout `random` is not drawn from.
+ObservationHistory observe(const World& world, const Path& path, const SensorOptions& options,
+                           Random& random);
+
+/// "L1", "L2", ...: the names of simulated landmarks.
+std::vector<std::string> landmark_names(Eigen::Index count);
+
+}  // namespace mapproof

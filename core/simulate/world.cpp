@@ -1,0 +1,74 @@
+#include "core/simulate/world.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
+#include <fmt/format.h>
+
+#include "core/base/errors.hpp"
+
+namespace mapproof {
+namespace {
+
+std::optional<Points> try_to_scatter(const WorldOptions& options, Random& random) {
+  const double margin = options.wall_margin_m + options.landmark_diameter_m / 2.0;
+  const double apart = options.landmark_diameter_m + options.gap_m;
+  Points placed(options.landmarks, 2);
+  for (Eigen::Index i = 0; i < placed.rows(); ++i) {
+    bool free = false;
+    for (int attempt = 0; attempt < 1000 && !free; ++attempt) {
+      placed(i, 0) = random.uniform(margin, options.side_m - margin);
+      placed(i, 1) = random.uniform(margin, options.side_m - margin);
+      free = i == 0 || (placed.topRows(i).rowwise() - placed.row(i)).rowwise().norm().minCoeff() >=
+                           apart;
+    }
+    if (!free) return std::nullopt;
+  }
+  return placed;
+}
+
+/// Point `index` of `count` spread over the room's outline; with four, the corners.
+Eigen::RowVector2d outline_point(double side, int index, int count) {
+  const double along = 4.0 * index / count;
+  const int wall = static_cast<int>(along);
+  const double part = (along - wall) * side;
+  switch (wall) {
+    case 0: return {part, 0.0};
+    case 1: return {side, part};
+    case 2: return {side - part, side};
+    default: return {0.0, side - part};
+  }
+}
+
+}  // namespace
+
+World scatter_landmarks(const WorldOptions& options, Random& random) {
+  const double free_side =
+      options.side_m - 2.0 * options.wall_margin_m - options.landmark_diameter_m;
+  if (free_side > 0.0)
+    for (int attempt = 0; attempt < 10; ++attempt)
+      if (std::optional<Points> placed = try_to_scatter(options, random))
+        return {.side_m = options.side_m,
+                .landmark_diameter_m = options.landmark_diameter_m,
+                .landmarks_m = std::move(*placed)};
+  throw InvalidInput(fmt::format("{} landmarks of {} m do not fit a room of {} m",
+                                 options.landmarks, options.landmark_diameter_m, options.side_m));
+}
+
+std::vector<Eigen::Index> corner_anchors(const World& world, int count) {
+  std::vector<Eigen::Index> chosen;
+  const int wanted = std::min<int>(count, static_cast<int>(world.landmarks_m.rows()));
+  for (int k = 0; k < wanted; ++k) {
+    const Eigen::RowVector2d target = outline_point(world.side_m, k, wanted);
+    Eigen::VectorXd distances = (world.landmarks_m.rowwise() - target).rowwise().norm();
+    for (const Eigen::Index taken : chosen) distances(taken) = HUGE_VAL;
+    Eigen::Index nearest = 0;
+    distances.minCoeff(&nearest);
+    chosen.push_back(nearest);
+  }
+  std::ranges::sort(chosen);
+  return chosen;
+}
+
+}  // namespace mapproof
