@@ -1,0 +1,74 @@
+#include <cmath>
+#include <numbers>
+
+#include <fmt/format.h>
+
+#include "core/records/experiment_values.hpp"
+#include "core/records/json_values.hpp"
+
+namespace mapproof {
+namespace {
+
+/// Discs dropped at random, one after another, jam when they cover some 0.547 of the plane
+/// [feder1980]; above this share it takes too long to find a place for the next.
+constexpr double kDensest = 0.45;
+constexpr double kMostRuns = 1e6;
+
+void check_room(const WorldOptions& world, const JsonCursor& document) {
+  const double spacing_m = world.landmark_diameter_m + world.gap_m;
+  const double free_side_m =
+      world.side_m - 2.0 * world.wall_margin_m - world.landmark_diameter_m;
+  if (free_side_m <= 0.0)
+    document.at("world").fail(fmt::format(
+        "a room of {} m has no place for a landmark of {} m that keeps {} m from the walls",
+        world.side_m, world.landmark_diameter_m, world.wall_margin_m));
+  const double room = (free_side_m + spacing_m) * (free_side_m + spacing_m);
+  const double each = std::numbers::pi / 4.0 * spacing_m * spacing_m;
+  const double most = std::floor(kDensest * room / each);
+  if (world.landmarks > most)
+    document.at("world").fail(fmt::format(
+        "{} landmarks of {} m, {} m apart, do not fit into a room of {} m: at most {:.0f} do",
+        world.landmarks, world.landmark_diameter_m, world.gap_m, world.side_m, most));
+}
+
+void check_walk(const Experiment& experiment, const JsonCursor& document) {
+  if (2.0 * experiment.walk.wall_margin_m >= experiment.world.side_m)
+    document.at("walk").at("wall_margin_m").fail(
+        fmt::format("leaves the robot no room within walls of {} m", experiment.world.side_m));
+  if (experiment.walk.substep_m > experiment.walk.step_m)
+    document.at("walk").fail(fmt::format("substep_m = {} is longer than step_m = {}",
+                                         experiment.walk.substep_m, experiment.walk.step_m));
+}
+
+void check_sensor(const SensorStudy& study, int landmarks, const JsonCursor& object) {
+  if (static_cast<double>(landmarks) * study.checkpoints.back() > kMostEntries)
+    object.at("checkpoints").fail(fmt::format("{} landmarks x {} steps are more than {} entries",
+                                              landmarks, study.checkpoints.back(), kMostEntries));
+  for (const MethodGrid& grid : study.methods) {
+    const MethodInfo& method = info(grid.method);
+    if (!method.parameter || method.parameter->symbol != "K") continue;
+    const JsonCursor values = object.at("methods").at(std::string(method.name)).at("K");
+    for (std::size_t i = 0; i < grid.parameters.size(); ++i)
+      if (grid.parameters[i] >= landmarks)
+        values.element(i).fail(fmt::format("K must be below the number of landmarks, {}, got {}",
+                                           landmarks, grid.parameters[i]));
+  }
+}
+
+}  // namespace
+
+void check_experiment(const Experiment& experiment, const JsonCursor& document) {
+  if (static_cast<double>(experiment.layouts) * experiment.poses > kMostRuns)
+    document.fail(fmt::format("{} layouts x {} poses are more than {:.0f} runs", experiment.layouts,
+                              experiment.poses, kMostRuns));
+  if (experiment.anchors >= experiment.world.landmarks)
+    document.fail(fmt::format("{} anchors leave none of {} landmarks to be mapped",
+                              experiment.anchors, experiment.world.landmarks));
+  check_room(experiment.world, document);
+  check_walk(experiment, document);
+  for (const SensorStudy& study : experiment.sensors)
+    check_sensor(study, experiment.world.landmarks,
+                 document.at("sensors").at(std::string(name(study.sensor.sensor))));
+}
+
+}  // namespace mapproof

@@ -1,0 +1,136 @@
+#include "core/records/experiment_json.hpp"
+
+#include <fmt/format.h>
+
+#include "core/base/errors.hpp"
+#include "core/base/spelling.hpp"
+#include "core/records/experiment_values.hpp"
+#include "core/records/json_text.hpp"
+#include "core/records/json_values.hpp"
+#include "core/records/text_input.hpp"
+
+namespace mapproof {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+std::string_view name(AffineFit fit) {
+  return fit == AffineFit::kLeastDistances ? "least_distances" : "least_squares";
+}
+
+Json methods_value(const std::vector<MethodGrid>& grids) {
+  Json methods = Json::object();
+  for (const MethodGrid& grid : grids) {
+    const MethodInfo& method = info(grid.method);
+    Json& entry = methods[std::string(method.name)] = Json::object();
+    if (!method.parameter) continue;
+    Json& values = entry[std::string(method.parameter->symbol)] = Json::array();
+    for (const double value : grid.parameters) values.push_back(number_value(value));
+  }
+  return methods;
+}
+
+Json published_value(const SensorStudy& study) {
+  Json values = Json::array();
+  for (const PublishedValue& published : study.published) {
+    Json value = Json::object();
+    put_setting(value, published.setting);
+    value["mpe_m"] = published.mpe_m;
+    value["moe_percent"] = published.moe_percent;
+    values.push_back(std::move(value));
+  }
+  return {{"source", study.published_source}, {"values", std::move(values)}};
+}
+
+Json sensor_value(const SensorStudy& study) {
+  Json value = Json::object();
+  if (study.sensor.sensor == Sensor::kVisibility) {
+    value["visual_angle_rad"] = study.sensor.visual_angle_rad;
+    value["occlusion"] = study.sensor.occlusion;
+  }
+  value["noise"] = study.sensor.noise;
+  value["dropout_share"] = study.sensor.dropout_share;
+  value["checkpoints"] = study.checkpoints;
+  value["methods"] = methods_value(study.methods);
+  if (!study.published.empty() || !study.published_source.empty())
+    value["published"] = published_value(study);
+  return value;
+}
+
+/// The document's profiles; an object of patches, empty if it has none.
+std::vector<std::pair<std::string, JsonCursor>> profile_members(const JsonCursor& document) {
+  const std::optional<JsonCursor> profiles = document.find("profiles");
+  if (!profiles) return {};
+  for (const auto& [key, patch] : profiles->members()) {
+    if (!patch.is_object()) patch.fail("expected an object: a merge patch of the experiment");
+    for (const char* fixed : {"schema", "profiles"})
+      if (const auto found = patch.find(fixed)) found->fail("a profile cannot change this");
+  }
+  return profiles->members();
+}
+
+}  // namespace
+
+Json experiment_value(const Experiment& experiment) {
+  const WorldOptions& world = experiment.world;
+  const WalkOptions& walk = experiment.walk;
+  Json sensors = Json::object();
+  for (const SensorStudy& study : experiment.sensors)
+    sensors[std::string(name(study.sensor.sensor))] = sensor_value(study);
+  return {{"schema", schema_value("mapproof.experiment")},
+          {"name", experiment.name},
+          {"title", experiment.title},
+          {"seed", experiment.seed},
+          {"layouts", experiment.layouts},
+          {"poses", experiment.poses},
+          {"world",
+           {{"side_m", world.side_m},
+            {"landmarks", world.landmarks},
+            {"landmark_diameter_m", world.landmark_diameter_m},
+            {"gap_m", world.gap_m},
+            {"wall_margin_m", world.wall_margin_m}}},
+          {"walk",
+           {{"step_m", walk.step_m},
+            {"turn_rad", walk.turn_rad},
+            {"substep_m", walk.substep_m},
+            {"clearance_m", walk.clearance_m},
+            {"wall_margin_m", walk.wall_margin_m}}},
+          {"anchors", experiment.anchors},
+          {"affine_fit", name(experiment.affine_fit)},
+          {"sensors", std::move(sensors)}};
+}
+
+std::string experiment_json(const Experiment& experiment) {
+  return json_text(experiment_value(experiment));
+}
+
+Experiment parse_experiment(std::string_view text, const std::string& source,
+                            const std::string& profile) {
+  JsonDocument document = parse_json(text, source);
+  expect_schema(document.cursor(), "mapproof.experiment");
+  nlohmann::json patch;
+  std::vector<std::string_view> known;
+  const auto members = profile_members(document.cursor());
+  for (const auto& [key, cursor] : members) known.push_back(key);
+  if (!profile.empty()) {
+    if (!document.root.contains("profiles") || !document.root["profiles"].contains(profile)) {
+      const std::string names = known.empty() ? "it has none" : fmt::format("it has {}", fmt::join(known, ", "));
+      throw IoError(source, "/profiles", "no profile " + in_quotes(profile) + ": " + names);
+    }
+    patch = document.root["profiles"][profile];
+    document.source = fmt::format("{} with profile {}", source, printable(profile, 40));
+  }
+  document.root.erase("profiles");
+  if (!profile.empty()) document.root.merge_patch(patch);
+  return read_experiment(document.cursor());
+}
+
+std::vector<std::string> profiles(std::string_view text, const std::string& source) {
+  const JsonDocument document = parse_json(text, source);
+  expect_schema(document.cursor(), "mapproof.experiment");
+  std::vector<std::string> names;
+  for (const auto& [key, patch] : profile_members(document.cursor())) names.push_back(key);
+  return names;
+}
+
+}  // namespace mapproof

@@ -1,0 +1,168 @@
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include <fmt/format.h>
+
+#include "core/records/experiment_values.hpp"
+#include "core/records/json_values.hpp"
+#include "core/records/text_input.hpp"
+
+namespace mapproof {
+namespace {
+
+constexpr double kLongest_m = 1000.0;
+
+/// Reads an object's optional keys into values that hold their defaults.
+void read(const JsonCursor& object, const char* key, double least, double most, double& value) {
+  if (const auto found = object.find(key)) value = found->number(least, most);
+}
+
+void read(const JsonCursor& object, const char* key, int least, int most, int& value) {
+  if (const auto found = object.find(key)) value = found->integer32(least, most);
+}
+
+void read_world(const JsonCursor& object, WorldOptions& world) {
+  object.allow_only({"side_m", "landmarks", "landmark_diameter_m", "gap_m", "wall_margin_m"});
+  read(object, "side_m", 0.01, kLongest_m, world.side_m);
+  read(object, "landmarks", 4, kMostLandmarks, world.landmarks);
+  read(object, "landmark_diameter_m", 1e-6, kLongest_m, world.landmark_diameter_m);
+  read(object, "gap_m", 0.0, kLongest_m, world.gap_m);
+  read(object, "wall_margin_m", 0.0, kLongest_m, world.wall_margin_m);
+}
+
+void read_walk(const JsonCursor& object, WalkOptions& walk) {
+  object.allow_only({"step_m", "turn_rad", "substep_m", "clearance_m", "wall_margin_m"});
+  read(object, "step_m", 1e-4, kLongest_m, walk.step_m);
+  read(object, "turn_rad", 0.0, std::numbers::pi, walk.turn_rad);
+  read(object, "substep_m", 1e-4, kLongest_m, walk.substep_m);
+  read(object, "clearance_m", 0.0, kLongest_m, walk.clearance_m);
+  read(object, "wall_margin_m", 0.0, kLongest_m, walk.wall_margin_m);
+}
+
+void read_sensor_options(const JsonCursor& object, SensorOptions& options) {
+  const bool is_visibility = options.sensor == Sensor::kVisibility;
+  if (is_visibility) {
+    read(object, "visual_angle_rad", 1e-6, std::numbers::pi, options.visual_angle_rad);
+    if (const auto occlusion = object.find("occlusion")) options.occlusion = occlusion->boolean();
+  }
+  read(object, "noise", 0.0, is_visibility ? 0.5 : kLongest_m, options.noise);
+  read(object, "dropout_share", 0.0, 0.99, options.dropout_share);
+}
+
+/// At least one value, each above the one before it.
+template <typename Value, typename Read>
+std::vector<Value> read_ascending(const JsonCursor& array, Read read_one) {
+  std::vector<Value> values;
+  for (const JsonCursor& item : array.elements(1, 1000)) {
+    const Value value = read_one(item);
+    if (!values.empty() && value <= values.back())
+      item.fail(fmt::format("expected values in ascending order, got {} after {}", value,
+                            values.back()));
+    values.push_back(value);
+  }
+  return values;
+}
+
+MethodGrid read_grid(const std::string& name, const JsonCursor& object) {
+  MethodGrid grid{.method = read_method(name, object), .parameters = {}};
+  const auto& parameter = info(grid.method).parameter;
+  if (!parameter) {
+    if (!object.members().empty()) object.fail(name + " has no parameter: expected {}");
+    return grid;
+  }
+  object.allow_only({parameter->symbol});
+  grid.parameters = read_ascending<double>(
+      object.at(std::string(parameter->symbol)),
+      [&](const JsonCursor& item) { return read_parameter(*parameter, item); });
+  return grid;
+}
+
+std::vector<MethodGrid> read_methods(const JsonCursor& object) {
+  std::vector<MethodGrid> grids;
+  for (const auto& [name, value] : object.members()) grids.push_back(read_grid(name, value));
+  if (grids.empty()) object.fail("expected at least one method");
+  std::ranges::sort(grids, {}, &MethodGrid::method);
+  return grids;
+}
+
+void read_published(const JsonCursor& object, SensorStudy& study) {
+  object.allow_only({"source", "values"});
+  study.published_source = object.at("source").text(200);
+  for (const JsonCursor& item : object.at("values").elements(0, 1000)) {
+    std::vector<std::string_view> keys = {"mpe_m", "moe_percent"};
+    PublishedValue& value = study.published.emplace_back();
+    value.setting = read_setting(item, keys);
+    item.allow_only(keys);
+    value.mpe_m = item.at("mpe_m").number(0.0, kFarthest_m);
+    value.moe_percent = item.at("moe_percent").number(0.0, 100.0);
+  }
+}
+
+SensorStudy read_sensor_study(Sensor sensor, const JsonCursor& object) {
+  std::vector<std::string_view> keys = {"noise", "dropout_share", "checkpoints", "methods",
+                                        "published"};
+  if (sensor == Sensor::kVisibility) keys.insert(keys.end(), {"visual_angle_rad", "occlusion"});
+  object.allow_only(keys);
+  SensorStudy study;
+  study.sensor.sensor = sensor;
+  read_sensor_options(object, study.sensor);
+  study.checkpoints = read_ascending<int>(object.at("checkpoints"), [](const JsonCursor& item) {
+    return item.integer32(3, kMostSteps);
+  });
+  study.methods = read_methods(object.at("methods"));
+  if (const auto published = object.find("published")) read_published(*published, study);
+  return study;
+}
+
+std::vector<SensorStudy> read_sensors(const JsonCursor& object) {
+  object.allow_only({"visibility", "bearing", "range"});
+  std::vector<SensorStudy> studies;
+  for (const Sensor sensor : {Sensor::kVisibility, Sensor::kBearing, Sensor::kRange})
+    if (const auto found = object.find(std::string(name(sensor))))
+      studies.push_back(read_sensor_study(sensor, *found));
+  if (studies.empty()) object.fail("expected at least one of visibility, bearing, range");
+  return studies;
+}
+
+std::string read_name(const JsonCursor& value) {
+  const std::string text = value.text(64);
+  const auto is_allowed = [](char c) {
+    return (c >= '0' && c <= '9') || (c >= 'A' && c <= 'Z') || (c >= 'a' && c <= 'z') || c == '-' ||
+           c == '_';
+  };
+  if (text.empty() || !std::ranges::all_of(text, is_allowed))
+    value.fail("expected letters, digits, '-' and '_', got " + in_quotes(text));
+  return text;
+}
+
+AffineFit read_affine_fit(const JsonCursor& value) {
+  const std::string text = value.text();
+  if (text == "least_distances") return AffineFit::kLeastDistances;
+  if (text == "least_squares") return AffineFit::kLeastSquares;
+  value.fail("expected least_distances or least_squares, got " + in_quotes(text));
+}
+
+}  // namespace
+
+Experiment read_experiment(const JsonCursor& document) {
+  expect_schema(document, "mapproof.experiment");
+  document.allow_only({"schema", "name", "title", "seed", "layouts", "poses", "world", "walk",
+                       "anchors", "affine_fit", "sensors"});
+  Experiment experiment;
+  experiment.name = read_name(document.at("name"));
+  experiment.title = experiment.name;
+  if (const auto title = document.find("title")) experiment.title = title->text(200);
+  if (const auto seed = document.find("seed")) experiment.seed = seed->unsigned_integer();
+  read(document, "layouts", 1, 10'000, experiment.layouts);
+  read(document, "poses", 1, 10'000, experiment.poses);
+  if (const auto world = document.find("world")) read_world(*world, experiment.world);
+  if (const auto walk = document.find("walk")) read_walk(*walk, experiment.walk);
+  read(document, "anchors", 3, 4, experiment.anchors);
+  if (const auto fit = document.find("affine_fit")) experiment.affine_fit = read_affine_fit(*fit);
+  experiment.sensors = read_sensors(document.at("sensors"));
+  check_experiment(experiment, document);
+  return experiment;
+}
+
+}  // namespace mapproof

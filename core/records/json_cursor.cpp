@@ -1,0 +1,199 @@
+#include "core/records/json_cursor.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include "core/base/errors.hpp"
+#include "core/base/spelling.hpp"
+#include "core/records/text_input.hpp"
+
+namespace mapproof {
+namespace {
+
+using Json = nlohmann::json;
+
+constexpr int kVersion = 1;
+
+/// A key as one part of a JSON pointer (RFC 6901), fit for an error's line.
+std::string pointer_part(std::string_view key) {
+  std::string part;
+  for (const char c : key.substr(0, 200)) {
+    if (c == '~') part += "~0";
+    else if (c == '/') part += "~1";
+    else part += c;
+  }
+  return "/" + printable(part, 60);
+}
+
+std::string bounds(double least, double most) {
+  if (most == std::numeric_limits<double>::infinity())
+    return least == 0.0 ? ", 0 or more" : "";
+  return fmt::format(" from {} to {}", least, most);
+}
+
+}  // namespace
+
+JsonCursor::JsonCursor(const Json& value, const std::string& source, std::string pointer)
+    : value_(&value), source_(&source), pointer_(std::move(pointer)) {}
+
+void JsonCursor::fail(const std::string& what) const {
+  throw IoError(*source_, pointer_.empty() ? "/" : pointer_, what);
+}
+
+std::string JsonCursor::got() const {
+  switch (value_->type()) {
+    case Json::value_t::object: return "an object";
+    case Json::value_t::array: return "an array";
+    case Json::value_t::string: return in_quotes(value_->get_ref<const std::string&>());
+    case Json::value_t::number_float: return fmt::format("{}", value_->get<double>());
+    default: return value_->dump();
+  }
+}
+
+JsonCursor JsonCursor::child(const Json& value, std::string_view key) const {
+  return {value, *source_, pointer_ + pointer_part(key)};
+}
+
+JsonCursor JsonCursor::at(const std::string& key) const {
+  const std::optional<JsonCursor> found = find(key);
+  if (!found) fail("lacks the key " + in_quotes(key));
+  return *found;
+}
+
+std::optional<JsonCursor> JsonCursor::find(const std::string& key) const {
+  if (!value_->is_object()) fail("expected an object, got " + got());
+  const auto member = value_->find(key);
+  if (member == value_->end()) return std::nullopt;
+  return child(*member, key);
+}
+
+std::vector<std::pair<std::string, JsonCursor>> JsonCursor::members() const {
+  if (!value_->is_object()) fail("expected an object, got " + got());
+  std::vector<std::pair<std::string, JsonCursor>> all;
+  for (const auto& [key, value] : value_->items()) all.emplace_back(key, child(value, key));
+  return all;
+}
+
+void JsonCursor::allow_only(std::initializer_list<std::string_view> keys) const {
+  allow_only(std::vector<std::string_view>(keys));
+}
+
+void JsonCursor::allow_only(const std::vector<std::string_view>& keys) const {
+  for (const auto& [key, value] : members()) {
+    if (std::ranges::find(keys, key) != keys.end()) continue;
+    const std::string_view meant = likely_word(key, keys);
+    fail("unknown key " + in_quotes(key) +
+         (meant.empty() ? "" : fmt::format(": did you mean \"{}\"?", meant)));
+  }
+}
+
+std::vector<JsonCursor> JsonCursor::elements(std::size_t least, std::size_t most) const {
+  if (!value_->is_array()) fail("expected an array, got " + got());
+  if (size() < least) fail(fmt::format("expected at least {} elements, got {}", least, size()));
+  if (size() > most) fail(fmt::format("expected at most {} elements, got {}", most, size()));
+  std::vector<JsonCursor> all;
+  all.reserve(size());
+  for (std::size_t i = 0; i < size(); ++i) all.push_back(element(i));
+  return all;
+}
+
+JsonCursor JsonCursor::element(std::size_t index) const {
+  return child((*value_)[index], fmt::format("{}", index));
+}
+
+std::int64_t JsonCursor::integer(std::int64_t least, std::int64_t most) const {
+  const auto refuse = [&] {
+    fail(fmt::format("expected an integer from {} to {}, got {}", least, most, got()));
+  };
+  std::int64_t integer = 0;
+  if (value_->is_number_unsigned()) {
+    const auto value = value_->get<std::uint64_t>();
+    if (value > std::uint64_t{std::numeric_limits<std::int64_t>::max()}) refuse();
+    integer = static_cast<std::int64_t>(value);
+  } else if (value_->is_number_integer()) {
+    integer = value_->get<std::int64_t>();
+  } else if (value_->is_number_float()) {
+    const double value = value_->get<double>();  // 1e3 and 5.0 are integers in JSON's eyes.
+    if (std::abs(value) > 0x1p53 || value != std::trunc(value)) refuse();
+    integer = static_cast<std::int64_t>(value);
+  } else {
+    refuse();
+  }
+  if (integer < least || integer > most) refuse();
+  return integer;
+}
+
+std::uint64_t JsonCursor::unsigned_integer() const {
+  if (!value_->is_number_unsigned())
+    fail("expected an integer from 0 to 18446744073709551615, got " + got());
+  return value_->get<std::uint64_t>();
+}
+
+double JsonCursor::number(double least, double most) const {
+  const double value = value_->is_number() ? value_->get<double>() : NAN;
+  if (!(value >= least && value <= most))
+    fail("expected a number" + bounds(least, most) + ", got " + got());
+  return value;
+}
+
+double JsonCursor::number_or_null(double least, double most) const {
+  return is_null() ? std::numeric_limits<double>::quiet_NaN() : number(least, most);
+}
+
+bool JsonCursor::boolean() const {
+  if (!value_->is_boolean()) fail("expected true or false, got " + got());
+  return value_->get<bool>();
+}
+
+std::string JsonCursor::text(std::size_t most) const {
+  if (!value_->is_string()) fail("expected a string, got " + got());
+  const auto& text = value_->get_ref<const std::string&>();
+  if (text.size() > most)
+    fail(fmt::format("expected a string of at most {} bytes, got {}", most, text.size()));
+  if (text.find('\0') != std::string::npos) fail("holds a NUL character");
+  return text;
+}
+
+std::vector<double> JsonCursor::numbers_or_null(double least, double most,
+                                                std::optional<std::size_t> size) const {
+  if (!value_->is_array()) fail("expected an array, got " + got());
+  if (size && value_->size() != *size)
+    fail(fmt::format("expected {} elements, got {}", *size, value_->size()));
+  std::vector<double> numbers;
+  numbers.reserve(value_->size());
+  for (const Json& item : *value_) {
+    double value = std::numeric_limits<double>::quiet_NaN();
+    if (item.is_number()) value = item.get<double>();
+    if (!item.is_null() && !(value >= least && value <= most))
+      element(numbers.size()).number_or_null(least, most);  // Says what is wrong with it.
+    numbers.push_back(value);
+  }
+  return numbers;
+}
+
+SchemaId schema_of(const JsonCursor& document) {
+  if (!document.is_object() || !document.find("schema"))
+    document.fail(
+        "says not what it is: expected the key \"schema\" with the name and version of its format");
+  const JsonCursor schema = document.at("schema");
+  schema.allow_only({"name", "version"});
+  return {schema.at("name").text(100), schema.at("version").integer32(1, 1'000'000)};
+}
+
+void expect_schema(const JsonCursor& document, std::string_view name) {
+  const SchemaId found = schema_of(document);
+  if (found.name != name)
+    document.at("schema").at("name").fail(
+        fmt::format("expected \"{}\", got {}", name, in_quotes(found.name)));
+  if (found.version != kVersion)
+    document.at("schema").at("version").fail(fmt::format(
+        "version {} is not known to this program, which reads version {}", found.version, kVersion));
+}
+
+nlohmann::ordered_json schema_value(std::string_view name) {
+  return {{"name", name}, {"version", kVersion}};
+}
+
+}  // namespace mapproof

@@ -1,0 +1,57 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include <nlohmann/json.hpp>
+
+#include "core/model/method.hpp"
+#include "core/model/points.hpp"
+#include "core/model/score.hpp"
+#include "core/model/sensor.hpp"
+#include "core/model/status.hpp"
+#include "core/records/json_cursor.hpp"
+
+namespace mapproof {
+
+/// The small values that several files hold, to and from JSON. Readers throw IoError.
+
+inline constexpr int kMostLandmarks = 5000;
+inline constexpr int kMostSteps = 1'000'000;
+inline constexpr double kMostEntries = 2e8;     ///< Of an observation history.
+inline constexpr double kFarthest_m = 1e9;      ///< Bound of coordinates that are read.
+
+Sensor read_sensor(const JsonCursor& value);
+
+/// The method that a key or a value names. @throws IoError at `place`, with "did you mean".
+Method read_method(const std::string& name, const JsonCursor& place);
+
+/// The value of a method's parameter, within the bounds of its ParameterInfo.
+double read_parameter(const ParameterInfo& parameter, const JsonCursor& value);
+
+/// Adds "method" and, if it has one, its parameter under its symbol: "K".
+void put_setting(nlohmann::ordered_json& object, const MethodSetting& setting);
+/// @param keys  The symbols that may stand in `object` are appended.
+MethodSetting read_setting(const JsonCursor& object, std::vector<std::string_view>& keys);
+
+/// A number that is an integer is written as one.
+nlohmann::ordered_json number_value(double number);
+
+/// [[x, y], null, ...]: null for a row that is not finite.
+nlohmann::ordered_json points_value(const Points& points);
+Points read_points(const JsonCursor& value);
+
+nlohmann::ordered_json indices_value(const std::vector<Eigen::Index>& indices);
+/// Different indices below `size`.
+std::vector<Eigen::Index> read_indices(const JsonCursor& value, Eigen::Index size);
+
+nlohmann::ordered_json statuses_value(const std::vector<Status>& statuses);
+std::vector<Status> read_statuses(const JsonCursor& value);
+
+nlohmann::ordered_json score_value(const Score& score);
+Score read_score(const JsonCursor& value);
+
+/// Different, not empty names of at most 10,000 bytes.
+std::vector<std::string> read_names(const JsonCursor& value);
+
+}  // namespace mapproof

@@ -1,0 +1,116 @@
+#include "core/records/text_input.hpp"
+
+#include <algorithm>
+#include <charconv>
+#include <cstdint>
+#include <cstring>
+
+#include <fmt/format.h>
+
+#include "core/base/errors.hpp"
+
+namespace mapproof {
+namespace {
+
+unsigned byte_at(std::string_view text, std::size_t at) {
+  return at < text.size() ? static_cast<unsigned char>(text[at]) : 0U;
+}
+
+/// Bytes of the UTF-8 sequence at `at`; 0 if it is none (overlong and surrogates included).
+std::size_t sequence_length(std::string_view text, std::size_t at) {
+  const unsigned lead = byte_at(text, at);
+  if (lead < 0x80) return 1;
+  if (lead < 0xC2 || lead > 0xF4) return 0;
+  const std::size_t length = lead >= 0xF0 ? 4 : lead >= 0xE0 ? 3 : 2;
+  for (std::size_t i = 1; i < length; ++i)
+    if ((byte_at(text, at + i) & 0xC0U) != 0x80U) return 0;
+  const unsigned second = byte_at(text, at + 1);
+  if ((lead == 0xE0 && second < 0xA0) || (lead == 0xED && second > 0x9F)) return 0;
+  if ((lead == 0xF0 && second < 0x90) || (lead == 0xF4 && second > 0x8F)) return 0;
+  return length;
+}
+
+/// Offset of the first byte that is not UTF-8; text.size() if there is none.
+std::size_t first_bad_byte(std::string_view text) {
+  std::size_t at = 0;
+  while (at < text.size()) {
+    std::uint64_t word = 0;
+    if (at + sizeof word <= text.size()) {
+      std::memcpy(&word, text.data() + at, sizeof word);
+      if ((word & 0x8080808080808080U) == 0) {
+        at += sizeof word;
+        continue;
+      }
+    }
+    const std::size_t length = sequence_length(text, at);
+    if (length == 0) return at;
+    at += length;
+  }
+  return at;
+}
+
+}  // namespace
+
+std::string_view checked_text(std::string_view text, const std::string& source) {
+  if (text.starts_with("\xFF\xFE") || text.starts_with("\xFE\xFF"))
+    throw IoError(source, "is UTF-16; save it as UTF-8");
+  if (text.starts_with("\xEF\xBB\xBF")) text.remove_prefix(3);
+  if (text.empty()) throw IoError(source, "is empty");
+  const std::size_t nul = text.find('\0');
+  if (nul != std::string_view::npos)
+    throw IoError(source, line_of(text, nul), "holds a NUL byte: not a text file");
+  const std::size_t bad = first_bad_byte(text);
+  if (bad < text.size())
+    throw IoError(source, line_of(text, bad),
+                  fmt::format("byte 0x{:02X} is not UTF-8", byte_at(text, bad)));
+  return text;
+}
+
+std::string line_of(std::string_view text, std::size_t offset) {
+  const std::string_view before = text.substr(0, offset);
+  return fmt::format("line {}", 1 + std::ranges::count(before, '\n'));
+}
+
+std::string place_of(std::string_view text, std::size_t offset) {
+  const std::string_view before = text.substr(0, offset);
+  const std::size_t last = before.rfind('\n');
+  const std::size_t column = last == std::string_view::npos ? before.size() : before.size() - last - 1;
+  return fmt::format("{}, column {}", line_of(text, offset), column + 1);
+}
+
+std::optional<double> number_in(std::string_view cell) {
+  if (cell.size() > 1 && cell[0] == '+' && cell[1] != '-') cell.remove_prefix(1);
+  double value = 0.0;
+  const char* end = cell.data() + cell.size();
+  const auto [stop, error] = std::from_chars(cell.data(), end, value);
+  if (error != std::errc() || stop != end) return std::nullopt;
+  return value;
+}
+
+bool is_missing(std::string_view cell) {
+  if (cell.empty()) return true;
+  if (cell.size() > 4) return false;
+  if (cell[0] == '-') cell.remove_prefix(1);
+  return lower_case(cell) == "nan";
+}
+
+std::string in_quotes(std::string_view cell) {
+  constexpr std::size_t kShown = 40;
+  return '"' + printable(std::string(cell.substr(0, 4 * kShown + 4)), kShown) + '"';
+}
+
+std::string_view trimmed(std::string_view text) {
+  constexpr std::string_view kBlank = " \t\r";
+  const std::size_t first = text.find_first_not_of(kBlank);
+  if (first == std::string_view::npos) return {};
+  return text.substr(first, text.find_last_not_of(kBlank) - first + 1);
+}
+
+std::string lower_case(std::string_view text) {
+  std::string lower(text);
+  for (char& c : lower)
+    if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
+  return lower;
+}
+
+}  // namespace mapproof

@@ -1,0 +1,35 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <string_view>
+
+namespace mapproof {
+
+/// The text without its byte order mark, fit to be read as UTF-8.
+/// @throws IoError with the line for a NUL byte, UTF-16, or bytes that are not UTF-8; or if empty.
+std::string_view checked_text(std::string_view text, const std::string& source);
+
+/// "line 7": of the byte at `offset`, counted from 1.
+std::string line_of(std::string_view text, std::size_t offset);
+
+/// "line 7, column 12": columns count bytes.
+std::string place_of(std::string_view text, std::size_t offset);
+
+/// A decimal number that fills the whole of `cell`, whatever the locale; infinities and NaN by
+/// name count as numbers. Empty if it is none, or lies outside the range of a double.
+std::optional<double> number_in(std::string_view cell);
+
+/// Whether the cell says that a value is missing: nothing, or NaN in any case.
+bool is_missing(std::string_view cell);
+
+/// `cell` in quotes, short enough for an error's line.
+std::string in_quotes(std::string_view cell);
+
+/// Without spaces, tabs and carriage returns at both ends.
+std::string_view trimmed(std::string_view text);
+
+/// ASCII letters in lower case.
+std::string lower_case(std::string_view text);
+
+}  // namespace mapproof
