@@ -18,13 +18,13 @@ constexpr int kVersion = 1;
 
 /// A key as one part of a JSON pointer (RFC 6901), fit for an error's line.
 std::string pointer_part(std::string_view key) {
-  std::string part;
+  std::string part = "/";
   for (const char c : key.substr(0, 200)) {
     if (c == '~') part += "~0";
     else if (c == '/') part += "~1";
     else part += c;
   }
-  return "/" + printable(part, 60);
+  return printable(part, 60);
 }
 
 std::string bounds(double least, double most) {

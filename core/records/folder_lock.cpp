@@ -1,0 +1,67 @@
+#include "core/records/folder_lock.hpp"
+
+#include <fcntl.h>
+#include <signal.h>
+#include <sys/file.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <charconv>
+#include <cstring>
+#include <optional>
+#include <string>
+#include <system_error>
+
+#include "core/base/errors.hpp"
+
+namespace mapproof {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// The process that was writing NAME.part-PID; empty for any other name.
+std::optional<pid_t> writer(const fs::path& file) {
+  constexpr std::string_view kMark = ".part-";
+  const std::string name = file.filename().string();
+  const std::size_t mark = name.rfind(kMark);
+  if (mark == std::string::npos) return std::nullopt;
+  pid_t process = 0;
+  const char* end = name.data() + name.size();
+  const auto [stop, error] = std::from_chars(name.data() + mark + kMark.size(), end, process);
+  if (error != std::errc() || stop != end || process <= 0) return std::nullopt;
+  return process;
+}
+
+bool is_running(pid_t process) {
+  return process != ::getpid() && (::kill(process, 0) == 0 || errno == EPERM);
+}
+
+}  // namespace
+
+FolderLock::FolderLock(const fs::path& folder)
+    : folder_(::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC)) {
+  if (folder_ < 0)
+    throw IoError(folder.string(), std::string("cannot be opened: ") + std::strerror(errno));
+  if (::flock(folder_, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK) {
+    ::close(folder_);
+    throw IoError(folder.string(),
+                  "is in use by another mapproof; wait for it, or choose another folder");
+  }
+}
+
+FolderLock::~FolderLock() { ::close(folder_); }
+
+bool is_leftover(const fs::path& file) { return writer(file).has_value(); }
+
+void remove_leftovers(const fs::path& folder) {
+  std::error_code error;
+  for (fs::recursive_directory_iterator entry(folder, error), end; !error && entry != end;
+       entry.increment(error)) {
+    const std::optional<pid_t> process = writer(entry->path());
+    if (process && !is_running(*process)) ::unlink(entry->path().c_str());
+  }
+  if (error) throw IoError(folder.string(), "cannot be searched: " + error.message());
+}
+
+}  // namespace mapproof

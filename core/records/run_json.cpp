@@ -1,0 +1,157 @@
+#include "core/records/run_json.hpp"
+
+#include <limits>
+
+#include "core/records/experiment_values.hpp"
+#include "core/records/json_text.hpp"
+#include "core/records/json_values.hpp"
+#include "core/records/map_values.hpp"
+
+namespace mapproof {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+constexpr int kMostIterations = std::numeric_limits<int>::max();
+constexpr std::size_t kMostRecords = 1'000'000;
+
+Json run_value(const RunId& run) { return {{"layout", run.layout}, {"pose", run.pose}}; }
+
+RunId read_run_id(const JsonCursor& value) {
+  value.allow_only({"layout", "pose"});
+  return {.layout = value.at("layout").integer32(1, 10'000),
+          .pose = value.at("pose").integer32(1, 10'000)};
+}
+
+Json world_value(const World& world) {
+  return {{"side_m", world.side_m},
+          {"landmark_diameter_m", world.landmark_diameter_m},
+          {"landmarks_m", points_value(world.landmarks_m)}};
+}
+
+World read_world(const JsonCursor& value) {
+  value.allow_only({"side_m", "landmark_diameter_m", "landmarks_m"});
+  return {.side_m = value.at("side_m").number(0.0, kFarthest_m),
+          .landmark_diameter_m = value.at("landmark_diameter_m").number(0.0, kFarthest_m),
+          .landmarks_m = read_points(value.at("landmarks_m"))};
+}
+
+Json record_value(const RunRecord& record) {
+  Json value = {{"sensor", name(record.sensor)}};
+  put_setting(value, record.setting);
+  value["step"] = record.step;
+  value["score"] = record.score ? score_value(*record.score) : Json(nullptr);
+  value["iterations"] = record.iterations;
+  value["stress"] = record.stress ? Json(*record.stress) : Json(nullptr);
+  value["statuses"] = statuses_value(record.statuses);
+  return value;
+}
+
+RunRecord read_record(const JsonCursor& value) {
+  std::vector<std::string_view> keys = {"sensor",     "step",   "score",
+                                        "iterations", "stress", "statuses"};
+  RunRecord record;
+  record.setting = read_setting(value, keys);
+  value.allow_only(keys);
+  record.sensor = read_sensor(value.at("sensor"));
+  record.step = value.at("step").integer32(0, kMostSteps);
+  if (const JsonCursor score = value.at("score"); !score.is_null())
+    record.score = read_score(score);
+  record.iterations = value.at("iterations").integer32(0, kMostIterations);
+  if (const JsonCursor stress = value.at("stress"); !stress.is_null())
+    record.stress = stress.number(-kInfinity, kInfinity);
+  record.statuses = read_statuses(value.at("statuses"));
+  return record;
+}
+
+Json provenance_value(const Provenance& provenance) {
+  Json libraries = Json::array();
+  for (const auto& [library, version] : provenance.libraries)
+    libraries.push_back({{"name", library}, {"version", version}});
+  return {{"version", provenance.version},
+          {"commit", provenance.commit},
+          {"solver_digest", provenance.solver_digest},
+          {"libraries", std::move(libraries)}};
+}
+
+Provenance read_provenance(const JsonCursor& value) {
+  value.allow_only({"version", "commit", "solver_digest", "libraries"});
+  Provenance provenance{.version = value.at("version").text(),
+                        .commit = value.at("commit").text(),
+                        .solver_digest = value.at("solver_digest").text(),
+                        .libraries = {}};
+  for (const JsonCursor& library : value.at("libraries").elements(0, 1000)) {
+    library.allow_only({"name", "version"});
+    provenance.libraries.emplace_back(library.at("name").text(), library.at("version").text());
+  }
+  return provenance;
+}
+
+}  // namespace
+
+std::string run_json(const Run& run) {
+  Json records = Json::array();
+  for (const RunRecord& record : run.records) records.push_back(record_value(record));
+  return json_text({{"schema", schema_value("mapproof.run")},
+                    {"run", run_value(run.id)},
+                    {"world", world_value(run.world)},
+                    {"anchors", indices_value(run.anchors)},
+                    {"records", std::move(records)}});
+}
+
+Run parse_run(std::string_view text, const std::string& source) {
+  const JsonDocument document = parse_json(text, source);
+  const JsonCursor root = document.cursor();
+  expect_schema(root, "mapproof.run");
+  root.allow_only({"schema", "run", "world", "anchors", "records"});
+  Run run;
+  run.id = read_run_id(root.at("run"));
+  run.world = read_world(root.at("world"));
+  run.anchors = read_indices(root.at("anchors"), run.world.landmarks_m.rows());
+  for (const JsonCursor& record : root.at("records").elements(0, kMostRecords))
+    run.records.push_back(read_record(record));
+  return run;
+}
+
+std::string maps_json(const RunMaps& maps) {
+  const MapRecord shared = maps.maps.empty() ? MapRecord{} : maps.maps.front();
+  Json value = {{"schema", schema_value("mapproof.maps")}, {"run", run_value(maps.run)}};
+  put_landmarks(value, shared);
+  value["maps"] = Json::array();
+  for (const MapRecord& map : maps.maps) value["maps"].push_back(map_value(map, &shared));
+  return json_text(value);
+}
+
+RunMaps parse_maps(std::string_view text, const std::string& source) {
+  const JsonDocument document = parse_json(text, source);
+  const JsonCursor root = document.cursor();
+  expect_schema(root, "mapproof.maps");
+  root.allow_only({"schema", "run", "names", "anchors", "truth_m", "maps"});
+  for (const char* key : {"names", "anchors", "truth_m"}) root.at(key);
+  RunMaps maps;
+  maps.run = read_run_id(root.at("run"));
+  MapRecord shared;
+  read_landmarks(root, shared);
+  for (const JsonCursor& map : root.at("maps").elements(0, kMostRecords))
+    maps.maps.push_back(read_map(map, &shared));
+  return maps;
+}
+
+std::string study_json(const Experiment& experiment, const Provenance& provenance) {
+  return json_text({{"schema", schema_value("mapproof.study")},
+                    {"experiment", experiment_value(experiment)},
+                    {"provenance", provenance_value(provenance)}});
+}
+
+Study parse_study(std::string_view text, const std::string& source) {
+  const JsonDocument document = parse_json(text, source);
+  const JsonCursor root = document.cursor();
+  expect_schema(root, "mapproof.study");
+  root.allow_only({"schema", "experiment", "provenance"});
+  return {.experiment = read_experiment(root.at("experiment")),
+          .provenance = read_provenance(root.at("provenance")),
+          .runs = {}};
+}
+
+}  // namespace mapproof

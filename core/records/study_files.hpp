@@ -1,0 +1,33 @@
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string_view>
+#include <vector>
+
+#include "core/model/study.hpp"
+
+namespace mapproof {
+
+/// Where things stand in the folder of a study.
+struct StudyFiles {
+  std::filesystem::path folder;
+
+  std::filesystem::path study() const { return folder / "study.json"; }
+  std::filesystem::path timings() const { return folder / "timings.jsonl"; }
+  std::filesystem::path runs() const { return folder / "runs"; }
+  std::filesystem::path maps() const { return folder / "maps"; }
+  std::filesystem::path run(const RunId& id) const { return runs() / (slug(id) + ".json"); }
+  std::filesystem::path map(const RunId& id) const { return maps() / (slug(id) + ".json"); }
+
+  /// The runs that have a file, ascending; other files are passed over. @throws IoError.
+  std::vector<RunId> listed_runs() const;
+};
+
+/// The run of a file named slug(run) + ".json"; empty for any other name.
+std::optional<RunId> run_of_file(const std::filesystem::path& file);
+
+/// Whether the experiment has that run.
+bool contains(const Experiment& experiment, const RunId& run);
+
+}  // namespace mapproof

@@ -1,0 +1,118 @@
+#include "core/records/timings_jsonl.hpp"
+
+#include <fcntl.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <cstring>
+#include <limits>
+#include <system_error>
+
+#include <fmt/format.h>
+
+#include "core/base/errors.hpp"
+#include "core/base/files.hpp"
+#include "core/records/json_text.hpp"
+#include "core/records/json_values.hpp"
+#include "core/records/text_input.hpp"
+
+namespace mapproof {
+namespace {
+
+constexpr double kLongest_s = std::numeric_limits<double>::max();
+
+Timing read_timing(const JsonCursor& value) {
+  std::vector<std::string_view> keys = {"kind", "layout", "pose", "sensor", "step", "seconds"};
+  Timing timing;
+  timing.setting = read_setting(value, keys);
+  value.allow_only(keys);
+  timing.run = {.layout = value.at("layout").integer32(1, 10'000),
+                .pose = value.at("pose").integer32(1, 10'000)};
+  timing.sensor = read_sensor(value.at("sensor"));
+  timing.step = value.at("step").integer32(0, kMostSteps);
+  timing.seconds = value.at("seconds").number(0.0, kLongest_s);
+  return timing;
+}
+
+Session read_session(const JsonCursor& value) {
+  value.allow_only({"kind", "command", "started_utc", "host", "jobs", "seconds"});
+  return {.command = value.at("command").text(1'000'000),
+          .started_utc = value.at("started_utc").text(),
+          .host = value.at("host").text(),
+          .jobs = value.at("jobs").integer32(0, 1'000'000),
+          .seconds = value.at("seconds").number(0.0, kLongest_s)};
+}
+
+void read_line(std::string_view line, const std::string& source, Timings& timings) {
+  const JsonDocument document = parse_json(line, source);
+  const JsonCursor root = document.cursor();
+  const std::string kind = root.at("kind").text();
+  if (kind == "map") timings.maps.push_back(read_timing(root));
+  else if (kind == "session") timings.sessions.push_back(read_session(root));
+  else root.at("kind").fail("expected map or session, got " + in_quotes(kind));
+}
+
+}  // namespace
+
+std::string timing_line(const Timing& timing) {
+  nlohmann::ordered_json value = {{"kind", "map"},
+                                  {"layout", timing.run.layout},
+                                  {"pose", timing.run.pose},
+                                  {"sensor", name(timing.sensor)}};
+  put_setting(value, timing.setting);
+  value["step"] = timing.step;
+  value["seconds"] = timing.seconds;
+  return json_line(value);
+}
+
+std::string session_line(const Session& session) {
+  return json_line({{"kind", "session"},
+                    {"command", session.command},
+                    {"started_utc", session.started_utc},
+                    {"host", session.host},
+                    {"jobs", session.jobs},
+                    {"seconds", session.seconds}});
+}
+
+Timings parse_timings(std::string_view text, const std::string& source) {
+  Timings timings;
+  std::size_t number = 1;
+  for (std::size_t end; (end = text.find('\n')) != std::string_view::npos; ++number) {
+    const std::string_view line = text.substr(0, end);
+    text.remove_prefix(end + 1);
+    read_line(line, fmt::format("{}: line {}", source, number), timings);
+  }
+  return timings;
+}
+
+void append_lines(const std::filesystem::path& path, std::string_view lines) {
+  if (lines.empty()) return;
+  const int file = ::open(path.c_str(), O_WRONLY | O_CREAT | O_APPEND | O_CLOEXEC, 0644);
+  const off_t size = file < 0 ? -1 : ::lseek(file, 0, SEEK_END);
+  bool is_good = size >= 0;
+  if (is_good) {
+    const ssize_t written = ::write(file, lines.data(), lines.size());
+    is_good = written == static_cast<ssize_t>(lines.size());
+    if (written >= 0 && !is_good) errno = ENOSPC;
+  }
+  const int reason = errno;
+  if (size >= 0 && !is_good && ::ftruncate(file, size) != 0) {
+    // The torn line stays; the next start mends it.
+  }
+  if (file >= 0) ::close(file);
+  if (!is_good)
+    throw IoError(path.string(), std::string("cannot be appended to: ") + std::strerror(reason));
+}
+
+void mend_lines(const std::filesystem::path& path) {
+  std::error_code error;
+  if (!std::filesystem::exists(path, error)) return;
+  const std::string text = read_file(path);
+  if (text.empty() || text.back() == '\n') return;
+  const std::size_t last = text.rfind('\n');
+  write_file(path, last == std::string::npos ? std::string_view()
+                                             : std::string_view(text).substr(0, last + 1));
+}
+
+}  // namespace mapproof
