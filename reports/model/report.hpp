@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <string>
 #include <variant>
 #include <vector>
@@ -83,7 +84,7 @@ struct Row {
 };
 
 struct Table {
-  std::string id;  ///< [a-z0-9-]+, unique in its report; also the name of its files.
+  std::string id;  ///< [a-z0-9-]+, unique among tables; also the name of its files.
   std::string caption;
   std::vector<Column> columns;
   std::vector<Row> rows;
@@ -92,7 +93,7 @@ struct Table {
 
 /// Where a figure stands; its drawing is handed to the writer apart.
 struct FigureBlock {
-  std::string id;  ///< [a-z0-9-]+, unique in its report.
+  std::string id;  ///< [a-z0-9-]+, unique among figures; also the name of its files.
   std::string title;
   std::string caption;
   std::string alt;  ///< What the figure shows, in words.
@@ -134,7 +135,7 @@ using Block = std::variant<Paragraph, BulletList, Highlights, Callout, Table, Fi
                            KeyValues, StatusList>;
 
 struct Section {
-  std::string id;  ///< [a-z0-9-]+, unique in its report.
+  std::string id;  ///< [a-z0-9-]+, unique among sections.
   std::string title;
   std::vector<Block> blocks;
 };
@@ -147,9 +148,13 @@ struct Report {
   std::string footer;
 };
 
-/// Throws unless every id is [a-z0-9-]+ and unique, and every row has a cell a column.
+/// Throws unless every id is [a-z0-9-]+, unique among sections, tables or figures, and every row has
+/// a cell a column.
 /// @throws InvalidInput naming the id.
 void check(const Report& report);
+
+/// Whether a column holds words rather than numbers.
+bool holds_text(const Table& table, std::size_t column);
 
 /// All tables and all figures of a report, in reading order.
 std::vector<const Table*> tables(const Report& report);

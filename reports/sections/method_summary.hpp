@@ -1,5 +1,6 @@
 #pragma once
 
+#include <limits>
 #include <optional>
 #include <span>
 #include <string>
@@ -20,9 +21,9 @@ struct SettingSummary {
   int with_status = 0;  ///< Of them with a status of any kind.
   std::optional<MeanEstimate> mpe_m;  ///< Over the scored; empty if there are none.
   std::optional<MeanEstimate> moe_percent;
-  double mpe_median_m = 0.0;               ///< Of the scored; NaN if there are none, as below.
-  double mpe_all_fitted_m = 0.0;           ///< Mean.
-  double moe_unmirrored_percent = 0.0;     ///< Mean.
+  double mpe_median_m = std::numeric_limits<double>::quiet_NaN();  ///< NaN: no score, as below.
+  double mpe_all_fitted_m = std::numeric_limits<double>::quiet_NaN();        ///< Mean.
+  double moe_unmirrored_percent = std::numeric_limits<double>::quiet_NaN();  ///< Mean.
   std::optional<PublishedValue> published;  ///< Of the same method, whatever its parameter.
 };
 
@@ -33,8 +34,26 @@ std::vector<SettingSummary> summarize(const Study& study, const SensorStudy& sen
 /// stands with its first parameter.
 std::vector<SettingSummary> best_of_each_method(std::span<const SettingSummary> summaries);
 
+/// The one of least mean MPE; null if none has a score.
+const SettingSummary* best_of(std::span<const SettingSummary> summaries);
+
 /// The last checkpoint, 0 if there is none.
 int last_step(const SensorStudy& sensor);
+
+/// Ours less the paper's; NaN where either is missing.
+double mpe_difference_m(const SettingSummary& summary);
+double moe_difference_percent(const SettingSummary& summary);
+
+struct Interval {
+  double low = 0.0;
+  double high = 0.0;
+};
+
+/// The 95 % interval of an error, cut at 0; empty where one layout, or none, was run.
+std::optional<Interval> interval_of(const std::optional<MeanEstimate>& estimate);
+
+/// "layout-1-pose-2/bearing/isomap-K9/2000", as in MapRecord.
+std::string record_id(const RunId& run, Sensor sensor, const MethodSetting& setting, int step);
 
 /// "bearing/isomap-K9/2000 of 25 runs": which records a summary rests on.
 std::string source_of(const SettingSummary& summary);

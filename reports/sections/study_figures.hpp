@@ -5,11 +5,10 @@
 
 #include "core/model/map_record.hpp"
 #include "core/model/study.hpp"
+#include "render/plot/figure.hpp"
 #include "reports/model/report.hpp"
 
 namespace mapproof {
-
-struct Figure;
 
 /// The figures of one sensor's part of a study.
 struct SensorFigures {

@@ -1,0 +1,11 @@
+#pragma once
+
+#include <string>
+
+namespace mapproof {
+
+/// `text` as it may stand between tags and in quoted attributes: characters that HTML reads as its
+/// own become references; bytes that are no UTF-8 and control characters become visible ones.
+std::string html_escaped(const std::string& text);
+
+}  // namespace mapproof

@@ -1,0 +1,133 @@
+#include "reports/html/table_data.hpp"
+
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include "reports/model/format.hpp"
+
+namespace mapproof {
+namespace {
+
+using kainjow::mustache::data;
+using kainjow::mustache::list;
+
+constexpr std::size_t kLong = 80;  ///< Longer texts scroll in a box of their own.
+
+data optional(const std::string& text) { return text.empty() ? data(false) : data(text); }
+
+bool any_group(const Table& table) {
+  for (const Column& column : table.columns)
+    if (!column.group.empty()) return true;
+  return false;
+}
+
+data heading_data(const Table& table, std::size_t index, bool two_rows) {
+  const Column& column = table.columns[index];
+  data out;
+  out.set("title", column.title);
+  out.set("unit", optional(column.unit));
+  out.set("hint", optional(column.hint));
+  out.set("index", fmt::format("{}", index));
+  out.set("text", holds_text(table, index));
+  out.set("group", false);
+  out.set("rows", two_rows && column.group.empty() ? data("2") : data(false));
+  const bool begins = index > 0 && table.columns[index - 1].group != column.group;
+  out.set("begins", begins);
+  return out;
+}
+
+data group_data(const Table& table, std::size_t first, std::size_t count) {
+  data out;
+  out.set("group", true);
+  out.set("title", table.columns[first].group);
+  out.set("columns", fmt::format("{}", count));
+  out.set("begins", first > 0);
+  return out;
+}
+
+/// One heading row, or two where columns share headings.
+void add_headings(const Table& table, data& out) {
+  const bool two_rows = any_group(table);
+  list upper;
+  list lower;
+  for (std::size_t i = 0; i < table.columns.size();) {
+    const std::string& group = table.columns[i].group;
+    if (group.empty()) {
+      upper.push_back(heading_data(table, i++, two_rows));
+      continue;
+    }
+    const std::size_t first = i;
+    for (; i < table.columns.size() && table.columns[i].group == group; ++i)
+      lower.push_back(heading_data(table, i, false));
+    upper.push_back(group_data(table, first, i - first));
+  }
+  out.set("upper", upper);
+  out.set("lower", lower);
+  out.set("two_rows", two_rows);
+}
+
+/// What a column is sorted by: numbers as they are, an interval by its middle; empty goes last.
+struct SortKey {
+  std::string operator()(const TextCell& cell) const { return cell.text; }
+  std::string operator()(const NumberCell& cell) const { return number(cell.value); }
+  std::string operator()(const IntervalCell& cell) const {
+    return number(0.5 * cell.low + 0.5 * cell.high);
+  }
+  std::string operator()(const MissingCell&) const { return ""; }
+
+  static std::string number(double value) {
+    return std::isfinite(value) ? fmt::format("{}", value) : "";
+  }
+};
+
+data cell_data(const Table& table, const Row& row, std::size_t index) {
+  const Cell& cell = row.cells[index];
+  const auto* text = std::get_if<TextCell>(&cell);
+  const auto emphasis = text != nullptr ? text->emphasis : Emphasis::kPlain;
+  data out;
+  out.set("value", format_cell(cell));
+  out.set("heads", index == 0);
+  out.set("is_text", text != nullptr || holds_text(table, index));
+  out.set("code", emphasis == Emphasis::kCode);
+  out.set("data", emphasis != Emphasis::kCode);
+  out.set("long", text != nullptr && text->text.size() > kLong);
+  const std::string key = std::visit(SortKey{}, cell);
+  out.set("sort", text == nullptr ? data("key", key) : data(false));
+  const bool begins = index > 0 && table.columns[index - 1].group != table.columns[index].group;
+  out.set("begins", begins);
+  return out;
+}
+
+data row_data(const Table& table, const Row& row) {
+  data out;
+  list cells;
+  cells.reserve(row.cells.size());
+  for (std::size_t i = 0; i < row.cells.size(); ++i) cells.push_back(cell_data(table, row, i));
+  out.set("cells", cells);
+  out.set("marked", row.marked);
+  out.set("source", optional(row.source));
+  return out;
+}
+
+}  // namespace
+
+data table_data(const Table& table, const HtmlOptions& options) {
+  data out;
+  out.set("id", table.id);
+  out.set("caption", table.caption);
+  out.set("folder", optional(options.table_folder));
+  add_headings(table, out);
+  list rows;
+  rows.reserve(table.rows.size());
+  for (const Row& row : table.rows) rows.push_back(row_data(table, row));
+  out.set("any_rows", !rows.empty());
+  out.set("table_rows", rows);
+  list notes;
+  for (const std::string& note : table.notes) notes.push_back(data("note", note));
+  out.set("any_notes", !notes.empty());
+  out.set("notes", notes);
+  return out;
+}
+
+}  // namespace mapproof

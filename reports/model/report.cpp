@@ -1,0 +1,74 @@
+#include "reports/model/report.hpp"
+
+#include <algorithm>
+#include <set>
+
+#include "core/base/errors.hpp"
+
+namespace mapproof {
+namespace {
+
+bool is_id(const std::string& id) {
+  return !id.empty() && id.size() <= 100 && std::ranges::all_of(id, [](char c) {
+    return (c >= 'a' && c <= 'z') || (c >= '0' && c <= '9') || c == '-';
+  });
+}
+
+class IdCheck {
+ public:
+  void add(const std::string& id) {
+    if (!is_id(id)) throw InvalidInput("report: \"" + printable(id) + "\" is no id");
+    if (!seen_.insert(id).second) throw InvalidInput("report: the id \"" + id + "\" stands twice");
+  }
+
+ private:
+  std::set<std::string> seen_;
+};
+
+void check_rows(const Table& table) {
+  for (const Row& row : table.rows)
+    if (row.cells.size() != table.columns.size())
+      throw InvalidInput("report: a row of table \"" + table.id + "\" lacks cells");
+}
+
+}  // namespace
+
+void check(const Report& report) {
+  IdCheck section_ids;
+  for (const Section& section : report.sections) section_ids.add(section.id);
+  IdCheck table_ids;
+  for (const Table* table : tables(report)) {
+    table_ids.add(table->id);
+    check_rows(*table);
+  }
+  IdCheck figure_ids;
+  for (const FigureBlock* figure : figures(report)) figure_ids.add(figure->id);
+}
+
+bool holds_text(const Table& table, std::size_t column) {
+  if (table.rows.empty()) return true;
+  return std::ranges::any_of(table.rows, [&](const Row& row) {
+    return std::holds_alternative<TextCell>(row.cells[column]);
+  });
+}
+
+std::vector<const Table*> tables(const Report& report) {
+  std::vector<const Table*> found;
+  for (const Section& section : report.sections)
+    for (const Block& block : section.blocks)
+      if (const auto* table = std::get_if<Table>(&block)) found.push_back(table);
+  return found;
+}
+
+std::vector<const FigureBlock*> figures(const Report& report) {
+  std::vector<const FigureBlock*> found;
+  for (const Section& section : report.sections)
+    for (const Block& block : section.blocks) {
+      if (const auto* figure = std::get_if<FigureBlock>(&block)) found.push_back(figure);
+      if (const auto* gallery = std::get_if<Gallery>(&block))
+        for (const FigureBlock& figure : gallery->figures) found.push_back(&figure);
+    }
+  return found;
+}
+
+}  // namespace mapproof

@@ -1,0 +1,214 @@
+#include "reports/sections/map_report.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include "core/base/errors.hpp"
+#include "reports/model/format.hpp"
+#include "reports/sections/wording.hpp"
+
+namespace mapproof {
+namespace {
+
+using Eigen::Index;
+
+bool placed(const Points& points, Index row) { return points.row(row).allFinite(); }
+
+Index mapped_count(const MapRecord& record) {
+  Index count = 0;
+  for (Index i = 0; i < record.estimate.rows(); ++i) count += placed(record.estimate, i) ? 1 : 0;
+  return count;
+}
+
+bool is_anchor(const MapRecord& record, Index row) {
+  return std::ranges::find(record.anchors, row) != record.anchors.end();
+}
+
+bool any_truth(const MapRecord& record) {
+  return record.truth_m && record.truth_m->array().isFinite().any();
+}
+
+std::string unit(const MapRecord& record) { return record.frame == Frame::kTruth ? "m" : ""; }
+
+void add_truth(const MapRecord& record, Index row, std::vector<Cell>& cells) {
+  const Points& truth = *record.truth_m;
+  for (Index axis = 0; axis < 2; ++axis) cells.emplace_back(NumberCell{truth(row, axis), 3});
+  if (record.frame == Frame::kTruth)
+    cells.emplace_back(NumberCell{(record.estimate.row(row) - truth.row(row)).norm(), 3});
+}
+
+std::vector<Column> point_columns(const MapRecord& record) {
+  std::vector<Column> columns = {{"Landmark", "", "", ""},
+                                 {"x", unit(record), "Map", ""},
+                                 {"y", unit(record), "Map", ""}};
+  if (!any_truth(record)) return columns;
+  columns.push_back({"x", "m", "Truth", ""});
+  columns.push_back({"y", "m", "Truth", ""});
+  if (record.frame == Frame::kTruth)
+    columns.push_back({"Error", "m", "", "Distance from the true position."});
+  return columns;
+}
+
+Row point_row(const MapRecord& record, Index row) {
+  const auto number = static_cast<std::size_t>(row);
+  Row out;
+  out.cells = {TextCell{record.names[number], Emphasis::kData},
+               NumberCell{record.estimate(row, 0), 3}, NumberCell{record.estimate(row, 1), 3}};
+  if (any_truth(record)) add_truth(record, row, out.cells);
+  out.source = record.id;
+  return out;
+}
+
+Table landmarks_table(const MapRecord& record) {
+  Table table{"landmarks", "Every landmark", point_columns(record), {}, {}};
+  table.columns.push_back({"Anchor", "", "", "Its true position was given."});
+  for (Index i = 0; i < record.estimate.rows(); ++i) {
+    table.rows.push_back(point_row(record, i));
+    table.rows.back().cells.emplace_back(TextCell{is_anchor(record, i) ? "yes" : "no"});
+  }
+  if (record.frame == Frame::kSimilarity)
+    table.notes.push_back("No anchors: place, turn, scale and mirror of the map are arbitrary.");
+  if (mapped_count(record) < record.estimate.rows())
+    table.notes.push_back("A dash stands for a landmark that has no place in the map.");
+  return table;
+}
+
+Table anchors_table(const MapRecord& record) {
+  Table table{"anchors", "Anchors: what the map was fitted to", point_columns(record), {}, {}};
+  for (const Index row : record.anchors) table.rows.push_back(point_row(record, row));
+  return table;
+}
+
+Highlights highlights(const MapRecord& record) {
+  Highlights out;
+  out.items.push_back({"Landmarks mapped",
+                       fmt::format("{} of {}", mapped_count(record), record.estimate.rows()),
+                       count_of(record.step, "observation") + " used"});
+  if (record.score) {
+    out.items.push_back({"MPE", format_number(record.score->mpe_m, 3) + " m",
+                         "mean position error, anchors left out"});
+    out.items.push_back({"MOE", format_number(record.score->moe_percent, 2) + " %",
+                         "landmark triples with a wrong orientation"});
+  }
+  out.items.push_back({"Anchors", fmt::format("{}", record.anchors.size()),
+                       record.frame == Frame::kTruth ? "map in metres, in their frame"
+                                                     : "shape alone, without scale"});
+  return out;
+}
+
+/// Name and error of the landmark that is farthest from its true position.
+Paragraph worst_finding(const MapRecord& record) {
+  Index worst = -1;
+  double largest = -1.0;
+  for (Index i = 0; i < record.estimate.rows(); ++i) {
+    const double error = (record.estimate.row(i) - record.truth_m->row(i)).norm();
+    if (std::isfinite(error) && error > largest && !is_anchor(record, i)) {
+      largest = error;
+      worst = i;
+    }
+  }
+  if (worst < 0) return {};
+  return {{{"Farthest from its true position is ", Emphasis::kPlain},
+           {record.names[static_cast<std::size_t>(worst)], Emphasis::kData},
+           {fmt::format(", by {} m.", format_number(largest, 3)), Emphasis::kPlain}}};
+}
+
+Section summary(const MapReportInput& input) {
+  const MapRecord& record = input.record;
+  Section section{"summary", "Summary", {}};
+  section.blocks.emplace_back(highlights(record));
+  BulletList findings;
+  findings.items.push_back(plain(fmt::format(
+      "{} from {} observations of {}: {}.", label(record.setting), name(record.sensor),
+      count_of(record.estimate.rows(), "landmark"), info(record.setting.method).summary)));
+  if (record.frame == Frame::kTruth && any_truth(record))
+    if (Paragraph worst = worst_finding(record); !worst.phrases.empty())
+      findings.items.push_back(std::move(worst));
+  if (record.frame == Frame::kSimilarity)
+    findings.items.push_back(
+        plain("No anchors were given: the map has a shape, but its place, turn, scale and mirror "
+              "are arbitrary, and no error in metres can be told."));
+  if (!record.statuses.empty())
+    findings.items.push_back(plain(count_of(static_cast<long>(record.statuses.size()), "status") +
+                                   " below: something went other than well."));
+  section.blocks.emplace_back(std::move(findings));
+  return section;
+}
+
+Section input_section(const MapReportInput& input) {
+  Section section{"input", "What was read", {}};
+  KeyValues facts;
+  for (const auto& [key, value] : input.facts)
+    facts.items.push_back({key, {value, Emphasis::kData}});
+  section.blocks.emplace_back(std::move(facts));
+  if (input.remarks.empty()) {
+    section.blocks.emplace_back(plain("Nothing was left out."));
+    return section;
+  }
+  BulletList remarks;
+  for (const std::string& remark : input.remarks)
+    remarks.items.push_back({{{remark, Emphasis::kData}}});
+  section.blocks.emplace_back(plain("Left out or changed while reading:"));
+  section.blocks.emplace_back(std::move(remarks));
+  return section;
+}
+
+Section statuses(const MapRecord& record) {
+  Section section{"statuses", "What went other than well", {}};
+  if (record.statuses.empty()) {
+    section.blocks.emplace_back(plain("Nothing: the solve ended well."));
+    return section;
+  }
+  StatusList list;
+  for (const Status& status : record.statuses)
+    list.items.push_back({std::string(name(status.code)), std::string(meaning(status.code)),
+                          label(record.setting), 1, 1, status.code == StatusCode::kFailed,
+                          {{record.id, status.detail}}});
+  section.blocks.emplace_back(std::move(list));
+  return section;
+}
+
+Section provenance(const MapReportInput& input) {
+  Section section{"provenance", "Provenance", {}};
+  section.blocks.emplace_back(plain("This command makes the map and this report again:"));
+  section.blocks.emplace_back(KeyValues{{{"Command", {input.command, Emphasis::kCode}},
+                                         {"Record", {input.record.id, Emphasis::kCode}}}});
+  section.blocks.emplace_back(provenance_items(input.provenance));
+  return section;
+}
+
+void require_sizes(const MapRecord& record) {
+  const Index rows = record.estimate.rows();
+  if (static_cast<Index>(record.names.size()) != rows ||
+      (record.truth_m && record.truth_m->rows() != rows))
+    throw InvalidInput("map_report: names, estimate and truth must be of one length");
+  for (const Index anchor : record.anchors)
+    if (anchor < 0 || anchor >= rows) throw InvalidInput("map_report: an anchor is no landmark");
+}
+
+}  // namespace
+
+Report map_report(const MapReportInput& input) {
+  require_sizes(input.record);
+  Report report;
+  report.title = input.title;
+  report.subtitle = fmt::format("{}, {}, {}", label(input.record.setting),
+                                name(input.record.sensor),
+                                count_of(input.record.step, "observation"));
+  report.sections.push_back(summary(input));
+  report.sections.push_back({"map", "Map", {input.figure}});
+  Section landmarks{"positions", "Landmarks", {}};
+  if (!input.record.anchors.empty()) landmarks.blocks.emplace_back(anchors_table(input.record));
+  landmarks.blocks.emplace_back(landmarks_table(input.record));
+  report.sections.push_back(std::move(landmarks));
+  report.sections.push_back(input_section(input));
+  report.sections.push_back(statuses(input.record));
+  report.sections.push_back(provenance(input));
+  report.footer = fmt::format("Made by mapproof {} ({}).", input.provenance.version,
+                              input.provenance.commit);
+  return report;
+}
+
+}  // namespace mapproof

@@ -1,0 +1,130 @@
+#include <algorithm>
+#include <map>
+#include <tuple>
+
+#include <fmt/format.h>
+
+#include "reports/model/format.hpp"
+#include "reports/sections/method_summary.hpp"
+#include "reports/sections/study_report.hpp"
+#include "reports/sections/wording.hpp"
+
+namespace mapproof {
+namespace {
+
+Phrase data(std::string text) { return {std::move(text), Emphasis::kData}; }
+
+std::string join(const std::vector<int>& values) {
+  std::string text;
+  for (const int value : values) text += fmt::format("{}{}", text.empty() ? "" : ", ", value);
+  return text;
+}
+
+std::string methods_of(const SensorStudy& sensor) {
+  std::string text;
+  for (const MethodGrid& grid : sensor.methods) {
+    text += fmt::format("{}{}", text.empty() ? "" : "; ", info(grid.method).label);
+    const auto& parameter = info(grid.method).parameter;
+    if (grid.parameters.empty() || !parameter) continue;
+    text += fmt::format(" ({} =", parameter->symbol);
+    for (std::size_t i = 0; i < grid.parameters.size(); ++i)
+      text += fmt::format("{}{:g}", i == 0 ? " " : ", ", grid.parameters[i]);
+    text += ")";
+  }
+  return text;
+}
+
+KeyValues experiment_items(const Experiment& experiment) {
+  KeyValues items;
+  items.items = {
+      {"Experiment", data(experiment.name)},
+      {"Seed", data(fmt::format("{}", experiment.seed))},
+      {"Runs", data(fmt::format("{} \u00D7 {}", count_of(experiment.layouts, "layout"),
+                                count_of(experiment.poses, "initial pose")))},
+      {"Room", data(fmt::format("{:g} m \u00D7 {:g} m, {} of {:g} mm", experiment.world.side_m,
+                                experiment.world.side_m,
+                                count_of(experiment.world.landmarks, "landmark"),
+                                1e3 * experiment.world.landmark_diameter_m))},
+      {"Walk", data(fmt::format("steps of {:g} m, turns up to {:.4g} rad", experiment.walk.step_m,
+                                experiment.walk.turn_rad))},
+      {"Anchors", data(fmt::format("{}, nearest the corners", experiment.anchors))}};
+  for (const SensorStudy& sensor : experiment.sensors) {
+    const std::string title = title_of(sensor.sensor.sensor);
+    items.items.push_back({title + " checkpoints", data(join(sensor.checkpoints))});
+    items.items.push_back({title + " methods", data(methods_of(sensor))});
+    if (sensor.sensor.noise > 0.0 || sensor.sensor.dropout_share > 0.0)
+      items.items.push_back({title + " faults",
+                             data(fmt::format("noise {:g}, dropout share {:g}",
+                                              sensor.sensor.noise, sensor.sensor.dropout_share))});
+  }
+  return items;
+}
+
+Table sessions_table(std::span<const Session> sessions) {
+  Table table;
+  table.id = "sessions";
+  table.caption = "Starts of the program on this study";
+  table.columns = {{"Started (UTC)", "", "", ""},
+                   {"Command", "", "", ""},
+                   {"Host", "", "", ""},
+                   {"Jobs", "", "", ""},
+                   {"Duration", "s", "", "Wall clock."}};
+  for (const Session& session : sessions)
+    table.rows.push_back({{TextCell{session.started_utc, Emphasis::kData},
+                           TextCell{session.command, Emphasis::kCode},
+                           TextCell{session.host, Emphasis::kData},
+                           NumberCell{static_cast<double>(session.jobs), 0},
+                           NumberCell{session.seconds, 1}},
+                          "", false});
+  return table;
+}
+
+struct Duration {
+  int maps = 0;
+  double seconds = 0.0;
+  double longest = 0.0;
+};
+
+Table durations_table(std::span<const Timing> timings) {
+  std::map<std::tuple<Sensor, Method>, Duration> durations;
+  for (const Timing& timing : timings) {
+    Duration& duration = durations[{timing.sensor, timing.setting.method}];
+    ++duration.maps;
+    duration.seconds += timing.seconds;
+    duration.longest = std::max(duration.longest, timing.seconds);
+  }
+  Table table;
+  table.id = "durations";
+  table.caption = "How long the maps took";
+  table.columns = {{"Sensor", "", "", ""},     {"Method", "", "", ""},
+                   {"Maps", "", "", ""},       {"Mean", "ms", "", "One map."},
+                   {"Longest", "ms", "", ""},  {"Sum", "s", "", "Over all threads."}};
+  for (const auto& [key, duration] : durations)
+    table.rows.push_back({{TextCell{title_of(std::get<0>(key))},
+                           TextCell{std::string(info(std::get<1>(key)).label)},
+                           NumberCell{static_cast<double>(duration.maps), 0},
+                           NumberCell{1e3 * duration.seconds / duration.maps, 2},
+                           NumberCell{1e3 * duration.longest, 2},
+                           NumberCell{duration.seconds, 2}},
+                          "", false});
+  table.notes.push_back("Seconds vary from run to run and are no part of any comparison.");
+  return table;
+}
+
+}  // namespace
+
+Section provenance_section(const Study& study, std::span<const Session> sessions,
+                           std::span<const Timing> timings, const std::string& command) {
+  Section section{"provenance", "Provenance", {}};
+  section.blocks.emplace_back(
+      plain("Every number here comes from the study\u2019s records; this command makes them and "
+            "this report again, to the byte (durations aside):"));
+  section.blocks.emplace_back(KeyValues{{{"Command", {command, Emphasis::kCode}}}});
+  section.blocks.emplace_back(experiment_items(study.experiment));
+  section.blocks.emplace_back(provenance_items(study.provenance));
+  if (!sessions.empty()) section.blocks.emplace_back(sessions_table(sessions));
+  if (!timings.empty()) section.blocks.emplace_back(durations_table(timings));
+  return section;
+}
+
+}  // namespace mapproof

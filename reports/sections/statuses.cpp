@@ -1,0 +1,115 @@
+#include <algorithm>
+#include <map>
+#include <tuple>
+
+#include <fmt/format.h>
+
+#include "reports/model/format.hpp"
+#include "reports/sections/method_summary.hpp"
+#include "reports/sections/study_report.hpp"
+#include "reports/sections/wording.hpp"
+
+namespace mapproof {
+namespace {
+
+constexpr std::size_t kPlacesShown = 5;
+
+/// Sensor, method, parameter: what statuses are counted by.
+using Kind = std::tuple<Sensor, Method, double>;
+
+Kind kind_of(const RunRecord& record) {
+  return {record.sensor, record.setting.method, record.setting.parameter.value_or(0.0)};
+}
+
+bool carries(const RunRecord& record, StatusCode code) {
+  return std::ranges::any_of(record.statuses, [&](const auto& s) { return s.code == code; });
+}
+
+void add_record(StatusList::Item& item, const RunId& run, const RunRecord& record,
+                StatusCode code) {
+  ++item.count;
+  if (item.places.size() >= kPlacesShown) return;
+  for (const Status& status : record.statuses)
+    if (status.code == code)
+      item.places.push_back({record_id(run, record.sensor, record.setting, record.step),
+                             status.detail});
+}
+
+/// Severest first: no map, then by share.
+bool before(const StatusList::Item& a, const StatusList::Item& b) {
+  if (a.failed != b.failed) return a.failed;
+  return static_cast<double>(a.count) * b.of > static_cast<double>(b.count) * a.of;
+}
+
+StatusList status_list(const Study& study) {
+  std::map<Kind, int> totals;
+  std::map<std::pair<Kind, StatusCode>, StatusList::Item> items;
+  for (const Run& run : study.runs)
+    for (const RunRecord& record : run.records) {
+      ++totals[kind_of(record)];
+      for (std::size_t i = 0; i < record.statuses.size(); ++i) {
+        const StatusCode code = record.statuses[i].code;
+        const auto earlier = std::span(record.statuses).first(i);
+        if (std::ranges::any_of(earlier, [&](const Status& s) { return s.code == code; })) continue;
+        StatusList::Item& item = items[{kind_of(record), code}];
+        item.where = fmt::format("{}, {}", name(record.sensor), label(record.setting));
+        add_record(item, run.id, record, code);
+      }
+    }
+  StatusList list;
+  for (auto& [key, item] : items) {
+    item.code = name(key.second);
+    item.meaning = meaning(key.second);
+    item.failed = key.second == StatusCode::kFailed || key.second == StatusCode::kAnchorsMissing;
+    item.of = totals[key.first];
+    list.items.push_back(std::move(item));
+  }
+  std::ranges::stable_sort(list.items, before);
+  return list;
+}
+
+/// Maps by how they ended.
+struct Counts {
+  long maps = 0;
+  long with_status = 0;
+  long failed = 0;
+  long unscored = 0;
+};
+
+Counts count(const Study& study) {
+  Counts counts;
+  for (const Run& run : study.runs)
+    for (const RunRecord& record : run.records) {
+      ++counts.maps;
+      if (!record.statuses.empty()) ++counts.with_status;
+      if (carries(record, StatusCode::kFailed)) ++counts.failed;
+      if (!record.score) ++counts.unscored;
+    }
+  return counts;
+}
+
+}  // namespace
+
+Section statuses_section(const Study& study) {
+  const Counts counts = count(study);
+  Section section;
+  section.id = "statuses";
+  section.title = "What went other than well";
+  section.blocks.emplace_back(plain(fmt::format(
+      "Of {}, {} a status, {} no score, and {} of them came to no map at all. A status is data: "
+      "the numbers above include every map that could be scored, with or without one.",
+      count_of(counts.maps, "map"),
+      fmt::format("{} {}", counts.with_status, counts.with_status == 1 ? "carries" : "carry"),
+      fmt::format("{} {}", counts.unscored, counts.unscored == 1 ? "has" : "have"),
+      counts.failed)));
+  StatusList list = status_list(study);
+  if (list.items.empty()) {
+    section.blocks.emplace_back(
+        Callout{Callout::Tone::kNote, "Nothing to list", plain("Every solve ended well.")});
+  } else {
+    section.blocks.emplace_back(std::move(list));
+  }
+  return section;
+}
+
+}  // namespace mapproof

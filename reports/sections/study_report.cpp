@@ -1,0 +1,38 @@
+#include "reports/sections/study_report.hpp"
+
+#include <fmt/format.h>
+
+#include "reports/model/format.hpp"
+
+namespace mapproof {
+namespace {
+
+std::string subtitle(const Study& study) {
+  const Experiment& experiment = study.experiment;
+  return fmt::format("Experiment {}, seed {}: {}, {}, room of {:g} m", experiment.name,
+                     experiment.seed,
+                     count_of(static_cast<long>(study.runs.size()), "simulated run"),
+                     count_of(experiment.world.landmarks, "landmark"), experiment.world.side_m);
+}
+
+}  // namespace
+
+Report study_report(const StudyReportInput& input) {
+  const Experiment& experiment = input.study.experiment;
+  Report report;
+  report.title = experiment.title.empty() ? experiment.name : experiment.title;
+  report.subtitle = subtitle(input.study);
+  report.sections.push_back(summary_section(input.study));
+  for (const SensorStudy& sensor : experiment.sensors)
+    report.sections.push_back(accuracy_section(input.study, sensor));
+  report.sections.push_back(curves_section(input.figures));
+  report.sections.push_back(maps_section(input.figures));
+  report.sections.push_back(statuses_section(input.study));
+  report.sections.push_back(
+      provenance_section(input.study, input.sessions, input.timings, input.command));
+  report.footer = fmt::format("Made by mapproof {} ({}).", input.study.provenance.version,
+                              input.study.provenance.commit);
+  return report;
+}
+
+}  // namespace mapproof

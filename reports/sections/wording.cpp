@@ -1,0 +1,53 @@
+#include "reports/sections/wording.hpp"
+
+#include <fmt/format.h>
+
+namespace mapproof {
+
+std::string title_of(Sensor sensor) {
+  std::string text(name(sensor));
+  text[0] = static_cast<char>(text[0] - 'a' + 'A');
+  return text;
+}
+
+std::string_view meaning(StatusCode code) {
+  switch (code) {
+    case StatusCode::kBridged:
+      return "The neighbour graph was in pieces; the shortest bridges joined them.";
+    case StatusCode::kNotConverged:
+      return "The limit of iterations came before the stop rule.";
+    case StatusCode::kRankDeficient:
+      return "The data have fewer than two dimensions: the map is flat or a point.";
+    case StatusCode::kLandmarkUnseen:
+      return "Some landmarks were never observed; they are missing from the map.";
+    case StatusCode::kDistancesCompleted:
+      return "Pairs without a common step took the shortest path over the others.";
+    case StatusCode::kAnchorsMissing:
+      return "Too few anchors were mapped for an affine map: there is no score.";
+    case StatusCode::kAnchorsDegenerate:
+      return "The anchors lie nearly on one line in the embedding: the affine map is arbitrary.";
+    case StatusCode::kFailed:
+      return "No map came out.";
+  }
+  return "";
+}
+
+Paragraph plain(std::string text) { return {{{std::move(text), Emphasis::kPlain}}}; }
+
+std::string parameter_text(const MethodSetting& setting) {
+  const auto& parameter = info(setting.method).parameter;
+  if (!parameter || !setting.parameter) return "";
+  return fmt::format("{} = {:g}", parameter->symbol, *setting.parameter);
+}
+
+KeyValues provenance_items(const Provenance& provenance) {
+  KeyValues items;
+  items.items.push_back({"mapproof", {provenance.version, Emphasis::kData}});
+  items.items.push_back({"Commit", {provenance.commit, Emphasis::kCode}});
+  items.items.push_back({"Digest of the solvers", {provenance.solver_digest, Emphasis::kCode}});
+  for (const auto& [library, version] : provenance.libraries)
+    items.items.push_back({library, {version, Emphasis::kData}});
+  return items;
+}
+
+}  // namespace mapproof

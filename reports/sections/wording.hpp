@@ -1,0 +1,29 @@
+#pragma once
+
+#include <string>
+#include <string_view>
+#include <utility>
+
+#include "core/model/map_record.hpp"
+#include "core/model/status.hpp"
+#include "core/model/study.hpp"
+#include "reports/model/report.hpp"
+
+namespace mapproof {
+
+/// "Visibility", to begin a sentence or a title with.
+std::string title_of(Sensor sensor);
+
+/// One sentence on what a status means.
+std::string_view meaning(StatusCode code);
+
+/// A paragraph of plain text.
+Paragraph plain(std::string text);
+
+/// "K = 6"; empty without a parameter.
+std::string parameter_text(const MethodSetting& setting);
+
+/// Version, commit, digest and libraries, each an item.
+KeyValues provenance_items(const Provenance& provenance);
+
+}  // namespace mapproof

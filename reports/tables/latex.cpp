@@ -1,0 +1,116 @@
+#include <array>
+#include <string_view>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "reports/model/format.hpp"
+#include "reports/tables/write_tables.hpp"
+
+namespace mapproof {
+namespace {
+
+/// Characters outside ASCII that our own texts use; others go through as UTF-8.
+constexpr std::array<std::pair<std::string_view, std::string_view>, 18> kSymbols = {{
+    {"\u2212", "$-$"},          {"\u2013", "--"},          {"\u2014", "---"},
+    {"\u2018", "`"},            {"\u2019", "'"},           {"\u201C", "``"},
+    {"\u201D", "''"},           {"\u2026", "\\ldots{}"},   {"\u00D7", "$\\times$"},
+    {"\u00B1", "$\\pm$"},       {"\u00B2", "$^2$"},        {"\u00B0", "$^\\circ$"},
+    {"\u03C3", "$\\sigma$"},    {"\u00B5", "$\\mu$"},      {"\u2264", "$\\le$"},
+    {"\u2265", "$\\ge$"},       {"\u00A0", "~"},           {"\u2192", "$\\to$"},
+}};
+
+std::string_view ascii(char c) {
+  switch (c) {
+    case '&': return "\\&";
+    case '%': return "\\%";
+    case '$': return "\\$";
+    case '#': return "\\#";
+    case '_': return "\\_";
+    case '{': return "\\{";
+    case '}': return "\\}";
+    case '~': return "\\textasciitilde{}";
+    case '^': return "\\textasciicircum{}";
+    case '\\': return "\\textbackslash{}";
+    case '<': return "\\textless{}";
+    case '>': return "\\textgreater{}";
+    case '|': return "\\textbar{}";
+    case '"': return "{\\char34}";
+    case '[': return "{[}";  // After \\ a bare one would be its optional argument.
+    case '\n':
+    case '\t': return " ";
+    default: return {};
+  }
+}
+
+std::string escaped(const std::string& raw) {
+  const std::string text = displayable(raw);
+  std::string out;
+  for (std::size_t at = 0; at < text.size();) {
+    std::string_view replacement = ascii(text[at]);
+    std::size_t length = 1;
+    for (const auto& [symbol, latex] : kSymbols)
+      if (replacement.empty() && text.compare(at, symbol.size(), symbol) == 0) {
+        replacement = latex;
+        length = symbol.size();
+      }
+    replacement.empty() ? out += text[at] : out += replacement;
+    at += length;
+  }
+  return out;
+}
+
+std::string heading(const Column& column) {
+  return escaped(column.unit.empty() ? column.title : column.title + " [" + column.unit + "]");
+}
+
+/// The line of group headings with its rules, empty if no column has a group.
+std::string group_line(const Table& table) {
+  std::string line;
+  std::string rules;
+  bool any = false;
+  const auto& columns = table.columns;
+  for (std::size_t i = 0; i < columns.size();) {
+    std::size_t end = i + 1;
+    while (end < columns.size() && columns[end].group == columns[i].group) ++end;
+    if (i > 0) line += " & ";
+    if (columns[i].group.empty()) {
+      for (std::size_t k = i + 1; k < end; ++k) line += "& ";
+    } else {
+      any = true;
+      line += fmt::format("\\multicolumn{{{}}}{{c}}{{{}}}", end - i, escaped(columns[i].group));
+      rules += fmt::format("\\cmidrule(lr){{{}-{}}}", i + 1, end);
+    }
+    i = end;
+  }
+  return any ? "  " + line + " \\\\\n  " + rules + "\n" : "";
+}
+
+}  // namespace
+
+std::string table_latex(const Table& table) {
+  std::string format;
+  std::string titles;
+  for (std::size_t i = 0; i < table.columns.size(); ++i) {
+    format += holds_text(table, i) ? 'l' : 'r';
+    titles += (i > 0 ? " & " : "") + heading(table.columns[i]);
+  }
+  std::string text = "\\begin{table}\n  \\centering\n  \\footnotesize\n  \\setlength{\\tabcolsep}{3pt}\n  \\caption{" + escaped(table.caption) +
+                     "}\n  \\label{tab:" + table.id + "}\n  \\begin{tabular}{" + format +
+                     "}\n  \\toprule\n" + group_line(table) + "  " + titles +
+                     " \\\\\n  \\midrule\n";
+  for (const Row& row : table.rows) {
+    std::string line;
+    for (std::size_t i = 0; i < row.cells.size(); ++i) {
+      const std::string cell = escaped(format_cell(row.cells[i]));
+      line += (i > 0 ? " & " : "") + (row.marked ? "\\textbf{" + cell + "}" : cell);
+    }
+    text += "  " + line + " \\\\\n";
+  }
+  text += "  \\bottomrule\n  \\end{tabular}\n";
+  for (const std::string& note : table.notes)
+    text += "  \\par\\smallskip{\\footnotesize " + escaped(note) + "\\par}\n";
+  return text + "\\end{table}\n";
+}
+
+}  // namespace mapproof
