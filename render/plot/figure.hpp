@@ -6,21 +6,9 @@
 #include <variant>
 #include <vector>
 
-namespace mapproof {
+#include "render/theme/ink.hpp"
 
-/// What a colour stands for; a theme says which colour that is.
-enum class Ink {
-  kText,
-  kMuted,    ///< Helps the eye; still at least 3:1 against the background.
-  kWarning,  ///< Text about something that went other than well.
-  kSeries1,
-  kSeries2,
-  kSeries3,
-  kSeries4,
-  kSeries5,
-  kSeries6,
-  kSeries7,
-};
+namespace mapproof {
 
 /// The ink of the i-th curve of a figure, counted from 0; repeats after seven.
 Ink series_ink(std::size_t i);
@@ -39,57 +27,65 @@ struct Mark {
 
 /// A line through points; a NaN breaks it.
 struct Polyline {
-  std::string label;  ///< In the legend; empty: not there.
-  std::vector<double> x, y;
+  std::string label = {};  ///< In the legend; empty: not there.
+  std::vector<double> x = {};
+  std::vector<double> y = {};
   Ink ink = Ink::kSeries1;
   Dash dash = Dash::kSolid;
   double width = 1.0;  ///< In units of the theme's line width.
   Marker marker = Marker::kNone;
-  Mark mark;
+  Mark mark = {};
 
   bool operator==(const Polyline&) const = default;
 };
 
 /// The area between two curves; a NaN in either breaks it.
 struct Band {
-  std::string label;
-  std::vector<double> x, low, high;
+  std::string label = {};
+  std::vector<double> x = {};
+  std::vector<double> low = {};
+  std::vector<double> high = {};
   Ink ink = Ink::kSeries1;
-  Mark mark;
+  Mark mark = {};
 
   bool operator==(const Band&) const = default;
 };
 
 /// A marker a point; NaN points are not drawn.
 struct Scatter {
-  std::string label;
-  std::vector<double> x, y;
+  std::string label = {};
+  std::vector<double> x = {};
+  std::vector<double> y = {};
   Ink ink = Ink::kSeries1;
   Marker marker = Marker::kCircle;
   bool filled = true;
   double size = 1.0;        ///< In units of the theme's marker size.
-  std::vector<Mark> marks;  ///< As many as points, or none.
+  std::vector<Mark> marks = {};  ///< As many as points, or none.
 
   bool operator==(const Scatter&) const = default;
 };
 
 /// Straight lines from (x0, y0) to (x1, y1); those with a NaN are not drawn.
 struct Segments {
-  std::string label;
-  std::vector<double> x0, y0, x1, y1;
+  std::string label = {};
+  std::vector<double> x0 = {};
+  std::vector<double> y0 = {};
+  std::vector<double> x1 = {};
+  std::vector<double> y1 = {};
   Ink ink = Ink::kMuted;
   Dash dash = Dash::kSolid;
   double width = 1.0;
   bool arrow = false;  ///< With a head at (x1, y1).
-  std::vector<Mark> marks;
+  std::vector<Mark> marks = {};
 
   bool operator==(const Segments&) const = default;
 };
 
 /// Texts beside points, placed where they cover nothing; one that fits nowhere is left out.
 struct PointLabels {
-  std::vector<double> x, y;
-  std::vector<std::string> text;
+  std::vector<double> x = {};
+  std::vector<double> y = {};
+  std::vector<std::string> text = {};
   Ink ink = Ink::kText;
 
   bool operator==(const PointLabels&) const = default;
@@ -107,9 +103,9 @@ struct Range {
 };
 
 struct Axis {
-  std::string label;  ///< With its unit: "MPE [m]".
+  std::string label = {};  ///< With its unit: "MPE [m]".
   Scale scale = Scale::kLinear;
-  std::optional<Range> limits;  ///< Empty: what the layers need, and a little more.
+  std::optional<Range> limits = {};  ///< Empty: what the layers need, and a little more.
 
   bool operator==(const Axis&) const = default;
 };

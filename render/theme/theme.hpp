@@ -4,6 +4,7 @@
 #include <string>
 
 #include "render/theme/colour.hpp"
+#include "render/theme/ink.hpp"
 
 namespace mapproof {
 
@@ -25,6 +26,8 @@ struct Theme {
 
   Colour background, text, muted, grid, warning;
   std::array<Colour, 7> series;
+
+  Colour of(Ink ink) const;
 };
 
 /// For screens: 600 x 450 pt, 1200 x 900 px.

@@ -1,0 +1,70 @@
+#pragma once
+
+#include <algorithm>
+#include <cstdint>
+#include <vector>
+
+namespace mapproof {
+
+/// In points (1/72 in), x to the right, y downward, unless a name says otherwise.
+struct Point {
+  double x = 0.0;
+  double y = 0.0;
+
+  bool operator==(const Point&) const = default;
+};
+
+/// An upright rectangle; empty unless x0 < x1 and y0 < y1.
+struct Box {
+  double x0 = 0.0;
+  double y0 = 0.0;
+  double x1 = 0.0;
+  double y1 = 0.0;
+
+  double width() const { return x1 - x0; }
+  double height() const { return y1 - y0; }
+  Point centre() const { return {(x0 + x1) / 2.0, (y0 + y1) / 2.0}; }
+  Box grown(double by) const { return {x0 - by, y0 - by, x1 + by, y1 + by}; }
+  Box moved(double dx, double dy) const { return {x0 + dx, y0 + dy, x1 + dx, y1 + dy}; }
+  bool overlaps(const Box& b) const { return x0 < b.x1 && b.x0 < x1 && y0 < b.y1 && b.y0 < y1; }
+  bool holds(const Box& b) const { return x0 <= b.x0 && b.x1 <= x1 && y0 <= b.y0 && b.y1 <= y1; }
+  Box united(const Box& b) const {
+    return {std::min(x0, b.x0), std::min(y0, b.y0), std::max(x1, b.x1), std::max(y1, b.y1)};
+  }
+};
+
+/// Whether the straight line from a to b has a point in the box.
+bool crosses(const Box& box, Point a, Point b);
+
+/// The part of the line from a to b that lies in the box, as parameters in [0, 1]; false if none.
+bool clip_line(const Box& box, Point a, Point b, double& enter, double& leave);
+
+enum class Verb : std::uint8_t { kMove, kLine, kQuad, kCubic, kClose };
+
+/// Outlines: kMove and kLine take one point, kQuad two, kCubic three, kClose none.
+struct Path {
+  std::vector<Verb> verbs;
+  std::vector<Point> points;
+
+  void move_to(Point p) { add(Verb::kMove, p); }
+  void line_to(Point p) { add(Verb::kLine, p); }
+  void quad_to(Point control, Point p) {
+    add(Verb::kQuad, control);
+    points.push_back(p);
+  }
+  void close() { verbs.push_back(Verb::kClose); }
+  void add_box(const Box& box);
+  /// Four cubics.
+  void add_circle(Point centre, double radius);
+
+ private:
+  void add(Verb verb, Point p) {
+    verbs.push_back(verb);
+    points.push_back(p);
+  }
+};
+
+/// The least box that holds all points of the path, control points too.
+Box bounds(const Path& path);
+
+}  // namespace mapproof

@@ -1,0 +1,82 @@
+#include "render/cairo/cairo_backend.hpp"
+
+#include <cmath>
+#include <stdexcept>
+
+#include <cairo-pdf.h>
+
+#include "core/base/errors.hpp"
+#include "render/cairo/cairo_painter.hpp"
+#include "render/image/png.hpp"
+
+namespace mapproof {
+namespace {
+
+constexpr const char* kFixedDate = "2000-01-01T00:00:00Z";
+
+std::string joined(const std::vector<std::string>& parts) {
+  std::string text;
+  for (const std::string& part : parts) (text += text.empty() ? "" : "\n") += part;
+  return visible_lines(text);
+}
+
+}  // namespace
+
+Image to_image(const Drawing& drawing) {
+  const double scale = drawing.dpi / 72.0;
+  Image image;
+  image.width = static_cast<int>(std::lround(std::min(drawing.width * scale, 1e6)));
+  image.height = static_cast<int>(std::lround(std::min(drawing.height * scale, 1e6)));
+  if (image.width < 1 || image.height < 1 || image.width > 20000 || image.height > 20000)
+    throw InvalidInput("figure " + drawing.id + ": no picture is " + std::to_string(image.width) +
+                       " x " + std::to_string(image.height) + " pixels");
+  image.pixels.resize(static_cast<std::size_t>(image.width) * image.height);
+  const SurfaceHandle surface(cairo_image_surface_create_for_data(
+      reinterpret_cast<unsigned char*>(image.pixels.data()), CAIRO_FORMAT_RGB24, image.width,
+      image.height, 4 * image.width));
+  const ContextHandle context(cairo_create(surface.get()));
+  cairo_scale(context.get(), image.width / drawing.width, image.height / drawing.height);
+  paint(drawing, context.get(), false);
+  check(cairo_status(context.get()));
+  cairo_surface_flush(surface.get());
+  return image;
+}
+
+std::string to_png(const Drawing& drawing) {
+  PngOptions options{.dpi = drawing.dpi, .texts = {}};
+  options.texts = {{"Title", visible_lines(drawing.title)},
+                   {"Description", visible_lines(drawing.alt)},
+                   {"Software", "mapproof"},
+                   {"mapproof:figure", drawing.id},
+                   {"mapproof:records", joined(drawing.record_ids)}};
+  return encode_png(to_image(drawing), options);
+}
+
+std::string to_pdf(const Drawing& drawing) {
+  std::string bytes;
+  const auto collect = [](void* out, const unsigned char* data, unsigned length) {
+    static_cast<std::string*>(out)->append(reinterpret_cast<const char*>(data), length);
+    return CAIRO_STATUS_SUCCESS;
+  };
+  const SurfaceHandle surface(
+      cairo_pdf_surface_create_for_stream(collect, &bytes, drawing.width, drawing.height));
+  const auto set = [&surface](cairo_pdf_metadata_t what, const std::string& text) {
+    cairo_pdf_surface_set_metadata(surface.get(), what, text.c_str());
+  };
+  set(CAIRO_PDF_METADATA_TITLE, visible_lines(drawing.title));
+  set(CAIRO_PDF_METADATA_SUBJECT, visible_lines(drawing.alt));
+  set(CAIRO_PDF_METADATA_KEYWORDS, drawing.id + " " + joined(drawing.record_ids));
+  set(CAIRO_PDF_METADATA_CREATOR, "mapproof");
+  set(CAIRO_PDF_METADATA_CREATE_DATE, kFixedDate);
+  {
+    const ContextHandle context(cairo_create(surface.get()));
+    paint(drawing, context.get(), true);
+    cairo_show_page(context.get());
+    check(cairo_status(context.get()));
+  }
+  cairo_surface_finish(surface.get());
+  check(cairo_surface_status(surface.get()));
+  return bytes;
+}
+
+}  // namespace mapproof

@@ -1,0 +1,20 @@
+#pragma once
+
+#include <string>
+
+#include "render/image/image.hpp"
+#include "render/plot/drawing.hpp"
+
+namespace mapproof {
+
+/// The drawing as pixels, at its own dpi. Safe from any thread, the same pixels each time.
+/// @throws InvalidInput if that would be more than 20000 pixels wide or high.
+Image to_image(const Drawing& drawing);
+
+/// to_image as a PNG file with the figure's id, title, records and description as text chunks.
+std::string to_png(const Drawing& drawing);
+
+/// The drawing as a PDF file: text stays text, the date is fixed. The same bytes each time.
+std::string to_pdf(const Drawing& drawing);
+
+}  // namespace mapproof

@@ -1,0 +1,139 @@
+#include "render/cairo/cairo_painter.hpp"
+
+#include <numbers>
+
+#include "render/cairo/cairo_font.hpp"
+
+namespace mapproof {
+namespace {
+
+class Painter {
+ public:
+  Painter(const Drawing& drawing, cairo_t* context, bool keeps_text)
+      : drawing_(drawing), context_(context), keeps_text_(keeps_text) {
+    cairo_set_font_face(context_, thread_font_face());
+    cairo_set_font_options(context_, plain_font_options().get());
+    cairo_set_line_join(context_, CAIRO_LINE_JOIN_ROUND);
+  }
+
+  void paint() {
+    set_colour(drawing_.background, 1.0);
+    cairo_paint(context_);
+    for (const Item& item : drawing_.items) {
+      if (item.clipped != clipped_ || (item.clipped && item.panel != panel_)) set_clip(item);
+      std::visit([this](const auto& what) { draw(what); }, item.what);
+    }
+  }
+
+ private:
+  void set_clip(const Item& item) {
+    cairo_reset_clip(context_);
+    clipped_ = item.clipped;
+    panel_ = item.panel;
+    if (!clipped_) return;
+    const Box& frame = drawing_.frames[panel_];
+    cairo_rectangle(context_, frame.x0, frame.y0, frame.width(), frame.height());
+    cairo_clip(context_);
+  }
+
+  void set_colour(Colour colour, double opacity) {
+    cairo_set_source_rgba(context_, colour.red / 255.0, colour.green / 255.0, colour.blue / 255.0,
+                          opacity);
+  }
+
+  void trace(const Path& path, Point origin) {
+    const Point* next = path.points.data();
+    const auto x = [&](std::size_t i) { return next[i].x + origin.x; };
+    const auto y = [&](std::size_t i) { return next[i].y + origin.y; };
+    for (const Verb verb : path.verbs) {
+      switch (verb) {
+        case Verb::kMove:
+          cairo_move_to(context_, x(0), y(0));
+          next += 1;
+          break;
+        case Verb::kLine:
+          cairo_line_to(context_, x(0), y(0));
+          next += 1;
+          break;
+        case Verb::kQuad: trace_quad(x(0), y(0), x(1), y(1)), next += 2; break;
+        case Verb::kCubic:
+          cairo_curve_to(context_, x(0), y(0), x(1), y(1), x(2), y(2));
+          next += 3;
+          break;
+        case Verb::kClose: cairo_close_path(context_); break;
+      }
+    }
+  }
+
+  void trace_quad(double cx, double cy, double x, double y) {
+    double from_x = 0.0, from_y = 0.0;
+    cairo_get_current_point(context_, &from_x, &from_y);
+    cairo_curve_to(context_, (from_x + 2 * cx) / 3, (from_y + 2 * cy) / 3, (x + 2 * cx) / 3,
+                   (y + 2 * cy) / 3, x, y);
+  }
+
+  void draw_at(const Shape& shape, Point origin) {
+    trace(shape.path, origin);
+    if (shape.fill) {
+      set_colour(*shape.fill, shape.fill_opacity);
+      shape.stroke ? cairo_fill_preserve(context_) : cairo_fill(context_);
+    }
+    if (!shape.stroke) return;
+    set_colour(shape.stroke->colour, 1.0);
+    cairo_set_line_width(context_, shape.stroke->width);
+    const auto& dashes = shape.stroke->dashes;
+    cairo_set_dash(context_, dashes.data(), static_cast<int>(dashes.size()), 0.0);
+    cairo_stroke(context_);
+  }
+
+  void draw(const Shape& shape) { draw_at(shape, {}); }
+  void draw(const Stamp& stamp) { draw_at(drawing_.symbols[stamp.symbol], stamp.at); }
+
+  void draw(const TextLine& line) {
+    set_colour(line.colour, 1.0);
+    cairo_save(context_);
+    cairo_translate(context_, line.at.x, line.at.y);
+    if (line.upward) cairo_rotate(context_, -std::numbers::pi / 2.0);
+    cairo_set_font_size(context_, line.size);
+    std::vector<cairo_glyph_t> glyphs;
+    glyphs.reserve(line.shaped.glyphs.size());
+    for (const Glyph& glyph : line.shaped.glyphs)
+      glyphs.push_back({glyph.index, glyph.x * line.size, glyph.y * line.size});
+    if (keeps_text_)
+      show_text(line.shaped, glyphs);
+    else
+      cairo_show_glyphs(context_, glyphs.data(), static_cast<int>(glyphs.size()));
+    cairo_restore(context_);
+  }
+
+  void show_text(const ShapedText& shaped, const std::vector<cairo_glyph_t>& glyphs) {
+    for (const TextRun& run : shaped.runs) {
+      std::vector<cairo_text_cluster_t> clusters;
+      std::size_t bytes = 0, count = 0;
+      for (const Cluster& cluster : run.clusters) {
+        clusters.push_back({static_cast<int>(cluster.bytes), static_cast<int>(cluster.glyphs)});
+        bytes += cluster.bytes;
+        count += cluster.glyphs;
+      }
+      cairo_show_text_glyphs(
+          context_, shaped.text.data() + run.first_byte, static_cast<int>(bytes),
+          glyphs.data() + run.first_glyph, static_cast<int>(count), clusters.data(),
+          static_cast<int>(clusters.size()),
+          run.right_to_left ? CAIRO_TEXT_CLUSTER_FLAG_BACKWARD : cairo_text_cluster_flags_t{});
+    }
+  }
+
+  const Drawing& drawing_;
+  cairo_t* context_;
+  bool keeps_text_;
+  bool clipped_ = false;
+  std::size_t panel_ = 0;
+};
+
+}  // namespace
+
+void paint(const Drawing& drawing, cairo_t* context, bool keeps_text) {
+  Painter(drawing, context, keeps_text).paint();
+}
+
+}  // namespace mapproof

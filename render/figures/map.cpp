@@ -1,0 +1,257 @@
+#include "render/figures/map.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include "render/base/geometry.hpp"
+#include "render/figures/map_view.hpp"
+#include "render/figures/words.hpp"
+
+namespace mapproof {
+namespace {
+
+constexpr std::size_t kMostNamed = 5;            // Names in one sentence.
+constexpr std::size_t kMostStatuses = 4;         // Status lines on the figure.
+constexpr Eigen::Index kMostLabelsOfShape = 30;  // Without a truth all names are shown up to this.
+
+std::string subject(const MapRecord& record, std::string_view separator) {
+  return fmt::format("{}{}{}{}{}", label(record.setting), separator, name(record.sensor), separator,
+                     counted(static_cast<std::size_t>(std::max(record.step, 0)), "step"));
+}
+
+std::string score_text(const MapRecord& record) {
+  if (!record.score) return {};
+  return fmt::format("MPE {} m, MOE {:.2f} %", significant(record.score->mpe_m),
+                     record.score->moe_percent);
+}
+
+std::string names_of(const MapRecord& record, const std::vector<Eigen::Index>& rows) {
+  std::vector<std::string> names;
+  for (const Eigen::Index row : rows) names.push_back(record.names[row]);
+  return listed(names, kMostNamed);
+}
+
+class MapFigure {
+ public:
+  MapFigure(const MapRecord& record, const std::string& id) : record_(record), view_(view_of(record)) {
+    figure_.id = id;
+    figure_.title = subject(record, " · ");
+    figure_.record_ids = {record.id};
+  }
+
+  Figure make() {
+    add_notes();
+    add_words();
+    Panel& panel = figure_.panels.emplace_back();
+    panel.equal_aspect = true;
+    const bool metres = record_.frame == Frame::kTruth;
+    panel.x.label = metres ? "x [m]" : "x (arbitrary unit)";
+    panel.y.label = metres ? "y [m]" : "y (arbitrary unit)";
+    if (view_.limits) {
+      panel.x.limits = view_.limits->x;
+      panel.y.limits = view_.limits->y;
+    }
+    panel.layers = {errors(), arrows(), truth(false), truth(true), estimates(), labels()};
+    std::erase_if(panel.layers, [](const Layer& layer) {
+      return std::visit(
+          [](const auto& one) {
+            if constexpr (requires { one.x0; }) return one.x0.empty();
+            else return one.x.empty();
+          },
+          layer);
+    });
+    return std::move(figure_);
+  }
+
+ private:
+  void add_notes() {
+    std::vector<Note>& notes = figure_.notes;
+    if (const std::string score = score_text(record_); !score.empty()) notes.push_back({score});
+    if (record_.frame == Frame::kSimilarity)
+      notes.push_back({"Shape alone: place, turn, scale and mirror are arbitrary."});
+    if (!view_.outside.empty()) notes.push_back({outside_text(), Ink::kWarning});
+    if (!view_.unmapped.empty())
+      notes.push_back({"Not on the map: " + names_of(record_, view_.unmapped) + ".", Ink::kWarning});
+    const std::size_t shown = std::min(record_.statuses.size(), kMostStatuses);
+    for (std::size_t i = 0; i < shown; ++i)
+      notes.push_back({"⚠ " + status_text(record_.statuses[i]), Ink::kWarning});
+    if (shown < record_.statuses.size())
+      notes.push_back({fmt::format("⚠ {} more, see the record.", record_.statuses.size() - shown),
+                       Ink::kWarning});
+  }
+
+  static std::string status_text(const Status& status) {
+    if (!status.detail.empty()) return status.detail;
+    std::string text(name(status.code));
+    std::ranges::replace(text, '_', ' ');
+    return text;
+  }
+
+  std::string outside_text() const {
+    std::string text = fmt::format("Arrows: {} outside the picture",
+                                   counted(view_.outside.size(), "estimate"));
+    double farthest = 0.0;
+    for (const Eigen::Index i : view_.outside)
+      if (view_.error_m[i] > farthest) farthest = view_.error_m[i];
+    return farthest > 0.0 ? text + ", up to " + significant(farthest) + " m off." : text + ".";
+  }
+
+  void add_words() {
+    std::string& caption = figure_.caption;
+    caption = subject(record_, ", ");
+    if (record_.score) caption += ": " + score_text(record_);
+    caption += ".";
+    if (record_.frame == Frame::kSimilarity)
+      caption += " Dots: estimates; place, turn, scale and mirror are arbitrary.";
+    else
+      caption += " Open circles: true positions; dots: estimates, joined by their errors; squares: anchors.";
+    if (!view_.worst.empty()) caption += " Worst: " + worst_text() + ".";
+    if (!view_.outside.empty()) caption += " " + outside_text();
+    if (!view_.unmapped.empty())
+      caption += " Not on the map: " + names_of(record_, view_.unmapped) + ".";
+    for (const Status& status : record_.statuses) caption += " " + status_text(status);
+
+    const std::size_t mapped = record_.names.size() - view_.unmapped.size();
+    figure_.alt = fmt::format("Map of {} of {} by {}, {}.", mapped,
+                              counted(record_.names.size(), "landmark"), label(record_.setting),
+                              record_.frame == Frame::kTruth ? "in metres" : "in an arbitrary frame");
+    if (record_.score) figure_.alt += " " + score_text(record_) + ".";
+    if (!view_.worst.empty()) figure_.alt += " The largest errors: " + worst_text() + ".";
+  }
+
+  std::string worst_text() const {
+    std::vector<std::string> parts;
+    for (const Eigen::Index i : view_.worst)
+      parts.push_back(record_.names[i] + " " + significant(view_.error_m[i]) + " m");
+    return listed(parts, kMostNamed);
+  }
+
+  bool is_outside(Eigen::Index row) const {
+    return std::ranges::binary_search(view_.outside, row);
+  }
+
+  Mark mark(std::string_view kind, Eigen::Index row) const {
+    Mark mark{fmt::format("{}-{}", kind, row + 1), {}};
+    mark.data.emplace_back("landmark", record_.names[row]);
+    mark.data.emplace_back("kind", kind);
+    return mark;
+  }
+
+  Segments errors() const {
+    Segments lines{.label = "error", .ink = Ink::kMuted, .width = 0.8};
+    for (Eigen::Index i = 0; i < rows(); ++i) {
+      if (std::isnan(view_.error_m[i]) || is_outside(i)) continue;
+      add_line(lines, true_place(i), place(i));
+      lines.marks.push_back(mark("error", i));
+      lines.marks.back().data.emplace_back("error", data_number(view_.error_m[i]));
+    }
+    return lines;
+  }
+
+  /// From the true place toward the estimate, up to the edge of the picture.
+  Segments arrows() const {
+    Segments lines{.label = "estimate outside", .ink = Ink::kSeries1, .width = 0.8, .arrow = true};
+    for (const Eigen::Index i : view_.outside) {
+      const Box inner = picture(0.012);
+      const Point from = view_.has_truth[i] ? true_place(i) : inner.centre();
+      double enter = 0.0, leave = 0.0;
+      if (!clip_line(inner, from, place(i), enter, leave)) continue;
+      const auto along = [&](double share) {
+        return Point{std::lerp(from.x, place(i).x, share), std::lerp(from.y, place(i).y, share)};
+      };
+      add_line(lines, along(view_.has_truth[i] ? 0.0 : 0.9 * leave), along(leave));
+      lines.marks.push_back(mark("outside", i));
+      add_place(lines.marks.back(), place(i));
+      if (!std::isnan(view_.error_m[i]))
+        lines.marks.back().data.emplace_back("error", data_number(view_.error_m[i]));
+    }
+    return lines;
+  }
+
+  Scatter truth(bool anchors) const {
+    Scatter points{.label = anchors ? "anchor" : "true position",
+                   .ink = anchors ? Ink::kSeries2 : Ink::kText,
+                   .marker = anchors ? Marker::kSquare : Marker::kCircle,
+                   .filled = false,
+                   .size = anchors ? 1.5 : 1.0};
+    for (Eigen::Index i = 0; i < rows(); ++i) {
+      if (!view_.has_truth[i] || view_.is_anchor[i] != anchors) continue;
+      add_point(points, true_place(i));
+      points.marks.push_back(mark(anchors ? "anchor" : "true", i));
+      add_place(points.marks.back(), true_place(i));
+    }
+    return points;
+  }
+
+  Scatter estimates() const {
+    Scatter points{.label = "estimate", .ink = Ink::kSeries1, .size = 0.8};
+    for (Eigen::Index i = 0; i < rows(); ++i) {
+      if (!view_.has_estimate[i] || is_outside(i)) continue;
+      add_point(points, place(i));
+      points.marks.push_back(mark("estimate", i));
+      add_place(points.marks.back(), place(i));
+      if (!std::isnan(view_.error_m[i]))
+        points.marks.back().data.emplace_back("error", data_number(view_.error_m[i]));
+    }
+    return points;
+  }
+
+  PointLabels labels() const {
+    PointLabels labels;
+    std::vector<Eigen::Index> named = view_.worst;
+    if (record_.frame == Frame::kSimilarity && rows() <= kMostLabelsOfShape)
+      for (Eigen::Index i = 0; i < rows(); ++i)
+        if (view_.has_estimate[i]) named.push_back(i);
+    for (const Eigen::Index i : named) {
+      if (is_outside(i) && !view_.has_truth[i]) continue;
+      const Point at = is_outside(i) ? true_place(i) : place(i);
+      labels.x.push_back(at.x);
+      labels.y.push_back(at.y);
+      labels.text.push_back(record_.names[i]);
+    }
+    return labels;
+  }
+
+  Eigen::Index rows() const { return record_.estimate.rows(); }
+  Point place(Eigen::Index row) const { return {record_.estimate(row, 0), record_.estimate(row, 1)}; }
+  Point true_place(Eigen::Index row) const {
+    return {(*record_.truth_m)(row, 0), (*record_.truth_m)(row, 1)};
+  }
+
+  Box picture(double inset) const {
+    const auto& [x, y] = *view_.limits;
+    const double by = inset * std::max(x.high - x.low, y.high - y.low);
+    return Box{x.low, y.low, x.high, y.high}.grown(-by);
+  }
+
+  static void add_place(Mark& mark, Point p) {
+    mark.data.emplace_back("x", data_number(p.x));
+    mark.data.emplace_back("y", data_number(p.y));
+  }
+
+  static void add_point(Scatter& points, Point p) {
+    points.x.push_back(p.x);
+    points.y.push_back(p.y);
+  }
+
+  static void add_line(Segments& lines, Point from, Point to) {
+    lines.x0.push_back(from.x);
+    lines.y0.push_back(from.y);
+    lines.x1.push_back(to.x);
+    lines.y1.push_back(to.y);
+  }
+
+  const MapRecord& record_;
+  MapView view_;
+  Figure figure_;
+};
+
+}  // namespace
+
+Figure map_figure(const MapRecord& record, const std::string& id) {
+  return MapFigure(record, id).make();
+}
+
+}  // namespace mapproof

@@ -1,0 +1,21 @@
+#pragma once
+
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "render/image/image.hpp"
+
+namespace mapproof {
+
+struct PngOptions {
+  double dpi = 72.0;
+  std::vector<std::pair<std::string, std::string>> texts;  ///< Keyword (1 to 79 of ASCII) and UTF-8.
+};
+
+/// The image as a PNG file: with a palette if it has at most 256 colours, else as RGB. Texts are
+/// iTXt chunks if they need it, tEXt otherwise. No time, the same bytes each time.
+/// @throws InvalidInput if a side is below 1 or the pixels are too few.
+std::string encode_png(const Image& image, const PngOptions& options = {});
+
+}  // namespace mapproof

@@ -1,0 +1,103 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "render/base/geometry.hpp"
+#include "render/plot/figure.hpp"
+#include "render/theme/colour.hpp"
+#include "render/theme/font.hpp"
+
+namespace mapproof {
+
+/// What a drawn thing is for; tests and style sheets go by it.
+enum class Role {
+  kGrid,
+  kFrame,
+  kTick,
+  kTickLabel,
+  kAxisLabel,
+  kTitle,
+  kPanelTitle,
+  kNote,
+  kBand,
+  kLine,  ///< Joins or shows data.
+  kMarker,
+  kMarkLabel,
+  kLeader,  ///< From a mark's label to its mark.
+  kLegendText,
+  kLegendSample,
+};
+
+/// "tick-label": for class names.
+std::string_view name(Role role);
+
+struct Stroke {
+  Colour colour;
+  double width = 1.0;
+  std::vector<double> dashes;  ///< On, off, …; empty: solid.
+};
+
+/// An outline, filled, stroked or both.
+struct Shape {
+  Path path;
+  std::optional<Colour> fill;
+  double fill_opacity = 1.0;
+  std::optional<Stroke> stroke;
+};
+
+/// A symbol of the drawing, moved to a place.
+struct Stamp {
+  std::size_t symbol = 0;
+  Point at;
+};
+
+/// A line of text.
+struct TextLine {
+  ShapedText shaped;
+  std::string whole = {};  ///< What was asked for, if the drawn text is another.
+  Point at = {};      ///< The start of the baseline.
+  double size = 0.0;  ///< Of 1 em.
+  bool upward = false;  ///< Read from below to above.
+  Colour colour = {};
+};
+
+/// The part of the drawing that a line's ink takes.
+Box ink_box(const TextLine& line);
+
+struct Item {
+  Role role = Role::kMarker;
+  bool clipped = false;            ///< To the frame of its panel.
+  std::size_t panel = 0;
+  std::optional<std::size_t> mark;  ///< Place in Drawing::marks.
+  std::variant<Shape, Stamp, TextLine> what;
+};
+
+/// A figure laid out: all that a back end needs, in points, the first item lowest.
+struct Drawing {
+  std::string id, title, caption, alt;
+  std::vector<std::string> record_ids;
+  bool varies = false;
+  double width = 0.0;
+  double height = 0.0;
+  double dpi = 72.0;
+  Colour background;
+  std::vector<Box> frames;     ///< One a panel.
+  std::vector<Shape> symbols;  ///< About the origin.
+  std::vector<Mark> marks;
+  std::vector<Item> items;
+
+  /// Adds an item on top of the others.
+  template <typename What>
+  Item& add(Role role, std::size_t panel, What&& what) {
+    Item& item = items.emplace_back();
+    item.role = role;
+    item.panel = panel;
+    item.what = std::forward<What>(what);
+    return item;
+  }
+};
+
+}  // namespace mapproof

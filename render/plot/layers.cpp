@@ -1,0 +1,169 @@
+#include "render/plot/layers.hpp"
+
+#include <cmath>
+
+#include "render/plot/markers.hpp"
+
+namespace mapproof {
+namespace {
+
+constexpr double kMarkerSpacing = 4.0;  // Between markers of a line, in units of their size.
+
+bool known(Point p) { return !std::isnan(p.x) && !std::isnan(p.y); }
+
+class Painter {
+ public:
+  Painter(std::size_t panel, const PanelMap& map, const Theme& theme, Drawing& drawing)
+      : panel_(panel), map_(map), theme_(theme), drawing_(drawing) {}
+
+  void operator()(const Polyline& line) {
+    const Colour ink = theme_.of(line.ink);
+    const double width = line.width * theme_.line_pt;
+    Shape shape;
+    shape.stroke = Stroke{ink, width, dash_lengths(line.dash, width)};
+    bool pen_down = false;
+    for (std::size_t i = 0; i < line.x.size(); ++i) {
+      const Point p = map_(line.x[i], line.y[i]);
+      if (known(p)) pen_down ? shape.path.line_to(p) : shape.path.move_to(p);
+      pen_down = known(p);
+    }
+    const auto mark = add_mark(line.mark);
+    if (!shape.path.points.empty()) add(Role::kLine, std::move(shape), mark);
+    draw_markers(line, mark);
+  }
+
+  void operator()(const Band& band) {
+    Shape shape;
+    shape.fill = theme_.of(band.ink);
+    shape.fill_opacity = kBandOpacity;
+    for (std::size_t i = 0; i < band.x.size();) {
+      std::size_t end = i;
+      while (end < band.x.size() && known(map_(band.x[end], band.low[end] + band.high[end]))) ++end;
+      if (end - i >= 2) add_band_piece(band, i, end, shape.path);
+      i = std::max(end, i + 1);
+    }
+    if (!shape.path.points.empty()) add(Role::kBand, std::move(shape), add_mark(band.mark));
+  }
+
+  void operator()(const Scatter& points) {
+    if (points.marker == Marker::kNone) return;
+    const std::size_t symbol = symbol_of(points.marker, points.filled, points.size, points.ink);
+    for (std::size_t i = 0; i < points.x.size(); ++i) {
+      const Point at = map_(points.x[i], points.y[i]);
+      if (in_frame(at)) stamp(symbol, at, mark_at(points.marks, i));
+    }
+  }
+
+  void operator()(const Segments& lines) {
+    const double width = lines.width * theme_.line_pt;
+    const Stroke stroke{theme_.of(lines.ink), width, dash_lengths(lines.dash, width)};
+    for (std::size_t i = 0; i < lines.x0.size(); ++i) {
+      const Point from = map_(lines.x0[i], lines.y0[i]);
+      const Point to = map_(lines.x1[i], lines.y1[i]);
+      if (!known(from) || !known(to)) continue;
+      Shape shape;
+      shape.stroke = stroke;
+      shape.path.move_to(from);
+      shape.path.line_to(to);
+      const auto mark = mark_at(lines.marks, i);
+      add(Role::kLine, std::move(shape), mark);
+      if (lines.arrow) draw_head(from, to, stroke.colour);
+    }
+  }
+
+  void operator()(const PointLabels&) {}
+
+ private:
+  /// Markers far enough apart to be told from each other, the first point always with one.
+  void draw_markers(const Polyline& line, std::optional<std::size_t> mark) {
+    if (line.marker == Marker::kNone) return;
+    const std::size_t symbol = symbol_of(line.marker, true, 1.0, line.ink);
+    const double least = kMarkerSpacing * theme_.marker_pt;
+    double last = -INFINITY;
+    for (std::size_t i = 0; i < line.x.size(); ++i) {
+      const Point at = map_(line.x[i], line.y[i]);
+      if (!in_frame(at) || at.x - last < least) continue;
+      stamp(symbol, at, mark);
+      last = at.x;
+    }
+  }
+
+  void add_band_piece(const Band& band, std::size_t begin, std::size_t end, Path& path) {
+    path.move_to(map_(band.x[begin], band.high[begin]));
+    for (std::size_t i = begin + 1; i < end; ++i) path.line_to(map_(band.x[i], band.high[i]));
+    for (std::size_t i = end; i-- > begin;) path.line_to(map_(band.x[i], band.low[i]));
+    path.close();
+  }
+
+  void draw_head(Point from, Point to, Colour colour) {
+    const double length = std::hypot(to.x - from.x, to.y - from.y);
+    if (!(length > 0.0)) return;
+    const double size = 1.1 * theme_.marker_pt;
+    const Point along{(to.x - from.x) / length * size, (to.y - from.y) / length * size};
+    Shape head;
+    head.fill = colour;
+    head.path.move_to(to);
+    head.path.line_to({to.x - along.x - 0.45 * along.y, to.y - along.y + 0.45 * along.x});
+    head.path.line_to({to.x - along.x + 0.45 * along.y, to.y - along.y - 0.45 * along.x});
+    head.path.close();
+    drawing_.add(Role::kMarker, panel_, std::move(head));
+  }
+
+  std::size_t symbol_of(Marker marker, bool filled, double size, Ink ink) {
+    return symbol_index(drawing_, marker_symbol(marker, filled, size * theme_.marker_pt,
+                                                theme_.of(ink), theme_));
+  }
+
+  std::optional<std::size_t> mark_at(const std::vector<Mark>& marks, std::size_t i) {
+    return marks.empty() ? std::nullopt : add_mark(marks[i]);
+  }
+
+  std::optional<std::size_t> add_mark(const Mark& mark) {
+    if (mark.id.empty() && mark.data.empty()) return std::nullopt;
+    drawing_.marks.push_back(mark);
+    return drawing_.marks.size() - 1;
+  }
+
+  bool in_frame(Point p) const {
+    return known(p) && drawing_.frames[panel_].grown(1e-6).holds({p.x, p.y, p.x, p.y});
+  }
+
+  /// Markers are drawn whole, also at the frame.
+  void stamp(std::size_t symbol, Point at, std::optional<std::size_t> mark) {
+    drawing_.add(Role::kMarker, panel_, Stamp{symbol, at}).mark = mark;
+  }
+
+  template <typename What>
+  void add(Role role, What&& what, std::optional<std::size_t> mark) {
+    Item& item = drawing_.add(role, panel_, std::forward<What>(what));
+    item.clipped = true;
+    item.mark = mark;
+  }
+
+  std::size_t panel_;
+  const PanelMap& map_;
+  const Theme& theme_;
+  Drawing& drawing_;
+};
+
+}  // namespace
+
+std::vector<double> dash_lengths(Dash dash, double width_pt) {
+  const double w = width_pt;
+  switch (dash) {
+    case Dash::kSolid: return {};
+    case Dash::kDashed: return {4.0 * w, 2.0 * w};
+    case Dash::kDotted: return {1.2 * w, 1.6 * w};
+    case Dash::kDashDot: return {5.0 * w, 1.8 * w, 1.2 * w, 1.8 * w};
+    case Dash::kLongDash: return {8.0 * w, 2.5 * w};
+  }
+  return {};
+}
+
+void draw_layers(const Panel& panel, std::size_t panel_index, const PanelMap& map,
+                 const Theme& theme, Drawing& drawing) {
+  Painter painter(panel_index, map, theme, drawing);
+  for (const Layer& layer : panel.layers) std::visit(painter, layer);
+}
+
+}  // namespace mapproof

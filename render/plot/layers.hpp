@@ -1,0 +1,19 @@
+#pragma once
+
+#include "render/plot/axis_map.hpp"
+#include "render/plot/drawing.hpp"
+#include "render/theme/theme.hpp"
+
+namespace mapproof {
+
+/// Draws the panel's layers, labels of points apart, clipped to its frame.
+void draw_layers(const Panel& panel, std::size_t panel_index, const PanelMap& map,
+                 const Theme& theme, Drawing& drawing);
+
+/// The lengths of a dash, in points; empty for a solid line.
+std::vector<double> dash_lengths(Dash dash, double width_pt);
+
+/// How much of a band covers what is below.
+inline constexpr double kBandOpacity = 0.2;
+
+}  // namespace mapproof

@@ -1,0 +1,157 @@
+#include "render/plot/legend.hpp"
+
+#include <algorithm>
+
+#include "render/plot/layers.hpp"
+#include "render/plot/markers.hpp"
+
+namespace mapproof {
+namespace {
+
+constexpr double kSampleWidth = 2.4;  // All in em.
+constexpr double kSampleGap = 0.6;
+constexpr double kColumnGap = 1.4;
+constexpr double kRowHeight = 1.45;
+
+const std::string& label_of(const Layer& layer) {
+  static const std::string none;
+  return std::visit(
+      [](const auto& one) -> const std::string& {
+        if constexpr (requires { one.label; }) return one.label;
+        return none;
+      },
+      layer);
+}
+
+/// Draws what stands for a layer into the sample's box.
+class SamplePainter {
+ public:
+  SamplePainter(const Theme& theme, const Box& place, std::size_t panel, Drawing& drawing)
+      : theme_(theme), place_(place), panel_(panel), drawing_(drawing) {}
+
+  void operator()(const Polyline& line) {
+    draw_line(line.ink, line.dash, line.width);
+    if (line.marker != Marker::kNone) draw_marker(line.marker, true, 1.0, line.ink);
+  }
+  void operator()(const Band& band) {
+    Shape shape;
+    shape.path.add_box({place_.x0, place_.y0 + 0.15 * place_.height(), place_.x1,
+                        place_.y1 - 0.15 * place_.height()});
+    shape.fill = theme_.of(band.ink);
+    shape.fill_opacity = kBandOpacity;
+    add(std::move(shape));
+  }
+  void operator()(const Scatter& points) {
+    draw_marker(points.marker, points.filled, points.size, points.ink);
+  }
+  void operator()(const Segments& lines) { draw_line(lines.ink, lines.dash, lines.width); }
+  void operator()(const PointLabels&) {}
+
+ private:
+  void draw_line(Ink ink, Dash dash, double width) {
+    Shape shape;
+    const double y = place_.centre().y;
+    shape.path.move_to({place_.x0, y});
+    shape.path.line_to({place_.x1, y});
+    const double width_pt = width * theme_.line_pt;
+    shape.stroke = Stroke{theme_.of(ink), width_pt, dash_lengths(dash, width_pt)};
+    add(std::move(shape));
+  }
+
+  void draw_marker(Marker marker, bool filled, double size, Ink ink) {
+    const Shape symbol =
+        marker_symbol(marker, filled, size * theme_.marker_pt, theme_.of(ink), theme_);
+    add(Stamp{symbol_index(drawing_, symbol), place_.centre()});
+  }
+
+  template <typename What>
+  void add(What&& what) {
+    drawing_.add(Role::kLegendSample, panel_, std::forward<What>(what));
+  }
+
+  const Theme& theme_;
+  const Box& place_;
+  std::size_t panel_;
+  Drawing& drawing_;
+};
+
+}  // namespace
+
+Legend::Legend(const Panel& panel, const Theme& theme, double most_width_pt) : theme_(theme) {
+  const double em = theme.font_pt;
+  const double most_text = std::max(most_width_pt / em - kSampleWidth - kSampleGap, 2.0);
+  for (const Layer& layer : panel.layers) {
+    const std::string& label = label_of(layer);
+    if (label.empty()) continue;
+    const auto same = std::ranges::find(entries_, label, &LegendEntry::whole);
+    if (same != entries_.end()) {
+      same->layers.push_back(&layer);
+      continue;
+    }
+    entries_.push_back({shape_text_within(label, most_text), label, {&layer}});
+    const double width = (kSampleWidth + kSampleGap + entries_.back().text.advance) * em;
+    entry_width_ = std::max(entry_width_, width);
+  }
+  row_height_ = kRowHeight * em;
+}
+
+Point Legend::size(std::size_t columns) const {
+  const std::size_t rows = (entries_.size() + columns - 1) / columns;
+  const double gaps = static_cast<double>(columns - 1) * kColumnGap * theme_.font_pt;
+  return {static_cast<double>(columns) * entry_width_ + gaps, static_cast<double>(rows) * row_height_};
+}
+
+std::size_t Legend::columns_within(double width) const {
+  std::size_t columns = std::max<std::size_t>(entries_.size(), 1);
+  while (columns > 1 && size(columns).x > width) --columns;
+  // As few columns as the same number of rows allows.
+  const std::size_t rows = (entries_.size() + columns - 1) / columns;
+  while (columns > 1 && (entries_.size() + columns - 2) / (columns - 1) == rows) --columns;
+  return columns;
+}
+
+std::optional<Box> Legend::free_place(const Box& frame, const Obstacles& data) const {
+  const Point extent = size(1);
+  const double gap = theme_.space_pt;
+  const Box room = frame.grown(-gap);
+  if (extent.x > 0.6 * room.width() || extent.y > 0.8 * room.height()) return std::nullopt;
+  const double left = room.x0, right = room.x1 - extent.x, middle = (left + right) / 2.0;
+  const double top = room.y0, bottom = room.y1 - extent.y, centre = (top + bottom) / 2.0;
+  for (const Point at : {Point{right, top}, Point{left, top}, Point{right, bottom},
+                         Point{left, bottom}, Point{right, centre}, Point{left, centre},
+                         Point{middle, top}, Point{middle, bottom}}) {
+    const Box place{at.x, at.y, at.x + extent.x, at.y + extent.y};
+    if (!data.hit(place.grown(0.7 * gap))) return place;
+  }
+  return std::nullopt;
+}
+
+void Legend::draw(Point at, std::size_t columns, std::size_t panel_index,
+                  Drawing& drawing) const {
+  const double em = theme_.font_pt;
+  const std::size_t rows = (entries_.size() + columns - 1) / columns;
+  for (std::size_t i = 0; i < entries_.size(); ++i) {
+    const LegendEntry& entry = entries_[i];
+    const double x = at.x + static_cast<double>(i / rows) * (entry_width_ + kColumnGap * em);
+    const double y = at.y + static_cast<double>(i % rows) * row_height_;
+    const double half = (row_height_ - 0.25 * em) / 2.0;
+    const double middle = y + row_height_ / 2.0;
+    draw_sample(entry, {x, middle - half, x + kSampleWidth * em, middle + half}, panel_index,
+                drawing);
+    TextLine line{.shaped = entry.text,
+                  .whole = entry.text.text == entry.whole ? "" : entry.whole,
+                  .at = {x + (kSampleWidth + kSampleGap) * em,
+                         middle + FontFacts::kXHeight / 2.0 * em + 0.06 * em},
+                  .size = em,
+                  .colour = theme_.text};
+    drawing.add(Role::kLegendText, panel_index, std::move(line));
+  }
+}
+
+void Legend::draw_sample(const LegendEntry& entry, const Box& place, std::size_t panel_index,
+                         Drawing& drawing) const {
+  for (const Layer* layer : entry.layers)
+    std::visit(SamplePainter(theme_, place, panel_index, drawing), *layer);
+}
+
+}  // namespace mapproof

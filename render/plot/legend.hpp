@@ -1,0 +1,44 @@
+#pragma once
+
+#include <vector>
+
+#include "render/plot/drawing.hpp"
+#include "render/plot/obstacles.hpp"
+#include "render/theme/theme.hpp"
+
+namespace mapproof {
+
+/// One line of a legend: all layers that share a label.
+struct LegendEntry {
+  ShapedText text;
+  std::string whole;
+  std::vector<const Layer*> layers;
+};
+
+/// A panel's legend before it has a place.
+class Legend {
+ public:
+  /// @param most_width_pt  Of one entry; longer labels are elided.
+  Legend(const Panel& panel, const Theme& theme, double most_width_pt);
+
+  bool empty() const { return entries_.empty(); }
+  /// Width and height of the legend in so many columns.
+  Point size(std::size_t columns) const;
+  /// The most columns that are no wider than `width`; at least 1.
+  std::size_t columns_within(double width) const;
+  /// A corner or edge inside `frame` where no data is covered; the corners first. Empty if all are.
+  std::optional<Box> free_place(const Box& frame, const Obstacles& data) const;
+  /// @param at  The upper left corner.
+  void draw(Point at, std::size_t columns, std::size_t panel_index, Drawing& drawing) const;
+
+ private:
+  void draw_sample(const LegendEntry& entry, const Box& place, std::size_t panel_index,
+                   Drawing& drawing) const;
+
+  const Theme& theme_;
+  std::vector<LegendEntry> entries_;
+  double entry_width_ = 0.0;
+  double row_height_ = 0.0;
+};
+
+}  // namespace mapproof

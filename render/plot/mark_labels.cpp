@@ -1,0 +1,93 @@
+#include "render/plot/mark_labels.hpp"
+
+#include <array>
+#include <cmath>
+#include <numbers>
+
+namespace mapproof {
+namespace {
+
+constexpr int kDirections = 16;
+constexpr int kRings = 14;
+
+struct Place {
+  Box box;
+  bool far = false;  ///< Needs a leader.
+};
+
+/// The box of the given size whose rim touches the circle about `at` in direction `angle`.
+Box beside(Point at, double radius, double angle, Point size) {
+  const double cosine = std::cos(angle);
+  const double sine = std::sin(angle);
+  const Point middle{at.x + cosine * (radius + size.x / 2.0), at.y + sine * (radius + size.y / 2.0)};
+  return {middle.x - size.x / 2.0, middle.y - size.y / 2.0, middle.x + size.x / 2.0,
+          middle.y + size.y / 2.0};
+}
+
+Point nearest_in(const Box& box, Point p) {
+  return {std::clamp(p.x, box.x0, box.x1), std::clamp(p.y, box.y0, box.y1)};
+}
+
+bool leader_is_free(const Box& box, Point at, const std::vector<Box>& texts) {
+  for (const Box& text : texts)
+    if (crosses(text, at, nearest_in(box, at))) return false;
+  return true;
+}
+
+/// The nearest free place, near ones to the right first; among one ring's the leader over the
+/// fewest marks.
+std::optional<Place> find_place(Point at, Point size, const Box& frame, const Obstacles& taken,
+                                const std::vector<Box>& texts, const Theme& theme) {
+  const double near = 0.5 * theme.marker_pt + 0.4 * theme.space_pt;
+  for (int ring = 0; ring < kRings; ++ring) {
+    const double radius = near + ring * 0.8 * theme.font_pt;
+    for (int turn = 0; turn < kDirections; ++turn) {
+      // 0, -1, 1, -2, 2, …: from the right outward to both sides.
+      const int step = turn % 2 == 0 ? turn / 2 : -(turn + 1) / 2;
+      const Box box = beside(at, radius, step * 2.0 * std::numbers::pi / kDirections, size);
+      if (!frame.holds(box) || taken.hit(box)) continue;
+      if (ring > 0 && !leader_is_free(box, at, texts)) continue;
+      return Place{box, ring > 0};
+    }
+  }
+  return std::nullopt;
+}
+
+}  // namespace
+
+void draw_mark_labels(const Panel& panel, std::size_t panel_index, const PanelMap& map,
+                      const Box& frame, Obstacles taken, const Theme& theme, Drawing& drawing) {
+  const double em = theme.tick_font_pt;
+  std::vector<Box> texts;
+  for (const Layer& layer : panel.layers) {
+    const auto* labels = std::get_if<PointLabels>(&layer);
+    if (labels == nullptr) continue;
+    for (std::size_t i = 0; i < labels->x.size(); ++i) {
+      const Point at = map(labels->x[i], labels->y[i]);
+      if (std::isnan(at.x + at.y)) continue;
+      TextLine line{.shaped = shape_text_within(labels->text[i], 0.3 * frame.width() / em),
+                    .size = em,
+                    .colour = theme.of(labels->ink)};
+      if (line.shaped.text != labels->text[i]) line.whole = labels->text[i];
+      const Box ink = line.shaped.ink;
+      const double gap = 0.25 * theme.space_pt;
+      const Point size{ink.width() * em + 2 * gap, ink.height() * em + 2 * gap};
+      const auto place = find_place(at, size, frame.grown(-gap), taken, texts, theme);
+      if (!place) continue;
+      line.at = {place->box.x0 + gap - ink.x0 * em, place->box.y0 + gap - ink.y0 * em};
+      if (place->far) {
+        Shape leader;
+        leader.path.move_to(at);
+        leader.path.line_to(nearest_in(place->box.grown(-0.5 * gap), at));
+        leader.stroke = Stroke{theme.of(labels->ink), theme.hairline_pt, {}};
+        taken.lines.push_back({leader.path.points[0], leader.path.points[1], theme.hairline_pt});
+        drawing.add(Role::kLeader, panel_index, std::move(leader)).clipped = true;
+      }
+      taken.boxes.push_back(place->box);
+      texts.push_back(place->box);
+      drawing.add(Role::kMarkLabel, panel_index, std::move(line));
+    }
+  }
+}
+
+}  // namespace mapproof

@@ -1,0 +1,74 @@
+#include "render/plot/markers.hpp"
+
+#include <initializer_list>
+
+namespace mapproof {
+namespace {
+
+Path polygon(std::initializer_list<Point> corners, double size) {
+  Path path;
+  for (const Point p : corners) {
+    const Point at{p.x * size, p.y * size};
+    path.points.empty() ? path.move_to(at) : path.line_to(at);
+  }
+  path.close();
+  return path;
+}
+
+Path strokes(std::initializer_list<std::pair<Point, Point>> lines, double size) {
+  Path path;
+  for (const auto& [a, b] : lines) {
+    path.move_to({a.x * size, a.y * size});
+    path.line_to({b.x * size, b.y * size});
+  }
+  return path;
+}
+
+Path outline(Marker marker, double size) {
+  Path path;
+  switch (marker) {
+    case Marker::kNone: break;
+    case Marker::kCircle: path.add_circle({0.0, 0.0}, size / 2.0); break;
+    case Marker::kSquare: path.add_box(Box{}.grown(0.43 * size)); break;
+    case Marker::kTriangle:
+      return polygon({{0.0, -0.62}, {0.56, 0.38}, {-0.56, 0.38}}, size);
+    case Marker::kTriangleDown:
+      return polygon({{0.0, 0.62}, {0.56, -0.38}, {-0.56, -0.38}}, size);
+    case Marker::kDiamond:
+      return polygon({{0.0, -0.62}, {0.62, 0.0}, {0.0, 0.62}, {-0.62, 0.0}}, size);
+    case Marker::kCross:
+      return strokes({{{-0.42, -0.42}, {0.42, 0.42}}, {{-0.42, 0.42}, {0.42, -0.42}}}, size);
+    case Marker::kPlus:
+      return strokes({{{-0.55, 0.0}, {0.55, 0.0}}, {{0.0, -0.55}, {0.0, 0.55}}}, size);
+  }
+  return path;
+}
+
+bool equal(const Shape& a, const Shape& b) {
+  const auto stroke = [](const Shape& shape) {
+    return shape.stroke ? std::pair(shape.stroke->colour, shape.stroke->width)
+                        : std::pair(Colour{}, 0.0);
+  };
+  return a.fill == b.fill && stroke(a) == stroke(b) && a.path.verbs == b.path.verbs &&
+         a.path.points == b.path.points;
+}
+
+}  // namespace
+
+Shape marker_symbol(Marker marker, bool filled, double size_pt, Colour ink, const Theme& theme) {
+  Shape symbol;
+  const bool of_lines = marker == Marker::kCross || marker == Marker::kPlus;
+  symbol.path = outline(marker, size_pt);
+  if (!of_lines) symbol.fill = filled ? ink : theme.background;
+  if (!filled || of_lines) symbol.stroke = Stroke{ink, 0.8 * theme.line_pt, {}};
+  return symbol;
+}
+
+std::size_t symbol_index(Drawing& drawing, const Shape& symbol) {
+  for (std::size_t i = 0; i < drawing.symbols.size(); ++i)
+    if (equal(drawing.symbols[i], symbol)) return i;
+  drawing.symbols.push_back(symbol);
+  return drawing.symbols.size() - 1;
+}
+
+}  // namespace mapproof

@@ -1,0 +1,273 @@
+#include "render/svg/svg.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include "render/svg/xml_text.hpp"
+
+namespace mapproof {
+namespace {
+
+constexpr double kUnitsPerEm = 2048.0;
+
+/// Writes a path's data, each point relative to the one before in whole steps of `scale`, so that
+/// rounding never adds up.
+void append_path(std::string& out, const Path& path, double scale) {
+  long long x = 0, y = 0;
+  long long start_x = 0, start_y = 0;
+  std::size_t next = 0;
+  const auto number = [&](long long steps) {
+    if (steps >= 0 && out.back() >= '.' && out.back() <= '9') out += ' ';
+    append_number(out, static_cast<double>(steps) * scale);
+  };
+  const auto point = [&](std::size_t index) {
+    const Point p = path.points[index];
+    return std::pair{std::llround(p.x / scale), std::llround(p.y / scale)};
+  };
+  for (const Verb verb : path.verbs) {
+    if (verb == Verb::kClose) {
+      out += 'z';
+      x = start_x;
+      y = start_y;
+      continue;
+    }
+    const std::size_t count = verb == Verb::kCubic ? 3 : verb == Verb::kQuad ? 2 : 1;
+    out += verb == Verb::kMove ? 'm' : verb == Verb::kLine ? 'l' : verb == Verb::kQuad ? 'q' : 'c';
+    for (std::size_t i = 0; i < count; ++i) {
+      const auto [px, py] = point(next + i);
+      number(px - x);
+      number(py - y);
+    }
+    next += count;
+    std::tie(x, y) = point(next - 1);
+    if (verb == Verb::kMove) std::tie(start_x, start_y) = std::pair{x, y};
+  }
+}
+
+class SvgWriter {
+ public:
+  explicit SvgWriter(const Drawing& drawing) : drawing_(drawing) {}
+
+  std::string write() {
+    out_.reserve(96 * drawing_.items.size() + 24000);
+    open_root();
+    write_definitions();
+    write_background();
+    for (std::size_t i = 0; i < drawing_.items.size(); ++i) write_item(i);
+    close_mark();
+    close_group();
+    out_ += "</svg>\n";
+    return std::move(out_);
+  }
+
+ private:
+  void attribute(std::string_view name, std::string_view text) {
+    out_ += ' ';
+    out_ += name;
+    out_ += "=\"";
+    append_xml(out_, text);
+    out_ += '"';
+  }
+
+  void attribute(std::string_view name, double value) {
+    out_ += ' ';
+    out_ += name;
+    out_ += "=\"";
+    append_number(out_, value);
+    out_ += '"';
+  }
+
+  void open_root() {
+    out_ += "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 ";
+    append_number(out_, drawing_.width);
+    out_ += ' ';
+    append_number(out_, drawing_.height);
+    out_ += "\" width=\"";
+    append_number(out_, drawing_.width);
+    out_ += "pt\" height=\"";
+    append_number(out_, drawing_.height);
+    out_ += "pt\" role=\"img\"";
+    attribute("id", drawing_.id);
+    attribute("aria-labelledby", drawing_.id + "-title " + drawing_.id + "-desc");
+    std::string records;
+    for (const std::string& id : drawing_.record_ids) (records += records.empty() ? "" : " ") += id;
+    if (!records.empty()) attribute("data-records", records);
+    if (drawing_.varies) attribute("data-varies", "true");
+    out_ += ">\n<title id=\"" + drawing_.id + "-title\">";
+    append_xml(out_, drawing_.title);
+    out_ += "</title>\n<desc id=\"" + drawing_.id + "-desc\">";
+    append_xml(out_, drawing_.alt);
+    out_ += "</desc>\n";
+  }
+
+  void write_definitions() {
+    out_ += "<defs>\n";
+    for (const std::uint32_t glyph : used_glyphs()) {
+      out_ += fmt::format("<path id=\"{}-g{}\" d=\"", drawing_.id, glyph);
+      append_path(out_, glyph_outline(glyph), 1.0);
+      out_ += "\"/>\n";
+    }
+    for (std::size_t i = 0; i < drawing_.symbols.size(); ++i) {
+      out_ += fmt::format("<path id=\"{}-s{}\"", drawing_.id, i);
+      out_ += style(drawing_.symbols[i]);
+      path_attribute(drawing_.symbols[i].path);
+      out_ += "/>\n";
+    }
+    for (std::size_t i = 0; i < drawing_.frames.size(); ++i) {
+      out_ += fmt::format("<clipPath id=\"{}-c{}\"><rect", drawing_.id, i);
+      box_attributes(drawing_.frames[i]);
+      out_ += "/></clipPath>\n";
+    }
+    out_ += "</defs>\n";
+  }
+
+  std::vector<std::uint32_t> used_glyphs() const {
+    std::vector<std::uint32_t> glyphs;
+    for (const Item& item : drawing_.items)
+      if (const auto* line = std::get_if<TextLine>(&item.what))
+        for (const Glyph& glyph : line->shaped.glyphs) glyphs.push_back(glyph.index);
+    std::ranges::sort(glyphs);
+    const auto rest = std::ranges::unique(glyphs);
+    glyphs.erase(rest.begin(), rest.end());
+    return glyphs;
+  }
+
+  void write_background() {
+    out_ += "<path fill=\"" + hex(drawing_.background) + "\" d=\"m0 0h";
+    append_number(out_, drawing_.width);
+    out_ += 'v';
+    append_number(out_, drawing_.height);
+    out_ += "h-";
+    append_number(out_, drawing_.width);
+    out_ += "z\"/>\n";
+  }
+
+  void box_attributes(const Box& box) {
+    attribute("x", box.x0);
+    attribute("y", box.y0);
+    attribute("width", box.width());
+    attribute("height", box.height());
+  }
+
+  void path_attribute(const Path& path) {
+    out_ += " d=\"";
+    append_path(out_, path, 0.01);
+    out_ += '"';
+  }
+
+  static std::string style(const Shape& shape) {
+    std::string text = " fill=\"" + (shape.fill ? hex(*shape.fill) : "none") + '"';
+    const auto number = [&text](std::string_view name, double value) {
+      text += fmt::format(" {}=\"", name);
+      append_number(text, value);
+      text += '"';
+    };
+    if (shape.fill && shape.fill_opacity < 1.0) number("fill-opacity", shape.fill_opacity);
+    if (!shape.stroke) return text;
+    text += " stroke=\"" + hex(shape.stroke->colour) + '"';
+    number("stroke-width", shape.stroke->width);
+    if (shape.stroke->dashes.empty()) return text;
+    text += " stroke-dasharray=\"";
+    for (const double length : shape.stroke->dashes) {
+      if (text.back() != '"') text += ' ';
+      append_number(text, length);
+    }
+    return text + '"';
+  }
+
+  /// What neighbouring items share stands once, on a group around them.
+  void write_item(std::size_t index) {
+    const Item& item = drawing_.items[index];
+    std::string shared = fmt::format(" class=\"{}\"", name(item.role));
+    if (item.clipped) shared += fmt::format(" clip-path=\"url(#{}-c{})\"", drawing_.id, item.panel);
+    if (const auto* shape = std::get_if<Shape>(&item.what)) shared += style(*shape);
+    if (const auto* line = std::get_if<TextLine>(&item.what))
+      shared += " fill=\"" + hex(line->colour) + '"';
+    const bool same_mark = item.mark && item.mark == open_mark_;
+    if (!same_mark) close_mark();
+    if (shared != open_group_ && !same_mark) {
+      close_group();
+      out_ += "<g" + shared + ">\n";
+      open_group_ = shared;
+    }
+    const bool shared_mark = index + 1 < drawing_.items.size() && item.mark &&
+                             drawing_.items[index + 1].mark == item.mark;
+    if (shared_mark && !same_mark) {
+      out_ += "<g";
+      mark_attributes(*item.mark);
+      out_ += ">\n";
+      open_mark_ = item.mark;
+    }
+    const bool carries_mark = item.mark && !open_mark_;
+    const std::string own_style = same_mark && shared != open_group_ ? shared : std::string();
+    std::visit([&](const auto& what) { write(what, item, carries_mark, own_style); }, item.what);
+  }
+
+  void mark_attributes(std::size_t index) {
+    const Mark& mark = drawing_.marks[index];
+    if (!mark.id.empty()) attribute("id", drawing_.id + "-" + mark.id);
+    for (const auto& [key, value] : mark.data) attribute("data-" + key, value);
+  }
+
+  void write(const Shape& shape, const Item& item, bool carries_mark, const std::string& own) {
+    out_ += "<path" + own;
+    if (carries_mark) mark_attributes(*item.mark);
+    path_attribute(shape.path);
+    out_ += "/>\n";
+  }
+
+  void write(const Stamp& stamp, const Item& item, bool carries_mark, const std::string& own) {
+    out_ += "<use" + own;
+    if (carries_mark) mark_attributes(*item.mark);
+    out_ += fmt::format(" href=\"#{}-s{}\"", drawing_.id, stamp.symbol);
+    attribute("x", stamp.at.x);
+    attribute("y", stamp.at.y);
+    out_ += "/>\n";
+  }
+
+  void write(const TextLine& line, const Item&, bool, const std::string&) {
+    out_ += "<g";
+    attribute("aria-label", line.whole.empty() ? line.shaped.text : line.whole);
+    out_ += " transform=\"translate(";
+    append_number(out_, line.at.x);
+    out_ += ' ';
+    append_number(out_, line.at.y);
+    out_ += line.upward ? ")rotate(-90)" : ")";
+    out_ += fmt::format("scale({:.6f})\">", line.size / kUnitsPerEm);
+    if (!line.whole.empty()) {
+      out_ += "<title>";
+      append_xml(out_, line.whole);
+      out_ += "</title>";
+    }
+    for (const Glyph& glyph : line.shaped.glyphs) {
+      out_ += fmt::format("<use href=\"#{}-g{}\"", drawing_.id, glyph.index);
+      if (glyph.x != 0.0) attribute("x", std::round(glyph.x * kUnitsPerEm));
+      if (glyph.y != 0.0) attribute("y", std::round(glyph.y * kUnitsPerEm));
+      out_ += "/>";
+    }
+    out_ += "</g>\n";
+  }
+
+  void close_mark() {
+    if (open_mark_) out_ += "</g>\n";
+    open_mark_.reset();
+  }
+
+  void close_group() {
+    if (!open_group_.empty()) out_ += "</g>\n";
+    open_group_.clear();
+  }
+
+  const Drawing& drawing_;
+  std::string out_;
+  std::string open_group_;
+  std::optional<std::size_t> open_mark_;
+};
+
+}  // namespace
+
+std::string to_svg(const Drawing& drawing) { return SvgWriter(drawing).write(); }
+
+}  // namespace mapproof

@@ -1,0 +1,16 @@
+#pragma once
+
+#include <string>
+#include <string_view>
+
+namespace mapproof {
+
+/// Adds `text` fit for XML content and quoted attributes. What XML 1.0 forbids and what is no UTF-8
+/// becomes U+FFFD; white space other than blanks, invisible and direction-changing characters
+/// become references, so that the source shows them and a parser gives them back.
+void append_xml(std::string& out, std::string_view text);
+
+/// Adds `value` with at most two decimals, no trailing zeros: "-.5" stands for minus one half.
+void append_number(std::string& out, double value);
+
+}  // namespace mapproof

@@ -1,0 +1,74 @@
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "core/base/resource.hpp"
+#include "render/base/geometry.hpp"
+
+namespace mapproof {
+
+/// The embedded font, DejaVu Sans. All lengths here are in em, y downward, the baseline at 0.
+struct FontFacts {
+  static constexpr double kAscent = 0.76;      ///< Of "d" and capitals.
+  static constexpr double kDescent = 0.24;     ///< Of "g".
+  static constexpr double kCapHeight = 0.729;
+  static constexpr double kXHeight = 0.547;
+  static constexpr double kLine = 1.3;         ///< From baseline to baseline.
+};
+
+struct Glyph {
+  std::uint32_t index = 0;
+  double x = 0.0;
+  double y = 0.0;
+};
+
+/// Neighbouring glyphs that stand for neighbouring bytes and cannot be told apart further.
+struct Cluster {
+  std::size_t bytes = 0;
+  std::size_t glyphs = 0;
+};
+
+/// Text of one direction, in the order of `glyphs`; clusters in the order of the text.
+struct TextRun {
+  std::size_t first_byte = 0;
+  std::size_t first_glyph = 0;
+  bool right_to_left = false;
+  std::vector<Cluster> clusters;
+};
+
+/// One line of text as glyphs.
+struct ShapedText {
+  std::string text;  ///< UTF-8 that is seen: nothing in it is invisible or missing from the font.
+  std::vector<Glyph> glyphs;
+  std::vector<TextRun> runs;
+  double advance = 0.0;
+  Box ink;
+};
+
+/// What is drawn for `text`: code points that the font lacks, that are invisible or that would turn
+/// the direction are written out as "[U+1F600]", bytes that are no UTF-8 as "[xFF]".
+std::string visible_text(std::string_view text);
+
+/// As visible_text, line by line, the line feeds kept.
+std::string visible_lines(std::string_view text);
+
+/// `text` made visible and shaped. Safe from any thread.
+ShapedText shape_text(std::string_view text);
+
+/// As shape_text; if that is wider than `most`, as much of its start as fits, and "…".
+ShapedText shape_text_within(std::string_view text, double most);
+
+/// The words of `text` in lines no wider than `most`, at most `lines` of them, the last one elided.
+std::vector<ShapedText> wrap_text(std::string_view text, double most, std::size_t lines);
+
+/// The outline of a glyph of the font, in units of 1/2048 em, y downward. Safe from any thread.
+Path glyph_outline(std::uint32_t glyph);
+
+/// The font file.
+std::string_view font_bytes();
+
+}  // namespace mapproof

@@ -1,0 +1,19 @@
+#pragma once
+
+namespace mapproof {
+
+/// What a colour stands for; a theme says which colour that is.
+enum class Ink {
+  kText,
+  kMuted,    ///< Helps the eye; still at least 3:1 against the background.
+  kWarning,  ///< Text about something that went other than well.
+  kSeries1,
+  kSeries2,
+  kSeries3,
+  kSeries4,
+  kSeries5,
+  kSeries6,
+  kSeries7,
+};
+
+}  // namespace mapproof

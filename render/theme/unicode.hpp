@@ -1,0 +1,16 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <string_view>
+
+namespace mapproof {
+
+/// Takes the first code point off a text that is not empty; if it does not begin with well-formed
+/// UTF-8, takes one byte and gives none.
+std::optional<char32_t> take_code_point(std::string_view& text);
+
+/// Adds the code point as UTF-8.
+void append_utf8(std::string& text, char32_t code);
+
+}  // namespace mapproof
