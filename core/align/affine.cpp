@@ -39,8 +39,7 @@ double planarity(const Points& points) {
 Affine fit_affine(const Points& from, const Points& to, AffineFit fit) {
   const Eigen::Index n = from.rows();
   if (n < 3 || to.rows() != n) throw InvalidInput("an affine map needs 3 pairs of points or more");
-  if (!from.allFinite() || !to.allFinite())
-    throw InvalidInput("an affine map needs finite points");
+  if (!from.allFinite() || !to.allFinite()) throw InvalidInput("an affine map needs finite points");
   if (planarity(from) <= 1e-9)
     throw InvalidInput("an affine map needs points that do not lie on one line");
 

@@ -12,9 +12,7 @@ struct Affine {
   Eigen::Matrix2d linear = Eigen::Matrix2d::Identity();
   Eigen::RowVector2d offset = Eigen::RowVector2d::Zero();
 
-  Points operator()(const Points& points) const {
-    return (points * linear).rowwise() + offset;
-  }
+  Points operator()(const Points& points) const { return (points * linear).rowwise() + offset; }
 };
 
 /// How far a set of points is from lying on one line: the smaller singular value of the centred

@@ -30,9 +30,8 @@ std::size_t edit_distance(std::string_view a, std::string_view b) {
 std::string_view nearest_word(std::string_view word, std::span<const std::string_view> candidates) {
   if (candidates.empty()) return {};
   const std::string_view start = word.substr(0, kCompared);
-  return *std::ranges::min_element(candidates, {}, [&](std::string_view candidate) {
-    return edit_distance(start, candidate);
-  });
+  return *std::ranges::min_element(
+      candidates, {}, [&](std::string_view candidate) { return edit_distance(start, candidate); });
 }
 
 std::string_view likely_word(std::string_view word, std::span<const std::string_view> candidates) {

@@ -35,7 +35,9 @@ Eigen::MatrixXd adjacency(const Graph& graph) {
 
 Embedder::Embedder(Proximities proximities, EmbedderOptions options)
     : options_(options), distances_(proximities.squared_distances.cwiseSqrt()) {
-  const auto infinite = [](const Eigen::MatrixXd& D) { return (!D.array().isFinite()).count() / 2; };
+  const auto infinite = [](const Eigen::MatrixXd& D) {
+    return (!D.array().isFinite()).count() / 2;
+  };
   completed_pairs_ = infinite(distances_);
   complete_distances_ = completed_pairs_ > 0 ? completed_distances(distances_) : distances_;
   seen_apart_ = infinite(complete_distances_) > 0;
@@ -51,13 +53,17 @@ Embedding Embedder::embed(const MethodSetting& setting) {
   if (info(setting.method).parameter && neighbours >= n)
     return failed(n, fmt::format("K = {} needs more than {} observed landmarks.", neighbours, n));
   if (seen_apart_)
-    return failed(n, "Some groups of landmarks share no observation: nothing tells where they lie "
-                     "to each other.");
+    return failed(n,
+                  "Some groups of landmarks share no observation: nothing tells where they lie "
+                  "to each other.");
 
   switch (setting.method) {
-    case Method::kLpca: return with_all_distances(linear());
-    case Method::kSmacof: return with_all_distances(equal_weights());
-    case Method::kSmacofKnn: return with_all_distances(weighted_smacof(neighbours));
+    case Method::kLpca:
+      return with_all_distances(linear());
+    case Method::kSmacof:
+      return with_all_distances(equal_weights());
+    case Method::kSmacofKnn:
+      return with_all_distances(weighted_smacof(neighbours));
     case Method::kIsomap:
       return isomap(distances_, {.neighbours = neighbours, .cutoff = cutoff_});
   }
@@ -114,8 +120,8 @@ HistoryEmbedder::HistoryEmbedder(const ObservationHistory& history, Eigen::Index
   if (seen_.empty()) {
     embedder_.emplace(Proximities{}, options);
   } else {
-    embedder_.emplace(
-        proximities(unseen.empty() ? history : with_rows(history, seen_), steps), options);
+    embedder_.emplace(proximities(unseen.empty() ? history : with_rows(history, seen_), steps),
+                      options);
   }
 }
 

@@ -20,7 +20,8 @@ struct EmbedderOptions {
   SmacofOptions smacof_knn{.relative_fall = 1e-2, .max_iterations = 1000};
 };
 
-/// Every mapping method over the same proximities; what several of them start from is computed once.
+/// Every mapping method over the same proximities; what several of them start from is computed
+/// once.
 class Embedder {
  public:
   /// @param proximities  Of landmarks that were all observed, n >= 3. Pairs without a common step

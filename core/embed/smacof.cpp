@@ -2,8 +2,8 @@
 
 #include <cmath>
 
-#include <Eigen/Cholesky>
 #include <fmt/format.h>
+#include <Eigen/Cholesky>
 
 #include "core/base/errors.hpp"
 
@@ -88,8 +88,8 @@ Embedding smacof(const Eigen::MatrixXd& distances, const Eigen::MatrixXd& weight
     double stress = 0.0;
     result.coordinates.swap(next);
     next = problem.step(result.coordinates, stress);
-    settled = before - stress <= options.relative_fall * before ||
-              stress <= 1e-28 * problem.scale();
+    settled =
+        before - stress <= options.relative_fall * before || stress <= 1e-28 * problem.scale();
     before = stress;
   }
   result.stress = problem.scale() > 0.0 ? before / problem.scale() : 0.0;

@@ -9,7 +9,7 @@ namespace mapproof {
 /// When to stop lowering the stress.
 struct SmacofOptions {
   /// Stop once one iteration lowers the stress by less than this share of it, >= 0.
-  double relative_fall = 1e-6;
+  double relative_fall = 1e-7;
   int max_iterations = 1000;  ///< > 0.
 };
 

@@ -21,22 +21,23 @@ using Clock = std::chrono::steady_clock;
 enum Purpose : std::uint64_t { kLayout = 1, kWalk = 2, kNoise = 3 };
 
 /// A map as it goes to disk, aligned to the anchors and scored.
-MapRecord scored_map(const Experiment& experiment, const Run& run, const ObservationHistory& history,
-                     const MethodSetting& setting, int step, const Embedding& embedding) {
+MapRecord scored_map(const Experiment& experiment, const Run& run,
+                     const ObservationHistory& history, const MethodSetting& setting, int step,
+                     const Embedding& embedding) {
   AlignedMap aligned = align_to_anchors(embedding.coordinates, run.world.landmarks_m, run.anchors,
                                         experiment.affine_fit);
-  MapRecord map{.id = fmt::format("{}/{}/{}/{}", slug(run.id), name(history.sensor), slug(setting),
-                                  step),
-                .sensor = history.sensor,
-                .setting = setting,
-                .step = step,
-                .frame = aligned.aligned ? Frame::kTruth : Frame::kSimilarity,
-                .names = history.names,
-                .estimate = std::move(aligned.positions_m),
-                .truth_m = run.world.landmarks_m,
-                .anchors = run.anchors,
-                .statuses = embedding.statuses,
-                .score = std::nullopt};
+  MapRecord map{
+      .id = fmt::format("{}/{}/{}/{}", slug(run.id), name(history.sensor), slug(setting), step),
+      .sensor = history.sensor,
+      .setting = setting,
+      .step = step,
+      .frame = aligned.aligned ? Frame::kTruth : Frame::kSimilarity,
+      .names = history.names,
+      .estimate = std::move(aligned.positions_m),
+      .truth_m = run.world.landmarks_m,
+      .anchors = run.anchors,
+      .statuses = embedding.statuses,
+      .score = std::nullopt};
   map.statuses.insert(map.statuses.end(), aligned.statuses.begin(), aligned.statuses.end());
   if (aligned.aligned)
     map.score = score_map(map.estimate, *map.truth_m, run.anchors, experiment.affine_fit);

@@ -18,7 +18,8 @@ void run_experiment(const Experiment& experiment, StudyStore& store, int jobs,
   std::vector<RunId> open = runs_of(experiment);
   Progress state{.total = static_cast<int>(open.size())};
   const std::vector<RunId> finished = store.finished();
-  std::erase_if(open, [&](const RunId& id) { return std::ranges::find(finished, id) != finished.end(); });
+  std::erase_if(open,
+                [&](const RunId& id) { return std::ranges::find(finished, id) != finished.end(); });
   state.reused = state.finished = state.total - static_cast<int>(open.size());
   progress(state);
 

@@ -23,8 +23,8 @@ std::vector<Bridge> shortest_bridges(const std::vector<int>& piece, int pieces,
   std::vector<Bridge> best(count * count, Bridge{HUGE_VAL, 0, 0});
   for (Eigen::Index i = 0; i < distances.rows(); ++i)
     for (Eigen::Index j = i + 1; j < distances.rows(); ++j) {
-      const auto [a, b] = std::minmax(piece[static_cast<std::size_t>(i)],
-                                      piece[static_cast<std::size_t>(j)]);
+      const auto [a, b] =
+          std::minmax(piece[static_cast<std::size_t>(i)], piece[static_cast<std::size_t>(j)]);
       Bridge& current = best[static_cast<std::size_t>(a) * count + static_cast<std::size_t>(b)];
       if (a != b && distances(i, j) < current.length) current = {distances(i, j), i, j};
     }

@@ -24,8 +24,8 @@ double rounded(double distance) {
 Graph neighbour_graph(const Eigen::MatrixXd& distances, const NeighbourOptions& options) {
   const Eigen::Index n = distances.rows();
   if (options.neighbours < 1 || options.neighbours >= n)
-    throw InvalidInput(fmt::format("K = {} nearest neighbours need 1 <= K < {} landmarks",
-                                   options.neighbours, n));
+    throw InvalidInput(
+        fmt::format("K = {} nearest neighbours need 1 <= K < {} landmarks", options.neighbours, n));
 
   Eigen::Matrix<bool, Eigen::Dynamic, Eigen::Dynamic> joined;
   joined.setConstant(n, n, false);

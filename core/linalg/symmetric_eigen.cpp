@@ -2,8 +2,8 @@
 
 #include <algorithm>
 
-#include <Eigen/Eigenvalues>
 #include <Spectra/SymEigsSolver.h>
+#include <Eigen/Eigenvalues>
 
 #include "core/base/errors.hpp"
 #include "core/linalg/sign.hpp"
@@ -26,7 +26,8 @@ EigenPairs lanczos(const Eigen::MatrixXd& matrix, Eigen::Index k) {
   Spectra::SymEigsSolver<Spectra::DenseSymMatProd<double>> solver(product, k, basis);
   solver.init();
   solver.compute(Spectra::SortRule::LargestAlge, 1000, 1e-12);
-  if (solver.info() != Spectra::CompInfo::Successful) return {.values = {}, .vectors = {}, .converged = false};
+  if (solver.info() != Spectra::CompInfo::Successful)
+    return {.values = {}, .vectors = {}, .converged = false};
   return {.values = solver.eigenvalues(), .vectors = solver.eigenvectors(), .converged = true};
 }
 

@@ -12,11 +12,11 @@ namespace mapproof {
 
 /// Coordinates that a mapping method gives the landmarks, before any alignment.
 struct Embedding {
-  Points coordinates;              ///< M x 2, arbitrary frame; NaN rows where a landmark has no place.
-  std::vector<Status> statuses;    ///< Empty if all went well.
-  Eigen::VectorXd spectrum;        ///< Leading eigenvalues, descending; empty for iterative methods.
-  int iterations = 0;              ///< Of an iterative method; 0 otherwise.
-  std::optional<double> stress;    ///< Raw stress [yairi2007, eq. 6] over sum of w * delta^2.
+  Points coordinates;  ///< M x 2, arbitrary frame; NaN rows where a landmark has no place.
+  std::vector<Status> statuses;  ///< Empty if all went well.
+  Eigen::VectorXd spectrum;      ///< Leading eigenvalues, descending; empty for iterative methods.
+  int iterations = 0;            ///< Of an iterative method; 0 otherwise.
+  std::optional<double> stress;  ///< Raw stress [yairi2007, eq. 6] over sum of w * delta^2.
 };
 
 }  // namespace mapproof

@@ -30,9 +30,10 @@ struct WalkOptions {
 /// One kind of sensor and what is wrong with it.
 struct SensorOptions {
   Sensor sensor = Sensor::kVisibility;
-  double visual_angle_rad = 0.087266462599716474;  ///< Visibility: seen if it looks wider than this.
-  bool occlusion = true;       ///< Visibility: hidden if another landmark cuts the ray to the centre.
-  double noise = 0.0;          ///< Standard deviation, rad or m; visibility: share of flipped entries.
+  double visual_angle_rad =
+      0.087266462599716474;  ///< Visibility: seen if it looks wider than this.
+  bool occlusion = true;     ///< Visibility: hidden if another landmark cuts the ray to the centre.
+  double noise = 0.0;  ///< Standard deviation, rad or m; visibility: share of flipped entries.
   double dropout_share = 0.0;  ///< Share of entries lost at random.
 };
 
@@ -66,7 +67,7 @@ struct SensorStudy {
 
 /// A simulated study: `layouts` worlds, each walked from `poses` initial poses. A run is one pair.
 struct Experiment {
-  std::string name;   ///< Letters, digits, '-' and '_'.
+  std::string name;  ///< Letters, digits, '-' and '_'.
   std::string title;
   std::uint64_t seed = 0;
   int layouts = 1;

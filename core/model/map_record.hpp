@@ -27,12 +27,12 @@ struct MapRecord {
   MethodSetting setting;
   int step = 0;  ///< Number of observations used, N.
   Frame frame = Frame::kTruth;
-  std::vector<std::string> names;    ///< M.
-  Points estimate;                   ///< M x 2, m if frame is kTruth; NaN rows: not mapped.
-  std::optional<Points> truth_m;     ///< M x 2; NaN rows: truth unknown.
-  std::vector<Eigen::Index> anchors; ///< Rows whose true position was given.
+  std::vector<std::string> names;     ///< M.
+  Points estimate;                    ///< M x 2, m if frame is kTruth; NaN rows: not mapped.
+  std::optional<Points> truth_m;      ///< M x 2; NaN rows: truth unknown.
+  std::vector<Eigen::Index> anchors;  ///< Rows whose true position was given.
   std::vector<Status> statuses;
-  std::optional<Score> score;        ///< If there is a truth and the map could be scored.
+  std::optional<Score> score;  ///< If there is a truth and the map could be scored.
 };
 
 }  // namespace mapproof

@@ -6,7 +6,8 @@
 
 namespace mapproof {
 
-/// How a solve ended other than well. Data, never an exception: drawn on figures, listed in reports.
+/// How a solve ended other than well. Data, never an exception: drawn on figures, listed in
+/// reports.
 enum class StatusCode {
   kBridged,             ///< The neighbour graph was in pieces; joined by the shortest bridges.
   kNotConverged,        ///< The iteration limit came before the stop rule.
@@ -14,7 +15,8 @@ enum class StatusCode {
   kLandmarkUnseen,      ///< Landmarks never observed; they are missing from the map.
   kDistancesCompleted,  ///< Pairs without a common step took the shortest path over the others.
   kAnchorsMissing,      ///< Too few mapped anchors for an affine map: no score.
-  kAnchorsDegenerate,   ///< Anchors nearly on one line in the embedding: the affine map is arbitrary.
+  kAnchorsDegenerate,   ///< Anchors nearly on one line in the embedding: the affine map is
+                        ///< arbitrary.
   kFailed,              ///< No map came out at all; the detail says why.
 };
 

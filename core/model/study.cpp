@@ -4,6 +4,8 @@
 
 namespace mapproof {
 
-std::string slug(const RunId& run) { return fmt::format("layout-{}-pose-{}", run.layout, run.pose); }
+std::string slug(const RunId& run) {
+  return fmt::format("layout-{}-pose-{}", run.layout, run.pose);
+}
 
 }  // namespace mapproof

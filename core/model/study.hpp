@@ -43,9 +43,10 @@ struct Run {
 
 /// What made a study: enough to make it again, nothing that varies between two makings.
 struct Provenance {
-  std::string version;        ///< Of mapproof.
-  std::string commit;         ///< Of its source; "unknown" outside a checkout.
-  std::string solver_digest;  ///< SHA-256 of the sources of core: records of another one are redone.
+  std::string version;  ///< Of mapproof.
+  std::string commit;   ///< Of its source; "unknown" outside a checkout.
+  std::string
+      solver_digest;  ///< SHA-256 of the sources of core: records of another one are redone.
   std::vector<std::pair<std::string, std::string>> libraries;  ///< Name and version.
 };
 

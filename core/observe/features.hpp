@@ -8,8 +8,9 @@ namespace mapproof {
 
 /// The vectors whose distances the mapping methods keep, a landmark a row, zero where missing.
 struct Features {
-  Eigen::MatrixXd values;    ///< M x C; C = N, or 2 N for bearings (cosines, then sines).
-  Eigen::MatrixXd observed;  ///< M x C: 1 where a value was observed, 0 elsewhere. Empty: everywhere.
+  Eigen::MatrixXd values;  ///< M x C; C = N, or 2 N for bearings (cosines, then sines).
+  Eigen::MatrixXd
+      observed;  ///< M x C: 1 where a value was observed, 0 elsewhere. Empty: everywhere.
 };
 
 /// Visibility: the 0/1 entries, normalised later over common steps [yairi2007, eq. 7].

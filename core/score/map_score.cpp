@@ -21,9 +21,8 @@ AlignedMap align_to_anchors(const Points& coordinates, const Points& anchors_m,
                             const std::vector<Eigen::Index>& anchors, AffineFit fit) {
   AlignedMap result{.positions_m = coordinates, .statuses = {}};
   std::vector<Eigen::Index> mapped;
-  std::ranges::copy_if(anchors, std::back_inserter(mapped), [&](Eigen::Index anchor) {
-    return coordinates.row(anchor).allFinite();
-  });
+  std::ranges::copy_if(anchors, std::back_inserter(mapped),
+                       [&](Eigen::Index anchor) { return coordinates.row(anchor).allFinite(); });
   if (mapped.size() < 3) {
     result.statuses.push_back(
         {StatusCode::kAnchorsMissing,

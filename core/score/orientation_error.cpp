@@ -17,7 +17,8 @@ double orientation_error_percent(const Points& truth, const Points& estimate) {
     const Points e = estimate.bottomRows(n - i - 1).rowwise() - estimate.row(i);
     for (Eigen::Index j = 0; j < t.rows(); ++j) {
       const auto rest = t.rows() - j - 1;
-      const auto turn = t(j, 0) * t.col(1).tail(rest).array() - t(j, 1) * t.col(0).tail(rest).array();
+      const auto turn =
+          t(j, 0) * t.col(1).tail(rest).array() - t(j, 1) * t.col(0).tail(rest).array();
       const auto found =
           e(j, 0) * e.col(1).tail(rest).array() - e(j, 1) * e.col(0).tail(rest).array();
       const auto counts = turn != 0.0;

@@ -10,7 +10,8 @@ namespace mapproof {
 namespace {
 
 constexpr double kPi = std::numbers::pi;
-constexpr double kTurnResolution = kPi / 90.0;  // 2 degrees: finer turns change nothing in the maps.
+constexpr double kTurnResolution =
+    kPi / 90.0;  // 2 degrees: finer turns change nothing in the maps.
 
 double wrapped(double angle) { return std::remainder(angle, 2.0 * kPi); }
 
@@ -68,11 +69,11 @@ Pose free_pose(const World& world, const FreeSpace& space, Random& random) {
 
 }  // namespace
 
-Path random_walk(const World& world, const WalkOptions& options, int observations,
-                 Random& random) {
+Path random_walk(const World& world, const WalkOptions& options, int observations, Random& random) {
   if (observations < 1) throw InvalidInput("a walk needs at least one observation");
   const FreeSpace space(world, options);
-  const int substeps = std::max(1, static_cast<int>(std::lround(options.step_m / options.substep_m)));
+  const int substeps =
+      std::max(1, static_cast<int>(std::lround(options.step_m / options.substep_m)));
   const double length = options.step_m / substeps;
 
   Path path{.positions_m = Points(observations, 2), .headings_rad = Eigen::VectorXd(observations)};

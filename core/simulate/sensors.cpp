@@ -25,7 +25,8 @@ Eigen::VectorXd seen_from(const World& world, const Eigen::RowVector2d& position
                           const SensorOptions& options) {
   const double radius = world.landmark_diameter_m / 2.0;
   // A cylinder looks 2 asin(r / d) wide.
-  const double reach = radius / std::sin(std::min(options.visual_angle_rad, std::numbers::pi) / 2.0);
+  const double reach =
+      radius / std::sin(std::min(options.visual_angle_rad, std::numbers::pi) / 2.0);
   const Eigen::VectorXd distances = (world.landmarks_m.rowwise() - position).rowwise().norm();
   std::vector<Eigen::Index> near;
   for (Eigen::Index i = 0; i < distances.size(); ++i)
@@ -33,10 +34,11 @@ Eigen::VectorXd seen_from(const World& world, const Eigen::RowVector2d& position
 
   Eigen::VectorXd seen = Eigen::VectorXd::Zero(distances.size());
   for (const Eigen::Index i : near) {
-    const bool hidden = options.occlusion && std::ranges::any_of(near, [&](Eigen::Index j) {
-      return j != i && distances(j) < distances(i) &&
-             cuts(world.landmarks_m.row(j), radius, position, world.landmarks_m.row(i));
-    });
+    const bool hidden =
+        options.occlusion && std::ranges::any_of(near, [&](Eigen::Index j) {
+          return j != i && distances(j) < distances(i) &&
+                 cuts(world.landmarks_m.row(j), radius, position, world.landmarks_m.row(i));
+        });
     seen(i) = hidden ? 0.0 : 1.0;
   }
   return seen;
@@ -80,10 +82,9 @@ ObservationHistory observe(const World& world, const Path& path, const SensorOpt
   ObservationHistory history{
       .sensor = options.sensor, .names = landmark_names(M), .values = Eigen::MatrixXd(M, N)};
   for (Eigen::Index t = 0; t < N; ++t)
-    history.values.col(t) =
-        measured_from(world, path, t, options).unaryExpr([&](double value) {
-          return disturbed(value, options, random);
-        });
+    history.values.col(t) = measured_from(world, path, t, options).unaryExpr([&](double value) {
+      return disturbed(value, options, random);
+    });
   return history;
 }
 

@@ -12,8 +12,8 @@ namespace mapproof {
 
 /// What the sensor reads of each landmark along the path: M x N.
 ///
-/// Visibility: 1 if the cylinder looks wider than the visual angle [yairi2007, section 4.3.1] and no
-/// other cylinder cuts the ray to its centre. Bearing: direction to the centre relative to the
+/// Visibility: 1 if the cylinder looks wider than the visual angle [yairi2007, section 4.3.1] and
+/// no other cylinder cuts the ray to its centre. Bearing: direction to the centre relative to the
 /// heading, in (-pi, pi]. Range: distance to the centre. Noise and dropout come after that; a
 /// noisy bearing is wrapped again, a noisy range is at least 0.
 /// @note Without noise and dropout `random` is not drawn from.

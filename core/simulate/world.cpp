@@ -20,8 +20,8 @@ std::optional<Points> try_to_scatter(const WorldOptions& options, Random& random
     for (int attempt = 0; attempt < 1000 && !free; ++attempt) {
       placed(i, 0) = random.uniform(margin, options.side_m - margin);
       placed(i, 1) = random.uniform(margin, options.side_m - margin);
-      free = i == 0 || (placed.topRows(i).rowwise() - placed.row(i)).rowwise().norm().minCoeff() >=
-                           apart;
+      free = i == 0 ||
+             (placed.topRows(i).rowwise() - placed.row(i)).rowwise().norm().minCoeff() >= apart;
     }
     if (!free) return std::nullopt;
   }
@@ -34,10 +34,14 @@ Eigen::RowVector2d outline_point(double side, int index, int count) {
   const int wall = static_cast<int>(along);
   const double part = (along - wall) * side;
   switch (wall) {
-    case 0: return {part, 0.0};
-    case 1: return {side, part};
-    case 2: return {side - part, side};
-    default: return {0.0, side - part};
+    case 0:
+      return {part, 0.0};
+    case 1:
+      return {side, part};
+    case 2:
+      return {side - part, side};
+    default:
+      return {0.0, side - part};
   }
 }
 

@@ -1,0 +1,130 @@
+#include <cmath>
+#include <csignal>
+#include <filesystem>
+#include <fstream>
+#include <set>
+
+#include <gtest/gtest.h>
+#include <sys/resource.h>
+
+#include "core/base/errors.hpp"
+#include "core/base/files.hpp"
+#include "core/base/random.hpp"
+#include "core/base/version.hpp"
+
+namespace mapproof {
+namespace {
+
+namespace fs = std::filesystem;
+
+class Files : public ::testing::Test {
+ protected:
+  void SetUp() override {
+    folder_ = fs::temp_directory_path() /
+              ("mapproof-files-" + std::to_string(::getpid()) + "-" +
+               ::testing::UnitTest::GetInstance()->current_test_info()->name());
+    fs::remove_all(folder_);
+    fs::create_directories(folder_);
+  }
+  void TearDown() override { fs::remove_all(folder_); }
+
+  std::size_t entries() const {
+    return static_cast<std::size_t>(
+        std::distance(fs::directory_iterator(folder_), fs::directory_iterator()));
+  }
+
+  fs::path folder_;
+};
+
+TEST_F(Files, WhatIsWrittenIsReadBackAndNothingElseIsLeft) {
+  const std::string bytes("a\0b\n\xFF", 5);
+  write_file(folder_ / "deep" / "file", bytes);
+  EXPECT_EQ(read_file(folder_ / "deep" / "file"), bytes);
+  write_file(folder_ / "deep" / "file", "short");
+  EXPECT_EQ(read_file(folder_ / "deep" / "file"), "short");
+  EXPECT_EQ(std::distance(fs::directory_iterator(folder_ / "deep"), {}), 1);
+}
+
+TEST_F(Files, AFullDiskLeavesTheOldFileAndNoPart) {
+  write_file(folder_ / "file", "old");
+  const auto full = [&] {
+    ::signal(SIGXFSZ, SIG_IGN);
+    const rlimit limit{1000, 1000};
+    ::setrlimit(RLIMIT_FSIZE, &limit);
+    try {
+      write_file(folder_ / "file", std::string(100000, 'x'));
+    } catch (const IoError& error) {
+      std::cerr << error.what();
+      std::exit(7);
+    }
+    std::exit(0);
+  };
+  EXPECT_EXIT(full(), ::testing::ExitedWithCode(7), "file: cannot be written: File too large");
+  EXPECT_EQ(read_file(folder_ / "file"), "old");
+  EXPECT_EQ(entries(), 1U);
+}
+
+TEST_F(Files, TroubleNamesTheFile) {
+  const auto message = [](auto&& action) -> std::string {
+    try {
+      action();
+    } catch (const IoError& error) {
+      return error.what();
+    }
+    return "no error";
+  };
+  write_file(folder_ / "file", "12345");
+  EXPECT_NE(message([&] { read_file(folder_ / "none"); }).find("none: cannot be opened"),
+            std::string::npos);
+  EXPECT_NE(message([&] { read_file(folder_); }).find("is a folder"), std::string::npos);
+  EXPECT_NE(message([&] { read_file(folder_ / "file", 4); }).find("larger than 4 bytes"),
+            std::string::npos);
+  EXPECT_NE(message([&] { write_file(folder_ / "file" / "below", ""); }).find("file"),
+            std::string::npos);
+}
+
+TEST(Printable, ShowsWhatCannotBeSeenAndCutsWhatIsLong) {
+  EXPECT_EQ(printable("plain σ²"), "plain σ²");
+  EXPECT_EQ(printable("a\nb\x1B[31m"), "a\\u{000A}b\\u{001B}[31m");
+  EXPECT_EQ(printable("\u202Eabc"), "\\u{202E}abc");
+  EXPECT_EQ(printable("\xFF\xC0"), "\\xFF\\xC0");
+  EXPECT_EQ(printable(std::string(10000, 'x'), 5), "xxxxx...");
+}
+
+TEST(Random, FollowsTheReferenceOfItsAuthors) {
+  // First outputs of xoshiro256** seeded by SplitMix64(0), as every faithful port gives them.
+  Random random(0);
+  EXPECT_EQ(random.next(), 11091344671253066420ULL);
+  EXPECT_EQ(random.next(), 13793997310169335082ULL);
+}
+
+TEST(Random, HasTheMomentsOfItsDistributions) {
+  Random random(3);
+  const int n = 200000;
+  double sum = 0.0, squares = 0.0, uniform = 0.0;
+  for (int i = 0; i < n; ++i) {
+    const double z = random.normal();
+    sum += z;
+    squares += z * z;
+    uniform += random.uniform(2.0, 4.0);
+  }
+  EXPECT_NEAR(sum / n, 0.0, 5.0 / std::sqrt(n));
+  EXPECT_NEAR(squares / n, 1.0, 5.0 * std::sqrt(2.0 / n));
+  EXPECT_NEAR(uniform / n, 3.0, 5.0 / std::sqrt(3.0 * n));
+}
+
+TEST(DeriveSeed, DiffersForEveryKeyAndOrder) {
+  std::set<std::uint64_t> seeds{derive_seed(1, {}),     derive_seed(1, {0}),
+                                derive_seed(1, {0, 0}), derive_seed(1, {1, 2}),
+                                derive_seed(1, {2, 1}), derive_seed(2, {1, 2})};
+  EXPECT_EQ(seeds.size(), 6U);
+}
+
+TEST(Version, IsStated) {
+  EXPECT_FALSE(version().empty());
+  EXPECT_FALSE(source_commit().empty());
+  EXPECT_EQ(solver_digest().size(), 64U);
+}
+
+}  // namespace
+}  // namespace mapproof

@@ -1,0 +1,238 @@
+#include <cmath>
+
+#include <gtest/gtest.h>
+
+#include "core/base/errors.hpp"
+#include "core/embed/embedder.hpp"
+#include "core/embed/isomap.hpp"
+#include "core/embed/lpca.hpp"
+#include "core/embed/smacof.hpp"
+#include "core/linalg/symmetric_eigen.hpp"
+#include "core/simulate/sensors.hpp"
+#include "tests/support/worlds.hpp"
+
+namespace mapproof {
+namespace {
+
+using testing::distances_of;
+using testing::procrustes_gap;
+using testing::scattered;
+
+Proximities proximities_of(const Points& points) {
+  return {.inner_products = points * points.transpose(),
+          .squared_distances = distances_of(points).cwiseAbs2()};
+}
+
+MethodSetting setting(const MethodInfo& method) {
+  return {method.method, method.parameter ? std::optional<double>(6) : std::nullopt};
+}
+
+bool has(const Embedding& embedding, StatusCode code) {
+  return std::ranges::any_of(embedding.statuses,
+                             [&](const Status& status) { return status.code == code; });
+}
+
+TEST(LargestEigenpairs, AgreeDenseAndLanczos) {
+  const Points points = scattered(400, 3);
+  Eigen::MatrixXd A = (-3.0 * distances_of(points)).array().exp();
+  const EigenPairs few = largest_eigenpairs(A, 4);     // Lanczos
+  const EigenPairs many = largest_eigenpairs(A, 100);  // dense
+  EXPECT_LT((few.values - many.values.head(4)).cwiseAbs().maxCoeff(), 1e-9);
+  EXPECT_LT((A * few.vectors - few.vectors * few.values.asDiagonal()).norm(), 1e-8);
+  EXPECT_LT((few.vectors - many.vectors.leftCols(4)).cwiseAbs().maxCoeff(), 1e-7);
+}
+
+TEST(LargestEigenpairs, RefuseWhatIsNoMatrix) {
+  EXPECT_THROW(largest_eigenpairs(Eigen::MatrixXd::Zero(2, 3), 1), InvalidInput);
+  EXPECT_THROW(largest_eigenpairs(Eigen::MatrixXd::Zero(2, 2), 3), InvalidInput);
+  EXPECT_THROW(largest_eigenpairs(Eigen::MatrixXd::Constant(2, 2, NAN), 1), InvalidInput);
+}
+
+TEST(Lpca, RecoversPointsFromTheirDistances) {
+  const Points points = scattered(30, 1);
+  const Embedding map = lpca(distances_of(points).cwiseAbs2());
+  EXPECT_LT(procrustes_gap(points, map.coordinates), 1e-12);
+  EXPECT_LT(std::abs(map.spectrum(2)), 1e-12);
+}
+
+TEST(Lpca, SaysWhenTheDataAreFlat) {
+  Points line = scattered(10, 1);
+  line.col(1).setZero();
+  const Embedding map = lpca(distances_of(line).cwiseAbs2());
+  EXPECT_TRUE(has(map, StatusCode::kRankDeficient));
+  EXPECT_TRUE(map.coordinates.col(1).isZero());
+  EXPECT_TRUE(has(lpca(Eigen::MatrixXd::Zero(5, 5)), StatusCode::kRankDeficient));
+}
+
+TEST(Smacof, StaysAtAPerfectMap) {
+  const Points points = scattered(20, 4);
+  const Embedding map = smacof(distances_of(points), {}, points);
+  EXPECT_LT(*map.stress, 1e-28);
+  EXPECT_LT(procrustes_gap(points, map.coordinates), 1e-12);
+}
+
+TEST(Smacof, LowersItsStressAtEveryStep) {
+  const Points points = scattered(20, 4);
+  const Points start = scattered(20, 5);
+  const Eigen::MatrixXd D = distances_of(points);
+  const Eigen::MatrixXd W = (D.array() < 0.6).cast<double>();
+  for (const Eigen::MatrixXd& weights : {Eigen::MatrixXd(), W}) {
+    double last = HUGE_VAL;
+    for (int steps = 1; steps <= 30; ++steps) {
+      const Embedding map =
+          smacof(D, weights, start, {.relative_fall = 0.0, .max_iterations = steps});
+      EXPECT_LE(*map.stress, last * (1.0 + 1e-12));
+      EXPECT_TRUE(has(map, StatusCode::kNotConverged));
+      last = *map.stress;
+    }
+  }
+}
+
+TEST(Smacof, WithAllWeightsOneIsSmacofWithoutWeights) {
+  const Eigen::MatrixXd D = distances_of(scattered(15, 1)).cwiseSqrt();
+  const Points start = scattered(15, 2);
+  const Embedding plain = smacof(D, {}, start);
+  const Embedding weighted = smacof(D, Eigen::MatrixXd::Ones(15, 15), start);
+  EXPECT_NEAR(*plain.stress, *weighted.stress, 1e-9);
+}
+
+TEST(Smacof, RefusesWeightsThatLeaveTheLandmarksInPieces) {
+  Eigen::MatrixXd W = Eigen::MatrixXd::Zero(6, 6);
+  W.topLeftCorner(3, 3).setOnes();
+  W.bottomRightCorner(3, 3).setOnes();
+  EXPECT_THROW(smacof(distances_of(scattered(6, 1)), W, scattered(6, 2)), InvalidInput);
+}
+
+TEST(Isomap, UnrollsASpiral) {
+  const Eigen::Index n = 100;
+  Eigen::VectorXd along(n);
+  Points spiral(n, 2);
+  double length = 0.0;
+  for (Eigen::Index i = 0; i < n; ++i) {
+    const double angle = 1.0 + 0.08 * static_cast<double>(i);
+    spiral.row(i) << angle * std::cos(angle), angle * std::sin(angle);
+    if (i > 0) length += (spiral.row(i) - spiral.row(i - 1)).norm();
+    along(i) = length;
+  }
+  const Embedding map = isomap(distances_of(spiral), {.neighbours = 2});
+  const Eigen::VectorXd found = map.coordinates.col(0);
+  const double sign = found(n - 1) > found(0) ? 1.0 : -1.0;
+  EXPECT_LT((sign * found - (along.array() - along.mean()).matrix()).cwiseAbs().maxCoeff(), 0.05);
+}
+
+TEST(Isomap, WithAllNeighboursIsLpca) {
+  const Points points = scattered(20, 1);
+  const Embedding map = isomap(distances_of(points), {.neighbours = 19});
+  EXPECT_LT(procrustes_gap(points, map.coordinates), 1e-12);
+}
+
+TEST(Isomap, SaysThatItBridgedIslands) {
+  Points points(20, 2);
+  points << scattered(10, 1), (scattered(10, 2).rowwise() + Eigen::RowVector2d(50, 0));
+  const Embedding map = isomap(distances_of(points), {.neighbours = 3});
+  EXPECT_TRUE(has(map, StatusCode::kBridged));
+  EXPECT_TRUE(map.coordinates.allFinite());
+}
+
+class EveryMethod : public ::testing::TestWithParam<MethodInfo> {};
+
+TEST_P(EveryMethod, FollowsTheOrderOfTheRows) {
+  const Points points = scattered(25, 9);
+  std::vector<Eigen::Index> order(25);
+  for (std::size_t i = 0; i < 25; ++i) order[i] = static_cast<Eigen::Index>(i * 7 % 25);
+  const Points shuffled = points(order, Eigen::all);
+  const Points map = Embedder(proximities_of(points)).embed(setting(GetParam())).coordinates;
+  const Points other = Embedder(proximities_of(shuffled)).embed(setting(GetParam())).coordinates;
+  EXPECT_LT(procrustes_gap(map(order, Eigen::all), other), 1e-6);
+}
+
+TEST_P(EveryMethod, IsTheSameTwice) {
+  const Proximities data = proximities_of(scattered(25, 9));
+  EXPECT_EQ(Embedder(data).embed(setting(GetParam())).coordinates,
+            Embedder(data).embed(setting(GetParam())).coordinates);
+}
+
+TEST_P(EveryMethod, ScalesWithItsData) {
+  const Points points = scattered(25, 9);
+  const Points map = Embedder(proximities_of(points)).embed(setting(GetParam())).coordinates;
+  const Points big =
+      Embedder(proximities_of(1000.0 * points)).embed(setting(GetParam())).coordinates;
+  EXPECT_LT(procrustes_gap(1000.0 * map, big), 1e-3);
+}
+
+TEST_P(EveryMethod, GivesAMapOrSaysWhyNotForHardData) {
+  const auto check = [&](const Eigen::MatrixXd& D, const std::string& what) {
+    const Embedding map = Embedder({.inner_products = D, .squared_distances = D.cwiseAbs2()})
+                              .embed(setting(GetParam()));
+    EXPECT_EQ(map.coordinates.rows(), D.rows()) << what;
+    EXPECT_TRUE(map.coordinates.allFinite() || has(map, StatusCode::kFailed)) << what;
+  };
+  check(Eigen::MatrixXd::Zero(10, 10), "all landmarks at one place");
+  check(Eigen::MatrixXd::Ones(10, 10) - Eigen::MatrixXd::Identity(10, 10), "all equally far");
+  Points line = scattered(10, 1);
+  line.col(1).setZero();
+  check(distances_of(line), "on a line");
+  check(1e-150 * distances_of(scattered(10, 1)), "tiny");
+  check(1e100 * distances_of(scattered(10, 1)), "huge");
+  Eigen::MatrixXd torn = Eigen::MatrixXd::Constant(10, 10, HUGE_VAL);
+  torn.topLeftCorner(5, 5) = distances_of(scattered(5, 1));
+  torn.bottomRightCorner(5, 5) = distances_of(scattered(5, 2));
+  check(torn, "two groups without a common step");
+  check(distances_of(scattered(4, 1)), "fewer landmarks than neighbours");
+  check(distances_of(scattered(2, 1)), "two landmarks");
+}
+
+TEST_P(EveryMethod, CompletesPairsWithoutACommonStep) {
+  const Points points = scattered(25, 9);
+  Proximities data = proximities_of(points);
+  Eigen::Index a = 0, b = 0;
+  data.squared_distances.maxCoeff(&a, &b);
+  data.squared_distances(a, b) = data.squared_distances(b, a) = HUGE_VAL;
+  const Embedding map = Embedder(data).embed(setting(GetParam()));
+  EXPECT_TRUE(map.coordinates.allFinite());
+  EXPECT_LT(procrustes_gap(points, map.coordinates), 0.35);
+}
+
+INSTANTIATE_TEST_SUITE_P(Registry, EveryMethod, ::testing::ValuesIn(all_methods()),
+                         [](const auto& method) {
+                           std::string name(method.param.name);
+                           std::erase(name, '-');
+                           return name;
+                         });
+
+TEST(HistoryEmbedder, LeavesUnseenLandmarksOutAndNamesThem) {
+  Eigen::MatrixXd angles = Eigen::MatrixXd::NullaryExpr(10, 50, [](Eigen::Index i, Eigen::Index j) {
+    const auto row = static_cast<double>(i);
+    return std::sin(row) + 0.01 * static_cast<double>(j) * row;
+  });
+  angles.row(3).setConstant(NAN);
+  ObservationHistory history{
+      .sensor = Sensor::kBearing, .names = landmark_names(10), .values = angles};
+  const Embedding map = HistoryEmbedder(history, 50).embed({Method::kLpca, std::nullopt});
+  EXPECT_TRUE(map.coordinates.row(3).hasNaN());
+  EXPECT_TRUE(map.coordinates.row(2).allFinite());
+  ASSERT_TRUE(has(map, StatusCode::kLandmarkUnseen));
+  EXPECT_NE(map.statuses.back().detail.find("L4"), std::string::npos);
+}
+
+TEST(HistoryEmbedder, FailsPolitelyWhenNothingWasSeen) {
+  ObservationHistory history{.sensor = Sensor::kVisibility,
+                             .names = landmark_names(5),
+                             .values = Eigen::MatrixXd::Zero(5, 10)};
+  const Embedding map = HistoryEmbedder(history, 10).embed({Method::kIsomap, 3.0});
+  EXPECT_TRUE(has(map, StatusCode::kFailed));
+  EXPECT_EQ(map.coordinates.rows(), 5);
+}
+
+TEST(MethodNames, FindTheNearest) {
+  EXPECT_EQ(nearest_method_name("isomp"), "isomap");
+  EXPECT_EQ(nearest_method_name("smacof_knn"), "smacof-knn");
+  EXPECT_FALSE(method_named("ISOMAP"));
+  for (const MethodInfo& method : all_methods()) {
+    EXPECT_EQ(info(method.method).name, method.name);
+    EXPECT_EQ(method_named(method.name), method.method);
+  }
+}
+
+}  // namespace
+}  // namespace mapproof

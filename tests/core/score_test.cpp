@@ -1,0 +1,145 @@
+#include <cmath>
+
+#include <gtest/gtest.h>
+#include <Eigen/SVD>
+
+#include "core/align/affine.hpp"
+#include "core/base/errors.hpp"
+#include "core/score/map_score.hpp"
+#include "core/score/orientation_error.hpp"
+#include "tests/support/worlds.hpp"
+
+namespace mapproof {
+namespace {
+
+using testing::scattered;
+
+const Affine kSheared{.linear = (Eigen::Matrix2d() << 2, 0.3, -0.5, -1.1).finished(),
+                      .offset = {3, -4}};
+
+class FitAffine : public ::testing::TestWithParam<AffineFit> {};
+
+TEST_P(FitAffine, RecoversAnAffineMapExactly) {
+  const Points points = scattered(6, 1);
+  const Affine found = fit_affine(points, kSheared(points), GetParam());
+  EXPECT_LT((found.linear - kSheared.linear).cwiseAbs().maxCoeff(), 1e-12);
+  EXPECT_LT((found.offset - kSheared.offset).cwiseAbs().maxCoeff(), 1e-12);
+}
+
+TEST_P(FitAffine, RefusesTooFewAndCollinearPoints) {
+  EXPECT_THROW(fit_affine(scattered(2, 1), scattered(2, 2), GetParam()), InvalidInput);
+  Points line = scattered(5, 1);
+  line.col(1) = 2.0 * line.col(0);
+  EXPECT_THROW(fit_affine(line, scattered(5, 2), GetParam()), InvalidInput);
+  Points holed = scattered(5, 1);
+  holed(2, 0) = NAN;
+  EXPECT_THROW(fit_affine(holed, scattered(5, 2), GetParam()), InvalidInput);
+}
+
+INSTANTIATE_TEST_SUITE_P(Both, FitAffine,
+                         ::testing::Values(AffineFit::kLeastDistances, AffineFit::kLeastSquares));
+
+TEST(FitAffine, LeastDistancesThroughFourPointsMeetsThree) {
+  // The residuals of an affine fit through 4 points are one vector shared out by the points'
+  // affine dependency n; the least sum of distances puts all of it on the largest |n_i|.
+  const Points from = scattered(4, 3);
+  const Points to = scattered(4, 4);
+  const Eigen::Matrix<double, 4, 3> rows =
+      (Eigen::Matrix<double, 4, 3>() << from, Eigen::Vector4d::Ones()).finished();
+  const Eigen::Vector4d n =
+      Eigen::JacobiSVD<Eigen::Matrix<double, 4, 3>, Eigen::FullPivHouseholderQRPreconditioner>(
+          rows, Eigen::ComputeFullU)
+          .matrixU()
+          .col(3);
+  const double least = (n.transpose() * to).norm() / n.cwiseAbs().maxCoeff();
+  const Affine found = fit_affine(from, to, AffineFit::kLeastDistances);
+  const Eigen::VectorXd residuals = (found(from) - to).rowwise().norm();
+  EXPECT_NEAR(residuals.sum(), least, 1e-6 * least);
+  EXPECT_GT((fit_affine(from, to, AffineFit::kLeastSquares)(from) - to).rowwise().norm().sum(),
+            least * (1.0 + 1e-6));
+}
+
+TEST(FitAffine, LeastDistancesShrugsOffOneWrongAnchor) {
+  const Points from = scattered(8, 5);
+  Points to = kSheared(from);
+  to.row(2) += Eigen::RowVector2d(10, 10);
+  const Affine found = fit_affine(from, to, AffineFit::kLeastDistances);
+  EXPECT_LT((found.linear - kSheared.linear).cwiseAbs().maxCoeff(), 1e-5);
+}
+
+TEST(OrientationError, IsZeroForAnyProperAffineImageAndHundredForAMirror) {
+  const Points truth = scattered(15, 1);
+  EXPECT_EQ(orientation_error_percent(truth, 3.0 * truth), 0.0);
+  Points mirrored = truth;
+  mirrored.col(0) *= -1.0;
+  EXPECT_EQ(orientation_error_percent(truth, mirrored), 100.0);
+}
+
+TEST(OrientationError, AgreesWithCountingTriples) {
+  const Points truth = scattered(12, 1);
+  const Points estimate = scattered(12, 2);
+  const auto turn = [](const Points& p, Eigen::Index i, Eigen::Index j, Eigen::Index k) {
+    Eigen::Matrix3d m;
+    m << p.row(i), 1.0, p.row(j), 1.0, p.row(k), 1.0;
+    return m.determinant();
+  };
+  int wrong = 0, all = 0;
+  for (Eigen::Index i = 0; i < 12; ++i)
+    for (Eigen::Index j = i + 1; j < 12; ++j)
+      for (Eigen::Index k = j + 1; k < 12; ++k, ++all)
+        if (turn(truth, i, j, k) * turn(estimate, i, j, k) <= 0) ++wrong;
+  EXPECT_NEAR(orientation_error_percent(truth, estimate), 100.0 * wrong / all, 1e-12);
+}
+
+TEST(OrientationError, CountsFlattenedTriplesAsWrongAndLeavesFlatTruthOut) {
+  Points truth(4, 2);
+  truth << 0, 0, 1, 0, 2, 0, 0, 1;  // the first three are on a line
+  EXPECT_EQ(orientation_error_percent(truth, Points::Zero(4, 2)), 100.0);
+  EXPECT_EQ(orientation_error_percent(truth, truth), 0.0);
+  EXPECT_TRUE(std::isnan(orientation_error_percent(truth.topRows(3), truth.topRows(3))));
+}
+
+TEST(ScoreMap, AveragesTheErrorOverLandmarksThatAreNoAnchors) {
+  const Points truth = testing::grid(3, 3);
+  Points estimate = truth;
+  estimate.row(4) += Eigen::RowVector2d(0.3, 0.4);
+  const auto score = score_map(estimate, truth, {0, 2, 6, 8}, AffineFit::kLeastSquares);
+  ASSERT_TRUE(score);
+  EXPECT_NEAR(score->mpe_m, 0.5 / 5.0, 1e-15);
+  EXPECT_LT(score->mpe_all_fitted_m, 0.5 / 5.0);
+}
+
+TEST(ScoreMap, LeavesOutWhatIsNotOnTheMap) {
+  const Points truth = testing::grid(3, 3);
+  Points estimate = truth;
+  estimate.row(4).setConstant(NAN);
+  const auto score = score_map(estimate, truth, {0, 2, 6, 8}, AffineFit::kLeastSquares);
+  ASSERT_TRUE(score);
+  EXPECT_EQ(score->mpe_m, 0.0);
+  EXPECT_FALSE(score_map(Points::Constant(9, 2, NAN), truth, {}, AffineFit::kLeastSquares));
+}
+
+TEST(AlignToAnchors, ForgetsTheFrameOfTheEmbedding) {
+  const Points truth = scattered(10, 1);
+  const AlignedMap map =
+      align_to_anchors(kSheared(truth), truth, {0, 3, 5, 7}, AffineFit::kLeastDistances);
+  EXPECT_TRUE(map.aligned);
+  EXPECT_LT((map.positions_m - truth).cwiseAbs().maxCoeff(), 1e-12);
+}
+
+TEST(AlignToAnchors, SaysWhyItCannot) {
+  const Points truth = scattered(10, 1);
+  Points flat = truth;
+  flat.col(1).setZero();
+  const AlignedMap degenerate = align_to_anchors(flat, truth, {0, 1, 2}, AffineFit::kLeastSquares);
+  EXPECT_FALSE(degenerate.aligned);
+  EXPECT_EQ(degenerate.statuses.at(0).code, StatusCode::kAnchorsDegenerate);
+  Points holed = truth;
+  holed.row(1).setConstant(NAN);
+  const AlignedMap missing = align_to_anchors(holed, truth, {0, 1, 2}, AffineFit::kLeastSquares);
+  EXPECT_EQ(missing.statuses.at(0).code, StatusCode::kAnchorsMissing);
+  EXPECT_THROW(align_to_anchors(truth, flat, {0, 1, 2}, AffineFit::kLeastSquares), InvalidInput);
+}
+
+}  // namespace
+}  // namespace mapproof
