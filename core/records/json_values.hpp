@@ -11,15 +11,11 @@
 #include "core/model/sensor.hpp"
 #include "core/model/status.hpp"
 #include "core/records/json_cursor.hpp"
+#include "core/records/limits.hpp"
 
 namespace mapproof {
 
 /// The small values that several files hold, to and from JSON. Readers throw IoError.
-
-inline constexpr int kMostLandmarks = 5000;
-inline constexpr int kMostSteps = 1'000'000;
-inline constexpr double kMostEntries = 2e8;     ///< Of an observation history.
-inline constexpr double kFarthest_m = 1e9;      ///< Bound of coordinates that are read.
 
 Sensor read_sensor(const JsonCursor& value);
 

@@ -87,6 +87,18 @@ std::optional<double> number_in(std::string_view cell) {
   return value;
 }
 
+std::string number_problem(std::string_view cell) {
+  double value = 0.0;
+  const char* end = cell.data() + cell.size();
+  const auto result = std::from_chars(cell.data(), end, value);
+  if (result.ec == std::errc::result_out_of_range)
+    return in_quotes(cell) + " is beyond what a double holds";
+  if (result.ec == std::errc() && result.ptr == end)
+    return in_quotes(cell) + " is not finite";
+  const bool has_comma = result.ec == std::errc() && result.ptr != end && *result.ptr == ',';
+  return in_quotes(cell) + " is not a number" + (has_comma ? ": decimals stand behind a point" : "");
+}
+
 bool is_missing(std::string_view cell) {
   if (cell.empty()) return true;
   if (cell.size() > 4) return false;

@@ -20,6 +20,9 @@ std::string place_of(std::string_view text, std::size_t offset);
 /// name count as numbers. Empty if it is none, or lies outside the range of a double.
 std::optional<double> number_in(std::string_view cell);
 
+/// Why number_in() refuses the cell, or why an infinite one is no good.
+std::string number_problem(std::string_view cell);
+
 /// Whether the cell says that a value is missing: nothing, or NaN in any case.
 bool is_missing(std::string_view cell);
 

@@ -1,0 +1,273 @@
+#include "core/records/mrclam.hpp"
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <limits>
+#include <map>
+#include <set>
+#include <span>
+#include <system_error>
+
+#include <fmt/format.h>
+
+#include "core/base/errors.hpp"
+#include "core/base/files.hpp"
+#include "core/records/limits.hpp"
+#include "core/records/name_list.hpp"
+#include "core/records/observation_values.hpp"
+#include "core/records/table_reader.hpp"
+#include "core/records/text_input.hpp"
+
+namespace mapproof {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr int kLastRobot = 5;
+
+/// Rows of a .dat file, each of `width` numbers.
+class NumberRows {
+ public:
+  NumberRows(std::string_view text, const std::string& source, std::size_t width)
+      : source_(source), reader_(text, source, TableReader::kBlanks), values_(width) {}
+
+  bool next() {
+    if (!reader_.next(row_)) return false;
+    if (row_.cells.size() != values_.size())
+      fail(fmt::format("has {} numbers, expected {}", row_.cells.size(), values_.size()));
+    for (std::size_t i = 0; i < values_.size(); ++i) {
+      const std::optional<double> value = number_in(row_.cells[i]);
+      if (!value || !std::isfinite(*value)) fail(number_problem(row_.cells[i]));
+      values_[i] = *value;
+    }
+    return true;
+  }
+
+  [[noreturn]] void fail(const std::string& what) const {
+    throw IoError(source_, fmt::format("line {}", row_.line), what);
+  }
+
+  std::size_t line() const { return row_.line; }
+  double operator[](std::size_t i) const { return values_[i]; }
+  /// A number of somebody or something: an integer from 0.
+  int id(std::size_t i) const {
+    if (!(values_[i] >= 0.0 && values_[i] <= 1e9 && values_[i] == std::trunc(values_[i])))
+      fail("expected a number without decimals, got " + in_quotes(row_.cells[i]));
+    return static_cast<int>(values_[i]);
+  }
+
+ private:
+  const std::string& source_;
+  TableReader reader_;
+  TableRow row_;
+  std::vector<double> values_;
+};
+
+std::map<int, int> read_barcodes(const fs::path& path) {
+  const std::string source = path.string();
+  const std::string bytes = read_file(path);
+  std::map<int, int> subject_of;
+  NumberRows rows(checked_text(bytes, source), source, 2);
+  while (rows.next())
+    if (!subject_of.emplace(rows.id(1), rows.id(0)).second)
+      rows.fail(fmt::format("barcode {} is there twice", rows.id(1)));
+  return subject_of;
+}
+
+/// RobotN_Measurement.dat of every N, ascending.
+std::vector<fs::path> measurement_files(const fs::path& folder) {
+  constexpr std::string_view kStart = "Robot";
+  constexpr std::string_view kEnd = "_Measurement.dat";
+  std::map<int, fs::path> files;
+  std::error_code error;
+  for (fs::directory_iterator entry(folder, error), end; !error && entry != end;
+       entry.increment(error)) {
+    const std::string name = entry->path().filename().string();
+    if (!name.starts_with(kStart) || !name.ends_with(kEnd)) continue;
+    int robot = 0;
+    const char* digits_end = name.data() + name.size() - kEnd.size();
+    const auto [stop, problem] = std::from_chars(name.data() + kStart.size(), digits_end, robot);
+    if (problem == std::errc() && stop == digits_end) files.emplace(robot, entry->path());
+  }
+  if (error) throw IoError(folder.string(), "cannot be listed: " + error.message());
+  std::vector<fs::path> ordered;
+  for (const auto& [robot, path] : files) ordered.push_back(path);
+  return ordered;
+}
+
+struct Sighting {
+  double time_s;
+  int subject;
+  double value;
+};
+
+/// Gathers the looks of all robots, and counts what is left out.
+class Looks {
+ public:
+  Looks(const std::map<int, int>& subject_of, Sensor sensor)
+      : subject_of_(subject_of), sensor_(sensor) {
+    for (const auto& [barcode, subject] : subject_of)
+      if (subject > kLastRobot) rows_.emplace(subject, 0);
+    Eigen::Index row = 0;
+    for (auto& [subject, index] : rows_) index = row++;
+  }
+
+  const std::map<int, Eigen::Index>& rows() const { return rows_; }
+
+  void add_robot(const fs::path& path) {
+    const std::string source = path.string();
+    const std::string bytes = read_file(path);
+    std::vector<Sighting> sightings;
+    NumberRows rows(checked_text(bytes, source), source, 4);
+    while (rows.next()) sightings.push_back(sighting(rows));
+    std::ranges::stable_sort(sightings, {}, &Sighting::time_s);
+    for (auto first = sightings.begin(); first != sightings.end();) {
+      const auto last = std::find_if(first, sightings.end(), [&](const Sighting& other) {
+        return other.time_s != first->time_s;
+      });
+      add_look({first, last});
+      first = last;
+    }
+    check_size(source, "as a whole", rows_.size(), looks_.size());
+  }
+
+  Eigen::MatrixXd values() const {
+    const bool is_visibility = sensor_ == Sensor::kVisibility;
+    Eigen::MatrixXd values = Eigen::MatrixXd::Constant(
+        static_cast<Eigen::Index>(rows_.size()), static_cast<Eigen::Index>(looks_.size()),
+        is_visibility ? 0.0 : std::numeric_limits<double>::quiet_NaN());
+    for (std::size_t step = 0; step < looks_.size(); ++step)
+      for (const auto& [row, value] : looks_[step])
+        values(row, static_cast<Eigen::Index>(step)) = is_visibility ? 1.0 : value;
+    return values;
+  }
+
+  std::vector<std::string> remarks() const {
+    std::vector<std::string> remarks;
+    const auto add = [&](std::size_t count, std::string_view what) {
+      if (count > 0) remarks.push_back(fmt::format("{} {}", count, what));
+    };
+    add(of_nobody_, fmt::format("rows with barcodes of nobody dropped (barcodes {})",
+                                fmt::join(unknown_barcodes_, ", ")));
+    add(of_robots_, "rows that show other robots dropped");
+    add(repeated_, "rows dropped that show a landmark twice in one look: the first one counts");
+    add(empty_looks_, "looks that show no landmark dropped");
+    return remarks;
+  }
+
+ private:
+  using Look = std::map<Eigen::Index, double>;
+
+  Sighting sighting(const NumberRows& rows) {
+    const int barcode = rows.id(1);
+    for (const auto& [sensor, value] :
+         {std::pair(Sensor::kRange, rows[2]), std::pair(Sensor::kBearing, rows[3])})
+      if (const std::string problem = observation_problem(sensor, value); !problem.empty())
+        rows.fail(problem);
+    const auto known = subject_of_.find(barcode);
+    if (known == subject_of_.end()) {
+      ++of_nobody_;
+      unknown_barcodes_.insert(barcode);
+    }
+    return {.time_s = rows[0],
+            .subject = known == subject_of_.end() ? 0 : known->second,
+            .value = sensor_ == Sensor::kRange ? rows[2] : rows[3]};
+  }
+
+  void add_look(std::span<const Sighting> sightings) {
+    Look look;
+    for (const Sighting& seen : sightings) {
+      const auto row = rows_.find(seen.subject);
+      if (row != rows_.end() && !look.emplace(row->second, seen.value).second) ++repeated_;
+      if (row == rows_.end() && seen.subject != 0) ++of_robots_;
+    }
+    if (look.empty()) ++empty_looks_;
+    else looks_.push_back(std::move(look));
+  }
+
+  const std::map<int, int>& subject_of_;
+  Sensor sensor_;
+  std::map<int, Eigen::Index> rows_;  ///< Of each landmark's subject number.
+  std::vector<Look> looks_;
+  std::set<int> unknown_barcodes_;
+  std::size_t of_nobody_ = 0;
+  std::size_t of_robots_ = 0;
+  std::size_t repeated_ = 0;
+  std::size_t empty_looks_ = 0;
+};
+
+/// The truth in the order of `names`; NaN rows for those that the file does not hold.
+std::optional<Points> read_truth(const fs::path& path, const std::vector<std::string>& names,
+                                 std::vector<std::string>& remarks) {
+  std::error_code error;
+  if (!fs::exists(path, error)) {
+    remarks.push_back("no Landmark_Groundtruth.dat: the true positions are not known");
+    return std::nullopt;
+  }
+  const std::string source = path.string();
+  const std::string bytes = read_file(path);
+  const NamedPoints truth = parse_groundtruth(checked_text(bytes, source), source);
+  Points positions = Points::Constant(static_cast<Eigen::Index>(names.size()), 2,
+                                      std::numeric_limits<double>::quiet_NaN());
+  for (std::size_t i = 0; i < names.size(); ++i) {
+    const auto found = std::ranges::find(truth.names, names[i]);
+    if (found == truth.names.end())
+      remarks.push_back("no true position of landmark " + names[i]);
+    else
+      positions.row(static_cast<Eigen::Index>(i)) =
+          truth.positions_m.row(found - truth.names.begin());
+  }
+  return positions;
+}
+
+}  // namespace
+
+bool is_mrclam(const fs::path& folder) { return !measurement_files(folder).empty(); }
+
+NamedPoints parse_groundtruth(std::string_view text, const std::string& source) {
+  NumberRows rows(text, source, 5);
+  NameList names(source);
+  std::vector<double> coordinates;
+  while (rows.next()) {
+    names.add(fmt::format("{}", rows.id(0)), rows.line());
+    for (const std::size_t i : {1U, 2U}) {
+      if (std::abs(rows[i]) > kFarthest_m) rows.fail("a position beyond any map");
+      coordinates.push_back(rows[i]);
+    }
+  }
+  if (coordinates.empty()) throw IoError(source, "holds no landmarks");
+  using RowMajor = Eigen::Matrix<double, Eigen::Dynamic, 2, Eigen::RowMajor>;
+  return {.names = names.names(),
+          .positions_m = Eigen::Map<const RowMajor>(
+              coordinates.data(), static_cast<Eigen::Index>(names.names().size()), 2),
+          .places = names.places()};
+}
+
+ObservationSource read_mrclam(const fs::path& folder, Sensor sensor) {
+  const std::vector<fs::path> robots = measurement_files(folder);
+  if (robots.empty())
+    throw IoError(folder.string(), "is a folder without MRCLAM's RobotN_Measurement.dat");
+  const fs::path barcodes = folder / "Barcodes.dat";
+  const std::map<int, int> subject_of = read_barcodes(barcodes);
+  Looks looks(subject_of, sensor);
+  if (looks.rows().empty())
+    throw IoError(barcodes.string(), fmt::format("names no landmark: none above {}", kLastRobot));
+  for (const fs::path& robot : robots) looks.add_robot(robot);
+
+  ObservationSource result{.history = {.sensor = sensor, .names = {}, .values = looks.values()},
+                           .truth_m = std::nullopt,
+                           .remarks = looks.remarks(),
+                           .places = {},
+                           .path = folder.string()};
+  if (result.history.steps() == 0) throw IoError(folder.string(), "no look shows a landmark");
+  for (const auto& [subject, row] : looks.rows()) {
+    result.history.names.push_back(fmt::format("{}", subject));
+    result.places.push_back(fmt::format("subject {}", subject));
+  }
+  result.truth_m = read_truth(folder / "Landmark_Groundtruth.dat", result.history.names,
+                              result.remarks);
+  return result;
+}
+
+}  // namespace mapproof

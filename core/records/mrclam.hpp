@@ -1,0 +1,28 @@
+#pragma once
+
+#include <filesystem>
+
+#include "core/records/landmarks_csv.hpp"
+#include "core/records/observations.hpp"
+
+namespace mapproof {
+
+/// A data set of the UTIAS MRCLAM collection [leung2011]: Barcodes.dat, RobotN_Measurement.dat and,
+/// if it is there, Landmark_Groundtruth.dat.
+///
+/// The looks of all robots are pooled, robot by robot and in order of time: rows of one robot with
+/// one time stamp are one step. Landmarks are the subjects above 5, named by their number. Dropped
+/// and remarked: rows with barcodes of nobody, rows of robots (subjects 1 to 5), a landmark's
+/// second row in one look, and looks that then show no landmark, since a step at which nothing
+/// is seen tells nothing about any two landmarks.
+/// @return Visibility: 0 where a landmark was not seen. Bearing and range: NaN there.
+/// @throws IoError naming file and line.
+ObservationSource read_mrclam(const std::filesystem::path& folder, Sensor sensor);
+
+/// Whether the folder holds a RobotN_Measurement.dat.
+bool is_mrclam(const std::filesystem::path& folder);
+
+/// Landmark_Groundtruth.dat: subject, x, y, and their standard deviations, which are left out.
+NamedPoints parse_groundtruth(std::string_view text, const std::string& source);
+
+}  // namespace mapproof

@@ -1,0 +1,174 @@
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <tuple>
+
+#include <fmt/format.h>
+
+#include "core/base/errors.hpp"
+#include "core/records/limits.hpp"
+#include "core/records/name_list.hpp"
+#include "core/records/observation_values.hpp"
+#include "core/records/table_reader.hpp"
+#include "core/records/text_input.hpp"
+
+namespace mapproof {
+namespace {
+
+/// Which cell of a row holds what.
+struct Columns {
+  std::size_t step = 0;
+  std::size_t landmark = 1;
+  std::size_t value = 2;
+};
+
+struct Entry {
+  Eigen::Index landmark;
+  double step;
+  std::size_t line;
+  double value;
+};
+
+constexpr std::array<std::string_view, 3> kWords = {"step", "landmark", "value"};
+
+bool names_columns(const TableRow& row) {
+  return std::ranges::any_of(row.cells, [](std::string_view cell) {
+    return std::ranges::find(kWords, lower_case(cell)) != kWords.end();
+  });
+}
+
+Columns columns_of(const TableRow& header, const std::string& source) {
+  const std::string place = fmt::format("line {}", header.line);
+  std::array<std::size_t, 3> found;
+  found.fill(header.cells.size());
+  for (std::size_t i = 0; i < header.cells.size(); ++i) {
+    const auto word = std::ranges::find(kWords, lower_case(header.cells[i]));
+    if (word == kWords.end())
+      throw IoError(source, place, fmt::format("expected the columns step, landmark, value; got {}{}",
+                                               in_quotes(header.cells[i]),
+                                               lower_case(header.cells[i]) == "time"
+                                                   ? ": number the looks 0, 1, 2, ..."
+                                                   : ""));
+    std::size_t& column = found[static_cast<std::size_t>(word - kWords.begin())];
+    if (column != header.cells.size())
+      throw IoError(source, place, fmt::format("two columns are named {}", *word));
+    column = i;
+  }
+  for (std::size_t i = 0; i < kWords.size(); ++i)
+    if (found[i] == header.cells.size())
+      throw IoError(source, place, fmt::format("no column is named {}", kWords[i]));
+  return {.step = found[0], .landmark = found[1], .value = found[2]};
+}
+
+double read_step(std::string_view cell, const std::string& source, const std::string& place) {
+  const std::optional<double> step = number_in(cell);
+  if (!step) throw IoError(source, place, "step: " + number_problem(cell));
+  if (!(*step >= 0.0 && *step <= 0x1p53))
+    throw IoError(source, place, "a step is an integer from 0, got " + in_quotes(cell));
+  if (*step != std::trunc(*step))
+    throw IoError(source, place, "a step is an integer, " + in_quotes(cell) +
+                                     " looks like a time: number the looks 0, 1, 2, ...");
+  return *step;
+}
+
+Entry read_entry(const TableRow& row, const Columns& columns, Sensor sensor,
+                 const std::string& source, NameList& names) {
+  const auto place = [&] { return fmt::format("line {}", row.line); };
+  if (row.cells.size() != kWords.size())
+    throw IoError(source, place(),
+                  fmt::format("has {} cells, expected step, landmark, value", row.cells.size()));
+  const std::optional<double> step = number_in(row.cells[columns.step]);
+  const bool is_step = step && *step >= 0.0 && *step <= 0x1p53 && *step == std::trunc(*step);
+  const std::optional<double> value = observation_in(row.cells[columns.value], sensor);
+  if (!value) throw IoError(source, place(), cell_problem(row.cells[columns.value], sensor));
+  return {.landmark = names.find_or_add(row.cells[columns.landmark], row.line),
+          .step = is_step ? *step : read_step(row.cells[columns.step], source, place()),
+          .line = row.line,
+          .value = *value};
+}
+
+void refuse_repeats(std::vector<Entry>& entries, const NameList& names, const std::string& source) {
+  std::ranges::sort(entries, {}, [](const Entry& entry) {
+    return std::tuple(entry.landmark, entry.step, entry.line);
+  });
+  const Entry* repeat = nullptr;
+  for (std::size_t i = 1; i < entries.size(); ++i)
+    if (entries[i].landmark == entries[i - 1].landmark && entries[i].step == entries[i - 1].step &&
+        (repeat == nullptr || entries[i].line < repeat->line))
+      repeat = &entries[i];
+  if (repeat == nullptr) return;
+  throw IoError(source, fmt::format("line {}", repeat->line),
+                fmt::format("landmark {} at step {:.0f} is already on line {}",
+                            in_quotes(names.names()[static_cast<std::size_t>(repeat->landmark)]),
+                            repeat->step, (repeat - 1)->line));
+}
+
+std::vector<double> distinct_steps(const std::vector<Entry>& entries) {
+  std::vector<double> steps;
+  steps.reserve(entries.size());
+  for (const Entry& entry : entries) steps.push_back(entry.step);
+  std::ranges::sort(steps);
+  const auto rest = std::ranges::unique(steps);
+  steps.erase(rest.begin(), rest.end());
+  return steps;
+}
+
+ObservationSource arrange(const std::vector<Entry>& entries, const NameList& names, Sensor sensor,
+                          const std::string& source) {
+  const std::vector<double> steps = distinct_steps(entries);
+  check_size(source, "as a whole", names.names().size(), steps.size());
+  ObservationSource result{.history = {.sensor = sensor, .names = names.names(), .values = {}},
+                           .truth_m = std::nullopt,
+                           .remarks = {},
+                           .places = names.places(),
+                           .path = source};
+  const bool lists_sightings =
+      sensor == Sensor::kVisibility &&
+      std::ranges::all_of(entries, [](const Entry& entry) { return entry.value == 1.0; });
+  if (lists_sightings)
+    result.remarks.push_back("only sightings are listed: all other entries are taken as not seen");
+  result.history.values.setConstant(
+      static_cast<Eigen::Index>(names.names().size()), static_cast<Eigen::Index>(steps.size()),
+      lists_sightings ? 0.0 : std::numeric_limits<double>::quiet_NaN());
+  for (const Entry& entry : entries) {
+    const auto column = std::ranges::lower_bound(steps, entry.step) - steps.begin();
+    result.history.values(entry.landmark, column) = entry.value;
+  }
+  return result;
+}
+
+}  // namespace
+
+bool has_long_header(std::string_view text, const std::string& source) {
+  TableReader reader(text, source);
+  TableRow row;
+  if (!reader.next(row)) return false;
+  const auto has = [&](std::string_view word) {
+    return std::ranges::any_of(row.cells,
+                               [&](std::string_view cell) { return lower_case(cell) == word; });
+  };
+  return has("landmark") && has("value");
+}
+
+ObservationSource read_long(std::string_view text, const std::string& source, Sensor sensor) {
+  TableReader reader(text, source);
+  TableRow row;
+  NameList names(source);
+  std::vector<Entry> entries;
+  Columns columns;
+  for (bool is_first = true; reader.next(row); is_first = false) {
+    if (is_first && names_columns(row)) {
+      columns = columns_of(row, source);
+      continue;
+    }
+    entries.push_back(read_entry(row, columns, sensor, source, names));
+    if (static_cast<double>(entries.size()) > kMostEntries)
+      throw IoError(source, fmt::format("more than {:.0f} rows", kMostEntries));
+  }
+  if (entries.empty()) throw IoError(source, "holds no observations");
+  refuse_repeats(entries, names, source);
+  return arrange(entries, names, sensor, source);
+}
+
+}  // namespace mapproof

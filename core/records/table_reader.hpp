@@ -1,0 +1,48 @@
+#pragma once
+
+#include <deque>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace mapproof {
+
+/// One row of a text table. The cells live until the next row is read.
+struct TableRow {
+  std::size_t line = 0;  ///< Where it starts, from 1.
+  std::vector<std::string_view> cells;
+};
+
+/// Reads a table row by row: RFC 4180 with commas, semicolons or tabs, LF or CR LF, cells in quotes
+/// or not, or with runs of blanks between bare cells. Blanks around bare cells, empty lines and
+/// lines that start with '#' are passed over. Linear in the size of the text.
+class TableReader {
+ public:
+  /// The separator is what the first row holds outside quotes: a tab, else a semicolon, else a
+  /// comma.
+  /// @param text  From checked_text(); must outlive the reader, as must `source`.
+  TableReader(std::string_view text, const std::string& source);
+
+  static constexpr char kBlanks = ' ';  ///< A separator: any number of spaces and tabs.
+  TableReader(std::string_view text, const std::string& source, char separator);
+
+  /// @return Whether there was a row. @throws IoError with the line for broken quotes.
+  bool next(TableRow& row);
+
+ private:
+  bool skip_to_row();
+  void split_blanks(std::string_view line, TableRow& row) const;
+  void split_bare(std::string_view line, TableRow& row) const;
+  void split_quoted(TableRow& row);
+  std::string_view quoted_cell(std::size_t row_line);
+  std::string_view rest_of_line() const;
+
+  std::string_view text_;
+  const std::string& source_;
+  char separator_;
+  std::size_t at_ = 0;
+  std::size_t line_ = 1;
+  std::deque<std::string> unescaped_;  ///< Of the current row.
+};
+
+}  // namespace mapproof
