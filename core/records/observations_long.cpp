@@ -2,7 +2,6 @@
 #include <array>
 #include <cmath>
 #include <limits>
-#include <tuple>
 
 #include <fmt/format.h>
 
@@ -88,54 +87,47 @@ Entry read_entry(const TableRow& row, const Columns& columns, Sensor sensor,
           .value = *value};
 }
 
-void refuse_repeats(std::vector<Entry>& entries, const NameList& names, const std::string& source) {
-  std::ranges::sort(entries, {}, [](const Entry& entry) {
-    return std::tuple(entry.landmark, entry.step, entry.line);
-  });
-  const Entry* repeat = nullptr;
-  for (std::size_t i = 1; i < entries.size(); ++i)
-    if (entries[i].landmark == entries[i - 1].landmark && entries[i].step == entries[i - 1].step &&
-        (repeat == nullptr || entries[i].line < repeat->line))
-      repeat = &entries[i];
-  if (repeat == nullptr) return;
-  throw IoError(source, fmt::format("line {}", repeat->line),
-                fmt::format("landmark {} at step {:.0f} is already on line {}",
-                            in_quotes(names.names()[static_cast<std::size_t>(repeat->landmark)]),
-                            repeat->step, (repeat - 1)->line));
-}
-
+/// Ascending. Rows mostly come step by step, so that little is left to sort.
 std::vector<double> distinct_steps(const std::vector<Entry>& entries) {
   std::vector<double> steps;
-  steps.reserve(entries.size());
-  for (const Entry& entry : entries) steps.push_back(entry.step);
+  for (const Entry& entry : entries)
+    if (steps.empty() || steps.back() != entry.step) steps.push_back(entry.step);
   std::ranges::sort(steps);
   const auto rest = std::ranges::unique(steps);
   steps.erase(rest.begin(), rest.end());
   return steps;
 }
 
-ObservationSource arrange(const std::vector<Entry>& entries, const NameList& names, Sensor sensor,
-                          const std::string& source) {
+[[noreturn]] void refuse_repeat(const Entry& repeat, const std::vector<Entry>& entries,
+                                const NameList& names, const std::string& source) {
+  const auto first = std::ranges::find_if(entries, [&](const Entry& entry) {
+    return entry.landmark == repeat.landmark && entry.step == repeat.step;
+  });
+  throw IoError(source, fmt::format("line {}", repeat.line),
+                fmt::format("landmark {} at step {:.0f} is already on line {}",
+                            in_quotes(names.names()[static_cast<std::size_t>(repeat.landmark)]),
+                            repeat.step, first->line));
+}
+
+/// @param others  What stands where nothing is listed.
+Eigen::MatrixXd arrange(const std::vector<Entry>& entries, const NameList& names, double others,
+                        const std::string& source) {
   const std::vector<double> steps = distinct_steps(entries);
   check_size(source, "as a whole", names.names().size(), steps.size());
-  ObservationSource result{.history = {.sensor = sensor, .names = names.names(), .values = {}},
-                           .truth_m = std::nullopt,
-                           .remarks = {},
-                           .places = names.places(),
-                           .path = source};
-  const bool lists_sightings =
-      sensor == Sensor::kVisibility &&
-      std::ranges::all_of(entries, [](const Entry& entry) { return entry.value == 1.0; });
-  if (lists_sightings)
-    result.remarks.push_back("only sightings are listed: all other entries are taken as not seen");
-  result.history.values.setConstant(
-      static_cast<Eigen::Index>(names.names().size()), static_cast<Eigen::Index>(steps.size()),
-      lists_sightings ? 0.0 : std::numeric_limits<double>::quiet_NaN());
+  const auto landmarks = static_cast<Eigen::Index>(names.names().size());
+  Eigen::MatrixXd values =
+      Eigen::MatrixXd::Constant(landmarks, static_cast<Eigen::Index>(steps.size()), others);
+  std::vector<bool> is_set(static_cast<std::size_t>(values.size()));
+  std::size_t column = 0;
   for (const Entry& entry : entries) {
-    const auto column = std::ranges::lower_bound(steps, entry.step) - steps.begin();
-    result.history.values(entry.landmark, column) = entry.value;
+    if (steps[column] != entry.step)
+      column = static_cast<std::size_t>(std::ranges::lower_bound(steps, entry.step) - steps.begin());
+    auto is_repeated = is_set[column * names.names().size() + static_cast<std::size_t>(entry.landmark)];
+    if (is_repeated) refuse_repeat(entry, entries, names, source);
+    is_repeated = true;
+    values(entry.landmark, static_cast<Eigen::Index>(column)) = entry.value;
   }
-  return result;
+  return values;
 }
 
 }  // namespace
@@ -167,8 +159,20 @@ ObservationSource read_long(std::string_view text, const std::string& source, Se
       throw IoError(source, fmt::format("more than {:.0f} rows", kMostEntries));
   }
   if (entries.empty()) throw IoError(source, "holds no observations");
-  refuse_repeats(entries, names, source);
-  return arrange(entries, names, sensor, source);
+  const bool lists_sightings =
+      sensor == Sensor::kVisibility &&
+      std::ranges::all_of(entries, [](const Entry& entry) { return entry.value == 1.0; });
+  const double others = lists_sightings ? 0.0 : std::numeric_limits<double>::quiet_NaN();
+  ObservationSource result{.history = {.sensor = sensor,
+                                       .names = names.names(),
+                                       .values = arrange(entries, names, others, source)},
+                           .truth_m = std::nullopt,
+                           .remarks = {},
+                           .places = names.places(),
+                           .path = source};
+  if (lists_sightings)
+    result.remarks.push_back("only sightings are listed: all other entries are taken as not seen");
+  return result;
 }
 
 }  // namespace mapproof

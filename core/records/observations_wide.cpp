@@ -24,7 +24,8 @@ bool is_word_for_names(std::string_view cell) {
 /// 0, 1, 2, ... or 1, 2, 3, ...: step numbers, at least to 2 so that they are no visibilities.
 bool counts_steps(Cells cells) {
   const std::optional<double> first = cells.empty() ? std::nullopt : number_in(cells.front());
-  if (!first || (*first != 0.0 && *first != 1.0) || *first + cells.size() < 3.0) return false;
+  if (!first || (*first != 0.0 && *first != 1.0)) return false;
+  if (*first + static_cast<double>(cells.size()) < 3.0) return false;
   for (std::size_t i = 0; i < cells.size(); ++i)
     if (number_in(cells[i]) != *first + static_cast<double>(i)) return false;
   return true;
@@ -33,7 +34,7 @@ bool counts_steps(Cells cells) {
 bool is_header(const TableRow& row) {
   const Cells steps = Cells(row.cells).subspan(1);
   if (is_word_for_names(row.cells.front())) return true;
-  if (steps.empty()) return is_text(row.cells.front());
+  if (steps.empty()) return false;
   const auto numbers = std::ranges::count_if(steps, [](std::string_view cell) {
     return !is_missing(cell) && !is_text(cell);
   });
@@ -69,7 +70,8 @@ class WideTable {
     } else {
       names_.add(fmt::format("L{}", names_.names().size() + 1), row.line);
     }
-    if (cells.empty()) throw IoError(source_, place, "a name without any value");
+    if (cells.empty())
+      throw IoError(source_, place, "a single cell: cells stand between commas, semicolons or tabs");
     check_size(source_, place, names_.names().size(), cells.size());
     add_values(cells, place);
   }

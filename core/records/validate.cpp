@@ -1,0 +1,153 @@
+#include "core/records/validate.hpp"
+
+#include <algorithm>
+#include <array>
+#include <system_error>
+
+#include <fmt/format.h>
+
+#include "core/base/errors.hpp"
+#include "core/base/files.hpp"
+#include "core/records/experiment_json.hpp"
+#include "core/records/folder_lock.hpp"
+#include "core/records/json_cursor.hpp"
+#include "core/records/map_files.hpp"
+#include "core/records/mrclam.hpp"
+#include "core/records/observation_values.hpp"
+#include "core/records/run_json.hpp"
+#include "core/records/study_files.hpp"
+#include "core/records/study_store.hpp"
+#include "core/records/text_input.hpp"
+#include "core/records/timings_jsonl.hpp"
+#include "core/records/validate_table.hpp"
+
+namespace mapproof {
+namespace {
+
+namespace fs = std::filesystem;
+
+void check_experiment_file(std::string_view text, const std::string& source) {
+  parse_experiment(text, source);
+  for (const std::string& profile : profiles(text, source)) parse_experiment(text, source, profile);
+}
+
+struct KnownSchema {
+  std::string_view name;
+  void (*check)(std::string_view text, const std::string& source);
+};
+
+constexpr std::array kSchemas = {
+    KnownSchema{"mapproof.experiment", check_experiment_file},
+    KnownSchema{"mapproof.map", [](auto text, auto& source) { parse_map(text, source); }},
+    KnownSchema{"mapproof.maps", [](auto text, auto& source) { parse_maps(text, source); }},
+    KnownSchema{"mapproof.observations",
+                [](auto text, auto& source) { parse_observations(text, source, std::nullopt); }},
+    KnownSchema{"mapproof.run", [](auto text, auto& source) { parse_run(text, source); }},
+    KnownSchema{"mapproof.study", [](auto text, auto& source) { parse_study(text, source); }},
+};
+
+void check_json(std::string_view text, const ForeignReader& foreign, Finding& finding) {
+  const JsonDocument document = parse_json(text, finding.path);
+  const SchemaId schema = schema_of(document.cursor());
+  finding.kind = printable(fmt::format("{} {}", schema.name, schema.version));
+  const auto known = std::ranges::find(kSchemas, schema.name, &KnownSchema::name);
+  if (known != kSchemas.end()) known->check(text, finding.path);
+  else if (foreign && foreign(schema.name, text, finding.path)) return;
+  else if (!schema.name.starts_with("mapproof."))
+    document.cursor().at("schema").at("name").fail("unknown schema " + in_quotes(schema.name));
+}
+
+bool is_table(const fs::path& path) {
+  constexpr std::array<std::string_view, 4> kExtensions = {".csv", ".tsv", ".txt", ".dat"};
+  return std::ranges::find(kExtensions, path.extension()) != kExtensions.end();
+}
+
+void check_file(const fs::path& path, const ForeignReader& foreign, Finding& finding) {
+  const std::string bytes = read_file(path);
+  if (path.filename() == "timings.jsonl") {
+    finding.kind = "timings";
+    parse_timings(bytes, finding.path);
+    return;
+  }
+  const std::string_view text = checked_text(bytes, finding.path);
+  const std::size_t start = text.find_first_not_of(" \t\r\n");
+  const bool is_json = start != std::string_view::npos && text[start] == '{';
+  if (is_json || path.extension() == ".json") check_json(text, foreign, finding);
+  else if (is_table(path)) check_table(text, path, finding.kind);
+  else throw IoError(finding.path, "is no file that mapproof reads or writes");
+}
+
+Finding check(const fs::path& path, const ForeignReader& foreign) {
+  Finding finding{.path = path.string(), .kind = {}, .problem = {}};
+  try {
+    check_file(path, foreign, finding);
+  } catch (const std::exception& error) {
+    finding.problem = error.what();
+  }
+  return finding;
+}
+
+/// The JSON files of a study's folder and timings.jsonl; figures and pages are of other kinds.
+std::vector<fs::path> study_paths(const fs::path& folder) {
+  std::vector<fs::path> paths;
+  std::error_code error;
+  for (fs::recursive_directory_iterator entry(folder, error), end; !error && entry != end;
+       entry.increment(error)) {
+    std::error_code ignored;
+    const bool is_ours = entry->path().extension() == ".json" ||
+                         entry->path().filename() == "timings.jsonl" || is_leftover(entry->path());
+    if (is_ours && entry->is_regular_file(ignored)) paths.push_back(entry->path());
+  }
+  if (error) throw IoError(folder.string(), "cannot be searched: " + error.message());
+  std::ranges::sort(paths);
+  return paths;
+}
+
+/// What a single file does not show: that the runs belong to the experiment and have their maps.
+Finding check_study(const fs::path& folder) {
+  Finding finding{.path = folder.string(), .kind = "study", .problem = {}};
+  try {
+    for (const Run& run : read_study(folder).runs) {
+      const std::size_t maps = read_maps(folder, run.id).size();
+      if (maps > run.records.size())
+        throw IoError(StudyFiles{folder}.map(run.id).string(), "/maps",
+                      fmt::format("{} maps for {} records", maps, run.records.size()));
+    }
+  } catch (const std::exception& error) {
+    finding.problem = error.what();
+  }
+  return finding;
+}
+
+std::vector<Finding> check_folder(const fs::path& folder, const ForeignReader& foreign) {
+  if (is_study(folder)) {
+    std::vector<Finding> findings = {check_study(folder)};
+    for (const fs::path& path : study_paths(folder)) {
+      findings.push_back(check(path, foreign));
+      if (is_leftover(path)) findings.back().problem = findings.back().path + ": left by a killed process";
+    }
+    return findings;
+  }
+  Finding finding{.path = folder.string(), .kind = {}, .problem = {}};
+  if (!is_mrclam(folder)) {
+    finding.problem = finding.path + ": is a folder with no study and no MRCLAM data in it";
+    return {finding};
+  }
+  finding.kind = "MRCLAM observations";
+  read_mrclam(folder, Sensor::kVisibility);
+  return {finding};
+}
+
+}  // namespace
+
+std::vector<Finding> validate(const fs::path& path, const ForeignReader& foreign) {
+  std::error_code error;
+  if (!fs::is_directory(path, error)) return {check(path, foreign)};
+  try {
+    return check_folder(path, foreign);
+  } catch (const std::exception& problem) {
+    return {{.path = path.string(), .kind = {}, .problem = problem.what()}};
+  }
+}
+
+}  // namespace mapproof

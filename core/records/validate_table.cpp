@@ -1,0 +1,79 @@
+#include "core/records/validate_table.hpp"
+
+#include <algorithm>
+#include <optional>
+
+#include <fmt/format.h>
+
+#include "core/base/errors.hpp"
+#include "core/records/landmarks_csv.hpp"
+#include "core/records/observation_values.hpp"
+#include "core/records/table_reader.hpp"
+#include "core/records/text_input.hpp"
+
+namespace mapproof {
+namespace {
+
+using Reader = ObservationSource (*)(std::string_view, const std::string&, Sensor);
+
+/// Of the three kinds the bearings' error says most: values that fit none are often degrees.
+void check_observations(std::string_view text, const std::string& source, Reader reader) {
+  for (const Sensor sensor : {Sensor::kVisibility, Sensor::kRange}) {
+    try {
+      reader(text, source, sensor);
+      return;
+    } catch (const IoError&) {
+    }
+  }
+  reader(text, source, Sensor::kBearing);
+}
+
+bool is_map(const TableRow& header) {
+  return header.cells.size() >= 6 && header.cells[0] == "name" && header.cells[3] == "true_x_m" &&
+         header.cells.back() == "anchor";
+}
+
+void check_map(TableReader& reader, const TableRow& header, const std::string& source) {
+  const std::size_t width = header.cells.size();
+  TableRow row;
+  while (reader.next(row)) {
+    const std::string place = fmt::format("line {}", row.line);
+    if (row.cells.size() != width)
+      throw IoError(source, place, fmt::format("has {} cells, expected {}", row.cells.size(), width));
+    for (std::size_t i = 1; i < width; ++i)
+      if (!row.cells[i].empty() && !number_in(row.cells[i]))
+        throw IoError(source, place, number_problem(row.cells[i]));
+  }
+}
+
+bool is_part_of_mrclam(const std::filesystem::path& path) {
+  const std::string name = path.filename().string();
+  return name == "Barcodes.dat" || name.ends_with("_Measurement.dat");
+}
+
+}  // namespace
+
+void check_table(std::string_view text, const std::filesystem::path& path, std::string& kind) {
+  const std::string source = path.string();
+  if (is_part_of_mrclam(path))
+    throw IoError(source, "is one file of an MRCLAM data set: check the folder");
+  TableReader reader(text, source);
+  TableRow first;
+  if (reader.next(first) && is_map(first)) {
+    kind = "map CSV";
+    return check_map(reader, first, source);
+  }
+  if (has_long_header(text, source)) {
+    kind = "long CSV observations";
+    return check_observations(text, source, read_long);
+  }
+  try {
+    read_landmarks(path);
+    kind = "landmarks with positions";
+  } catch (const IoError&) {
+    kind = "wide CSV observations";
+    check_observations(text, source, read_wide);
+  }
+}
+
+}  // namespace mapproof
