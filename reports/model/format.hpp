@@ -13,7 +13,7 @@ inline constexpr const char* kMissingText = "\u2013";
 /// "–" if it is no finite number. Zero carries no sign.
 std::string format_number(double value, int decimals, bool with_sign = false);
 
-/// As a reader sees it: "0.219", "0.191 to 0.247", "–".
+/// As a reader sees it: "0.219", "0.191–0.247", "–".
 std::string format_cell(const Cell& cell);
 
 /// "1 run", "25 runs".

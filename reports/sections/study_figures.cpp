@@ -19,13 +19,14 @@ constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 /// One of the two quantities that curves show.
 struct Quantity {
   const char* id;
-  const char* axis;
+  const char* name;
+  const char* unit;
   const char* words;
   std::optional<MeanEstimate> SettingSummary::*estimate;
 };
 
-constexpr Quantity kMpe{"mpe", "MPE [m]", "mean position error", &SettingSummary::mpe_m};
-constexpr Quantity kMoe{"moe", "MOE [%]", "mean orientation error", &SettingSummary::moe_percent};
+constexpr Quantity kMpe{"mpe", "MPE", "m", "mean position error", &SettingSummary::mpe_m};
+constexpr Quantity kMoe{"moe", "MOE", "%", "mean orientation error", &SettingSummary::moe_percent};
 
 /// Methods that share a figure: the paper, too, draws its curves in two.
 struct Family {
@@ -83,12 +84,13 @@ std::string curve_caption(const std::vector<std::vector<SettingSummary>>& curves
   for (const auto& steps : curves) {
     const auto& estimate = steps.back().*quantity.estimate;
     if (!estimate) continue;
-    ends += fmt::format("{}{} {:.3g} {}", ends.empty() ? "" : "; ", label(steps.back().setting),
-                        estimate->mean, quantity.estimate == kMpe.estimate ? "m" : "%");
+    ends += fmt::format("{}{}: {:.3g} {}", ends.empty() ? "" : "; ", label(steps.back().setting),
+                        estimate->mean, quantity.unit);
   }
   const SettingSummary& first = curves.front().back();
-  return fmt::format("{}, methods {}: {} over observations. After {}: {}.",
-                     title_of(first.sensor), family.words, quantity.words, first.step, ends);
+  return fmt::format("{}, methods {}: {} ({}) over observations. After {} of them \u2013 {}.",
+                     title_of(first.sensor), family.words, quantity.words, quantity.name,
+                     first.step, ends);
 }
 
 std::optional<Figure> curve_figure(const History& history, const Quantity& quantity,
@@ -102,8 +104,8 @@ std::optional<Figure> curve_figure(const History& history, const Quantity& quant
   const Sensor sensor = shown.front().front().sensor;
   ErrorCurveSpec spec;
   spec.id = fmt::format("{}-{}-{}", quantity.id, name(sensor), family.id);
-  spec.title = fmt::format("{}: methods {}", title_of(sensor), family.words);
-  spec.y_label = quantity.axis;
+  spec.title = fmt::format("{}, {}: methods {}", title_of(sensor), quantity.name, family.words);
+  spec.y_label = fmt::format("{} [{}]", quantity.name, quantity.unit);
   spec.quantity = quantity.words;
   spec.caption = curve_caption(shown, quantity, family);
   for (const auto& steps : shown) {
