@@ -1,0 +1,114 @@
+#include "reports/html/report_html.hpp"
+
+#include <regex>
+#include <set>
+
+#include <gtest/gtest.h>
+
+#include "core/base/errors.hpp"
+#include "reports/html/escape.hpp"
+#include "reports/html/sha256.hpp"
+#include "reports/sections/study_report.hpp"
+#include "tests/reports/hostile_report.hpp"
+#include "tests/reports/synthetic_study.hpp"
+
+namespace mapproof {
+namespace {
+
+std::string study_page() {
+  const Study study = test::synthetic_study(3, 1);
+  const StudyFigures figures =
+      study_figures(study, [&](const RunId& run) { return test::synthetic_maps(study, run); });
+  const auto timings = test::synthetic_timings(study);
+  const auto sessions = test::synthetic_sessions();
+  return report_html(study_report({study, sessions, timings, figures, "mapproof run x"}),
+                     load_templates(), [](const std::string& id) {
+                       return "<svg id=\"" + id + "\" viewBox=\"0 0 4 3\"></svg>";
+                     });
+}
+
+/// The first group of every match.
+std::vector<std::string> all_matches(const std::string& text, const std::string& pattern) {
+  const std::regex regex(pattern);
+  std::vector<std::string> found;
+  for (std::sregex_iterator it(text.begin(), text.end(), regex), end; it != end; ++it)
+    found.push_back((*it)[1]);
+  return found;
+}
+
+std::string between(const std::string& text, const std::string& begin, const std::string& end) {
+  const std::size_t from = text.find(begin) + begin.size();
+  return text.substr(from, text.find(end, from) - from);
+}
+
+TEST(HtmlEscaped, LeavesNoCharacterThatHtmlReadsAsItsOwn) {
+  EXPECT_EQ(html_escaped("<a href=\"x\">'&'</a>"),
+            "&lt;a href=&quot;x&quot;&gt;&#39;&amp;&#39;&lt;/a&gt;");
+}
+
+TEST(ReportHtml, NamesItsOwnStyleSheetAndScriptInItsPolicy) {
+  const std::string page = study_page();
+  const std::string policy = between(page, "Security-Policy\" content=\"", "\">");
+  EXPECT_NE(policy.find("default-src &#39;none&#39;"), std::string::npos) << policy;
+  // Base64 needs no escaping in HTML, so the hashes stand as they are.
+  EXPECT_NE(policy.find(policy_hash(between(page, "<style>", "</style>"))), std::string::npos);
+  EXPECT_NE(policy.find(policy_hash(between(page, "<script>", "</script>"))), std::string::npos);
+  EXPECT_EQ(policy.find("unsafe"), std::string::npos);
+}
+
+TEST(ReportHtml, FetchesNothing) {
+  const std::string page = study_page();
+  for (const std::string& target : all_matches(page, "(?:src|href|srcset|action)=\"([^\"]*)\""))
+    EXPECT_TRUE(std::regex_match(target, std::regex("#[a-z0-9-]+|data:,|(figures|tables)/[a-z0-9.-]+")))
+        << target;
+  for (const char* word : {"http:", "https:", "//cdn", "@import", "url(", "<iframe", "<object",
+                           "<embed", "<base", "fetch(", "XMLHttpRequest"})
+    EXPECT_EQ(page.find(word), std::string::npos) << word;
+}
+
+TEST(ReportHtml, HasNoInlineStyleOrHandlerThatItsPolicyWouldBlock) {
+  const std::string page = study_page();
+  EXPECT_TRUE(all_matches(page, "<[a-z]+[^>]* (style)=").empty());
+  EXPECT_TRUE(all_matches(page, "<[a-z]+[^>]* (on[a-z]+)=").empty());
+}
+
+TEST(ReportHtml, GivesEachIdOnce) {
+  std::set<std::string> seen;
+  for (const std::string& id : all_matches(study_page(), " id=\"([^\"]*)\""))
+    EXPECT_TRUE(seen.insert(id).second) << id;
+}
+
+TEST(ReportHtml, IsTheSameBytesEachTime) { EXPECT_EQ(study_page(), study_page()); }
+
+TEST(ReportHtml, LetsNoTextBecomeATag) {
+  const auto hostile = test::hostile_report();
+  const std::string page = report_html(hostile.report, load_templates(), {});
+  EXPECT_EQ(all_matches(page, "(<script)").size(), 1u);
+  EXPECT_EQ(all_matches(page, "(<style)").size(), 1u);
+  EXPECT_TRUE(all_matches(page, "(<img)").empty());
+  for (const auto& texts : {hostile.texts, hostile.attributes})
+    for (const std::string& text : texts)
+      EXPECT_NE(page.find(html_escaped(text)), std::string::npos) << text;
+}
+
+TEST(ReportHtml, ShowsBytesThatAreNoTextInsteadOfPassingThemOn) {
+  const Report report{std::string("a\0b\xff\x1b", 5), "", {}, ""};
+  const std::string page = report_html(report, load_templates(), {});
+  EXPECT_NE(page.find("a\u2400b\uFFFD\u241B"), std::string::npos);
+  EXPECT_EQ(page.find('\0'), std::string::npos);
+}
+
+TEST(ReportHtml, StandsAloneWithoutFoldersBesideIt) {
+  const auto hostile = test::hostile_report();
+  const std::string page = report_html(hostile.report, load_templates(), {}, {"", ""});
+  EXPECT_TRUE(all_matches(page, "href=\"([^#d][^\"]*)\"").empty());
+}
+
+TEST(ReportHtml, RefusesAReportWithAnIdThatIsNone) {
+  Report report;
+  report.sections.push_back({"no id", "", {}});
+  EXPECT_THROW(report_html(report, load_templates(), {}), InvalidInput);
+}
+
+}  // namespace
+}  // namespace mapproof

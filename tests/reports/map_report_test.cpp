@@ -1,0 +1,80 @@
+#include "reports/sections/map_report.hpp"
+
+#include <limits>
+
+#include <gtest/gtest.h>
+
+#include "core/base/errors.hpp"
+
+namespace mapproof {
+namespace {
+
+constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
+
+/// Three landmarks: right, 3-4-5 off, not mapped.
+MapRecord triangle() {
+  MapRecord record;
+  record.id = "map/isomap-K4/10";
+  record.sensor = Sensor::kBearing;
+  record.setting = {Method::kIsomap, 4};
+  record.step = 10;
+  record.names = {"a", "b", "c"};
+  record.estimate.resize(3, 2);
+  record.estimate << 0, 0, 3, 4, kNan, kNan;
+  record.truth_m = Points(3, 2);
+  *record.truth_m << 0, 0, 0, 0, 1, 1;
+  record.anchors = {0};
+  record.statuses = {{StatusCode::kLandmarkUnseen, "1 landmark: c."}};
+  return record;
+}
+
+Report report_of(const MapRecord& record) {
+  return map_report({record, "Map of x.csv", {{"File", "x.csv"}}, {"line 7: row dropped"},
+                     {"map", "t", "c", "a", {record.id}}, {"0.1.0", "abc", "d", {}}, "mapproof map"});
+}
+
+const Table& landmarks(const Report& report) { return *tables(report).back(); }
+
+TEST(MapReport, GivesEachLandmarkItsErrorAndAnUnmappedOneADash) {
+  const Report report = report_of(triangle());
+  check(report);
+  const Table& table = landmarks(report);
+  EXPECT_EQ(table.columns[5].title, "Error");
+  EXPECT_NEAR(std::get<NumberCell>(table.rows[1].cells[5]).value, 5.0, 1e-12);
+  EXPECT_TRUE(std::isnan(std::get<NumberCell>(table.rows[2].cells[1]).value));
+  EXPECT_EQ(std::get<TextCell>(table.rows[0].cells[6]).text, "yes");
+}
+
+TEST(MapReport, HasNoErrorsWithoutTruthAndNoMetresWithoutAnchors) {
+  MapRecord record = triangle();
+  record.truth_m.reset();
+  record.anchors.clear();
+  record.frame = Frame::kSimilarity;
+  const Report report = report_of(record);
+  const Table& table = landmarks(report);
+  EXPECT_EQ(table.columns.size(), 4u);
+  EXPECT_EQ(table.columns[1].unit, "");
+  EXPECT_NE(table.notes[0].find("arbitrary"), std::string::npos);
+}
+
+TEST(MapReport, ListsWhatWasDroppedAndWhatWentWrong) {
+  const Report report = report_of(triangle());
+  const auto& input = report.sections[3];
+  EXPECT_EQ(std::get<BulletList>(input.blocks.back()).items[0].phrases[0].text,
+            "line 7: row dropped");
+  const auto& list = std::get<StatusList>(report.sections[4].blocks[0]);
+  EXPECT_EQ(list.items[0].code, "landmark_unseen");
+  EXPECT_EQ(list.items[0].places[0].detail, "1 landmark: c.");
+}
+
+TEST(MapReport, RefusesARecordWhosePartsDisagree) {
+  MapRecord record = triangle();
+  record.names.pop_back();
+  EXPECT_THROW(report_of(record), InvalidInput);
+  record = triangle();
+  record.anchors = {3};
+  EXPECT_THROW(report_of(record), InvalidInput);
+}
+
+}  // namespace
+}  // namespace mapproof

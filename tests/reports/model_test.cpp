@@ -1,0 +1,85 @@
+#include <cmath>
+#include <limits>
+
+#include <gtest/gtest.h>
+
+#include "core/base/errors.hpp"
+#include "reports/model/format.hpp"
+#include "reports/model/report.hpp"
+
+namespace mapproof {
+namespace {
+
+Report report_with(Table table) { return {"t", "", {{"s", "S", {std::move(table)}}}, ""}; }
+
+FigureBlock figure(const std::string& id) { return {id, "", "", "", {}}; }
+
+TEST(FormatNumber, RoundsAndSignsAsAReaderExpects) {
+  EXPECT_EQ(format_number(0.21949, 3), "0.219");
+  EXPECT_EQ(format_number(-1.5, 1), "\u22121.5");
+  EXPECT_EQ(format_number(1.5, 1, true), "+1.5");
+  EXPECT_EQ(format_number(12, 0), "12");
+}
+
+TEST(FormatNumber, GivesZeroNoSign) {
+  EXPECT_EQ(format_number(-0.0, 2), "0.00");
+  EXPECT_EQ(format_number(-0.001, 2), "0.00");
+  EXPECT_EQ(format_number(0.001, 2, true), "0.00");
+}
+
+TEST(FormatNumber, TurnsHugeNumbersIntoPowersAndMissingOnesIntoADash) {
+  EXPECT_EQ(format_number(1.234e11, 3), "1.23e+11");
+  EXPECT_EQ(format_number(std::nan(""), 3), "\u2013");
+  EXPECT_EQ(format_number(std::numeric_limits<double>::infinity(), 3), "\u2013");
+}
+
+TEST(FormatCell, ShowsAnIntervalWithoutAnEndAsMissing) {
+  EXPECT_EQ(format_cell(IntervalCell{0.1, 0.25, 2}), "0.10\u20130.25");
+  EXPECT_EQ(format_cell(IntervalCell{-0.1, 0.25, 2}), "\u22120.10 to 0.25");
+  EXPECT_EQ(format_cell(IntervalCell{0.1, std::nan(""), 2}), "\u2013");
+  EXPECT_EQ(format_cell(MissingCell{}), "\u2013");
+}
+
+TEST(FormatDuration, PicksTheUnit) {
+  EXPECT_EQ(format_duration(0.34), "340 ms");
+  EXPECT_EQ(format_duration(12.34), "12.3 s");
+  EXPECT_EQ(format_duration(59.96), "1 min 0 s");
+  EXPECT_EQ(format_duration(250), "4 min 10 s");
+  EXPECT_EQ(format_duration(7500), "2 h 5 min");
+  EXPECT_EQ(format_duration(std::nan("")), "\u2013");
+}
+
+TEST(Displayable, LeavesUtf8AndShowsTheRest) {
+  EXPECT_EQ(displayable("\u00fcber \U0001F600"), "\u00fcber \U0001F600");
+  EXPECT_EQ(displayable(std::string("a\0b", 3)), "a\u2400b");
+  EXPECT_EQ(displayable("\x1b[31m\x7f"), "\u241b[31m\u2421");
+  EXPECT_EQ(displayable("\xff\xc0\x80"), "\uFFFD\uFFFD\uFFFD");
+  EXPECT_EQ(displayable("\xed\xa0\x80"), "\uFFFD\uFFFD\uFFFD");  // half of a surrogate pair
+  EXPECT_EQ(displayable("cut \xe2\x82"), "cut \uFFFD\uFFFD");
+}
+
+TEST(ReportCheck, RefusesAnIdThatCouldLeaveTheFolder) {
+  for (const char* id : {"../../x", "", "A", "a/b", "a b", "<script>"})
+    EXPECT_THROW(check(report_with({id, "", {}, {}, {}})), InvalidInput) << id;
+  EXPECT_NO_THROW(check(report_with({"accuracy-1", "", {}, {}, {}})));
+}
+
+TEST(ReportCheck, RefusesIdsThatStandTwiceAndRowsThatLackCells) {
+  Report twice = report_with({"a", "", {}, {}, {}});
+  twice.sections[0].blocks.push_back(Table{"a", "", {}, {}, {}});
+  EXPECT_THROW(check(twice), InvalidInput);
+  EXPECT_THROW(check(report_with({"a", "", {{"x", "", "", ""}}, {{{}, "", false}}, {}})),
+               InvalidInput);
+}
+
+TEST(ReportContents, AreListedInReadingOrderGalleriesIncluded) {
+  Report report = report_with({"a", "", {}, {}, {}});
+  report.sections[0].blocks.push_back(Gallery{{figure("f1"), figure("f2")}});
+  report.sections[0].blocks.push_back(figure("f3"));
+  ASSERT_EQ(figures(report).size(), 3u);
+  EXPECT_EQ(figures(report)[2]->id, "f3");
+  EXPECT_EQ(tables(report).size(), 1u);
+}
+
+}  // namespace
+}  // namespace mapproof

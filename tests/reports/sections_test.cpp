@@ -1,0 +1,224 @@
+#include <cmath>
+#include <limits>
+
+#include <gtest/gtest.h>
+
+#include "reports/model/format.hpp"
+#include "reports/sections/method_summary.hpp"
+#include "reports/sections/study_report.hpp"
+#include "tests/reports/synthetic_study.hpp"
+
+namespace mapproof {
+namespace {
+
+using test::synthetic_mpe;
+using test::synthetic_study;
+
+const MethodSetting kIsomap4{Method::kIsomap, 4};
+const MethodSetting kIsomap6{Method::kIsomap, 6};
+
+const SensorStudy& visibility(const Study& study) { return study.experiment.sensors[0]; }
+
+SettingSummary summary_of(const Study& study, const MethodSetting& setting) {
+  for (const SettingSummary& summary : summarize(study, visibility(study), 2000))
+    if (summary.setting == setting) return summary;
+  return {};
+}
+
+const Table& table_named(const Section& section, const std::string& id) {
+  for (const Block& block : section.blocks)
+    if (const auto* table = std::get_if<Table>(&block); table != nullptr && table->id == id)
+      return *table;
+  throw std::runtime_error("no table " + id);
+}
+
+/// Every word of a section, for what is said rather than where.
+std::string words(const Section& section) {
+  std::string text;
+  const auto add = [&](const Paragraph& paragraph) {
+    for (const Phrase& phrase : paragraph.phrases) text += phrase.text;
+    text += '\n';
+  };
+  for (const Block& block : section.blocks) {
+    if (const auto* paragraph = std::get_if<Paragraph>(&block)) add(*paragraph);
+    if (const auto* callout = std::get_if<Callout>(&block)) {
+      text += callout->title + ": ";
+      add(callout->text);
+    }
+    if (const auto* bullets = std::get_if<BulletList>(&block))
+      for (const Paragraph& item : bullets->items) add(item);
+  }
+  return text;
+}
+
+bool says(const Section& section, const std::string& what) {
+  return words(section).find(what) != std::string::npos;
+}
+
+TEST(Summarize, AveragesOverRunsAndTakesLayoutsAsUnits) {
+  const Study study = synthetic_study(5, 2);
+  const SettingSummary summary = summary_of(study, kIsomap6);
+  // The formula is linear in layout and pose, so the mean is that of the middle ones.
+  const double scale = synthetic_mpe(kIsomap6, {0, 0}, 2000);
+  EXPECT_NEAR(summary.mpe_m->mean, scale * (1 + 0.3 + 0.015), 1e-12);
+  EXPECT_EQ(summary.mpe_m->clusters, 5);
+  // Layout means are an arithmetic sequence: their deviation is .1 * sqrt(2.5).
+  const double standard_error = scale * 0.1 * std::sqrt(2.5) / std::sqrt(5.0);
+  EXPECT_NEAR(*summary.mpe_m->half_width, 2.77644510520 * standard_error, 1e-9);
+  EXPECT_NEAR(summary.mpe_median_m, summary.mpe_m->mean, 1e-12);
+  EXPECT_NEAR(summary.mpe_all_fitted_m, 0.8 * summary.mpe_m->mean, 1e-12);
+}
+
+TEST(Summarize, CountsRunsWithoutAScoreAndWithAStatus) {
+  const SettingSummary summary = summary_of(synthetic_study(5, 2), kIsomap4);
+  EXPECT_EQ(summary.runs, 10);
+  EXPECT_EQ(summary.scored, 9);
+  EXPECT_EQ(summary.with_status, 10);
+}
+
+TEST(Summarize, LeavesOutAScoreThatIsNoNumber) {
+  Study study = synthetic_study(2, 1);
+  for (RunRecord& record : study.runs[0].records)
+    record.score->mpe_m = std::numeric_limits<double>::quiet_NaN();
+  study.runs[0].records.clear();
+  const SettingSummary summary = summary_of(study, kIsomap6);
+  EXPECT_EQ(summary.scored, 1);
+  EXPECT_FALSE(interval_of(summary.mpe_m));
+}
+
+TEST(BestOfEachMethod, IsTheParameterOfLeastMeanError) {
+  const Study study = synthetic_study();
+  const auto best = best_of_each_method(summarize(study, visibility(study), 2000));
+  ASSERT_EQ(best.size(), 4u);
+  EXPECT_EQ(best[3].setting, kIsomap6);
+  EXPECT_EQ(best[2].setting.parameter, 6.0);
+}
+
+TEST(AccuracySection, ShowsThePapersValueAndTheDifference) {
+  const Study study = synthetic_study();
+  const Section section = accuracy_section(study, visibility(study));
+  const Table& table = table_named(section, "accuracy-visibility");
+  const double ours = summary_of(study, kIsomap6).mpe_m->mean;
+  const Row& isomap = table.rows[3];
+  EXPECT_EQ(table.columns[5].title, "Paper");
+  EXPECT_EQ(std::get<NumberCell>(isomap.cells[5]).value, 0.177);
+  EXPECT_NEAR(std::get<NumberCell>(isomap.cells[6]).value, ours - 0.177, 1e-12);
+  EXPECT_NEAR(std::get<NumberCell>(isomap.cells[7]).value, 100 * (ours - 0.177) / 0.177, 1e-9);
+  EXPECT_EQ(isomap.source, "visibility/isomap-K6/2000 of 10 runs");
+  EXPECT_TRUE(table.rows[2].marked);  // SMACOF, kNN weights has the least error here
+}
+
+TEST(AccuracySection, HasNoPaperColumnsWhereNothingWasPublished) {
+  Study study = synthetic_study();
+  study.experiment.sensors[0].published.clear();
+  const Section section = accuracy_section(study, visibility(study));
+  for (const Column& column : table_named(section, "accuracy-visibility").columns)
+    EXPECT_EQ(column.title.find("aper"), std::string::npos);
+}
+
+TEST(AccuracySection, SaysThatOneLayoutGivesNoInterval) {
+  const Study study = synthetic_study(1, 3);
+  const Section section = accuracy_section(study, visibility(study));
+  const Table& table = table_named(section, "accuracy-visibility");
+  EXPECT_TRUE(std::holds_alternative<MissingCell>(table.rows[0].cells[4]));
+  EXPECT_NE(table.notes[1].find("no interval"), std::string::npos);
+}
+
+TEST(SummarySection, NamesTheBestMethodOfEachSensorWithItsNumbers) {
+  const Section section = summary_section(synthetic_study());
+  EXPECT_TRUE(says(section, "SMACOF, kNN weights, K = 6"));
+  EXPECT_TRUE(says(section, "The paper has another order.")) << words(section);
+  EXPECT_TRUE(says(section, "8 without a score and 110 with a status")) << words(section);
+}
+
+TEST(SummarySection, SaysWhenTheStudyIsSmallerThanThePapers) {
+  EXPECT_TRUE(says(summary_section(synthetic_study(5, 1)), "Not the paper\u2019s protocol"));
+  EXPECT_FALSE(says(summary_section(synthetic_study(5, 5)), "Not the paper\u2019s protocol"));
+}
+
+TEST(SummarySection, SaysWhenRunsAreMissing) {
+  Study study = synthetic_study(5, 5);
+  study.runs.pop_back();
+  EXPECT_TRUE(says(summary_section(study), "24 of 25 runs are done"));
+}
+
+TEST(SummarySection, CopesWithAStudyWithoutARun) {
+  Study study = synthetic_study();
+  study.runs.clear();
+  const Section section = summary_section(study);
+  EXPECT_TRUE(says(section, "no map could be scored"));
+  EXPECT_NO_THROW(accuracy_section(study, visibility(study)));
+  EXPECT_NO_THROW(statuses_section(study));
+}
+
+TEST(StatusesSection, CountsMapsOfEachKindAndListsFailuresFirst) {
+  const Section section = statuses_section(synthetic_study(5, 2));
+  const auto& list = std::get<StatusList>(section.blocks.back());
+  EXPECT_EQ(list.items[0].code, "failed");
+  EXPECT_EQ(list.items[0].count, 4);
+  EXPECT_EQ(list.items[0].of, 40);
+  EXPECT_EQ(list.items[0].places[0].record_id, "layout-1-pose-1/visibility/isomap-K4/500");
+  for (const StatusList::Item& item : list.items) {
+    EXPECT_LE(item.places.size(), 5u);
+    EXPECT_FALSE(item.meaning.empty());
+  }
+}
+
+TEST(StatusesSection, CountsAMapOnceThatCarriesOneStatusTwice) {
+  Study study = synthetic_study(1, 1);
+  study.runs[0].records.resize(1);
+  study.runs[0].records[0].statuses = {{StatusCode::kBridged, "a"}, {StatusCode::kBridged, "b"}};
+  const Section section = statuses_section(study);
+  EXPECT_EQ(std::get<StatusList>(section.blocks.back()).items[0].count, 1);
+}
+
+TEST(ProvenanceSection, HoldsTheCommandTheSeedAndTheVersions) {
+  const Study study = synthetic_study();
+  const auto timings = test::synthetic_timings(study);
+  const auto sessions = test::synthetic_sessions();
+  const Section section = provenance_section(study, sessions, timings, "mapproof run x");
+  std::string facts;
+  for (const Block& block : section.blocks)
+    if (const auto* pairs = std::get_if<KeyValues>(&block))
+      for (const auto& item : pairs->items) facts += item.key + "=" + item.value.text + "\n";
+  for (const char* fact : {"Command=mapproof run x\n", "Seed=2007\n", "Eigen=3.4.0\n",
+                           "Commit=0123456789ab\n", "mapproof=0.1.0\n"})
+    EXPECT_NE(facts.find(fact), std::string::npos) << fact << facts;
+  const Table& durations = table_named(section, "durations");
+  EXPECT_EQ(std::get<NumberCell>(durations.rows[0].cells[2]).value, 40);
+  EXPECT_NEAR(std::get<NumberCell>(durations.rows[0].cells[3]).value, 1.0, 1e-9);
+}
+
+TEST(StudyReport, KeepsItsOwnRulesForAnyNumberOfRuns) {
+  for (const int layouts : {0, 1, 5}) {
+    const Study study = synthetic_study(layouts, 1);
+    const StudyFigures figures =
+        study_figures(study, [&](const RunId& run) { return test::synthetic_maps(study, run); });
+    EXPECT_NO_THROW(check(study_report({study, {}, {}, figures, ""}))) << layouts;
+  }
+}
+
+TEST(StudyFigures, AreTheCurvesOfBothFamiliesAndTheMedianMapOfEachMethod) {
+  const Study study = synthetic_study(5, 1);
+  const StudyFigures figures =
+      study_figures(study, [&](const RunId& run) { return test::synthetic_maps(study, run); });
+  std::vector<std::string> ids;
+  for (const Figure& figure : figures.sensors[1].curves) ids.push_back(figure.id);
+  EXPECT_EQ(ids, (std::vector<std::string>{"mpe-bearing-global", "mpe-bearing-graph",
+                                           "moe-bearing-global", "moe-bearing-graph"}));
+  const Figure& isomap = figures.sensors[1].maps.back();
+  EXPECT_EQ(isomap.id, "map-bearing-isomap");
+  EXPECT_EQ(isomap.record_ids.front(), "layout-3-pose-1/bearing/isomap-K6/2000");
+  EXPECT_EQ(all_figures(figures).size(), 16u);
+}
+
+TEST(StudyFigures, DoWithoutMapsThatCannotBeRead) {
+  const Study study = synthetic_study(2, 1);
+  const StudyFigures figures =
+      study_figures(study, [](const RunId&) { return std::vector<MapRecord>{}; });
+  EXPECT_TRUE(figures.sensors[0].maps.empty());
+  EXPECT_FALSE(figures.sensors[0].curves.empty());
+}
+
+}  // namespace
+}  // namespace mapproof
