@@ -30,7 +30,9 @@ Image to_image(const Drawing& drawing) {
   if (image.width < 1 || image.height < 1 || image.width > 20000 || image.height > 20000)
     throw InvalidInput("figure " + drawing.id + ": no picture is " + std::to_string(image.width) +
                        " x " + std::to_string(image.height) + " pixels");
-  image.pixels.resize(static_cast<std::size_t>(image.width) * image.height);
+  const Colour paper = drawing.background;
+  image.pixels.assign(static_cast<std::size_t>(image.width) * image.height,
+                      paper.red << 16 | paper.green << 8 | paper.blue);
   const SurfaceHandle surface(cairo_image_surface_create_for_data(
       reinterpret_cast<unsigned char*>(image.pixels.data()), CAIRO_FORMAT_RGB24, image.width,
       image.height, 4 * image.width));
@@ -70,6 +72,9 @@ std::string to_pdf(const Drawing& drawing) {
   set(CAIRO_PDF_METADATA_CREATE_DATE, kFixedDate);
   {
     const ContextHandle context(cairo_create(surface.get()));
+    const Colour paper = drawing.background;
+    cairo_set_source_rgb(context.get(), paper.red / 255.0, paper.green / 255.0, paper.blue / 255.0);
+    cairo_paint(context.get());
     paint(drawing, context.get(), true);
     cairo_show_page(context.get());
     check(cairo_status(context.get()));

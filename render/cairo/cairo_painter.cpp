@@ -17,8 +17,6 @@ class Painter {
   }
 
   void paint() {
-    set_colour(drawing_.background, 1.0);
-    cairo_paint(context_);
     for (const Item& item : drawing_.items) {
       if (item.clipped != clipped_ || (item.clipped && item.panel != panel_)) set_clip(item);
       std::visit([this](const auto& what) { draw(what); }, item.what);

@@ -114,6 +114,7 @@ Figure error_curve_figure(const ErrorCurveSpec& spec) {
   figure.caption = caption_of(spec);
   figure.alt = alt_text(spec, axis);
 
+  if (spec.curves.empty()) figure.notes.push_back({"There are no curves.", Ink::kWarning});
   Panel& panel = figure.panels.emplace_back();
   panel.x.label = "observations (steps)";
   panel.y = {spec.y_label, axis.scale, axis.limits};

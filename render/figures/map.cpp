@@ -68,6 +68,7 @@ class MapFigure {
  private:
   void add_notes() {
     std::vector<Note>& notes = figure_.notes;
+    if (record_.names.empty()) notes.push_back({"There are no landmarks.", Ink::kWarning});
     if (const std::string score = score_text(record_); !score.empty()) notes.push_back({score});
     if (record_.frame == Frame::kSimilarity)
       notes.push_back({"Shape alone: place, turn, scale and mirror are arbitrary."});
@@ -205,8 +206,9 @@ class MapFigure {
       for (Eigen::Index i = 0; i < rows(); ++i)
         if (view_.has_estimate[i]) named.push_back(i);
     for (const Eigen::Index i : named) {
+      // At the true place, which is the same on the maps of all methods.
       if (is_outside(i) && !view_.has_truth[i]) continue;
-      const Point at = is_outside(i) ? true_place(i) : place(i);
+      const Point at = view_.has_truth[i] ? true_place(i) : place(i);
       labels.x.push_back(at.x);
       labels.y.push_back(at.y);
       labels.text.push_back(record_.names[i]);

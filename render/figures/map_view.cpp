@@ -77,7 +77,9 @@ void find_outside(const MapRecord& record, MapView& view) {
   const Extent core = core_of(record, view);
   if (!core.known() || core.side() <= 0.0) return;
   const PanelBox reach = core.grown(kReach * core.side());
-  Extent shown = core;
+  Extent shown;
+  for (Eigen::Index i = 0; i < record.estimate.rows(); ++i)
+    if (view.has_truth[i]) shown.see((*record.truth_m)(i, 0), (*record.truth_m)(i, 1));
   for (Eigen::Index i = 0; i < record.estimate.rows(); ++i) {
     if (!view.has_estimate[i]) continue;
     const double x = record.estimate(i, 0), y = record.estimate(i, 1);

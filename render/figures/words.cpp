@@ -13,7 +13,8 @@ std::string significant(double value, int digits) {
   if (!std::isfinite(value)) return "unknown";
   if (value == 0.0) return "0";
   const int exponent = static_cast<int>(std::floor(std::log10(std::abs(value)) + 1e-12));
-  if (exponent >= 6 || exponent < -6) return fmt::format("{:.{}g}", value, digits);
+  if (exponent >= 6 || exponent < -6)
+    return number_text(value / std::pow(10.0, exponent), digits - 1) + power_of_ten(exponent);
   return number_text(value, std::max(0, digits - 1 - exponent));
 }
 

@@ -1,8 +1,6 @@
 #include "render/image/png.hpp"
 
-#include <array>
 #include <cmath>
-#include <cstring>
 #include <memory>
 #include <optional>
 #include <string_view>
@@ -10,12 +8,13 @@
 #include <libdeflate.h>
 
 #include "core/base/errors.hpp"
+#include "render/image/palette_image.hpp"
 
 namespace mapproof {
 namespace {
 
-constexpr std::uint32_t kColourBits = 0xFFFFFF;
-constexpr int kCompressionLevel = 6;
+// Of libdeflate: twice as fast as 6 on drawings, for 5 % more bytes.
+constexpr int kCompressionLevel = 2;
 
 void append_big_endian(std::string& out, std::uint32_t value) {
   for (const int shift : {24, 16, 8, 0}) out += static_cast<char>(value >> shift);
@@ -27,55 +26,6 @@ void append_chunk(std::string& out, std::string_view type, std::string_view data
   out += type;
   out += data;
   append_big_endian(out, libdeflate_crc32(0, out.data() + start, out.size() - start));
-}
-
-/// The colours of an image in the order in which they are met, and their numbers; open addressing.
-class Palette {
- public:
-  /// The colour's number; empty once there would be more than 256.
-  std::optional<std::uint8_t> index(std::uint32_t colour) {
-    std::size_t slot = (colour * 2654435761u) >> 22;
-    while (slots_[slot] != 0) {
-      if (colours_[slots_[slot] - 1] == colour) return static_cast<std::uint8_t>(slots_[slot] - 1);
-      slot = (slot + 1) % slots_.size();
-    }
-    if (colours_.size() == 256) return std::nullopt;
-    colours_.push_back(colour);
-    slots_[slot] = static_cast<std::uint16_t>(colours_.size());
-    return static_cast<std::uint8_t>(colours_.size() - 1);
-  }
-
-  const std::vector<std::uint32_t>& colours() const { return colours_; }
-
- private:
-  std::array<std::uint16_t, 1024> slots_{};
-  std::vector<std::uint32_t> colours_;
-};
-
-/// Filter byte and one byte a pixel, row by row; false if there are more than 256 colours.
-bool fill_indexed(const Image& image, Palette& palette, std::string& bytes) {
-  const std::size_t stride = static_cast<std::size_t>(image.width) + 1;
-  bytes.assign(stride * image.height, '\0');
-  for (int y = 0; y < image.height; ++y) {
-    const std::uint32_t* row = image.row(y);
-    char* out = bytes.data() + stride * y;
-    if (y > 0 && std::memcmp(row, image.row(y - 1), sizeof(*row) * image.width) == 0) {
-      std::memcpy(out, out - stride, stride);
-      continue;
-    }
-    std::uint32_t last = ~row[0];
-    char code = 0;
-    for (int x = 0; x < image.width; ++x) {
-      if (row[x] != last) {
-        const auto found = palette.index(row[x] & kColourBits);
-        if (!found) return false;
-        last = row[x];
-        code = static_cast<char>(*found);
-      }
-      out[1 + x] = code;
-    }
-  }
-  return true;
 }
 
 std::string rgb_rows(const Image& image) {
@@ -130,13 +80,10 @@ std::string encode_png(const Image& image, const PngOptions& options) {
   if (!sized || image.pixels.size() < static_cast<std::size_t>(image.width) * image.height)
     throw InvalidInput("encode_png: an image without pixels, too large, or with too few of them");
 
-  Palette palette;
-  std::string rows;
-  const bool indexed = fill_indexed(image, palette, rows);
-  if (!indexed) rows = rgb_rows(image);
+  const std::optional<PaletteImage> indexed = to_palette(image);
 
   std::string out = "\x89PNG\r\n\x1A\n";
-  append_chunk(out, "IHDR", header(image, indexed));
+  append_chunk(out, "IHDR", header(image, indexed.has_value()));
   std::string density;
   const auto per_metre = static_cast<std::uint32_t>(std::lround(options.dpi / 0.0254));
   append_big_endian(density, per_metre);
@@ -145,11 +92,11 @@ std::string encode_png(const Image& image, const PngOptions& options) {
   for (const auto& [key, text] : options.texts) append_text(out, key, text);
   if (indexed) {
     std::string colours;
-    for (const std::uint32_t colour : palette.colours())
+    for (const std::uint32_t colour : indexed->colours)
       for (const int shift : {16, 8, 0}) colours += static_cast<char>(colour >> shift);
     append_chunk(out, "PLTE", colours);
   }
-  append_chunk(out, "IDAT", compressed(rows));
+  append_chunk(out, "IDAT", compressed(indexed ? indexed->rows : rgb_rows(image)));
   append_chunk(out, "IEND", "");
   return out;
 }

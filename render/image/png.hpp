@@ -13,7 +13,7 @@ struct PngOptions {
   std::vector<std::pair<std::string, std::string>> texts;  ///< Keyword (1 to 79 of ASCII) and UTF-8.
 };
 
-/// The image as a PNG file: with a palette if it has at most 256 colours, else as RGB. Texts are
+/// The image as a PNG file, with a palette if to_palette finds one, else as RGB. Texts are
 /// iTXt chunks if they need it, tEXt otherwise. No time, the same bytes each time.
 /// @throws InvalidInput if a side is below 1 or the pixels are too few.
 std::string encode_png(const Image& image, const PngOptions& options = {});

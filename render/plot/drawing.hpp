@@ -27,6 +27,7 @@ enum class Role {
   kMarker,
   kMarkLabel,
   kLeader,  ///< From a mark's label to its mark.
+  kLegendBox,
   kLegendText,
   kLegendSample,
 };

@@ -39,7 +39,7 @@ class Painter {
     for (std::size_t i = 0; i < band.x.size();) {
       std::size_t end = i;
       while (end < band.x.size() && known(map_(band.x[end], band.low[end] + band.high[end]))) ++end;
-      if (end - i >= 2) add_band_piece(band, i, end, shape.path);
+      if (end > i) add_band_piece(band, i, end, shape.path);
       i = std::max(end, i + 1);
     }
     if (!shape.path.points.empty()) add(Role::kBand, std::move(shape), add_mark(band.mark));
@@ -67,7 +67,7 @@ class Painter {
       shape.path.line_to(to);
       const auto mark = mark_at(lines.marks, i);
       add(Role::kLine, std::move(shape), mark);
-      if (lines.arrow) draw_head(from, to, stroke.colour);
+      if (lines.arrow) drawing_.add(Role::kMarker, panel_, arrow_head(from, to, stroke.colour, theme_));
     }
   }
 
@@ -88,25 +88,18 @@ class Painter {
     }
   }
 
+  /// A point without neighbours gets a band as wide as a marker.
   void add_band_piece(const Band& band, std::size_t begin, std::size_t end, Path& path) {
+    if (end - begin == 1) {
+      const Point low = map_(band.x[begin], band.low[begin]);
+      const double high = map_.y(band.high[begin]), half = theme_.marker_pt / 2.0;
+      path.add_box({low.x - half, std::min(low.y, high), low.x + half, std::max(low.y, high)});
+      return;
+    }
     path.move_to(map_(band.x[begin], band.high[begin]));
     for (std::size_t i = begin + 1; i < end; ++i) path.line_to(map_(band.x[i], band.high[i]));
     for (std::size_t i = end; i-- > begin;) path.line_to(map_(band.x[i], band.low[i]));
     path.close();
-  }
-
-  void draw_head(Point from, Point to, Colour colour) {
-    const double length = std::hypot(to.x - from.x, to.y - from.y);
-    if (!(length > 0.0)) return;
-    const double size = 1.1 * theme_.marker_pt;
-    const Point along{(to.x - from.x) / length * size, (to.y - from.y) / length * size};
-    Shape head;
-    head.fill = colour;
-    head.path.move_to(to);
-    head.path.line_to({to.x - along.x - 0.45 * along.y, to.y - along.y + 0.45 * along.x});
-    head.path.line_to({to.x - along.x + 0.45 * along.y, to.y - along.y - 0.45 * along.x});
-    head.path.close();
-    drawing_.add(Role::kMarker, panel_, std::move(head));
   }
 
   std::size_t symbol_of(Marker marker, bool filled, double size, Ink ink) {

@@ -39,6 +39,7 @@ std::string_view name(Role role) {
     case Role::kMarker: return "marker";
     case Role::kMarkLabel: return "mark-label";
     case Role::kLeader: return "leader";
+    case Role::kLegendBox: return "legend-box";
     case Role::kLegendText: return "legend-text";
     case Role::kLegendSample: return "legend-sample";
   }

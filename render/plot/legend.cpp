@@ -44,7 +44,12 @@ class SamplePainter {
   void operator()(const Scatter& points) {
     draw_marker(points.marker, points.filled, points.size, points.ink);
   }
-  void operator()(const Segments& lines) { draw_line(lines.ink, lines.dash, lines.width); }
+  void operator()(const Segments& lines) {
+    draw_line(lines.ink, lines.dash, lines.width);
+    if (!lines.arrow) return;
+    const double y = place_.centre().y;
+    add(arrow_head({place_.x0, y}, {place_.x1, y}, theme_.of(lines.ink), theme_));
+  }
   void operator()(const PointLabels&) {}
 
  private:
@@ -88,10 +93,14 @@ Legend::Legend(const Panel& panel, const Theme& theme, double most_width_pt) : t
       same->layers.push_back(&layer);
       continue;
     }
-    entries_.push_back({shape_text_within(label, most_text), label, {&layer}});
+    entries_.push_back({shape_text_within(label, most_text, Elide::kMiddle), label, {&layer}});
     const double width = (kSampleWidth + kSampleGap + entries_.back().text.advance) * em;
     entry_width_ = std::max(entry_width_, width);
   }
+  // What stands for points comes before what stands for lines between them.
+  std::ranges::stable_partition(entries_, [](const LegendEntry& entry) {
+    return !std::holds_alternative<Segments>(*entry.layers.front());
+  });
   row_height_ = kRowHeight * em;
 }
 
@@ -124,6 +133,13 @@ std::optional<Box> Legend::free_place(const Box& frame, const Obstacles& data) c
     if (!data.hit(place.grown(0.7 * gap))) return place;
   }
   return std::nullopt;
+}
+
+void Legend::draw_box(const Box& place, std::size_t panel_index, Drawing& drawing) const {
+  Shape box;
+  box.path.add_box(place.grown(0.5 * theme_.space_pt));
+  box.fill = theme_.background;
+  drawing.add(Role::kLegendBox, panel_index, std::move(box));
 }
 
 void Legend::draw(Point at, std::size_t columns, std::size_t panel_index,

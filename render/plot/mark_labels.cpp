@@ -28,29 +28,40 @@ Point nearest_in(const Box& box, Point p) {
   return {std::clamp(p.x, box.x0, box.x1), std::clamp(p.y, box.y0, box.y1)};
 }
 
-bool leader_is_free(const Box& box, Point at, const std::vector<Box>& texts) {
+/// How many marks a leader from `at` to the box would cross; none may cross a text.
+std::optional<double> leader_cost(const Box& box, Point at, const Obstacles& taken,
+                                  const std::vector<Box>& texts) {
+  const Point end = nearest_in(box, at);
   for (const Box& text : texts)
-    if (crosses(text, at, nearest_in(box, at))) return false;
-  return true;
+    if (crosses(text, at, end)) return std::nullopt;
+  double cost = 0.0;
+  for (const Box& other : taken.boxes)
+    if (crosses(other, at, end)) cost += 1.0;
+  return cost;
 }
 
-/// The nearest free place, near ones to the right first; among one ring's the leader over the
-/// fewest marks.
+/// A free place: in the innermost ring that has one the first from the right; farther out the one
+/// whose leader is short and crosses few marks.
 std::optional<Place> find_place(Point at, Point size, const Box& frame, const Obstacles& taken,
                                 const std::vector<Box>& texts, const Theme& theme) {
   const double near = 0.5 * theme.marker_pt + 0.4 * theme.space_pt;
-  for (int ring = 0; ring < kRings; ++ring) {
+  std::optional<Place> best;
+  double best_cost = INFINITY;
+  for (int ring = 0; ring < kRings && ring < best_cost; ++ring) {
     const double radius = near + ring * 0.8 * theme.font_pt;
     for (int turn = 0; turn < kDirections; ++turn) {
       // 0, -1, 1, -2, 2, …: from the right outward to both sides.
       const int step = turn % 2 == 0 ? turn / 2 : -(turn + 1) / 2;
       const Box box = beside(at, radius, step * 2.0 * std::numbers::pi / kDirections, size);
       if (!frame.holds(box) || taken.hit(box)) continue;
-      if (ring > 0 && !leader_is_free(box, at, texts)) continue;
-      return Place{box, ring > 0};
+      if (ring == 0) return Place{box, false};
+      const auto crossed = leader_cost(box, at, taken, texts);
+      if (!crossed || ring + 1.5 * *crossed >= best_cost) continue;
+      best_cost = ring + 1.5 * *crossed;
+      best = Place{box, true};
     }
   }
-  return std::nullopt;
+  return best;
 }
 
 }  // namespace
@@ -65,7 +76,8 @@ void draw_mark_labels(const Panel& panel, std::size_t panel_index, const PanelMa
     for (std::size_t i = 0; i < labels->x.size(); ++i) {
       const Point at = map(labels->x[i], labels->y[i]);
       if (std::isnan(at.x + at.y)) continue;
-      TextLine line{.shaped = shape_text_within(labels->text[i], 0.3 * frame.width() / em),
+      TextLine line{.shaped = shape_text_within(labels->text[i], 0.35 * frame.width() / em,
+                                                           Elide::kMiddle),
                     .size = em,
                     .colour = theme.of(labels->ink)};
       if (line.shaped.text != labels->text[i]) line.whole = labels->text[i];

@@ -1,5 +1,6 @@
 #include "render/plot/markers.hpp"
 
+#include <cmath>
 #include <initializer_list>
 
 namespace mapproof {
@@ -62,6 +63,19 @@ Shape marker_symbol(Marker marker, bool filled, double size_pt, Colour ink, cons
   if (!of_lines) symbol.fill = filled ? ink : theme.background;
   if (!filled || of_lines) symbol.stroke = Stroke{ink, 0.8 * theme.line_pt, {}};
   return symbol;
+}
+
+Shape arrow_head(Point from, Point to, Colour ink, const Theme& theme) {
+  const double length = std::hypot(to.x - from.x, to.y - from.y);
+  const double size = length > 0.0 ? 1.2 * theme.marker_pt / length : 0.0;
+  const Point along{(to.x - from.x) * size, (to.y - from.y) * size};
+  Shape head;
+  head.fill = ink;
+  head.path.move_to(to);
+  head.path.line_to({to.x - along.x - 0.4 * along.y, to.y - along.y + 0.4 * along.x});
+  head.path.line_to({to.x - along.x + 0.4 * along.y, to.y - along.y - 0.4 * along.x});
+  head.path.close();
+  return head;
 }
 
 std::size_t symbol_index(Drawing& drawing, const Shape& symbol) {

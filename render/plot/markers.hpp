@@ -13,6 +13,9 @@ inline constexpr double kMarkerReach = 0.62;
 /// one is filled with the background, so that lines below end at its rim.
 Shape marker_symbol(Marker marker, bool filled, double size_pt, Colour ink, const Theme& theme);
 
+/// The head of an arrow that ends at `to`.
+Shape arrow_head(Point from, Point to, Colour ink, const Theme& theme);
+
 /// The symbol's place in the drawing; added if it is not there yet.
 std::size_t symbol_index(Drawing& drawing, const Shape& symbol);
 

@@ -336,9 +336,11 @@ void lay_out_panel(const Panel& panel, std::size_t panel_index, const Box& cell,
   Obstacles taken = data_obstacles(panel, map, theme);
   if (arrangement.legend_at) {
     const Point at = *arrangement.legend_at;
+    const Point extent = legend.size(arrangement.legend_columns);
+    const Box place{at.x, at.y, at.x + extent.x, at.y + extent.y};
+    if (frame.overlaps(place)) legend.draw_box(place, panel_index, drawing);
     legend.draw(at, arrangement.legend_columns, panel_index, drawing);
-    const Point size = legend.size(arrangement.legend_columns);
-    taken.boxes.push_back({at.x, at.y, at.x + size.x, at.y + size.y});
+    taken.boxes.push_back(place);
   }
   draw_mark_labels(panel, panel_index, map, frame, std::move(taken), theme, drawing);
 }

@@ -194,6 +194,16 @@ std::size_t count_code_points(std::string_view text) {
   return count;
 }
 
+/// Start and end of a text too long for any line.
+std::string shortened(std::string_view text) {
+  if (text.size() <= kMostCodePoints) return std::string(text);
+  const std::size_t length = count_code_points(text);
+  if (length <= kMostCodePoints) return std::string(text);
+  const std::size_t half = kMostCodePoints / 2;
+  return std::string(text.substr(0, prefix_bytes(text, half))) + "…" +
+         std::string(text.substr(prefix_bytes(text, length - half)));
+}
+
 }  // namespace
 
 std::string_view font_bytes() { return font_resources().front().bytes; }
@@ -233,21 +243,20 @@ ShapedText shape_text(std::string_view text) {
   return shape_text_within(text, std::numeric_limits<double>::infinity());
 }
 
-ShapedText shape_text_within(std::string_view text, double most) {
-  // A code point is at least a byte: what lies beyond never shows.
-  const bool cut = text.size() > kMostCodePoints && count_code_points(text) > kMostCodePoints;
-  std::string whole = visible_text(cut ? text.substr(0, prefix_bytes(text, kMostCodePoints)) : text);
-  if (!cut) {
-    ShapedText shaped = shape_visible(whole);
-    if (shaped.advance <= most) return shaped;
-  }
+ShapedText shape_text_within(std::string_view text, double most, Elide elide) {
+  // A code point is at least a byte: of a longer text the middle never shows.
+  std::string whole = visible_text(shortened(text));
+  ShapedText shaped = shape_visible(whole);
+  if (shaped.advance <= most) return shaped;
   // The most code points whose text, with the dots, fits: bisection over their number.
+  const std::size_t length = count_code_points(whole);
   std::size_t fits = 0;
-  std::size_t too_many = count_code_points(whole) + 1;
-  const auto elided = [&whole](std::size_t count) {
-    std::string start = whole.substr(0, prefix_bytes(whole, count));
+  std::size_t too_many = length;
+  const auto elided = [&](std::size_t count) {
+    const std::size_t tail = elide == Elide::kMiddle ? count / 2 : 0;
+    std::string start = whole.substr(0, prefix_bytes(whole, count - tail));
     while (!start.empty() && start.back() == ' ') start.pop_back();
-    return shape_visible(start + "…");
+    return shape_visible(start + "…" + whole.substr(prefix_bytes(whole, length - tail)));
   };
   while (too_many - fits > 1) {
     const std::size_t middle = (fits + too_many) / 2;

@@ -59,8 +59,11 @@ std::string visible_lines(std::string_view text);
 /// `text` made visible and shaped. Safe from any thread.
 ShapedText shape_text(std::string_view text);
 
-/// As shape_text; if that is wider than `most`, as much of its start as fits, and "…".
-ShapedText shape_text_within(std::string_view text, double most);
+/// What a text loses when there is no room for all of it.
+enum class Elide { kEnd, kMiddle };
+
+/// As shape_text; if that is wider than `most`, as much of it as fits, and "…" for the rest.
+ShapedText shape_text_within(std::string_view text, double most, Elide elide = Elide::kEnd);
 
 /// The words of `text` in lines no wider than `most`, at most `lines` of them, the last one elided.
 std::vector<ShapedText> wrap_text(std::string_view text, double most, std::size_t lines);

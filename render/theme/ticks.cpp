@@ -28,6 +28,8 @@ std::string log_label(int factor, int exponent) {
 
 }  // namespace
 
+std::string power_of_ten(int exponent) { return "×10" + superscript(exponent); }
+
 std::string number_text(double value, int decimals) {
   std::string text = fmt::format("{:.{}f}", value, decimals);
   if (text[0] != '-') return text;
@@ -53,7 +55,7 @@ Ticks linear_ticks(double low, double high, double step) {
   const bool factored = exponent >= 6 || exponent <= -4;
   const double unit = factored ? std::pow(10.0, exponent) : 1.0;
   Ticks ticks;
-  if (factored) ticks.factor = "×10" + superscript(exponent);
+  if (factored) ticks.factor = power_of_ten(exponent);
   const int decimals = decimals_for(step / unit);
   const double first = std::ceil(low / step - 1e-9);
   const double last = std::floor(high / step + 1e-9);

@@ -23,6 +23,9 @@ Ticks linear_ticks(double low, double high, double step);
 /// there are fewer than three; linear ticks if there is less than that.
 Ticks log_ticks(double low, double high, int most);
 
+/// "×10⁶".
+std::string power_of_ten(int exponent);
+
 /// `value` with `decimals` digits behind the point, U+2212 for minus, no minus before zero.
 std::string number_text(double value, int decimals);
 
