@@ -1,0 +1,131 @@
+#include "tests/support/figure_checks.hpp"
+
+#include <gtest/gtest.h>
+
+#include "render/plot/layout.hpp"
+#include "render/plot/panel_layout.hpp"
+#include "tests/support/sample_figures.hpp"
+
+namespace mapproof::testing {
+namespace {
+
+std::string joined(const std::vector<std::string>& lines) {
+  std::string text;
+  for (const std::string& line : lines) text += line + "\n";
+  return text;
+}
+
+struct Case {
+  Figure figure;
+  Theme theme;
+};
+
+std::vector<Case> all_cases() {
+  std::vector<Case> cases;
+  for (const Figure& figure : sample_figures())
+    for (const Theme& theme : {report_theme(), paper_theme(3.25), paper_theme(6.75)})
+      cases.push_back({figure, theme});
+  return cases;
+}
+
+class EveryFigure : public ::testing::TestWithParam<Case> {};
+
+TEST_P(EveryFigure, IsCleanToTheEye) {
+  EXPECT_EQ(joined(flaws(lay_out(GetParam().figure, GetParam().theme))), "");
+}
+
+INSTANTIATE_TEST_SUITE_P(All, EveryFigure, ::testing::ValuesIn(all_cases()), [](const auto& one) {
+  std::string text = one.param.figure.id + "_" + one.param.theme.name;
+  std::erase_if(text, [](char c) { return c == '.'; });
+  std::ranges::replace(text, '-', '_');
+  return text;
+});
+
+/// A clean figure with room in it, for tests that spoil it.
+class FigureChecks : public ::testing::Test {
+ protected:
+  FigureChecks() {
+    Figure figure;
+    figure.id = "spoiled";
+    Panel& panel = figure.panels.emplace_back();
+    panel.x.label = "x";
+    panel.layers.push_back(Polyline{.label = "line", .x = {0, 1, 2}, .y = {0, 1, 0}});
+    panel.layers.push_back(Scatter{.label = "dots", .x = {0.5}, .y = {0.1}});
+    drawing_ = lay_out(figure, report_theme());
+  }
+
+  void add(const std::string& text, Point at, Colour colour = mapproof::colour(0x000000)) {
+    add_text(drawing_, Role::kMarkLabel, 0, shape_text(text), text, at, 12.0, colour);
+  }
+
+  Item& item_of(Role role) {
+    return *std::ranges::find(drawing_.items, role, &Item::role);
+  }
+
+  std::string found() { return joined(flaws(drawing_)); }
+
+  Drawing drawing_;
+};
+
+TEST_F(FigureChecks, FindNothingInACleanFigure) { EXPECT_EQ(found(), ""); }
+
+TEST_F(FigureChecks, FindTextOnALine) {
+  const Point peak = std::get<Shape>(item_of(Role::kLine).what).path.points[1];
+  add("peak", {peak.x - 12.0, peak.y + 4.0});
+  EXPECT_NE(found().find("'peak' covers a line"), std::string::npos);
+}
+
+TEST_F(FigureChecks, FindTextOnAMarker) {
+  const Point at = std::get<Stamp>(item_of(Role::kMarker).what).at;
+  add("dot", {at.x - 8.0, at.y + 4.0});
+  EXPECT_NE(found().find("'dot' covers"), std::string::npos);
+}
+
+TEST_F(FigureChecks, FindTextOnText) {
+  const Box frame = drawing_.frames[0];
+  add("one", {frame.x0 + 20.0, frame.y0 + 30.0});
+  add("two", {frame.x0 + 30.0, frame.y0 + 33.0});
+  EXPECT_NE(found().find("'one' and mark-label 'two' overlap"), std::string::npos);
+}
+
+TEST_F(FigureChecks, FindTextCutByTheBorder) {
+  add("outside", {drawing_.width - 20.0, 20.0});
+  EXPECT_NE(found().find("'outside' is cut"), std::string::npos);
+}
+
+TEST_F(FigureChecks, FindTextOnTheFrame) {
+  const Box frame = drawing_.frames[0];
+  add("edge", {frame.x0 - 10.0, frame.y0 + 60.0});
+  EXPECT_NE(found().find("'edge' covers"), std::string::npos);
+}
+
+TEST_F(FigureChecks, FindALegendOnData) {
+  const Point peak = std::get<Shape>(item_of(Role::kLine).what).path.points[1];
+  Shape box;
+  box.path.add_box(Box{peak.x, peak.y, peak.x, peak.y}.grown(10.0));
+  box.fill = drawing_.background;
+  drawing_.add(Role::kLegendBox, 0, std::move(box));
+  EXPECT_NE(found().find("legend-box covers data"), std::string::npos);
+}
+
+TEST_F(FigureChecks, FindPaleTextAndPaleLines) {
+  const Box frame = drawing_.frames[0];
+  add("pale", {frame.x0 + 20.0, frame.y0 + 30.0}, colour(0x999999));
+  std::get<Shape>(item_of(Role::kLine).what).stroke->colour = colour(0xF0E442);
+  EXPECT_NE(found().find("'pale' has too little contrast"), std::string::npos);
+  EXPECT_NE(found().find("a line has too little contrast"), std::string::npos);
+}
+
+TEST_F(FigureChecks, FindAGlyphThatTheFontLacks) {
+  add("x", {drawing_.frames[0].x0 + 20.0, drawing_.frames[0].y0 + 30.0});
+  std::get<TextLine>(drawing_.items.back().what).shaped.glyphs[0].index = 0;
+  EXPECT_NE(found().find("lacks"), std::string::npos);
+}
+
+TEST_F(FigureChecks, FindAMarkerOutsideThePage) {
+  std::get<Stamp>(item_of(Role::kMarker).what).at = {1.0, 200.0};
+  EXPECT_NE(found().find("marker is cut"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace mapproof::testing
