@@ -1,0 +1,158 @@
+#include "core/records/experiment_json.hpp"
+
+#include <gtest/gtest.h>
+
+#include <nlohmann/json.hpp>
+
+#include "core/base/errors.hpp"
+#include "core/base/files.hpp"
+#include "tests/core/records/samples.hpp"
+
+namespace mapproof {
+namespace {
+
+using nlohmann::json;
+using test::error_of;
+
+const std::filesystem::path kTemplate =
+    std::filesystem::path(MAPPROOF_SOURCE_DIR) / "templates/experiments/yairi2007.json";
+
+/// The error for small.json with one value replaced, or removed if it is null.
+std::string error_with(const std::string& pointer, const json& value) {
+  json experiment = json::parse(read_file(test::data("experiments/small.json")));
+  const json::json_pointer place(pointer);
+  if (value.is_null()) experiment[place.parent_pointer()].erase(place.back());
+  else experiment[place] = value;
+  return error_of([&] { parse_experiment(experiment.dump(), "e.json"); });
+}
+
+TEST(ExperimentJson, ComesBackTheSameFromItsOwnText) {
+  for (const char* profile : {"", "tiny", "noisy"}) {
+    const Experiment experiment =
+        parse_experiment(read_file(test::data("experiments/small.json")), "small.json", profile);
+    const std::string text = experiment_json(experiment);
+    EXPECT_EQ(experiment_json(parse_experiment(text, "again")), text);
+  }
+}
+
+TEST(ExperimentJson, TakesDefaultsForWhatIsLeftOut) {
+  const Experiment experiment = test::small_experiment();
+  EXPECT_EQ(experiment.title, "small");
+  EXPECT_EQ(experiment.walk.step_m, WalkOptions{}.step_m);
+  EXPECT_EQ(experiment.world.gap_m, WorldOptions{}.gap_m);
+  EXPECT_EQ(experiment.affine_fit, AffineFit::kLeastDistances);
+  EXPECT_TRUE(experiment.sensors[0].sensor.occlusion);
+}
+
+TEST(ExperimentJson, PutsMethodsInTheOrderOfTheTablesAndSensorsInTheirs) {
+  const Experiment experiment = test::small_experiment();
+  ASSERT_EQ(experiment.sensors.size(), 2U);
+  EXPECT_EQ(experiment.sensors[0].sensor.sensor, Sensor::kVisibility);
+  EXPECT_EQ(experiment.sensors[1].sensor.sensor, Sensor::kRange);
+  EXPECT_EQ(experiment.sensors[0].methods[0].method, Method::kLpca);
+  EXPECT_EQ(experiment.sensors[0].methods[1].method, Method::kIsomap);
+  EXPECT_EQ(experiment.sensors[0].methods[1].parameters, (std::vector{4.0, 5.0}));
+}
+
+TEST(ExperimentJson, AppliesAProfileAsAMergePatch) {
+  const std::string text = read_file(test::data("experiments/small.json"));
+  EXPECT_EQ(profiles(text, "e.json"), (std::vector<std::string>{"noisy", "tiny"}));
+  const Experiment tiny = parse_experiment(text, "e.json", "tiny");
+  EXPECT_EQ(tiny.layouts, 1);
+  EXPECT_EQ(tiny.sensors.size(), 1U);
+  EXPECT_EQ(parse_experiment(text, "e.json", "noisy").sensors[0].sensor.noise, 0.1);
+  EXPECT_EQ(error_of([&] { parse_experiment(text, "e.json", "big"); }),
+            "e.json: /profiles: no profile \"big\": it has noisy, tiny");
+}
+
+TEST(ExperimentJson, NamesTheProfileInItsErrors) {
+  json experiment = json::parse(read_file(test::data("experiments/small.json")));
+  experiment["profiles"]["tiny"]["poses"] = 0;
+  EXPECT_EQ(error_of([&] { parse_experiment(experiment.dump(), "e.json", "tiny"); }),
+            "e.json with profile tiny: /poses: expected an integer from 1 to 10000, got 0");
+}
+
+TEST(ExperimentJson, HoldsThePapersTablesInItsTemplate) {
+  const std::string text = read_file(kTemplate);
+  const Experiment full = parse_experiment(text, "yairi2007.json", "full");
+  EXPECT_EQ(experiment_json(full), experiment_json(parse_experiment(text, "yairi2007.json")));
+  EXPECT_EQ(full.layouts * full.poses, 25);
+  ASSERT_EQ(full.sensors.size(), 2U);
+  EXPECT_EQ(full.sensors[0].published[3].mpe_m, 0.177);
+  EXPECT_EQ(full.sensors[1].published[2].moe_percent, 1.0);
+  EXPECT_EQ(full.sensors[1].methods[3].parameters.back(), 14.0);
+  const Experiment quick = parse_experiment(text, "yairi2007.json", "quick");
+  EXPECT_EQ(quick.layouts * quick.poses, 5);
+  EXPECT_EQ(quick.sensors[1].checkpoints, (std::vector{500, 1000, 2000}));
+  EXPECT_EQ(quick.sensors[1].methods[3].parameters, std::vector{9.0});
+}
+
+TEST(ExperimentJson, RefusesACountOfABillion) {
+  EXPECT_EQ(error_with("/layouts", 1'000'000'000),
+            "e.json: /layouts: expected an integer from 1 to 10000, got 1000000000");
+  EXPECT_EQ(error_with("/world/landmarks", 1e9),
+            "e.json: /world/landmarks: expected an integer from 4 to 5000, got 1000000000");
+  EXPECT_EQ(error_with("/sensors/range/checkpoints/0", 1'000'000'000),
+            "e.json: /sensors/range/checkpoints/0: expected an integer from 3 to 1000000, got "
+            "1000000000");
+}
+
+TEST(ExperimentJson, AsksWhichMethodWasMeant) {
+  EXPECT_EQ(error_with("/sensors/range/methods/isomapp", {{"K", {4}}}),
+            "e.json: /sensors/range/methods/isomapp: unknown method \"isomapp\": did you mean "
+            "\"isomap\"?");
+}
+
+TEST(ExperimentJson, RefusesKThatIsNotBelowTheNumberOfLandmarks) {
+  EXPECT_EQ(error_with("/sensors/visibility/methods/isomap/K", {5, 12}),
+            "e.json: /sensors/visibility/methods/isomap/K/1: K must be below the number of "
+            "landmarks, 12, got 12");
+}
+
+TEST(ExperimentJson, RefusesKThatIsNoInteger) {
+  EXPECT_EQ(error_with("/sensors/visibility/methods/isomap/K", {4.5}),
+            "e.json: /sensors/visibility/methods/isomap/K/0: expected an integer from 1 to 1000, "
+            "got 4.5");
+}
+
+TEST(ExperimentJson, RefusesAParameterForAMethodWithoutOne) {
+  EXPECT_EQ(error_with("/sensors/visibility/methods/lpca/K", {4}),
+            "e.json: /sensors/visibility/methods/lpca: lpca has no parameter: expected {}");
+}
+
+TEST(ExperimentJson, RefusesCheckpointsThatDoNotAscend) {
+  EXPECT_EQ(error_with("/sensors/range/checkpoints", {200, 100}),
+            "e.json: /sensors/range/checkpoints/1: expected values in ascending order, got 100 "
+            "after 200");
+  EXPECT_EQ(error_with("/sensors/range/checkpoints", json::array()),
+            "e.json: /sensors/range/checkpoints: expected at least 1 elements, got 0");
+}
+
+TEST(ExperimentJson, RefusesLandmarksThatDoNotFitTheRoom) {
+  EXPECT_EQ(error_with("/world/landmarks", 5000),
+            "e.json: /world: 5000 landmarks of 0.048 m, 0.01 m apart, do not fit into a room of "
+            "1.5 m: at most 292 do");
+  EXPECT_EQ(error_with("/world/side_m", 0.2),
+            "e.json: /world: a room of 0.2 m has no place for a landmark of 0.048 m that keeps "
+            "0.1 m from the walls");
+}
+
+TEST(ExperimentJson, RefusesWhatOneSensorHasNoUseFor) {
+  EXPECT_EQ(error_with("/sensors/range/occlusion", true),
+            "e.json: /sensors/range: unknown key \"occlusion\"");
+  EXPECT_EQ(error_with("/sensors/visibility/noise", 0.75),
+            "e.json: /sensors/visibility/noise: expected a number from 0 to 0.5, got 0.75");
+}
+
+TEST(ExperimentJson, RefusesWhatHasNoNameOrNoSensors) {
+  EXPECT_EQ(error_with("/name", nullptr), "e.json: /: lacks the key \"name\"");
+  EXPECT_EQ(error_with("/name", "../x"),
+            "e.json: /name: expected letters, digits, '-' and '_', got \"../x\"");
+  EXPECT_EQ(error_with("/sensors", json::object()),
+            "e.json: /sensors: expected at least one of visibility, bearing, range");
+  EXPECT_EQ(error_with("/sensors/range/methods", json::object()),
+            "e.json: /sensors/range/methods: expected at least one method");
+}
+
+}  // namespace
+}  // namespace mapproof

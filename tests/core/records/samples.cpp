@@ -1,0 +1,120 @@
+#include "tests/core/records/samples.hpp"
+
+#include <unistd.h>
+
+#include <algorithm>
+#include <limits>
+#include <vector>
+
+#include "core/base/errors.hpp"
+#include "core/base/files.hpp"
+#include "core/records/experiment_json.hpp"
+
+namespace mapproof::test {
+
+namespace fs = std::filesystem;
+
+TemporaryFolder::TemporaryFolder() {
+  std::string pattern = (fs::temp_directory_path() / "mapproof-test-XXXXXX").string();
+  if (::mkdtemp(pattern.data()) == nullptr) throw IoError(pattern, "cannot be made");
+  path_ = pattern;
+}
+
+TemporaryFolder::~TemporaryFolder() {
+  std::error_code ignored;
+  fs::remove_all(path_, ignored);
+}
+
+fs::path TemporaryFolder::file(std::string_view name, std::string_view bytes) const {
+  write_file(path_ / name, bytes);
+  return path_ / name;
+}
+
+fs::path data(std::string_view name) { return fs::path(MAPPROOF_TEST_DATA) / name; }
+
+std::string error_of(const std::function<void()>& action) {
+  try {
+    action();
+  } catch (const IoError& error) {
+    return error.what();
+  }
+  return "no error";
+}
+
+std::string contents(const fs::path& folder) {
+  std::vector<fs::path> paths;
+  for (const auto& entry : fs::recursive_directory_iterator(folder))
+    if (entry.is_regular_file() && entry.path().filename() != "timings.jsonl")
+      paths.push_back(entry.path());
+  std::ranges::sort(paths);
+  std::string all;
+  for (const fs::path& path : paths)
+    all += "== " + path.lexically_relative(folder).string() + "\n" + read_file(path);
+  return all;
+}
+
+Experiment small_experiment() {
+  const fs::path path = data("experiments/small.json");
+  return parse_experiment(read_file(path), path.string());
+}
+
+Provenance made_up_provenance(const std::string& solver_digest) {
+  return {.version = "0.1.0",
+          .commit = "unknown",
+          .solver_digest = solver_digest,
+          .libraries = {{"Eigen", "3.4.0"}, {"a library before it in the alphabet", "1"}}};
+}
+
+RunResult made_up_result(const RunId& id) {
+  const double x = id.layout + id.pose / 8.0;
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  RunResult result;
+  Run& run = result.run;
+  run.id = id;
+  run.world = {.side_m = 1.5, .landmark_diameter_m = 0.048, .landmarks_m = Points(4, 2)};
+  run.world.landmarks_m << 0.1, 0.2, 1.25, x / 10.0, 1.0 / 3.0, 0.9, 1.1, 1.3;
+  run.anchors = {0, 1, 3};
+  const Score score{.mpe_m = x / 7.0,
+                    .moe_percent = 60.0,
+                    .mpe_all_fitted_m = x / 9.0,
+                    .moe_unmirrored_percent = 40.0};
+  run.records = {{.sensor = Sensor::kVisibility,
+                  .setting = {Method::kLpca, std::nullopt},
+                  .step = 50,
+                  .statuses = {},
+                  .score = score,
+                  .iterations = 0,
+                  .stress = std::nullopt},
+                 {.sensor = Sensor::kRange,
+                  .setting = {Method::kSmacofKnn, 4.0},
+                  .step = 100,
+                  .statuses = {{StatusCode::kFailed, "No map: \"made up\"."}},
+                  .score = std::nullopt,
+                  .iterations = 17,
+                  .stress = 0.1 * x}};
+  MapRecord map;
+  map.id = slug(id) + "/visibility/lpca/50";
+  map.step = 50;
+  map.names = {"L1", "L2", "L3", "L4"};
+  map.estimate = run.world.landmarks_m;
+  map.estimate.row(2).setConstant(nan);
+  map.truth_m = run.world.landmarks_m;
+  map.anchors = run.anchors;
+  map.score = score;
+  result.maps = {map};
+  result.timings = {{.run = id, .sensor = Sensor::kRange, .setting = {Method::kSmacofKnn, 4.0},
+                     .step = 100, .seconds = 0.25},
+                    {.run = id, .sensor = Sensor::kVisibility,
+                     .setting = {Method::kLpca, std::nullopt}, .step = 50, .seconds = 0.5}};
+  return result;
+}
+
+Session made_up_session() {
+  return {.command = "mapproof run \"an experiment.json\"",
+          .started_utc = "2026-01-02T03:04:05Z",
+          .host = "here",
+          .jobs = 2,
+          .seconds = 1.5};
+}
+
+}  // namespace mapproof::test

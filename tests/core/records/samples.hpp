@@ -1,0 +1,48 @@
+#pragma once
+
+#include <filesystem>
+#include <functional>
+#include <string>
+#include <string_view>
+
+#include "core/records/study_store.hpp"
+
+namespace mapproof::test {
+
+/// A folder of its own that goes with the test.
+class TemporaryFolder {
+ public:
+  TemporaryFolder();
+  ~TemporaryFolder();
+  TemporaryFolder(const TemporaryFolder&) = delete;
+  TemporaryFolder& operator=(const TemporaryFolder&) = delete;
+
+  std::filesystem::path operator/(std::string_view name) const { return path_ / name; }
+  const std::filesystem::path& path() const { return path_; }
+  /// Writes a file into it and gives its path.
+  std::filesystem::path file(std::string_view name, std::string_view bytes) const;
+
+ private:
+  std::filesystem::path path_;
+};
+
+/// A file below tests/data.
+std::filesystem::path data(std::string_view name);
+
+/// What the IoError says that `action` throws; "no error" if it throws none.
+std::string error_of(const std::function<void()>& action);
+
+/// Every file below a folder with its bytes, in the order of their names; timings.jsonl left out.
+std::string contents(const std::filesystem::path& folder);
+
+/// The experiment of tests/data/experiments/small.json: 2 layouts x 2 poses.
+Experiment small_experiment();
+
+Provenance made_up_provenance(const std::string& solver_digest = "0123abcd");
+
+/// A run whose numbers are made up from its id: two records, one of them failed, and one map.
+RunResult made_up_result(const RunId& id);
+
+Session made_up_session();
+
+}  // namespace mapproof::test

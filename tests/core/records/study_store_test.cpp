@@ -1,0 +1,256 @@
+#include "core/records/study_store.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <thread>
+
+#include "core/base/errors.hpp"
+#include "core/base/files.hpp"
+#include "core/records/experiment_json.hpp"
+#include "tests/core/records/samples.hpp"
+
+namespace mapproof {
+namespace {
+
+namespace fs = std::filesystem;
+using test::contents;
+using test::error_of;
+using test::made_up_provenance;
+using test::made_up_result;
+using test::small_experiment;
+using test::TemporaryFolder;
+
+StudyStore open(const fs::path& folder) {
+  return StudyStore::open(folder, small_experiment(), made_up_provenance());
+}
+
+TEST(StudyStore, GivesBackWhatWasWritten) {
+  const TemporaryFolder folder;
+  {
+    StudyStore store = open(folder / "study");
+    store.write(made_up_result({.layout = 2, .pose = 1}));
+    store.write(made_up_result({.layout = 1, .pose = 2}));
+    store.write_session(test::made_up_session());
+  }
+  const Study study = read_study(folder / "study");
+  EXPECT_EQ(experiment_json(study.experiment), experiment_json(small_experiment()));
+  EXPECT_EQ(study.provenance.libraries, made_up_provenance().libraries);
+  ASSERT_EQ(study.runs.size(), 2U);
+  EXPECT_EQ(study.runs[0].id, (RunId{.layout = 1, .pose = 2}));
+  const mapproof::Run expected = made_up_result({.layout = 2, .pose = 1}).run;
+  const mapproof::Run& run = study.runs[1];
+  EXPECT_EQ(run.world.landmarks_m, expected.world.landmarks_m);
+  EXPECT_EQ(run.anchors, expected.anchors);
+  ASSERT_EQ(run.records.size(), 2U);
+  EXPECT_EQ(run.records[0].score->mpe_m, expected.records[0].score->mpe_m);
+  EXPECT_EQ(run.records[1].setting, expected.records[1].setting);
+  EXPECT_EQ(run.records[1].statuses, expected.records[1].statuses);
+  EXPECT_EQ(run.records[1].stress, expected.records[1].stress);
+  EXPECT_FALSE(run.records[1].score.has_value());
+}
+
+TEST(StudyStore, KeepsTheMapsOfARunWithTheirHoles) {
+  const TemporaryFolder folder;
+  const RunId id{.layout = 1, .pose = 1};
+  RunResult result = made_up_result(id);
+  result.maps.push_back(result.maps[0]);
+  result.maps[1].id += "-other";
+  result.maps[1].anchors = {2};
+  result.maps[1].truth_m.reset();
+  result.maps[1].frame = Frame::kSimilarity;
+  open(folder.path()).write(result);
+  const std::vector<MapRecord> maps = read_maps(folder.path(), id);
+  ASSERT_EQ(maps.size(), 2U);
+  for (std::size_t i = 0; i < maps.size(); ++i) {
+    EXPECT_EQ(maps[i].id, result.maps[i].id);
+    EXPECT_EQ(maps[i].names, result.maps[i].names);
+    EXPECT_EQ(maps[i].anchors, result.maps[i].anchors);
+    EXPECT_EQ(maps[i].frame, result.maps[i].frame);
+    EXPECT_EQ(maps[i].truth_m, result.maps[i].truth_m);
+    EXPECT_EQ(maps[i].estimate.topRows(2), result.maps[i].estimate.topRows(2));
+    EXPECT_TRUE(maps[i].estimate.row(2).array().isNaN().all());
+  }
+}
+
+TEST(StudyStore, WritesTheSameBytesInWhateverOrderRunsEnd) {
+  const TemporaryFolder folder;
+  std::vector<RunId> ids = {{1, 1}, {1, 2}, {2, 1}, {2, 2}};
+  StudyStore forwards = open(folder / "forwards");
+  for (const RunId& id : ids) forwards.write(made_up_result(id));
+  StudyStore at_once = open(folder / "at-once");
+  std::vector<std::thread> threads;
+  for (auto id = ids.rbegin(); id != ids.rend(); ++id)
+    threads.emplace_back([&at_once, id] { at_once.write(made_up_result(*id)); });
+  for (std::thread& thread : threads) thread.join();
+  EXPECT_EQ(contents(folder / "forwards"), contents(folder / "at-once"));
+  EXPECT_EQ(read_timings(folder / "at-once").size(), 8U);
+}
+
+TEST(StudyStore, ResumesWithTheRunsThatAreWhole) {
+  const TemporaryFolder folder;
+  {
+    StudyStore store = open(folder.path());
+    store.write(made_up_result({1, 1}));
+    store.write(made_up_result({1, 2}));
+    store.write(made_up_result({2, 1}));
+  }
+  const std::string whole = contents(folder.path());
+  const std::string run = read_file(folder / "runs/layout-1-pose-1.json");
+  write_file(folder / "runs/layout-1-pose-1.json", run.substr(0, run.size() / 2));
+  fs::remove(folder / "maps/layout-1-pose-2.json");
+  folder.file("runs/layout-9-pose-9.json", "{}");
+  StudyStore store = open(folder.path());
+  EXPECT_FALSE(store.redone());
+  EXPECT_EQ(store.finished(), (std::vector<RunId>{{2, 1}}));
+  fs::remove(folder / "runs/layout-9-pose-9.json");
+  store.write(made_up_result({1, 1}));
+  store.write(made_up_result({1, 2}));
+  EXPECT_EQ(contents(folder.path()), whole);
+}
+
+TEST(StudyStore, RedoesTheRunsOfAnotherSolver) {
+  const TemporaryFolder folder;
+  open(folder.path()).write(made_up_result({1, 1}));
+  StudyStore store =
+      StudyStore::open(folder.path(), small_experiment(), made_up_provenance("another"));
+  EXPECT_TRUE(store.redone());
+  EXPECT_TRUE(store.finished().empty());
+  EXPECT_TRUE(read_timings(folder.path()).empty());
+  EXPECT_EQ(read_study(folder.path()).provenance.solver_digest, "another");
+}
+
+TEST(StudyStore, NamesTheDifferenceToTheExperimentInTheFolder) {
+  const TemporaryFolder folder;
+  open(folder / "study");
+  Experiment other = small_experiment();
+  other.seed = 8;
+  const std::string path = (folder / "study").string();
+  EXPECT_EQ(error_of([&] { StudyStore::open(path, other, made_up_provenance()); }),
+            path + ": holds another experiment (/seed is 7 there and 8 here); choose another folder "
+                   "or remove it");
+  other = small_experiment();
+  other.sensors[0].methods.pop_back();
+  EXPECT_NE(error_of([&] { StudyStore::open(path, other, made_up_provenance()); })
+                .find("/sensors/visibility/methods/isomap is {\"K\":[4,5]} there and missing here"),
+            std::string::npos);
+}
+
+TEST(StudyStore, LeavesAFolderWithOtherFilesAlone) {
+  const TemporaryFolder folder;
+  folder.file("thesis.tex", "years of work");
+  EXPECT_EQ(error_of([&] { open(folder.path()); }),
+            folder.path().string() + ": is not empty and holds no study; choose another folder");
+  EXPECT_EQ(contents(folder.path()), "== thesis.tex\nyears of work");
+}
+
+TEST(StudyStore, RefusesAFileInPlaceOfTheFolder) {
+  const TemporaryFolder folder;
+  const fs::path file = folder.file("file", "");
+  EXPECT_NE(error_of([&] { open(file); }).find("file: "), std::string::npos);
+  EXPECT_NE(error_of([&] { open(file / "below"); }).find("cannot be made"), std::string::npos);
+}
+
+TEST(StudyStore, RefusesARunThatIsNotOfItsExperiment) {
+  const TemporaryFolder folder;
+  StudyStore store = open(folder.path());
+  EXPECT_THROW(store.write(made_up_result({3, 1})), InvalidInput);
+  EXPECT_THROW(store.write(made_up_result({1, 0})), InvalidInput);
+}
+
+TEST(StudyStore, RemovesWhatAKilledProcessLeft) {
+  const TemporaryFolder folder;
+  open(folder / "study").write(made_up_result({1, 1}));
+  const std::string before = contents(folder.path());
+  folder.file("study/study.json.part-999999999", "half");
+  folder.file("study/runs/layout-1-pose-2.json.part-999999999", "half");
+  folder.file("study/figures/map.svg.part-999999999", "half");
+  folder.file("new/study.json.part-999999999", "half");
+  open(folder / "study");
+  EXPECT_EQ(contents(folder / "study"), contents(folder / "study"));
+  open(folder / "new");
+  fs::remove_all(folder / "new");
+  EXPECT_EQ(contents(folder.path()), before);
+}
+
+TEST(StudyReader, TellsAStudyFromOtherFolders) {
+  const TemporaryFolder folder;
+  EXPECT_FALSE(is_study(folder.path()));
+  EXPECT_FALSE(is_study(folder / "missing"));
+  EXPECT_EQ(error_of([&] { read_study(folder.path()); }),
+            folder.path().string() + ": holds no study: study.json is missing");
+  EXPECT_EQ(error_of([&] { read_study(folder / "missing"); }),
+            (folder / "missing").string() + ": does not exist");
+  open(folder.path());
+  EXPECT_TRUE(is_study(folder.path()));
+  EXPECT_TRUE(read_study(folder.path()).runs.empty());
+}
+
+TEST(StudyReader, NamesADamagedFile) {
+  const TemporaryFolder folder;
+  open(folder.path()).write(made_up_result({1, 1}));
+  const fs::path path = folder / "runs/layout-1-pose-1.json";
+  const std::string run = read_file(path);
+  write_file(path, run.substr(0, run.size() / 2));
+  EXPECT_NE(error_of([&] { read_study(folder.path()); }).find("the file is truncated"),
+            std::string::npos);
+  write_file(path, "");
+  EXPECT_EQ(error_of([&] { read_study(folder.path()); }), path.string() + ": is empty");
+}
+
+TEST(StudyReader, NoticesAFileUnderAnotherRunsName) {
+  const TemporaryFolder folder;
+  open(folder.path()).write(made_up_result({1, 1}));
+  fs::rename(folder / "runs/layout-1-pose-1.json", folder / "runs/layout-2-pose-2.json");
+  fs::rename(folder / "maps/layout-1-pose-1.json", folder / "maps/layout-2-pose-2.json");
+  EXPECT_NE(error_of([&] { read_study(folder.path()); }).find("says that it is layout-1-pose-1"),
+            std::string::npos);
+  EXPECT_NE(error_of([&] { read_maps(folder.path(), {2, 2}); }).find("layout-1-pose-1"),
+            std::string::npos);
+  EXPECT_TRUE(open(folder.path()).finished().empty());
+}
+
+TEST(Timings, AreSortedAndTheLaterOfTwoCounts) {
+  const TemporaryFolder folder;
+  StudyStore store = open(folder.path());
+  store.write(made_up_result({2, 1}));
+  RunResult again = made_up_result({1, 1});
+  store.write(again);
+  again.timings[0].seconds = 9.0;
+  store.write(again);
+  const std::vector<Timing> timings = read_timings(folder.path());
+  ASSERT_EQ(timings.size(), 4U);
+  EXPECT_EQ(timings[0].run, (RunId{1, 1}));
+  EXPECT_EQ(timings[0].sensor, Sensor::kVisibility);
+  EXPECT_EQ(timings[1].seconds, 9.0);
+  EXPECT_EQ(timings[3].run, (RunId{2, 1}));
+}
+
+TEST(Timings, LoseOnlyALineThatAKillTore) {
+  const TemporaryFolder folder;
+  {
+    StudyStore store = open(folder.path());
+    store.write_session(test::made_up_session());
+    store.write(made_up_result({1, 1}));
+  }
+  const std::string text = read_file(folder / "timings.jsonl");
+  write_file(folder / "timings.jsonl", text.substr(0, text.size() - 20));
+  EXPECT_EQ(read_timings(folder.path()).size(), 1U);
+  EXPECT_EQ(read_sessions(folder.path()).size(), 1U);
+  open(folder.path()).write_session(test::made_up_session());
+  EXPECT_EQ(read_timings(folder.path()).size(), 1U);
+  ASSERT_EQ(read_sessions(folder.path()).size(), 2U);
+  EXPECT_EQ(read_sessions(folder.path())[1].command, test::made_up_session().command);
+}
+
+TEST(Timings, NameTheLineThatIsDamaged) {
+  const TemporaryFolder folder;
+  open(folder.path());
+  folder.file("timings.jsonl", "{\"kind\": \"nap\"}\n");
+  EXPECT_EQ(error_of([&] { read_timings(folder.path()); }),
+            (folder / "timings.jsonl").string() +
+                ": line 1: /kind: expected map or session, got \"nap\"");
+}
+
+}  // namespace
+}  // namespace mapproof
