@@ -187,7 +187,9 @@ class MapFigure {
   }
 
   Scatter estimates() const {
-    Scatter points{.label = "estimate", .ink = Ink::kSeries1, .size = 0.8};
+    // A single entry would need no legend, and look like one more landmark.
+    const bool alone = record_.frame == Frame::kSimilarity && view_.outside.empty();
+    Scatter points{.label = alone ? "" : "estimate", .ink = Ink::kSeries1, .size = 0.8};
     for (Eigen::Index i = 0; i < rows(); ++i) {
       if (!view_.has_estimate[i] || is_outside(i)) continue;
       add_point(points, place(i));

@@ -1,26 +1,51 @@
 #include "render/plot/layout.hpp"
 
+#include <fmt/format.h>
+
 #include "render/plot/panel_layout.hpp"
 
 namespace mapproof {
 namespace {
 
-/// Draws title and notes from the top of `room` down and gives what is left of it.
-Box draw_head(const Figure& figure, Box room, const Theme& theme, Drawing& drawing) {
-  const auto draw = [&](const std::string& text, Role role, double em, Colour colour, std::size_t lines) {
-    for (const ShapedText& line : wrap_text(text, room.width() / em, lines)) {
-      add_text(drawing, role, 0, line, text, {room.x0, room.y0 + FontFacts::kAscent * em}, em, colour);
-      room.y0 += FontFacts::kLine * em;
+constexpr double kMostOfHead = 0.4;  // Of the page's height; below it, the panels.
+
+/// Title and notes from the top of the page down.
+class Head {
+ public:
+  Head(const Figure& figure, const Box& page, const Theme& theme, Drawing& drawing)
+      : figure_(figure), page_(page), theme_(theme), drawing_(drawing), y_(page.y0) {}
+
+  /// The room that is left.
+  Box draw() {
+    if (theme_.draws_title) add(figure_.title, Role::kTitle, theme_.title_font_pt, theme_.text);
+    const double em = theme_.tick_font_pt;
+    for (std::size_t i = 0; i < figure_.notes.size(); ++i) {
+      const double end = page_.y0 + kMostOfHead * page_.height() - 3.0 * FontFacts::kLine * em;
+      if (y_ > end && i + 1 < figure_.notes.size()) {
+        add(fmt::format("… and {} more notes", figure_.notes.size() - i), Role::kNote, em, theme_.text);
+        break;
+      }
+      add(figure_.notes[i].text, Role::kNote, em, theme_.of(figure_.notes[i].ink));
     }
-  };
-  const double top = room.y0;
-  if (theme.draws_title && !figure.title.empty())
-    draw(figure.title, Role::kTitle, theme.title_font_pt, theme.text, 2);
-  for (const Note& note : figure.notes)
-    draw(note.text, Role::kNote, theme.tick_font_pt, theme.of(note.ink), 2);
-  if (room.y0 > top) room.y0 += theme.space_pt;
-  return room;
-}
+    if (y_ > page_.y0) y_ += theme_.space_pt;
+    return {page_.x0, y_, page_.x1, page_.y1};
+  }
+
+ private:
+  void add(const std::string& text, Role role, double em, Colour colour) {
+    constexpr std::size_t kMostLines = 2;
+    for (const ShapedText& line : wrap_text(text, page_.width() / em, kMostLines)) {
+      add_text(drawing_, role, 0, line, text, {page_.x0, y_ + FontFacts::kAscent * em}, em, colour);
+      y_ += FontFacts::kLine * em;
+    }
+  }
+
+  const Figure& figure_;
+  const Box& page_;
+  const Theme& theme_;
+  Drawing& drawing_;
+  double y_;
+};
 
 }  // namespace
 
@@ -72,7 +97,7 @@ Drawing lay_out(const Figure& figure, const Theme& theme) {
 
   const double margin = theme.space_pt;
   const Box page{margin, margin, theme.width_pt - margin, theme.height_pt - margin};
-  const Box room = draw_head(figure, page, theme, drawing);
+  const Box room = Head(figure, page, theme, drawing).draw();
   const auto count = static_cast<double>(figure.panels.size());
   const double gap = 2.0 * theme.space_pt;
   const double width = (room.width() - (count - 1.0) * gap) / count;

@@ -123,7 +123,7 @@ std::optional<Box> Legend::free_place(const Box& frame, const Obstacles& data) c
   const Point extent = size(1);
   const double gap = theme_.space_pt;
   const Box room = frame.grown(-gap);
-  if (extent.x > 0.6 * room.width() || extent.y > 0.8 * room.height()) return std::nullopt;
+  if (extent.x > 0.8 * room.width() || extent.y > 0.8 * room.height()) return std::nullopt;
   const double left = room.x0, right = room.x1 - extent.x, middle = (left + right) / 2.0;
   const double top = room.y0, bottom = room.y1 - extent.y, centre = (top + bottom) / 2.0;
   for (const Point at : {Point{right, top}, Point{left, top}, Point{right, bottom},
@@ -139,6 +139,7 @@ void Legend::draw_box(const Box& place, std::size_t panel_index, Drawing& drawin
   Shape box;
   box.path.add_box(place.grown(0.5 * theme_.space_pt));
   box.fill = theme_.background;
+  box.stroke = Stroke{mix(theme_.text, theme_.background, 0.3), theme_.hairline_pt, {}};
   drawing.add(Role::kLegendBox, panel_index, std::move(box));
 }
 

@@ -177,32 +177,39 @@ class SvgWriter {
     return text + '"';
   }
 
-  /// What neighbouring items share stands once, on a group around them.
+  /// What neighbouring items share stands once, on a group around them: their look, or their mark.
   void write_item(std::size_t index) {
     const Item& item = drawing_.items[index];
-    std::string shared = fmt::format(" class=\"{}\"", name(item.role));
-    if (item.clipped) shared += fmt::format(" clip-path=\"url(#{}-c{})\"", drawing_.id, item.panel);
-    if (const auto* shape = std::get_if<Shape>(&item.what)) shared += style(*shape);
+    std::string look = fmt::format(" class=\"{}\"", name(item.role));
+    if (item.clipped) look += fmt::format(" clip-path=\"url(#{}-c{})\"", drawing_.id, item.panel);
+    if (const auto* shape = std::get_if<Shape>(&item.what)) look += style(*shape);
     if (const auto* line = std::get_if<TextLine>(&item.what))
-      shared += " fill=\"" + hex(line->colour) + '"';
-    const bool same_mark = item.mark && item.mark == open_mark_;
-    if (!same_mark) close_mark();
-    if (shared != open_group_ && !same_mark) {
-      close_group();
-      out_ += "<g" + shared + ">\n";
-      open_group_ = shared;
-    }
-    const bool shared_mark = index + 1 < drawing_.items.size() && item.mark &&
-                             drawing_.items[index + 1].mark == item.mark;
-    if (shared_mark && !same_mark) {
-      out_ += "<g";
-      mark_attributes(*item.mark);
-      out_ += ">\n";
-      open_mark_ = item.mark;
-    }
-    const bool carries_mark = item.mark && !open_mark_;
-    const std::string own_style = same_mark && shared != open_group_ ? shared : std::string();
-    std::visit([&](const auto& what) { write(what, item, carries_mark, own_style); }, item.what);
+      look += " fill=\"" + hex(line->colour) + '"';
+
+    const auto& items = drawing_.items;
+    const bool continues = item.mark && item.mark == open_mark_;
+    const bool starts = item.mark && !continues && index + 1 < items.size() &&
+                        items[index + 1].mark == item.mark;
+    if (!continues) close_mark();
+    if (starts) open_mark(*item.mark);
+    if (!open_mark_) open_group(look);
+    const std::string own = open_mark_ ? look : std::string();
+    std::visit([&](const auto& what) { write(what, item, own); }, item.what);
+  }
+
+  void open_mark(std::size_t mark) {
+    close_group();
+    out_ += "<g";
+    mark_attributes(mark);
+    out_ += ">\n";
+    open_mark_ = mark;
+  }
+
+  void open_group(const std::string& look) {
+    if (look == open_group_) return;
+    close_group();
+    out_ += "<g" + look + ">\n";
+    open_group_ = look;
   }
 
   void mark_attributes(std::size_t index) {
@@ -211,23 +218,23 @@ class SvgWriter {
     for (const auto& [key, value] : mark.data) attribute("data-" + key, value);
   }
 
-  void write(const Shape& shape, const Item& item, bool carries_mark, const std::string& own) {
+  void write(const Shape& shape, const Item& item, const std::string& own) {
     out_ += "<path" + own;
-    if (carries_mark) mark_attributes(*item.mark);
+    if (item.mark && !open_mark_) mark_attributes(*item.mark);
     path_attribute(shape.path);
     out_ += "/>\n";
   }
 
-  void write(const Stamp& stamp, const Item& item, bool carries_mark, const std::string& own) {
+  void write(const Stamp& stamp, const Item& item, const std::string& own) {
     out_ += "<use" + own;
-    if (carries_mark) mark_attributes(*item.mark);
+    if (item.mark && !open_mark_) mark_attributes(*item.mark);
     out_ += fmt::format(" href=\"#{}-s{}\"", drawing_.id, stamp.symbol);
     attribute("x", stamp.at.x);
     attribute("y", stamp.at.y);
     out_ += "/>\n";
   }
 
-  void write(const TextLine& line, const Item&, bool, const std::string&) {
+  void write(const TextLine& line, const Item&, const std::string&) {
     out_ += "<g";
     attribute("aria-label", line.whole.empty() ? line.shaped.text : line.whole);
     out_ += " transform=\"translate(";

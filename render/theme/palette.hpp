@@ -7,14 +7,15 @@
 namespace mapproof {
 
 /// Colours that the colour-blind tell apart [okabe2008], in the order of a figure's curves, each at
-/// least 3:1 on white: its orange and sky blue are darkened to that, its yellow is left out.
+/// least 3:1 on white: its sky blue and yellow are darkened to that; its orange, which would then
+/// be near vermilion, is left out.
 inline constexpr std::array<Colour, 7> kSeriesColours = {
     colour(0x0072B2),  // blue
     colour(0xD55E00),  // vermilion
     colour(0x009E73),  // bluish green
     colour(0xC66FA1),  // reddish purple
     colour(0x000000),  // black
-    colour(0xB97F00),  // orange, darkened
+    colour(0x8A7D00),  // yellow, darkened
     colour(0x3A90C4),  // sky blue, darkened
 };
 

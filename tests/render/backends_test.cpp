@@ -1,0 +1,144 @@
+#include "render/cairo/cairo_backend.hpp"
+
+#include <cstdio>
+#include <cstdlib>
+#include <memory>
+#include <thread>
+
+#include <gtest/gtest.h>
+
+#include "core/base/errors.hpp"
+#include "core/base/files.hpp"
+#include "render/figures/map.hpp"
+#include "render/figures/write_figure.hpp"
+#include "render/plot/figure_json.hpp"
+#include "render/plot/layout.hpp"
+#include "tests/support/png_reader.hpp"
+#include "tests/support/sample_figures.hpp"
+
+namespace mapproof::testing {
+namespace {
+
+namespace fs = std::filesystem;
+
+Figure usual_map() { return map_figure(sample_map(50, 0.12, 1), "map-usual"); }
+
+/// A folder that is gone with the test.
+class Backends : public ::testing::Test {
+ protected:
+  Backends() {
+    std::string pattern = (fs::temp_directory_path() / "mapproof-XXXXXX").string();
+    folder_ = ::mkdtemp(pattern.data());
+  }
+  ~Backends() override { fs::remove_all(folder_); }
+
+  /// What a program prints; empty if it is not there.
+  std::string output_of(const std::string& command) {
+    const std::string file = (folder_ / "output.txt").string();
+    if (std::system((command + " > '" + file + "' 2> /dev/null").c_str()) != 0) return {};
+    return read_file(file);
+  }
+
+  fs::path folder_;
+};
+
+TEST_F(Backends, PngIsReadByLibpngWithItsTextsAndDensity) {
+  const PngFile png = read_png(figure_png(usual_map(), report_theme()));
+  EXPECT_EQ(png.image.width, 1200);
+  EXPECT_EQ(png.image.height, 900);
+  EXPECT_EQ(png.pixels_per_metre, 5669u);  // 144 dpi.
+  EXPECT_FALSE(png.has_time);
+  EXPECT_EQ(png.texts.at("Software"), "mapproof");
+  EXPECT_EQ(png.texts.at("mapproof:figure"), "map-usual");
+  EXPECT_EQ(png.texts.at("mapproof:records"), usual_map().record_ids.front());
+  EXPECT_EQ(png.texts.at("Title"), usual_map().title);
+}
+
+TEST_F(Backends, PaperPngHasThreeHundredDotsAnInch) {
+  const PngFile png = read_png(figure_png(usual_map(), paper_theme(3.25)));
+  EXPECT_EQ(png.image.width, 975);
+  EXPECT_EQ(png.pixels_per_metre, 11811u);
+}
+
+TEST_F(Backends, PngKeepsHostileTextsReadable) {
+  Figure figure = usual_map();
+  figure.title = "a\u202Eb\x01\xFF<b>\u00E9";
+  const PngFile png = read_png(figure_png(figure, report_theme()));
+  EXPECT_EQ(png.texts.at("Title"), "a[U+202E]b[U+0001][xFF]<b>\u00E9");
+}
+
+TEST_F(Backends, PdfKeepsItsTextSelectable) {
+  Figure figure = usual_map();
+  figure.title = "Karte \u00FC \u2212 \u05E9\u05DC\u05D5\u05DD fi";
+  write_file(folder_ / "map.pdf", figure_pdf(figure, report_theme()));
+  const std::string text = output_of("pdftotext '" + (folder_ / "map.pdf").string() + "' -");
+  if (text.empty()) GTEST_SKIP() << "pdftotext is not installed";
+  for (const char* part : {"Karte \u00FC \u2212 ", "\u05E9\u05DC\u05D5\u05DD", "fi", "MPE 0.", "x [m]",
+                           "true position", "anchor"})
+    EXPECT_NE(text.find(part), std::string::npos) << part << " in:\n" << text;
+}
+
+TEST_F(Backends, PdfHasAFixedDateAndATitle) {
+  const std::string pdf = figure_pdf(usual_map(), report_theme());
+  const std::size_t date = pdf.find("/CreationDate (");  // Cairo 1.16 forgets "D:".
+  ASSERT_NE(date, std::string::npos);
+  EXPECT_NE(pdf.substr(date, 40).find("20000101000000"), std::string::npos) << pdf.substr(date, 40);
+  EXPECT_EQ(pdf.find("/ModDate"), std::string::npos);
+  EXPECT_NE(pdf.find("/Title"), std::string::npos);
+}
+
+TEST_F(Backends, ThePictureIsTheSameForEveryThread) {
+  const std::vector<Figure> figures = sample_figures();
+  std::vector<std::string> expected;
+  for (const Figure& figure : figures)
+    expected.push_back(figure_png(figure, report_theme()) + figure_svg(figure, report_theme()) +
+                       figure_pdf(figure, report_theme()));
+  std::vector<std::string> found(3 * figures.size());
+  std::vector<std::jthread> threads;
+  for (std::size_t t = 0; t < 3; ++t)
+    threads.emplace_back([&, t] {
+      for (std::size_t k = 0; k < figures.size(); ++k) {
+        const std::size_t i = (k + 7 * t) % figures.size();  // In another order in each thread.
+        found[t * figures.size() + i] = figure_png(figures[i], report_theme()) +
+                                        figure_svg(figures[i], report_theme()) +
+                                        figure_pdf(figures[i], report_theme());
+      }
+    });
+  threads.clear();
+  for (std::size_t i = 0; i < found.size(); ++i)
+    EXPECT_TRUE(found[i] == expected[i % figures.size()]) << figures[i % figures.size()].id;
+}
+
+TEST_F(Backends, FilesAreNamedByTheFigureAndHoldWhatTheBytesFunctionsGive) {
+  const Figure figure = usual_map();
+  const FigureFiles files = write_figure(figure, report_theme(), folder_ / "figures");
+  EXPECT_EQ(files.svg, folder_ / "figures" / "map-usual.svg");
+  EXPECT_EQ(read_file(files.svg), figure_svg(figure, report_theme()));
+  EXPECT_EQ(read_file(files.png), figure_png(figure, report_theme()));
+  EXPECT_EQ(read_file(files.pdf), figure_pdf(figure, report_theme()));
+  EXPECT_EQ(figure_from_json(read_file(files.json), "x"), figure);
+  EXPECT_EQ(files.json.filename(), "map-usual.figure.json");
+}
+
+TEST_F(Backends, AnIdThatIsAPathNeverReachesTheDisk) {
+  for (const std::string id : {"../up", "a/b", "", "A", "a b", "-a", "a\n", "..", "a."}) {
+    Figure figure = usual_map();
+    figure.id = id;
+    EXPECT_THROW(write_figure(figure, report_theme(), folder_), InvalidInput) << id;
+  }
+  EXPECT_TRUE(fs::is_empty(folder_));
+}
+
+TEST_F(Backends, AFileInTheFoldersPlaceIsAnError) {
+  write_file(folder_ / "file", "x");
+  EXPECT_THROW(write_figure(usual_map(), report_theme(), folder_ / "file"), IoError);
+}
+
+TEST_F(Backends, ThePictureOfAHugePageIsRefused) {
+  Drawing drawing = lay_out(usual_map(), report_theme());
+  drawing.dpi = 1e9;
+  EXPECT_THROW(to_image(drawing), InvalidInput);
+}
+
+}  // namespace
+}  // namespace mapproof::testing

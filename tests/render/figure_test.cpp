@@ -1,0 +1,117 @@
+#include "render/plot/figure.hpp"
+
+#include <cmath>
+#include <limits>
+
+#include <gtest/gtest.h>
+
+#include "core/base/errors.hpp"
+#include "render/plot/figure_json.hpp"
+#include "tests/support/sample_figures.hpp"
+
+namespace mapproof::testing {
+namespace {
+
+Figure small() {
+  Figure figure;
+  figure.id = "small";
+  figure.panels.resize(1);
+  figure.panels[0].layers = {Polyline{.x = {1.0, 2.0}, .y = {1.0, 3.0}, .mark = {"line", {{"key", "value"}}}},
+                             Scatter{.x = {1.0}, .y = {2.0}, .marks = {Mark{"dot", {}}}}};
+  return figure;
+}
+
+std::string message_of(const std::string& json) {
+  try {
+    figure_from_json(json, "f.json");
+  } catch (const IoError& error) {
+    return error.what();
+  }
+  return "";
+}
+
+std::string replaced(std::string text, const std::string& from, const std::string& to) {
+  const std::size_t at = text.find(from);
+  return at == std::string::npos ? "" : text.replace(at, from.size(), to);
+}
+
+TEST(Figure, OfSoundPartsHasNoProblem) { EXPECT_EQ(problem(small()), ""); }
+
+TEST(Figure, NamesThePlaceOfWhatIsWrong) {
+  Figure figure = small();
+  std::get<Polyline>(figure.panels[0].layers[0]).y.pop_back();
+  EXPECT_EQ(problem(figure), "panels/0/layers/0/y: not as long as x");
+  figure = small();
+  std::get<Scatter>(figure.panels[0].layers[1]).marks[0].id = "line";
+  EXPECT_EQ(problem(figure), "panels/0/layers/1/mark: id 'line' is there twice");
+  figure = small();
+  figure.panels[0].y.scale = Scale::kLog;
+  std::get<Scatter>(figure.panels[0].layers[1]).y[0] = 0.0;
+  EXPECT_EQ(problem(figure), "panels/0/layers/1/y/0: not positive on a log axis");
+  figure = small();
+  figure.panels[0].x.limits = Range{2.0, 2.0};
+  EXPECT_EQ(problem(figure), "panels/0/x/limits: not finite and ascending");
+  figure = small();
+  std::get<Scatter>(figure.panels[0].layers[1]).x[0] = INFINITY;
+  EXPECT_EQ(problem(figure), "panels/0/layers/1/x/0: infinite");
+}
+
+TEST(Figure, RefusesIdsThatAreNoFileNames) {
+  for (const std::string id : {"", "Big", "a/b", "..", "1st", "a_b", "a b", "\u00E9"}) {
+    Figure figure = small();
+    figure.id = id;
+    EXPECT_NE(problem(figure), "") << id;
+  }
+  Figure figure = small();
+  figure.id = std::string(121, 'a');
+  EXPECT_NE(problem(figure), "");
+}
+
+TEST(Figure, RefusesDataNamesThatAreNoAttributeNames) {
+  Figure figure = small();
+  std::get<Polyline>(figure.panels[0].layers[0]).mark.data[0].first = "x\" onload=\"";
+  EXPECT_NE(problem(figure), "");
+}
+
+TEST(FigureJson, RoundTripsEveryFigure) {
+  for (const Figure& figure : sample_figures()) {
+    const std::string json = figure_to_json(figure);
+    const Figure back = figure_from_json(json, "figure.json");
+    EXPECT_EQ(figure_to_json(back), json) << figure.id;
+    EXPECT_EQ(back.id, figure.id);
+    EXPECT_EQ(back.panels.size(), figure.panels.size());
+  }
+}
+
+TEST(FigureJson, KeepsEveryBitOfANumber) {
+  Figure figure = small();
+  auto& y = std::get<Polyline>(figure.panels[0].layers[0]).y;
+  y = {0.1 + 0.2, std::numeric_limits<double>::denorm_min()};
+  EXPECT_EQ(figure_from_json(figure_to_json(figure), "f"), figure);
+}
+
+TEST(FigureJson, ReadsNullAsNotANumber) {
+  Figure figure = small();
+  std::get<Polyline>(figure.panels[0].layers[0]).y[1] = NAN;
+  const Figure back = figure_from_json(figure_to_json(figure), "f");
+  EXPECT_TRUE(std::isnan(std::get<Polyline>(back.panels[0].layers[0]).y[1]));
+}
+
+TEST(FigureJson, NamesThePlaceOfWhatItCannotRead) {
+  const std::string json = figure_to_json(small());
+  EXPECT_EQ(message_of("{"), "f.json: byte 2: is no JSON");
+  EXPECT_EQ(message_of("[]"), "f.json: /: an object was expected");
+  EXPECT_EQ(message_of("{}"), "f.json: /: has no \"schema\"");
+  EXPECT_EQ(message_of(replaced(json, "mapproof.figure", "other")), "f.json: /schema/name: is no figure");
+  EXPECT_EQ(message_of(replaced(json, "\"version\": 1", "\"version\": 2")),
+            "f.json: /schema/version: only version 1 is known");
+  EXPECT_EQ(message_of(replaced(json, "\"polyline\"", "\"pie\"")),
+            "f.json: /panels/0/layers/0/kind: \"pie\" is unknown");
+  EXPECT_EQ(message_of(replaced(json, "\"ink\": \"series1\"", "\"ink\": 3")),
+            "f.json: /panels/0/layers/0/ink: a string was expected");
+  EXPECT_EQ(message_of(replaced(json, "\"id\": \"small\"", "\"id\": \"../x\"")).substr(0, 12),
+            "f.json: /: i");
+}
+
+}  // namespace
+}  // namespace mapproof::testing

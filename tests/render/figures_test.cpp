@@ -1,0 +1,185 @@
+#include <cmath>
+
+#include <gtest/gtest.h>
+
+#include "core/base/errors.hpp"
+#include "render/figures/error_curve.hpp"
+#include "render/figures/map.hpp"
+#include "render/figures/map_view.hpp"
+#include "render/figures/words.hpp"
+#include "tests/support/sample_figures.hpp"
+
+namespace mapproof::testing {
+namespace {
+
+/// The layer of a type and label; fails the test if it is not there.
+template <typename Kind>
+Kind layer_of(const Figure& figure, const std::string& label) {
+  for (const Layer& layer : figure.panels.at(0).layers)
+    if (const auto* found = std::get_if<Kind>(&layer); found != nullptr && found->label == label)
+      return *found;
+  ADD_FAILURE() << "no layer " << label;
+  return {};
+}
+
+bool has_note(const Figure& figure, const std::string& part) {
+  return std::ranges::any_of(figure.notes, [&](const Note& note) {
+    return note.text.find(part) != std::string::npos;
+  });
+}
+
+TEST(MapFigure, JoinsEachEstimateToItsTruth) {
+  const MapRecord map = sample_map(50, 0.1, 1);
+  const Figure figure = map_figure(map, "map");
+  const auto lines = layer_of<Segments>(figure, "error");
+  ASSERT_EQ(lines.x0.size(), 50u);
+  EXPECT_EQ(lines.x0[7], (*map.truth_m)(7, 0));
+  EXPECT_EQ(lines.y1[7], map.estimate(7, 1));
+  EXPECT_EQ(layer_of<Scatter>(figure, "anchor").x.size(), 4u);
+  EXPECT_EQ(layer_of<Scatter>(figure, "true position").x.size(), 46u);
+  EXPECT_EQ(layer_of<Scatter>(figure, "estimate").x.size(), 50u);
+}
+
+TEST(MapFigure, SaysItsScoreInTheCaption) {
+  MapRecord map = sample_map(50, 0.1, 1);
+  map.score = Score{0.2190, 4.7, 0.2, 4.7};
+  const Figure figure = map_figure(map, "map");
+  EXPECT_TRUE(figure.caption.starts_with("ISOMAP, K = 6, visibility, 2000 steps: MPE 0.219 m, MOE 4.70 %."))
+      << figure.caption;
+  EXPECT_TRUE(has_note(figure, "MPE 0.219 m"));
+  EXPECT_EQ(figure.record_ids, std::vector<std::string>{map.id});
+}
+
+TEST(MapFigure, LabelsTheWorstLandmarksThatAreNoAnchors) {
+  MapRecord map = sample_map(50, 0.0, 1);
+  map.anchors = {4};
+  map.estimate(4, 0) += 0.9;  // An anchor.
+  map.estimate(9, 0) += 0.8;
+  map.estimate(2, 0) += 0.5;
+  const MapView view = view_of(map);
+  EXPECT_EQ(view.worst, (std::vector<Eigen::Index>{9, 2}));
+  EXPECT_NE(map_figure(map, "map").caption.find("Worst: L10 0.800 m and L03 0.500 m."), std::string::npos);
+}
+
+TEST(MapFigure, ListsLandmarksWithoutAPlaceAndDrawsTheRest) {
+  MapRecord map = sample_map(20, 0.1, 1);
+  map.estimate.row(3).setConstant(NAN);
+  map.truth_m->row(5).setConstant(NAN);
+  const Figure figure = map_figure(map, "map");
+  EXPECT_TRUE(has_note(figure, "Not on the map: L04."));
+  EXPECT_EQ(layer_of<Scatter>(figure, "estimate").x.size(), 19u);
+  EXPECT_EQ(layer_of<Segments>(figure, "error").x0.size(), 18u);
+}
+
+TEST(MapFigure, ShowsAnEstimateFarOutsideAsAnArrowAndSaysSo) {
+  MapRecord map = sample_map(50, 0.05, 1);
+  map.estimate.row(20) << 101.0, -40.0;
+  const Figure figure = map_figure(map, "map");
+  EXPECT_TRUE(has_note(figure, "Arrows: 1 estimate outside the picture, up to"));
+  const auto arrows = layer_of<Segments>(figure, "estimate outside");
+  ASSERT_EQ(arrows.x1.size(), 1u);
+  EXPECT_TRUE(arrows.arrow);
+  EXPECT_LT(arrows.x1[0], 4.0);
+  EXPECT_EQ(arrows.marks[0].data.at(2), (std::pair<std::string, std::string>{"x", "101"}));
+  EXPECT_LT(figure.panels[0].x.limits->high, 4.0);
+}
+
+TEST(MapFigure, DrawsStatusesAndKeepsThemInTheCaption) {
+  MapRecord map = sample_map(20, 0.1, 1);
+  map.statuses = {{StatusCode::kBridged, "The graph was in 2 pieces."}, {StatusCode::kNotConverged, ""}};
+  const Figure figure = map_figure(map, "map");
+  EXPECT_TRUE(has_note(figure, "The graph was in 2 pieces."));
+  EXPECT_TRUE(has_note(figure, "not converged"));
+  EXPECT_NE(figure.caption.find("The graph was in 2 pieces."), std::string::npos);
+}
+
+TEST(MapFigure, WithoutATruthSaysThatTheFrameIsArbitrary) {
+  MapRecord map = sample_map(20, 0.1, 1);
+  map.frame = Frame::kSimilarity;
+  map.anchors.clear();
+  const Figure figure = map_figure(map, "map");  // A truth in another frame is not drawn.
+  EXPECT_TRUE(has_note(figure, "place, turn, scale and mirror are arbitrary"));
+  EXPECT_NE(figure.caption.find("arbitrary"), std::string::npos);
+  EXPECT_EQ(figure.panels[0].x.label.find("[m]"), std::string::npos);
+  for (const Layer& layer : figure.panels[0].layers)
+    EXPECT_FALSE(std::holds_alternative<Segments>(layer));
+}
+
+TEST(MapFigure, RefusesARecordWhosePartsDisagree) {
+  MapRecord map = sample_map(20, 0.1, 1);
+  map.names.pop_back();
+  EXPECT_THROW(map_figure(map, "map"), InvalidInput);
+  map = sample_map(20, 0.1, 1);
+  map.anchors.push_back(20);
+  EXPECT_THROW(map_figure(map, "map"), InvalidInput);
+  map = sample_map(20, 0.1, 1);
+  map.estimate(0, 0) = INFINITY;
+  EXPECT_THROW(map_figure(map, "map"), InvalidInput);
+  map = sample_map(20, 0.1, 1);
+  map.truth_m->conservativeResize(19, 2);
+  EXPECT_THROW(map_figure(map, "map"), InvalidInput);
+}
+
+TEST(ErrorCurveFigure, HasALineAndABandForEachCurve) {
+  const Figure figure = error_curve_figure(sample_curves(3, 1));
+  EXPECT_EQ(figure.panels[0].layers.size(), 6u);
+  const auto line = layer_of<Polyline>(figure, "SMACOF, equal weights");
+  EXPECT_EQ(line.mark.id, "method-2-mean");
+  EXPECT_EQ(line.y, sample_curves(3, 1).curves[1].mean);
+  EXPECT_EQ(figure.panels[0].x.label, "observations (steps)");
+  EXPECT_EQ(figure.panels[0].y.scale, Scale::kLinear);
+  EXPECT_EQ(figure.panels[0].y.limits->low, 0.0);
+}
+
+TEST(ErrorCurveFigure, CurvesDifferInMarkerAndDashNotInColourAlone) {
+  const Figure figure = error_curve_figure(sample_curves(7, 1));
+  std::vector<std::pair<Marker, Dash>> looks;
+  for (const Layer& layer : figure.panels[0].layers)
+    if (const auto* line = std::get_if<Polyline>(&layer)) looks.emplace_back(line->marker, line->dash);
+  for (std::size_t i = 0; i < looks.size(); ++i)
+    for (std::size_t j = i + 1; j < looks.size(); ++j) EXPECT_NE(looks[i].first, looks[j].first);
+}
+
+TEST(ErrorCurveFigure, TurnsLogarithmicWhenTheSpanIsLarge) {
+  ErrorCurveSpec spec = sample_curves(2, 1);
+  for (double& value : spec.curves[0].mean) value *= 100.0;
+  spec.curves[1].low[0] = -1.0;  // A band may reach below what a log axis can show.
+  const Figure figure = error_curve_figure(spec);
+  EXPECT_EQ(figure.panels[0].y.scale, Scale::kLog);
+  EXPECT_EQ(problem(figure), "");
+}
+
+TEST(ErrorCurveFigure, TellsTheEndsOfEachCurveInWords) {
+  ErrorCurveSpec spec = sample_curves(1, 1);
+  spec.curves[0].mean.front() = 0.8;
+  spec.curves[0].mean.back() = NAN;
+  spec.curves[0].mean[10] = 0.2;
+  EXPECT_NE(error_curve_figure(spec).alt.find("LPCA: 0.800 at 50, 0.200 at 1800."), std::string::npos);
+}
+
+TEST(ErrorCurveFigure, RefusesCurvesWhosePartsDisagree) {
+  ErrorCurveSpec spec = sample_curves(2, 1);
+  spec.curves[1].mean.pop_back();
+  EXPECT_THROW(error_curve_figure(spec), InvalidInput);
+  spec = sample_curves(2, 1);
+  spec.curves[1].key = spec.curves[0].key;
+  EXPECT_THROW(error_curve_figure(spec), InvalidInput);
+  spec = sample_curves(2, 1);
+  spec.curves[0].low.clear();
+  EXPECT_THROW(error_curve_figure(spec), InvalidInput);
+}
+
+TEST(Words, NumbersAreReadable) {
+  EXPECT_EQ(significant(0.2194), "0.219");
+  EXPECT_EQ(significant(141.4), "141");
+  EXPECT_EQ(significant(2.98e9), "2.98×10⁹");
+  EXPECT_EQ(significant(0.0), "0");
+  EXPECT_EQ(significant(NAN), "unknown");
+  EXPECT_EQ(listed({"a", "b", "c"}, 5), "a, b and c");
+  EXPECT_EQ(listed({"a", "b", "c", "d"}, 3), "a, b and 2 more");
+  EXPECT_EQ(listed({}, 3), "");
+  EXPECT_EQ(counted(1, "step"), "1 step");
+}
+
+}  // namespace
+}  // namespace mapproof::testing

@@ -1,0 +1,158 @@
+#include "render/plot/layout.hpp"
+
+#include <cmath>
+
+#include <gtest/gtest.h>
+
+#include "core/base/errors.hpp"
+#include "render/figures/map.hpp"
+#include "render/plot/axis_map.hpp"
+#include "tests/support/figure_checks.hpp"
+#include "tests/support/sample_figures.hpp"
+
+namespace mapproof::testing {
+namespace {
+
+Figure with_panels(std::size_t count) {
+  Figure figure;
+  figure.id = "test";
+  figure.panels.resize(count);
+  return figure;
+}
+
+std::vector<TextLine> texts_of(const Drawing& drawing, Role role) {
+  std::vector<TextLine> lines;
+  for (const Item& item : drawing.items)
+    if (item.role == role) lines.push_back(std::get<TextLine>(item.what));
+  return lines;
+}
+
+bool legend_is_inside(const Drawing& drawing) {
+  return std::ranges::find(drawing.items, Role::kLegendBox, &Item::role) != drawing.items.end();
+}
+
+TEST(AxisMap, PutsLimitsAtTheEnds) {
+  const AxisMap linear(Scale::kLinear, {2.0, 4.0}, 100.0, 200.0);
+  EXPECT_DOUBLE_EQ(linear(2.0), 100.0);
+  EXPECT_DOUBLE_EQ(linear(3.0), 150.0);
+  const AxisMap log(Scale::kLog, {0.01, 100.0}, 0.0, 80.0);
+  EXPECT_DOUBLE_EQ(log(1.0), 40.0);
+  EXPECT_DOUBLE_EQ(log(100.0), 80.0);
+  EXPECT_TRUE(std::isnan(linear(NAN)));
+}
+
+TEST(PanelLimits, HoldAllDataWithRoomAround) {
+  Panel panel;
+  panel.layers.push_back(Scatter{.x = {1.0, 5.0, NAN}, .y = {-2.0, 2.0, 1e9}});
+  const PanelLimits limits = panel_limits(panel);
+  EXPECT_LT(limits.x.low, 1.0);
+  EXPECT_GT(limits.x.high, 5.0);
+  EXPECT_LT(limits.y.high, 3.0);  // The point with a NaN does not count.
+}
+
+TEST(PanelLimits, AreNeverEmpty) {
+  Panel panel;
+  for (const double value : {0.0, 1e-300, 5.0, -1e12, 1e150}) {
+    panel.layers = {Scatter{.x = {value}, .y = {value}}};
+    const PanelLimits limits = panel_limits(panel);
+    EXPECT_LT(limits.x.low, limits.x.high) << value;
+    EXPECT_LT(limits.y.low, limits.y.high) << value;
+  }
+}
+
+TEST(Layout, EqualAspectMakesUnitsEquallyLong) {
+  const Drawing drawing = lay_out(map_figure(sample_map(50, 0.1, 1), "map"), report_theme());
+  std::vector<Point> at;
+  for (const Item& item : drawing.items)
+    if (item.mark && drawing.marks[*item.mark].id.starts_with("true-"))
+      at.push_back(std::get<Stamp>(item.what).at);
+  const auto true_m = *sample_map(50, 0.1, 1).truth_m;
+  std::vector<Eigen::Index> rows;
+  const auto anchors = sample_map(50, 0.1, 1).anchors;
+  for (Eigen::Index i = 0; i < 50; ++i)
+    if (std::ranges::find(anchors, i) == anchors.end()) rows.push_back(i);
+  ASSERT_EQ(at.size(), rows.size());
+  const double x_scale = (at[1].x - at[0].x) / (true_m(rows[1], 0) - true_m(rows[0], 0));
+  const double y_scale = (at[1].y - at[0].y) / (true_m(rows[1], 1) - true_m(rows[0], 1));
+  EXPECT_NEAR(x_scale, -y_scale, 1e-9 * x_scale);  // y grows downward on the page.
+}
+
+TEST(Layout, PutsTheLegendInACornerThatIsFree) {
+  Figure figure = with_panels(1);
+  figure.panels[0].layers.push_back(Polyline{.label = "rising", .x = {0, 1}, .y = {0, 1}});
+  const Drawing drawing = lay_out(figure, report_theme());
+  ASSERT_TRUE(legend_is_inside(drawing));
+  const Box frame = drawing.frames[0];
+  const TextLine text = texts_of(drawing, Role::kLegendText)[0];
+  EXPECT_LT(text.at.x, frame.centre().x);  // The line ends at the upper right.
+  EXPECT_LT(text.at.y, frame.centre().y);
+}
+
+TEST(Layout, PutsTheLegendOutsideWhenDataAreEverywhere) {
+  Figure figure = with_panels(1);
+  Scatter dots{.label = "dots"};
+  for (int i = 0; i < 40; ++i)
+    for (int j = 0; j < 40; ++j) {
+      dots.x.push_back(i);
+      dots.y.push_back(j);
+    }
+  figure.panels[0].layers.push_back(dots);
+  const Drawing drawing = lay_out(figure, report_theme());
+  EXPECT_FALSE(legend_is_inside(drawing));
+  const Box text = ink_box(texts_of(drawing, Role::kLegendText)[0]);
+  EXPECT_FALSE(drawing.frames[0].overlaps(text));
+}
+
+TEST(Layout, LayersOfOneLabelShareAnEntry) {
+  Figure figure = with_panels(1);
+  figure.panels[0].layers = {Band{.label = "a", .x = {0, 1}, .low = {0, 0}, .high = {1, 1}},
+                             Polyline{.label = "a", .x = {0, 1}, .y = {0, 1}},
+                             Polyline{.label = "", .x = {0, 1}, .y = {1, 0}}};
+  EXPECT_EQ(texts_of(lay_out(figure, report_theme()), Role::kLegendText).size(), 1u);
+}
+
+TEST(Layout, LabelsOfCrowdedPointsCoverNeitherMarksNorEachOther) {
+  Figure figure = with_panels(1);
+  PointLabels labels;
+  Scatter dots;
+  for (int i = 0; i < 12; ++i) {
+    labels.x.push_back(0.1 * i);
+    labels.y.push_back(0.02 * (i % 3));
+    labels.text.push_back("landmark " + std::to_string(i));
+  }
+  dots.x = labels.x;
+  dots.y = labels.y;
+  figure.panels[0].layers = {dots, labels};
+  const Drawing drawing = lay_out(figure, report_theme());
+  EXPECT_EQ(texts_of(drawing, Role::kMarkLabel).size(), 12u);
+  EXPECT_TRUE(flaws(drawing).empty());
+}
+
+TEST(Layout, PanelsStandSideBySideAndAreClean) {
+  Figure figure = with_panels(3);
+  for (Panel& panel : figure.panels) {
+    panel.title = "A panel with a title";
+    panel.x = {.label = "frequency [Hz]", .scale = Scale::kLog};
+    panel.y = {.label = "power", .scale = Scale::kLog};
+    panel.layers.push_back(Polyline{.label = "p", .x = {1, 10, 1000}, .y = {1e6, 1e3, 1e-4}});
+  }
+  const Drawing drawing = lay_out(figure, paper_theme(6.75));
+  ASSERT_EQ(drawing.frames.size(), 3u);
+  EXPECT_LT(drawing.frames[0].x1, drawing.frames[1].x0);
+  EXPECT_LT(drawing.frames[1].x1, drawing.frames[2].x0);
+  for (const std::string& flaw : flaws(drawing)) ADD_FAILURE() << flaw;
+}
+
+TEST(Layout, FramesStayOnThePageWhateverTheNotes) {
+  Figure figure = map_figure(sample_map(20, 0.1, 1), "map");
+  for (int i = 0; i < 40; ++i) figure.notes.push_back({"Something else went wrong, again, and this is why."});
+  for (const Theme& theme : {report_theme(), paper_theme(3.25)})
+    for (const std::string& flaw : flaws(lay_out(figure, theme))) ADD_FAILURE() << flaw;
+}
+
+TEST(Layout, RefusesAFigureThatCannotBeDrawn) {
+  EXPECT_THROW(lay_out(with_panels(0), report_theme()), InvalidInput);
+}
+
+}  // namespace
+}  // namespace mapproof::testing

@@ -1,0 +1,191 @@
+#include "render/theme/theme.hpp"
+
+#include <cmath>
+
+#include <gtest/gtest.h>
+
+#include "core/base/errors.hpp"
+#include "render/theme/font.hpp"
+#include "render/theme/palette.hpp"
+#include "render/theme/ticks.hpp"
+
+namespace mapproof {
+namespace {
+
+TEST(Colour, ContrastOfBlackOnWhiteIsTwentyOne) {
+  EXPECT_NEAR(contrast(colour(0x000000), colour(0xFFFFFF)), 21.0, 1e-12);
+  EXPECT_NEAR(contrast(colour(0x777777), colour(0xFFFFFF)), 4.48, 0.005);  // A known pair.
+  EXPECT_EQ(contrast(colour(0x123456), colour(0x654321)),
+            contrast(colour(0x654321), colour(0x123456)));
+}
+
+TEST(Colour, IsWrittenAsHex) { EXPECT_EQ(hex(colour(0x00A0FF)), "#00a0ff"); }
+
+TEST(Palette, SeriesStandOutFromWhite) {
+  for (const Colour one : kSeriesColours) EXPECT_GE(contrast(one, colour(0xFFFFFF)), 3.0) << hex(one);
+}
+
+TEST(Palette, SeriesDifferFromEachOther) {
+  for (std::size_t i = 0; i < kSeriesColours.size(); ++i)
+    for (std::size_t j = i + 1; j < kSeriesColours.size(); ++j) {
+      const Colour a = kSeriesColours[i], b = kSeriesColours[j];
+      EXPECT_GE(std::hypot(a.red - b.red, a.green - b.green, a.blue - b.blue), 60.0)
+          << hex(a) << ' ' << hex(b);
+    }
+}
+
+TEST(Palette, ViridisGrowsLighterAllTheWay) {
+  EXPECT_EQ(viridis(0.0), colour(0x440154));
+  EXPECT_EQ(viridis(1.0), colour(0xFDE725));
+  EXPECT_EQ(viridis(-3.0), viridis(0.0));
+  EXPECT_EQ(viridis(NAN), viridis(0.0));
+  EXPECT_EQ(viridis(7.0), viridis(1.0));
+  for (int i = 0; i < 50; ++i)
+    EXPECT_LT(luminance(viridis(i / 50.0)), luminance(viridis((i + 1) / 50.0))) << i;
+}
+
+TEST(Theme, TextAndLinesCanBeRead) {
+  for (const Theme& theme : {report_theme(), paper_theme(3.25)}) {
+    EXPECT_GE(contrast(theme.text, theme.background), 4.5);
+    EXPECT_GE(contrast(theme.warning, theme.background), 4.5);
+    EXPECT_GE(contrast(theme.muted, theme.background), 3.0);
+  }
+}
+
+TEST(Theme, PaperHasTheWidthOfItsColumn) {
+  EXPECT_DOUBLE_EQ(paper_theme(3.25).width_pt, 234.0);
+  EXPECT_DOUBLE_EQ(paper_theme(6.75).width_pt, 486.0);
+  EXPECT_DOUBLE_EQ(paper_theme(6.75).font_pt, 8.0);
+  for (const double width : {0.0, 1.9, 21.0, -1.0, std::nan("")})
+    EXPECT_THROW(paper_theme(width), InvalidInput);
+}
+
+TEST(Ticks, StepsAreOneTwoOrFive) {
+  EXPECT_DOUBLE_EQ(tick_step(0.0, 10.0, 6), 2.0);
+  EXPECT_DOUBLE_EQ(tick_step(0.0, 1.0, 4), 0.5);
+  EXPECT_DOUBLE_EQ(tick_step(-3.0, 3.0, 7), 1.0);
+  EXPECT_DOUBLE_EQ(tick_step(0.0, 2000.0, 5), 500.0);
+}
+
+TEST(Ticks, NeverExceedTheNumberAskedFor) {
+  for (const int most : {2, 3, 5, 9})
+    for (double width = 1e-9; width < 1e9; width *= 3.7)
+      for (const double low : {-7.3 * width, 0.0, 0.31 * width}) {
+        const double step = tick_step(low, low + width, most);
+        const std::size_t count = linear_ticks(low, low + width, step).at.size();
+        EXPECT_LE(count, static_cast<std::size_t>(most)) << low << ' ' << width;
+      }
+}
+
+TEST(Ticks, LabelsShareTheirDecimalsAndUseTheMinusSign) {
+  const Ticks ticks = linear_ticks(-1.0, 1.0, 0.5);
+  EXPECT_EQ(ticks.labels, (std::vector<std::string>{"−1.0", "−0.5", "0.0", "0.5", "1.0"}));
+}
+
+TEST(Ticks, LargeAndSmallValuesShareAFactor) {
+  const Ticks large = linear_ticks(0.0, 4e7, 1e7);
+  EXPECT_EQ(large.labels, (std::vector<std::string>{"0", "1", "2", "3", "4"}));
+  EXPECT_EQ(large.factor, "×10⁷");
+  EXPECT_EQ(linear_ticks(0.0, 4e-7, 2e-7).factor, "×10⁻⁷");
+}
+
+TEST(Ticks, DecadesAreLabelledOnALogAxis) {
+  const Ticks ticks = log_ticks(0.01, 100.0, 8);
+  EXPECT_EQ(ticks.labels, (std::vector<std::string>{"0.01", "0.1", "1", "10", "100"}));
+  EXPECT_FALSE(ticks.minor.empty());
+}
+
+TEST(Ticks, ManyDecadesAreThinned) {
+  const Ticks ticks = log_ticks(1e-12, 1e12, 6);
+  EXPECT_LE(ticks.at.size(), 6u);
+  EXPECT_GE(ticks.at.size(), 3u);
+  EXPECT_EQ(ticks.labels.front(), "10⁻¹²");
+}
+
+TEST(Ticks, AShortLogAxisStillHasTwoLabels) {
+  EXPECT_GE(log_ticks(1.1, 1.4, 6).at.size(), 2u);
+  EXPECT_GE(log_ticks(1.5, 6.0, 6).at.size(), 2u);
+}
+
+TEST(NumberText, HasNoMinusZero) {
+  EXPECT_EQ(number_text(-0.001, 2), "0.00");
+  EXPECT_EQ(number_text(-0.2, 1), "−0.2");
+}
+
+TEST(VisibleText, LeavesOrdinaryTextAlone) {
+  EXPECT_EQ(visible_text("Straße 7 − ναι 😀 שלום"), "Straße 7 − ναι 😀 שלום");
+}
+
+TEST(VisibleText, ShowsCodePointsThatTheFontLacks) {
+  EXPECT_EQ(visible_text("a\U0001F9ED"), "a[U+1F9ED]");
+  EXPECT_EQ(visible_text("\u6C34"), "[U+6C34]");
+}
+
+TEST(VisibleText, ShowsWhatTurnsTheDirectionOrIsInvisible) {
+  EXPECT_EQ(visible_text("a\u202Eb\u2066c\u200Fd"), "a[U+202E]b[U+2066]c[U+200F]d");
+  EXPECT_EQ(visible_text("a\u200Bb\uFEFF\u00AD"), "a[U+200B]b[U+FEFF][U+00AD]");
+  EXPECT_EQ(visible_text("a\nb\tc\x7F"), "a[U+000A]b[U+0009]c[U+007F]");
+}
+
+TEST(VisibleText, ShowsBytesThatAreNoUtf8) {
+  EXPECT_EQ(visible_text("\xFF\xFE a \xC3"), "[xFF][xFE] a [xC3]");
+  EXPECT_EQ(visible_text("\xED\xA0\x80\xC0\xAF"), "[xED][xA0][x80][xC0][xAF]");
+}
+
+TEST(VisibleText, StacksAtMostTwoMarksOnALetter) {
+  EXPECT_EQ(visible_text("e\u0301\u0301\u0301"), "e\u0301\u0301[U+0301]");
+}
+
+TEST(ShapedText, HasOneGlyphForEachLetterAndNoneMissing) {
+  const ShapedText shaped = shape_text("office");
+  EXPECT_EQ(shaped.glyphs.size(), 6u);
+  for (const Glyph& glyph : shaped.glyphs) EXPECT_NE(glyph.index, 0u);
+  EXPECT_GT(shaped.advance, shape_text("ofic").advance);
+  EXPECT_LE(shaped.ink.x1, shaped.advance + 0.1);
+}
+
+TEST(ShapedText, ClustersCoverAllBytesAndGlyphs) {
+  for (const char* text : {"a", "ab שלום cd", "שלום 12 עולם", "é́x", "[U+1F600]", ""}) {
+    const ShapedText shaped = shape_text(text);
+    std::size_t bytes = 0, glyphs = 0;
+    for (const TextRun& run : shaped.runs)
+      for (const Cluster& cluster : run.clusters) bytes += cluster.bytes, glyphs += cluster.glyphs;
+    EXPECT_EQ(bytes, shaped.text.size()) << text;
+    EXPECT_EQ(glyphs, shaped.glyphs.size()) << text;
+  }
+}
+
+TEST(ShapedText, HebrewReadsFromRightToLeft) {
+  const ShapedText one = shape_text("ש");
+  const ShapedText word = shape_text("שלום");
+  EXPECT_EQ(word.glyphs.back().index, one.glyphs.front().index);
+}
+
+TEST(ShapedText, IsElidedToTheWidthItIsGiven) {
+  const std::string text = "the landmark beside the third window, L33";
+  const ShapedText end = shape_text_within(text, 8.0);
+  EXPECT_LE(end.advance, 8.0);
+  EXPECT_TRUE(end.text.starts_with("the land") && end.text.ends_with("…")) << end.text;
+  const ShapedText middle = shape_text_within(text, 8.0, Elide::kMiddle);
+  EXPECT_LE(middle.advance, 8.0);
+  EXPECT_TRUE(middle.text.starts_with("the") && middle.text.ends_with("L33")) << middle.text;
+  EXPECT_EQ(shape_text_within(text, 1000.0).text, text);
+}
+
+TEST(ShapedText, OfTenThousandBytesIsShapedInParts) {
+  const ShapedText shaped = shape_text_within(std::string(10240, 'W'), 20.0);
+  EXPECT_LE(shaped.advance, 20.0);
+  EXPECT_LT(shaped.glyphs.size(), 40u);
+}
+
+TEST(WrappedText, BreaksAtBlanksAndElidesTheLastLine) {
+  const auto lines = wrap_text("one two three four five six seven eight nine ten", 6.0, 2);
+  ASSERT_EQ(lines.size(), 2u);
+  EXPECT_EQ(lines[0].text, "one two");
+  EXPECT_TRUE(lines[1].text.ends_with("…")) << lines[1].text;
+  for (const ShapedText& line : lines) EXPECT_LE(line.advance, 6.0);
+  EXPECT_TRUE(wrap_text("", 6.0, 2).empty());
+}
+
+}  // namespace
+}  // namespace mapproof
