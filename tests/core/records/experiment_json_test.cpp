@@ -19,7 +19,7 @@ const std::filesystem::path kTemplate =
 
 /// The error for small.json with one value replaced, or removed if it is null.
 std::string error_with(const std::string& pointer, const json& value) {
-  json experiment = json::parse(read_file(test::data("experiments/small.json")));
+  json experiment = json::parse(read_file(test::data_file("experiments/small.json")));
   const json::json_pointer place(pointer);
   if (value.is_null()) experiment[place.parent_pointer()].erase(place.back());
   else experiment[place] = value;
@@ -29,7 +29,7 @@ std::string error_with(const std::string& pointer, const json& value) {
 TEST(ExperimentJson, ComesBackTheSameFromItsOwnText) {
   for (const char* profile : {"", "tiny", "noisy"}) {
     const Experiment experiment =
-        parse_experiment(read_file(test::data("experiments/small.json")), "small.json", profile);
+        parse_experiment(read_file(test::data_file("experiments/small.json")), "small.json", profile);
     const std::string text = experiment_json(experiment);
     EXPECT_EQ(experiment_json(parse_experiment(text, "again")), text);
   }
@@ -55,7 +55,7 @@ TEST(ExperimentJson, PutsMethodsInTheOrderOfTheTablesAndSensorsInTheirs) {
 }
 
 TEST(ExperimentJson, AppliesAProfileAsAMergePatch) {
-  const std::string text = read_file(test::data("experiments/small.json"));
+  const std::string text = read_file(test::data_file("experiments/small.json"));
   EXPECT_EQ(profiles(text, "e.json"), (std::vector<std::string>{"noisy", "tiny"}));
   const Experiment tiny = parse_experiment(text, "e.json", "tiny");
   EXPECT_EQ(tiny.layouts, 1);
@@ -66,7 +66,7 @@ TEST(ExperimentJson, AppliesAProfileAsAMergePatch) {
 }
 
 TEST(ExperimentJson, NamesTheProfileInItsErrors) {
-  json experiment = json::parse(read_file(test::data("experiments/small.json")));
+  json experiment = json::parse(read_file(test::data_file("experiments/small.json")));
   experiment["profiles"]["tiny"]["poses"] = 0;
   EXPECT_EQ(error_of([&] { parse_experiment(experiment.dump(), "e.json", "tiny"); }),
             "e.json with profile tiny: /poses: expected an integer from 1 to 10000, got 0");

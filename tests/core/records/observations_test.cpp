@@ -10,7 +10,7 @@
 namespace mapproof {
 namespace {
 
-using test::data;
+using test::data_file;
 using test::error_of;
 using test::TemporaryFolder;
 
@@ -40,7 +40,7 @@ void expect_values(const ObservationHistory& history, const Eigen::MatrixXd& exp
 
 TEST(WideObservations, AreReadWithNamesHeaderAndComments) {
   const ObservationSource source =
-      read_observations(data("observations/wide_named.csv"), Sensor::kVisibility);
+      read_observations(data_file("observations/wide_named.csv"), Sensor::kVisibility);
   EXPECT_EQ(source.history.names,
             (std::vector<std::string>{"door", "window", "desk, left", "shelf"}));
   EXPECT_EQ(source.places[2], "line 5");
@@ -51,7 +51,7 @@ TEST(WideObservations, AreReadWithNamesHeaderAndComments) {
 
 TEST(WideObservations, AreNamedByTheirRowsWithoutNames) {
   const ObservationSource source =
-      read_observations(data("observations/wide_plain.csv"), Sensor::kVisibility);
+      read_observations(data_file("observations/wide_plain.csv"), Sensor::kVisibility);
   EXPECT_EQ(source.history.names, (std::vector<std::string>{"L1", "L2", "L3", "L4"}));
   Eigen::MatrixXd expected(4, 4);
   expected << 1, 1, 0, 0, 0, 1, 1, 0, 0, 0, 1, 1, 1, 0, kNan, 1;
@@ -60,7 +60,7 @@ TEST(WideObservations, AreNamedByTheirRowsWithoutNames) {
 
 TEST(WideObservations, MayBeSeparatedBySemicolonsWithWindowsLineEnds) {
   const ObservationSource source =
-      read_observations(data("observations/wide_semicolon.csv"), Sensor::kBearing);
+      read_observations(data_file("observations/wide_semicolon.csv"), Sensor::kBearing);
   EXPECT_EQ(source.history.names, (std::vector<std::string>{"A", "B", "C"}));
   Eigen::MatrixXd expected(3, 3);
   expected << 0.5, -1.25, 3.1, kNan, 0.75, -3.1, 1e-3, 2, kNan;
@@ -69,7 +69,7 @@ TEST(WideObservations, MayBeSeparatedBySemicolonsWithWindowsLineEnds) {
 
 TEST(WideObservations, MayBeSeparatedByTabsUnderNumberedSteps) {
   const ObservationSource source =
-      read_observations(data("observations/wide_tabs.tsv"), Sensor::kRange);
+      read_observations(data_file("observations/wide_tabs.tsv"), Sensor::kRange);
   EXPECT_EQ(source.history.names, (std::vector<std::string>{"red", "green", "blue"}));
   Eigen::MatrixXd expected(3, 3);
   expected << 2.5, 1.5, kNan, kNan, 0.25, 4, 3, 3.5, 1;
@@ -141,7 +141,7 @@ TEST(WideObservations, RefuseATableThatShouldBeTurned) {
 }
 
 TEST(LongObservations, AreReadByTheNamesOfTheirColumns) {
-  const ObservationSource source = read_observations(data("observations/long.csv"), Sensor::kBearing);
+  const ObservationSource source = read_observations(data_file("observations/long.csv"), Sensor::kBearing);
   EXPECT_EQ(source.history.names, (std::vector<std::string>{"oak", "ash", "elm"}));
   Eigen::MatrixXd expected(3, 3);
   expected << 0.5, 0.75, kNan, -0.5, kNan, 1.5, kNan, kNan, -2;
@@ -152,7 +152,7 @@ TEST(LongObservations, AreReadByTheNamesOfTheirColumns) {
 
 TEST(LongObservations, OfSightingsAloneTakeTheRestAsNotSeen) {
   const ObservationSource source =
-      read_observations(data("observations/long_sightings.csv"), Sensor::kVisibility, Layout::kLong);
+      read_observations(data_file("observations/long_sightings.csv"), Sensor::kVisibility, Layout::kLong);
   Eigen::MatrixXd expected(3, 3);
   expected << 1, 1, 0, 1, 0, 1, 0, 1, 0;
   expect_values(source.history, expected);
@@ -185,7 +185,7 @@ TEST(LongObservations, RefuseOtherColumnsAndEmptyNames) {
 }
 
 TEST(JsonObservations, NameTheirOwnSensorAndComeBackTheSame) {
-  const auto path = data("observations/observations.json");
+  const auto path = data_file("observations/observations.json");
   const ObservationSource source = read_observations(path, std::nullopt);
   EXPECT_EQ(source.history.sensor, Sensor::kBearing);
   Eigen::MatrixXd expected(3, 4);
@@ -215,7 +215,7 @@ TEST(JsonObservations, NameThePlaceOfWhatIsWrong) {
 }
 
 TEST(Observations, AskForTheKindThatATableDoesNotTell) {
-  EXPECT_NE(error_of([] { read_observations(data("observations/wide_plain.csv"), std::nullopt); })
+  EXPECT_NE(error_of([] { read_observations(data_file("observations/wide_plain.csv"), std::nullopt); })
                 .find("visibility, bearing or range has to be given"),
             std::string::npos);
 }

@@ -30,7 +30,7 @@ fs::path TemporaryFolder::file(std::string_view name, std::string_view bytes) co
   return path_ / name;
 }
 
-fs::path data(std::string_view name) { return fs::path(MAPPROOF_TEST_DATA) / name; }
+fs::path data_file(std::string_view name) { return fs::path(MAPPROOF_TEST_DATA) / name; }
 
 std::string error_of(const std::function<void()>& action) {
   try {
@@ -54,7 +54,7 @@ std::string contents(const fs::path& folder) {
 }
 
 Experiment small_experiment() {
-  const fs::path path = data("experiments/small.json");
+  const fs::path path = data_file("experiments/small.json");
   return parse_experiment(read_file(path), path.string());
 }
 

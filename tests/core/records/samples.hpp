@@ -27,7 +27,7 @@ class TemporaryFolder {
 };
 
 /// A file below tests/data.
-std::filesystem::path data(std::string_view name);
+std::filesystem::path data_file(std::string_view name);
 
 /// What the IoError says that `action` throws; "no error" if it throws none.
 std::string error_of(const std::function<void()>& action);

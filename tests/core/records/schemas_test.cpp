@@ -1,0 +1,192 @@
+#include <gtest/gtest.h>
+
+#include <map>
+#include <memory>
+
+#include <nlohmann/json.hpp>
+#include <valijson/adapters/nlohmann_json_adapter.hpp>
+#include <valijson/schema.hpp>
+#include <valijson/schema_parser.hpp>
+#include <valijson/validation_results.hpp>
+#include <valijson/validator.hpp>
+
+#include "core/base/errors.hpp"
+#include "core/base/files.hpp"
+#include "core/records/experiment_json.hpp"
+#include "core/records/map_files.hpp"
+#include "core/records/observations.hpp"
+#include "core/records/validate.hpp"
+#include "tests/core/records/samples.hpp"
+
+namespace mapproof {
+namespace {
+
+namespace fs = std::filesystem;
+using nlohmann::json;
+using Adapter = valijson::adapters::NlohmannJsonAdapter;
+
+json schema_file(const std::string& name) {
+  return json::parse(read_file(fs::path(MAPPROOF_SOURCE_DIR) / "docs/schemas" / name));
+}
+
+/// What the schema of that name finds wrong; empty if nothing.
+std::string schema_problem(const std::string& name, const json& value) {
+  const json document = schema_file(name + ".schema.json");
+  valijson::Schema schema;
+  valijson::SchemaParser parser;
+  parser.populateSchema(
+      Adapter(document), schema,
+      [](const std::string& uri) {
+        return std::make_unique<json>(schema_file(fs::path(uri).filename())).release();
+      },
+      [](const json* fetched) { const std::unique_ptr<const json> owner(fetched); });
+  valijson::Validator validator;
+  valijson::ValidationResults results;
+  if (validator.validate(schema, Adapter(value), &results)) return {};
+  valijson::ValidationResults::Error error;
+  results.popError(error);
+  std::string problem;
+  for (const std::string& part : error.context) problem += part;
+  return problem + ": " + error.description;
+}
+
+/// "mapproof.run" -> "run".
+std::string kind_of(const json& value) {
+  return value.at("schema").at("name").get<std::string>().substr(std::string("mapproof.").size());
+}
+
+TEST(Schemas, HoldForEveryFileOfAStudy) {
+  const test::TemporaryFolder folder;
+  {
+    StudyStore store = StudyStore::open(folder.path(), test::small_experiment(),
+                                        test::made_up_provenance());
+    RunResult result = test::made_up_result({1, 1});
+    result.maps.push_back(result.maps[0]);
+    result.maps[1].truth_m.reset();
+    store.write(result);
+    store.write_session(test::made_up_session());
+  }
+  for (const char* file :
+       {"study.json", "runs/layout-1-pose-1.json", "maps/layout-1-pose-1.json"}) {
+    const json value = json::parse(read_file(folder / file));
+    EXPECT_EQ(schema_problem(kind_of(value), value), "") << file;
+  }
+  std::istringstream lines(read_file(folder / "timings.jsonl"));
+  int count = 0;
+  for (std::string line; std::getline(lines, line); ++count)
+    EXPECT_EQ(schema_problem("timing", json::parse(line)), "") << line;
+  EXPECT_EQ(count, 3);
+}
+
+TEST(Schemas, HoldForMapsAndObservations) {
+  const json map = json::parse(read_file(test::data_file("maps/map.json")));
+  EXPECT_EQ(schema_problem("map", map), "");
+  const auto history = read_observations(test::data_file("observations/wide_named.csv"), Sensor::kVisibility);
+  EXPECT_EQ(schema_problem("observations", json::parse(observations_json(history.history))), "");
+}
+
+TEST(Schemas, HoldForEveryExperimentInTheTemplatesAndTheirProfiles) {
+  int count = 0;
+  for (const fs::path& folder : {fs::path(MAPPROOF_SOURCE_DIR) / "templates/experiments",
+                                 test::data_file("experiments")})
+    for (const auto& entry : fs::directory_iterator(folder)) {
+      const std::string text = read_file(entry.path());
+      EXPECT_EQ(schema_problem("experiment", json::parse(text)), "") << entry.path();
+      for (const std::string& profile : profiles(text, entry.path().string())) {
+        const Experiment experiment = parse_experiment(text, entry.path().string(), profile);
+        EXPECT_EQ(schema_problem("experiment", json::parse(experiment_json(experiment))), "")
+            << entry.path() << " " << profile;
+      }
+      ++count;
+    }
+  EXPECT_GE(count, 2);
+}
+
+TEST(Schemas, KnowEveryMethodAndStatus) {
+  const json definitions = schema_file("values.schema.json").at("definitions");
+  std::vector<std::string> methods;
+  for (const MethodInfo& method : all_methods()) methods.emplace_back(method.name);
+  EXPECT_EQ(definitions.at("method").at("enum"), methods);
+  const json experiment = schema_file("experiment.schema.json");
+  const json& grids = experiment.at("definitions").at("methods").at("properties");
+  EXPECT_EQ(grids.size(), methods.size());
+  for (const std::string& method : methods) EXPECT_TRUE(grids.contains(method)) << method;
+  const json& codes = definitions.at("statuses").at("items").at("properties").at("code").at("enum");
+  for (std::size_t i = 0; i < codes.size(); ++i)
+    EXPECT_EQ(name(static_cast<StatusCode>(i)), codes[i].get<std::string>());
+}
+
+struct Damage {
+  std::string kind;
+  std::string pointer;
+  json value;  ///< null: the key is removed.
+};
+
+std::ostream& operator<<(std::ostream& out, const Damage& damage) {
+  return out << damage.kind << damage.pointer << " = " << damage.value;
+}
+
+class Damaged : public ::testing::TestWithParam<Damage> {
+ protected:
+  /// A sound file of the kind.
+  json sound(const std::string& kind) const {
+    if (kind == "experiment") return read("experiments/small.json");
+    if (kind == "map") return read("maps/map.json");
+    if (kind == "observations") return read("observations/observations.json");
+    StudyStore::open(folder_.path(), test::small_experiment(), test::made_up_provenance())
+        .write(test::made_up_result({1, 1}));
+    if (kind == "study") return json::parse(read_file(folder_ / "study.json"));
+    return json::parse(read_file(folder_ / (kind == "run" ? "runs" : "maps") / "layout-1-pose-1.json"));
+  }
+
+  const test::TemporaryFolder folder_;
+
+ private:
+  static json read(const std::string& file) { return json::parse(read_file(test::data_file(file))); }
+};
+
+TEST_P(Damaged, FileIsRefusedByTheSchemaAndByTheReader) {
+  const Damage& damage = GetParam();
+  json value = sound(damage.kind);
+  ASSERT_EQ(schema_problem(damage.kind, value), "");
+  const json::json_pointer place(damage.pointer);
+  if (damage.value.is_null()) value[place.parent_pointer()].erase(place.back());
+  else value[place] = damage.value;
+  EXPECT_NE(schema_problem(damage.kind, value), "");
+  const fs::path path = folder_.file("damaged.json", value.dump());
+  EXPECT_NE(validate(path).at(0).problem, "") << value.dump(1);
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    OfEveryKind, Damaged,
+    ::testing::Values(Damage{"experiment", "/schema/version", 2},
+                      Damage{"experiment", "/schema", nullptr},
+                      Damage{"experiment", "/name", "a b"}, Damage{"experiment", "/layouts", 1e9},
+                      Damage{"experiment", "/seed", -1}, Damage{"experiment", "/colour", "red"},
+                      Damage{"experiment", "/sensors/sonar", json::object()},
+                      Damage{"experiment", "/sensors/range/methods/isomapp", json::object()},
+                      Damage{"experiment", "/sensors/range/methods/isomap", json::object()},
+                      Damage{"experiment", "/sensors/range/checkpoints/0", 2},
+                      Damage{"experiment", "/sensors/visibility/noise", 0.6},
+                      Damage{"experiment", "/sensors/visibility/published/values/0/K", nullptr},
+                      Damage{"experiment", "/profiles/tiny", 3},
+                      Damage{"study", "/experiment/poses", 0},
+                      Damage{"study", "/provenance/commit", nullptr},
+                      Damage{"study", "/provenance/libraries/0/version", 3},
+                      Damage{"run", "/run/layout", 0}, Damage{"run", "/world/landmarks_m/0", {1}},
+                      Damage{"run", "/records/0/sensor", "sonar"},
+                      Damage{"run", "/records/0/K", 4}, Damage{"run", "/records/1/K", nullptr},
+                      Damage{"run", "/records/1/statuses/0/code", "tired"},
+                      Damage{"run", "/records/0/score/moe_percent", 101},
+                      Damage{"run", "/anchors", {1, 1}}, Damage{"maps", "/names/0", ""},
+                      Damage{"maps", "/maps/0/estimate", nullptr},
+                      Damage{"maps", "/maps/0/frame", "lies"}, Damage{"map", "/names", {"a", "a"}},
+                      Damage{"map", "/truth_m", nullptr}, Damage{"map", "/step", -1},
+                      Damage{"map", "/estimate/0", {1, 2, 3}},
+                      Damage{"observations", "/sensor", "sonar"},
+                      Damage{"observations", "/landmarks", json::array()},
+                      Damage{"observations", "/values/0/0", "1"},
+                      Damage{"observations", "/values/0", json::array()}));
+
+}  // namespace
+}  // namespace mapproof

@@ -1,0 +1,115 @@
+#include "core/records/validate.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "core/base/errors.hpp"
+#include "core/base/files.hpp"
+#include "core/records/map_files.hpp"
+#include "tests/core/records/samples.hpp"
+
+namespace mapproof {
+namespace {
+
+using test::data_file;
+using test::TemporaryFolder;
+
+Finding only(const std::filesystem::path& path, const ForeignReader& foreign = nullptr) {
+  const std::vector<Finding> findings = validate(path, foreign);
+  EXPECT_EQ(findings.size(), 1U);
+  return findings.at(0);
+}
+
+TEST(Validate, KnowsEveryKindOfFileThatIsRead) {
+  const std::vector<std::pair<std::string, std::string>> kinds = {
+      {"experiments/small.json", "mapproof.experiment 1"},
+      {"landmarks/anchors.csv", "landmarks with positions"},
+      {"landmarks/truth.csv", "landmarks with positions"},
+      {"maps/map.json", "mapproof.map 1"},
+      {"mrclam", "MRCLAM observations"},
+      {"mrclam/Landmark_Groundtruth.dat", "landmarks with positions"},
+      {"observations/long.csv", "long CSV observations"},
+      {"observations/observations.json", "mapproof.observations 1"},
+      {"observations/wide_named.csv", "wide CSV observations"},
+      {"observations/wide_plain.csv", "wide CSV observations"},
+      {"observations/wide_semicolon.csv", "wide CSV observations"},
+      {"observations/wide_tabs.tsv", "wide CSV observations"}};
+  for (const auto& [file, kind] : kinds) {
+    const Finding finding = only(data_file(file));
+    EXPECT_EQ(finding.kind, kind) << file;
+    EXPECT_EQ(finding.problem, "") << file;
+  }
+}
+
+TEST(Validate, KnowsTheMapsThatAreWritten) {
+  const TemporaryFolder folder;
+  const std::string map = read_file(data_file("maps/map.json"));
+  const auto path = folder.file("map.csv", map_csv(parse_map(map, "map")));
+  EXPECT_EQ(only(path).kind, "map CSV");
+  EXPECT_EQ(only(path).problem, "");
+}
+
+TEST(Validate, GoesThroughAllOfAStudy) {
+  const TemporaryFolder folder;
+  {
+    StudyStore store = StudyStore::open(folder.path(), test::small_experiment(),
+                                        test::made_up_provenance());
+    store.write(test::made_up_result({1, 1}));
+    store.write_session(test::made_up_session());
+  }
+  folder.file("figures/map.figure.json", R"({"schema": {"name": "mapproof.figure", "version": 1}})");
+  std::vector<std::string> kinds;
+  for (const Finding& finding : validate(folder.path())) {
+    kinds.push_back(finding.kind);
+    EXPECT_EQ(finding.problem, "") << finding.path;
+  }
+  EXPECT_EQ(kinds, (std::vector<std::string>{"study", "mapproof.figure 1", "mapproof.maps 1",
+                                             "mapproof.run 1", "mapproof.study 1", "timings"}));
+}
+
+TEST(Validate, NamesTheDamagedFileOfAStudy) {
+  const TemporaryFolder folder;
+  StudyStore::open(folder.path(), test::small_experiment(), test::made_up_provenance())
+      .write(test::made_up_result({1, 1}));
+  folder.file("maps/layout-1-pose-1.json", "{");
+  const std::vector<Finding> findings = validate(folder.path());
+  EXPECT_EQ(std::ranges::count_if(findings, [](const Finding& f) { return !f.problem.empty(); }), 2);
+  EXPECT_NE(findings[1].problem.find("maps/layout-1-pose-1.json: line 1, column 2: the file is"),
+            std::string::npos);
+}
+
+TEST(Validate, AsksForForeignFilesWhetherTheyAreKnown) {
+  const TemporaryFolder folder;
+  const auto path = folder.file("f.json", R"({"schema": {"name": "mapproof.figure", "version": 1}})");
+  const ForeignReader strict = [](std::string_view schema, std::string_view,
+                                  const std::string& source) {
+    if (schema == "mapproof.figure") throw IoError(source, "/layers", "missing");
+    return false;
+  };
+  EXPECT_EQ(only(path).problem, "");
+  EXPECT_EQ(only(path, strict).problem, path.string() + ": /layers: missing");
+}
+
+TEST(Validate, SaysWhatItDoesNotKnow) {
+  const TemporaryFolder folder;
+  EXPECT_NE(only(folder.file("a.png", "x")).problem.find("is no file that mapproof"), std::string::npos);
+  EXPECT_NE(only(folder.file("b.json", "{}")).problem.find("says not what it is"), std::string::npos);
+  EXPECT_NE(only(folder.file("c.json", R"({"schema": {"name": "x", "version": 1}})"))
+                .problem.find("unknown schema \"x\""),
+            std::string::npos);
+  EXPECT_NE(only(folder / "missing").problem.find("cannot be opened"), std::string::npos);
+  EXPECT_NE(only(folder.path()).problem.find("no study"), std::string::npos);
+  EXPECT_NE(only(folder.file("d.csv", "a,1,2\nb,-1\n")).problem.find("line 2"), std::string::npos);
+}
+
+TEST(Validate, ChecksEveryProfileOfAnExperiment) {
+  const TemporaryFolder folder;
+  std::string text = read_file(data_file("experiments/small.json"));
+  text.replace(text.find("\"noise\": 0.1}"), 13, "\"noise\": 0.9}");
+  EXPECT_NE(only(folder.file("e.json", text)).problem.find("with profile noisy: /sensors/visibility"),
+            std::string::npos);
+}
+
+}  // namespace
+}  // namespace mapproof
