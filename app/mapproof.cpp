@@ -1,1 +1,100 @@
-int main() { return 0; }
+#include <exception>
+#include <iostream>
+#include <new>
+#include <utility>
+#include <vector>
+
+#include <CLI/CLI.hpp>
+
+#include "app/build_facts.hpp"
+#include "app/commands/verbs.hpp"
+#include "core/base/errors.hpp"
+
+namespace mapproof {
+namespace {
+
+constexpr const char* kFooter =
+    "Exit codes:\n"
+    "  0  done\n"
+    "  1  the check that was asked for says no, or no map came out\n"
+    "  2  usage or input\n"
+    "  3  internal error\n\n"
+    "Every verb takes --json (its result as one JSON object on standard output), --quiet and "
+    "--verbose;\nmessages go to standard error. \"mapproof VERB --help\" shows examples.\n";
+
+struct Common {
+  bool json = false;
+  bool quiet = false;
+  bool verbose = false;
+};
+
+void add_common_options(CLI::App& app, Common& common) {
+  app.add_flag("--json", common.json, "Print the result as one JSON object");
+  auto* quiet = app.add_flag("--quiet", common.quiet, "Only warnings and errors");
+  app.add_flag("--verbose", common.verbose, "Details")->excludes(quiet);
+}
+
+int run_verb_of(int argc, char** argv) {
+  CLI::App app(
+      "Maps from what a robot observed, without ever estimating its pose, and proof of them",
+      "mapproof");
+  app.footer(kFooter);
+  app.set_version_flag("--version", version_text());
+  app.require_subcommand(1);
+  Common common;
+  const std::vector<std::pair<const char*, Verb>> verbs = {
+      {"reproduce", reproduce_verb}, {"run", run_verb}, {"render", render_verb},
+      {"report", report_verb},       {"map", map_verb}, {"methods", methods_verb},
+      {"validate", validate_verb},
+  };
+  std::vector<std::pair<CLI::App*, Action>> actions;
+  for (const auto& [name, verb] : verbs) {
+    CLI::App* sub = app.add_subcommand(name);
+    add_common_options(*sub, common);
+    actions.emplace_back(sub, verb(*sub));
+  }
+
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::Success& asked) {  // --help, --version
+    return app.exit(asked);
+  } catch (const CLI::ParseError& error) {
+    std::cerr << "mapproof: " << printable(error.what(), 2000)
+              << "\nmapproof: \"mapproof --help\" shows what it takes\n";
+    return kUsage;
+  }
+
+  const Console console(common.quiet     ? Verbosity::kQuiet
+                        : common.verbose ? Verbosity::kVerbose
+                                         : Verbosity::kNormal,
+                        common.json);
+  std::vector<std::string> words{"mapproof"};
+  words.insert(words.end(), argv + 1, argv + argc);
+  const Invocation invocation{.console = console, .command = quoted_command(words)};
+  for (const auto& [sub, action] : actions)
+    if (sub->parsed()) return action(invocation);
+  return kInternal;
+}
+
+int fail(const std::string& what, ExitCode code) {
+  std::cerr << "mapproof: " << printable(what, 4000) << "\n";
+  return code;
+}
+
+}  // namespace
+}  // namespace mapproof
+
+int main(int argc, char** argv) {
+  using namespace mapproof;
+  try {
+    return run_verb_of(argc, argv);
+  } catch (const IoError& error) {
+    return fail(error.what(), kUsage);
+  } catch (const InvalidInput& error) {
+    return fail(error.what(), kUsage);
+  } catch (const std::bad_alloc&) {
+    return fail("out of memory", kInternal);
+  } catch (const std::exception& error) {
+    return fail(std::string("internal error: ") + error.what(), kInternal);
+  }
+}

@@ -1,0 +1,244 @@
+#include <algorithm>
+#include <cmath>
+#include <memory>
+
+#include <fmt/format.h>
+
+#include "app/build_facts.hpp"
+#include "app/commands/verbs.hpp"
+#include "app/own_map.hpp"
+#include "core/base/errors.hpp"
+#include "core/base/files.hpp"
+#include "core/records/map_files.hpp"
+#include "core/records/study_store.hpp"
+#include "render/figures/map.hpp"
+#include "render/figures/write_figure.hpp"
+#include "reports/html/report_html.hpp"
+#include "reports/sections/map_report.hpp"
+#include "reports/sections/study_figures.hpp"
+#include "reports/tables/write_tables.hpp"
+
+namespace mapproof {
+namespace {
+
+namespace fs = std::filesystem;
+
+struct Arguments {
+  std::string observations;
+  std::string out;
+  std::string method = "isomap";
+  std::string kind;
+  std::string layout = "auto";
+  std::string anchors;
+  std::string truth;
+  std::string fit = "least-distances";
+  std::optional<double> parameter;
+  std::optional<std::string> templates;
+  OwnMapOptions options;
+};
+
+constexpr double kUsualNeighbours = 6.0;
+
+/// The method and its parameter; without one given, K = 6, or as many as there can be.
+MethodSetting chosen_setting(const Arguments& arguments, Eigen::Index landmarks) {
+  const std::optional<Method> method = method_named(arguments.method);
+  if (!method)
+    throw InvalidInput(fmt::format("--method: unknown method \"{}\"; did you mean \"{}\"?",
+                                   printable(arguments.method),
+                                   nearest_method_name(arguments.method)));
+  const std::optional<ParameterInfo>& parameter = info(*method).parameter;
+  if (!parameter) {
+    if (arguments.parameter)
+      throw InvalidInput(fmt::format("--parameter: the method {} has none", arguments.method));
+    return {*method, std::nullopt};
+  }
+  const double value = arguments.parameter.value_or(
+      std::max(1.0, std::min(kUsualNeighbours, static_cast<double>(landmarks - 1))));
+  if (!(value >= parameter->minimum && value <= parameter->maximum) ||
+      (parameter->integer && value != std::floor(value)))
+    throw InvalidInput(fmt::format(
+        "--parameter: {} = {:g} is not {} from {:g} to {:g}", parameter->symbol, value,
+        parameter->integer ? "an integer" : "a number", parameter->minimum, parameter->maximum));
+  return {*method, value};
+}
+
+/// The folder may be new, empty, or hold an earlier map; anything else is not ours to write into.
+void check_folder(const fs::path& out) {
+  std::error_code error;
+  if (!fs::exists(out, error)) return;
+  if (!fs::is_directory(out, error)) throw IoError(out.string(), "is not a folder");
+  if (is_study(out)) throw IoError(out.string(), "holds a study; choose another --out for the map");
+  if (!fs::is_empty(out, error) && !fs::exists(out / "map.json", error))
+    throw IoError(out.string(), "holds files that are no map; choose another --out");
+}
+
+std::optional<NamedPointsFile> read_points(const std::string& path) {
+  if (path.empty()) return std::nullopt;
+  return NamedPointsFile{.path = path, .points = read_landmarks(path)};
+}
+
+std::vector<std::pair<std::string, std::string>> facts(const Arguments& arguments,
+                                                       const ObservationSource& source,
+                                                       const MapRecord& record) {
+  const auto missing = source.history.values.array().isNaN().count();
+  std::vector<std::pair<std::string, std::string>> items = {
+      {"Observations", arguments.observations},
+      {"Sensor", std::string(name(record.sensor))},
+      {"Landmarks", std::to_string(source.history.landmarks())},
+      {"Steps used", fmt::format("{} of {}", record.step, source.history.steps())},
+      {"Missing entries",
+       fmt::format("{:.1f} %", 100.0 * static_cast<double>(missing) /
+                                   static_cast<double>(source.history.values.size()))},
+      {"Method", label(record.setting)},
+  };
+  if (record.anchors.empty()) {
+    items.emplace_back("Anchors", "none");
+  } else {
+    std::string names;
+    for (const Eigen::Index row : record.anchors)
+      names += (names.empty() ? "" : ", ") + record.names[static_cast<std::size_t>(row)];
+    items.emplace_back(
+        "Anchors",
+        names + (arguments.anchors.empty() ? " (the furthest out along the diagonals)" : ""));
+    items.emplace_back("Affine fit to the anchors", arguments.fit);
+  }
+  return items;
+}
+
+nlohmann::ordered_json number_or_null(double value) {
+  return std::isfinite(value) ? nlohmann::ordered_json(value) : nlohmann::ordered_json(nullptr);
+}
+
+nlohmann::ordered_json map_result(const OwnMap& map, const fs::path& out) {
+  const MapRecord& record = map.record;
+  const bool metric = record.frame == Frame::kTruth;
+  nlohmann::ordered_json object{
+      {"sensor", name(record.sensor)},
+      {"method", info(record.setting.method).name},
+      {"parameter", record.setting.parameter ? number_or_null(*record.setting.parameter)
+                                             : nlohmann::ordered_json(nullptr)},
+      {"steps", record.step},
+      {"frame", metric ? "truth" : "similarity"},
+      {"score", nullptr},
+      {"landmarks", nlohmann::ordered_json::array()},
+      {"statuses", nlohmann::ordered_json::array()},
+      {"remarks", map.remarks},
+      {"map", (out / "map.json").string()},
+      {"report", (out / "report.html").string()}};
+  if (record.score)
+    object["score"] = {
+        {"mpe_m", number_or_null(record.score->mpe_m)},
+        {"moe_percent", number_or_null(record.score->moe_percent)},
+        {"mpe_all_fitted_m", number_or_null(record.score->mpe_all_fitted_m)},
+        {"moe_unmirrored_percent", number_or_null(record.score->moe_unmirrored_percent)}};
+  for (Eigen::Index i = 0; i < record.estimate.rows(); ++i)
+    object["landmarks"].push_back({{"name", record.names[static_cast<std::size_t>(i)]},
+                                   {metric ? "x_m" : "x", number_or_null(record.estimate(i, 0))},
+                                   {metric ? "y_m" : "y", number_or_null(record.estimate(i, 1))}});
+  for (const Status& status : record.statuses)
+    object["statuses"].push_back({{"code", name(status.code)}, {"detail", status.detail}});
+  return object;
+}
+
+std::string map_text(const OwnMap& map, const fs::path& out) {
+  const MapRecord& record = map.record;
+  std::string text =
+      fmt::format("{}, {}, {} steps", label(record.setting), name(record.sensor), record.step);
+  if (record.score && record.frame == Frame::kTruth)
+    text +=
+        fmt::format(": MPE {:.3f} m, MOE {:.2f} %", record.score->mpe_m, record.score->moe_percent);
+  else if (record.score)
+    text += fmt::format(": {:.3f} m after the best affine fit to all, MOE {:.2f} % up to a mirror",
+                        record.score->mpe_all_fitted_m, record.score->moe_unmirrored_percent);
+  return text + "\n" + (out / "report.html").string() + "\n";
+}
+
+void write_outputs(const Arguments& arguments, const ObservationSource& source, const OwnMap& map,
+                   const Templates& page, const Invocation& invocation) {
+  const fs::path out = arguments.out;
+  const Figure figure = map_figure(map.record, "map");
+  const Theme theme = report_theme();
+  const Report report =
+      map_report({.record = map.record,
+                  .title = "Map of " + fs::path(arguments.observations).filename().string(),
+                  .facts = facts(arguments, source, map.record),
+                  .remarks = map.remarks,
+                  .figure = figure_block(figure),
+                  .provenance = build_provenance(),
+                  .command = invocation.command});
+  const std::string html = report_html(report, page, [&](const std::string& id) {
+    return id == figure.id ? figure_svg(figure, theme) : std::string();
+  });
+  write_figure(figure, theme, out / "figures");
+  write_tables(report, out / "tables");
+  write_file(out / "map.csv", map_csv(map.record));
+  write_file(out / "report.html", html);
+  write_file(out / "map.json", map_json(map.record));
+}
+
+int make_map(Arguments arguments, const Invocation& invocation) {
+  const Templates page = load_templates(arguments.templates);
+  check_folder(arguments.out);
+  const std::optional<Sensor> kind =
+      arguments.kind.empty() ? std::nullopt : sensor_named(arguments.kind);
+  const Layout layout = arguments.layout == "wide"   ? Layout::kWide
+                        : arguments.layout == "long" ? Layout::kLong
+                                                     : Layout::kAuto;
+  const ObservationSource source = read_observations(arguments.observations, kind, layout);
+  arguments.options.setting = chosen_setting(arguments, source.history.landmarks());
+  arguments.options.fit =
+      arguments.fit == "least-squares" ? AffineFit::kLeastSquares : AffineFit::kLeastDistances;
+  const OwnMap map = map_own(source, read_points(arguments.anchors), read_points(arguments.truth),
+                             arguments.options);
+  for (const std::string& remark : map.remarks) invocation.console.info(remark);
+  for (const Status& status : map.record.statuses)
+    invocation.console.warning(fmt::format("{}: {}", name(status.code), status.detail));
+  write_outputs(arguments, source, map, page, invocation);
+  invocation.console.result(map_text(map, arguments.out), map_result(map, arguments.out));
+  return map.record.estimate.array().isNaN().all() ? kNo : kDone;
+}
+
+}  // namespace
+
+Action map_verb(CLI::App& app) {
+  auto arguments = std::make_shared<Arguments>();
+  app.description("Map your own observations");
+  app.footer(
+      "Examples:\n"
+      "  mapproof map bearings.csv --kind bearing --anchors anchors.csv --out out/map\n"
+      "  mapproof map seen.csv --kind visibility --method lpca --out out/shape\n"
+      "  mapproof map MRCLAM_Dataset2 --method isomap --parameter 5 --out out/mrclam\n\n"
+      "OBSERVATIONS: wide CSV (a row a landmark, a column a step; empty or nan: missing), long "
+      "CSV\n"
+      "(step, landmark, value), JSON of mapproof.observations, or a folder of MRCLAM files.\n"
+      "Exit code 1 if no map came out; the report then says why.\n");
+  app.add_option("OBSERVATIONS", arguments->observations, "File or folder")->required();
+  app.add_option("--out", arguments->out, "Folder for map, figure and report")->required();
+  app.add_option("--method", arguments->method, "See \"mapproof methods\"")->capture_default_str();
+  app.add_option("--parameter,-K", arguments->parameter,
+                 "The method's parameter (default: K = 6, or what there can be)");
+  app.add_option("--kind", arguments->kind,
+                 "What the values are: visibility (0/1), bearing [rad], "
+                 "range [m]; needed for CSV")
+      ->check(CLI::IsMember({"visibility", "bearing", "range"}));
+  app.add_option("--layout", arguments->layout, "Of a CSV file")
+      ->check(CLI::IsMember({"auto", "wide", "long"}))
+      ->capture_default_str();
+  app.add_option("--anchors", arguments->anchors,
+                 "Known positions of 3 landmarks or more: CSV of name, x [m], y [m]");
+  app.add_option("--truth", arguments->truth, "True positions, for the errors: as --anchors");
+  app.add_option("--steps", arguments->options.steps, "Use the first so many observations alone")
+      ->check(CLI::Range(1, 1000000));
+  app.add_option("--fit", arguments->fit, "How the affine map to the anchors is fitted")
+      ->check(CLI::IsMember({"least-distances", "least-squares"}))
+      ->capture_default_str();
+  app.add_flag("--drop-unseen", arguments->options.drop_unseen,
+               "Leave landmarks out that were never observed");
+  app.add_flag("--only-seen-together", arguments->options.only_seen_together,
+               "Visibility: no graph edge between landmarks never seen together");
+  app.add_option("--templates", arguments->templates,
+                 "Folder whose templates replace the embedded ones");
+  return [arguments](const Invocation& invocation) { return make_map(*arguments, invocation); };
+}
+
+}  // namespace mapproof

@@ -1,0 +1,83 @@
+#include <algorithm>
+#include <memory>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include "app/commands/verbs.hpp"
+#include "app/study_outputs.hpp"
+#include "core/base/errors.hpp"
+
+namespace mapproof {
+namespace {
+
+struct Arguments {
+  std::string study;
+  std::string out;
+  std::string theme = "report";
+  double width_in = 3.25;
+  std::vector<std::string> ids;
+  int jobs = 1;
+};
+
+std::vector<const Figure*> chosen_figures(const Arguments& arguments, const StudyView& view) {
+  std::vector<const Figure*> figures = all_figures(view.figures);
+  if (arguments.ids.empty()) return figures;
+  std::vector<const Figure*> chosen;
+  for (const std::string& id : arguments.ids) {
+    const auto found = std::ranges::find(figures, id, [](const Figure* f) { return f->id; });
+    if (found == figures.end()) {
+      std::vector<std::string> known;
+      for (const Figure* figure : figures) known.push_back(figure->id);
+      throw InvalidInput(fmt::format("--figure: no figure \"{}\" in {}; there are {}",
+                                     printable(id), arguments.study, fmt::join(known, ", ")));
+    }
+    chosen.push_back(*found);
+  }
+  return chosen;
+}
+
+int render(const Arguments& arguments, const Invocation& invocation) {
+  const StudyView view = view_study(arguments.study);
+  const std::vector<const Figure*> figures = chosen_figures(arguments, view);
+  const bool paper = arguments.theme == "paper";
+  const std::filesystem::path folder = arguments.out.empty()
+                                           ? view.folder / (paper ? "figures-paper" : "figures")
+                                           : std::filesystem::path(arguments.out);
+  write_figures(figures, paper ? paper_theme(arguments.width_in) : report_theme(), folder,
+                arguments.jobs);
+
+  nlohmann::ordered_json object{{"study", arguments.study}, {"folder", folder.string()}};
+  std::string text;
+  for (const Figure* figure : figures) {
+    object["figures"].push_back(figure->id);
+    text += (folder / (figure->id + ".svg")).string() + "\n";
+  }
+  invocation.console.result(text, object);
+  return kDone;
+}
+
+}  // namespace
+
+Action render_verb(CLI::App& app) {
+  auto arguments = std::make_shared<Arguments>();
+  app.description("Draw a study's figures again from its records: SVG, PNG, PDF");
+  app.footer(
+      "Examples:\n"
+      "  mapproof render out\n"
+      "  mapproof render out --theme paper --width 6.75 --figure map-bearing-isomap\n");
+  app.add_option("DIR", arguments->study, "The study's folder")->required();
+  app.add_option("--out", arguments->out,
+                 "Folder for the figures (default: DIR/figures, DIR/figures-paper)");
+  app.add_option("--theme", arguments->theme, "report (screen) or paper (8 pt, 300 dpi)")
+      ->check(CLI::IsMember({"report", "paper"}))
+      ->capture_default_str();
+  app.add_option("--width", arguments->width_in, "Width with --theme paper [in]")
+      ->check(CLI::Range(2.0, 20.0))
+      ->capture_default_str();
+  app.add_option("--figure", arguments->ids, "Only the figures of these ids");
+  add_jobs_option(app, arguments->jobs);
+  return [arguments](const Invocation& invocation) { return render(*arguments, invocation); };
+}
+
+}  // namespace mapproof

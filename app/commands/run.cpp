@@ -1,0 +1,49 @@
+#include <memory>
+
+#include "app/commands/verbs.hpp"
+#include "app/study_run.hpp"
+#include "core/base/files.hpp"
+#include "core/records/experiment_json.hpp"
+#include "core/records/study_store.hpp"
+
+namespace mapproof {
+namespace {
+
+struct Arguments {
+  std::string experiment;
+  std::string out;
+  std::string profile;
+  int jobs = 1;
+  std::optional<std::uint64_t> seed;
+};
+
+int run(const Arguments& arguments, const Invocation& invocation) {
+  Experiment experiment =
+      parse_experiment(read_file(arguments.experiment), arguments.experiment, arguments.profile);
+  if (arguments.seed) experiment.seed = *arguments.seed;
+  make_records(experiment, arguments.out, arguments.jobs, invocation);
+  const Study study = read_study(arguments.out);
+  nlohmann::ordered_json object = study_json(study);
+  object["study"] = arguments.out;
+  invocation.console.result(study_text(study) + arguments.out + "\n", object);
+  return kDone;
+}
+
+}  // namespace
+
+Action run_verb(CLI::App& app) {
+  auto arguments = std::make_shared<Arguments>();
+  app.description("Run an experiment and write its records, nothing else");
+  app.footer(
+      "Example:\n"
+      "  mapproof run templates/experiments/yairi2007.json --profile quick --out out/study\n\n"
+      "docs/file-formats.md says what an experiment's file holds.\n");
+  app.add_option("EXPERIMENT", arguments->experiment, "The experiment's JSON file")->required();
+  app.add_option("--out", arguments->out, "Folder for the records")->required();
+  app.add_option("--profile", arguments->profile, "One of the profiles in the file");
+  add_jobs_option(app, arguments->jobs);
+  app.add_option("--seed", arguments->seed, "Replaces the experiment's seed");
+  return [arguments](const Invocation& invocation) { return run(*arguments, invocation); };
+}
+
+}  // namespace mapproof

@@ -1,0 +1,56 @@
+#include <memory>
+
+#include <fmt/format.h>
+
+#include "app/commands/verbs.hpp"
+#include "core/base/errors.hpp"
+#include "core/records/validate.hpp"
+#include "render/plot/figure_json.hpp"
+
+namespace mapproof {
+namespace {
+
+/// Reads the JSON formats that are not core's.
+bool read_foreign(std::string_view schema, std::string_view text, const std::string& source) {
+  if (schema != "mapproof.figure") return false;
+  figure_from_json(text, source);
+  return true;
+}
+
+int validate_files(const std::vector<std::string>& paths, const Invocation& invocation) {
+  nlohmann::ordered_json object{{"valid", true}, {"files", nlohmann::ordered_json::array()}};
+  std::string text;
+  bool all_valid = true;
+  for (const std::string& path : paths) {
+    if (!std::filesystem::exists(path)) throw IoError(path, "is not there");
+    for (const Finding& finding : validate(path, read_foreign)) {
+      const bool valid = finding.problem.empty();
+      all_valid &= valid;
+      object["files"].push_back({{"path", finding.path},
+                                 {"kind", finding.kind},
+                                 {"valid", valid},
+                                 {"problem", finding.problem}});
+      text += valid ? fmt::format("{}: {}\n", printable(finding.path, 300), finding.kind)
+                    : fmt::format("{}\n", finding.problem);
+    }
+  }
+  object["valid"] = all_valid;
+  invocation.console.result(text, object);
+  return all_valid ? kDone : kNo;
+}
+
+}  // namespace
+
+Action validate_verb(CLI::App& app) {
+  auto paths = std::make_shared<std::vector<std::string>>();
+  app.description("Check files that mapproof reads or writes, and say what is wrong with them");
+  app.footer(
+      "Examples:\n"
+      "  mapproof validate observations.csv anchors.csv\n"
+      "  mapproof validate out\n\n"
+      "Exit code 1 if a file is not valid.\n");
+  app.add_option("FILE", *paths, "Files, or folders of studies")->required();
+  return [paths](const Invocation& invocation) { return validate_files(*paths, invocation); };
+}
+
+}  // namespace mapproof

@@ -1,0 +1,16 @@
+#pragma once
+
+#include "app/command_line.hpp"
+
+namespace mapproof {
+
+/// Each adds its options to the verb's parser and returns its work (see Verb).
+Action reproduce_verb(CLI::App& app);
+Action run_verb(CLI::App& app);
+Action render_verb(CLI::App& app);
+Action report_verb(CLI::App& app);
+Action map_verb(CLI::App& app);
+Action methods_verb(CLI::App& app);
+Action validate_verb(CLI::App& app);
+
+}  // namespace mapproof

@@ -1,0 +1,43 @@
+#include "app/console.hpp"
+
+#include <cstdio>
+
+#include <spdlog/sinks/stdout_sinks.h>
+#include <spdlog/spdlog.h>
+
+#include "core/base/errors.hpp"
+
+namespace mapproof {
+namespace {
+
+/// One line of a message, however hostile the names in it.
+std::string one_line(const std::string& message) { return printable(message, 4000); }
+
+}  // namespace
+
+Console::Console(Verbosity verbosity, bool json) : verbosity_(verbosity), json_(json) {
+  auto logger = std::make_shared<spdlog::logger>("mapproof",
+                                                 std::make_shared<spdlog::sinks::stderr_sink_mt>());
+  logger->set_pattern("%v");
+  logger->set_level(verbosity == Verbosity::kQuiet     ? spdlog::level::warn
+                    : verbosity == Verbosity::kVerbose ? spdlog::level::debug
+                                                       : spdlog::level::info);
+  spdlog::set_default_logger(std::move(logger));
+}
+
+void Console::info(const std::string& message) const { spdlog::info("{}", one_line(message)); }
+
+void Console::detail(const std::string& message) const { spdlog::debug("{}", one_line(message)); }
+
+void Console::warning(const std::string& message) const {
+  spdlog::warn("warning: {}", one_line(message));
+}
+
+void Console::result(const std::string& text, const nlohmann::ordered_json& object) const {
+  const std::string out =
+      json_ ? object.dump(2, ' ', false, nlohmann::json::error_handler_t::replace) + "\n" : text;
+  const bool whole = std::fwrite(out.data(), 1, out.size(), stdout) == out.size();
+  if (std::fflush(stdout) != 0 || !whole) throw IoError("standard output", "cannot be written");
+}
+
+}  // namespace mapproof

@@ -1,0 +1,43 @@
+#pragma once
+
+#include <string>
+
+#include <nlohmann/json.hpp>
+
+namespace mapproof {
+
+/// What every verb ends with.
+enum ExitCode {
+  kDone = 0,      ///< Done.
+  kNo = 1,        ///< The check that was asked for says no, or no map came out.
+  kUsage = 2,     ///< Usage or input.
+  kInternal = 3,  ///< A fault of the program.
+};
+
+/// How much is said on standard error.
+enum class Verbosity { kQuiet, kNormal, kVerbose };
+
+/// Where a verb talks: messages to standard error, its result to standard output.
+class Console {
+ public:
+  Console(Verbosity verbosity, bool json);
+
+  bool json() const { return json_; }
+  bool shows_progress() const { return verbosity_ != Verbosity::kQuiet; }
+
+  /// What was done; not with --quiet.
+  void info(const std::string& message) const;
+  /// Details; with --verbose alone.
+  void detail(const std::string& message) const;
+  /// What a person should look at, --quiet or not.
+  void warning(const std::string& message) const;
+
+  /// The result: `text`, or with --json `object`. Text that is no UTF-8 is mended.
+  void result(const std::string& text, const nlohmann::ordered_json& object) const;
+
+ private:
+  Verbosity verbosity_;
+  bool json_;
+};
+
+}  // namespace mapproof

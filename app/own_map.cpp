@@ -1,0 +1,206 @@
+#include "app/own_map.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <map>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include "core/align/affine.hpp"
+#include "core/base/errors.hpp"
+#include "core/observe/proximities.hpp"
+#include "core/score/map_score.hpp"
+
+namespace mapproof {
+namespace {
+
+constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
+
+std::string quoted(const std::string& name) { return "\"" + printable(name) + "\""; }
+
+/// The row of each landmark by its name.
+std::map<std::string, Eigen::Index> rows_of(const ObservationSource& source) {
+  std::map<std::string, Eigen::Index> rows;
+  for (std::size_t i = 0; i < source.history.names.size(); ++i)
+    rows[source.history.names[i]] = static_cast<Eigen::Index>(i);
+  return rows;
+}
+
+/// Landmarks with nothing observed of them: an error at the first, or a remark.
+void check_unseen(const ObservationSource& source, Eigen::Index steps, const OwnMapOptions& options,
+                  std::vector<std::string>& remarks) {
+  const std::vector<Eigen::Index> unseen = unseen_landmarks(source.history, steps);
+  if (unseen.empty()) return;
+  const auto first = static_cast<std::size_t>(unseen.front());
+  const bool is_log = source.truth_m.has_value();
+  if (!options.drop_unseen && !is_log)
+    throw IoError(
+        source.path, source.places[first],
+        fmt::format("landmark {} is never observed{}; remove it, or pass --drop-unseen "
+                    "to map the others",
+                    quoted(source.history.names[first]),
+                    source.history.sensor == Sensor::kVisibility ? " (no 1 in its row)" : ""));
+  remarks.push_back(fmt::format("{} of {} landmarks were never observed and are left out.",
+                                unseen.size(), source.history.landmarks()));
+}
+
+/// Positions by landmark, in the rows of the source; NaN where the file has none.
+Points matched_truth(const ObservationSource& source, const NamedPointsFile& truth,
+                     std::vector<std::string>& remarks) {
+  const auto rows = rows_of(source);
+  Points positions = Points::Constant(source.history.landmarks(), 2, kUnknown);
+  Eigen::Index matched = 0;
+  for (std::size_t i = 0; i < truth.points.names.size(); ++i) {
+    const auto row = rows.find(truth.points.names[i]);
+    if (row == rows.end()) continue;
+    positions.row(row->second) = truth.points.positions_m.row(static_cast<Eigen::Index>(i));
+    ++matched;
+  }
+  const auto given = std::ssize(truth.points.names);
+  if (matched == 0)
+    throw IoError(truth.path, fmt::format("none of its {} names is a landmark of {} ({}, ...)",
+                                          given, source.path, quoted(source.history.names.at(0))));
+  if (matched < given)
+    remarks.push_back(
+        fmt::format("{} positions of the truth are of landmarks that were not "
+                    "observed; they are not used.",
+                    given - matched));
+  if (matched < source.history.landmarks())
+    remarks.push_back(fmt::format("The true position of {} landmarks is not known.",
+                                  source.history.landmarks() - matched));
+  return positions;
+}
+
+/// The anchors' rows, ascending; their positions go into `positions`.
+std::vector<Eigen::Index> matched_anchors(const ObservationSource& source,
+                                          const NamedPointsFile& anchors, Eigen::Index steps,
+                                          Points& positions) {
+  const auto rows = rows_of(source);
+  const std::vector<Eigen::Index> unseen = unseen_landmarks(source.history, steps);
+  std::vector<Eigen::Index> chosen;
+  for (std::size_t i = 0; i < anchors.points.names.size(); ++i) {
+    const std::string& name = anchors.points.names[i];
+    const auto row = rows.find(name);
+    if (row == rows.end())
+      throw IoError(
+          anchors.path, anchors.points.places[i],
+          fmt::format("anchor {} is not among the {} landmarks of {} ({}, ...)", quoted(name),
+                      source.history.landmarks(), source.path, quoted(source.history.names.at(0))));
+    if (std::ranges::binary_search(unseen, row->second)) continue;
+    positions.row(row->second) = anchors.points.positions_m.row(static_cast<Eigen::Index>(i));
+    chosen.push_back(row->second);
+  }
+  if (chosen.size() < 3)
+    throw IoError(anchors.path,
+                  fmt::format("{} observed anchor{}; an affine map to the anchors needs 3 or more",
+                              chosen.size(), chosen.size() == 1 ? "" : "s"));
+  if (planarity(positions(chosen, Eigen::all)) <= 1e-6)
+    throw IoError(
+        anchors.path,
+        fmt::format("its {} anchors lie on one line; they must span the plane", chosen.size()));
+  std::ranges::sort(chosen);
+  return chosen;
+}
+
+void check_method(const ObservationSource& source, const OwnMapOptions& options) {
+  const Eigen::Index M = source.history.landmarks();
+  if (M < 3)
+    throw IoError(source.path,
+                  fmt::format("{} landmark{}; a map needs 3 or more", M, M == 1 ? "" : "s"));
+  const MethodInfo& method = info(options.setting.method);
+  if (method.parameter && *options.setting.parameter >= static_cast<double>(M))
+    throw IoError(source.path, fmt::format("{} = {:g} needs more than {:g} landmarks, {} are there",
+                                           method.parameter->symbol, *options.setting.parameter,
+                                           *options.setting.parameter, M));
+}
+
+/// Errors of a map that no anchors tie to the truth: those that need none.
+std::optional<Score> anchor_free_score(const Points& coordinates, const Points& truth_m,
+                                       AffineFit fit) {
+  std::optional<Score> score = score_map(coordinates, truth_m, {}, fit);
+  if (score) score->mpe_m = score->moe_percent = kUnknown;
+  return score;
+}
+
+}  // namespace
+
+std::vector<Eigen::Index> diagonal_anchors(const Points& truth_m) {
+  std::vector<Eigen::Index> known;
+  for (Eigen::Index i = 0; i < truth_m.rows(); ++i)
+    if (truth_m.row(i).allFinite()) known.push_back(i);
+  const Points positions = truth_m(known, Eigen::all);
+  std::vector<Eigen::Index> chosen;
+  for (const Eigen::RowVector2d& diagonal : {Eigen::RowVector2d(-1, -1), Eigen::RowVector2d(1, -1),
+                                             Eigen::RowVector2d(1, 1), Eigen::RowVector2d(-1, 1)}) {
+    Eigen::VectorXd outward = positions * diagonal.transpose();
+    for (std::size_t k = 0; k < known.size(); ++k)
+      if (std::ranges::find(chosen, known[k]) != chosen.end())
+        outward(static_cast<Eigen::Index>(k)) = -HUGE_VAL;
+    Eigen::Index furthest = 0;
+    if (chosen.size() < known.size()) {
+      outward.maxCoeff(&furthest);
+      chosen.push_back(known[static_cast<std::size_t>(furthest)]);
+    }
+  }
+  std::ranges::sort(chosen);
+  return chosen;
+}
+
+OwnMap map_own(const ObservationSource& source, const std::optional<NamedPointsFile>& anchors,
+               const std::optional<NamedPointsFile>& truth, const OwnMapOptions& options) {
+  const Eigen::Index steps = options.steps > 0 ? options.steps : source.history.steps();
+  if (steps > source.history.steps())
+    throw IoError(source.path, fmt::format("--steps {}: it holds {} observations", steps,
+                                           source.history.steps()));
+  check_method(source, options);
+  OwnMap result{.record = {}, .remarks = source.remarks};
+  check_unseen(source, steps, options, result.remarks);
+
+  // What is known of the true positions; without a truth, the anchors' alone.
+  Points known = Points::Constant(source.history.landmarks(), 2, kUnknown);
+  const bool has_truth = truth.has_value() || source.truth_m.has_value();
+  if (truth)
+    known = matched_truth(source, *truth, result.remarks);
+  else if (source.truth_m)
+    known = *source.truth_m;
+  std::vector<Eigen::Index> anchor_rows;
+  if (anchors)
+    anchor_rows = matched_anchors(source, *anchors, steps, known);
+  else if (source.truth_m)
+    anchor_rows = diagonal_anchors(known);
+
+  EmbedderOptions fitting;
+  fitting.only_seen_together = options.only_seen_together;
+  HistoryEmbedder embedder(source.history, steps, fitting);
+  const Embedding embedding = embedder.embed(options.setting);
+  MapRecord& record = result.record;
+  record = {.id = "map",
+            .sensor = source.history.sensor,
+            .setting = options.setting,
+            .step = static_cast<int>(steps),
+            .frame = Frame::kSimilarity,
+            .names = source.history.names,
+            .estimate = embedding.coordinates,
+            .truth_m = std::nullopt,
+            .anchors = anchor_rows,
+            .statuses = embedding.statuses,
+            .score = std::nullopt};
+  if (has_truth || !anchor_rows.empty()) record.truth_m = known;
+  if (!anchor_rows.empty()) {
+    AlignedMap aligned = align_to_anchors(embedding.coordinates, known, anchor_rows, options.fit);
+    record.statuses.insert(record.statuses.end(), aligned.statuses.begin(), aligned.statuses.end());
+    if (aligned.aligned) {
+      record.frame = Frame::kTruth;
+      record.estimate = std::move(aligned.positions_m);
+    }
+  }
+  if (has_truth)
+    record.score = record.frame == Frame::kTruth
+                       ? score_map(record.estimate, known, anchor_rows, options.fit)
+                       : anchor_free_score(record.estimate, known, options.fit);
+  return result;
+}
+
+}  // namespace mapproof

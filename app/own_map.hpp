@@ -1,0 +1,51 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "core/embed/embedder.hpp"
+#include "core/model/experiment.hpp"
+#include "core/model/map_record.hpp"
+#include "core/records/landmarks_csv.hpp"
+#include "core/records/observations.hpp"
+
+namespace mapproof {
+
+/// Positions read from a file, with its name for messages.
+struct NamedPointsFile {
+  std::string path;
+  NamedPoints points;
+};
+
+/// How a person's own observations are to be mapped.
+struct OwnMapOptions {
+  MethodSetting setting;
+  int steps = 0;  ///< The first so many observations; 0: all.
+  AffineFit fit = AffineFit::kLeastDistances;
+  bool drop_unseen = false;         ///< Map the others where a landmark was never observed.
+  bool only_seen_together = false;  ///< See EmbedderOptions.
+};
+
+/// A map and what has to be said about how it came to be.
+struct OwnMap {
+  MapRecord record;
+  std::vector<std::string> remarks;
+};
+
+/// Maps observations, aligned to the anchors if there are any, scored if there is a truth.
+///
+/// A source that holds its own truth (MRCLAM) is aligned, without `anchors`, to the four landmarks
+/// furthest out along the diagonals of the truth's extent.
+/// @throws IoError naming file and line for anchors that cannot serve (fewer than three, on one
+///         line, unknown, unobserved), a truth about other landmarks, landmarks never observed
+///         (unless dropped or read from a log, where no row can be removed), K >= M, too few
+///         landmarks.
+OwnMap map_own(const ObservationSource& source, const std::optional<NamedPointsFile>& anchors,
+               const std::optional<NamedPointsFile>& truth, const OwnMapOptions& options);
+
+/// The four landmarks furthest out along the diagonals of the extent, all different, ascending;
+/// rows with NaN are none.
+std::vector<Eigen::Index> diagonal_anchors(const Points& truth_m);
+
+}  // namespace mapproof

@@ -1,0 +1,61 @@
+#include "app/study_outputs.hpp"
+
+#include <map>
+
+#include <tbb/global_control.h>
+#include <tbb/parallel_for_each.h>
+
+#include "core/base/files.hpp"
+#include "core/records/study_store.hpp"
+#include "render/figures/write_figure.hpp"
+#include "reports/html/report_html.hpp"
+#include "reports/sections/study_report.hpp"
+#include "reports/tables/write_tables.hpp"
+
+namespace mapproof {
+
+StudyView view_study(const std::filesystem::path& folder) {
+  StudyView view{.folder = folder, .study = read_study(folder), .figures = {}};
+  view.figures =
+      study_figures(view.study, [&](const RunId& run) { return read_maps(folder, run); });
+  return view;
+}
+
+void write_figures(const std::vector<const Figure*>& figures, const Theme& theme,
+                   const std::filesystem::path& folder, int jobs) {
+  const tbb::global_control limit(tbb::global_control::max_allowed_parallelism,
+                                  static_cast<std::size_t>(jobs));
+  tbb::parallel_for_each(figures,
+                         [&](const Figure* figure) { write_figure(*figure, theme, folder); });
+}
+
+std::filesystem::path write_report(const StudyView& view, const std::string& command,
+                                   const std::optional<std::filesystem::path>& templates,
+                                   int jobs) {
+  // First of all, so that a template that cannot be used costs nothing.
+  const Templates page = load_templates(templates);
+  const Theme theme = report_theme();
+  const std::vector<const Figure*> figures = all_figures(view.figures);
+  write_figures(figures, theme, view.folder / "figures", jobs);
+
+  const std::vector<Session> sessions = read_sessions(view.folder);
+  const std::vector<Timing> timings = read_timings(view.folder);
+  const Report report = study_report({.study = view.study,
+                                      .sessions = sessions,
+                                      .timings = timings,
+                                      .figures = view.figures,
+                                      .command = command});
+  write_tables(report, view.folder / "tables");
+
+  std::map<std::string, std::string> drawings;
+  for (const Figure* figure : figures) drawings[figure->id] = figure_svg(*figure, theme);
+  const auto drawing = [&](const std::string& id) {
+    const auto found = drawings.find(id);
+    return found == drawings.end() ? std::string() : found->second;
+  };
+  const std::filesystem::path path = view.folder / "report.html";
+  write_file(path, report_html(report, page, drawing));
+  return path;
+}
+
+}  // namespace mapproof

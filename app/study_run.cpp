@@ -1,0 +1,102 @@
+#include "app/study_run.hpp"
+
+#include <chrono>
+#include <ctime>
+
+#include <fmt/chrono.h>
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include "app/build_facts.hpp"
+#include "app/progress_line.hpp"
+#include "core/experiment/run_experiment.hpp"
+#include "core/records/study_store.hpp"
+#include "reports/sections/method_summary.hpp"
+
+namespace mapproof {
+namespace {
+
+std::string host_name() {
+  char name[256] = "";
+  return ::gethostname(name, sizeof name - 1) == 0 ? name : "";
+}
+
+/// Calls `use` with the best setting of each method and sensor at its last checkpoint.
+template <typename Use>
+void for_each_result(const Study& study, Use use) {
+  for (const SensorStudy& sensor : study.experiment.sensors)
+    for (const SettingSummary& summary :
+         best_of_each_method(summarize(study, sensor, last_step(sensor))))
+      use(summary);
+}
+
+nlohmann::ordered_json number(const std::optional<MeanEstimate>& estimate) {
+  return estimate ? nlohmann::ordered_json(estimate->mean) : nlohmann::ordered_json(nullptr);
+}
+
+}  // namespace
+
+void make_records(const Experiment& experiment, const std::filesystem::path& folder, int jobs,
+                  const Invocation& invocation) {
+  using Clock = std::chrono::steady_clock;
+  const Clock::time_point start = Clock::now();
+  const std::string started = fmt::format("{:%Y-%m-%dT%H:%M:%SZ}", fmt::gmtime(std::time(nullptr)));
+
+  StudyStore store = StudyStore::open(folder, experiment, build_provenance());
+  if (store.redone())
+    invocation.console.warning(fmt::format(
+        "{}: its records were made by another solver; they are made again", folder.string()));
+  ProgressLine line(invocation.console.shows_progress());
+  Progress last;
+  run_experiment(experiment, store, jobs, [&](const Progress& progress) {
+    last = progress;
+    line(progress);
+  });
+  if (last.reused < last.total)
+    store.write_session({.command = invocation.command,
+                         .started_utc = started,
+                         .host = host_name(),
+                         .jobs = jobs,
+                         .seconds = std::chrono::duration<double>(Clock::now() - start).count()});
+  invocation.console.info(
+      fmt::format("{}: {} runs, {} of them reused", folder.string(), last.total, last.reused));
+}
+
+nlohmann::ordered_json study_json(const Study& study) {
+  std::size_t records = 0;
+  std::size_t with_status = 0;
+  for (const Run& run : study.runs)
+    for (const RunRecord& record : run.records) {
+      ++records;
+      if (!record.statuses.empty()) ++with_status;
+    }
+  nlohmann::ordered_json object{
+      {"experiment", study.experiment.name}, {"seed", study.experiment.seed},
+      {"runs", study.runs.size()},           {"records", records},
+      {"records_with_status", with_status},  {"results", nlohmann::ordered_json::array()}};
+  for_each_result(study, [&](const SettingSummary& result) {
+    object["results"].push_back(
+        {{"sensor", name(result.sensor)},
+         {"method", info(result.setting.method).name},
+         {"parameter", result.setting.parameter ? nlohmann::ordered_json(*result.setting.parameter)
+                                                : nlohmann::ordered_json(nullptr)},
+         {"step", result.step},
+         {"mpe_m", number(result.mpe_m)},
+         {"moe_percent", number(result.moe_percent)}});
+  });
+  return object;
+}
+
+std::string study_text(const Study& study) {
+  std::string text;
+  for_each_result(study, [&](const SettingSummary& result) {
+    text += fmt::format("{:<10}  {:<28}", name(result.sensor), label(result.setting));
+    text += result.mpe_m && result.moe_percent
+                ? fmt::format("  MPE {:.4f} m  MOE {:5.2f} %\n", result.mpe_m->mean,
+                              result.moe_percent->mean)
+                : std::string("  no map\n");
+  });
+  return text;
+}
+
+}  // namespace mapproof
