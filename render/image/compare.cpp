@@ -1,6 +1,7 @@
 #include "render/image/compare.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <cstdlib>
 
 namespace mapproof {
@@ -18,8 +19,19 @@ bool differs(std::uint32_t a, std::uint32_t b) {
   return false;
 }
 
-/// Structural similarity of one channel in one window.
-double similarity(const Image& a, const Image& b, int x0, int y0, int shift) {
+/// One channel in one window of both images.
+struct WindowStatistics {
+  double mean_a = 0.0, mean_b = 0.0;
+  double var_a = 0.0, var_b = 0.0, covariance = 0.0;
+
+  double similarity() const {
+    constexpr double c1 = 0.01 * 255 * 0.01 * 255, c2 = 0.03 * 255 * 0.03 * 255;
+    return (2 * mean_a * mean_b + c1) * (2 * covariance + c2) /
+           ((mean_a * mean_a + mean_b * mean_b + c1) * (var_a + var_b + c2));
+  }
+};
+
+WindowStatistics statistics(const Image& a, const Image& b, int x0, int y0, int shift) {
   const int x1 = std::min(x0 + kWindow, a.width), y1 = std::min(y0 + kWindow, a.height);
   double sum_a = 0.0, sum_b = 0.0, sum_aa = 0.0, sum_bb = 0.0, sum_ab = 0.0;
   for (int y = y0; y < y1; ++y)
@@ -33,11 +45,8 @@ double similarity(const Image& a, const Image& b, int x0, int y0, int shift) {
     }
   const double n = (x1 - x0) * (y1 - y0);
   const double mean_a = sum_a / n, mean_b = sum_b / n;
-  const double var_a = sum_aa / n - mean_a * mean_a, var_b = sum_bb / n - mean_b * mean_b;
-  const double covariance = sum_ab / n - mean_a * mean_b;
-  constexpr double c1 = 0.01 * 255 * 0.01 * 255, c2 = 0.03 * 255 * 0.03 * 255;
-  return (2 * mean_a * mean_b + c1) * (2 * covariance + c2) /
-         ((mean_a * mean_a + mean_b * mean_b + c1) * (var_a + var_b + c2));
+  return {mean_a, mean_b, sum_aa / n - mean_a * mean_a, sum_bb / n - mean_b * mean_b,
+          sum_ab / n - mean_a * mean_b};
 }
 
 }  // namespace
@@ -52,16 +61,21 @@ ImageDifference compare_images(const Image& a, const Image& b) {
     if (differs(a.pixels[i], b.pixels[i])) ++changed;
   difference.changed_share = static_cast<double>(changed) / static_cast<double>(pixels);
   difference.structure = 1.0;
+  difference.shift = 0.0;
   for (int y = 0; y < a.height; y += kStride)
     for (int x = 0; x < a.width; x += kStride)
-      for (const int shift : {16, 8, 0})
-        difference.structure = std::min(difference.structure, similarity(a, b, x, y, shift));
+      for (const int shift : {16, 8, 0}) {
+        const WindowStatistics window = statistics(a, b, x, y, shift);
+        difference.structure = std::min(difference.structure, window.similarity());
+        difference.shift = std::max(difference.shift, std::abs(window.mean_a - window.mean_b));
+      }
   return difference;
 }
 
 bool is_alike(const ImageDifference& difference, const ImageTolerance& tolerance) {
   return difference.same_size && difference.changed_share <= tolerance.most_changed &&
-         difference.structure >= tolerance.least_structure;
+         difference.structure >= tolerance.least_structure &&
+         difference.shift <= tolerance.most_shift;
 }
 
 }  // namespace mapproof

@@ -20,6 +20,10 @@ struct Case {
   Theme theme;
 };
 
+void PrintTo(const Case& one, std::ostream* out) {
+  *out << one.figure.id << ' ' << one.theme.name;
+}
+
 std::vector<Case> all_cases() {
   std::vector<Case> cases;
   for (const Figure& figure : sample_figures())

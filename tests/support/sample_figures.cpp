@@ -78,6 +78,11 @@ void add_maps(std::vector<Figure>& figures) {
     const std::vector<std::string> names = hostile_names();
     for (std::size_t i = 0; i < r.names.size(); ++i) r.names[i] = names[i % names.size()];
   });
+  add("hostile-shape", 14, 0.1, [](MapRecord& r) {
+    strip_truth(r);
+    const std::vector<std::string> names = hostile_names();
+    for (std::size_t i = 0; i < r.names.size(); ++i) r.names[i] = names[i % names.size()];
+  });
   add("shape", 20, 0.1, strip_truth);
   add("shape-outlier", 40, 0.1, [](MapRecord& r) {
     strip_truth(r);

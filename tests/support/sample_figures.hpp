@@ -1,11 +1,19 @@
 #pragma once
 
+#include <ostream>
 #include <string>
 #include <vector>
 
 #include "core/model/map_record.hpp"
 #include "render/figures/error_curve.hpp"
 #include "render/plot/figure.hpp"
+
+namespace mapproof {
+
+/// For GoogleTest's messages.
+inline void PrintTo(const Figure& figure, std::ostream* out) { *out << figure.id; }
+
+}  // namespace mapproof
 
 namespace mapproof::testing {
 

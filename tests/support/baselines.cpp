@@ -1,0 +1,49 @@
+#include "tests/support/baselines.hpp"
+
+#include <filesystem>
+
+#include <fmt/format.h>
+
+#include "core/base/files.hpp"
+#include "render/image/compare.hpp"
+#include "render/image/png.hpp"
+#include "tests/support/png_reader.hpp"
+
+namespace mapproof::testing {
+
+namespace fs = std::filesystem;
+
+Theme baseline_theme() {
+  Theme theme = paper_theme(480.0 / 144.0);
+  theme.name = "baseline";
+  theme.height_pt = 180.0;
+  theme.dpi = 144.0;
+  theme.draws_title = true;
+  return theme;
+}
+
+std::string difference_from_baseline(const std::string& name, const Image& image) {
+  const fs::path baseline = fs::path(MAPPROOF_BASELINES) / (name + ".png");
+  const fs::path candidate = fs::path(MAPPROOF_VISUAL) / (name + ".png");
+  const std::string png = encode_png(image);
+  std::string difference;
+  if (!fs::exists(baseline)) {
+    difference = "there is no baseline " + baseline.string();
+  } else {
+    // As stored: the encoder may have moved a few colours.
+    const ImageDifference found =
+        compare_images(read_png(read_file(baseline)).image, read_png(png).image);
+    if (is_alike(found)) {
+      fs::remove(candidate);
+      return {};
+    }
+    difference = fmt::format("{}: {}, {:.3f} % of pixels changed, least structure {:.3f}, shift {:.1f}",
+                             name,
+                             found.same_size ? "same size" : "another size",
+                             100.0 * found.changed_share, found.structure, found.shift);
+  }
+  write_file(candidate, png);
+  return difference + "; the candidate is " + candidate.string();
+}
+
+}  // namespace mapproof::testing
