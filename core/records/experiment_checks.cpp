@@ -16,8 +16,7 @@ constexpr double kMostRuns = 1e6;
 
 void check_room(const WorldOptions& world, const JsonCursor& document) {
   const double spacing_m = world.landmark_diameter_m + world.gap_m;
-  const double free_side_m =
-      world.side_m - 2.0 * world.wall_margin_m - world.landmark_diameter_m;
+  const double free_side_m = world.side_m - 2.0 * world.wall_margin_m - world.landmark_diameter_m;
   if (free_side_m <= 0.0)
     document.at("world").fail(fmt::format(
         "a room of {} m has no place for a landmark of {} m that keeps {} m from the walls",
@@ -33,8 +32,10 @@ void check_room(const WorldOptions& world, const JsonCursor& document) {
 
 void check_walk(const Experiment& experiment, const JsonCursor& document) {
   if (2.0 * experiment.walk.wall_margin_m >= experiment.world.side_m)
-    document.at("walk").at("wall_margin_m").fail(
-        fmt::format("leaves the robot no room within walls of {} m", experiment.world.side_m));
+    document.at("walk")
+        .at("wall_margin_m")
+        .fail(
+            fmt::format("leaves the robot no room within walls of {} m", experiment.world.side_m));
   if (experiment.walk.substep_m > experiment.walk.step_m)
     document.at("walk").fail(fmt::format("substep_m = {} is longer than step_m = {}",
                                          experiment.walk.substep_m, experiment.walk.step_m));
@@ -42,8 +43,9 @@ void check_walk(const Experiment& experiment, const JsonCursor& document) {
 
 void check_sensor(const SensorStudy& study, int landmarks, const JsonCursor& object) {
   if (static_cast<double>(landmarks) * study.checkpoints.back() > kMostEntries)
-    object.at("checkpoints").fail(fmt::format("{} landmarks x {} steps are more than {} entries",
-                                              landmarks, study.checkpoints.back(), kMostEntries));
+    object.at("checkpoints")
+        .fail(fmt::format("{} landmarks x {} steps are more than {} entries", landmarks,
+                          study.checkpoints.back(), kMostEntries));
   for (const MethodGrid& grid : study.methods) {
     const MethodInfo& method = info(grid.method);
     if (!method.parameter || method.parameter->symbol != "K") continue;

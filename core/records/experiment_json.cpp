@@ -114,7 +114,8 @@ Experiment parse_experiment(std::string_view text, const std::string& source,
   for (const auto& [key, cursor] : members) known.push_back(key);
   if (!profile.empty()) {
     if (!document.root.contains("profiles") || !document.root["profiles"].contains(profile)) {
-      const std::string names = known.empty() ? "it has none" : fmt::format("it has {}", fmt::join(known, ", "));
+      const std::string names =
+          known.empty() ? "it has none" : fmt::format("it has {}", fmt::join(known, ", "));
       throw IoError(source, "/profiles", "no profile " + in_quotes(profile) + ": " + names);
     }
     patch = document.root["profiles"][profile];

@@ -57,8 +57,8 @@ std::vector<Value> read_ascending(const JsonCursor& array, Read read_one) {
   for (const JsonCursor& item : array.elements(1, 1000)) {
     const Value value = read_one(item);
     if (!values.empty() && value <= values.back())
-      item.fail(fmt::format("expected values in ascending order, got {} after {}", value,
-                            values.back()));
+      item.fail(
+          fmt::format("expected values in ascending order, got {} after {}", value, values.back()));
     values.push_back(value);
   }
   return values;

@@ -20,16 +20,18 @@ constexpr int kVersion = 1;
 std::string pointer_part(std::string_view key) {
   std::string part = "/";
   for (const char c : key.substr(0, 200)) {
-    if (c == '~') part += "~0";
-    else if (c == '/') part += "~1";
-    else part += c;
+    if (c == '~')
+      part += "~0";
+    else if (c == '/')
+      part += "~1";
+    else
+      part += c;
   }
   return printable(part, 60);
 }
 
 std::string bounds(double least, double most) {
-  if (most == std::numeric_limits<double>::infinity())
-    return least == 0.0 ? ", 0 or more" : "";
+  if (most == std::numeric_limits<double>::infinity()) return least == 0.0 ? ", 0 or more" : "";
   return fmt::format(" from {} to {}", least, most);
 }
 
@@ -44,11 +46,16 @@ void JsonCursor::fail(const std::string& what) const {
 
 std::string JsonCursor::got() const {
   switch (value_->type()) {
-    case Json::value_t::object: return "an object";
-    case Json::value_t::array: return "an array";
-    case Json::value_t::string: return in_quotes(value_->get_ref<const std::string&>());
-    case Json::value_t::number_float: return fmt::format("{}", value_->get<double>());
-    default: return value_->dump();
+    case Json::value_t::object:
+      return "an object";
+    case Json::value_t::array:
+      return "an array";
+    case Json::value_t::string:
+      return in_quotes(value_->get_ref<const std::string&>());
+    case Json::value_t::number_float:
+      return fmt::format("{}", value_->get<double>());
+    default:
+      return value_->dump();
   }
 }
 
@@ -188,8 +195,9 @@ void expect_schema(const JsonCursor& document, std::string_view name) {
     document.at("schema").at("name").fail(
         fmt::format("expected \"{}\", got {}", name, in_quotes(found.name)));
   if (found.version != kVersion)
-    document.at("schema").at("version").fail(fmt::format(
-        "version {} is not known to this program, which reads version {}", found.version, kVersion));
+    document.at("schema").at("version").fail(
+        fmt::format("version {} is not known to this program, which reads version {}",
+                    found.version, kVersion));
 }
 
 nlohmann::ordered_json schema_value(std::string_view name) {

@@ -47,7 +47,8 @@ class Builder : public nlohmann::json_sax<Json> {
     offset = std::min(position == 0 ? 0 : position - 1, size_);
     if (error.id == 406) {
       problem = "the number " + in_quotes(token) + " is beyond what a double holds";
-    } else if (at_end || std::string_view(error.what()).find("unexpected end of input") != std::string::npos) {
+    } else if (at_end || std::string_view(error.what()).find("unexpected end of input") !=
+                             std::string::npos) {
       problem = "the file is truncated: it ends within a value";
     } else {
       problem = reason(error.what()) + ", near " + in_quotes(token);

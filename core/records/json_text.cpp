@@ -69,7 +69,8 @@ bool is_row(const Json& value) {
 /// `column`: where the value starts on its line.
 void append(std::string& out, const Json& value, std::size_t indent, std::size_t column) {
   const std::size_t start = out.size();
-  const std::size_t room = is_row(value) ? kUnlimited : start + kColumns - std::min(column, kColumns);
+  const std::size_t room =
+      is_row(value) ? kUnlimited : start + kColumns - std::min(column, kColumns);
   if ((indent > 0 || !value.is_structured()) && append_inline(out, value, room)) return;
   out.resize(start);
 

@@ -54,9 +54,9 @@ double read_coordinate(std::string_view cell, const std::string& source, std::si
   const std::optional<double> value = number_in(cell);
   if (!value) throw IoError(source, place, number_problem(cell));
   if (!(std::abs(*value) <= kFarthest_m))
-    throw IoError(source, place,
-                  fmt::format("coordinates are in metres, at most {}, got {}", kFarthest_m,
-                              in_quotes(cell)));
+    throw IoError(
+        source, place,
+        fmt::format("coordinates are in metres, at most {}, got {}", kFarthest_m, in_quotes(cell)));
   return *value;
 }
 
@@ -91,7 +91,8 @@ bool is_groundtruth(std::string_view text, const std::string& source) {
   TableReader reader(text, source, TableReader::kBlanks);
   TableRow row;
   return reader.next(row) && row.cells.size() == 5 &&
-         std::ranges::all_of(row.cells, [](std::string_view cell) { return number_in(cell).has_value(); });
+         std::ranges::all_of(row.cells,
+                             [](std::string_view cell) { return number_in(cell).has_value(); });
 }
 
 }  // namespace

@@ -27,7 +27,8 @@ Json truth_value(const MapRecord& map) {
 
 void check_rows(const JsonCursor& value, const Points& points, const MapRecord& map) {
   if (points.rows() != static_cast<Eigen::Index>(map.names.size()))
-    value.fail(fmt::format("expected {} rows, one a name, got {}", map.names.size(), points.rows()));
+    value.fail(
+        fmt::format("expected {} rows, one a name, got {}", map.names.size(), points.rows()));
 }
 
 }  // namespace
@@ -69,7 +70,7 @@ Json map_value(const MapRecord& map, const MapRecord* shared) {
 
 MapRecord read_map(const JsonCursor& object, const MapRecord* shared,
                    const std::vector<std::string_view>& extra_keys) {
-  std::vector<std::string_view> keys = {"id",      "sensor",  "step",    "frame",   "score",
+  std::vector<std::string_view> keys = {"id",       "sensor", "step",    "frame",   "score",
                                         "statuses", "names",  "anchors", "truth_m", "estimate"};
   keys.insert(keys.end(), extra_keys.begin(), extra_keys.end());
   MapRecord map;

@@ -148,8 +148,7 @@ class Looks {
     const auto add = [&](std::size_t count, std::string_view what) {
       if (count > 0) remarks.push_back(fmt::format("{} {}", count, what));
     };
-    add(of_nobody_, fmt::format("rows with barcodes of nobody dropped (barcodes {})",
-                                fmt::join(unknown_barcodes_, ", ")));
+    add(of_nobody_, "rows with barcodes of nobody dropped (" + unknown_barcodes() + ")");
     add(of_robots_, "rows that show other robots dropped");
     add(repeated_, "rows dropped that show a landmark twice in one look: the first one counts");
     add(empty_looks_, "looks that show no landmark dropped");
@@ -157,6 +156,16 @@ class Looks {
   }
 
  private:
+  /// "barcodes 34, 43": the first ten, so that the remark stays a line.
+  std::string unknown_barcodes() const {
+    constexpr std::size_t kShown = 10;
+    std::vector<int> shown;
+    for (const int barcode : unknown_barcodes_)
+      if (shown.size() < kShown) shown.push_back(barcode);
+    const std::string_view rest = unknown_barcodes_.size() > kShown ? ", ..." : "";
+    return fmt::format("barcodes {}{}", fmt::join(shown, ", "), rest);
+  }
+
   using Look = std::map<Eigen::Index, double>;
 
   Sighting sighting(const NumberRows& rows) {
@@ -182,8 +191,10 @@ class Looks {
       if (row != rows_.end() && !look.emplace(row->second, seen.value).second) ++repeated_;
       if (row == rows_.end() && seen.subject != 0) ++of_robots_;
     }
-    if (look.empty()) ++empty_looks_;
-    else looks_.push_back(std::move(look));
+    if (look.empty())
+      ++empty_looks_;
+    else
+      looks_.push_back(std::move(look));
   }
 
   const std::map<int, int>& subject_of_;
@@ -265,8 +276,8 @@ ObservationSource read_mrclam(const fs::path& folder, Sensor sensor) {
     result.history.names.push_back(fmt::format("{}", subject));
     result.places.push_back(fmt::format("subject {}", subject));
   }
-  result.truth_m = read_truth(folder / "Landmark_Groundtruth.dat", result.history.names,
-                              result.remarks);
+  result.truth_m =
+      read_truth(folder / "Landmark_Groundtruth.dat", result.history.names, result.remarks);
   return result;
 }
 

@@ -18,9 +18,12 @@ constexpr double kLargestBearing_rad = 2.0 * std::numbers::pi + 1e-3;
 
 bool is_good(Sensor sensor, double value) {
   switch (sensor) {
-    case Sensor::kVisibility: return value == 0.0 || value == 1.0;
-    case Sensor::kBearing: return std::abs(value) <= kLargestBearing_rad;
-    case Sensor::kRange: return value >= 0.0 && value <= kLongestRange_m;
+    case Sensor::kVisibility:
+      return value == 0.0 || value == 1.0;
+    case Sensor::kBearing:
+      return std::abs(value) <= kLargestBearing_rad;
+    case Sensor::kRange:
+      return value >= 0.0 && value <= kLongestRange_m;
   }
   return false;
 }
@@ -31,13 +34,15 @@ std::string observation_problem(Sensor sensor, double value) {
   if (std::isnan(value) || is_good(sensor, value)) return {};
   if (std::isinf(value)) return "an infinite value";
   switch (sensor) {
-    case Sensor::kVisibility: return fmt::format("visibility is 0 or 1, got {}", value);
+    case Sensor::kVisibility:
+      return fmt::format("visibility is 0 or 1, got {}", value);
     case Sensor::kBearing:
-      return fmt::format("bearings are in radians, within a full turn; {} looks like degrees", value);
+      return fmt::format("bearings are in radians, within a full turn; {} looks like degrees",
+                         value);
     case Sensor::kRange:
-      return value < 0.0 ? fmt::format("a range cannot be negative, got {}", value)
-                         : fmt::format("ranges are in metres, at most {}, got {}", kLongestRange_m,
-                                       value);
+      return value < 0.0
+                 ? fmt::format("a range cannot be negative, got {}", value)
+                 : fmt::format("ranges are in metres, at most {}, got {}", kLongestRange_m, value);
   }
   return {};
 }
@@ -62,13 +67,15 @@ void check_size(const std::string& source, const std::string& place, std::size_t
   if (steps > kMostSteps)
     throw IoError(source, place, fmt::format("{} steps; at most {}", steps, kMostSteps));
   if (landmarks > kMostLandmarks)
-    throw IoError(source, place,
-                  fmt::format("more than {} landmarks: a row is a landmark, a column a step; should "
-                              "the table be turned?",
-                              kMostLandmarks));
+    throw IoError(
+        source, place,
+        fmt::format("more than {} landmarks: a row is a landmark, a column a step; should "
+                    "the table be turned?",
+                    kMostLandmarks));
   if (static_cast<double>(landmarks) * static_cast<double>(steps) > kMostEntries)
-    throw IoError(source, place, fmt::format("{} landmarks x {} steps are more than {:.0f} entries",
-                                             landmarks, steps, kMostEntries));
+    throw IoError(source, place,
+                  fmt::format("{} landmarks x {} steps are more than {:.0f} entries", landmarks,
+                              steps, kMostEntries));
 }
 
 }  // namespace mapproof

@@ -83,7 +83,8 @@ ObservationSource read_observations(const std::filesystem::path& path, std::opti
   if (path.extension() == ".json" || (start != std::string_view::npos && text[start] == '{'))
     return parse_observations(text, source, kind);
   if (!kind)
-    throw IoError(source, "does not say what it holds: visibility, bearing or range has to be given");
+    throw IoError(source,
+                  "does not say what it holds: visibility, bearing or range has to be given");
   if (layout == Layout::kAuto)
     layout = has_long_header(text, source) ? Layout::kLong : Layout::kWide;
   return layout == Layout::kLong ? read_long(text, source, *kind) : read_wide(text, source, *kind);

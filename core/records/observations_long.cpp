@@ -44,11 +44,11 @@ Columns columns_of(const TableRow& header, const std::string& source) {
   for (std::size_t i = 0; i < header.cells.size(); ++i) {
     const auto word = std::ranges::find(kWords, lower_case(header.cells[i]));
     if (word == kWords.end())
-      throw IoError(source, place, fmt::format("expected the columns step, landmark, value; got {}{}",
-                                               in_quotes(header.cells[i]),
-                                               lower_case(header.cells[i]) == "time"
-                                                   ? ": number the looks 0, 1, 2, ..."
-                                                   : ""));
+      throw IoError(
+          source, place,
+          fmt::format(
+              "expected the columns step, landmark, value; got {}{}", in_quotes(header.cells[i]),
+              lower_case(header.cells[i]) == "time" ? ": number the looks 0, 1, 2, ..." : ""));
     std::size_t& column = found[static_cast<std::size_t>(word - kWords.begin())];
     if (column != header.cells.size())
       throw IoError(source, place, fmt::format("two columns are named {}", *word));
@@ -66,8 +66,9 @@ double read_step(std::string_view cell, const std::string& source, const std::st
   if (!(*step >= 0.0 && *step <= 0x1p53))
     throw IoError(source, place, "a step is an integer from 0, got " + in_quotes(cell));
   if (*step != std::trunc(*step))
-    throw IoError(source, place, "a step is an integer, " + in_quotes(cell) +
-                                     " looks like a time: number the looks 0, 1, 2, ...");
+    throw IoError(source, place,
+                  "a step is an integer, " + in_quotes(cell) +
+                      " looks like a time: number the looks 0, 1, 2, ...");
   return *step;
 }
 
@@ -121,8 +122,10 @@ Eigen::MatrixXd arrange(const std::vector<Entry>& entries, const NameList& names
   std::size_t column = 0;
   for (const Entry& entry : entries) {
     if (steps[column] != entry.step)
-      column = static_cast<std::size_t>(std::ranges::lower_bound(steps, entry.step) - steps.begin());
-    auto is_repeated = is_set[column * names.names().size() + static_cast<std::size_t>(entry.landmark)];
+      column =
+          static_cast<std::size_t>(std::ranges::lower_bound(steps, entry.step) - steps.begin());
+    auto is_repeated =
+        is_set[column * names.names().size() + static_cast<std::size_t>(entry.landmark)];
     if (is_repeated) refuse_repeat(entry, entries, names, source);
     is_repeated = true;
     values(entry.landmark, static_cast<Eigen::Index>(column)) = entry.value;

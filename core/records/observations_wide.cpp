@@ -35,9 +35,8 @@ bool is_header(const TableRow& row) {
   const Cells steps = Cells(row.cells).subspan(1);
   if (is_word_for_names(row.cells.front())) return true;
   if (steps.empty()) return false;
-  const auto numbers = std::ranges::count_if(steps, [](std::string_view cell) {
-    return !is_missing(cell) && !is_text(cell);
-  });
+  const auto numbers = std::ranges::count_if(
+      steps, [](std::string_view cell) { return !is_missing(cell) && !is_text(cell); });
   if (numbers == 0) return std::ranges::any_of(steps, is_text);
   return is_missing(row.cells.front()) && counts_steps(steps);
 }
@@ -61,8 +60,9 @@ class WideTable {
     }
     const std::string place = fmt::format("line {}", row.line);
     if (row.cells.size() != width_)
-      throw IoError(source_, place, fmt::format("has {} cells where line {} has {}",
-                                                row.cells.size(), first_line_, width_));
+      throw IoError(
+          source_, place,
+          fmt::format("has {} cells where line {} has {}", row.cells.size(), first_line_, width_));
     Cells cells = row.cells;
     if (has_names_) {
       names_.add(cells.front(), row.line);
@@ -71,7 +71,8 @@ class WideTable {
       names_.add(fmt::format("L{}", names_.names().size() + 1), row.line);
     }
     if (cells.empty())
-      throw IoError(source_, place, "a single cell: cells stand between commas, semicolons or tabs");
+      throw IoError(source_, place,
+                    "a single cell: cells stand between commas, semicolons or tabs");
     check_size(source_, place, names_.names().size(), cells.size());
     add_values(cells, place);
   }
@@ -125,8 +126,10 @@ ObservationSource read_wide(std::string_view text, const std::string& source, Se
   TableRow row;
   bool is_first = true;
   while (reader.next(row)) {
-    if (is_first && is_header(row)) table.add_header(row);
-    else table.add(row);
+    if (is_first && is_header(row))
+      table.add_header(row);
+    else
+      table.add(row);
     is_first = false;
   }
   return std::move(table).result();

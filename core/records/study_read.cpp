@@ -76,8 +76,9 @@ Study read_study(const fs::path& folder) {
   for (const RunId& id : files.listed_runs()) {
     const std::string path = files.run(id).string();
     if (!contains(study.experiment, id))
-      throw IoError(path, fmt::format("is no run of the experiment, which has {} layouts x {} poses",
-                                      study.experiment.layouts, study.experiment.poses));
+      throw IoError(path,
+                    fmt::format("is no run of the experiment, which has {} layouts x {} poses",
+                                study.experiment.layouts, study.experiment.poses));
     study.runs.push_back(parse_run(read_file(path), path));
     if (study.runs.back().id != id)
       throw IoError(path, "/run", "says that it is " + slug(study.runs.back().id));

@@ -125,8 +125,8 @@ std::vector<RunId> StudyStore::finished() const {
 void StudyStore::write(const RunResult& result) {
   const RunId id = result.run.id;
   if (!contains(state_->experiment, id))
-    throw InvalidInput(fmt::format("{} is no run of the experiment {}", slug(id),
-                                   state_->experiment.name));
+    throw InvalidInput(
+        fmt::format("{} is no run of the experiment {}", slug(id), state_->experiment.name));
   write_file(state_->files.map(id), maps_json({.run = id, .maps = result.maps}));
   write_file(state_->files.run(id), run_json(result.run));
   std::string lines;

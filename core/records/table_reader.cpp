@@ -1,6 +1,7 @@
 #include "core/records/table_reader.hpp"
 
 #include <algorithm>
+#include <array>
 
 #include <fmt/format.h>
 
@@ -55,13 +56,19 @@ std::string_view TableReader::rest_of_line() const {
   return text_.substr(at_, std::min(text_.find('\n', at_), text_.size()) - at_);
 }
 
+std::size_t TableReader::cell_end() const {
+  const std::array<char, 2> ends = {separator_, '\n'};
+  return std::min(text_.find_first_of(ends.data(), at_, ends.size()), text_.size());
+}
+
 bool TableReader::skip_to_row() {
   while (at_ < text_.size()) {
     const std::string_view line = rest_of_line();
     const std::string_view content = trimmed(line);
     const bool is_row = !content.empty() && content.front() != '#';
     // A line of tabs alone is a row of empty cells, if tabs separate.
-    if (is_row || (separator_ == '\t' && line.find('\t') != std::string_view::npos && content.empty()))
+    if (is_row ||
+        (separator_ == '\t' && line.find('\t') != std::string_view::npos && content.empty()))
       return true;
     at_ = std::min(at_ + line.size() + 1, text_.size());
     ++line_;
@@ -79,8 +86,10 @@ bool TableReader::next(TableRow& row) {
     split_quoted(row);
     return true;
   }
-  if (separator_ == kBlanks) split_blanks(line, row);
-  else split_bare(line, row);
+  if (separator_ == kBlanks)
+    split_blanks(line, row);
+  else
+    split_bare(line, row);
   at_ = std::min(at_ + line.size() + 1, text_.size());
   ++line_;
   return true;
@@ -113,8 +122,7 @@ void TableReader::split_quoted(TableRow& row) {
     if (at_ < text_.size() && text_[at_] == '"') {
       row.cells.push_back(quoted_cell(row.line));
     } else {
-      const std::string_view line = rest_of_line();
-      at_ += std::min(line.find(separator_), line.size());
+      at_ = cell_end();
       row.cells.push_back(bare(text_.substr(first, at_ - first), separator_));
     }
     if (at_ == text_.size()) return;
@@ -140,12 +148,11 @@ std::string_view TableReader::quoted_cell(std::size_t row_line) {
   std::string_view cell = text_.substr(first, close - first);
   line_ += static_cast<std::size_t>(std::ranges::count(cell, '\n'));
   at_ = close + 1;
-  const std::string_view line = rest_of_line();
-  const std::size_t width = std::min(line.find(separator_), line.size());
-  if (!bare(line.substr(0, width), separator_).empty())
+  const std::string_view behind = text_.substr(at_, cell_end() - at_);
+  if (!bare(behind, separator_).empty())
     throw IoError(source_, fmt::format("line {}", line_),
-                  "text behind a closing quote: " + in_quotes(line.substr(0, width)));
-  at_ += width;
+                  "text behind a closing quote: " + in_quotes(behind));
+  at_ += behind.size();
   if (!has_escapes) return cell;
   std::string& plain = unescaped_.emplace_back();
   for (std::size_t i = 0; i < cell.size(); ++i) {

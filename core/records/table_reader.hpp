@@ -36,6 +36,8 @@ class TableReader {
   void split_quoted(TableRow& row);
   std::string_view quoted_cell(std::size_t row_line);
   std::string_view rest_of_line() const;
+  /// Of a bare cell that starts at the cursor.
+  std::size_t cell_end() const;
 
   std::string_view text_;
   const std::string& source_;

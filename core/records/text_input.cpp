@@ -74,7 +74,8 @@ std::string line_of(std::string_view text, std::size_t offset) {
 std::string place_of(std::string_view text, std::size_t offset) {
   const std::string_view before = text.substr(0, offset);
   const std::size_t last = before.rfind('\n');
-  const std::size_t column = last == std::string_view::npos ? before.size() : before.size() - last - 1;
+  const std::size_t column =
+      last == std::string_view::npos ? before.size() : before.size() - last - 1;
   return fmt::format("{}, column {}", line_of(text, offset), column + 1);
 }
 
@@ -93,10 +94,10 @@ std::string number_problem(std::string_view cell) {
   const auto result = std::from_chars(cell.data(), end, value);
   if (result.ec == std::errc::result_out_of_range)
     return in_quotes(cell) + " is beyond what a double holds";
-  if (result.ec == std::errc() && result.ptr == end)
-    return in_quotes(cell) + " is not finite";
+  if (result.ec == std::errc() && result.ptr == end) return in_quotes(cell) + " is not finite";
   const bool has_comma = result.ec == std::errc() && result.ptr != end && *result.ptr == ',';
-  return in_quotes(cell) + " is not a number" + (has_comma ? ": decimals stand behind a point" : "");
+  return in_quotes(cell) + " is not a number" +
+         (has_comma ? ": decimals stand behind a point" : "");
 }
 
 bool is_missing(std::string_view cell) {

@@ -48,9 +48,12 @@ void read_line(std::string_view line, const std::string& source, Timings& timing
   const JsonDocument document = parse_json(line, source);
   const JsonCursor root = document.cursor();
   const std::string kind = root.at("kind").text();
-  if (kind == "map") timings.maps.push_back(read_timing(root));
-  else if (kind == "session") timings.sessions.push_back(read_session(root));
-  else root.at("kind").fail("expected map or session, got " + in_quotes(kind));
+  if (kind == "map")
+    timings.maps.push_back(read_timing(root));
+  else if (kind == "session")
+    timings.sessions.push_back(read_session(root));
+  else
+    root.at("kind").fail("expected map or session, got " + in_quotes(kind));
 }
 
 }  // namespace

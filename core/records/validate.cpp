@@ -51,8 +51,10 @@ void check_json(std::string_view text, const ForeignReader& foreign, Finding& fi
   const SchemaId schema = schema_of(document.cursor());
   finding.kind = printable(fmt::format("{} {}", schema.name, schema.version));
   const auto known = std::ranges::find(kSchemas, schema.name, &KnownSchema::name);
-  if (known != kSchemas.end()) known->check(text, finding.path);
-  else if (foreign && foreign(schema.name, text, finding.path)) return;
+  if (known != kSchemas.end())
+    known->check(text, finding.path);
+  else if (foreign && foreign(schema.name, text, finding.path))
+    return;
   else if (!schema.name.starts_with("mapproof."))
     document.cursor().at("schema").at("name").fail("unknown schema " + in_quotes(schema.name));
 }
@@ -72,9 +74,12 @@ void check_file(const fs::path& path, const ForeignReader& foreign, Finding& fin
   const std::string_view text = checked_text(bytes, finding.path);
   const std::size_t start = text.find_first_not_of(" \t\r\n");
   const bool is_json = start != std::string_view::npos && text[start] == '{';
-  if (is_json || path.extension() == ".json") check_json(text, foreign, finding);
-  else if (is_table(path)) check_table(text, path, finding.kind);
-  else throw IoError(finding.path, "is no file that mapproof reads or writes");
+  if (is_json || path.extension() == ".json")
+    check_json(text, foreign, finding);
+  else if (is_table(path))
+    check_table(text, path, finding.kind);
+  else
+    throw IoError(finding.path, "is no file that mapproof reads or writes");
 }
 
 Finding check(const fs::path& path, const ForeignReader& foreign) {
@@ -124,7 +129,8 @@ std::vector<Finding> check_folder(const fs::path& folder, const ForeignReader& f
     std::vector<Finding> findings = {check_study(folder)};
     for (const fs::path& path : study_paths(folder)) {
       findings.push_back(check(path, foreign));
-      if (is_leftover(path)) findings.back().problem = findings.back().path + ": left by a killed process";
+      if (is_leftover(path))
+        findings.back().problem = findings.back().path + ": left by a killed process";
     }
     return findings;
   }

@@ -39,7 +39,8 @@ void check_map(TableReader& reader, const TableRow& header, const std::string& s
   while (reader.next(row)) {
     const std::string place = fmt::format("line {}", row.line);
     if (row.cells.size() != width)
-      throw IoError(source, place, fmt::format("has {} cells, expected {}", row.cells.size(), width));
+      throw IoError(source, place,
+                    fmt::format("has {} cells, expected {}", row.cells.size(), width));
     for (std::size_t i = 1; i < width; ++i)
       if (!row.cells[i].empty() && !number_in(row.cells[i]))
         throw IoError(source, place, number_problem(row.cells[i]));

@@ -59,7 +59,8 @@ std::vector<Input> make_inputs() {
       {"map", read_file(test::data_file("maps/map.json")),
        [](const std::string& text) { parse_map(text, "m"); }, true},
       {"observations", read_file(test::data_file("observations/observations.json")),
-       as_file("o.json", [](const fs::path& path) { read_observations(path, std::nullopt); }), true},
+       as_file("o.json", [](const fs::path& path) { read_observations(path, std::nullopt); }),
+       true},
       {"timings", timing_line(result.timings[0]) + session_line(test::made_up_session()),
        [](const std::string& text) { parse_timings(text, "t"); }, false},
       table("observations/wide_named.csv", Sensor::kVisibility, Layout::kAuto),
@@ -123,11 +124,38 @@ TEST_P(AnyReader, RefusesOrTakesEveryTruncatedForm) {
 }
 
 TEST_P(AnyReader, SaysOneShortLineAboutRandomDamage) {
-  const std::vector<std::string> pieces = {
-      "",     "\n",   ",",     "\"",    "{",     "}",   "[",       "]",    "-",  "1e999", "nan", "inf",
-      "null", "\xFF", "1e-400", "00",   "\t",    ";",   "#",       "true", "\\", "99999999999999999999",
-      ":",    "\r",   "-1",    "0.5",   "\"K\"", "4",   "\xE2\x80\xAE",
-      std::string(1, '\0'), std::string(5000, '7'), std::string(200, '[')};
+  const std::vector<std::string> pieces = {"",
+                                           "\n",
+                                           ",",
+                                           "\"",
+                                           "{",
+                                           "}",
+                                           "[",
+                                           "]",
+                                           "-",
+                                           "1e999",
+                                           "nan",
+                                           "inf",
+                                           "null",
+                                           "\xFF",
+                                           "1e-400",
+                                           "00",
+                                           "\t",
+                                           ";",
+                                           "#",
+                                           "true",
+                                           "\\",
+                                           "99999999999999999999",
+                                           ":",
+                                           "\r",
+                                           "-1",
+                                           "0.5",
+                                           "\"K\"",
+                                           "4",
+                                           "\xE2\x80\xAE",
+                                           std::string(1, '\0'),
+                                           std::string(5000, '7'),
+                                           std::string(200, '[')};
   rc::check([&] {
     std::string bytes = input().bytes;
     const int cuts = *rc::gen::inRange(1, 4);
@@ -151,7 +179,8 @@ TEST_P(AnyReader, SaysOneShortLineAboutRandomBytes) {
 }
 
 INSTANTIATE_TEST_SUITE_P(OfEveryFormat, AnyReader,
-                         ::testing::Range(std::size_t{0}, inputs().size()), [](const auto& instance) {
+                         ::testing::Range(std::size_t{0}, inputs().size()),
+                         [](const auto& instance) {
                            std::string name = inputs()[instance.param].name;
                            for (char& c : name)
                              if (std::isalnum(static_cast<unsigned char>(c)) == 0) c = '_';

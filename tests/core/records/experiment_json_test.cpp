@@ -21,15 +21,17 @@ const std::filesystem::path kTemplate =
 std::string error_with(const std::string& pointer, const json& value) {
   json experiment = json::parse(read_file(test::data_file("experiments/small.json")));
   const json::json_pointer place(pointer);
-  if (value.is_null()) experiment[place.parent_pointer()].erase(place.back());
-  else experiment[place] = value;
+  if (value.is_null())
+    experiment[place.parent_pointer()].erase(place.back());
+  else
+    experiment[place] = value;
   return error_of([&] { parse_experiment(experiment.dump(), "e.json"); });
 }
 
 TEST(ExperimentJson, ComesBackTheSameFromItsOwnText) {
   for (const char* profile : {"", "tiny", "noisy"}) {
-    const Experiment experiment =
-        parse_experiment(read_file(test::data_file("experiments/small.json")), "small.json", profile);
+    const Experiment experiment = parse_experiment(
+        read_file(test::data_file("experiments/small.json")), "small.json", profile);
     const std::string text = experiment_json(experiment);
     EXPECT_EQ(experiment_json(parse_experiment(text, "again")), text);
   }

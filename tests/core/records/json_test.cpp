@@ -17,15 +17,17 @@ std::string parse_error(const std::string& text) {
 }
 
 TEST(JsonParser, TellsLineAndColumnOfWhatIsNoJson) {
-  EXPECT_EQ(parse_error("{\n  \"a\" 1}"),
-            "f.json: line 2, column 7: not JSON: unexpected number literal; expected ':', near \"1\"");
+  EXPECT_EQ(
+      parse_error("{\n  \"a\" 1}"),
+      "f.json: line 2, column 7: not JSON: unexpected number literal; expected ':', near \"1\"");
 }
 
 TEST(JsonParser, SaysThatATruncatedFileIsTruncated) {
   for (const char* text : {"{", "[1, 2", "[1,\n 2, tr", "{\"a\": \"b", "{\"a\": 1.", "[\"\\u12"})
     EXPECT_NE(parse_error(text).find("the file is truncated"), std::string::npos) << text;
-  EXPECT_EQ(parse_error("[1,\n 2"), "f.json: line 2, column 3: the file is truncated: it ends "
-                                    "within a value");
+  EXPECT_EQ(parse_error("[1,\n 2"),
+            "f.json: line 2, column 3: the file is truncated: it ends "
+            "within a value");
 }
 
 TEST(JsonParser, DoesNotCallATruncatedFileWhatIsFollowedByMore) {
@@ -33,7 +35,8 @@ TEST(JsonParser, DoesNotCallATruncatedFileWhatIsFollowedByMore) {
 }
 
 TEST(JsonParser, RefusesRepeatedKeys) {
-  EXPECT_EQ(parse_error("{\"a\": 1,\n \"a\": 2}"), "f.json: line 2, column 4: the key \"a\" is there twice");
+  EXPECT_EQ(parse_error("{\"a\": 1,\n \"a\": 2}"),
+            "f.json: line 2, column 4: the key \"a\" is there twice");
 }
 
 TEST(JsonParser, StopsAtDeepNesting) {
@@ -76,7 +79,9 @@ TEST(JsonCursor, NamesFilePlaceAndBounds) {
 
 TEST(JsonCursor, AsksWhetherANearbyKeyWasMeant) {
   const JsonDocument document = parse_json(R"({"landmarcks": 1})", "f.json");
-  EXPECT_EQ(error_of([&] { document.cursor().allow_only({"side_m", "landmarks"}); }),
+  EXPECT_EQ(error_of([&] {
+              document.cursor().allow_only({"side_m", "landmarks"});
+            }),
             "f.json: /: unknown key \"landmarcks\": did you mean \"landmarks\"?");
   EXPECT_EQ(error_of([&] { document.cursor().allow_only({"seed"}); }),
             "f.json: /: unknown key \"landmarcks\"");
@@ -122,8 +127,10 @@ TEST(JsonText, PutsAPointOnALineAndKeepsTheOrderOfKeys) {
 }
 
 TEST(JsonText, WritesNumbersThatAreReadBackExactly) {
-  const nlohmann::ordered_json numbers = {0.1, 1.0 / 3.0, 5e-324, 1.7976931348623157e308, -0.0, 3.0};
-  EXPECT_EQ(json_line(numbers), "[0.1, 0.3333333333333333, 5e-324, 1.7976931348623157e+308, -0.0, 3]\n");
+  const nlohmann::ordered_json numbers = {0.1,  1.0 / 3.0, 5e-324, 1.7976931348623157e308,
+                                          -0.0, 3.0};
+  EXPECT_EQ(json_line(numbers),
+            "[0.1, 0.3333333333333333, 5e-324, 1.7976931348623157e+308, -0.0, 3]\n");
   const auto back = parse_json(json_line(numbers), "f").root;
   for (std::size_t i = 0; i < numbers.size(); ++i)
     EXPECT_EQ(back[i].get<double>(), numbers[i].get<double>());

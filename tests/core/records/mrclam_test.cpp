@@ -71,12 +71,14 @@ TEST(Mrclam, NeedsTheBarcodes) {
   const test::TemporaryFolder folder;
   fs::copy(data_file("mrclam"), folder / "set");
   fs::remove(folder / "set/Barcodes.dat");
-  EXPECT_EQ(error_of([&] { read_mrclam(folder / "set", Sensor::kVisibility); }),
-            (folder / "set/Barcodes.dat").string() + ": cannot be opened: No such file or directory");
+  EXPECT_EQ(
+      error_of([&] { read_mrclam(folder / "set", Sensor::kVisibility); }),
+      (folder / "set/Barcodes.dat").string() + ": cannot be opened: No such file or directory");
 }
 
 TEST(Mrclam, NamesTheLineThatIsWrong) {
-  EXPECT_EQ(error_with("Robot1_Measurement.dat", "# x\n1 63 2\n"), "line 2: has 3 numbers, expected 4");
+  EXPECT_EQ(error_with("Robot1_Measurement.dat", "# x\n1 63 2\n"),
+            "line 2: has 3 numbers, expected 4");
   EXPECT_EQ(error_with("Robot1_Measurement.dat", "1 63 2 x\n"), "line 1: \"x\" is not a number");
   EXPECT_EQ(error_with("Robot1_Measurement.dat", "1 63 2 nan\n"), "line 1: \"nan\" is not finite");
   EXPECT_EQ(error_with("Robot1_Measurement.dat", "1 63 -2 0\n"),

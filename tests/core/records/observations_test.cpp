@@ -34,8 +34,10 @@ void expect_values(const ObservationHistory& history, const Eigen::MatrixXd& exp
   ASSERT_EQ(history.values.cols(), expected.cols());
   for (Eigen::Index i = 0; i < expected.rows(); ++i)
     for (Eigen::Index j = 0; j < expected.cols(); ++j)
-      if (std::isnan(expected(i, j))) EXPECT_TRUE(std::isnan(history.values(i, j))) << i << " " << j;
-      else EXPECT_EQ(history.values(i, j), expected(i, j)) << i << " " << j;
+      if (std::isnan(expected(i, j)))
+        EXPECT_TRUE(std::isnan(history.values(i, j))) << i << " " << j;
+      else
+        EXPECT_EQ(history.values(i, j), expected(i, j)) << i << " " << j;
 }
 
 TEST(WideObservations, AreReadWithNamesHeaderAndComments) {
@@ -92,15 +94,18 @@ TEST(WideObservations, KeepHostileNamesAsTheyAre) {
 }
 
 TEST(WideObservations, NameTheLineAndCountsOfARaggedRow) {
-  EXPECT_EQ(error_with("a,0,1\nb,0\n", Sensor::kVisibility), "line 2: has 2 cells where line 1 has 3");
+  EXPECT_EQ(error_with("a,0,1\nb,0\n", Sensor::kVisibility),
+            "line 2: has 2 cells where line 1 has 3");
 }
 
 TEST(WideObservations, NameTheCellThatIsWrong) {
   EXPECT_EQ(error_with("a,0,1\nb,0,2\n", Sensor::kVisibility),
             "line 2, column 3: visibility is 0 or 1, got 2");
-  EXPECT_EQ(error_with("0.5,180\n", Sensor::kBearing),
-            "line 1, column 2: bearings are in radians, within a full turn; 180 looks like degrees");
-  EXPECT_EQ(error_with("a,-1\n", Sensor::kRange), "line 1, column 2: a range cannot be negative, got -1");
+  EXPECT_EQ(
+      error_with("0.5,180\n", Sensor::kBearing),
+      "line 1, column 2: bearings are in radians, within a full turn; 180 looks like degrees");
+  EXPECT_EQ(error_with("a,-1\n", Sensor::kRange),
+            "line 1, column 2: a range cannot be negative, got -1");
   EXPECT_EQ(error_with("a,1,inf\n", Sensor::kRange), "line 1, column 3: an infinite value");
   EXPECT_EQ(error_with("a,1,x1\n", Sensor::kRange), "line 1, column 3: \"x1\" is not a number");
   EXPECT_EQ(error_with("a;1;1,5\n", Sensor::kRange),
@@ -123,9 +128,16 @@ TEST(WideObservations, RefuseBrokenQuotesAndBytes) {
             "line 2: a cell in quotes does not end");
   EXPECT_EQ(error_with("\"a\"b,0,1\n", Sensor::kVisibility),
             "line 1: text behind a closing quote: \"b\"");
-  EXPECT_EQ(error_with("a,0,1\nb\xFF,0,1\n", Sensor::kVisibility), "line 2: byte 0xFF is not UTF-8");
+  EXPECT_EQ(error_with("a,0,1\nb\xFF,0,1\n", Sensor::kVisibility),
+            "line 2: byte 0xFF is not UTF-8");
   EXPECT_EQ(error_with(std::string("a,0,1\nb,\0,1\n", 12), Sensor::kVisibility),
             "line 2: holds a NUL byte: not a text file");
+}
+
+TEST(WideObservations, TakeTimeInProportionToTheirSizeWithNamesInQuotes) {
+  std::string text = "\"a\"";
+  for (int i = 0; i < 300'000; ++i) text += ",0";
+  EXPECT_EQ(read_text(text + "\n", Sensor::kVisibility).history.steps(), 300'000);
 }
 
 TEST(WideObservations, GiveOneShortLineForANumberOfAMillionDigits) {
@@ -141,7 +153,8 @@ TEST(WideObservations, RefuseATableThatShouldBeTurned) {
 }
 
 TEST(LongObservations, AreReadByTheNamesOfTheirColumns) {
-  const ObservationSource source = read_observations(data_file("observations/long.csv"), Sensor::kBearing);
+  const ObservationSource source =
+      read_observations(data_file("observations/long.csv"), Sensor::kBearing);
   EXPECT_EQ(source.history.names, (std::vector<std::string>{"oak", "ash", "elm"}));
   Eigen::MatrixXd expected(3, 3);
   expected << 0.5, 0.75, kNan, -0.5, kNan, 1.5, kNan, kNan, -2;
@@ -151,8 +164,8 @@ TEST(LongObservations, AreReadByTheNamesOfTheirColumns) {
 }
 
 TEST(LongObservations, OfSightingsAloneTakeTheRestAsNotSeen) {
-  const ObservationSource source =
-      read_observations(data_file("observations/long_sightings.csv"), Sensor::kVisibility, Layout::kLong);
+  const ObservationSource source = read_observations(data_file("observations/long_sightings.csv"),
+                                                     Sensor::kVisibility, Layout::kLong);
   Eigen::MatrixXd expected(3, 3);
   expected << 1, 1, 0, 1, 0, 1, 0, 1, 0;
   expect_values(source.history, expected);
@@ -166,17 +179,20 @@ TEST(LongObservations, NameBothLinesOfARepeat) {
 }
 
 TEST(LongObservations, RefuseTimesInPlaceOfSteps) {
-  EXPECT_EQ(error_with("step,landmark,value\n0.5,a,0\n", Sensor::kVisibility),
-            "line 2: a step is an integer, \"0.5\" looks like a time: number the looks 0, 1, 2, ...");
-  EXPECT_EQ(error_with("time,landmark,value\n0.5,a,0\n", Sensor::kVisibility),
-            "line 1: expected the columns step, landmark, value; got \"time\": number the looks 0, 1, "
-            "2, ...");
+  EXPECT_EQ(
+      error_with("step,landmark,value\n0.5,a,0\n", Sensor::kVisibility),
+      "line 2: a step is an integer, \"0.5\" looks like a time: number the looks 0, 1, 2, ...");
+  EXPECT_EQ(
+      error_with("time,landmark,value\n0.5,a,0\n", Sensor::kVisibility),
+      "line 1: expected the columns step, landmark, value; got \"time\": number the looks 0, 1, "
+      "2, ...");
   EXPECT_EQ(error_with("step,landmark,value\n-1,a,0\n", Sensor::kVisibility),
             "line 2: a step is an integer from 0, got \"-1\"");
 }
 
 TEST(LongObservations, RefuseOtherColumnsAndEmptyNames) {
-  EXPECT_EQ(error_with("landmark,value\na,0\n", Sensor::kVisibility), "line 1: no column is named step");
+  EXPECT_EQ(error_with("landmark,value\na,0\n", Sensor::kVisibility),
+            "line 1: no column is named step");
   EXPECT_EQ(error_with("step,landmark,value\n1,,0\n", Sensor::kVisibility),
             "line 2: a landmark without a name");
   EXPECT_EQ(error_with("step,landmark,value\n1,a\n", Sensor::kVisibility),
@@ -203,8 +219,11 @@ TEST(JsonObservations, NameThePlaceOfWhatIsWrong) {
   const auto error = [](const std::string& values) {
     const TemporaryFolder folder;
     const std::string path =
-        folder.file("o.json", R"({"schema": {"name": "mapproof.observations", "version": 1},
-            "sensor": "visibility", "landmarks": ["a", "b"], "values": )" + values + "}").string();
+        folder
+            .file("o.json", R"({"schema": {"name": "mapproof.observations", "version": 1},
+            "sensor": "visibility", "landmarks": ["a", "b"], "values": )" +
+                                values + "}")
+            .string();
     return error_of([&] { read_observations(path, std::nullopt); }).substr(path.size() + 2);
   };
   EXPECT_EQ(error("[[0, 1], [1, 0.5]]"), "/values/1/1: visibility is 0 or 1, got 0.5");
@@ -215,8 +234,9 @@ TEST(JsonObservations, NameThePlaceOfWhatIsWrong) {
 }
 
 TEST(Observations, AskForTheKindThatATableDoesNotTell) {
-  EXPECT_NE(error_of([] { read_observations(data_file("observations/wide_plain.csv"), std::nullopt); })
-                .find("visibility, bearing or range has to be given"),
+  EXPECT_NE(error_of([] {
+              read_observations(data_file("observations/wide_plain.csv"), std::nullopt);
+            }).find("visibility, bearing or range has to be given"),
             std::string::npos);
 }
 

@@ -102,10 +102,16 @@ RunResult made_up_result(const RunId& id) {
   map.anchors = run.anchors;
   map.score = score;
   result.maps = {map};
-  result.timings = {{.run = id, .sensor = Sensor::kRange, .setting = {Method::kSmacofKnn, 4.0},
-                     .step = 100, .seconds = 0.25},
-                    {.run = id, .sensor = Sensor::kVisibility,
-                     .setting = {Method::kLpca, std::nullopt}, .step = 50, .seconds = 0.5}};
+  result.timings = {{.run = id,
+                     .sensor = Sensor::kRange,
+                     .setting = {Method::kSmacofKnn, 4.0},
+                     .step = 100,
+                     .seconds = 0.25},
+                    {.run = id,
+                     .sensor = Sensor::kVisibility,
+                     .setting = {Method::kLpca, std::nullopt},
+                     .step = 50,
+                     .seconds = 0.5}};
   return result;
 }
 

@@ -58,8 +58,8 @@ std::string kind_of(const json& value) {
 TEST(Schemas, HoldForEveryFileOfAStudy) {
   const test::TemporaryFolder folder;
   {
-    StudyStore store = StudyStore::open(folder.path(), test::small_experiment(),
-                                        test::made_up_provenance());
+    StudyStore store =
+        StudyStore::open(folder.path(), test::small_experiment(), test::made_up_provenance());
     RunResult result = test::made_up_result({1, 1});
     result.maps.push_back(result.maps[0]);
     result.maps[1].truth_m.reset();
@@ -81,14 +81,15 @@ TEST(Schemas, HoldForEveryFileOfAStudy) {
 TEST(Schemas, HoldForMapsAndObservations) {
   const json map = json::parse(read_file(test::data_file("maps/map.json")));
   EXPECT_EQ(schema_problem("map", map), "");
-  const auto history = read_observations(test::data_file("observations/wide_named.csv"), Sensor::kVisibility);
+  const auto history =
+      read_observations(test::data_file("observations/wide_named.csv"), Sensor::kVisibility);
   EXPECT_EQ(schema_problem("observations", json::parse(observations_json(history.history))), "");
 }
 
 TEST(Schemas, HoldForEveryExperimentInTheTemplatesAndTheirProfiles) {
   int count = 0;
-  for (const fs::path& folder : {fs::path(MAPPROOF_SOURCE_DIR) / "templates/experiments",
-                                 test::data_file("experiments")})
+  for (const fs::path& folder :
+       {fs::path(MAPPROOF_SOURCE_DIR) / "templates/experiments", test::data_file("experiments")})
     for (const auto& entry : fs::directory_iterator(folder)) {
       const std::string text = read_file(entry.path());
       EXPECT_EQ(schema_problem("experiment", json::parse(text)), "") << entry.path();
@@ -136,13 +137,16 @@ class Damaged : public ::testing::TestWithParam<Damage> {
     StudyStore::open(folder_.path(), test::small_experiment(), test::made_up_provenance())
         .write(test::made_up_result({1, 1}));
     if (kind == "study") return json::parse(read_file(folder_ / "study.json"));
-    return json::parse(read_file(folder_ / (kind == "run" ? "runs" : "maps") / "layout-1-pose-1.json"));
+    return json::parse(
+        read_file(folder_ / (kind == "run" ? "runs" : "maps") / "layout-1-pose-1.json"));
   }
 
   const test::TemporaryFolder folder_;
 
  private:
-  static json read(const std::string& file) { return json::parse(read_file(test::data_file(file))); }
+  static json read(const std::string& file) {
+    return json::parse(read_file(test::data_file(file)));
+  }
 };
 
 TEST_P(Damaged, FileIsRefusedByTheSchemaAndByTheReader) {
@@ -150,8 +154,10 @@ TEST_P(Damaged, FileIsRefusedByTheSchemaAndByTheReader) {
   json value = sound(damage.kind);
   ASSERT_EQ(schema_problem(damage.kind, value), "");
   const json::json_pointer place(damage.pointer);
-  if (damage.value.is_null()) value[place.parent_pointer()].erase(place.back());
-  else value[place] = damage.value;
+  if (damage.value.is_null())
+    value[place.parent_pointer()].erase(place.back());
+  else
+    value[place] = damage.value;
   EXPECT_NE(schema_problem(damage.kind, value), "");
   const fs::path path = folder_.file("damaged.json", value.dump());
   EXPECT_NE(validate(path).at(0).problem, "") << value.dump(1);
@@ -159,34 +165,30 @@ TEST_P(Damaged, FileIsRefusedByTheSchemaAndByTheReader) {
 
 INSTANTIATE_TEST_SUITE_P(
     OfEveryKind, Damaged,
-    ::testing::Values(Damage{"experiment", "/schema/version", 2},
-                      Damage{"experiment", "/schema", nullptr},
-                      Damage{"experiment", "/name", "a b"}, Damage{"experiment", "/layouts", 1e9},
-                      Damage{"experiment", "/seed", -1}, Damage{"experiment", "/colour", "red"},
-                      Damage{"experiment", "/sensors/sonar", json::object()},
-                      Damage{"experiment", "/sensors/range/methods/isomapp", json::object()},
-                      Damage{"experiment", "/sensors/range/methods/isomap", json::object()},
-                      Damage{"experiment", "/sensors/range/checkpoints/0", 2},
-                      Damage{"experiment", "/sensors/visibility/noise", 0.6},
-                      Damage{"experiment", "/sensors/visibility/published/values/0/K", nullptr},
-                      Damage{"experiment", "/profiles/tiny", 3},
-                      Damage{"study", "/experiment/poses", 0},
-                      Damage{"study", "/provenance/commit", nullptr},
-                      Damage{"study", "/provenance/libraries/0/version", 3},
-                      Damage{"run", "/run/layout", 0}, Damage{"run", "/world/landmarks_m/0", {1}},
-                      Damage{"run", "/records/0/sensor", "sonar"},
-                      Damage{"run", "/records/0/K", 4}, Damage{"run", "/records/1/K", nullptr},
-                      Damage{"run", "/records/1/statuses/0/code", "tired"},
-                      Damage{"run", "/records/0/score/moe_percent", 101},
-                      Damage{"run", "/anchors", {1, 1}}, Damage{"maps", "/names/0", ""},
-                      Damage{"maps", "/maps/0/estimate", nullptr},
-                      Damage{"maps", "/maps/0/frame", "lies"}, Damage{"map", "/names", {"a", "a"}},
-                      Damage{"map", "/truth_m", nullptr}, Damage{"map", "/step", -1},
-                      Damage{"map", "/estimate/0", {1, 2, 3}},
-                      Damage{"observations", "/sensor", "sonar"},
-                      Damage{"observations", "/landmarks", json::array()},
-                      Damage{"observations", "/values/0/0", "1"},
-                      Damage{"observations", "/values/0", json::array()}));
+    ::testing::Values(
+        Damage{"experiment", "/schema/version", 2}, Damage{"experiment", "/schema", nullptr},
+        Damage{"experiment", "/name", "a b"}, Damage{"experiment", "/layouts", 1e9},
+        Damage{"experiment", "/seed", -1}, Damage{"experiment", "/colour", "red"},
+        Damage{"experiment", "/sensors/sonar", json::object()},
+        Damage{"experiment", "/sensors/range/methods/isomapp", json::object()},
+        Damage{"experiment", "/sensors/range/methods/isomap", json::object()},
+        Damage{"experiment", "/sensors/range/checkpoints/0", 2},
+        Damage{"experiment", "/sensors/visibility/noise", 0.6},
+        Damage{"experiment", "/sensors/visibility/published/values/0/K", nullptr},
+        Damage{"experiment", "/profiles/tiny", 3}, Damage{"study", "/experiment/poses", 0},
+        Damage{"study", "/provenance/commit", nullptr},
+        Damage{"study", "/provenance/libraries/0/version", 3}, Damage{"run", "/run/layout", 0},
+        Damage{"run", "/world/landmarks_m/0", {1}}, Damage{"run", "/records/0/sensor", "sonar"},
+        Damage{"run", "/records/0/K", 4}, Damage{"run", "/records/1/K", nullptr},
+        Damage{"run", "/records/1/statuses/0/code", "tired"},
+        Damage{"run", "/records/0/score/moe_percent", 101}, Damage{"run", "/anchors", {1, 1}},
+        Damage{"maps", "/names/0", ""}, Damage{"maps", "/maps/0/estimate", nullptr},
+        Damage{"maps", "/maps/0/frame", "lies"}, Damage{"map", "/names", {"a", "a"}},
+        Damage{"map", "/truth_m", nullptr}, Damage{"map", "/step", -1},
+        Damage{"map", "/estimate/0", {1, 2, 3}}, Damage{"observations", "/sensor", "sonar"},
+        Damage{"observations", "/landmarks", json::array()},
+        Damage{"observations", "/values/0/0", "1"},
+        Damage{"observations", "/values/0", json::array()}));
 
 }  // namespace
 }  // namespace mapproof

@@ -104,7 +104,8 @@ TEST(StudyStore, EndsInTheSameBytesAfterAKill) {
   const Child child([&] {
     StudyStore store = open(folder / "killed");
     store.write(made_up_result({2, 1}));
-    const std::string leftover = "killed/runs/layout-1-pose-1.json.part-" + std::to_string(::getpid());
+    const std::string leftover =
+        "killed/runs/layout-1-pose-1.json.part-" + std::to_string(::getpid());
     folder.file(leftover, "half of a run");
     new StudyStore(std::move(store));  // Never closed: the kill comes first.
   });
@@ -122,7 +123,9 @@ TEST(StudyStore, LeavesNoPartOfAFileOnAFullDisk) {
   const std::string before = contents(folder.path());
   {
     const FullDisk full(100);
-    EXPECT_NE(error_of([&] { store.write(made_up_result({1, 1})); }).find("cannot be written"),
+    EXPECT_NE(error_of([&] {
+                store.write(made_up_result({1, 1}));
+              }).find("cannot be written"),
               std::string::npos);
   }
   EXPECT_EQ(contents(folder.path()), before);
@@ -146,8 +149,9 @@ TEST(Timings, TakeAllOfALineOrNoneOnAFullDisk) {
   const std::string before = read_file(folder / "timings.jsonl");
   {
     const FullDisk full(before.size() + 10);
-    EXPECT_NE(error_of([&] { store.write_session(test::made_up_session()); })
-                  .find("timings.jsonl: cannot be appended to"),
+    EXPECT_NE(error_of([&] {
+                store.write_session(test::made_up_session());
+              }).find("timings.jsonl: cannot be appended to"),
               std::string::npos);
   }
   EXPECT_EQ(read_file(folder / "timings.jsonl"), before);

@@ -87,6 +87,15 @@ TEST(StudyStore, WritesTheSameBytesInWhateverOrderRunsEnd) {
   EXPECT_EQ(read_timings(folder / "at-once").size(), 8U);
 }
 
+/// If this fails, studies made before the change can no longer be compared with those made after:
+/// raise the version of the schema, keep reading the old one, and only then renew tests/data/study.
+TEST(StudyStore, StillWritesTheStudyThatTheTestDataHold) {
+  const TemporaryFolder folder;
+  StudyStore store = open(folder.path());
+  for (const RunId& id : {RunId{1, 1}, {1, 2}, {2, 1}, {2, 2}}) store.write(made_up_result(id));
+  EXPECT_EQ(contents(folder.path()), contents(test::data_file("study")));
+}
+
 TEST(StudyStore, ResumesWithTheRunsThatAreWhole) {
   const TemporaryFolder folder;
   {
@@ -127,12 +136,14 @@ TEST(StudyStore, NamesTheDifferenceToTheExperimentInTheFolder) {
   other.seed = 8;
   const std::string path = (folder / "study").string();
   EXPECT_EQ(error_of([&] { StudyStore::open(path, other, made_up_provenance()); }),
-            path + ": holds another experiment (/seed is 7 there and 8 here); choose another folder "
-                   "or remove it");
+            path +
+                ": holds another experiment (/seed is 7 there and 8 here); choose another folder "
+                "or remove it");
   other = small_experiment();
   other.sensors[0].methods.pop_back();
-  EXPECT_NE(error_of([&] { StudyStore::open(path, other, made_up_provenance()); })
-                .find("/sensors/visibility/methods/isomap is {\"K\":[4,5]} there and missing here"),
+  EXPECT_NE(error_of([&] {
+              StudyStore::open(path, other, made_up_provenance());
+            }).find("/sensors/visibility/methods/isomap is {\"K\":[4,5]} there and missing here"),
             std::string::npos);
 }
 
@@ -205,7 +216,9 @@ TEST(StudyReader, NoticesAFileUnderAnotherRunsName) {
   fs::rename(folder / "maps/layout-1-pose-1.json", folder / "maps/layout-2-pose-2.json");
   EXPECT_NE(error_of([&] { read_study(folder.path()); }).find("says that it is layout-1-pose-1"),
             std::string::npos);
-  EXPECT_NE(error_of([&] { read_maps(folder.path(), {2, 2}); }).find("layout-1-pose-1"),
+  EXPECT_NE(error_of([&] {
+              read_maps(folder.path(), {2, 2});
+            }).find("layout-1-pose-1"),
             std::string::npos);
   EXPECT_TRUE(open(folder.path()).finished().empty());
 }

@@ -53,12 +53,13 @@ TEST(Validate, KnowsTheMapsThatAreWritten) {
 TEST(Validate, GoesThroughAllOfAStudy) {
   const TemporaryFolder folder;
   {
-    StudyStore store = StudyStore::open(folder.path(), test::small_experiment(),
-                                        test::made_up_provenance());
+    StudyStore store =
+        StudyStore::open(folder.path(), test::small_experiment(), test::made_up_provenance());
     store.write(test::made_up_result({1, 1}));
     store.write_session(test::made_up_session());
   }
-  folder.file("figures/map.figure.json", R"({"schema": {"name": "mapproof.figure", "version": 1}})");
+  folder.file("figures/map.figure.json",
+              R"({"schema": {"name": "mapproof.figure", "version": 1}})");
   std::vector<std::string> kinds;
   for (const Finding& finding : validate(folder.path())) {
     kinds.push_back(finding.kind);
@@ -74,14 +75,16 @@ TEST(Validate, NamesTheDamagedFileOfAStudy) {
       .write(test::made_up_result({1, 1}));
   folder.file("maps/layout-1-pose-1.json", "{");
   const std::vector<Finding> findings = validate(folder.path());
-  EXPECT_EQ(std::ranges::count_if(findings, [](const Finding& f) { return !f.problem.empty(); }), 2);
+  EXPECT_EQ(std::ranges::count_if(findings, [](const Finding& f) { return !f.problem.empty(); }),
+            2);
   EXPECT_NE(findings[1].problem.find("maps/layout-1-pose-1.json: line 1, column 2: the file is"),
             std::string::npos);
 }
 
 TEST(Validate, AsksForForeignFilesWhetherTheyAreKnown) {
   const TemporaryFolder folder;
-  const auto path = folder.file("f.json", R"({"schema": {"name": "mapproof.figure", "version": 1}})");
+  const auto path =
+      folder.file("f.json", R"({"schema": {"name": "mapproof.figure", "version": 1}})");
   const ForeignReader strict = [](std::string_view schema, std::string_view,
                                   const std::string& source) {
     if (schema == "mapproof.figure") throw IoError(source, "/layers", "missing");
@@ -93,8 +96,10 @@ TEST(Validate, AsksForForeignFilesWhetherTheyAreKnown) {
 
 TEST(Validate, SaysWhatItDoesNotKnow) {
   const TemporaryFolder folder;
-  EXPECT_NE(only(folder.file("a.png", "x")).problem.find("is no file that mapproof"), std::string::npos);
-  EXPECT_NE(only(folder.file("b.json", "{}")).problem.find("says not what it is"), std::string::npos);
+  EXPECT_NE(only(folder.file("a.png", "x")).problem.find("is no file that mapproof"),
+            std::string::npos);
+  EXPECT_NE(only(folder.file("b.json", "{}")).problem.find("says not what it is"),
+            std::string::npos);
   EXPECT_NE(only(folder.file("c.json", R"({"schema": {"name": "x", "version": 1}})"))
                 .problem.find("unknown schema \"x\""),
             std::string::npos);
@@ -107,8 +112,9 @@ TEST(Validate, ChecksEveryProfileOfAnExperiment) {
   const TemporaryFolder folder;
   std::string text = read_file(data_file("experiments/small.json"));
   text.replace(text.find("\"noise\": 0.1}"), 13, "\"noise\": 0.9}");
-  EXPECT_NE(only(folder.file("e.json", text)).problem.find("with profile noisy: /sensors/visibility"),
-            std::string::npos);
+  EXPECT_NE(
+      only(folder.file("e.json", text)).problem.find("with profile noisy: /sensors/visibility"),
+      std::string::npos);
 }
 
 }  // namespace
