@@ -65,6 +65,7 @@ class Inspector {
     if (!same_size(line.x.size(), {line.y.size()})) return "y: not as long as x";
     if (std::string what = values(line.x, panel.x, "x"); !what.empty()) return what;
     if (std::string what = values(line.y, panel.y, "y"); !what.empty()) return what;
+    if (std::string what = size(line.width, "width"); !what.empty()) return what;
     return mark(line.mark);
   }
 
@@ -81,6 +82,7 @@ class Inspector {
     if (!same_size(points.x.size(), {points.y.size()})) return "y: not as long as x";
     if (std::string what = values(points.x, panel.x, "x"); !what.empty()) return what;
     if (std::string what = values(points.y, panel.y, "y"); !what.empty()) return what;
+    if (std::string what = size(points.size, "size"); !what.empty()) return what;
     return marks(points.marks, points.x.size());
   }
 
@@ -91,6 +93,7 @@ class Inspector {
     if (std::string what = values(lines.y0, panel.y, "y0"); !what.empty()) return what;
     if (std::string what = values(lines.x1, panel.x, "x1"); !what.empty()) return what;
     if (std::string what = values(lines.y1, panel.y, "y1"); !what.empty()) return what;
+    if (std::string what = size(lines.width, "width"); !what.empty()) return what;
     return marks(lines.marks, lines.x0.size());
   }
 
@@ -99,6 +102,10 @@ class Inspector {
       return "y, text: not as long as x";
     if (std::string what = values(labels.x, panel.x, "x"); !what.empty()) return what;
     return values(labels.y, panel.y, "y");
+  }
+
+  static std::string size(double size, std::string_view name) {
+    return size > 0.0 && size <= 100.0 ? "" : fmt::format("{}: not in (0, 100]", name);
   }
 
   static std::string values(std::span<const double> values, const Axis& axis,

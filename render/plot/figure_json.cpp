@@ -304,6 +304,8 @@ Figure figure_from_json(std::string_view text, const std::string& path) {
     json = Json::parse(text);
   } catch (const Json::parse_error& error) {
     throw IoError(path, fmt::format("byte {}", error.byte), "is no JSON");
+  } catch (const Json::exception&) {
+    throw IoError(path, "holds a number that is out of range");
   }
   return read_figure({json, "", path});
 }

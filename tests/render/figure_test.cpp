@@ -73,6 +73,14 @@ TEST(Figure, RefusesDataNamesThatAreNoAttributeNames) {
   EXPECT_NE(problem(figure), "");
 }
 
+TEST(Figure, RefusesSizesThatCannotBeDrawn) {
+  for (const double size : {0.0, -1.0, 1e9, std::nan("")}) {
+    Figure figure = small();
+    std::get<Polyline>(figure.panels[0].layers[0]).width = size;
+    EXPECT_EQ(problem(figure), "panels/0/layers/0/width: not in (0, 100]") << size;
+  }
+}
+
 TEST(FigureJson, RoundTripsEveryFigure) {
   for (const Figure& figure : sample_figures()) {
     const std::string json = figure_to_json(figure);
@@ -100,6 +108,7 @@ TEST(FigureJson, ReadsNullAsNotANumber) {
 TEST(FigureJson, NamesThePlaceOfWhatItCannotRead) {
   const std::string json = figure_to_json(small());
   EXPECT_EQ(message_of("{"), "f.json: byte 2: is no JSON");
+  EXPECT_EQ(message_of("[1e999]"), "f.json: holds a number that is out of range");
   EXPECT_EQ(message_of("[]"), "f.json: /: an object was expected");
   EXPECT_EQ(message_of("{}"), "f.json: /: has no \"schema\"");
   EXPECT_EQ(message_of(replaced(json, "mapproof.figure", "other")), "f.json: /schema/name: is no figure");
