@@ -13,12 +13,14 @@
 namespace mapproof {
 namespace {
 
-constexpr const char* kFooter =
+constexpr const char* kExitCodes =
     "Exit codes:\n"
     "  0  done\n"
     "  1  the check that was asked for says no, or no map came out\n"
     "  2  usage or input\n"
-    "  3  internal error\n\n"
+    "  3  internal error\n";
+
+constexpr const char* kFooter =
     "Every verb takes --json (its result as one JSON object on standard output), --quiet and "
     "--verbose;\nmessages go to standard error. \"mapproof VERB --help\" shows examples.\n";
 
@@ -38,7 +40,7 @@ int run_verb_of(int argc, char** argv) {
   CLI::App app(
       "Maps from what a robot observed, without ever estimating its pose, and proof of them",
       "mapproof");
-  app.footer(kFooter);
+  app.footer(std::string(kExitCodes) + "\n" + kFooter);
   app.set_version_flag("--version", version_text());
   app.require_subcommand(1);
   Common common;
@@ -52,6 +54,7 @@ int run_verb_of(int argc, char** argv) {
     CLI::App* sub = app.add_subcommand(name);
     add_common_options(*sub, common);
     actions.emplace_back(sub, verb(*sub));
+    sub->footer(sub->get_footer() + "\n" + kExitCodes);
   }
 
   try {

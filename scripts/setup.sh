@@ -38,6 +38,9 @@ install_packages() {
     apt-get install -y -qq --no-install-recommends "${missing[@]}" >&2
 }
 
+# Whether the build folder was last configured with the tests: `report` leaves it so.
+builds_tests() { grep -qs '^MAPPROOF_TESTS:BOOL=ON' "$BUILD/CMakeCache.txt"; }
+
 build_mapproof() {
   local options=()
   while [ $# -gt 0 ] && [ "$1" != -- ]; do options+=("$1"); shift; done
