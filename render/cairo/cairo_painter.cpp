@@ -85,7 +85,24 @@ class Painter {
   }
 
   void draw(const Shape& shape) { draw_at(shape, {}); }
-  void draw(const Stamp& stamp) { draw_at(drawing_.symbols[stamp.symbol], stamp.at); }
+  void draw(const Stamp& stamp) {
+    const Shape& symbol = drawing_.symbols[stamp.symbol];
+    symbol.circle_radius > 0.0 ? draw_circle(symbol, stamp.at) : draw_at(symbol, stamp.at);
+  }
+
+  /// A ring as a disc on a disc: half the time of a stroke, and maps are made of circles.
+  void draw_circle(const Shape& circle, Point at) {
+    const double half = circle.stroke ? circle.stroke->width / 2.0 : 0.0;
+    if (circle.stroke) fill_disc(at, circle.circle_radius + half, circle.stroke->colour);
+    fill_disc(at, circle.circle_radius - half, *circle.fill);
+  }
+
+  void fill_disc(Point at, double radius, Colour colour) {
+    cairo_new_sub_path(context_);
+    cairo_arc(context_, at.x, at.y, radius, 0.0, 2.0 * std::numbers::pi);
+    set_colour(colour, 1.0);
+    cairo_fill(context_);
+  }
 
   void draw(const TextLine& line) {
     set_colour(line.colour, 1.0);

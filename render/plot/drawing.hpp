@@ -47,6 +47,7 @@ struct Shape {
   std::optional<Colour> fill;
   double fill_opacity = 1.0;
   std::optional<Stroke> stroke;
+  double circle_radius = 0.0;  ///< If above 0, `path` is a circle of this radius about the origin.
 };
 
 /// A symbol of the drawing, moved to a place.

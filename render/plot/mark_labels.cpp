@@ -28,6 +28,17 @@ Point nearest_in(const Box& box, Point p) {
   return {std::clamp(p.x, box.x0, box.x1), std::clamp(p.y, box.y0, box.y1)};
 }
 
+/// From the rim of the marker at `at` to `end`.
+Shape leader_line(Point at, Point end, const Theme& theme) {
+  const double length = std::hypot(end.x - at.x, end.y - at.y);
+  const double rim = std::min(0.62 * theme.marker_pt, length) / std::max(length, 1e-9);
+  Shape leader;
+  leader.path.move_to({std::lerp(at.x, end.x, rim), std::lerp(at.y, end.y, rim)});
+  leader.path.line_to(end);
+  leader.stroke = Stroke{theme.text, theme.hairline_pt, {}};
+  return leader;
+}
+
 /// How many marks a leader from `at` to the box would cross; none may cross a text.
 std::optional<double> leader_cost(const Box& box, Point at, const Obstacles& taken,
                                   const std::vector<Box>& texts) {
@@ -88,10 +99,8 @@ void draw_mark_labels(const Panel& panel, std::size_t panel_index, const PanelMa
       if (!place) continue;
       line.at = {place->box.x0 + gap - ink.x0 * em, place->box.y0 + gap - ink.y0 * em};
       if (place->far) {
-        Shape leader;
-        leader.path.move_to(at);
-        leader.path.line_to(nearest_in(place->box.grown(-0.5 * gap), at));
-        leader.stroke = Stroke{theme.of(labels->ink), theme.hairline_pt, {}};
+        Shape leader = leader_line(at, nearest_in(place->box.grown(-0.5 * gap), at), theme);
+        leader.stroke->colour = theme.of(labels->ink);
         taken.lines.push_back({leader.path.points[0], leader.path.points[1], theme.hairline_pt});
         drawing.add(Role::kLeader, panel_index, std::move(leader)).clipped = true;
       }

@@ -60,6 +60,7 @@ Shape marker_symbol(Marker marker, bool filled, double size_pt, Colour ink, cons
   Shape symbol;
   const bool of_lines = marker == Marker::kCross || marker == Marker::kPlus;
   symbol.path = outline(marker, size_pt);
+  if (marker == Marker::kCircle) symbol.circle_radius = size_pt / 2.0;
   if (!of_lines) symbol.fill = filled ? ink : theme.background;
   if (!filled || of_lines) symbol.stroke = Stroke{ink, 0.8 * theme.line_pt, {}};
   return symbol;

@@ -110,9 +110,11 @@ class SvgWriter {
       out_ += "\"/>\n";
     }
     for (std::size_t i = 0; i < drawing_.symbols.size(); ++i) {
-      out_ += fmt::format("<path id=\"{}-s{}\"", drawing_.id, i);
-      out_ += style(drawing_.symbols[i]);
-      path_attribute(drawing_.symbols[i].path);
+      const Shape& symbol = drawing_.symbols[i];
+      const bool round = symbol.circle_radius > 0.0;
+      out_ += fmt::format("<{} id=\"{}-s{}\"", round ? "circle" : "path", drawing_.id, i);
+      out_ += style(symbol);
+      round ? attribute("r", symbol.circle_radius) : path_attribute(symbol.path);
       out_ += "/>\n";
     }
     for (std::size_t i = 0; i < drawing_.frames.size(); ++i) {
