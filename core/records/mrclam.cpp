@@ -145,13 +145,13 @@ class Looks {
 
   std::vector<std::string> remarks() const {
     std::vector<std::string> remarks;
-    const auto add = [&](std::size_t count, std::string_view what) {
-      if (count > 0) remarks.push_back(fmt::format("{} {}", count, what));
+    const auto add = [&](std::string_view what, std::size_t count, const std::string& detail = "") {
+      if (count > 0) remarks.push_back(fmt::format("{}: {}{}", what, count, detail));
     };
-    add(of_nobody_, "rows with barcodes of nobody dropped (" + unknown_barcodes() + ")");
-    add(of_robots_, "rows that show other robots dropped");
-    add(repeated_, "rows dropped that show a landmark twice in one look: the first one counts");
-    add(empty_looks_, "looks that show no landmark dropped");
+    add("Rows dropped with barcodes of nobody", of_nobody_, " (" + unknown_barcodes() + ")");
+    add("Rows dropped that show other robots", of_robots_);
+    add("Rows dropped that show a landmark a second time in one look", repeated_);
+    add("Looks dropped that show no landmark", empty_looks_);
     return remarks;
   }
 
@@ -213,7 +213,7 @@ std::optional<Points> read_truth(const fs::path& path, const std::vector<std::st
                                  std::vector<std::string>& remarks) {
   std::error_code error;
   if (!fs::exists(path, error)) {
-    remarks.push_back("no Landmark_Groundtruth.dat: the true positions are not known");
+    remarks.push_back("No Landmark_Groundtruth.dat: the true positions are not known");
     return std::nullopt;
   }
   const std::string source = path.string();
@@ -224,7 +224,7 @@ std::optional<Points> read_truth(const fs::path& path, const std::vector<std::st
   for (std::size_t i = 0; i < names.size(); ++i) {
     const auto found = std::ranges::find(truth.names, names[i]);
     if (found == truth.names.end())
-      remarks.push_back("no true position of landmark " + names[i]);
+      remarks.push_back("No true position of landmark " + names[i]);
     else
       positions.row(static_cast<Eigen::Index>(i)) =
           truth.positions_m.row(found - truth.names.begin());

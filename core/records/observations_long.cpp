@@ -174,7 +174,7 @@ ObservationSource read_long(std::string_view text, const std::string& source, Se
                            .places = names.places(),
                            .path = source};
   if (lists_sightings)
-    result.remarks.push_back("only sightings are listed: all other entries are taken as not seen");
+    result.remarks.push_back("Only sightings are listed: all other entries are taken as not seen");
   return result;
 }
 

@@ -92,15 +92,16 @@ Finding check(const fs::path& path, const ForeignReader& foreign) {
   return finding;
 }
 
-/// The JSON files of a study's folder and timings.jsonl; figures and pages are of other kinds.
-std::vector<fs::path> study_paths(const fs::path& folder) {
+/// What is read again of a study's or a map's folder; figures and pages are of other kinds.
+std::vector<fs::path> our_files(const fs::path& folder) {
   std::vector<fs::path> paths;
   std::error_code error;
   for (fs::recursive_directory_iterator entry(folder, error), end; !error && entry != end;
        entry.increment(error)) {
     std::error_code ignored;
     const bool is_ours = entry->path().extension() == ".json" ||
-                         entry->path().filename() == "timings.jsonl" || is_leftover(entry->path());
+                         entry->path().filename() == "timings.jsonl" ||
+                         entry->path().filename() == "map.csv" || is_leftover(entry->path());
     if (is_ours && entry->is_regular_file(ignored)) paths.push_back(entry->path());
   }
   if (error) throw IoError(folder.string(), "cannot be searched: " + error.message());
@@ -125,23 +126,21 @@ Finding check_study(const fs::path& folder) {
 }
 
 std::vector<Finding> check_folder(const fs::path& folder, const ForeignReader& foreign) {
-  if (is_study(folder)) {
-    std::vector<Finding> findings = {check_study(folder)};
-    for (const fs::path& path : study_paths(folder)) {
+  std::vector<Finding> findings;
+  std::error_code error;
+  if (is_study(folder)) findings.push_back(check_study(folder));
+  if (is_study(folder) || fs::is_regular_file(folder / "map.json", error)) {
+    for (const fs::path& path : our_files(folder)) {
       findings.push_back(check(path, foreign));
       if (is_leftover(path))
         findings.back().problem = findings.back().path + ": left by a killed process";
     }
     return findings;
   }
-  Finding finding{.path = folder.string(), .kind = {}, .problem = {}};
-  if (!is_mrclam(folder)) {
-    finding.problem = finding.path + ": is a folder with no study and no MRCLAM data in it";
-    return {finding};
-  }
-  finding.kind = "MRCLAM observations";
+  if (!is_mrclam(folder))
+    throw IoError(folder.string(), "is a folder with no study, no map and no MRCLAM data in it");
   read_mrclam(folder, Sensor::kVisibility);
-  return {finding};
+  return {{.path = folder.string(), .kind = "MRCLAM observations", .problem = {}}};
 }
 
 }  // namespace

@@ -34,12 +34,12 @@ TEST(Mrclam, PoolsTheLooksOfAllRobots) {
 }
 
 TEST(Mrclam, SaysWhatItDropped) {
-  EXPECT_EQ(read_mrclam(data_file("mrclam"), Sensor::kRange).remarks,
-            (std::vector<std::string>{
-                "2 rows with barcodes of nobody dropped (barcodes 99)",
-                "2 rows that show other robots dropped",
-                "1 rows dropped that show a landmark twice in one look: the first one counts",
-                "2 looks that show no landmark dropped"}));
+  EXPECT_EQ(
+      read_mrclam(data_file("mrclam"), Sensor::kRange).remarks,
+      (std::vector<std::string>{"Rows dropped with barcodes of nobody: 2 (barcodes 99)",
+                                "Rows dropped that show other robots: 2",
+                                "Rows dropped that show a landmark a second time in one look: 1",
+                                "Looks dropped that show no landmark: 2"}));
 }
 
 TEST(Mrclam, TakesWhatWasNotSeenAsMissingForBearingAndRange) {

@@ -48,6 +48,8 @@ TEST(Validate, KnowsTheMapsThatAreWritten) {
   const auto path = folder.file("map.csv", map_csv(parse_map(map, "map")));
   EXPECT_EQ(only(path).kind, "map CSV");
   EXPECT_EQ(only(path).problem, "");
+  folder.file("map.json", map);
+  EXPECT_EQ(validate(folder.path()).size(), 2U);
 }
 
 TEST(Validate, GoesThroughAllOfAStudy) {
