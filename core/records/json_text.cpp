@@ -68,10 +68,11 @@ bool is_row(const Json& value) {
 
 /// `column`: where the value starts on its line.
 void append(std::string& out, const Json& value, std::size_t indent, std::size_t column) {
+  if (!value.is_structured()) return append_plain(out, value);
   const std::size_t start = out.size();
   const std::size_t room =
       is_row(value) ? kUnlimited : start + kColumns - std::min(column, kColumns);
-  if ((indent > 0 || !value.is_structured()) && append_inline(out, value, room)) return;
+  if (indent > 0 && append_inline(out, value, room)) return;
   out.resize(start);
 
   const std::string inner(indent + 2, ' ');

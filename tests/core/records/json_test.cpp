@@ -126,6 +126,13 @@ TEST(JsonText, PutsAPointOnALineAndKeepsTheOrderOfKeys) {
   EXPECT_TRUE(text.ends_with("    [11.5, -11.25]\n  ],\n  \"a\": {\"b\": null}\n}\n")) << text;
 }
 
+TEST(JsonText, KeepsAStringOnItsLineHoweverLong) {
+  const std::string text(500, 'a');
+  EXPECT_EQ(json_text({{"b", {{"c", text}}}}),
+            "{\n  \"b\": {\n    \"c\": \"" + text + "\"\n  }\n}\n");
+  EXPECT_EQ(json_text(text), "\"" + text + "\"\n");
+}
+
 TEST(JsonText, WritesNumbersThatAreReadBackExactly) {
   const nlohmann::ordered_json numbers = {0.1,  1.0 / 3.0, 5e-324, 1.7976931348623157e308,
                                           -0.0, 3.0};
