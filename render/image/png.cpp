@@ -8,13 +8,13 @@
 #include <libdeflate.h>
 
 #include "core/base/errors.hpp"
+#include "render/image/deflate.hpp"
 #include "render/image/palette_image.hpp"
 
 namespace mapproof {
 namespace {
 
-// Of libdeflate: twice as fast as 6 on drawings, for 5 % more bytes.
-constexpr int kCompressionLevel = 2;
+constexpr int kCompressionLevel = 6;  // Of libdeflate.
 
 void append_big_endian(std::string& out, std::uint32_t value) {
   for (const int shift : {24, 16, 8, 0}) out += static_cast<char>(value >> shift);
@@ -96,7 +96,8 @@ std::string encode_png(const Image& image, const PngOptions& options) {
       for (const int shift : {16, 8, 0}) colours += static_cast<char>(colour >> shift);
     append_chunk(out, "PLTE", colours);
   }
-  append_chunk(out, "IDAT", compressed(indexed ? indexed->rows : rgb_rows(image)));
+  append_chunk(out, "IDAT", indexed ? deflate_drawing(indexed->rows, image.width + 1u)
+                                    : compressed(rgb_rows(image)));
   append_chunk(out, "IEND", "");
   return out;
 }
