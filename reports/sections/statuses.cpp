@@ -95,20 +95,19 @@ Section statuses_section(const Study& study) {
   Section section;
   section.id = "statuses";
   section.title = "What went other than well";
-  section.blocks.emplace_back(plain(fmt::format(
-      "Of {}, {} a status, {} no score, and {} of them came to no map at all. A status is data: "
-      "the numbers above include every map that could be scored, with or without one.",
-      count_of(counts.maps, "map"),
-      fmt::format("{} {}", counts.with_status, counts.with_status == 1 ? "carries" : "carry"),
-      fmt::format("{} {}", counts.unscored, counts.unscored == 1 ? "has" : "have"),
-      counts.failed)));
   StatusList list = status_list(study);
-  if (list.items.empty()) {
-    section.blocks.emplace_back(
-        Callout{Callout::Tone::kNote, "Nothing to list", plain("Every solve ended well.")});
-  } else {
-    section.blocks.emplace_back(std::move(list));
+  if (list.items.empty() && counts.unscored == 0) {
+    section.blocks.emplace_back(plain(
+        counts.maps == 0 ? "No map was made."
+                         : fmt::format("Nothing: each solve ended well, {} in all.",
+                                       count_of(counts.maps, "map"))));
+    return section;
   }
+  section.blocks.emplace_back(plain(fmt::format(
+      "Of {}, {} with a status, {} without a score, and {} of these no map at all. A status is "
+      "data: the numbers above include every map that could be scored, with or without one.",
+      count_of(counts.maps, "map"), counts.with_status, counts.unscored, counts.failed)));
+  section.blocks.emplace_back(std::move(list));
   return section;
 }
 

@@ -80,8 +80,17 @@ Paragraph order_finding(const SensorStudy& sensor, std::vector<SettingSummary> m
   if (methods.size() < 2) return text;
   const bool same = std::ranges::is_sorted(
       methods, {}, [](const SettingSummary& s) { return s.published->mpe_m; });
-  text.phrases.push_back(words(same ? " The paper has the same order."
-                                    : " The paper has another order."));
+  if (same) {
+    text.phrases.push_back(words(" The paper has the same order."));
+    return text;
+  }
+  std::ranges::stable_sort(methods, {},
+                           [](const SettingSummary& s) { return s.published->mpe_m; });
+  std::string paper_order;
+  for (const SettingSummary& s : methods)
+    paper_order += fmt::format("{}{}", paper_order.empty() ? "" : " < ",
+                               info(s.setting.method).label);
+  text.phrases.push_back(words(" The paper\u2019s order: " + paper_order + "."));
   return text;
 }
 
@@ -163,11 +172,15 @@ void add_ends(const Study& study, BulletList& findings, Highlights& highlights) 
   highlights.items.push_back({"Maps with a status",
                               fmt::format("{} of {}", counts.with_status, counts.maps),
                               fmt::format("{} without a score", counts.failed)});
-  findings.items.push_back({{strong("Failures"),
-                             words(fmt::format(": of {}, {} without a score and {} with a status, "
-                                               "all listed below with the reason.",
-                                               count_of(counts.maps, "map"), counts.failed,
-                                               counts.with_status))}});
+  if (counts.maps == 0) return;
+  const std::string maps = count_of(counts.maps, "map");
+  const std::string text =
+      counts.with_status + counts.failed == 0
+          ? fmt::format(": none: every one of {} ended well.", maps)
+          : fmt::format(": of {}, {} without a score and {} with a status, all listed below with "
+                        "the reason.",
+                        maps, counts.failed, counts.with_status);
+  findings.items.push_back({{strong("Failures"), words(text)}});
 }
 
 /// In what the study is smaller than the paper's; empty if in nothing.

@@ -45,8 +45,10 @@ KeyValues provenance_items(const Provenance& provenance) {
   items.items.push_back({"mapproof", {provenance.version, Emphasis::kData}});
   items.items.push_back({"Commit", {provenance.commit, Emphasis::kCode}});
   items.items.push_back({"Digest of the solvers", {provenance.solver_digest, Emphasis::kCode}});
+  std::string libraries;
   for (const auto& [library, version] : provenance.libraries)
-    items.items.push_back({library, {version, Emphasis::kData}});
+    libraries += fmt::format("{}{} {}", libraries.empty() ? "" : ", ", library, version);
+  if (!libraries.empty()) items.items.push_back({"Built with", {libraries, Emphasis::kData}});
   return items;
 }
 

@@ -127,8 +127,16 @@ TEST(AccuracySection, SaysThatOneLayoutGivesNoInterval) {
 TEST(SummarySection, NamesTheBestMethodOfEachSensorWithItsNumbers) {
   const Section section = summary_section(synthetic_study());
   EXPECT_TRUE(says(section, "SMACOF, kNN weights, K = 6"));
-  EXPECT_TRUE(says(section, "The paper has another order.")) << words(section);
+  EXPECT_TRUE(says(section, "The paper\u2019s order: ISOMAP < SMACOF, kNN weights < ")) << words(section);
   EXPECT_TRUE(says(section, "8 without a score and 110 with a status")) << words(section);
+}
+
+TEST(SummarySection, SaysPlainlyThatNothingFailed) {
+  Study study = synthetic_study(1, 1);
+  std::erase_if(study.runs[0].records,
+                [](const RunRecord& record) { return !record.statuses.empty(); });
+  EXPECT_TRUE(says(summary_section(study), "none: every one of 53 maps ended well"))
+      << words(summary_section(study));
 }
 
 TEST(SummarySection, SaysWhenTheStudyIsSmallerThanThePapers) {
@@ -147,6 +155,7 @@ TEST(SummarySection, CopesWithAStudyWithoutARun) {
   study.runs.clear();
   const Section section = summary_section(study);
   EXPECT_TRUE(says(section, "no map could be scored"));
+  EXPECT_FALSE(says(section, "ended well"));
   EXPECT_NO_THROW(accuracy_section(study, visibility(study)));
   EXPECT_NO_THROW(statuses_section(study));
 }
@@ -181,7 +190,7 @@ TEST(ProvenanceSection, HoldsTheCommandTheSeedAndTheVersions) {
   for (const Block& block : section.blocks)
     if (const auto* pairs = std::get_if<KeyValues>(&block))
       for (const auto& item : pairs->items) facts += item.key + "=" + item.value.text + "\n";
-  for (const char* fact : {"Command=mapproof run x\n", "Seed=2007\n", "Eigen=3.4.0\n",
+  for (const char* fact : {"Command=mapproof run x\n", "Seed=2007\n", "Built with=Eigen 3.4.0\n",
                            "Commit=0123456789ab\n", "mapproof=0.1.0\n"})
     EXPECT_NE(facts.find(fact), std::string::npos) << fact << facts;
   const Table& durations = table_named(section, "durations");

@@ -55,7 +55,7 @@ TEST(Templates, OfAFolderReplaceTheEmbeddedOnesFileByFile) {
   const Templates templates = load_templates(folder);
   EXPECT_EQ(templates.files.at("paragraph.mustache"),
             load_templates().files.at("paragraph.mustache"));
-  EXPECT_EQ(report_html({"a < b", "", {}, ""}, templates, {}), "<title>a &lt; b</title>\n");
+  EXPECT_EQ(report_html({"a < b", "", {}, ""}, templates, {}), "<title>a &lt; b</title>\n\n");
 }
 
 TEST(Templates, SayWhereASectionIsLeftOpen) {
