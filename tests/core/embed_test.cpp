@@ -14,9 +14,9 @@
 namespace mapproof {
 namespace {
 
-using testing::distances_of;
-using testing::procrustes_gap;
-using testing::scattered;
+using test::distances_of;
+using test::procrustes_gap;
+using test::scattered;
 
 Proximities proximities_of(const Points& points) {
   return {.inner_products = points * points.transpose(),

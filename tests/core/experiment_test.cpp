@@ -8,7 +8,7 @@
 namespace mapproof {
 namespace {
 
-using testing::small_experiment;
+using test::small_experiment;
 
 TEST(SimulateRun, HoldsEverySensorMethodParameterAndStepInOrder) {
   const RunResult result = simulate_run(small_experiment(), {1, 2});

@@ -11,8 +11,8 @@
 namespace mapproof {
 namespace {
 
-using testing::distances_of;
-using testing::scattered;
+using test::distances_of;
+using test::scattered;
 
 TEST(NeighbourGraph, HoldsThePairsThatBruteForceFinds) {
   const Eigen::MatrixXd D = distances_of(scattered(40, 1));
@@ -39,7 +39,7 @@ TEST(NeighbourGraph, BreaksTiesThatDifferByRoundingInFavourOfTheLowerRow) {
 }
 
 TEST(NeighbourGraph, LeavesOutPairsAtTheCutoffAndInfinitePairs) {
-  Eigen::MatrixXd D = distances_of(testing::grid(1, 4));
+  Eigen::MatrixXd D = distances_of(test::grid(1, 4));
   EXPECT_EQ(neighbour_graph(D, {.neighbours = 3, .cutoff = 2.0})[0].size(), 1U);
   D(0, 1) = D(1, 0) = HUGE_VAL;
   EXPECT_EQ(neighbour_graph(D, {.neighbours = 3})[0].size(), 2U);
@@ -66,7 +66,7 @@ TEST(ShortestPaths, AgreeWithFloydAndWarshall) {
 }
 
 TEST(CompletedDistances, FillOnlyWhatIsMissing) {
-  Eigen::MatrixXd D = distances_of(testing::grid(1, 5));
+  Eigen::MatrixXd D = distances_of(test::grid(1, 5));
   D(0, 4) = D(4, 0) = HUGE_VAL;
   D(0, 3) = D(3, 0) = 7.0;  // longer than the way round, but measured
   const Eigen::MatrixXd filled = completed_distances(D);

@@ -52,8 +52,8 @@ TEST(Proximities, OfBearingsDoNotDependOnTheHeading) {
 }
 
 TEST(Proximities, OfRangesAreAnAffineImageOfTheMap) {
-  const Points landmarks = testing::scattered(8, 1);
-  const Points robot = testing::scattered(60, 2);
+  const Points landmarks = test::scattered(8, 1);
+  const Points robot = test::scattered(60, 2);
   Eigen::MatrixXd ranges(8, 60);
   for (Eigen::Index t = 0; t < 60; ++t)
     ranges.col(t) = (landmarks.rowwise() - robot.row(t)).rowwise().norm();
@@ -62,7 +62,7 @@ TEST(Proximities, OfRangesAreAnAffineImageOfTheMap) {
   const Points image = 2.0 * landmarks * (centered.transpose() * centered).llt().matrixL();
   const Proximities result = proximities(history(Sensor::kRange, ranges), 60);
   EXPECT_LT(
-      (result.squared_distances.cwiseSqrt() - testing::distances_of(image)).cwiseAbs().maxCoeff(),
+      (result.squared_distances.cwiseSqrt() - test::distances_of(image)).cwiseAbs().maxCoeff(),
       1e-7);
 }
 

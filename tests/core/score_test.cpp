@@ -12,7 +12,7 @@
 namespace mapproof {
 namespace {
 
-using testing::scattered;
+using test::scattered;
 
 const Affine kSheared{.linear = (Eigen::Matrix2d() << 2, 0.3, -0.5, -1.1).finished(),
                       .offset = {3, -4}};
@@ -100,7 +100,7 @@ TEST(OrientationError, CountsFlattenedTriplesAsWrongAndLeavesFlatTruthOut) {
 }
 
 TEST(ScoreMap, AveragesTheErrorOverLandmarksThatAreNoAnchors) {
-  const Points truth = testing::grid(3, 3);
+  const Points truth = test::grid(3, 3);
   Points estimate = truth;
   estimate.row(4) += Eigen::RowVector2d(0.3, 0.4);
   const auto score = score_map(estimate, truth, {0, 2, 6, 8}, AffineFit::kLeastSquares);
@@ -110,7 +110,7 @@ TEST(ScoreMap, AveragesTheErrorOverLandmarksThatAreNoAnchors) {
 }
 
 TEST(ScoreMap, LeavesOutWhatIsNotOnTheMap) {
-  const Points truth = testing::grid(3, 3);
+  const Points truth = test::grid(3, 3);
   Points estimate = truth;
   estimate.row(4).setConstant(NAN);
   const auto score = score_map(estimate, truth, {0, 2, 6, 8}, AffineFit::kLeastSquares);

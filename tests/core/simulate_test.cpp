@@ -22,7 +22,7 @@ World paper_world(std::uint64_t seed) {
 TEST(ScatterLandmarks, KeepsEveryGap) {
   const World world = paper_world(1);
   ASSERT_EQ(world.landmarks_m.rows(), 50);
-  Eigen::MatrixXd D = testing::distances_of(world.landmarks_m);
+  Eigen::MatrixXd D = test::distances_of(world.landmarks_m);
   D.diagonal().setConstant(HUGE_VAL);
   EXPECT_GE(D.minCoeff(), 0.048 + 0.01);
   EXPECT_GE(world.landmarks_m.minCoeff(), 0.1 + 0.024);
@@ -36,7 +36,7 @@ TEST(ScatterLandmarks, RefusesWhatDoesNotFit) {
 }
 
 TEST(CornerAnchors, AreTheLandmarksNearestTheCorners) {
-  const World world{.side_m = 2.0, .landmark_diameter_m = 0.1, .landmarks_m = testing::grid(3, 3)};
+  const World world{.side_m = 2.0, .landmark_diameter_m = 0.1, .landmarks_m = test::grid(3, 3)};
   EXPECT_EQ(corner_anchors(world, 4), (std::vector<Eigen::Index>{0, 2, 6, 8}));
   EXPECT_EQ(corner_anchors(world, 9).size(), 9U);
   EXPECT_EQ(corner_anchors(world, 100).size(), 9U);
@@ -56,7 +56,7 @@ TEST(RandomWalk, KeepsItsDistanceFromWallsAndLandmarksAtEveryObservation) {
 
 TEST(RandomWalk, InTheOpenGoesOneStepAndTurnsWithinItsBounds) {
   const World open{
-      .side_m = 1000.0, .landmark_diameter_m = 0.01, .landmarks_m = testing::grid(2, 2)};
+      .side_m = 1000.0, .landmark_diameter_m = 0.01, .landmarks_m = test::grid(2, 2)};
   Random random(5);
   const Path path = random_walk(open, {}, 200, random);
   double largest = 0.0;
@@ -130,7 +130,7 @@ TEST(Observe, MeasuresBearingsFromTheHeadingAndRangesFromTheCentre) {
 }
 
 TEST(Observe, DisturbsAsMuchAsItIsAskedTo) {
-  const World world = landmarks_at(testing::grid(10, 10));
+  const World world = landmarks_at(test::grid(10, 10));
   Path path = standing_at_origin(0.0);
   path.positions_m = Points::Constant(100, 2, 4.5);
   path.headings_rad.setZero(100);

@@ -4,7 +4,7 @@
 
 #include "core/base/random.hpp"
 
-namespace mapproof::testing {
+namespace mapproof::test {
 
 Points grid(Eigen::Index rows, Eigen::Index columns) {
   Points points(rows * columns, 2);
@@ -58,4 +58,4 @@ Experiment small_experiment() {
   return experiment;
 }
 
-}  // namespace mapproof::testing
+}  // namespace mapproof::test

@@ -3,7 +3,7 @@
 #include "core/model/experiment.hpp"
 #include "core/model/points.hpp"
 
-namespace mapproof::testing {
+namespace mapproof::test {
 
 /// `rows` x `columns` points one unit apart.
 Points grid(Eigen::Index rows, Eigen::Index columns);
@@ -20,4 +20,4 @@ double procrustes_gap(const Points& points, const Points& estimate);
 /// A study that runs in milliseconds: 12 landmarks, 2 layouts x 2 poses, both sensors, all methods.
 Experiment small_experiment();
 
-}  // namespace mapproof::testing
+}  // namespace mapproof::test

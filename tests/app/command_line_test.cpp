@@ -1,0 +1,102 @@
+#include <gtest/gtest.h>
+#include <algorithm>
+#include <nlohmann/json.hpp>
+
+#include "tests/support/program.hpp"
+
+namespace mapproof::test {
+namespace {
+
+const std::vector<std::string> kVerbs = {"reproduce", "run",     "render",  "report",
+                                         "map",       "methods", "validate"};
+
+TEST(CommandLine, HelpShowsEveryVerbAndItsExamplesAndExitCodes) {
+  const Outcome help = mapproof({"--help"});
+  EXPECT_EQ(help.exit_code, 0);
+  for (const std::string& verb : kVerbs) {
+    EXPECT_NE(help.out.find("\n  " + verb), std::string::npos) << verb;
+    const Outcome own = mapproof({verb, "--help"});
+    EXPECT_EQ(own.exit_code, 0);
+    for (const char* part :
+         {"Example", "mapproof ", "Exit codes", "--json", "--quiet", "--verbose"})
+      EXPECT_NE(own.out.find(part), std::string::npos) << verb << " " << part;
+  }
+}
+
+TEST(CommandLine, VersionNamesWhatItIsLinkedWithAndTheCommit) {
+  const Outcome version = mapproof({"--version"});
+  EXPECT_EQ(version.exit_code, 0);
+  for (const char* part :
+       {"mapproof 0.", "commit ", "Eigen 3.", "Cairo 1.", "oneTBB ", "HarfBuzz "})
+    EXPECT_NE(version.out.find(part), std::string::npos) << part;
+}
+
+TEST(CommandLine, WrongUsageIsTwoAndOneClearLine) {
+  const std::vector<std::vector<std::string>> wrong = {
+      {},
+      {"frobnicate"},
+      {"map"},
+      {"reproduce", "yairi2007", "--jobs", "none"},
+      {"reproduce", "yairi2007", "--jobs", "0"},
+      {"methods", "--quiet", "--verbose"},
+      {"render"},
+      {"reproduce", "unheard-of"},
+      {"reproduce", "yairi2007", "--profile", "slow"},
+      {"run", "/nonexistent.json", "--out", "/tmp/mapproof-never-made"},
+  };
+  for (const auto& arguments : wrong) {
+    const Outcome outcome = mapproof(arguments);
+    EXPECT_EQ(outcome.exit_code, 2) << ::testing::PrintToString(arguments) << outcome.error;
+    EXPECT_FALSE(outcome.error.empty());
+    EXPECT_TRUE(outcome.out.empty());
+    EXPECT_LE(std::ranges::count(outcome.error, '\n'), 2) << outcome.error;
+  }
+}
+
+TEST(CommandLine, JsonIsOneObjectOnStandardOutputForEveryVerb) {
+  const TemporaryFolder folder;
+  const std::string study = folder / "study";
+  const std::string data = MAPPROOF_TEST_DATA;
+  const std::vector<std::vector<std::string>> calls = {
+      {"run", data + "/experiments/small.json", "--out", study},
+      {"render", study},
+      {"report", study},
+      {"reproduce", "yairi2007", "--profile", "quick", "--out", folder / "paper"},
+      {"map", data + "/mrclam", "--method", "lpca", "--out", folder / "map"},
+      {"methods"},
+      {"validate", data + "/experiments/small.json", study},
+  };
+  for (std::vector<std::string> call : calls) {
+    call.emplace_back("--json");
+    const Outcome outcome = mapproof(call);
+    EXPECT_EQ(outcome.exit_code, 0) << call[0] << ": " << outcome.error;
+    const auto object = nlohmann::json::parse(outcome.out, nullptr, false);
+    EXPECT_TRUE(object.is_object()) << call[0] << outcome.out;
+    call.back() = "--quiet";
+    EXPECT_EQ(mapproof(call).error, "") << call[0];
+  }
+}
+
+TEST(CommandLine, MethodsListsEachWithParameterRangeAndSource) {
+  const auto object = nlohmann::json::parse(mapproof({"methods", "--json"}).out);
+  ASSERT_GE(object["methods"].size(), 4U);
+  for (const auto& method : object["methods"]) {
+    EXPECT_FALSE(method["source"].get<std::string>().empty());
+    if (!method["parameter"].is_null()) {
+      EXPECT_LT(method["parameter"]["minimum"], method["parameter"]["maximum"]);
+    }
+  }
+}
+
+TEST(CommandLine, ValidateSaysNoToABrokenFileAndNamesThePlace) {
+  const TemporaryFolder folder;
+  const std::string broken = folder.file("broken.json", R"({"schema": {"name": )");
+  const std::string good = std::string(MAPPROOF_TEST_DATA) + "/experiments/small.json";
+  const Outcome outcome = mapproof({"validate", good, broken});
+  EXPECT_EQ(outcome.exit_code, 1);
+  EXPECT_NE(outcome.out.find("broken.json: line 1"), std::string::npos) << outcome.out;
+  EXPECT_EQ(mapproof({"validate", folder / "none"}).exit_code, 2);
+}
+
+}  // namespace
+}  // namespace mapproof::test

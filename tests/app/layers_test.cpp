@@ -1,0 +1,137 @@
+#include <algorithm>
+#include <filesystem>
+#include <fstream>
+#include <map>
+#include <set>
+#include <sstream>
+#include <string>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+namespace mapproof {
+namespace {
+
+namespace fs = std::filesystem;
+
+using Modules = std::set<std::string>;
+
+/// Which modules each module may include, itself apart. docs/architecture.md draws this.
+const std::map<std::string, Modules>& allowed() {
+  static const Modules leaves = {"core/model", "core/base", "core/statistics"};
+  static const auto with_leaves = [](Modules more) {
+    more.insert(leaves.begin(), leaves.end());
+    return more;
+  };
+  static const std::map<std::string, Modules> table = {
+      {"core/model", {}},
+      {"core/base", {}},
+      {"core/statistics", {"core/base"}},
+      {"core/linalg", with_leaves({})},
+      {"core/graph", with_leaves({})},
+      {"core/simulate", with_leaves({})},
+      {"core/observe", with_leaves({})},
+      {"core/embed", with_leaves({"core/linalg", "core/graph", "core/observe"})},
+      {"core/align", with_leaves({"core/linalg"})},
+      {"core/score", with_leaves({"core/align"})},
+      {"core/records", {"core/model", "core/base"}},
+      {"core/experiment", with_leaves({"core/simulate", "core/observe", "core/embed", "core/align",
+                                       "core/score", "core/records"})},
+      {"render/base", with_leaves({})},
+      {"render/image", with_leaves({"render/base"})},
+      {"render/theme", with_leaves({"render/base"})},
+      {"render/plot", with_leaves({"render/base", "render/theme"})},
+      {"render/svg", with_leaves({"render/base", "render/plot", "render/theme", "render/image"})},
+      {"render/cairo", with_leaves({"render/base", "render/plot", "render/theme", "render/image"})},
+      {"render/figures", with_leaves({"render/base", "render/plot", "render/theme"})},
+      {"render/output", with_leaves({"render/base", "render/plot", "render/theme", "render/image",
+                                     "render/svg", "render/cairo"})},
+      {"reports/model", with_leaves({})},
+      {"reports/sections", with_leaves({"reports/model", "render/figures", "render/plot"})},
+      {"reports/html", with_leaves({"reports/model"})},
+      {"reports/tables", with_leaves({"reports/model"})},
+  };
+  return table;
+}
+
+/// Headers of libraries that only these modules may see.
+const std::map<std::string, Modules>& kept_in() {
+  static const std::map<std::string, Modules> table = {
+      {"cairo", {"render/cairo"}},
+      {"nlohmann/", {"core/records", "render/plot"}},
+      {"hb", {"render/theme", "render/cairo"}},
+      {"ft2build", {"render/theme", "render/cairo"}},
+      {"kainjow/", {"reports/html"}},
+      {"vtk", {"render/vtk"}},
+      {"GL/", {"render/vtk"}},
+  };
+  return table;
+}
+
+/// "core/embed" of "core/embed/isomap.hpp".
+std::string module_of(const std::string& path) {
+  const std::size_t first = path.find('/');
+  const std::size_t second = path.find('/', first + 1);
+  return second == std::string::npos ? path : path.substr(0, second);
+}
+
+/// Why the module may not include that, or nothing.
+std::string objection(const std::string& module, const std::string& included, bool is_ours) {
+  if (is_ours) {
+    const std::string other = module_of(included);
+    if (other == module) return "";
+    const auto row = allowed().find(module);
+    if (row == allowed().end()) return "the module " + module + " has no place in the layers";
+    return row->second.contains(other) ? "" : module + " may not include " + other;
+  }
+  for (const auto& [prefix, modules] : kept_in())
+    if (included.starts_with(prefix) && !modules.contains(module))
+      return module + " may not include <" + included + ">";
+  return "";
+}
+
+std::vector<std::string> objections_in(const std::string& text, const std::string& module) {
+  std::vector<std::string> objections;
+  std::istringstream lines(text);
+  for (std::string line; std::getline(lines, line);) {
+    if (!line.starts_with("#include ")) continue;
+    const bool is_ours = line[9] == '"';
+    const std::size_t end = line.find(is_ours ? '"' : '>', 10);
+    const std::string included = line.substr(10, end - 10);
+    if (is_ours && included.ends_with(".inc")) continue;  // generated
+    const std::string why = objection(module, included, is_ours);
+    if (!why.empty()) objections.push_back(why);
+  }
+  return objections;
+}
+
+TEST(Layers, NoSourceIncludesWhatItsLayerMayNotSee) {
+  int sources = 0;
+  for (const char* library : {"core", "render", "reports"})
+    for (const auto& entry :
+         fs::recursive_directory_iterator(fs::path(MAPPROOF_SOURCE_DIR) / library)) {
+      const std::string extension = entry.path().extension().string();
+      if (extension != ".cpp" && extension != ".hpp") continue;
+      ++sources;
+      const std::string path = fs::relative(entry.path(), MAPPROOF_SOURCE_DIR).string();
+      std::ostringstream text;
+      text << std::ifstream(entry.path()).rdbuf();
+      for (const std::string& why : objections_in(text.str(), module_of(path)))
+        ADD_FAILURE() << path << ": " << why;
+    }
+  EXPECT_GT(sources, 100);
+}
+
+TEST(Layers, TheCheckRefusesWhatItShould) {
+  EXPECT_EQ(objections_in("#include \"core/embed/isomap.hpp\"\n", "core/records").size(), 1U);
+  EXPECT_EQ(objections_in("#include \"render/plot/figure.hpp\"\n", "core/embed").size(), 1U);
+  EXPECT_EQ(objections_in("#include \"render/cairo/x.hpp\"\n", "reports/html").size(), 1U);
+  EXPECT_EQ(objections_in("#include <cairo.h>\n", "render/svg").size(), 1U);
+  EXPECT_EQ(objections_in("#include <nlohmann/json.hpp>\n", "core/embed").size(), 1U);
+  EXPECT_EQ(objections_in("#include \"core/model/points.hpp\"\n", "somewhere/new").size(), 1U);
+  EXPECT_TRUE(objections_in("#include \"core/model/points.hpp\"\n#include <vector>\n", "core/embed")
+                  .empty());
+}
+
+}  // namespace
+}  // namespace mapproof

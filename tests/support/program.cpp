@@ -1,0 +1,109 @@
+#include "tests/support/program.hpp"
+
+#include <fcntl.h>
+#include <poll.h>
+#include <sys/resource.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <array>
+#include <csignal>
+#include <cstdlib>
+#include <stdexcept>
+
+#include "core/base/files.hpp"
+
+namespace mapproof::test {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// In the child: becomes mapproof, its output going to the two descriptors.
+[[noreturn]] void become_mapproof(const std::vector<std::string>& arguments, const Limits& limits,
+                                  int out, int error) {
+  ::dup2(::open("/dev/null", O_RDONLY), STDIN_FILENO);
+  ::dup2(out, STDOUT_FILENO);
+  ::dup2(error, STDERR_FILENO);
+  if (limits.file_bytes > 0) {
+    ::signal(SIGXFSZ, SIG_IGN);
+    const rlimit limit{limits.file_bytes, limits.file_bytes};
+    ::setrlimit(RLIMIT_FSIZE, &limit);
+  }
+  std::vector<char*> words{const_cast<char*>(MAPPROOF_PROGRAM)};
+  for (const std::string& argument : arguments)
+    words.push_back(const_cast<char*>(argument.c_str()));
+  words.push_back(nullptr);
+  ::execv(words[0], words.data());
+  ::_exit(127);
+}
+
+}  // namespace
+
+Outcome mapproof(const std::vector<std::string>& arguments, const Limits& limits) {
+  std::array<int, 2> out{};
+  std::array<int, 2> error{};
+  if (::pipe2(out.data(), O_CLOEXEC) != 0 || ::pipe2(error.data(), O_CLOEXEC) != 0)
+    throw std::runtime_error("no pipe");
+  const pid_t child = ::fork();
+  if (child == 0) become_mapproof(arguments, limits, out[1], error[1]);
+  ::close(out[1]);
+  ::close(error[1]);
+
+  Outcome outcome;
+  std::array<pollfd, 2> streams{pollfd{out[0], POLLIN, 0}, pollfd{error[0], POLLIN, 0}};
+  std::array<std::string*, 2> texts{&outcome.out, &outcome.error};
+  for (int open = 2; open > 0;) {
+    ::poll(streams.data(), streams.size(), -1);
+    for (std::size_t i = 0; i < 2; ++i) {
+      if (streams[i].fd < 0 || streams[i].revents == 0) continue;
+      std::array<char, 4096> block{};
+      const ssize_t count = ::read(streams[i].fd, block.data(), block.size());
+      if (count > 0) {
+        texts[i]->append(block.data(), static_cast<std::size_t>(count));
+      } else {
+        ::close(streams[i].fd);
+        streams[i].fd = -1;
+        --open;
+      }
+    }
+  }
+  int status = 0;
+  ::waitpid(child, &status, 0);
+  if (WIFEXITED(status)) outcome.exit_code = WEXITSTATUS(status);
+  return outcome;
+}
+
+pid_t start_mapproof(const std::vector<std::string>& arguments) {
+  const pid_t child = ::fork();
+  if (child != 0) return child;
+  const int nowhere = ::open("/dev/null", O_WRONLY);
+  become_mapproof(arguments, {}, nowhere, nowhere);
+}
+
+TemporaryFolder::TemporaryFolder() {
+  std::string pattern = (fs::temp_directory_path() / "mapproof-test-XXXXXX").string();
+  if (::mkdtemp(pattern.data()) == nullptr) throw std::runtime_error("no temporary folder");
+  path_ = pattern;
+}
+
+TemporaryFolder::~TemporaryFolder() {
+  std::error_code ignored;
+  fs::remove_all(path_, ignored);
+}
+
+std::string TemporaryFolder::file(const std::string& name, const std::string& text) const {
+  write_file(path_ / name, text);
+  return (path_ / name).string();
+}
+
+std::vector<std::pair<std::string, std::string>> contents(const fs::path& folder) {
+  std::vector<std::pair<std::string, std::string>> files;
+  for (const auto& entry : fs::recursive_directory_iterator(folder))
+    if (entry.is_regular_file())
+      files.emplace_back(fs::relative(entry.path(), folder).string(), read_file(entry.path()));
+  std::ranges::sort(files);
+  return files;
+}
+
+}  // namespace mapproof::test

@@ -1,0 +1,51 @@
+#pragma once
+
+#include <sys/types.h>
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace mapproof::test {
+
+/// How a run of the program ended.
+struct Outcome {
+  int exit_code = -1;  ///< -1: ended by a signal.
+  std::string out;
+  std::string error;
+};
+
+/// Limits laid on the program before it starts.
+struct Limits {
+  std::size_t file_bytes =
+      0;  ///< Largest file it may write; 0: no limit. Stands in for a full disk.
+};
+
+/// Runs mapproof with these arguments, without a shell, and waits for it.
+Outcome mapproof(const std::vector<std::string>& arguments, const Limits& limits = {});
+
+/// Starts mapproof and lets it run, its output thrown away; to be killed and waited for.
+pid_t start_mapproof(const std::vector<std::string>& arguments);
+
+/// A new empty folder, gone with the object.
+class TemporaryFolder {
+ public:
+  TemporaryFolder();
+  ~TemporaryFolder();
+  TemporaryFolder(const TemporaryFolder&) = delete;
+  TemporaryFolder& operator=(const TemporaryFolder&) = delete;
+
+  std::filesystem::path operator/(const std::string& name) const { return path_ / name; }
+  const std::filesystem::path& path() const { return path_; }
+
+  /// Writes a file into the folder and returns its path.
+  std::string file(const std::string& name, const std::string& text) const;
+
+ private:
+  std::filesystem::path path_;
+};
+
+/// Every file below a folder: its relative path and its bytes, sorted.
+std::vector<std::pair<std::string, std::string>> contents(const std::filesystem::path& folder);
+
+}  // namespace mapproof::test
