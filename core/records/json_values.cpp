@@ -16,6 +16,9 @@ using Json = nlohmann::ordered_json;
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
+/// Of what the program itself wrote: a sentence that lists thousands of names is long.
+constexpr std::size_t kLongestText = 100'000'000;
+
 }  // namespace
 
 Sensor read_sensor(const JsonCursor& value) {
@@ -123,7 +126,7 @@ std::vector<Status> read_statuses(const JsonCursor& value) {
     const std::string code = item.at("code").text();
     const std::optional<StatusCode> known = status_code_named(code);
     if (!known) item.at("code").fail("unknown status " + in_quotes(code));
-    statuses.push_back({*known, item.at("detail").text(100'000)});
+    statuses.push_back({*known, item.at("detail").text(kLongestText)});
   }
   return statuses;
 }

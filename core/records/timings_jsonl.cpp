@@ -37,7 +37,7 @@ Timing read_timing(const JsonCursor& value) {
 
 Session read_session(const JsonCursor& value) {
   value.allow_only({"kind", "command", "started_utc", "host", "jobs", "seconds"});
-  return {.command = value.at("command").text(1'000'000),
+  return {.command = value.at("command").text(100'000'000),
           .started_utc = value.at("started_utc").text(),
           .host = value.at("host").text(),
           .jobs = value.at("jobs").integer32(0, 1'000'000),

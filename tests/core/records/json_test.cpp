@@ -1,5 +1,7 @@
 #include <gtest/gtest.h>
+#include <rapidcheck/gtest.h>
 
+#include <cmath>
 #include <limits>
 
 #include "core/base/errors.hpp"
@@ -142,6 +144,40 @@ TEST(JsonText, WritesNumbersThatAreReadBackExactly) {
   for (std::size_t i = 0; i < numbers.size(); ++i)
     EXPECT_EQ(back[i].get<double>(), numbers[i].get<double>());
   EXPECT_TRUE(std::signbit(back[4].get<double>()));
+}
+
+/// Any value: strings of any bytes below 0x80 and any length, numbers, and nests of them.
+nlohmann::ordered_json any_value(int depth) {
+  switch (*rc::gen::inRange(0, depth > 0 ? 7 : 5)) {
+    case 0:
+      return nullptr;
+    case 1:
+      return *rc::gen::arbitrary<bool>();
+    case 2:
+      return *rc::gen::arbitrary<std::int64_t>();
+    case 3:
+      return std::ldexp(*rc::gen::arbitrary<double>(), *rc::gen::inRange(-300, 300));
+    case 4:
+      return std::string(*rc::gen::inRange<std::size_t>(0, 150), *rc::gen::inRange('\1', '\x7F'));
+    case 5: {
+      nlohmann::ordered_json array = nlohmann::ordered_json::array();
+      for (int i = *rc::gen::inRange(0, 6); i > 0; --i) array.push_back(any_value(depth - 1));
+      return array;
+    }
+    default: {
+      nlohmann::ordered_json object = nlohmann::ordered_json::object();
+      for (int i = *rc::gen::inRange(0, 6); i > 0; --i)
+        object[std::string(1 + i, *rc::gen::inRange('\1', '\x7F'))] = any_value(depth - 1);
+      return object;
+    }
+  }
+}
+
+RC_GTEST_PROP(JsonText, IsReadBackAsTheValueItWasMadeFrom, ()) {
+  const nlohmann::ordered_json value = any_value(4);
+  RC_ASSERT(parse_json(json_text(value), "f").root == nlohmann::json(value));
+  RC_ASSERT(parse_json(json_line(value), "f").root == nlohmann::json(value));
+  RC_ASSERT(nlohmann::json::parse(json_text(value)) == nlohmann::json(value));
 }
 
 TEST(JsonText, WritesWhatIsNotFiniteAsNull) {
