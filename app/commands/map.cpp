@@ -14,6 +14,7 @@
 #include "render/figures/map.hpp"
 #include "render/figures/write_figure.hpp"
 #include "reports/html/report_html.hpp"
+#include "reports/model/format.hpp"
 #include "reports/sections/map_report.hpp"
 #include "reports/sections/study_figures.hpp"
 #include "reports/tables/write_tables.hpp"
@@ -145,11 +146,12 @@ std::string map_text(const OwnMap& map, const fs::path& out) {
   std::string text =
       fmt::format("{}, {}, {} steps", label(record.setting), name(record.sensor), record.step);
   if (record.score && record.frame == Frame::kTruth)
-    text +=
-        fmt::format(": MPE {:.3f} m, MOE {:.2f} %", record.score->mpe_m, record.score->moe_percent);
+    text += fmt::format(": MPE {} m, MOE {} %", format_number(record.score->mpe_m, 3),
+                        format_number(record.score->moe_percent, 2));
   else if (record.score)
-    text += fmt::format(": {:.3f} m after the best affine fit to all, MOE {:.2f} % up to a mirror",
-                        record.score->mpe_all_fitted_m, record.score->moe_unmirrored_percent);
+    text += fmt::format(": {} m after the best affine fit to all, MOE {} % up to a mirror",
+                        format_number(record.score->mpe_all_fitted_m, 3),
+                        format_number(record.score->moe_unmirrored_percent, 2));
   return text + "\n" + (out / "report.html").string() + "\n";
 }
 

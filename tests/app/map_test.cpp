@@ -105,7 +105,9 @@ TEST(Map, WithoutAnchorsIsAShapeAndSaysSo) {
   EXPECT_EQ(result["frame"], "similarity");
   EXPECT_TRUE(result["score"].is_null());
   for (const auto& [file, bytes] : contents(folder / "map"))
-    if (file == "figures/map.svg") EXPECT_NE(bytes.find("arbitrary"), std::string::npos);
+    if (file == "figures/map.svg") {
+      EXPECT_NE(bytes.find("arbitrary"), std::string::npos);
+    }
 }
 
 TEST(Map, WithATruthButNoAnchorsIsJudgedByWhatNeedsNone) {
@@ -162,7 +164,7 @@ TEST(Map, OfAnMrclamFolderUsesItsOwnTruth) {
   const auto result = nlohmann::json::parse(outcome.out);
   EXPECT_EQ(result["sensor"], "visibility");
   EXPECT_EQ(result["frame"], "truth");
-  EXPECT_TRUE(result["score"]["mpe_m"].is_number());
+  EXPECT_TRUE(result["score"]["moe_percent"].is_number());
   EXPECT_FALSE(result["remarks"].empty());
 }
 

@@ -1,6 +1,7 @@
 #include <cmath>
 
 #include <gtest/gtest.h>
+#include <Eigen/LU>
 #include <Eigen/SVD>
 
 #include "core/align/affine.hpp"
