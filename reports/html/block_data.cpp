@@ -20,6 +20,7 @@ data optional(const std::string& text) { return text.empty() ? data(false) : dat
 
 /// Longer texts scroll in a box of their own.
 constexpr std::size_t kLong = 200;
+constexpr std::size_t kLongCaption = 800;
 
 data phrase_data(const Phrase& phrase) {
   data out;
@@ -44,6 +45,7 @@ data figure_data(const FigureBlock& figure, const SvgLookup& svg, const HtmlOpti
   out.set("title", figure.title);
   out.set("caption", figure.caption);
   out.set("alt", figure.alt);
+  out.set("long", figure.caption.size() > kLongCaption);
   const std::string drawing = svg ? svg(figure.id) : "";
   out.set("svg", optional(drawing));
   out.set("folder", optional(options.figure_folder));

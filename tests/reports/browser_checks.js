@@ -74,6 +74,14 @@ function leastContrast(page) {
   return least.toFixed(2);
 }
 
+// Cells whose text runs out into the next one.
+function spilledCells(page) {
+  return Array.from(page.querySelectorAll("th > *, td > *")).filter((content) => {
+    const cell = content.parentElement.getBoundingClientRect();
+    return content.getBoundingClientRect().right > cell.right + 1;
+  }).length;
+}
+
 function checkLooks(frame) {
   const page = frame.contentDocument;
   say("light-contrast", leastContrast(page));
@@ -84,6 +92,7 @@ function checkLooks(frame) {
   for (const width of [390, 768, 1400]) {
     frame.style.width = `${width}px`;
     say(`overflow-${width}`, page.documentElement.scrollWidth - width);
+    say(`spilled-${width}`, spilledCells(page));
   }
 }
 

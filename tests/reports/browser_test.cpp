@@ -28,8 +28,10 @@ class Browser : public ::testing::Test {
     EXPECT_EQ(found["done"], "true") << found["error"];
     EXPECT_GE(std::atof(found["light-contrast"].c_str()), 4.5);
     EXPECT_GE(std::atof(found["dark-contrast"].c_str()), 4.5);
-    for (const char* width : {"overflow-390", "overflow-768", "overflow-1400"})
-      EXPECT_LE(std::atoi(found[width].c_str()), 0) << width;
+    for (const std::string width : {"390", "768", "1400"}) {
+      EXPECT_LE(std::atoi(found["overflow-" + width].c_str()), 0) << width;
+      EXPECT_EQ(found["spilled-" + width], "0") << width;
+    }
   }
 };
 
