@@ -7,10 +7,8 @@ namespace mapproof {
 bool clip_line(const Box& box, Point a, Point b, double& enter, double& leave) {
   const double dx = b.x - a.x;
   const double dy = b.y - a.y;
-  const std::array<std::array<double, 2>, 4> sides = {{{-dx, a.x - box.x0},
-                                                       {dx, box.x1 - a.x},
-                                                       {-dy, a.y - box.y0},
-                                                       {dy, box.y1 - a.y}}};
+  const std::array<std::array<double, 2>, 4> sides = {
+      {{-dx, a.x - box.x0}, {dx, box.x1 - a.x}, {-dy, a.y - box.y0}, {dy, box.y1 - a.y}}};
   enter = 0.0;
   leave = 1.0;
   for (const auto& [slope, room] : sides) {

@@ -38,9 +38,8 @@ FontFaceHandle make_font_face() {
   auto owned = std::make_unique<FreeTypeFace>();
   FontFaceHandle made(cairo_ft_font_face_create_for_ft_face(owned->face, FT_LOAD_NO_HINTING));
   check(cairo_font_face_status(made.get()));
-  check(cairo_font_face_set_user_data(made.get(), &key, owned.get(), [](void* face) {
-    delete static_cast<FreeTypeFace*>(face);
-  }));
+  check(cairo_font_face_set_user_data(made.get(), &key, owned.get(),
+                                      [](void* face) { delete static_cast<FreeTypeFace*>(face); }));
   owned.release();
   return made;
 }

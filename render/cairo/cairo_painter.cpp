@@ -53,12 +53,16 @@ class Painter {
           cairo_line_to(context_, x(0), y(0));
           next += 1;
           break;
-        case Verb::kQuad: trace_quad(x(0), y(0), x(1), y(1)), next += 2; break;
+        case Verb::kQuad:
+          trace_quad(x(0), y(0), x(1), y(1)), next += 2;
+          break;
         case Verb::kCubic:
           cairo_curve_to(context_, x(0), y(0), x(1), y(1), x(2), y(2));
           next += 3;
           break;
-        case Verb::kClose: cairo_close_path(context_); break;
+        case Verb::kClose:
+          cairo_close_path(context_);
+          break;
       }
     }
   }

@@ -14,7 +14,7 @@ struct Curve {
   std::vector<double> mean;   ///< Over runs.
   std::vector<double> low;    ///< Of the 95 % band; empty, with `high`: no band.
   std::vector<double> high;
-  std::string key;            ///< [a-z0-9-]+, unique in the figure; ids of marks are made of it.
+  std::string key;  ///< [a-z0-9-]+, unique in the figure; ids of marks are made of it.
 };
 
 struct ErrorCurveSpec {
@@ -22,8 +22,8 @@ struct ErrorCurveSpec {
   std::string title;
   std::string y_label = "MPE [m]";
   std::string quantity = "mean position error";  ///< In words, for the alt text.
-  std::vector<Curve> curves;  ///< At most seven are told apart well.
-  std::string caption;        ///< Empty: one is made.
+  std::vector<Curve> curves;                     ///< At most seven are told apart well.
+  std::string caption;                           ///< Empty: one is made.
   std::vector<std::string> record_ids;
 };
 

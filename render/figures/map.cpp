@@ -35,7 +35,8 @@ std::string names_of(const MapRecord& record, const std::vector<Eigen::Index>& r
 
 class MapFigure {
  public:
-  MapFigure(const MapRecord& record, const std::string& id) : record_(record), view_(view_of(record)) {
+  MapFigure(const MapRecord& record, const std::string& id)
+      : record_(record), view_(view_of(record)) {
     figure_.id = id;
     figure_.title = subject(record, " · ");
     figure_.record_ids = {record.id};
@@ -57,8 +58,10 @@ class MapFigure {
     std::erase_if(panel.layers, [](const Layer& layer) {
       return std::visit(
           [](const auto& one) {
-            if constexpr (requires { one.x0; }) return one.x0.empty();
-            else return one.x.empty();
+            if constexpr (requires { one.x0; })
+              return one.x0.empty();
+            else
+              return one.x.empty();
           },
           layer);
     });
@@ -74,7 +77,8 @@ class MapFigure {
       notes.push_back({"Shape alone: place, turn, scale and mirror are arbitrary."});
     if (!view_.outside.empty()) notes.push_back({outside_text(), Ink::kWarning});
     if (!view_.unmapped.empty())
-      notes.push_back({"Not on the map: " + names_of(record_, view_.unmapped) + ".", Ink::kWarning});
+      notes.push_back(
+          {"Not on the map: " + names_of(record_, view_.unmapped) + ".", Ink::kWarning});
     const std::size_t shown = std::min(record_.statuses.size(), kMostStatuses);
     for (std::size_t i = 0; i < shown; ++i)
       notes.push_back({"⚠ " + status_text(record_.statuses[i]), Ink::kWarning});
@@ -91,8 +95,8 @@ class MapFigure {
   }
 
   std::string outside_text() const {
-    std::string text = fmt::format("Arrows: {} outside the picture",
-                                   counted(view_.outside.size(), "estimate"));
+    std::string text =
+        fmt::format("Arrows: {} outside the picture", counted(view_.outside.size(), "estimate"));
     double farthest = 0.0;
     for (const Eigen::Index i : view_.outside)
       if (view_.error_m[i] > farthest) farthest = view_.error_m[i];
@@ -107,7 +111,9 @@ class MapFigure {
     if (record_.frame == Frame::kSimilarity)
       caption += " Dots: estimates; place, turn, scale and mirror are arbitrary.";
     else
-      caption += " Open circles: true positions; dots: estimates, joined by their errors; squares: anchors.";
+      caption +=
+          " Open circles: true positions; dots: estimates, joined by their errors; squares: "
+          "anchors.";
     if (!view_.worst.empty()) caption += " Worst: " + worst_text() + ".";
     if (!view_.outside.empty()) caption += " " + outside_text();
     if (!view_.unmapped.empty())
@@ -115,9 +121,10 @@ class MapFigure {
     for (const Status& status : record_.statuses) caption += " " + status_text(status);
 
     const std::size_t mapped = record_.names.size() - view_.unmapped.size();
-    figure_.alt = fmt::format("Map of {} of {} by {}, {}.", mapped,
-                              counted(record_.names.size(), "landmark"), label(record_.setting),
-                              record_.frame == Frame::kTruth ? "in metres" : "in an arbitrary frame");
+    figure_.alt =
+        fmt::format("Map of {} of {} by {}, {}.", mapped, counted(record_.names.size(), "landmark"),
+                    label(record_.setting),
+                    record_.frame == Frame::kTruth ? "in metres" : "in an arbitrary frame");
     if (record_.score) figure_.alt += " " + score_text(record_) + ".";
     if (!view_.worst.empty()) figure_.alt += " The largest errors: " + worst_text() + ".";
   }
@@ -129,9 +136,7 @@ class MapFigure {
     return listed(parts, kMostNamed);
   }
 
-  bool is_outside(Eigen::Index row) const {
-    return std::ranges::binary_search(view_.outside, row);
-  }
+  bool is_outside(Eigen::Index row) const { return std::ranges::binary_search(view_.outside, row); }
 
   Mark mark(std::string_view kind, Eigen::Index row) const {
     Mark mark{fmt::format("{}-{}", kind, row + 1), {}};
@@ -219,7 +224,9 @@ class MapFigure {
   }
 
   Eigen::Index rows() const { return record_.estimate.rows(); }
-  Point place(Eigen::Index row) const { return {record_.estimate(row, 0), record_.estimate(row, 1)}; }
+  Point place(Eigen::Index row) const {
+    return {record_.estimate(row, 0), record_.estimate(row, 1)};
+  }
   Point true_place(Eigen::Index row) const {
     return {(*record_.truth_m)(row, 0), (*record_.truth_m)(row, 1)};
   }

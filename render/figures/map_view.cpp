@@ -114,8 +114,8 @@ MapView view_of(const MapRecord& record) {
     const bool comparable = mapped && true_known && record.frame == Frame::kTruth;
     view.has_estimate.push_back(mapped);
     view.has_truth.push_back(true_known && record.frame == Frame::kTruth);
-    view.error_m.push_back(
-        comparable ? (record.estimate.row(i) - record.truth_m->row(i)).norm() : NAN);
+    view.error_m.push_back(comparable ? (record.estimate.row(i) - record.truth_m->row(i)).norm()
+                                      : NAN);
     if (!mapped) view.unmapped.push_back(i);
   }
   find_worst(view);

@@ -11,8 +11,8 @@ struct ImageDifference {
   /// The least structural similarity [wang2004] of any 8 x 8 window in any channel, at most 1: one
   /// number for the whole would hide a small damage.
   double structure = 0.0;
-  /// The most that the mean of any window moves in any channel, of 255: structure alone does not see
-  /// that a dot has another colour.
+  /// The most that the mean of any window moves in any channel, of 255: structure alone does not
+  /// see that a dot has another colour.
   double shift = 255.0;
 };
 

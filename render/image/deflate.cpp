@@ -85,8 +85,7 @@ class Matcher {
   void try_match(std::size_t at, std::size_t distance, Match& best) const {
     if (distance > at) return;
     const std::size_t most = std::min(kLongest, bytes_.size() - at);
-    const std::size_t length =
-        equal_bytes(bytes_.data() + at, bytes_.data() + at - distance, most);
+    const std::size_t length = equal_bytes(bytes_.data() + at, bytes_.data() + at - distance, most);
     if (length > best.length) best = {length, distance};
   }
 
@@ -123,7 +122,8 @@ Symbol length_symbol(unsigned length) {
   const unsigned offset = length - 3;
   if (offset < 8) return {257 + offset, 0, 0};
   const int bits = std::bit_width(offset) - 3;
-  return {257 + 4 * static_cast<unsigned>(bits) + (offset >> bits), bits, offset & ((1u << bits) - 1)};
+  return {257 + 4 * static_cast<unsigned>(bits) + (offset >> bits), bits,
+          offset & ((1u << bits) - 1)};
 }
 
 Symbol distance_symbol(unsigned distance) {

@@ -11,7 +11,9 @@ struct Image {
   int height = 0;
   std::vector<std::uint32_t> pixels;
 
-  const std::uint32_t* row(int y) const { return pixels.data() + static_cast<std::size_t>(y) * width; }
+  const std::uint32_t* row(int y) const {
+    return pixels.data() + static_cast<std::size_t>(y) * width;
+  }
   std::uint32_t* row(int y) { return pixels.data() + static_cast<std::size_t>(y) * width; }
 };
 

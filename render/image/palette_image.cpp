@@ -43,7 +43,7 @@ class Histogram {
 
 /// A stretch of pixels of one colour; the last one of a row ends with it.
 struct Run {
-  std::uint16_t entry = 0;   ///< In the histogram.
+  std::uint16_t entry = 0;  ///< In the histogram.
   std::int32_t length = 0;
 };
 
@@ -103,12 +103,14 @@ class ColourTable {
     std::int16_t least = kNowhere;
     const std::size_t end = (size_ + 15) / 16 * 16;
     for (std::size_t i = 0; i < end; ++i) {
-      const std::int16_t d = std::max({distance(r, red_[i]), distance(g, green_[i]), distance(b, blue_[i])});
+      const std::int16_t d =
+          std::max({distance(r, red_[i]), distance(g, green_[i]), distance(b, blue_[i])});
       away[i] = d;
       least = std::min(least, d);
     }
     if (least > most) return std::nullopt;
-    return static_cast<std::uint8_t>(std::find(away.begin(), away.begin() + end, least) - away.begin());
+    return static_cast<std::uint8_t>(std::find(away.begin(), away.begin() + end, least) -
+                                     away.begin());
   }
 
   /// False if it is full.

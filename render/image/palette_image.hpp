@@ -12,7 +12,7 @@ namespace mapproof {
 /// An image as numbers of colours.
 struct PaletteImage {
   std::vector<std::uint32_t> colours;  ///< 0x00RRGGBB, 1 to 256 of them.
-  std::string rows;                    ///< A zero (PNG's filter "none") and a byte a pixel, row by row.
+  std::string rows;  ///< A zero (PNG's filter "none") and a byte a pixel, row by row.
 };
 
 /// How far a channel of a pixel may be moved so that 256 colours are enough.

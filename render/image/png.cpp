@@ -58,9 +58,9 @@ std::string header(const Image& image, bool indexed) {
   std::string data;
   append_big_endian(data, static_cast<std::uint32_t>(image.width));
   append_big_endian(data, static_cast<std::uint32_t>(image.height));
-  data += '\x08';                   // Bits a sample.
+  data += '\x08';  // Bits a sample.
   data += indexed ? '\x03' : '\x02';
-  data.append(3, '\0');             // Deflate, adaptive filters, not interlaced.
+  data.append(3, '\0');  // Deflate, adaptive filters, not interlaced.
   return data;
 }
 
@@ -75,8 +75,8 @@ void append_text(std::string& out, const std::string& key, const std::string& te
 }  // namespace
 
 std::string encode_png(const Image& image, const PngOptions& options) {
-  const bool sized = image.width >= 1 && image.height >= 1 && image.width <= 100000 &&
-                     image.height <= 100000;
+  const bool sized =
+      image.width >= 1 && image.height >= 1 && image.width <= 100000 && image.height <= 100000;
   if (!sized || image.pixels.size() < static_cast<std::size_t>(image.width) * image.height)
     throw InvalidInput("encode_png: an image without pixels, too large, or with too few of them");
 
@@ -96,8 +96,9 @@ std::string encode_png(const Image& image, const PngOptions& options) {
       for (const int shift : {16, 8, 0}) colours += static_cast<char>(colour >> shift);
     append_chunk(out, "PLTE", colours);
   }
-  append_chunk(out, "IDAT", indexed ? deflate_drawing(indexed->rows, image.width + 1u)
-                                    : compressed(rgb_rows(image)));
+  append_chunk(
+      out, "IDAT",
+      indexed ? deflate_drawing(indexed->rows, image.width + 1u) : compressed(rgb_rows(image)));
   append_chunk(out, "IEND", "");
   return out;
 }

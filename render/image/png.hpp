@@ -10,7 +10,8 @@ namespace mapproof {
 
 struct PngOptions {
   double dpi = 72.0;
-  std::vector<std::pair<std::string, std::string>> texts;  ///< Keyword (1 to 79 of ASCII) and UTF-8.
+  std::vector<std::pair<std::string, std::string>>
+      texts;  ///< Keyword (1 to 79 of ASCII) and UTF-8.
 };
 
 /// The image as a PNG file, with a palette if to_palette finds one, else as RGB. Texts are

@@ -8,7 +8,8 @@
 namespace mapproof {
 namespace {
 
-/// Depth of each leaf of a Huffman tree [huffman1952]; ties by number, so that it is the same each time.
+/// Depth of each leaf of a Huffman tree [huffman1952]; ties by number, so that it is the same each
+/// time.
 std::vector<std::uint8_t> tree_depths(std::span<const std::uint32_t> counts) {
   using Node = std::pair<std::uint64_t, std::size_t>;  // Count, number: leaves before inner nodes.
   std::priority_queue<Node, std::vector<Node>, std::greater<>> open;

@@ -60,9 +60,9 @@ struct Stamp {
 struct TextLine {
   ShapedText shaped;
   std::string whole = {};  ///< What was asked for, if the drawn text is another.
-  Point at = {};      ///< The start of the baseline.
-  double size = 0.0;  ///< Of 1 em.
-  bool upward = false;  ///< Read from below to above.
+  Point at = {};           ///< The start of the baseline.
+  double size = 0.0;       ///< Of 1 em.
+  bool upward = false;     ///< Read from below to above.
   Colour colour = {};
 };
 
@@ -71,7 +71,7 @@ Box ink_box(const TextLine& line);
 
 struct Item {
   Role role = Role::kMarker;
-  bool clipped = false;            ///< To the frame of its panel.
+  bool clipped = false;  ///< To the frame of its panel.
   std::size_t panel = 0;
   std::optional<std::size_t> mark;  ///< Place in Drawing::marks.
   std::variant<Shape, Stamp, TextLine> what;

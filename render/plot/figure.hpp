@@ -59,7 +59,7 @@ struct Scatter {
   Ink ink = Ink::kSeries1;
   Marker marker = Marker::kCircle;
   bool filled = true;
-  double size = 1.0;        ///< In units of the theme's marker size.
+  double size = 1.0;             ///< In units of the theme's marker size.
   std::vector<Mark> marks = {};  ///< As many as points, or none.
 
   bool operator==(const Scatter&) const = default;
@@ -137,7 +137,7 @@ struct Figure {
   std::vector<std::string> record_ids;  ///< The records it was made from.
   bool varies = false;                  ///< Shows what differs from run to run, such as seconds.
   std::vector<Note> notes;
-  std::vector<Panel> panels;            ///< At least one, side by side.
+  std::vector<Panel> panels;  ///< At least one, side by side.
 
   bool operator==(const Figure&) const = default;
 };

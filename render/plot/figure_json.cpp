@@ -201,30 +201,43 @@ std::vector<Mark> read_marks(const Reader& json) {
 }
 
 Polyline read_polyline(const Reader& json) {
-  return {json.at("label").text(),         json.at("x").numbers(),
-          json.at("y").numbers(),          json.at("ink").named<Ink>(kInks),
-          json.at("dash").named<Dash>(kDashes), json.at("width").number(),
-          json.at("marker").named<Marker>(kMarkers), read_mark(json.at("mark"))};
+  return {json.at("label").text(),
+          json.at("x").numbers(),
+          json.at("y").numbers(),
+          json.at("ink").named<Ink>(kInks),
+          json.at("dash").named<Dash>(kDashes),
+          json.at("width").number(),
+          json.at("marker").named<Marker>(kMarkers),
+          read_mark(json.at("mark"))};
 }
 
 Band read_band(const Reader& json) {
-  return {json.at("label").text(),   json.at("x").numbers(),          json.at("low").numbers(),
+  return {json.at("label").text(),   json.at("x").numbers(),           json.at("low").numbers(),
           json.at("high").numbers(), json.at("ink").named<Ink>(kInks), read_mark(json.at("mark"))};
 }
 
 Scatter read_scatter(const Reader& json) {
-  return {json.at("label").text(),   json.at("x").numbers(),
-          json.at("y").numbers(),    json.at("ink").named<Ink>(kInks),
-          json.at("marker").named<Marker>(kMarkers), json.at("filled").flag(),
-          json.at("size").number(),  read_marks(json.at("marks"))};
+  return {json.at("label").text(),
+          json.at("x").numbers(),
+          json.at("y").numbers(),
+          json.at("ink").named<Ink>(kInks),
+          json.at("marker").named<Marker>(kMarkers),
+          json.at("filled").flag(),
+          json.at("size").number(),
+          read_marks(json.at("marks"))};
 }
 
 Segments read_segments(const Reader& json) {
-  return {json.at("label").text(),  json.at("x0").numbers(),
-          json.at("y0").numbers(),  json.at("x1").numbers(),
-          json.at("y1").numbers(),  json.at("ink").named<Ink>(kInks),
-          json.at("dash").named<Dash>(kDashes), json.at("width").number(),
-          json.at("arrow").flag(),  read_marks(json.at("marks"))};
+  return {json.at("label").text(),
+          json.at("x0").numbers(),
+          json.at("y0").numbers(),
+          json.at("x1").numbers(),
+          json.at("y1").numbers(),
+          json.at("ink").named<Ink>(kInks),
+          json.at("dash").named<Dash>(kDashes),
+          json.at("width").number(),
+          json.at("arrow").flag(),
+          read_marks(json.at("marks"))};
 }
 
 PointLabels read_labels(const Reader& json) {
@@ -253,8 +266,11 @@ Axis read_axis(const Reader& json) {
 }
 
 Panel read_panel(const Reader& json) {
-  Panel panel{json.at("title").text(), read_axis(json.at("x")), read_axis(json.at("y")),
-              json.at("equal_aspect").flag(), {}};
+  Panel panel{json.at("title").text(),
+              read_axis(json.at("x")),
+              read_axis(json.at("y")),
+              json.at("equal_aspect").flag(),
+              {}};
   for (const Reader& layer : json.at("layers").items()) panel.layers.push_back(read_layer(layer));
   return panel;
 }

@@ -7,11 +7,12 @@
 
 namespace mapproof {
 
-/// The figure as JSON (docs/schemas/figure.schema.json): doubles round-trip, NaN is null, a line feed
-/// at the end. The same figure gives the same bytes.
+/// The figure as JSON (docs/schemas/figure.schema.json): doubles round-trip, NaN is null, a line
+/// feed at the end. The same figure gives the same bytes.
 std::string figure_to_json(const Figure& figure);
 
-/// The figure that such JSON holds. @throws IoError with `path` and the JSON pointer of what is wrong.
+/// The figure that such JSON holds. @throws IoError with `path` and the JSON pointer of what is
+/// wrong.
 Figure figure_from_json(std::string_view text, const std::string& path);
 
 }  // namespace mapproof

@@ -67,7 +67,8 @@ class Painter {
       shape.path.line_to(to);
       const auto mark = mark_at(lines.marks, i);
       add(Role::kLine, std::move(shape), mark);
-      if (lines.arrow) drawing_.add(Role::kMarker, panel_, arrow_head(from, to, stroke.colour, theme_));
+      if (lines.arrow)
+        drawing_.add(Role::kMarker, panel_, arrow_head(from, to, stroke.colour, theme_));
     }
   }
 
@@ -103,8 +104,8 @@ class Painter {
   }
 
   std::size_t symbol_of(Marker marker, bool filled, double size, Ink ink) {
-    return symbol_index(drawing_, marker_symbol(marker, filled, size * theme_.marker_pt,
-                                                theme_.of(ink), theme_));
+    return symbol_index(
+        drawing_, marker_symbol(marker, filled, size * theme_.marker_pt, theme_.of(ink), theme_));
   }
 
   std::optional<std::size_t> mark_at(const std::vector<Mark>& marks, std::size_t i) {
@@ -144,11 +145,16 @@ class Painter {
 std::vector<double> dash_lengths(Dash dash, double width_pt) {
   const double w = width_pt;
   switch (dash) {
-    case Dash::kSolid: return {};
-    case Dash::kDashed: return {4.0 * w, 2.0 * w};
-    case Dash::kDotted: return {1.2 * w, 1.6 * w};
-    case Dash::kDashDot: return {5.0 * w, 1.8 * w, 1.2 * w, 1.8 * w};
-    case Dash::kLongDash: return {8.0 * w, 2.5 * w};
+    case Dash::kSolid:
+      return {};
+    case Dash::kDashed:
+      return {4.0 * w, 2.0 * w};
+    case Dash::kDotted:
+      return {1.2 * w, 1.6 * w};
+    case Dash::kDashDot:
+      return {5.0 * w, 1.8 * w, 1.2 * w, 1.8 * w};
+    case Dash::kLongDash:
+      return {8.0 * w, 2.5 * w};
   }
   return {};
 }

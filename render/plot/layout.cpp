@@ -22,7 +22,8 @@ class Head {
     for (std::size_t i = 0; i < figure_.notes.size(); ++i) {
       const double end = page_.y0 + kMostOfHead * page_.height() - 3.0 * FontFacts::kLine * em;
       if (y_ > end && i + 1 < figure_.notes.size()) {
-        add(fmt::format("… and {} more notes", figure_.notes.size() - i), Role::kNote, em, theme_.text);
+        add(fmt::format("… and {} more notes", figure_.notes.size() - i), Role::kNote, em,
+            theme_.text);
         break;
       }
       add(figure_.notes[i].text, Role::kNote, em, theme_.of(figure_.notes[i].ink));
@@ -51,22 +52,38 @@ class Head {
 
 std::string_view name(Role role) {
   switch (role) {
-    case Role::kGrid: return "grid";
-    case Role::kFrame: return "frame";
-    case Role::kTick: return "tick";
-    case Role::kTickLabel: return "tick-label";
-    case Role::kAxisLabel: return "axis-label";
-    case Role::kTitle: return "title";
-    case Role::kPanelTitle: return "panel-title";
-    case Role::kNote: return "note";
-    case Role::kBand: return "band";
-    case Role::kLine: return "line";
-    case Role::kMarker: return "marker";
-    case Role::kMarkLabel: return "mark-label";
-    case Role::kLeader: return "leader";
-    case Role::kLegendBox: return "legend-box";
-    case Role::kLegendText: return "legend-text";
-    case Role::kLegendSample: return "legend-sample";
+    case Role::kGrid:
+      return "grid";
+    case Role::kFrame:
+      return "frame";
+    case Role::kTick:
+      return "tick";
+    case Role::kTickLabel:
+      return "tick-label";
+    case Role::kAxisLabel:
+      return "axis-label";
+    case Role::kTitle:
+      return "title";
+    case Role::kPanelTitle:
+      return "panel-title";
+    case Role::kNote:
+      return "note";
+    case Role::kBand:
+      return "band";
+    case Role::kLine:
+      return "line";
+    case Role::kMarker:
+      return "marker";
+    case Role::kMarkLabel:
+      return "mark-label";
+    case Role::kLeader:
+      return "leader";
+    case Role::kLegendBox:
+      return "legend-box";
+    case Role::kLegendText:
+      return "legend-text";
+    case Role::kLegendSample:
+      return "legend-sample";
   }
   return "";
 }

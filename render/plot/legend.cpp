@@ -107,7 +107,8 @@ Legend::Legend(const Panel& panel, const Theme& theme, double most_width_pt) : t
 Point Legend::size(std::size_t columns) const {
   const std::size_t rows = (entries_.size() + columns - 1) / columns;
   const double gaps = static_cast<double>(columns - 1) * kColumnGap * theme_.font_pt;
-  return {static_cast<double>(columns) * entry_width_ + gaps, static_cast<double>(rows) * row_height_};
+  return {static_cast<double>(columns) * entry_width_ + gaps,
+          static_cast<double>(rows) * row_height_};
 }
 
 std::size_t Legend::columns_within(double width) const {
@@ -126,9 +127,9 @@ std::optional<Box> Legend::free_place(const Box& frame, const Obstacles& data) c
   if (extent.x > 0.8 * room.width() || extent.y > 0.8 * room.height()) return std::nullopt;
   const double left = room.x0, right = room.x1 - extent.x, middle = (left + right) / 2.0;
   const double top = room.y0, bottom = room.y1 - extent.y, centre = (top + bottom) / 2.0;
-  for (const Point at : {Point{right, top}, Point{left, top}, Point{right, bottom},
-                         Point{left, bottom}, Point{right, centre}, Point{left, centre},
-                         Point{middle, top}, Point{middle, bottom}}) {
+  for (const Point at :
+       {Point{right, top}, Point{left, top}, Point{right, bottom}, Point{left, bottom},
+        Point{right, centre}, Point{left, centre}, Point{middle, top}, Point{middle, bottom}}) {
     const Box place{at.x, at.y, at.x + extent.x, at.y + extent.y};
     if (!data.hit(place.grown(0.7 * gap))) return place;
   }
@@ -143,8 +144,7 @@ void Legend::draw_box(const Box& place, std::size_t panel_index, Drawing& drawin
   drawing.add(Role::kLegendBox, panel_index, std::move(box));
 }
 
-void Legend::draw(Point at, std::size_t columns, std::size_t panel_index,
-                  Drawing& drawing) const {
+void Legend::draw(Point at, std::size_t columns, std::size_t panel_index, Drawing& drawing) const {
   const double em = theme_.font_pt;
   const std::size_t rows = (entries_.size() + columns - 1) / columns;
   for (std::size_t i = 0; i < entries_.size(); ++i) {

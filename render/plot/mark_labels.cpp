@@ -19,7 +19,8 @@ struct Place {
 Box beside(Point at, double radius, double angle, Point size) {
   const double cosine = std::cos(angle);
   const double sine = std::sin(angle);
-  const Point middle{at.x + cosine * (radius + size.x / 2.0), at.y + sine * (radius + size.y / 2.0)};
+  const Point middle{at.x + cosine * (radius + size.x / 2.0),
+                     at.y + sine * (radius + size.y / 2.0)};
   return {middle.x - size.x / 2.0, middle.y - size.y / 2.0, middle.x + size.x / 2.0,
           middle.y + size.y / 2.0};
 }
@@ -87,10 +88,10 @@ void draw_mark_labels(const Panel& panel, std::size_t panel_index, const PanelMa
     for (std::size_t i = 0; i < labels->x.size(); ++i) {
       const Point at = map(labels->x[i], labels->y[i]);
       if (std::isnan(at.x + at.y)) continue;
-      TextLine line{.shaped = shape_text_within(labels->text[i], 0.35 * frame.width() / em,
-                                                           Elide::kMiddle),
-                    .size = em,
-                    .colour = theme.of(labels->ink)};
+      TextLine line{
+          .shaped = shape_text_within(labels->text[i], 0.35 * frame.width() / em, Elide::kMiddle),
+          .size = em,
+          .colour = theme.of(labels->ink)};
       if (line.shaped.text != labels->text[i]) line.whole = labels->text[i];
       const Box ink = line.shaped.ink;
       const double gap = 0.25 * theme.space_pt;

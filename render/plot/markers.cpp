@@ -28,9 +28,14 @@ Path strokes(std::initializer_list<std::pair<Point, Point>> lines, double size) 
 Path outline(Marker marker, double size) {
   Path path;
   switch (marker) {
-    case Marker::kNone: break;
-    case Marker::kCircle: path.add_circle({0.0, 0.0}, size / 2.0); break;
-    case Marker::kSquare: path.add_box(Box{}.grown(0.43 * size)); break;
+    case Marker::kNone:
+      break;
+    case Marker::kCircle:
+      path.add_circle({0.0, 0.0}, size / 2.0);
+      break;
+    case Marker::kSquare:
+      path.add_box(Box{}.grown(0.43 * size));
+      break;
     case Marker::kTriangle:
       return polygon({{0.0, -0.62}, {0.56, 0.38}, {-0.56, 0.38}}, size);
     case Marker::kTriangleDown:

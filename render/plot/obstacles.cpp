@@ -36,7 +36,8 @@ class Collector {
         const auto [top, bottom] =
             std::minmax({std::lerp(high0.y, high1.y, s), std::lerp(high0.y, high1.y, t),
                          std::lerp(low0.y, low1.y, s), std::lerp(low0.y, low1.y, t)});
-        found_.boxes.push_back({std::lerp(low0.x, low1.x, s), top, std::lerp(low0.x, low1.x, t), bottom});
+        found_.boxes.push_back(
+            {std::lerp(low0.x, low1.x, s), top, std::lerp(low0.x, low1.x, t), bottom});
       }
     }
   }
@@ -64,7 +65,8 @@ class Collector {
 
   void add_marker(Point at, double size) {
     if (std::isnan(at.x + at.y)) return;
-    found_.boxes.push_back(Box{at.x, at.y, at.x, at.y}.grown(kMarkerReach * size + theme_.line_pt / 2));
+    found_.boxes.push_back(
+        Box{at.x, at.y, at.x, at.y}.grown(kMarkerReach * size + theme_.line_pt / 2));
   }
 
   const PanelMap& map_;

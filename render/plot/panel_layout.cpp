@@ -119,8 +119,7 @@ class AxesLayout {
   }
 
   void shrink_to_aspect(Box& frame) const {
-    const double aspect =
-        (limits_.x.high - limits_.x.low) / (limits_.y.high - limits_.y.low);
+    const double aspect = (limits_.x.high - limits_.x.low) / (limits_.y.high - limits_.y.low);
     const double width = std::min(frame.width(), frame.height() * aspect);
     const double height = width / aspect;
     frame.x1 = frame.x0 + width;
@@ -186,7 +185,8 @@ class Arranger {
     Arrangement found{layout_.within(rest), std::nullopt, columns};
     const Box& frame = found.axes.frame;
     const double left = std::min(frame.x0, room.x1 - size.x);
-    found.legend_at = Point{std::max(left, room.x0), frame.y1 + layout_.below_frame() + theme_.space_pt};
+    found.legend_at =
+        Point{std::max(left, room.x0), frame.y1 + layout_.below_frame() + theme_.space_pt};
     return found;
   }
 
@@ -201,14 +201,21 @@ class AxesPainter {
  public:
   AxesPainter(const Panel& panel, std::size_t index, const Axes& axes, const AxesLayout& layout,
               const Theme& theme, Drawing& drawing)
-      : panel_(panel), index_(index), axes_(axes), layout_(layout), theme_(theme), drawing_(drawing),
+      : panel_(panel),
+        index_(index),
+        axes_(axes),
+        layout_(layout),
+        theme_(theme),
+        drawing_(drawing),
         map_(layout.map(axes.frame)) {}
 
   void draw_grid() {
     const Box& f = axes_.frame;
     Path grid;
-    for (const double value : axes_.x.ticks.at) add_line(grid, {map_.x(value), f.y0}, {map_.x(value), f.y1});
-    for (const double value : axes_.y.ticks.at) add_line(grid, {f.x0, map_.y(value)}, {f.x1, map_.y(value)});
+    for (const double value : axes_.x.ticks.at)
+      add_line(grid, {map_.x(value), f.y0}, {map_.x(value), f.y1});
+    for (const double value : axes_.y.ticks.at)
+      add_line(grid, {f.x0, map_.y(value)}, {f.x1, map_.y(value)});
     stroke(Role::kGrid, std::move(grid), theme_.grid);
   }
 
@@ -317,8 +324,8 @@ void add_text(Drawing& drawing, Role role, std::size_t panel_index, const Shaped
   drawing.add(role, panel_index, std::move(line));
 }
 
-void lay_out_panel(const Panel& panel, std::size_t panel_index, const Box& cell,
-                   const Theme& theme, Drawing& drawing) {
+void lay_out_panel(const Panel& panel, std::size_t panel_index, const Box& cell, const Theme& theme,
+                   Drawing& drawing) {
   const Box room = draw_panel_title(panel, panel_index, cell, theme, drawing);
   const AxesLayout layout(panel, theme);
   const Legend legend(panel, theme, 0.62 * cell.width());

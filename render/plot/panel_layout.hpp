@@ -6,8 +6,8 @@
 namespace mapproof {
 
 /// Lays one panel out in `cell`: axes, legend, layers and labels.
-void lay_out_panel(const Panel& panel, std::size_t panel_index, const Box& cell,
-                   const Theme& theme, Drawing& drawing);
+void lay_out_panel(const Panel& panel, std::size_t panel_index, const Box& cell, const Theme& theme,
+                   Drawing& drawing);
 
 /// Adds text whose baseline starts at `at`; `whole` is what was asked for.
 void add_text(Drawing& drawing, Role role, std::size_t panel_index, const ShapedText& shaped,

@@ -190,8 +190,8 @@ class SvgWriter {
 
     const auto& items = drawing_.items;
     const bool continues = item.mark && item.mark == open_mark_;
-    const bool starts = item.mark && !continues && index + 1 < items.size() &&
-                        items[index + 1].mark == item.mark;
+    const bool starts =
+        item.mark && !continues && index + 1 < items.size() && items[index + 1].mark == item.mark;
     if (!continues) close_mark();
     if (starts) open_mark(*item.mark);
     if (!open_mark_) open_group(look);

@@ -17,7 +17,7 @@ std::span<const Resource> font_resources();
 namespace {
 
 constexpr double kUnitsPerEm = 2048.0;
-constexpr std::size_t kMostMarks = 2;        // Combining marks on one letter; more is mischief.
+constexpr std::size_t kMostMarks = 2;         // Combining marks on one letter; more is mischief.
 constexpr std::size_t kMostCodePoints = 400;  // Of one line; no figure is wider.
 
 struct BufferDelete {
@@ -59,8 +59,10 @@ bool is_seen(char32_t code) {
     case HB_UNICODE_GENERAL_CATEGORY_PRIVATE_USE:
     case HB_UNICODE_GENERAL_CATEGORY_SURROGATE:
     case HB_UNICODE_GENERAL_CATEGORY_LINE_SEPARATOR:
-    case HB_UNICODE_GENERAL_CATEGORY_PARAGRAPH_SEPARATOR: return false;
-    default: break;
+    case HB_UNICODE_GENERAL_CATEGORY_PARAGRAPH_SEPARATOR:
+      return false;
+    default:
+      break;
   }
   const bool invisible = code == 0x034F || code == 0x115F || code == 0x1160 || code == 0x3164 ||
                          (code >= 0x17B4 && code <= 0x17B5) || (code >= 0x180B && code <= 0x180F) ||
@@ -119,7 +121,8 @@ std::vector<Stretch> stretches(const std::string& text) {
 
 Box glyph_ink(std::uint32_t glyph) {
   hb_glyph_extents_t e{};
-  if (!hb_font_get_glyph_extents(shared_font(), glyph, &e) || e.width == 0 || e.height == 0) return {};
+  if (!hb_font_get_glyph_extents(shared_font(), glyph, &e) || e.width == 0 || e.height == 0)
+    return {};
   return {e.x_bearing / kUnitsPerEm, -e.y_bearing / kUnitsPerEm,
           (e.x_bearing + e.width) / kUnitsPerEm, -(e.y_bearing + e.height) / kUnitsPerEm};
 }
@@ -128,7 +131,8 @@ Box glyph_ink(std::uint32_t glyph) {
 std::vector<Cluster> clusters_of(std::span<const hb_glyph_info_t> infos, const Stretch& stretch) {
   std::vector<std::pair<std::size_t, std::size_t>> starts;  // Byte, number of glyphs.
   for (const hb_glyph_info_t& glyph : infos) {
-    if (starts.empty() || starts.back().first != glyph.cluster) starts.emplace_back(glyph.cluster, 0);
+    if (starts.empty() || starts.back().first != glyph.cluster)
+      starts.emplace_back(glyph.cluster, 0);
     ++starts.back().second;
   }
   if (stretch.right_to_left) std::reverse(starts.begin(), starts.end());
@@ -304,7 +308,9 @@ Path glyph_outline(std::uint32_t glyph) {
     hb_draw_funcs_set_quadratic_to_func(
         made,
         [](hb_draw_funcs_t*, void* path, hb_draw_state_t*, float cx, float cy, float x, float y,
-           void*) { static_cast<Path*>(path)->quad_to({cx, -cy}, {x, -y}); },
+           void*) {
+          static_cast<Path*>(path)->quad_to({cx, -cy}, {x, -y});
+        },
         nullptr, nullptr);
     hb_draw_funcs_set_close_path_func(
         made,

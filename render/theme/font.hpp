@@ -13,11 +13,11 @@ namespace mapproof {
 
 /// The embedded font, DejaVu Sans. All lengths here are in em, y downward, the baseline at 0.
 struct FontFacts {
-  static constexpr double kAscent = 0.76;      ///< Of "d" and capitals.
-  static constexpr double kDescent = 0.24;     ///< Of "g".
+  static constexpr double kAscent = 0.76;   ///< Of "d" and capitals.
+  static constexpr double kDescent = 0.24;  ///< Of "g".
   static constexpr double kCapHeight = 0.729;
   static constexpr double kXHeight = 0.547;
-  static constexpr double kLine = 1.3;         ///< From baseline to baseline.
+  static constexpr double kLine = 1.3;  ///< From baseline to baseline.
 };
 
 struct Glyph {

@@ -25,10 +25,14 @@ Theme on_white() {
 
 Colour Theme::of(Ink ink) const {
   switch (ink) {
-    case Ink::kText: return text;
-    case Ink::kMuted: return muted;
-    case Ink::kWarning: return warning;
-    default: return series[static_cast<std::size_t>(ink) - static_cast<std::size_t>(Ink::kSeries1)];
+    case Ink::kText:
+      return text;
+    case Ink::kMuted:
+      return muted;
+    case Ink::kWarning:
+      return warning;
+    default:
+      return series[static_cast<std::size_t>(ink) - static_cast<std::size_t>(Ink::kSeries1)];
   }
 }
 

@@ -71,7 +71,9 @@ Ticks log_ticks(double low, double high, int most) {
   const int last = static_cast<int>(std::floor(std::log10(high) + 1e-9));
   const int decades = last - first + 1;
   Ticks ticks;
-  const auto within = [&](double value) { return value >= low * (1 - 1e-9) && value <= high * (1 + 1e-9); };
+  const auto within = [&](double value) {
+    return value >= low * (1 - 1e-9) && value <= high * (1 + 1e-9);
+  };
   const int stride = std::max(1, (decades + most - 1) / most);
   for (int exponent = first - 1; exponent <= last; ++exponent) {
     const double decade = std::pow(10.0, exponent);

@@ -10,7 +10,7 @@ struct Ticks {
   std::vector<double> at;           ///< Ascending, within the range asked for.
   std::vector<std::string> labels;  ///< As many; equal numbers of decimals, U+2212 for minus.
   std::vector<double> minor;        ///< Without a label, on a log axis.
-  std::string factor;               ///< "×10⁶" if the labels are to be multiplied by it, or empty.
+  std::string factor;  ///< "×10⁶" if the labels are to be multiplied by it, or empty.
 };
 
 /// The least step 1, 2 or 5 × 10^k that puts at most `most` (>= 2) marks into [low, high].

@@ -33,7 +33,8 @@ void write_inputs(const fs::path& folder) {
     text.clear();
     for (const Curve& curve : testing::sample_curves(4, static_cast<std::uint64_t>(i) + 1).curves) {
       for (std::size_t k = 0; k < curve.steps.size(); ++k)
-        text += fmt::format("{} {} {} {}\n", curve.steps[k], curve.mean[k], curve.low[k], curve.high[k]);
+        text += fmt::format("{} {} {} {}\n", curve.steps[k], curve.mean[k], curve.low[k],
+                            curve.high[k]);
       text += "\n\n";
     }
     write_file(folder / fmt::format("curve-{}.txt", i), text);

@@ -73,8 +73,8 @@ TEST_F(Backends, PdfKeepsItsTextSelectable) {
   write_file(folder_ / "map.pdf", figure_pdf(figure, report_theme()));
   const std::string text = output_of("pdftotext '" + (folder_ / "map.pdf").string() + "' -");
   if (text.empty()) GTEST_SKIP() << "pdftotext is not installed";
-  for (const char* part : {"Karte \u00FC \u2212 ", "\u05E9\u05DC\u05D5\u05DD", "fi", "MPE 0.", "x [m]",
-                           "true position", "anchor"})
+  for (const char* part : {"Karte \u00FC \u2212 ", "\u05E9\u05DC\u05D5\u05DD", "fi", "MPE 0.",
+                           "x [m]", "true position", "anchor"})
     EXPECT_NE(text.find(part), std::string::npos) << part << " in:\n" << text;
 }
 

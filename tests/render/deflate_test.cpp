@@ -1,7 +1,7 @@
 #include "render/image/deflate.hpp"
 
-#include <memory>
 #include <cmath>
+#include <memory>
 
 #include <gtest/gtest.h>
 #include <libdeflate.h>

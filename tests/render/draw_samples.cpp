@@ -15,7 +15,8 @@ int main(int argc, char** argv) {
     return 2;
   }
   for (const Figure& figure : testing::sample_figures())
-    for (const auto& [folder, theme] :
-         {std::pair{"report", report_theme()}, {"single", paper_theme(3.25)}, {"double", paper_theme(6.75)}})
+    for (const auto& [folder, theme] : {std::pair{"report", report_theme()},
+                                        {"single", paper_theme(3.25)},
+                                        {"double", paper_theme(6.75)}})
       write_figure(figure, theme, std::filesystem::path(argv[1]) / folder);
 }

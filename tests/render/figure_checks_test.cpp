@@ -20,9 +20,7 @@ struct Case {
   Theme theme;
 };
 
-void PrintTo(const Case& one, std::ostream* out) {
-  *out << one.figure.id << ' ' << one.theme.name;
-}
+void PrintTo(const Case& one, std::ostream* out) { *out << one.figure.id << ' ' << one.theme.name; }
 
 std::vector<Case> all_cases() {
   std::vector<Case> cases;
@@ -62,9 +60,7 @@ class FigureChecks : public ::testing::Test {
     add_text(drawing_, Role::kMarkLabel, 0, shape_text(text), text, at, 12.0, colour);
   }
 
-  Item& item_of(Role role) {
-    return *std::ranges::find(drawing_.items, role, &Item::role);
-  }
+  Item& item_of(Role role) { return *std::ranges::find(drawing_.items, role, &Item::role); }
 
   std::string found() { return joined(flaws(drawing_)); }
 

@@ -16,8 +16,9 @@ Figure small() {
   Figure figure;
   figure.id = "small";
   figure.panels.resize(1);
-  figure.panels[0].layers = {Polyline{.x = {1.0, 2.0}, .y = {1.0, 3.0}, .mark = {"line", {{"key", "value"}}}},
-                             Scatter{.x = {1.0}, .y = {2.0}, .marks = {Mark{"dot", {}}}}};
+  figure.panels[0].layers = {
+      Polyline{.x = {1.0, 2.0}, .y = {1.0, 3.0}, .mark = {"line", {{"key", "value"}}}},
+      Scatter{.x = {1.0}, .y = {2.0}, .marks = {Mark{"dot", {}}}}};
   return figure;
 }
 
@@ -111,7 +112,8 @@ TEST(FigureJson, NamesThePlaceOfWhatItCannotRead) {
   EXPECT_EQ(message_of("[1e999]"), "f.json: holds a number that is out of range");
   EXPECT_EQ(message_of("[]"), "f.json: /: an object was expected");
   EXPECT_EQ(message_of("{}"), "f.json: /: has no \"schema\"");
-  EXPECT_EQ(message_of(replaced(json, "mapproof.figure", "other")), "f.json: /schema/name: is no figure");
+  EXPECT_EQ(message_of(replaced(json, "mapproof.figure", "other")),
+            "f.json: /schema/name: is no figure");
   EXPECT_EQ(message_of(replaced(json, "\"version\": 1", "\"version\": 2")),
             "f.json: /schema/version: only version 1 is known");
   EXPECT_EQ(message_of(replaced(json, "\"polyline\"", "\"pie\"")),

@@ -23,9 +23,8 @@ Kind layer_of(const Figure& figure, const std::string& label) {
 }
 
 bool has_note(const Figure& figure, const std::string& part) {
-  return std::ranges::any_of(figure.notes, [&](const Note& note) {
-    return note.text.find(part) != std::string::npos;
-  });
+  return std::ranges::any_of(
+      figure.notes, [&](const Note& note) { return note.text.find(part) != std::string::npos; });
 }
 
 TEST(MapFigure, JoinsEachEstimateToItsTruth) {
@@ -44,7 +43,8 @@ TEST(MapFigure, SaysItsScoreInTheCaption) {
   MapRecord map = sample_map(50, 0.1, 1);
   map.score = Score{0.2190, 4.7, 0.2, 4.7};
   const Figure figure = map_figure(map, "map");
-  EXPECT_TRUE(figure.caption.starts_with("ISOMAP, K = 6, visibility, 2000 steps: MPE 0.219 m, MOE 4.70 %."))
+  EXPECT_TRUE(
+      figure.caption.starts_with("ISOMAP, K = 6, visibility, 2000 steps: MPE 0.219 m, MOE 4.70 %."))
       << figure.caption;
   EXPECT_TRUE(has_note(figure, "MPE 0.219 m"));
   EXPECT_EQ(figure.record_ids, std::vector<std::string>{map.id});
@@ -58,7 +58,8 @@ TEST(MapFigure, LabelsTheWorstLandmarksThatAreNoAnchors) {
   map.estimate(2, 0) += 0.5;
   const MapView view = view_of(map);
   EXPECT_EQ(view.worst, (std::vector<Eigen::Index>{9, 2}));
-  EXPECT_NE(map_figure(map, "map").caption.find("Worst: L10 0.800 m and L03 0.500 m."), std::string::npos);
+  EXPECT_NE(map_figure(map, "map").caption.find("Worst: L10 0.800 m and L03 0.500 m."),
+            std::string::npos);
 }
 
 TEST(MapFigure, ListsLandmarksWithoutAPlaceAndDrawsTheRest) {
@@ -86,7 +87,8 @@ TEST(MapFigure, ShowsAnEstimateFarOutsideAsAnArrowAndSaysSo) {
 
 TEST(MapFigure, DrawsStatusesAndKeepsThemInTheCaption) {
   MapRecord map = sample_map(20, 0.1, 1);
-  map.statuses = {{StatusCode::kBridged, "The graph was in 2 pieces."}, {StatusCode::kNotConverged, ""}};
+  map.statuses = {{StatusCode::kBridged, "The graph was in 2 pieces."},
+                  {StatusCode::kNotConverged, ""}};
   const Figure figure = map_figure(map, "map");
   EXPECT_TRUE(has_note(figure, "The graph was in 2 pieces."));
   EXPECT_TRUE(has_note(figure, "not converged"));
@@ -135,7 +137,8 @@ TEST(ErrorCurveFigure, CurvesDifferInMarkerAndDashNotInColourAlone) {
   const Figure figure = error_curve_figure(sample_curves(7, 1));
   std::vector<std::pair<Marker, Dash>> looks;
   for (const Layer& layer : figure.panels[0].layers)
-    if (const auto* line = std::get_if<Polyline>(&layer)) looks.emplace_back(line->marker, line->dash);
+    if (const auto* line = std::get_if<Polyline>(&layer))
+      looks.emplace_back(line->marker, line->dash);
   for (std::size_t i = 0; i < looks.size(); ++i)
     for (std::size_t j = i + 1; j < looks.size(); ++j) EXPECT_NE(looks[i].first, looks[j].first);
 }
@@ -154,7 +157,8 @@ TEST(ErrorCurveFigure, TellsTheEndsOfEachCurveInWords) {
   spec.curves[0].mean.front() = 0.8;
   spec.curves[0].mean.back() = NAN;
   spec.curves[0].mean[10] = 0.2;
-  EXPECT_NE(error_curve_figure(spec).alt.find("LPCA: 0.800 at 50, 0.200 at 1800."), std::string::npos);
+  EXPECT_NE(error_curve_figure(spec).alt.find("LPCA: 0.800 at 50, 0.200 at 1800."),
+            std::string::npos);
 }
 
 TEST(ErrorCurveFigure, RefusesCurvesWhosePartsDisagree) {

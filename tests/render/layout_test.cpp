@@ -145,7 +145,8 @@ TEST(Layout, PanelsStandSideBySideAndAreClean) {
 
 TEST(Layout, FramesStayOnThePageWhateverTheNotes) {
   Figure figure = map_figure(sample_map(20, 0.1, 1), "map");
-  for (int i = 0; i < 40; ++i) figure.notes.push_back({"Something else went wrong, again, and this is why."});
+  for (int i = 0; i < 40; ++i)
+    figure.notes.push_back({"Something else went wrong, again, and this is why."});
   for (const Theme& theme : {report_theme(), paper_theme(3.25)})
     for (const std::string& flaw : flaws(lay_out(figure, theme))) ADD_FAILURE() << flaw;
 }

@@ -22,7 +22,8 @@ TEST(Colour, ContrastOfBlackOnWhiteIsTwentyOne) {
 TEST(Colour, IsWrittenAsHex) { EXPECT_EQ(hex(colour(0x00A0FF)), "#00a0ff"); }
 
 TEST(Palette, SeriesStandOutFromWhite) {
-  for (const Colour one : kSeriesColours) EXPECT_GE(contrast(one, colour(0xFFFFFF)), 3.0) << hex(one);
+  for (const Colour one : kSeriesColours)
+    EXPECT_GE(contrast(one, colour(0xFFFFFF)), 3.0) << hex(one);
 }
 
 TEST(Palette, SeriesDifferFromEachOther) {

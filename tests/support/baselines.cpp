@@ -37,10 +37,10 @@ std::string difference_from_baseline(const std::string& name, const Image& image
       fs::remove(candidate);
       return {};
     }
-    difference = fmt::format("{}: {}, {:.3f} % of pixels changed, least structure {:.3f}, shift {:.1f}",
-                             name,
-                             found.same_size ? "same size" : "another size",
-                             100.0 * found.changed_share, found.structure, found.shift);
+    difference =
+        fmt::format("{}: {}, {:.3f} % of pixels changed, least structure {:.3f}, shift {:.1f}",
+                    name, found.same_size ? "same size" : "another size",
+                    100.0 * found.changed_share, found.structure, found.shift);
   }
   write_file(candidate, png);
   return difference + "; the candidate is " + candidate.string();

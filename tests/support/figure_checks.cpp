@@ -85,7 +85,8 @@ class Inspector {
       if (!page.holds(text.ink)) flaws_.push_back(named(text) + " is cut by the border");
     for (const Item& item : drawing_.items)
       if (const auto* stamp = std::get_if<Stamp>(&item.what)) {
-        const Box reach = bounds(drawing_.symbols[stamp->symbol].path).moved(stamp->at.x, stamp->at.y);
+        const Box reach =
+            bounds(drawing_.symbols[stamp->symbol].path).moved(stamp->at.x, stamp->at.y);
         if (!page.holds(reach)) flaws_.push_back("a marker is cut by the border");
       }
   }
@@ -120,8 +121,8 @@ class Inspector {
         flaws_.push_back(named(text) + " has too little contrast");
     for (const Item& item : drawing_.items) {
       const auto* stamp = std::get_if<Stamp>(&item.what);
-      const auto* shape = stamp != nullptr ? &drawing_.symbols[stamp->symbol]
-                                           : std::get_if<Shape>(&item.what);
+      const auto* shape =
+          stamp != nullptr ? &drawing_.symbols[stamp->symbol] : std::get_if<Shape>(&item.what);
       const bool counts = item.role == Role::kLine || item.role == Role::kMarker ||
                           item.role == Role::kFrame || item.role == Role::kTick;
       if (shape == nullptr || !counts) continue;

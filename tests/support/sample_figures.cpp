@@ -57,18 +57,21 @@ void add_maps(std::vector<Figure>& figures) {
   add("all-nan", 50, 0.1, [](MapRecord& r) {
     r.estimate.setConstant(NAN);
     r.score.reset();
-    r.statuses = {{StatusCode::kFailed, "No map: the eigenvalues did not converge after 300 sweeps."}};
+    r.statuses = {
+        {StatusCode::kFailed, "No map: the eigenvalues did not converge after 300 sweeps."}};
   });
   add("identical", 50, 0.1, [](MapRecord& r) {
     r.estimate.setConstant(1.0);
-    r.statuses = {{StatusCode::kRankDeficient, "The data have rank 0: all landmarks fall on one point."}};
+    r.statuses = {
+        {StatusCode::kRankDeficient, "The data have rank 0: all landmarks fall on one point."}};
   });
   add("some-missing", 50, 0.1, [](MapRecord& r) {
     for (const int row : {3, 9, 12, 30, 31, 32, 33}) r.estimate.row(row).setConstant(NAN);
     r.truth_m->row(5).setConstant(NAN);
     r.statuses = {{StatusCode::kLandmarkUnseen, "7 of 50 landmarks were never observed."},
-                  {StatusCode::kBridged, "The graph of 6 nearest neighbours had 3 components; the 2 "
-                                         "shortest bridges, 0.71 and 0.93 long, join them."},
+                  {StatusCode::kBridged,
+                   "The graph of 6 nearest neighbours had 3 components; the 2 "
+                   "shortest bridges, 0.71 and 0.93 long, join them."},
                   {StatusCode::kNotConverged, "Stress still fell by 2e-4 after 1000 iterations."}};
   });
   add("long-names", 50, 0.2, [](MapRecord& r) {
@@ -165,8 +168,8 @@ MapRecord sample_map(int landmarks, double error_m, std::uint64_t seed) {
 
 ErrorCurveSpec sample_curves(std::size_t count, std::uint64_t seed) {
   static const std::vector<std::string> labels = {
-      "LPCA", "SMACOF, equal weights", "SMACOF, kNN weights, K = 8", "ISOMAP, K = 6",
-      "Kernel PCA", "LLE, K = 10", "Laplacian eigenmap"};
+      "LPCA",       "SMACOF, equal weights", "SMACOF, kNN weights, K = 8", "ISOMAP, K = 6",
+      "Kernel PCA", "LLE, K = 10",           "Laplacian eigenmap"};
   Random random(seed);
   ErrorCurveSpec spec;
   spec.id = "curve";
@@ -193,20 +196,13 @@ ErrorCurveSpec sample_curves(std::size_t count, std::uint64_t seed) {
 std::vector<std::string> hostile_names() {
   std::string stacked = "Z";
   for (int i = 0; i < 60; ++i) stacked += "\u0301\u0327";
-  return {"<script>alert(1)</script>",
-          "\"quoted\" 'twice' & <again>",
-          "abc\u202Egnp.exe",
-          "\u200F\u05E9\u05DC\u05D5\u05DD 12 \u05E2\u05D5\u05DC\u05DD",
-          "../../../etc/passwd",
-          std::string(10240, 'W'),
-          "line\nfeed\ttab\x01",
-          "\xFF\xFE broken \xC3",
-          "\U0001F600 face",
-          stacked,
-          "zero\u200Bwidth\uFEFF",
-          "]]><!-- --><!DOCTYPE x>",
-          "a b\u00A0c{{x}}{{{y}}}",
-          ""};
+  return {"<script>alert(1)</script>", "\"quoted\" 'twice' & <again>",
+          "abc\u202Egnp.exe",          "\u200F\u05E9\u05DC\u05D5\u05DD 12 \u05E2\u05D5\u05DC\u05DD",
+          "../../../etc/passwd",       std::string(10240, 'W'),
+          "line\nfeed\ttab\x01",       "\xFF\xFE broken \xC3",
+          "\U0001F600 face",           stacked,
+          "zero\u200Bwidth\uFEFF",     "]]><!-- --><!DOCTYPE x>",
+          "a b\u00A0c{{x}}{{{y}}}",    ""};
 }
 
 std::vector<Figure> sample_figures() {
