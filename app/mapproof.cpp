@@ -1,3 +1,4 @@
+#include <csignal>
 #include <exception>
 #include <iostream>
 #include <new>
@@ -89,6 +90,8 @@ int fail(const std::string& what, ExitCode code) {
 
 int main(int argc, char** argv) {
   using namespace mapproof;
+  // A limit on file sizes then fails the write, which says so and cleans up, not the program.
+  std::signal(SIGXFSZ, SIG_IGN);
   try {
     return run_verb_of(argc, argv);
   } catch (const IoError& error) {

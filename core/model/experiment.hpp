@@ -74,7 +74,7 @@ struct Experiment {
   int poses = 1;
   WorldOptions world;
   WalkOptions walk;
-  int anchors = 4;  ///< The landmarks nearest the room's corners.
+  int anchors = 4;  ///< The landmarks nearest the corners; other counts: spread along the walls.
   AffineFit affine_fit = AffineFit::kLeastDistances;
   std::vector<SensorStudy> sensors;
 };

@@ -158,7 +158,7 @@ Experiment read_experiment(const JsonCursor& document) {
   read(document, "poses", 1, 10'000, experiment.poses);
   if (const auto world = document.find("world")) read_world(*world, experiment.world);
   if (const auto walk = document.find("walk")) read_walk(*walk, experiment.walk);
-  read(document, "anchors", 3, 4, experiment.anchors);
+  read(document, "anchors", 3, 1000, experiment.anchors);
   if (const auto fit = document.find("affine_fit")) experiment.affine_fit = read_affine_fit(*fit);
   experiment.sensors = read_sensors(document.at("sensors"));
   check_experiment(experiment, document);

@@ -68,8 +68,7 @@ MeanEstimate clustered_mean(std::span<const double> values, std::span<const int>
   const double n = static_cast<double>(values.size());
   // Divided first: a sum of huge values must not overflow.
   for (const double value : values) estimate.mean += value / n;
-  const double squares =
-      squared_cluster_sums(values, clusters, estimate.mean, estimate.clusters);
+  const double squares = squared_cluster_sums(values, clusters, estimate.mean, estimate.clusters);
   if (estimate.clusters > 1) {
     // The variance of a ratio estimator over clusters, with the factor L / (L - 1) that makes it
     // that of the clusters' means where all have one size.

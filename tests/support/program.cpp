@@ -8,7 +8,6 @@
 
 #include <algorithm>
 #include <array>
-#include <csignal>
 #include <cstdlib>
 #include <stdexcept>
 
@@ -26,7 +25,6 @@ namespace fs = std::filesystem;
   ::dup2(out, STDOUT_FILENO);
   ::dup2(error, STDERR_FILENO);
   if (limits.file_bytes > 0) {
-    ::signal(SIGXFSZ, SIG_IGN);
     const rlimit limit{limits.file_bytes, limits.file_bytes};
     ::setrlimit(RLIMIT_FSIZE, &limit);
   }
