@@ -74,7 +74,8 @@ class BlockVisitor {
 
   void operator()(const BulletList& bullets) {
     list items;
-    for (const Paragraph& item : bullets.items) items.push_back(data("phrases", phrases_data(item)));
+    for (const Paragraph& item : bullets.items)
+      items.push_back(data("phrases", phrases_data(item)));
     block_.set("bullet_list", data("items", items));
   }
 

@@ -44,8 +44,7 @@ std::vector<Tag> tags(const std::string& source, const std::string& text) {
     if (end == std::string::npos) throw IoError(source, place(line), "the tag is not closed");
     const std::string content = trimmed(std::string_view(text).substr(at + 2, end - at - 2));
     const char kind = content.empty() ? ' ' : content[0];
-    found.push_back({kind, content.empty() ? "" : trimmed(content.substr(1)), line, at,
-                     end + 2});
+    found.push_back({kind, content.empty() ? "" : trimmed(content.substr(1)), line, at, end + 2});
     at = end + 2;
   }
   return found;
@@ -61,8 +60,9 @@ void check_sections(const std::string& source, const std::vector<Tag>& tags) {
       throw IoError(source, place(tag.line), fmt::format("more than {} sections deep", kDeepest));
     if (tag.kind != '/') continue;
     if (open.empty() || open.back()->name != tag.name)
-      throw IoError(source, place(tag.line),
-                    "the section \"" + printable(tag.name) + "\" ends here but is not the open one");
+      throw IoError(
+          source, place(tag.line),
+          "the section \"" + printable(tag.name) + "\" ends here but is not the open one");
     open.pop_back();
   }
   if (!open.empty())

@@ -20,8 +20,7 @@ struct CellFormatter {
   std::string operator()(const IntervalCell& cell) const {
     if (!std::isfinite(cell.low) || !std::isfinite(cell.high)) return kMissingText;
     const char* joint = cell.low < 0.0 ? " to " : "\u2013";
-    return format_number(cell.low, cell.decimals) + joint +
-           format_number(cell.high, cell.decimals);
+    return format_number(cell.low, cell.decimals) + joint + format_number(cell.high, cell.decimals);
   }
   std::string operator()(const MissingCell&) const { return kMissingText; }
 };
@@ -48,8 +47,8 @@ std::size_t utf8_length(const std::string& text, std::size_t at) {
 std::string format_number(double value, int decimals, bool with_sign) {
   if (!std::isfinite(value)) return kMissingText;
   const double size = std::abs(value);
-  const std::string digits = size >= kLargest ? fmt::format("{:.2e}", size)
-                                              : fmt::format("{:.{}f}", size, decimals);
+  const std::string digits =
+      size >= kLargest ? fmt::format("{:.2e}", size) : fmt::format("{:.{}f}", size, decimals);
   const bool zero = digits.find_first_of("123456789") == std::string::npos;
   if (zero) return digits;
   if (value < 0) return kMinus + digits;

@@ -120,12 +120,12 @@ struct StatusList {
     std::string detail;
   };
   struct Item {
-    std::string code;     ///< As in the files: "not_converged".
-    std::string meaning;  ///< One sentence.
-    std::string where;    ///< "bearing, ISOMAP, K = 9".
-    int count = 0;        ///< Maps that carry it.
-    int of = 0;           ///< Maps of that kind in all.
-    bool failed = false;  ///< No map came out.
+    std::string code;           ///< As in the files: "not_converged".
+    std::string meaning;        ///< One sentence.
+    std::string where;          ///< "bearing, ISOMAP, K = 9".
+    int count = 0;              ///< Maps that carry it.
+    int of = 0;                 ///< Maps of that kind in all.
+    bool failed = false;        ///< No map came out.
     std::vector<Place> places;  ///< The first few.
   };
   std::vector<Item> items;
@@ -148,8 +148,8 @@ struct Report {
   std::string footer;
 };
 
-/// Throws unless every id is [a-z0-9-]+, unique among sections, tables or figures, and every row has
-/// a cell a column.
+/// Throws unless every id is [a-z0-9-]+, unique among sections, tables or figures, and every row
+/// has a cell a column.
 /// @throws InvalidInput naming the id.
 void check(const Report& report);
 

@@ -52,7 +52,8 @@ bool any_published(std::span<const SettingSummary> summaries) {
 }
 
 bool any_interval(std::span<const SettingSummary> summaries) {
-  return std::ranges::any_of(summaries, [](const auto& s) { return interval_of(s.mpe_m).has_value(); });
+  return std::ranges::any_of(summaries,
+                             [](const auto& s) { return interval_of(s.mpe_m).has_value(); });
 }
 
 std::vector<Column> accuracy_columns(bool published) {
@@ -127,8 +128,9 @@ Table accuracy_table(const SensorStudy& sensor, std::span<const SettingSummary> 
         {accuracy_cells(summary, published, mpe_decimals(best)), source_of(summary), false});
   mark_best(table, best);
   if (grid)
-    table.notes.push_back("Each method stands with the parameter of least mean MPE over these very "
-                          "runs, as the paper chose its own.");
+    table.notes.push_back(
+        "Each method stands with the parameter of least mean MPE over these very "
+        "runs, as the paper chose its own.");
   table.notes.push_back(interval_note(best));
   if (published) table.notes.push_back("Paper: " + sensor.published_source + ".");
   return table;
@@ -150,11 +152,12 @@ Table spread_table(const SensorStudy& sensor, std::span<const SettingSummary> be
                    {"With status", "", "Runs", "Something went other than well."}};
   const int decimals = mpe_decimals(best);
   for (const SettingSummary& s : best)
-    table.rows.push_back({{method_cell(s), parameter_cell(s.setting),
-                           number(s.mpe_median_m, decimals), number(s.mpe_all_fitted_m, decimals),
-                           number(s.moe_unmirrored_percent, kMoeDecimals), number(s.runs, 0),
-                           number(s.scored, 0), number(s.with_status, 0)},
-                          source_of(s), false});
+    table.rows.push_back(
+        {{method_cell(s), parameter_cell(s.setting), number(s.mpe_median_m, decimals),
+          number(s.mpe_all_fitted_m, decimals), number(s.moe_unmirrored_percent, kMoeDecimals),
+          number(s.runs, 0), number(s.scored, 0), number(s.with_status, 0)},
+         source_of(s),
+         false});
   table.notes.push_back(
       "MPE hangs on which landmarks are anchors. Free of that: MPE over all landmarks with the "
       "affine map fitted to all of them, and MOE with mirrored maps turned back.");
@@ -165,17 +168,20 @@ Table parameter_table(const SensorStudy& sensor, std::span<const SettingSummary>
   Table table;
   table.id = fmt::format("parameters-{}", name(sensor.sensor.sensor));
   table.caption = title_of(sensor.sensor.sensor) + ": every parameter tried";
-  table.columns = {{"Method", "", "", ""},         {"Parameter", "", "", ""},
-                   {"MPE", "m", "", "Mean over runs."}, {"95 % interval", "m", "", ""},
-                   {"MOE", "%", "", "Mean over runs."}, {"Scored", "", "", ""},
+  table.columns = {{"Method", "", "", ""},
+                   {"Parameter", "", "", ""},
+                   {"MPE", "m", "", "Mean over runs."},
+                   {"95 % interval", "m", "", ""},
+                   {"MOE", "%", "", "Mean over runs."},
+                   {"Scored", "", "", ""},
                    {"With status", "", "", ""}};
   const int decimals = mpe_decimals(all);
   for (const SettingSummary& s : all)
     table.rows.push_back({{method_cell(s), parameter_cell(s.setting), mean_cell(s.mpe_m, decimals),
-                           interval_cell(s.mpe_m, decimals),
-                           mean_cell(s.moe_percent, kMoeDecimals), number(s.scored, 0),
-                           number(s.with_status, 0)},
-                          source_of(s), false});
+                           interval_cell(s.mpe_m, decimals), mean_cell(s.moe_percent, kMoeDecimals),
+                           number(s.scored, 0), number(s.with_status, 0)},
+                          source_of(s),
+                          false});
   mark_best(table, all);
   return table;
 }

@@ -40,9 +40,8 @@ void add_truth(const MapRecord& record, Index row, std::vector<Cell>& cells) {
 }
 
 std::vector<Column> point_columns(const MapRecord& record) {
-  std::vector<Column> columns = {{"Landmark", "", "", ""},
-                                 {"x", unit(record), "Map", ""},
-                                 {"y", unit(record), "Map", ""}};
+  std::vector<Column> columns = {
+      {"Landmark", "", "", ""}, {"x", unit(record), "Map", ""}, {"y", unit(record), "Map", ""}};
   if (!any_truth(record)) return columns;
   columns.push_back({"x", "m", "Truth", ""});
   columns.push_back({"y", "m", "Truth", ""});
@@ -163,8 +162,12 @@ Section statuses(const MapRecord& record) {
   }
   StatusList list;
   for (const Status& status : record.statuses)
-    list.items.push_back({std::string(name(status.code)), std::string(meaning(status.code)),
-                          label(record.setting), 1, 1, status.code == StatusCode::kFailed,
+    list.items.push_back({std::string(name(status.code)),
+                          std::string(meaning(status.code)),
+                          label(record.setting),
+                          1,
+                          1,
+                          status.code == StatusCode::kFailed,
                           {{record.id, status.detail}}});
   section.blocks.emplace_back(std::move(list));
   return section;
@@ -194,9 +197,9 @@ Report map_report(const MapReportInput& input) {
   require_sizes(input.record);
   Report report;
   report.title = input.title;
-  report.subtitle = fmt::format("{}, {}, {}", label(input.record.setting),
-                                name(input.record.sensor),
-                                count_of(input.record.step, "observation"));
+  report.subtitle =
+      fmt::format("{}, {}, {}", label(input.record.setting), name(input.record.sensor),
+                  count_of(input.record.step, "observation"));
   report.sections.push_back(summary(input));
   report.sections.push_back({"map", "Map", {input.figure}});
   Section landmarks{"positions", "Landmarks", {}};
@@ -206,8 +209,8 @@ Report map_report(const MapReportInput& input) {
   report.sections.push_back(input_section(input));
   report.sections.push_back(statuses(input.record));
   report.sections.push_back(provenance(input));
-  report.footer = fmt::format("Made by mapproof {} ({}).", input.provenance.version,
-                              input.provenance.commit);
+  report.footer =
+      fmt::format("Made by mapproof {} ({}).", input.provenance.version, input.provenance.commit);
   return report;
 }
 

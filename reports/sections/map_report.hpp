@@ -22,7 +22,8 @@ struct MapReportInput {
   std::string command;  ///< The one that makes it again, ready to be typed.
 };
 
-/// Summary, figure, landmarks (with errors where the truth is known), remarks, statuses, provenance.
+/// Summary, figure, landmarks (with errors where the truth is known), remarks, statuses,
+/// provenance.
 Report map_report(const MapReportInput& input);
 
 }  // namespace mapproof

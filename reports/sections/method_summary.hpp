@@ -16,13 +16,13 @@ struct SettingSummary {
   Sensor sensor = Sensor::kVisibility;
   MethodSetting setting;
   int step = 0;
-  int runs = 0;         ///< Records found.
-  int scored = 0;       ///< Of them with a score.
-  int with_status = 0;  ///< Of them with a status of any kind.
+  int runs = 0;                       ///< Records found.
+  int scored = 0;                     ///< Of them with a score.
+  int with_status = 0;                ///< Of them with a status of any kind.
   std::optional<MeanEstimate> mpe_m;  ///< Over the scored; empty if there are none.
   std::optional<MeanEstimate> moe_percent;
-  double mpe_median_m = std::numeric_limits<double>::quiet_NaN();  ///< NaN: no score, as below.
-  double mpe_all_fitted_m = std::numeric_limits<double>::quiet_NaN();        ///< Mean.
+  double mpe_median_m = std::numeric_limits<double>::quiet_NaN();      ///< NaN: no score, as below.
+  double mpe_all_fitted_m = std::numeric_limits<double>::quiet_NaN();  ///< Mean.
   double moe_unmirrored_percent = std::numeric_limits<double>::quiet_NaN();  ///< Mean.
   std::optional<PublishedValue> published;  ///< Of the same method, whatever its parameter.
 };

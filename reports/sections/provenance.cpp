@@ -36,26 +36,25 @@ std::string methods_of(const SensorStudy& sensor) {
 
 KeyValues experiment_items(const Experiment& experiment) {
   KeyValues items;
-  items.items = {
-      {"Experiment", data(experiment.name)},
-      {"Seed", data(fmt::format("{}", experiment.seed))},
-      {"Runs", data(fmt::format("{} \u00D7 {}", count_of(experiment.layouts, "layout"),
-                                count_of(experiment.poses, "initial pose")))},
-      {"Room", data(fmt::format("{:g} m \u00D7 {:g} m, {} of {:g} mm", experiment.world.side_m,
-                                experiment.world.side_m,
-                                count_of(experiment.world.landmarks, "landmark"),
-                                1e3 * experiment.world.landmark_diameter_m))},
-      {"Walk", data(fmt::format("steps of {:g} m, turns up to {:.4g} rad", experiment.walk.step_m,
-                                experiment.walk.turn_rad))},
-      {"Anchors", data(fmt::format("{}, nearest the corners", experiment.anchors))}};
+  items.items = {{"Experiment", data(experiment.name)},
+                 {"Seed", data(fmt::format("{}", experiment.seed))},
+                 {"Runs", data(fmt::format("{} \u00D7 {}", count_of(experiment.layouts, "layout"),
+                                           count_of(experiment.poses, "initial pose")))},
+                 {"Room", data(fmt::format("{:g} m \u00D7 {:g} m, {} of {:g} mm",
+                                           experiment.world.side_m, experiment.world.side_m,
+                                           count_of(experiment.world.landmarks, "landmark"),
+                                           1e3 * experiment.world.landmark_diameter_m))},
+                 {"Walk", data(fmt::format("steps of {:g} m, turns up to {:.4g} rad",
+                                           experiment.walk.step_m, experiment.walk.turn_rad))},
+                 {"Anchors", data(fmt::format("{}, nearest the corners", experiment.anchors))}};
   for (const SensorStudy& sensor : experiment.sensors) {
     const std::string title = title_of(sensor.sensor.sensor);
     items.items.push_back({title + " checkpoints", data(join(sensor.checkpoints))});
     items.items.push_back({title + " methods", data(methods_of(sensor))});
     if (sensor.sensor.noise > 0.0 || sensor.sensor.dropout_share > 0.0)
-      items.items.push_back({title + " faults",
-                             data(fmt::format("noise {:g}, dropout share {:g}",
-                                              sensor.sensor.noise, sensor.sensor.dropout_share))});
+      items.items.push_back(
+          {title + " faults", data(fmt::format("noise {:g}, dropout share {:g}",
+                                               sensor.sensor.noise, sensor.sensor.dropout_share))});
   }
   return items;
 }
@@ -70,12 +69,12 @@ Table sessions_table(std::span<const Session> sessions) {
                    {"Jobs", "", "", ""},
                    {"Duration", "s", "", "Wall clock."}};
   for (const Session& session : sessions)
-    table.rows.push_back({{TextCell{session.started_utc, Emphasis::kData},
-                           TextCell{session.command, Emphasis::kCode},
-                           TextCell{session.host, Emphasis::kData},
-                           NumberCell{static_cast<double>(session.jobs), 0},
-                           NumberCell{session.seconds, 1}},
-                          "", false});
+    table.rows.push_back(
+        {{TextCell{session.started_utc, Emphasis::kData},
+          TextCell{session.command, Emphasis::kCode}, TextCell{session.host, Emphasis::kData},
+          NumberCell{static_cast<double>(session.jobs), 0}, NumberCell{session.seconds, 1}},
+         "",
+         false});
   return table;
 }
 
@@ -96,17 +95,17 @@ Table durations_table(std::span<const Timing> timings) {
   Table table;
   table.id = "durations";
   table.caption = "How long the maps took";
-  table.columns = {{"Sensor", "", "", ""},     {"Method", "", "", ""},
-                   {"Maps", "", "", ""},       {"Mean", "ms", "", "One map."},
-                   {"Longest", "ms", "", ""},  {"Sum", "s", "", "Over all threads."}};
+  table.columns = {{"Sensor", "", "", ""},    {"Method", "", "", ""},
+                   {"Maps", "", "", ""},      {"Mean", "ms", "", "One map."},
+                   {"Longest", "ms", "", ""}, {"Sum", "s", "", "Over all threads."}};
   for (const auto& [key, duration] : durations)
-    table.rows.push_back({{TextCell{title_of(std::get<0>(key))},
-                           TextCell{std::string(info(std::get<1>(key)).label)},
-                           NumberCell{static_cast<double>(duration.maps), 0},
-                           NumberCell{1e3 * duration.seconds / duration.maps, 2},
-                           NumberCell{1e3 * duration.longest, 2},
-                           NumberCell{duration.seconds, 2}},
-                          "", false});
+    table.rows.push_back(
+        {{TextCell{title_of(std::get<0>(key))}, TextCell{std::string(info(std::get<1>(key)).label)},
+          NumberCell{static_cast<double>(duration.maps), 0},
+          NumberCell{1e3 * duration.seconds / duration.maps, 2},
+          NumberCell{1e3 * duration.longest, 2}, NumberCell{duration.seconds, 2}},
+         "",
+         false});
   table.notes.push_back("Seconds vary from run to run and are no part of any comparison.");
   return table;
 }

@@ -31,8 +31,8 @@ void add_record(StatusList::Item& item, const RunId& run, const RunRecord& recor
   if (item.places.size() >= kPlacesShown) return;
   for (const Status& status : record.statuses)
     if (status.code == code)
-      item.places.push_back({record_id(run, record.sensor, record.setting, record.step),
-                             status.detail});
+      item.places.push_back(
+          {record_id(run, record.sensor, record.setting, record.step), status.detail});
 }
 
 /// Severest first: no map, then by share.
@@ -97,10 +97,10 @@ Section statuses_section(const Study& study) {
   section.title = "What went other than well";
   StatusList list = status_list(study);
   if (list.items.empty() && counts.unscored == 0) {
-    section.blocks.emplace_back(plain(
-        counts.maps == 0 ? "No map was made."
-                         : fmt::format("Nothing: each solve ended well, {} in all.",
-                                       count_of(counts.maps, "map"))));
+    section.blocks.emplace_back(
+        plain(counts.maps == 0 ? "No map was made."
+                               : fmt::format("Nothing: each solve ended well, {} in all.",
+                                             count_of(counts.maps, "map"))));
     return section;
   }
   section.blocks.emplace_back(plain(fmt::format(

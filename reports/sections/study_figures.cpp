@@ -152,8 +152,8 @@ void add_maps(const std::vector<std::pair<RunId, WantedMap>>& wanted, const MapR
     for (const WantedMap& map : maps)
       for (const MapRecord& record : records)
         if (is(record, map.setting)) {
-          const std::string id = fmt::format("map-{}-{}", name(record.sensor),
-                                             info(record.setting.method).name);
+          const std::string id =
+              fmt::format("map-{}-{}", name(record.sensor), info(record.setting.method).name);
           found[map.sensor].insert_or_assign(map.place, map_figure(record, id));
         }
   }

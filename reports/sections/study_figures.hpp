@@ -28,8 +28,8 @@ using MapReader = std::function<std::vector<MapRecord>(const RunId&)>;
 ///
 /// For each sensor: MPE and MOE over the steps (mean over runs, 95 % interval), each method at its
 /// best parameter: "mpe-bearing-global" for LPCA and SMACOF, "mpe-bearing-graph" for the methods on
-/// a neighbour graph; and for each method the map of the run with median MPE at the last checkpoint:
-/// "map-bearing-isomap".
+/// a neighbour graph; and for each method the map of the run with median MPE at the last
+/// checkpoint: "map-bearing-isomap".
 ///
 /// @param read_maps Called once for each run that a map is shown of; a map it does not give is
 ///                  left out.

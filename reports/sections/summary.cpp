@@ -50,20 +50,20 @@ Paragraph best_finding(const SensorStudy& sensor, const SettingSummary& best) {
   text.phrases.push_back(strong(title_of(best.sensor)));
   text.phrases.push_back(words(fmt::format(": after {} observations ", best.step)));
   text.phrases.push_back(strong(label(best.setting)));
-  text.phrases.push_back(words(fmt::format(
-      " is the most accurate of {}: MPE {}, MOE {}.", count_of(static_cast<long>(
-          sensor.methods.size()), "method"),
-      with_interval(*best.mpe_m), percent(best.moe_percent->mean))));
+  text.phrases.push_back(
+      words(fmt::format(" is the most accurate of {}: MPE {}, MOE {}.",
+                        count_of(static_cast<long>(sensor.methods.size()), "method"),
+                        with_interval(*best.mpe_m), percent(best.moe_percent->mean))));
   if (best.published)
-    text.phrases.push_back(words(fmt::format(
-        " The paper printed {} and {} for this method: ours differs by {}.",
-        metres(best.published->mpe_m), percent(best.published->moe_percent),
-        relative(best.mpe_m->mean, best.published->mpe_m))));
+    text.phrases.push_back(
+        words(fmt::format(" The paper printed {} and {} for this method: ours differs by {}.",
+                          metres(best.published->mpe_m), percent(best.published->moe_percent),
+                          relative(best.mpe_m->mean, best.published->mpe_m))));
   const PublishedValue* paper_best = best_published(sensor);
   if (paper_best != nullptr && paper_best->setting.method != best.setting.method)
-    text.phrases.push_back(words(fmt::format(" The paper\u2019s best of these methods is {}, {}.",
-                                             label(paper_best->setting),
-                                             metres(paper_best->mpe_m))));
+    text.phrases.push_back(
+        words(fmt::format(" The paper\u2019s best of these methods is {}, {}.",
+                          label(paper_best->setting), metres(paper_best->mpe_m))));
   return text;
 }
 
@@ -84,12 +84,11 @@ Paragraph order_finding(const SensorStudy& sensor, std::vector<SettingSummary> m
     text.phrases.push_back(words(" The paper has the same order."));
     return text;
   }
-  std::ranges::stable_sort(methods, {},
-                           [](const SettingSummary& s) { return s.published->mpe_m; });
+  std::ranges::stable_sort(methods, {}, [](const SettingSummary& s) { return s.published->mpe_m; });
   std::string paper_order;
   for (const SettingSummary& s : methods)
-    paper_order += fmt::format("{}{}", paper_order.empty() ? "" : " < ",
-                               info(s.setting.method).label);
+    paper_order +=
+        fmt::format("{}{}", paper_order.empty() ? "" : " < ", info(s.setting.method).label);
   text.phrases.push_back(words(" The paper\u2019s order: " + paper_order + "."));
   return text;
 }
@@ -112,9 +111,8 @@ Paragraph agreement_finding(const SensorStudy& sensor, std::span<const SettingSu
   }
   Paragraph text{{strong(title_of(sensor.sensor.sensor)), words(", beside the paper: ")}};
   if (compared > 0)
-    text.phrases.push_back(
-        words(fmt::format("{} of {} printed MPE lie within our 95 % intervals; ", within,
-                          compared)));
+    text.phrases.push_back(words(
+        fmt::format("{} of {} printed MPE lie within our 95 % intervals; ", within, compared)));
   if (farthest != nullptr)
     text.phrases.push_back(words(fmt::format(
         "the largest difference is {} for {} ({}, printed {}).",
@@ -135,9 +133,8 @@ void add_sensor(const Study& study, const SensorStudy& sensor, BulletList& findi
   }
   findings.items.push_back(best_finding(sensor, *best));
   if (methods.size() > 1) findings.items.push_back(order_finding(sensor, methods));
-  if (has_published(sensor) && std::ranges::any_of(methods, [](const SettingSummary& s) {
-        return s.published && s.mpe_m;
-      }))
+  if (has_published(sensor) &&
+      std::ranges::any_of(methods, [](const SettingSummary& s) { return s.published && s.mpe_m; }))
     findings.items.push_back(agreement_finding(sensor, methods));
   std::string detail = label(best->setting);
   if (best->published) detail += "; paper: " + metres(best->published->mpe_m);
@@ -165,10 +162,9 @@ void add_ends(const Study& study, BulletList& findings, Highlights& highlights) 
   const Ends counts = ends(study);
   const Experiment& experiment = study.experiment;
   const long planned = static_cast<long>(experiment.layouts) * experiment.poses;
-  highlights.items.push_back(
-      {"Runs", fmt::format("{} of {}", study.runs.size(), planned),
-       fmt::format("{}, {} each", count_of(experiment.layouts, "layout"),
-                   count_of(experiment.poses, "initial pose"))});
+  highlights.items.push_back({"Runs", fmt::format("{} of {}", study.runs.size(), planned),
+                              fmt::format("{}, {} each", count_of(experiment.layouts, "layout"),
+                                          count_of(experiment.poses, "initial pose"))});
   highlights.items.push_back({"Maps with a status",
                               fmt::format("{} of {}", counts.with_status, counts.maps),
                               fmt::format("{} without a score", counts.failed)});
@@ -177,9 +173,10 @@ void add_ends(const Study& study, BulletList& findings, Highlights& highlights) 
   const std::string text =
       counts.with_status + counts.failed == 0
           ? fmt::format(": none: every one of {} ended well.", maps)
-          : fmt::format(": of {}, {} without a score and {} with a status, all listed below with "
-                        "the reason.",
-                        maps, counts.failed, counts.with_status);
+          : fmt::format(
+                ": of {}, {} without a score and {} with a status, all listed below with "
+                "the reason.",
+                maps, counts.failed, counts.with_status);
   findings.items.push_back({{strong("Failures"), words(text)}});
 }
 

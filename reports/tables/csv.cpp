@@ -38,9 +38,7 @@ struct Writer {
   bool interval;  ///< The column takes two fields.
 
   std::string one(const std::string& text) const { return interval ? text + "," : text; }
-  std::string operator()(const TextCell& cell) const {
-    return one(field(displayable(cell.text)));
-  }
+  std::string operator()(const TextCell& cell) const { return one(field(displayable(cell.text))); }
   std::string operator()(const NumberCell& cell) const { return one(number(cell.value)); }
   std::string operator()(const IntervalCell& cell) const {
     return number(cell.low) + "," + number(cell.high);

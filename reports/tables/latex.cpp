@@ -12,34 +12,63 @@ namespace {
 
 /// Characters outside ASCII that our own texts use; others go through as UTF-8.
 constexpr std::array<std::pair<std::string_view, std::string_view>, 18> kSymbols = {{
-    {"\u2212", "$-$"},          {"\u2013", "--"},          {"\u2014", "---"},
-    {"\u2018", "`"},            {"\u2019", "'"},           {"\u201C", "``"},
-    {"\u201D", "''"},           {"\u2026", "\\ldots{}"},   {"\u00D7", "$\\times$"},
-    {"\u00B1", "$\\pm$"},       {"\u00B2", "$^2$"},        {"\u00B0", "$^\\circ$"},
-    {"\u03C3", "$\\sigma$"},    {"\u00B5", "$\\mu$"},      {"\u2264", "$\\le$"},
-    {"\u2265", "$\\ge$"},       {"\u00A0", "~"},           {"\u2192", "$\\to$"},
+    {"\u2212", "$-$"},
+    {"\u2013", "--"},
+    {"\u2014", "---"},
+    {"\u2018", "`"},
+    {"\u2019", "'"},
+    {"\u201C", "``"},
+    {"\u201D", "''"},
+    {"\u2026", "\\ldots{}"},
+    {"\u00D7", "$\\times$"},
+    {"\u00B1", "$\\pm$"},
+    {"\u00B2", "$^2$"},
+    {"\u00B0", "$^\\circ$"},
+    {"\u03C3", "$\\sigma$"},
+    {"\u00B5", "$\\mu$"},
+    {"\u2264", "$\\le$"},
+    {"\u2265", "$\\ge$"},
+    {"\u00A0", "~"},
+    {"\u2192", "$\\to$"},
 }};
 
 std::string_view ascii(char c) {
   switch (c) {
-    case '&': return "\\&";
-    case '%': return "\\%";
-    case '$': return "\\$";
-    case '#': return "\\#";
-    case '_': return "\\_";
-    case '{': return "\\{";
-    case '}': return "\\}";
-    case '~': return "\\textasciitilde{}";
-    case '^': return "\\textasciicircum{}";
-    case '\\': return "\\textbackslash{}";
-    case '<': return "\\textless{}";
-    case '>': return "\\textgreater{}";
-    case '|': return "\\textbar{}";
-    case '"': return "{\\char34}";
-    case '[': return "{[}";  // After \\ a bare one would be its optional argument.
+    case '&':
+      return "\\&";
+    case '%':
+      return "\\%";
+    case '$':
+      return "\\$";
+    case '#':
+      return "\\#";
+    case '_':
+      return "\\_";
+    case '{':
+      return "\\{";
+    case '}':
+      return "\\}";
+    case '~':
+      return "\\textasciitilde{}";
+    case '^':
+      return "\\textasciicircum{}";
+    case '\\':
+      return "\\textbackslash{}";
+    case '<':
+      return "\\textless{}";
+    case '>':
+      return "\\textgreater{}";
+    case '|':
+      return "\\textbar{}";
+    case '"':
+      return "{\\char34}";
+    case '[':
+      return "{[}";  // After \\ a bare one would be its optional argument.
     case '\n':
-    case '\t': return " ";
-    default: return {};
+    case '\t':
+      return " ";
+    default:
+      return {};
   }
 }
 
@@ -95,10 +124,11 @@ std::string table_latex(const Table& table) {
     format += holds_text(table, i) ? 'l' : 'r';
     titles += (i > 0 ? " & " : "") + heading(table.columns[i]);
   }
-  std::string text = "\\begin{table}\n  \\centering\n  \\footnotesize\n  \\setlength{\\tabcolsep}{3pt}\n  \\caption{" + escaped(table.caption) +
-                     "}\n  \\label{tab:" + table.id + "}\n  \\begin{tabular}{" + format +
-                     "}\n  \\toprule\n" + group_line(table) + "  " + titles +
-                     " \\\\\n  \\midrule\n";
+  std::string text =
+      "\\begin{table}\n  \\centering\n  \\footnotesize\n  \\setlength{\\tabcolsep}{3pt}\n  "
+      "\\caption{" +
+      escaped(table.caption) + "}\n  \\label{tab:" + table.id + "}\n  \\begin{tabular}{" + format +
+      "}\n  \\toprule\n" + group_line(table) + "  " + titles + " \\\\\n  \\midrule\n";
   for (const Row& row : table.rows) {
     std::string line;
     for (std::size_t i = 0; i < row.cells.size(); ++i) {

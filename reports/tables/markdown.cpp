@@ -11,11 +11,21 @@ std::string escaped(const std::string& text) {
   std::string out;
   for (const char c : displayable(text)) {
     switch (c) {
-      case '&': out += "&amp;"; break;
-      case '<': out += "&lt;"; break;
-      case '>': out += "&gt;"; break;
-      case '\n': out += "<br>"; break;
-      case '\t': out += ' '; break;
+      case '&':
+        out += "&amp;";
+        break;
+      case '<':
+        out += "&lt;";
+        break;
+      case '>':
+        out += "&gt;";
+        break;
+      case '\n':
+        out += "<br>";
+        break;
+      case '\t':
+        out += ' ';
+        break;
       default:
         if (std::string_view("\\`*_{}[]()#+!|~$@:").find(c) != std::string_view::npos) out += '\\';
         out += c;

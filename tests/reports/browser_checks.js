@@ -11,7 +11,8 @@ function checkTexts(page, expected) {
     (element) => Array.from(element.attributes, (attribute) => attribute.value)).flat();
   say("texts", expected.texts.length);
   say("missing-texts", expected.texts.filter((each) => !text.includes(each)).length);
-  say("missing-attributes", expected.attributes.filter((each) => !attributes.includes(each)).length);
+  const missing = expected.attributes.filter((each) => !attributes.includes(each));
+  say("missing-attributes", missing.length);
 }
 
 function checkTraps(page) {

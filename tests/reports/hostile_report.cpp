@@ -25,13 +25,14 @@ class Trap {
 
 Table table(Trap& text, Trap& attribute) {
   Table out{"table", text(), {}, {}, {text()}};
-  out.columns = {{text(), text(), "", attribute()}, {text(), "", text(), attribute()},
-                 {"n", "", "g", ""}};
-  out.rows = {{{TextCell{text()}, TextCell{text(), Emphasis::kCode}, NumberCell{1.0}},
-               attribute(), true},
-              {{TextCell{text() + std::string(10000, 'w')}, TextCell{text(), Emphasis::kData},
-                MissingCell{}},
-               attribute(), false}};
+  out.columns = {
+      {text(), text(), "", attribute()}, {text(), "", text(), attribute()}, {"n", "", "g", ""}};
+  out.rows = {
+      {{TextCell{text()}, TextCell{text(), Emphasis::kCode}, NumberCell{1.0}}, attribute(), true},
+      {{TextCell{text() + std::string(10000, 'w')}, TextCell{text(), Emphasis::kData},
+        MissingCell{}},
+       attribute(),
+       false}};
   return out;
 }
 
@@ -58,8 +59,8 @@ HostileReport hostile_report() {
   section.blocks.emplace_back(table(text, attribute));
   section.blocks.emplace_back(FigureBlock{"figure", text(), text(), text(), {}});
   section.blocks.emplace_back(Gallery{{{"in-gallery", text(), text(), text(), {}}}});
-  section.blocks.emplace_back(KeyValues{{{text(), {text(), Emphasis::kCode}},
-                                         {text(), {text(), Emphasis::kData}}}});
+  section.blocks.emplace_back(
+      KeyValues{{{text(), {text(), Emphasis::kCode}}, {text(), {text(), Emphasis::kData}}}});
   section.blocks.emplace_back(statuses(text));
   out.report = {text(), text(), {section}, text()};
   return out;

@@ -21,10 +21,9 @@ std::string study_page() {
       study_figures(study, [&](const RunId& run) { return test::synthetic_maps(study, run); });
   const auto timings = test::synthetic_timings(study);
   const auto sessions = test::synthetic_sessions();
-  return report_html(study_report({study, sessions, timings, figures, "mapproof run x"}),
-                     load_templates(), [](const std::string& id) {
-                       return "<svg id=\"" + id + "\" viewBox=\"0 0 4 3\"></svg>";
-                     });
+  return report_html(
+      study_report({study, sessions, timings, figures, "mapproof run x"}), load_templates(),
+      [](const std::string& id) { return "<svg id=\"" + id + "\" viewBox=\"0 0 4 3\"></svg>"; });
 }
 
 /// The first group of every match.
@@ -59,7 +58,8 @@ TEST(ReportHtml, NamesItsOwnStyleSheetAndScriptInItsPolicy) {
 TEST(ReportHtml, FetchesNothing) {
   const std::string page = study_page();
   for (const std::string& target : all_matches(page, "(?:src|href|srcset|action)=\"([^\"]*)\""))
-    EXPECT_TRUE(std::regex_match(target, std::regex("#[a-z0-9-]+|data:,|(figures|tables)/[a-z0-9.-]+")))
+    EXPECT_TRUE(
+        std::regex_match(target, std::regex("#[a-z0-9-]+|data:,|(figures|tables)/[a-z0-9.-]+")))
         << target;
   for (const char* word : {"http:", "https:", "//cdn", "@import", "url(", "<iframe", "<object",
                            "<embed", "<base", "fetch(", "XMLHttpRequest"})

@@ -29,8 +29,13 @@ MapRecord triangle() {
 }
 
 Report report_of(const MapRecord& record) {
-  return map_report({record, "Map of x.csv", {{"File", "x.csv"}}, {"line 7: row dropped"},
-                     {"map", "t", "c", "a", {record.id}}, {"0.1.0", "abc", "d", {}}, "mapproof map"});
+  return map_report({record,
+                     "Map of x.csv",
+                     {{"File", "x.csv"}},
+                     {"line 7: row dropped"},
+                     {"map", "t", "c", "a", {record.id}},
+                     {"0.1.0", "abc", "d", {}},
+                     "mapproof map"});
 }
 
 const Table& landmarks(const Report& report) { return *tables(report).back(); }

@@ -127,7 +127,8 @@ TEST(AccuracySection, SaysThatOneLayoutGivesNoInterval) {
 TEST(SummarySection, NamesTheBestMethodOfEachSensorWithItsNumbers) {
   const Section section = summary_section(synthetic_study());
   EXPECT_TRUE(says(section, "SMACOF, kNN weights, K = 6"));
-  EXPECT_TRUE(says(section, "The paper\u2019s order: ISOMAP < SMACOF, kNN weights < ")) << words(section);
+  EXPECT_TRUE(says(section, "The paper\u2019s order: ISOMAP < SMACOF, kNN weights < "))
+      << words(section);
   EXPECT_TRUE(says(section, "8 without a score and 110 with a status")) << words(section);
 }
 

@@ -93,8 +93,8 @@ Study synthetic_study(int layouts, int poses) {
           if (parameters.empty()) parameters.emplace_back();
           for (const auto& parameter : parameters)
             for (const int step : sensor.checkpoints)
-              run.records.push_back(synthetic_record(sensor.sensor.sensor,
-                                                     {grid.method, parameter}, run.id, step));
+              run.records.push_back(
+                  synthetic_record(sensor.sensor.sensor, {grid.method, parameter}, run.id, step));
         }
     }
   return study;

@@ -6,8 +6,8 @@
 
 namespace mapproof::test {
 
-/// A study of `layouts` x `poses` runs without any solver: two sensors, all four methods, and scores
-/// by a formula, so that means and intervals have closed forms:
+/// A study of `layouts` x `poses` runs without any solver: two sensors, all four methods, and
+/// scores by a formula, so that means and intervals have closed forms:
 ///   mpe = base(method, parameter) * (1 + .1 * layout + .01 * pose) * 200 / step^(1/2).
 /// Some records carry statuses; one run of Isomap, K = 4 failed.
 Study synthetic_study(int layouts = 5, int poses = 2);

@@ -12,12 +12,15 @@ namespace mapproof {
 namespace {
 
 Table sample() {
-  Table table{"t", "A & B", {{"Name", "", "", ""}, {"MPE", "m", "", ""}, {"95 %", "m", "G", ""}},
-              {}, {"A note_1."}};
-  table.rows.push_back({{TextCell{"x, \"y\""}, NumberCell{0.1 + 0.2, 2}, IntervalCell{0, 1, 1}},
-                        "", true});
-  table.rows.push_back({{TextCell{"plain"}, NumberCell{std::nan(""), 2}, MissingCell{}}, "",
-                        false});
+  Table table{"t",
+              "A & B",
+              {{"Name", "", "", ""}, {"MPE", "m", "", ""}, {"95 %", "m", "G", ""}},
+              {},
+              {"A note_1."}};
+  table.rows.push_back(
+      {{TextCell{"x, \"y\""}, NumberCell{0.1 + 0.2, 2}, IntervalCell{0, 1, 1}}, "", true});
+  table.rows.push_back(
+      {{TextCell{"plain"}, NumberCell{std::nan(""), 2}, MissingCell{}}, "", false});
   return table;
 }
 

@@ -28,9 +28,9 @@ void write_demo(const std::filesystem::path& folder) {
   const Report report = study_report(
       {study, sessions, timings, figures, "mapproof run yairi2007 --out out --seed 2007"});
   write_tables(report, folder / "tables");
-  write_file(folder / "report.html",
-             report_html(report, load_templates(),
-                         [&](const std::string& id) { return drawings[id]; }));
+  write_file(
+      folder / "report.html",
+      report_html(report, load_templates(), [&](const std::string& id) { return drawings[id]; }));
 }
 
 }  // namespace

@@ -15,7 +15,7 @@ namespace {
 TEST(StudentT, HasTheTabulatedQuantiles) {
   // Two-sided 95 % points as printed in any table of the distribution.
   const std::vector<std::pair<double, double>> table = {
-      {1, 12.7062047364}, {2, 4.30265272991}, {3, 3.18244630528}, {4, 2.77644510520},
+      {1, 12.7062047364}, {2, 4.30265272991},  {3, 3.18244630528},  {4, 2.77644510520},
       {9, 2.26215716274}, {30, 2.04227245630}, {100, 1.98397151845}};
   for (const auto& [freedom, t] : table)
     EXPECT_NEAR(student_t_quantile(0.975, freedom), t, 1e-10 * t) << freedom;
