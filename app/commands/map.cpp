@@ -12,7 +12,7 @@
 #include "core/records/map_files.hpp"
 #include "core/records/study_store.hpp"
 #include "render/figures/map.hpp"
-#include "render/figures/write_figure.hpp"
+#include "render/output/write_figure.hpp"
 #include "reports/html/report_html.hpp"
 #include "reports/model/format.hpp"
 #include "reports/sections/map_report.hpp"

@@ -10,6 +10,6 @@ inline constexpr int kMostSteps = 1'000'000;
 inline constexpr double kMostEntries = 2e8;  ///< Of an observation history.
 inline constexpr double kFarthest_m = 1e9;   ///< Coordinates.
 inline constexpr double kLongestRange_m = 1e6;
-inline constexpr std::size_t kLongestName = 10'000;
+inline constexpr std::size_t kLongestName = 65'536;
 
 }  // namespace mapproof

@@ -26,9 +26,6 @@ MeanEstimate clustered_mean(std::span<const double> values, std::span<const int>
 /// @throws InvalidInput if there is no value.
 double median(std::span<const double> values);
 
-/// Regularised incomplete beta function I_x(a, b), a, b > 0, x in [0, 1]; about 1e-13.
-double incomplete_beta(double a, double b, double x);
-
 /// The x below which Student's t with `freedom` degrees lies with `probability`.
 /// @throws InvalidInput unless 0 < probability < 1 and freedom > 0.
 double student_t_quantile(double probability, double freedom);

@@ -10,7 +10,7 @@
 #include "core/base/errors.hpp"
 #include "core/base/files.hpp"
 #include "render/figures/map.hpp"
-#include "render/figures/write_figure.hpp"
+#include "render/output/write_figure.hpp"
 #include "render/plot/figure_json.hpp"
 #include "render/plot/layout.hpp"
 #include "tests/support/png_reader.hpp"

@@ -4,7 +4,7 @@
 #include <fmt/format.h>
 
 #include "core/base/files.hpp"
-#include "render/figures/write_figure.hpp"
+#include "render/output/write_figure.hpp"
 #include "tests/support/sample_figures.hpp"
 
 /// Draws every sample figure into a folder, in every theme, for people to look at.

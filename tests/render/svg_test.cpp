@@ -5,7 +5,7 @@
 #include <gtest/gtest.h>
 
 #include "render/figures/map.hpp"
-#include "render/figures/write_figure.hpp"
+#include "render/output/write_figure.hpp"
 #include "render/svg/xml_text.hpp"
 #include "tests/support/sample_figures.hpp"
 #include "tests/support/xml.hpp"

@@ -91,11 +91,12 @@ TEST(Mrclam, NamesTheLineThatIsWrong) {
             "line 2: landmark \"6\" is already on line 1");
 }
 
-/// Facts of the real set 2 or 3, where the variable says that it can be had.
+/// Facts of a real set, where the variable says that it can be had.
 TEST(MrclamData, HoldsFifteenLandmarksSeenInSomeTwentyThousandLooks) {
   const char* folder = std::getenv("MAPPROOF_MRCLAM");
-  if (folder == nullptr) GTEST_SKIP() << "MAPPROOF_MRCLAM names no folder of an MRCLAM data set";
-  const ObservationSource source = read_observations(folder, Sensor::kVisibility);
+  if (folder == nullptr) GTEST_SKIP() << "MAPPROOF_MRCLAM does not name the folder of the sets";
+  const ObservationSource source =
+      read_observations(std::filesystem::path(folder) / "dataset2", Sensor::kVisibility);
   EXPECT_EQ(source.history.landmarks(), 15);
   EXPECT_EQ(source.history.names.front(), "6");
   EXPECT_EQ(source.history.names.back(), "20");

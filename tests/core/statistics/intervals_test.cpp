@@ -46,14 +46,6 @@ TEST(StudentT, RefusesWhatIsNoProbability) {
   EXPECT_THROW(student_t_quantile(0.5, 0), InvalidInput);
 }
 
-TEST(IncompleteBeta, IsAPolynomialForWholeParameters) {
-  for (const double x : {0.0, 0.1, 0.5, 0.9, 1.0}) {
-    EXPECT_NEAR(incomplete_beta(1, 1, x), x, 1e-14);
-    EXPECT_NEAR(incomplete_beta(2, 2, x), x * x * (3 - 2 * x), 1e-14);
-    EXPECT_NEAR(incomplete_beta(3, 1, x), x * x * x, 1e-14);
-  }
-}
-
 TEST(ClusteredMean, IsTheTIntervalOfTheClusterMeansWhereClustersAreEqual) {
   const std::vector<double> values = {1, 3, 2, 6, 5, 7};  // cluster means 2, 4, 6
   const std::vector<int> clusters = {1, 1, 2, 2, 3, 3};

@@ -1,4 +1,4 @@
-#include "render/figures/write_figure.hpp"
+#include "render/output/write_figure.hpp"
 
 #include "core/base/files.hpp"
 #include "render/cairo/cairo_backend.hpp"
