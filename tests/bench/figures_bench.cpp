@@ -11,7 +11,7 @@
 #include "core/base/files.hpp"
 #include "render/figures/error_curve.hpp"
 #include "render/figures/map.hpp"
-#include "render/figures/write_figure.hpp"
+#include "render/output/write_figure.hpp"
 #include "tests/support/sample_figures.hpp"
 
 namespace {

@@ -5,7 +5,7 @@
 #include <map>
 
 #include "core/base/files.hpp"
-#include "render/figures/write_figure.hpp"
+#include "render/output/write_figure.hpp"
 #include "reports/html/report_html.hpp"
 #include "reports/sections/study_report.hpp"
 #include "reports/tables/write_tables.hpp"
