@@ -23,6 +23,20 @@ Affine weighted_least_squares(const Points& from, const Points& to,
   return affine;
 }
 
+/// Through four points the residuals of any affine map are one vector shared out by the points'
+/// affine dependency c (sum c_i = 0, sum c_i from_i = 0): the least sum puts all of it on the point
+/// of the largest |c_i| and meets the other three.
+Affine through_three_of_four(const Points& from, const Points& to) {
+  Eigen::Matrix<double, 4, 3> rows;
+  rows << from.rowwise() - from.colwise().mean(), Eigen::Vector4d::Ones();
+  const Eigen::Matrix4d Q = rows.fullPivHouseholderQr().matrixQ();
+  Eigen::Index left_out = 0;
+  Q.col(3).cwiseAbs().maxCoeff(&left_out);
+  Eigen::VectorXd weights = Eigen::VectorXd::Ones(4);
+  weights(left_out) = 0.0;
+  return weighted_least_squares(from, to, weights);
+}
+
 double sum_of_distances(const Affine& affine, const Points& from, const Points& to) {
   return (affine(from) - to).rowwise().norm().sum();
 }
@@ -46,12 +60,15 @@ Affine fit_affine(const Points& from, const Points& to, AffineFit fit) {
   Affine best = weighted_least_squares(from, to, Eigen::VectorXd::Ones(n));
   if (fit == AffineFit::kLeastSquares || n == 3) return best;
 
+  if (n == 4) return through_three_of_four(from, to);
+
   // Each weight is the inverse of the last residual, floored ever lower: the floor keeps the
   // weights of points that are met exactly finite.
   const double spread = (to.rowwise() - to.colwise().mean()).rowwise().norm().maxCoeff();
   double lowest = sum_of_distances(best, from, to);
   Affine current = best;
   for (double floor = 1e-1 * spread; floor > 1e-9 * spread; floor *= 0.5) {
+    const double before = lowest;
     for (int repeat = 0; repeat < 4; ++repeat) {
       const Eigen::ArrayXd residuals = (current(from) - to).rowwise().norm().array();
       current = weighted_least_squares(from, to, (residuals.square() + floor * floor).rsqrt());
@@ -61,6 +78,7 @@ Affine fit_affine(const Points& from, const Points& to, AffineFit fit) {
       lowest = sum;
       best = current;
     }
+    if (floor < 1e-3 * spread && lowest > before * (1.0 - 1e-13)) break;
   }
   return best;
 }

@@ -7,7 +7,7 @@
 
 namespace mapproof {
 
-/// One map: truth as open circles, estimates as dots, joined by lines; anchors as triangles; the
+/// One map: truth as open circles, estimates as dots, joined by lines; anchors as squares; the
 /// worst landmarks labelled. Estimates far outside the room become arrows at the frame, and the
 /// figure says so. Statuses are drawn below the title.
 ///

@@ -29,6 +29,13 @@ class Arranger {
       : layout_(layout), legend_(legend), panel_(panel), theme_(theme) {}
 
   Arrangement arrange(const Box& room) const {
+    Arrangement found = choose(room);
+    if (panel_.equal_aspect) centre(found, room);
+    return found;
+  }
+
+ private:
+  Arrangement choose(const Box& room) const {
     Arrangement inside{layout_.within(room), std::nullopt, 1};
     if (legend_.empty()) return inside;
     const Arrangement right = beside(room);
@@ -42,7 +49,18 @@ class Arranger {
     return area(right) >= area(under) ? right : under;
   }
 
- private:
+  /// Shares out the width that equal scales leave free on both sides.
+  void centre(Arrangement& found, const Box& room) const {
+    Box& frame = found.axes.frame;
+    double end = frame.x1;
+    if (found.legend_at)
+      end = std::max(end, found.legend_at->x + legend_.size(found.legend_columns).x);
+    const double shift = std::max(0.0, (room.x1 - end) / 2.0);
+    frame.x0 += shift;
+    frame.x1 += shift;
+    if (found.legend_at) found.legend_at->x += shift;
+  }
+
   static double area(const Arrangement& arrangement) {
     const Box& frame = arrangement.axes.frame;
     return std::max(frame.width(), 0.0) * std::max(frame.height(), 0.0);

@@ -6,6 +6,7 @@
 
 #include "core/align/affine.hpp"
 #include "core/base/errors.hpp"
+#include "core/base/random.hpp"
 #include "core/score/map_score.hpp"
 #include "core/score/orientation_error.hpp"
 #include "tests/support/worlds.hpp"
@@ -55,9 +56,26 @@ TEST(FitAffine, LeastDistancesThroughFourPointsMeetsThree) {
   const double least = (n.transpose() * to).norm() / n.cwiseAbs().maxCoeff();
   const Affine found = fit_affine(from, to, AffineFit::kLeastDistances);
   const Eigen::VectorXd residuals = (found(from) - to).rowwise().norm();
-  EXPECT_NEAR(residuals.sum(), least, 1e-6 * least);
+  EXPECT_NEAR(residuals.sum(), least, 1e-12 * least);
   EXPECT_GT((fit_affine(from, to, AffineFit::kLeastSquares)(from) - to).rowwise().norm().sum(),
             least * (1.0 + 1e-6));
+}
+
+TEST(FitAffine, LeastDistancesCannotBeBetteredByASmallChange) {
+  Random random(11);
+  for (const Eigen::Index n : {4, 5, 8, 50}) {
+    const Points from = scattered(n, 20 + static_cast<std::uint64_t>(n));
+    const Points to = scattered(n, 30 + static_cast<std::uint64_t>(n));
+    const auto sum = [&](const Affine& map) { return (map(from) - to).rowwise().norm().sum(); };
+    const Affine best = fit_affine(from, to, AffineFit::kLeastDistances);
+    for (int trial = 0; trial < 2000; ++trial) {
+      const double size = std::pow(10.0, -1.0 - 4.0 * random.uniform());
+      Affine other = best;
+      for (double& entry : other.linear.reshaped()) entry += size * random.normal();
+      for (double& entry : other.offset) entry += size * random.normal();
+      EXPECT_GE(sum(other), sum(best) * (1.0 - 1e-6)) << n;
+    }
+  }
 }
 
 TEST(FitAffine, LeastDistancesShrugsOffOneWrongAnchor) {
