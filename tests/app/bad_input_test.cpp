@@ -26,6 +26,8 @@ struct BadMap {
   std::string message;
 };
 
+std::ostream& operator<<(std::ostream& out, const BadMap& bad) { return out << bad.name; }
+
 class BadMapInput : public ::testing::TestWithParam<BadMap> {};
 
 TEST_P(BadMapInput, IsOneClearLineWithItsPlaceAndNothingWritten) {
@@ -124,6 +126,8 @@ struct BadExperiment {
   std::string to;
   std::string message;
 };
+
+std::ostream& operator<<(std::ostream& out, const BadExperiment& bad) { return out << bad.name; }
 
 class BadExperimentFile : public ::testing::TestWithParam<BadExperiment> {};
 

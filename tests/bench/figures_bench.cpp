@@ -24,14 +24,14 @@ constexpr int kFigures = 100;
 /// What the other programs are to draw as well: one line a number, plain for any reader.
 void write_inputs(const fs::path& folder) {
   for (int i = 0; i < kFigures; ++i) {
-    const MapRecord map = testing::sample_map(50, 0.12, static_cast<std::uint64_t>(i) + 1);
+    const MapRecord map = test::sample_map(50, 0.12, static_cast<std::uint64_t>(i) + 1);
     std::string text;
     for (Eigen::Index row = 0; row < map.estimate.rows(); ++row)
       text += fmt::format("{} {} {} {} {}\n", map.names[row], (*map.truth_m)(row, 0),
                           (*map.truth_m)(row, 1), map.estimate(row, 0), map.estimate(row, 1));
     write_file(folder / fmt::format("map-{}.txt", i), text);
     text.clear();
-    for (const Curve& curve : testing::sample_curves(4, static_cast<std::uint64_t>(i) + 1).curves) {
+    for (const Curve& curve : test::sample_curves(4, static_cast<std::uint64_t>(i) + 1).curves) {
       for (std::size_t k = 0; k < curve.steps.size(); ++k)
         text += fmt::format("{} {} {} {}\n", curve.steps[k], curve.mean[k], curve.low[k],
                             curve.high[k]);
@@ -81,8 +81,8 @@ int main(int argc, char** argv) {
   std::vector<MapRecord> maps;
   std::vector<ErrorCurveSpec> curves;
   for (int i = 0; i < kFigures; ++i) {
-    maps.push_back(testing::sample_map(50, 0.12, static_cast<std::uint64_t>(i) + 1));
-    curves.push_back(testing::sample_curves(4, static_cast<std::uint64_t>(i) + 1));
+    maps.push_back(test::sample_map(50, 0.12, static_cast<std::uint64_t>(i) + 1));
+    curves.push_back(test::sample_curves(4, static_cast<std::uint64_t>(i) + 1));
   }
   const Theme theme = report_theme();
   const std::vector<std::tuple<std::string, std::string, std::function<std::string(int)>>> jobs = {

@@ -15,8 +15,9 @@
 #include "render/plot/layout.hpp"
 #include "tests/support/png_reader.hpp"
 #include "tests/support/sample_figures.hpp"
+#include "tests/support/temporary_folder.hpp"
 
-namespace mapproof::testing {
+namespace mapproof::test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -26,12 +27,6 @@ Figure usual_map() { return map_figure(sample_map(50, 0.12, 1), "map-usual"); }
 /// A folder that is gone with the test.
 class Backends : public ::testing::Test {
  protected:
-  Backends() {
-    std::string pattern = (fs::temp_directory_path() / "mapproof-XXXXXX").string();
-    folder_ = ::mkdtemp(pattern.data());
-  }
-  ~Backends() override { fs::remove_all(folder_); }
-
   /// What a program prints; empty if it is not there.
   std::string output_of(const std::string& command) {
     const std::string file = (folder_ / "output.txt").string();
@@ -39,7 +34,7 @@ class Backends : public ::testing::Test {
     return read_file(file);
   }
 
-  fs::path folder_;
+  TemporaryFolder folder_;
 };
 
 TEST_F(Backends, PngIsReadByLibpngWithItsTextsAndDensity) {
@@ -124,9 +119,9 @@ TEST_F(Backends, AnIdThatIsAPathNeverReachesTheDisk) {
   for (const std::string id : {"../up", "a/b", "", "A", "a b", "-a", "a\n", "..", "a."}) {
     Figure figure = usual_map();
     figure.id = id;
-    EXPECT_THROW(write_figure(figure, report_theme(), folder_), InvalidInput) << id;
+    EXPECT_THROW(write_figure(figure, report_theme(), folder_.path()), InvalidInput) << id;
   }
-  EXPECT_TRUE(fs::is_empty(folder_));
+  EXPECT_TRUE(fs::is_empty(folder_.path()));
 }
 
 TEST_F(Backends, AFileInTheFoldersPlaceIsAnError) {
@@ -141,4 +136,4 @@ TEST_F(Backends, ThePictureOfAHugePageIsRefused) {
 }
 
 }  // namespace
-}  // namespace mapproof::testing
+}  // namespace mapproof::test

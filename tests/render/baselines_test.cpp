@@ -8,7 +8,7 @@
 #include "render/plot/layout.hpp"
 #include "tests/support/sample_figures.hpp"
 
-namespace mapproof::testing {
+namespace mapproof::test {
 namespace {
 
 class Baseline : public ::testing::TestWithParam<Figure> {};
@@ -47,4 +47,4 @@ TEST(Baselines, AMissingOneIsAFailureThatLeavesACandidate) {
 }
 
 }  // namespace
-}  // namespace mapproof::testing
+}  // namespace mapproof::test

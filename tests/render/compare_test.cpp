@@ -13,7 +13,7 @@
 #include "tests/support/png_reader.hpp"
 #include "tests/support/sample_figures.hpp"
 
-namespace mapproof::testing {
+namespace mapproof::test {
 namespace {
 
 Figure usual_map() { return map_figure(sample_map(20, 0.15, 2), "map"); }
@@ -148,4 +148,4 @@ TEST(PngEncoder, RefusesAnImageWithoutItsPixels) {
 }
 
 }  // namespace
-}  // namespace mapproof::testing
+}  // namespace mapproof::test

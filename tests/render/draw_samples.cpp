@@ -14,7 +14,7 @@ int main(int argc, char** argv) {
     std::fputs("usage: draw_samples FOLDER\n", stderr);
     return 2;
   }
-  for (const Figure& figure : testing::sample_figures())
+  for (const Figure& figure : test::sample_figures())
     for (const auto& [folder, theme] : {std::pair{"report", report_theme()},
                                         {"single", paper_theme(3.25)},
                                         {"double", paper_theme(6.75)}})

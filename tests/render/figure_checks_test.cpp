@@ -6,7 +6,7 @@
 #include "render/plot/panel_layout.hpp"
 #include "tests/support/sample_figures.hpp"
 
-namespace mapproof::testing {
+namespace mapproof::test {
 namespace {
 
 std::string joined(const std::vector<std::string>& lines) {
@@ -128,4 +128,4 @@ TEST_F(FigureChecks, FindAMarkerOutsideThePage) {
 }
 
 }  // namespace
-}  // namespace mapproof::testing
+}  // namespace mapproof::test

@@ -10,7 +10,7 @@
 #include "render/plot/figure_json.hpp"
 #include "tests/support/sample_figures.hpp"
 
-namespace mapproof::testing {
+namespace mapproof::test {
 namespace {
 
 using nlohmann::json;
@@ -59,4 +59,4 @@ TEST_F(FigureSchema, RefusesWhatTheReaderRefuses) {
 }
 
 }  // namespace
-}  // namespace mapproof::testing
+}  // namespace mapproof::test

@@ -9,7 +9,7 @@
 #include "render/plot/figure_json.hpp"
 #include "tests/support/sample_figures.hpp"
 
-namespace mapproof::testing {
+namespace mapproof::test {
 namespace {
 
 Figure small() {
@@ -125,4 +125,4 @@ TEST(FigureJson, NamesThePlaceOfWhatItCannotRead) {
 }
 
 }  // namespace
-}  // namespace mapproof::testing
+}  // namespace mapproof::test

@@ -9,7 +9,7 @@
 #include "render/figures/words.hpp"
 #include "tests/support/sample_figures.hpp"
 
-namespace mapproof::testing {
+namespace mapproof::test {
 namespace {
 
 /// The layer of a type and label; fails the test if it is not there.
@@ -186,4 +186,4 @@ TEST(Words, NumbersAreReadable) {
 }
 
 }  // namespace
-}  // namespace mapproof::testing
+}  // namespace mapproof::test

@@ -10,7 +10,7 @@
 #include "tests/support/figure_checks.hpp"
 #include "tests/support/sample_figures.hpp"
 
-namespace mapproof::testing {
+namespace mapproof::test {
 namespace {
 
 Figure with_panels(std::size_t count) {
@@ -156,4 +156,4 @@ TEST(Layout, RefusesAFigureThatCannotBeDrawn) {
 }
 
 }  // namespace
-}  // namespace mapproof::testing
+}  // namespace mapproof::test

@@ -10,7 +10,7 @@
 #include "tests/support/sample_figures.hpp"
 #include "tests/support/xml.hpp"
 
-namespace mapproof::testing {
+namespace mapproof::test {
 namespace {
 
 std::string xml(std::string_view text) {
@@ -136,4 +136,4 @@ TEST(Svg, HoldsNoDateHostOrCounter) {
 }
 
 }  // namespace
-}  // namespace mapproof::testing
+}  // namespace mapproof::test

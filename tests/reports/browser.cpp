@@ -1,7 +1,5 @@
 #include "tests/reports/browser.hpp"
 
-#include <stdlib.h>
-
 #include <array>
 #include <cstdio>
 #include <memory>
@@ -9,31 +7,12 @@
 #include <fmt/format.h>
 
 #include "core/base/files.hpp"
+#include "tests/support/temporary_folder.hpp"
 
 namespace mapproof::test {
 namespace {
 
 namespace fs = std::filesystem;
-
-/// A new folder that is removed again, whatever happens.
-class TemporaryFolder {
- public:
-  TemporaryFolder() {
-    std::string pattern = (fs::temp_directory_path() / "mapproof-browser-XXXXXX").string();
-    if (::mkdtemp(pattern.data()) != nullptr) path_ = pattern;
-  }
-  ~TemporaryFolder() {
-    std::error_code ignored;
-    if (!path_.empty()) fs::remove_all(path_, ignored);
-  }
-  TemporaryFolder(const TemporaryFolder&) = delete;
-  TemporaryFolder& operator=(const TemporaryFolder&) = delete;
-
-  const fs::path& path() const { return path_; }
-
- private:
-  fs::path path_;
-};
 
 std::string output_of(const std::string& command) {
   const std::unique_ptr<FILE, int (*)(FILE*)> pipe(::popen(command.c_str(), "r"), ::pclose);

@@ -9,7 +9,7 @@
 #include "render/image/png.hpp"
 #include "tests/support/png_reader.hpp"
 
-namespace mapproof::testing {
+namespace mapproof::test {
 
 namespace fs = std::filesystem;
 
@@ -46,4 +46,4 @@ std::string difference_from_baseline(const std::string& name, const Image& image
   return difference + "; the candidate is " + candidate.string();
 }
 
-}  // namespace mapproof::testing
+}  // namespace mapproof::test

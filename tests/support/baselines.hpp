@@ -5,7 +5,7 @@
 #include "render/image/image.hpp"
 #include "render/theme/theme.hpp"
 
-namespace mapproof::testing {
+namespace mapproof::test {
 
 /// A small page: 480 x 360 pixels.
 Theme baseline_theme();
@@ -15,4 +15,4 @@ Theme baseline_theme();
 /// @return Empty if the picture is as it was, else what differs.
 std::string difference_from_baseline(const std::string& name, const Image& image);
 
-}  // namespace mapproof::testing
+}  // namespace mapproof::test

@@ -7,7 +7,7 @@
 
 #include "render/cairo/cairo_backend.hpp"
 
-namespace mapproof::testing {
+namespace mapproof::test {
 namespace {
 
 constexpr double kPixelsPerPoint = 2.0;
@@ -146,4 +146,4 @@ class Inspector {
 
 std::vector<std::string> flaws(const Drawing& drawing) { return Inspector(drawing).inspect(); }
 
-}  // namespace mapproof::testing
+}  // namespace mapproof::test

@@ -5,7 +5,7 @@
 
 #include "render/plot/drawing.hpp"
 
-namespace mapproof::testing {
+namespace mapproof::test {
 
 /// Everything that a reader would hold against the drawing, a line each; empty if it is clean.
 /// Looks at pixels and ink, not at what the layout believes: text or legend on data, text on text,
@@ -13,4 +13,4 @@ namespace mapproof::testing {
 /// glyphs that the font lacks, a frame too small to read.
 std::vector<std::string> flaws(const Drawing& drawing);
 
-}  // namespace mapproof::testing
+}  // namespace mapproof::test

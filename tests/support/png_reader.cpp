@@ -5,7 +5,7 @@
 
 #include <png.h>
 
-namespace mapproof::testing {
+namespace mapproof::test {
 namespace {
 
 void take(png_structp png, png_bytep out, std::size_t count) {
@@ -52,4 +52,4 @@ PngFile read_png(std::string_view bytes) {
   return file;
 }
 
-}  // namespace mapproof::testing
+}  // namespace mapproof::test

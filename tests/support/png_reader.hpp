@@ -6,7 +6,7 @@
 
 #include "render/image/image.hpp"
 
-namespace mapproof::testing {
+namespace mapproof::test {
 
 /// What libpng finds in a PNG file.
 struct PngFile {
@@ -19,4 +19,4 @@ struct PngFile {
 /// @throws std::runtime_error with libpng's words.
 PngFile read_png(std::string_view bytes);
 
-}  // namespace mapproof::testing
+}  // namespace mapproof::test

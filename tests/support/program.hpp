@@ -6,6 +6,8 @@
 #include <string>
 #include <vector>
 
+#include "tests/support/temporary_folder.hpp"
+
 namespace mapproof::test {
 
 /// How a run of the program ended.
@@ -26,24 +28,6 @@ Outcome mapproof(const std::vector<std::string>& arguments, const Limits& limits
 
 /// Starts mapproof and lets it run, its output thrown away; to be killed and waited for.
 pid_t start_mapproof(const std::vector<std::string>& arguments);
-
-/// A new empty folder, gone with the object.
-class TemporaryFolder {
- public:
-  TemporaryFolder();
-  ~TemporaryFolder();
-  TemporaryFolder(const TemporaryFolder&) = delete;
-  TemporaryFolder& operator=(const TemporaryFolder&) = delete;
-
-  std::filesystem::path operator/(const std::string& name) const { return path_ / name; }
-  const std::filesystem::path& path() const { return path_; }
-
-  /// Writes a file into the folder and returns its path.
-  std::string file(const std::string& name, const std::string& text) const;
-
- private:
-  std::filesystem::path path_;
-};
 
 /// Every file below a folder: its relative path and its bytes, sorted.
 std::vector<std::pair<std::string, std::string>> contents(const std::filesystem::path& folder);

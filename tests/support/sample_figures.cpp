@@ -8,7 +8,7 @@
 #include "core/base/random.hpp"
 #include "render/figures/map.hpp"
 
-namespace mapproof::testing {
+namespace mapproof::test {
 namespace {
 
 constexpr double kRoom_m = 2.5;
@@ -212,4 +212,4 @@ std::vector<Figure> sample_figures() {
   return figures;
 }
 
-}  // namespace mapproof::testing
+}  // namespace mapproof::test

@@ -15,7 +15,7 @@ inline void PrintTo(const Figure& figure, std::ostream* out) { *out << figure.id
 
 }  // namespace mapproof
 
-namespace mapproof::testing {
+namespace mapproof::test {
 
 /// A map of `landmarks` in a 2.5 m room: errors are normal with `error_m`, all from `seed`.
 MapRecord sample_map(int landmarks, double error_m, std::uint64_t seed);
@@ -29,4 +29,4 @@ std::vector<std::string> hostile_names();
 /// Every kind of figure, with tame data and with data that is hard to draw. Ids tell which.
 std::vector<Figure> sample_figures();
 
-}  // namespace mapproof::testing
+}  // namespace mapproof::test

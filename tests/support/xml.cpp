@@ -5,7 +5,7 @@
 
 #include <expat.h>
 
-namespace mapproof::testing {
+namespace mapproof::test {
 namespace {
 
 struct State {
@@ -43,4 +43,4 @@ std::vector<XmlElement> parse_xml(std::string_view xml) {
   return std::move(state.elements);
 }
 
-}  // namespace mapproof::testing
+}  // namespace mapproof::test

@@ -5,7 +5,7 @@
 #include <string_view>
 #include <vector>
 
-namespace mapproof::testing {
+namespace mapproof::test {
 
 struct XmlElement {
   std::string name;
@@ -16,4 +16,4 @@ struct XmlElement {
 /// All elements in the order of their start tags. @throws std::runtime_error if `xml` is malformed.
 std::vector<XmlElement> parse_xml(std::string_view xml);
 
-}  // namespace mapproof::testing
+}  // namespace mapproof::test

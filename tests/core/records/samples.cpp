@@ -1,7 +1,5 @@
 #include "tests/core/records/samples.hpp"
 
-#include <unistd.h>
-
 #include <algorithm>
 #include <limits>
 #include <vector>
@@ -13,22 +11,6 @@
 namespace mapproof::test {
 
 namespace fs = std::filesystem;
-
-TemporaryFolder::TemporaryFolder() {
-  std::string pattern = (fs::temp_directory_path() / "mapproof-test-XXXXXX").string();
-  if (::mkdtemp(pattern.data()) == nullptr) throw IoError(pattern, "cannot be made");
-  path_ = pattern;
-}
-
-TemporaryFolder::~TemporaryFolder() {
-  std::error_code ignored;
-  fs::remove_all(path_, ignored);
-}
-
-fs::path TemporaryFolder::file(std::string_view name, std::string_view bytes) const {
-  write_file(path_ / name, bytes);
-  return path_ / name;
-}
 
 fs::path data_file(std::string_view name) { return fs::path(MAPPROOF_TEST_DATA) / name; }
 

@@ -6,25 +6,9 @@
 #include <string_view>
 
 #include "core/records/study_store.hpp"
+#include "tests/support/temporary_folder.hpp"
 
 namespace mapproof::test {
-
-/// A folder of its own that goes with the test.
-class TemporaryFolder {
- public:
-  TemporaryFolder();
-  ~TemporaryFolder();
-  TemporaryFolder(const TemporaryFolder&) = delete;
-  TemporaryFolder& operator=(const TemporaryFolder&) = delete;
-
-  std::filesystem::path operator/(std::string_view name) const { return path_ / name; }
-  const std::filesystem::path& path() const { return path_; }
-  /// Writes a file into it and gives its path.
-  std::filesystem::path file(std::string_view name, std::string_view bytes) const;
-
- private:
-  std::filesystem::path path_;
-};
 
 /// A file below tests/data.
 std::filesystem::path data_file(std::string_view name);
