@@ -22,7 +22,6 @@ class Console {
  public:
   Console(Verbosity verbosity, bool json);
 
-  bool json() const { return json_; }
   bool shows_progress() const { return verbosity_ != Verbosity::kQuiet; }
 
   /// What was done; not with --quiet.

@@ -21,7 +21,8 @@ ExperimentText experiment_text(const std::string& name,
     if (std::filesystem::path(resource.name).stem() != name) continue;
     if (templates) {
       const std::filesystem::path own = *templates / "experiments" / resource.name;
-      if (std::filesystem::exists(own)) return {read_file(own), own.string()};
+      std::error_code error;
+      if (std::filesystem::exists(own, error)) return {read_file(own), own.string()};
     }
     return {std::string(resource.bytes), fmt::format("embedded {}", resource.name)};
   }

@@ -16,6 +16,7 @@
 namespace mapproof {
 namespace {
 
+constexpr double kFlat = 1e-6;  ///< Anchors flatter than this do not span the plane.
 constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
 
 std::string quoted(const std::string& name) { return "\"" + printable(name) + "\""; }
@@ -96,7 +97,7 @@ std::vector<Eigen::Index> matched_anchors(const ObservationSource& source,
     throw IoError(anchors.path,
                   fmt::format("{} observed anchor{}; an affine map to the anchors needs 3 or more",
                               chosen.size(), chosen.size() == 1 ? "" : "s"));
-  if (planarity(positions(chosen, Eigen::all)) <= 1e-6)
+  if (planarity(positions(chosen, Eigen::all)) <= kFlat)
     throw IoError(
         anchors.path,
         fmt::format("its {} anchors lie on one line; they must span the plane", chosen.size()));
@@ -122,6 +123,68 @@ std::optional<Score> anchor_free_score(const Points& coordinates, const Points& 
   std::optional<Score> score = score_map(coordinates, truth_m, {}, fit);
   if (score) score->mpe_m = score->moe_percent = kUnknown;
   return score;
+}
+
+/// The anchors of a source that brings its truth, chosen among the landmarks that were observed;
+/// none, with a remark, if they lie on one line.
+std::vector<Eigen::Index> own_anchors(const ObservationSource& source, Eigen::Index steps,
+                                      Points positions_m, std::vector<std::string>& remarks) {
+  for (const Eigen::Index row : unseen_landmarks(source.history, steps))
+    positions_m.row(row).setConstant(kUnknown);
+  std::vector<Eigen::Index> anchors = diagonal_anchors(positions_m);
+  if (planarity(positions_m(anchors, Eigen::all)) > kFlat) return anchors;
+  remarks.emplace_back("The observed landmarks lie on one line: none of them can be an anchor.");
+  return {};
+}
+
+/// What is known of the landmarks' true positions.
+struct Reference {
+  Points positions_m;                 ///< M x 2; NaN rows: unknown.
+  bool has_truth = false;             ///< More than the anchors is known: errors can be told.
+  std::vector<Eigen::Index> anchors;  ///< Ascending; empty: the map stays a shape.
+};
+
+Reference reference_of(const ObservationSource& source,
+                       const std::optional<NamedPointsFile>& anchors,
+                       const std::optional<NamedPointsFile>& truth, Eigen::Index steps,
+                       std::vector<std::string>& remarks) {
+  Reference known{.positions_m = Points::Constant(source.history.landmarks(), 2, kUnknown),
+                  .has_truth = truth.has_value() || source.truth_m.has_value(),
+                  .anchors = {}};
+  if (truth) {
+    known.positions_m = matched_truth(source, *truth, remarks);
+  } else if (source.truth_m) {
+    known.positions_m = *source.truth_m;
+  }
+  if (anchors) {
+    known.anchors = matched_anchors(source, *anchors, steps, known.positions_m);
+  } else if (source.truth_m) {
+    known.anchors = own_anchors(source, steps, known.positions_m, remarks);
+  }
+  return known;
+}
+
+/// Brings the coordinates into the frame of the anchors, if there are any that serve, and judges
+/// them by the truth, if there is one.
+void align_and_score(MapRecord& record, const Points& coordinates, const Reference& reference,
+                     AffineFit fit) {
+  record.frame = Frame::kSimilarity;
+  record.estimate = coordinates;
+  record.anchors = reference.anchors;
+  if (reference.has_truth || !reference.anchors.empty()) record.truth_m = reference.positions_m;
+  if (!reference.anchors.empty()) {
+    AlignedMap aligned =
+        align_to_anchors(coordinates, reference.positions_m, reference.anchors, fit);
+    record.statuses.insert(record.statuses.end(), aligned.statuses.begin(), aligned.statuses.end());
+    if (aligned.aligned) {
+      record.frame = Frame::kTruth;
+      record.estimate = std::move(aligned.positions_m);
+    }
+  }
+  if (!reference.has_truth) return;
+  record.score = record.frame == Frame::kTruth
+                     ? score_map(record.estimate, reference.positions_m, reference.anchors, fit)
+                     : anchor_free_score(record.estimate, reference.positions_m, fit);
 }
 
 }  // namespace
@@ -157,49 +220,20 @@ OwnMap map_own(const ObservationSource& source, const std::optional<NamedPointsF
   check_method(source, options);
   OwnMap result{.record = {}, .remarks = source.remarks};
   check_unseen(source, steps, options, result.remarks);
-
-  // What is known of the true positions; without a truth, the anchors' alone.
-  Points known = Points::Constant(source.history.landmarks(), 2, kUnknown);
-  const bool has_truth = truth.has_value() || source.truth_m.has_value();
-  if (truth)
-    known = matched_truth(source, *truth, result.remarks);
-  else if (source.truth_m)
-    known = *source.truth_m;
-  std::vector<Eigen::Index> anchor_rows;
-  if (anchors)
-    anchor_rows = matched_anchors(source, *anchors, steps, known);
-  else if (source.truth_m)
-    anchor_rows = diagonal_anchors(known);
+  const Reference reference = reference_of(source, anchors, truth, steps, result.remarks);
 
   EmbedderOptions fitting;
   fitting.only_seen_together = options.only_seen_together;
-  HistoryEmbedder embedder(source.history, steps, fitting);
-  const Embedding embedding = embedder.embed(options.setting);
+  const Embedding embedding =
+      HistoryEmbedder(source.history, steps, fitting).embed(options.setting);
   MapRecord& record = result.record;
-  record = {.id = "map",
-            .sensor = source.history.sensor,
-            .setting = options.setting,
-            .step = static_cast<int>(steps),
-            .frame = Frame::kSimilarity,
-            .names = source.history.names,
-            .estimate = embedding.coordinates,
-            .truth_m = std::nullopt,
-            .anchors = anchor_rows,
-            .statuses = embedding.statuses,
-            .score = std::nullopt};
-  if (has_truth || !anchor_rows.empty()) record.truth_m = known;
-  if (!anchor_rows.empty()) {
-    AlignedMap aligned = align_to_anchors(embedding.coordinates, known, anchor_rows, options.fit);
-    record.statuses.insert(record.statuses.end(), aligned.statuses.begin(), aligned.statuses.end());
-    if (aligned.aligned) {
-      record.frame = Frame::kTruth;
-      record.estimate = std::move(aligned.positions_m);
-    }
-  }
-  if (has_truth)
-    record.score = record.frame == Frame::kTruth
-                       ? score_map(record.estimate, known, anchor_rows, options.fit)
-                       : anchor_free_score(record.estimate, known, options.fit);
+  record.id = "map";
+  record.sensor = source.history.sensor;
+  record.setting = options.setting;
+  record.step = static_cast<int>(steps);
+  record.names = source.history.names;
+  record.statuses = embedding.statuses;
+  align_and_score(record, embedding.coordinates, reference, options.fit);
   return result;
 }
 

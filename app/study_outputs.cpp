@@ -1,7 +1,5 @@
 #include "app/study_outputs.hpp"
 
-#include <map>
-
 #include <tbb/global_control.h>
 #include <tbb/parallel_for_each.h>
 
@@ -21,12 +19,17 @@ StudyView view_study(const std::filesystem::path& folder) {
   return view;
 }
 
-void write_figures(const std::vector<const Figure*>& figures, const Theme& theme,
-                   const std::filesystem::path& folder, int jobs) {
+std::map<std::string, std::string> write_figures(const std::vector<const Figure*>& figures,
+                                                 const Theme& theme,
+                                                 const std::filesystem::path& folder, int jobs) {
   const tbb::global_control limit(tbb::global_control::max_allowed_parallelism,
                                   static_cast<std::size_t>(jobs));
-  tbb::parallel_for_each(figures,
-                         [&](const Figure* figure) { write_figure(*figure, theme, folder); });
+  std::map<std::string, std::string> drawings;
+  for (const Figure* figure : figures) drawings[figure->id];  // None is inserted in parallel.
+  tbb::parallel_for_each(figures, [&](const Figure* figure) {
+    drawings.at(figure->id) = write_figure(*figure, theme, folder);
+  });
+  return drawings;
 }
 
 std::filesystem::path write_report(const StudyView& view, const std::string& command,
@@ -36,7 +39,8 @@ std::filesystem::path write_report(const StudyView& view, const std::string& com
   const Templates page = load_templates(templates);
   const Theme theme = report_theme();
   const std::vector<const Figure*> figures = all_figures(view.figures);
-  write_figures(figures, theme, view.folder / "figures", jobs);
+  const std::map<std::string, std::string> drawings =
+      write_figures(figures, theme, view.folder / "figures", jobs);
 
   const std::vector<Session> sessions = read_sessions(view.folder);
   const std::vector<Timing> timings = read_timings(view.folder);
@@ -47,8 +51,6 @@ std::filesystem::path write_report(const StudyView& view, const std::string& com
                                       .command = command});
   write_tables(report, view.folder / "tables");
 
-  std::map<std::string, std::string> drawings;
-  for (const Figure* figure : figures) drawings[figure->id] = figure_svg(*figure, theme);
   const auto drawing = [&](const std::string& id) {
     const auto found = drawings.find(id);
     return found == drawings.end() ? std::string() : found->second;

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <filesystem>
+#include <map>
 #include <optional>
 #include <string>
 #include <vector>
@@ -21,9 +22,11 @@ struct StudyView {
 /// @throws IoError.
 StudyView view_study(const std::filesystem::path& folder);
 
-/// Draws the figures into `folder`, several at a time. @throws IoError.
-void write_figures(const std::vector<const Figure*>& figures, const Theme& theme,
-                   const std::filesystem::path& folder, int jobs);
+/// Draws the figures into `folder`, several at a time; no two may have one id.
+/// @return The text of each SVG file by its figure's id. @throws IoError.
+std::map<std::string, std::string> write_figures(const std::vector<const Figure*>& figures,
+                                                 const Theme& theme,
+                                                 const std::filesystem::path& folder, int jobs);
 
 /// Writes figures/, tables/ and report.html beside the records.
 /// @param command  The one that makes the study again.

@@ -9,6 +9,7 @@
 
 #include "app/build_facts.hpp"
 #include "app/progress_line.hpp"
+#include "core/base/version.hpp"
 #include "core/experiment/run_experiment.hpp"
 #include "core/records/study_store.hpp"
 #include "reports/sections/method_summary.hpp"
@@ -37,32 +38,35 @@ nlohmann::ordered_json number(const std::optional<MeanEstimate>& estimate) {
 }  // namespace
 
 void make_records(const Experiment& experiment, const std::filesystem::path& folder, int jobs,
-                  const Invocation& invocation) {
+                  const std::string& command, const Console& console) {
   using Clock = std::chrono::steady_clock;
   const Clock::time_point start = Clock::now();
   const std::string started = fmt::format("{:%Y-%m-%dT%H:%M:%SZ}", fmt::gmtime(std::time(nullptr)));
 
   StudyStore store = StudyStore::open(folder, experiment, build_provenance());
   if (store.redone())
-    invocation.console.warning(fmt::format(
-        "{}: its records were made by another solver; they are made again", folder.string()));
-  ProgressLine line(invocation.console.shows_progress());
+    console.warning(fmt::format("{}: its records were made by another solver; they are made again",
+                                folder.string()));
+  ProgressLine line(console.shows_progress());
   Progress last;
   run_experiment(experiment, store, jobs, [&](const Progress& progress) {
     last = progress;
     line(progress);
   });
   if (last.reused < last.total)
-    store.write_session({.command = invocation.command,
+    store.write_session({.command = command,
                          .started_utc = started,
                          .host = host_name(),
                          .jobs = jobs,
                          .seconds = std::chrono::duration<double>(Clock::now() - start).count()});
-  invocation.console.info(
+  console.detail(fmt::format("{}: solver {}, commit {}, {} jobs, {:.2f} s", folder.string(),
+                             solver_digest().substr(0, 12), source_commit(), jobs,
+                             std::chrono::duration<double>(Clock::now() - start).count()));
+  console.info(
       fmt::format("{}: {} runs, {} of them reused", folder.string(), last.total, last.reused));
 }
 
-nlohmann::ordered_json study_json(const Study& study) {
+nlohmann::ordered_json study_result(const Study& study) {
   std::size_t records = 0;
   std::size_t with_status = 0;
   for (const Run& run : study.runs)

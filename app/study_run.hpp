@@ -6,20 +6,22 @@
 
 #include <nlohmann/json.hpp>
 
-#include "app/command_line.hpp"
+#include "app/console.hpp"
 #include "core/model/experiment.hpp"
 #include "core/model/study.hpp"
 
 namespace mapproof {
 
 /// Runs what a folder does not hold yet of an experiment, with a progress line, and notes the
-/// session. @throws IoError, InvalidInput.
+/// session.
+/// @param command  What makes the study again.
+/// @throws IoError, InvalidInput.
 void make_records(const Experiment& experiment, const std::filesystem::path& folder, int jobs,
-                  const Invocation& invocation);
+                  const std::string& command, const Console& console);
 
 /// The study in numbers, for --json: runs, records, and per sensor and method the mean errors at
 /// the last checkpoint.
-nlohmann::ordered_json study_json(const Study& study);
+nlohmann::ordered_json study_result(const Study& study);
 
 /// The same as a few lines of text.
 std::string study_text(const Study& study);

@@ -20,7 +20,7 @@ install_packages() {
   installed=$(dpkg-query -W -f '${Package} ${db:Status-Status}\n' 2>/dev/null |
     awk '$2 == "installed" { print $1 }')
   for package in "${wanted[@]}"; do
-    grep -qx "$package" <<<"$installed" || missing+=("$package")
+    grep -qxF "$package" <<<"$installed" || missing+=("$package")
   done
   [ ${#missing[@]} -eq 0 ] && return 0
 
@@ -45,11 +45,13 @@ build_mapproof() {
   local options=()
   while [ $# -gt 0 ] && [ "$1" != -- ]; do options+=("$1"); shift; done
   shift
-  cmake -S "$ROOT" -B "$BUILD" -G Ninja "${options[@]}" >"${TMPDIR:-/tmp}/mapproof-configure.$$" 2>&1 || {
-    cat "${TMPDIR:-/tmp}/mapproof-configure.$$" >&2
-    rm -f "${TMPDIR:-/tmp}/mapproof-configure.$$"
+  local log
+  log=$(mktemp)
+  if ! cmake -S "$ROOT" -B "$BUILD" -G Ninja "${options[@]}" >"$log" 2>&1; then
+    cat "$log" >&2
+    rm -f "$log"
     return 3
-  }
-  rm -f "${TMPDIR:-/tmp}/mapproof-configure.$$"
+  fi
+  rm -f "$log"
   cmake --build "$BUILD" --target "$@" >&2
 }

@@ -6,11 +6,11 @@
 
 #include "app/build_facts.hpp"
 #include "app/commands/verbs.hpp"
+#include "app/map_folder.hpp"
 #include "app/own_map.hpp"
 #include "core/base/errors.hpp"
 #include "core/base/files.hpp"
 #include "core/records/map_files.hpp"
-#include "core/records/study_store.hpp"
 #include "render/figures/map.hpp"
 #include "render/output/write_figure.hpp"
 #include "reports/html/report_html.hpp"
@@ -61,16 +61,6 @@ MethodSetting chosen_setting(const Arguments& arguments, Eigen::Index landmarks)
         "--parameter: {} = {:g} is not {} from {:g} to {:g}", parameter->symbol, value,
         parameter->integer ? "an integer" : "a number", parameter->minimum, parameter->maximum));
   return {*method, value};
-}
-
-/// The folder may be new, empty, or hold an earlier map; anything else is not ours to write into.
-void check_folder(const fs::path& out) {
-  std::error_code error;
-  if (!fs::exists(out, error)) return;
-  if (!fs::is_directory(out, error)) throw IoError(out.string(), "is not a folder");
-  if (is_study(out)) throw IoError(out.string(), "holds a study; choose another --out for the map");
-  if (!fs::is_empty(out, error) && !fs::exists(out / "map.json", error))
-    throw IoError(out.string(), "holds files that are no map; choose another --out");
 }
 
 std::optional<NamedPointsFile> read_points(const std::string& path) {
@@ -124,7 +114,7 @@ nlohmann::ordered_json map_result(const OwnMap& map, const fs::path& out) {
       {"landmarks", nlohmann::ordered_json::array()},
       {"statuses", nlohmann::ordered_json::array()},
       {"remarks", map.remarks},
-      {"map", (out / "map.json").string()},
+      {"map", (out / kMapFile).string()},
       {"report", (out / "report.html").string()}};
   if (record.score)
     object["score"] = {
@@ -157,9 +147,7 @@ std::string map_text(const OwnMap& map, const fs::path& out) {
 
 void write_outputs(const Arguments& arguments, const ObservationSource& source, const OwnMap& map,
                    const Templates& page, const Invocation& invocation) {
-  const fs::path out = arguments.out;
   const Figure figure = map_figure(map.record, "map");
-  const Theme theme = report_theme();
   const Report report =
       map_report({.record = map.record,
                   .title = "Map of " + fs::path(arguments.observations).filename().string(),
@@ -168,19 +156,24 @@ void write_outputs(const Arguments& arguments, const ObservationSource& source, 
                   .figure = figure_block(figure),
                   .provenance = build_provenance(),
                   .command = invocation.command});
+  const Theme theme = report_theme();
   const std::string html = report_html(report, page, [&](const std::string& id) {
     return id == figure.id ? figure_svg(figure, theme) : std::string();
   });
+
+  const MapFolder folder(arguments.out);
+  const fs::path& out = folder.path();
+  // The file that marks the folder as a map's comes first: a killed command can then be repeated.
+  write_file(out / kMapFile, map_json(map.record));
+  write_file(out / "map.csv", map_csv(map.record));
   write_figure(figure, theme, out / "figures");
   write_tables(report, out / "tables");
-  write_file(out / "map.csv", map_csv(map.record));
   write_file(out / "report.html", html);
-  write_file(out / "map.json", map_json(map.record));
 }
 
 int make_map(Arguments arguments, const Invocation& invocation) {
   const Templates page = load_templates(arguments.templates);
-  check_folder(arguments.out);
+  check_map_folder(arguments.out);
   const std::optional<Sensor> kind =
       arguments.kind.empty() ? std::nullopt : sensor_named(arguments.kind);
   const Layout layout = arguments.layout == "wide"   ? Layout::kWide
@@ -192,6 +185,9 @@ int make_map(Arguments arguments, const Invocation& invocation) {
       arguments.fit == "least-squares" ? AffineFit::kLeastSquares : AffineFit::kLeastDistances;
   const OwnMap map = map_own(source, read_points(arguments.anchors), read_points(arguments.truth),
                              arguments.options);
+  invocation.console.detail(fmt::format(
+      "{}: {} landmarks, {} steps, {} missing entries", source.path, source.history.landmarks(),
+      source.history.steps(), source.history.values.array().isNaN().count()));
   for (const std::string& remark : map.remarks) invocation.console.info(remark);
   for (const Status& status : map.record.statuses)
     invocation.console.warning(fmt::format("{}: {}", name(status.code), status.detail));

@@ -1,5 +1,7 @@
 #include <memory>
 
+#include <fmt/format.h>
+
 #include "app/commands/verbs.hpp"
 #include "app/study_outputs.hpp"
 #include "core/records/study_store.hpp"
@@ -23,6 +25,8 @@ int report(const Arguments& arguments, const Invocation& invocation) {
   const StudyView view = view_study(arguments.study);
   const std::filesystem::path path = write_report(view, making_command(arguments, invocation),
                                                   arguments.templates, arguments.jobs);
+  invocation.console.detail(fmt::format("{}: {} runs, {} figures", arguments.study,
+                                        view.study.runs.size(), all_figures(view.figures).size()));
   invocation.console.result(path.string() + "\n", {{"study", arguments.study},
                                                    {"report", path.string()},
                                                    {"figures", all_figures(view.figures).size()}});

@@ -43,12 +43,13 @@ int reproduce(const Arguments& arguments, const Invocation& invocation) {
   if (!arguments.plaza.empty())
     invocation.console.warning("--plaza: the experiment " + arguments.name +
                                " uses no data from outside");
-  make_records(experiment, arguments.out, arguments.jobs, invocation);
+  const std::string command = command_again(arguments, experiment);
+  make_records(experiment, arguments.out, arguments.jobs, command, invocation.console);
   const StudyView view = view_study(arguments.out);
   const std::filesystem::path report =
-      write_report(view, command_again(arguments, experiment), arguments.templates, arguments.jobs);
+      write_report(view, command, arguments.templates, arguments.jobs);
 
-  nlohmann::ordered_json object = study_json(view.study);
+  nlohmann::ordered_json object = study_result(view.study);
   object["figures"] = all_figures(view.figures).size();
   object["report"] = report.string();
   invocation.console.result(study_text(view.study) + report.string() + "\n", object);

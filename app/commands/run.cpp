@@ -17,13 +17,22 @@ struct Arguments {
   std::optional<std::uint64_t> seed;
 };
 
+/// The two commands that make the same study and a report of it, wherever they are typed.
+std::string command_again(const Arguments& arguments, const Experiment& experiment) {
+  std::vector<std::string> words = {"mapproof", "run", arguments.experiment};
+  if (!arguments.profile.empty()) words.insert(words.end(), {"--profile", arguments.profile});
+  words.insert(words.end(), {"--seed", std::to_string(experiment.seed), "--out", arguments.out});
+  return quoted_command(words) + " && " + quoted_command({"mapproof", "report", arguments.out});
+}
+
 int run(const Arguments& arguments, const Invocation& invocation) {
   Experiment experiment =
       parse_experiment(read_file(arguments.experiment), arguments.experiment, arguments.profile);
   if (arguments.seed) experiment.seed = *arguments.seed;
-  make_records(experiment, arguments.out, arguments.jobs, invocation);
+  make_records(experiment, arguments.out, arguments.jobs, command_again(arguments, experiment),
+               invocation.console);
   const Study study = read_study(arguments.out);
-  nlohmann::ordered_json object = study_json(study);
+  nlohmann::ordered_json object = study_result(study);
   object["study"] = arguments.out;
   invocation.console.result(study_text(study) + arguments.out + "\n", object);
   return kDone;

@@ -22,7 +22,9 @@ int validate_files(const std::vector<std::string>& paths, const Invocation& invo
   std::string text;
   bool all_valid = true;
   for (const std::string& path : paths) {
-    if (!std::filesystem::exists(path)) throw IoError(path, "is not there");
+    std::error_code error;
+    if (!std::filesystem::exists(path, error))
+      throw IoError(path, error ? error.message() : "is not there");
     for (const Finding& finding : validate(path, read_foreign)) {
       const bool valid = finding.problem.empty();
       all_valid &= valid;
