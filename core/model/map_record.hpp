@@ -17,7 +17,8 @@ namespace mapproof {
 /// The frame that a map's coordinates are in.
 enum class Frame {
   kTruth,       ///< Metres, aligned to the anchors by an affine map.
-  kSimilarity,  ///< No anchors: shape alone; place, turn, scale and mirror are arbitrary.
+  kSimilarity,  ///< No anchors, or none that could tie the map to the truth: shape alone; place,
+                ///< turn, scale and mirror are arbitrary.
 };
 
 /// One map, of a study or of a person's own observations.

@@ -7,6 +7,7 @@
 
 #include "render/base/geometry.hpp"
 #include "render/figures/map_view.hpp"
+#include "render/figures/score_words.hpp"
 #include "render/figures/words.hpp"
 
 namespace mapproof {
@@ -22,9 +23,7 @@ std::string subject(const MapRecord& record, std::string_view separator) {
 }
 
 std::string score_text(const MapRecord& record) {
-  if (!record.score) return {};
-  return fmt::format("MPE {} m, MOE {:.2f} %", significant(record.score->mpe_m),
-                     record.score->moe_percent);
+  return record.score ? score_words(*record.score) : std::string();
 }
 
 std::string names_of(const MapRecord& record, const std::vector<Eigen::Index>& rows) {
@@ -106,7 +105,8 @@ class MapFigure {
   void add_words() {
     std::string& caption = figure_.caption;
     caption = subject(record_, ", ");
-    if (record_.score) caption += ": " + score_text(record_);
+    const std::string score = score_text(record_);
+    if (!score.empty()) caption += ": " + score;
     caption += ".";
     if (record_.frame == Frame::kSimilarity)
       caption += " Dots: estimates; place, turn, scale and mirror are arbitrary.";
@@ -125,7 +125,7 @@ class MapFigure {
         fmt::format("Map of {} of {} by {}, {}.", mapped, counted(record_.names.size(), "landmark"),
                     label(record_.setting),
                     record_.frame == Frame::kTruth ? "in metres" : "in an arbitrary frame");
-    if (record_.score) figure_.alt += " " + score_text(record_) + ".";
+    if (!score.empty()) figure_.alt += " " + score + ".";
     if (!view_.worst.empty()) figure_.alt += " The largest errors: " + worst_text() + ".";
   }
 

@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include "core/base/errors.hpp"
+#include "render/figures/score_words.hpp"
 #include "reports/model/format.hpp"
 #include "reports/sections/wording.hpp"
 
@@ -68,14 +69,18 @@ Table landmarks_table(const MapRecord& record) {
     table.rows.back().cells.emplace_back(TextCell{is_anchor(record, i) ? "yes" : "no"});
   }
   if (record.frame == Frame::kSimilarity)
-    table.notes.push_back("No anchors: place, turn, scale and mirror of the map are arbitrary.");
+    table.notes.push_back(
+        fmt::format("{}: place, turn, scale and mirror of the map are arbitrary.",
+                    record.anchors.empty() ? "No anchors" : "Not fitted to the anchors"));
   if (mapped_count(record) < record.estimate.rows())
     table.notes.push_back("A dash stands for a landmark that has no place in the map.");
   return table;
 }
 
 Table anchors_table(const MapRecord& record) {
-  Table table{"anchors", "Anchors: what the map was fitted to", point_columns(record), {}, {}};
+  const char* caption =
+      record.frame == Frame::kTruth ? "Anchors: what the map was fitted to" : "Anchors, as given";
+  Table table{"anchors", caption, point_columns(record), {}, {}};
   for (const Index row : record.anchors) table.rows.push_back(point_row(record, row));
   return table;
 }
@@ -85,12 +90,11 @@ Highlights highlights(const MapRecord& record) {
   out.items.push_back({"Landmarks mapped",
                        fmt::format("{} of {}", mapped_count(record), record.estimate.rows()),
                        count_of(record.step, "observation") + " used"});
-  if (record.score) {
-    out.items.push_back({"MPE", format_number(record.score->mpe_m, 3) + " m",
-                         "mean position error, anchors left out"});
-    out.items.push_back({"MOE", format_number(record.score->moe_percent, 2) + " %",
-                         "landmark triples with a wrong orientation"});
-  }
+  if (record.score)
+    for (const ErrorWords& error : error_words(*record.score))
+      out.items.push_back(
+          {error.name, error.value,
+           fmt::format("{}{}{}", error.meaning, error.limit.empty() ? "" : ", ", error.limit)});
   out.items.push_back({"Anchors", fmt::format("{}", record.anchors.size()),
                        record.frame == Frame::kTruth ? "map in metres, in their frame"
                                                      : "shape alone, without scale"});
@@ -114,6 +118,17 @@ Paragraph worst_finding(const MapRecord& record) {
            {fmt::format(", by {} m.", format_number(largest, 3)), Emphasis::kPlain}}};
 }
 
+/// Why a map has a shape alone, and what that leaves untold.
+std::string shape_finding(const MapRecord& record) {
+  const bool scored = record.score && !score_words(*record.score).empty();
+  return fmt::format(
+      "{}: the map has a shape, but its place, turn, scale and mirror are arbitrary{}",
+      record.anchors.empty() ? "No anchors were given"
+                             : "The map could not be fitted to the anchors",
+      scored ? "; the errors above are those that need no anchors."
+             : ", and no error in metres can be told.");
+}
+
 Section summary(const MapReportInput& input) {
   const MapRecord& record = input.record;
   Section section{"summary", "Summary", {}};
@@ -125,13 +140,10 @@ Section summary(const MapReportInput& input) {
   if (record.frame == Frame::kTruth && any_truth(record))
     if (Paragraph worst = worst_finding(record); !worst.phrases.empty())
       findings.items.push_back(std::move(worst));
-  if (record.frame == Frame::kSimilarity)
-    findings.items.push_back(
-        plain("No anchors were given: the map has a shape, but its place, turn, scale and mirror "
-              "are arbitrary, and no error in metres can be told."));
+  if (record.frame == Frame::kSimilarity) findings.items.push_back(plain(shape_finding(record)));
   if (!record.statuses.empty())
-    findings.items.push_back(plain(count_of(static_cast<long>(record.statuses.size()), "status") +
-                                   " below: something went other than well."));
+    findings.items.push_back(plain(count_of(static_cast<long>(record.statuses.size()), "thing") +
+                                   " went other than well, listed below."));
   section.blocks.emplace_back(std::move(findings));
   return section;
 }

@@ -6,6 +6,7 @@
 #include "render/figures/error_curve.hpp"
 #include "render/figures/map.hpp"
 #include "render/figures/map_view.hpp"
+#include "render/figures/score_words.hpp"
 #include "render/figures/words.hpp"
 #include "tests/support/sample_figures.hpp"
 
@@ -48,6 +49,21 @@ TEST(MapFigure, SaysItsScoreInTheCaption) {
       << figure.caption;
   EXPECT_TRUE(has_note(figure, "MPE 0.219 m"));
   EXPECT_EQ(figure.record_ids, std::vector<std::string>{map.id});
+}
+
+TEST(MapFigure, SaysOnlyErrorsThatAreKnown) {
+  for (const Frame frame : {Frame::kTruth, Frame::kSimilarity}) {
+    MapRecord map = sample_map(20, 0.1, 1);
+    map.frame = frame;
+    map.score = Score{NAN, NAN, 0.31, 4.2};
+    const Figure figure = map_figure(map, "map");
+    EXPECT_TRUE(has_note(figure, "0.310 m after the best affine fit to all landmarks"));
+    for (const std::string& words : {figure.caption, figure.alt, figure.notes.at(0).text}) {
+      EXPECT_NE(words.find("MOE 4.20 % up to a mirror"), std::string::npos) << words;
+      EXPECT_EQ(words.find("nan"), std::string::npos) << words;
+      EXPECT_EQ(words.find("unknown"), std::string::npos) << words;
+    }
+  }
 }
 
 TEST(MapFigure, LabelsTheWorstLandmarksThatAreNoAnchors) {
@@ -171,6 +187,15 @@ TEST(ErrorCurveFigure, RefusesCurvesWhosePartsDisagree) {
   spec = sample_curves(2, 1);
   spec.curves[0].low.clear();
   EXPECT_THROW(error_curve_figure(spec), InvalidInput);
+}
+
+TEST(ScoreWords, TakeTheErrorsWithoutAnchorsOnlyWhereTheUsualAreUnknown) {
+  EXPECT_EQ(score_words({0.219, 4.7, 0.2, 4.7}), "MPE 0.219 m, MOE 4.70 %");
+  // Every landmark an anchor: no other is left to average over.
+  EXPECT_EQ(score_words({NAN, 95.0, 0.31, 5.0}),
+            "MPE 0.310 m after the best affine fit to all landmarks, MOE 5.00 % up to a mirror");
+  EXPECT_EQ(score_words({NAN, NAN, NAN, 4.2}), "MOE 4.20 % up to a mirror");
+  EXPECT_EQ(score_words({NAN, NAN, NAN, NAN}), "");
 }
 
 TEST(Words, NumbersAreReadable) {

@@ -62,6 +62,41 @@ TEST(MapReport, HasNoErrorsWithoutTruthAndNoMetresWithoutAnchors) {
   EXPECT_NE(table.notes[0].find("arbitrary"), std::string::npos);
 }
 
+TEST(MapReport, SaysOnlyErrorsThatAreKnown) {
+  MapRecord record = triangle();
+  record.score = Score{kNan, kNan, 0.31, 4.2};
+  const Report report = report_of(record);
+  const auto& items = std::get<Highlights>(report.sections[0].blocks[0]).items;
+  EXPECT_EQ(items[1].value, "0.310 m");
+  EXPECT_EQ(items[1].detail, "mean position error, after the best affine fit to all landmarks");
+  EXPECT_EQ(items[2].value, "4.20 %");
+  record.score = Score{kNan, kNan, kNan, kNan};
+  const Report unknown = report_of(record);
+  for (const auto& item : std::get<Highlights>(unknown.sections[0].blocks[0]).items) {
+    EXPECT_EQ(item.value.find("nan"), std::string::npos) << item.label;
+    EXPECT_EQ(item.value.find("unknown"), std::string::npos) << item.label;
+    EXPECT_NE(item.label, "MPE");
+  }
+}
+
+TEST(MapReport, TellsAnchorsThatDidNotTieTheMapFromNone) {
+  MapRecord record = triangle();
+  record.frame = Frame::kSimilarity;
+  record.statuses.push_back({StatusCode::kAnchorsMissing, "1 of 1 anchors are on the map."});
+  const auto findings = [](const Report& report) {
+    std::string text;
+    for (const Paragraph& item : std::get<BulletList>(report.sections[0].blocks[1]).items)
+      for (const Phrase& phrase : item.phrases) text += phrase.text;
+    return text;
+  };
+  const std::string given = findings(report_of(record));
+  EXPECT_NE(given.find("could not be fitted to the anchors"), std::string::npos) << given;
+  EXPECT_EQ(given.find("No anchors"), std::string::npos) << given;
+  EXPECT_NE(given.find("2 things went other than well, listed below."), std::string::npos) << given;
+  record.anchors.clear();
+  EXPECT_NE(findings(report_of(record)).find("No anchors were given"), std::string::npos);
+}
+
 TEST(MapReport, ListsWhatWasDroppedAndWhatWentWrong) {
   const Report report = report_of(triangle());
   const auto& input = report.sections[3];
