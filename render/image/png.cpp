@@ -1,6 +1,7 @@
 #include "render/image/png.hpp"
 
 #include <cmath>
+#include <cstdint>
 #include <optional>
 #include <stdexcept>
 #include <string_view>
@@ -17,6 +18,9 @@ namespace {
 
 // Of ISA-L: the ones above make drawings no smaller.
 constexpr int kCompressionLevel = 1;
+
+// A chunk's length ends here, and ISA-L counts bytes in 32 bits.
+constexpr std::uint64_t kMostBytes = 0x7FFFFFFF;
 
 void append_big_endian(std::string& out, std::uint32_t value) {
   for (const int shift : {24, 16, 8, 0}) out += static_cast<char>(value >> shift);
@@ -95,6 +99,8 @@ void append_text(std::string& out, const std::string& key, const std::string& te
 std::string encode_png(const Image& image, const PngOptions& options) {
   const bool sized =
       image.width >= 1 && image.height >= 1 && image.width <= 100000 && image.height <= 100000;
+  if (sized && (3 * static_cast<std::uint64_t>(image.width) + 1) * image.height > kMostBytes)
+    throw InvalidInput("encode_png: the image's rows exceed 2^31 - 1 bytes");
   if (!sized || image.pixels.size() < static_cast<std::size_t>(image.width) * image.height)
     throw InvalidInput("encode_png: an image without pixels, too large, or with too few of them");
 

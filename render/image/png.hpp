@@ -16,7 +16,8 @@ struct PngOptions {
 
 /// The image as a PNG file, with a palette if to_palette finds one, else as RGB. Texts are
 /// iTXt chunks if they need it, tEXt otherwise. No time, the same bytes each time.
-/// @throws InvalidInput if a side is below 1 or the pixels are too few.
+/// @throws InvalidInput if a side is below 1 or above 100 000, the pixels are too few, or the rows
+///         as RGB exceed 2^31 - 1 bytes.
 std::string encode_png(const Image& image, const PngOptions& options = {});
 
 }  // namespace mapproof

@@ -145,6 +145,12 @@ TEST(PngEncoder, WritesTheSmallestImage) {
 TEST(PngEncoder, RefusesAnImageWithoutItsPixels) {
   EXPECT_THROW(encode_png({0, 5, {}}), InvalidInput);
   EXPECT_THROW(encode_png({4, 4, {1, 2, 3}}), InvalidInput);
+  try {
+    encode_png({30000, 30000, {}});
+    FAIL() << "rows of 2.7e9 bytes";
+  } catch (const InvalidInput& error) {
+    EXPECT_NE(std::string(error.what()).find("2^31 - 1"), std::string::npos) << error.what();
+  }
 }
 
 }  // namespace
