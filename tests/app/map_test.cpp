@@ -187,6 +187,21 @@ TEST(Map, OfTheRealMrclamSetsIsAsGoodAsVisibilityAloneAllows) {
   EXPECT_NEAR(third["moe_percent"].get<double>(), 9.0, 1.0);
 }
 
+TEST(Map, CanBeWrittenAgainOverAnEarlierOneAndWhatAKillLeft) {
+  const TemporaryFolder folder;
+  const std::vector<std::string> job = {"map",      std::string(MAPPROOF_TEST_DATA) + "/mrclam",
+                                        "--method", "lpca",
+                                        "--out",    folder / "map"};
+  folder.file("map/map.csv.part-999999999", "torn");  // of a process that is no more
+  ASSERT_EQ(mapproof(job).exit_code, 0);
+  const auto first = contents(folder / "map");
+  for (const auto& [file, bytes] : first) EXPECT_EQ(file.find(".part"), std::string::npos) << file;
+  folder.file("map/map.json.part-999999999", "torn");
+  fs::remove(folder / "map" / "report.html");
+  ASSERT_EQ(mapproof(job).exit_code, 0);
+  EXPECT_EQ(contents(folder / "map"), first);
+}
+
 TEST(DiagonalAnchors, AreTheFurthestOutAndAllDifferent) {
   EXPECT_EQ(diagonal_anchors(grid(3, 3)), (std::vector<Eigen::Index>{0, 2, 6, 8}));
   Points line(5, 2);
