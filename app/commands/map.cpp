@@ -12,6 +12,7 @@
 #include "core/base/files.hpp"
 #include "core/records/map_files.hpp"
 #include "render/figures/map.hpp"
+#include "render/figures/score_words.hpp"
 #include "render/output/write_figure.hpp"
 #include "reports/html/report_html.hpp"
 #include "reports/model/format.hpp"
@@ -135,13 +136,8 @@ std::string map_text(const OwnMap& map, const fs::path& out) {
   const MapRecord& record = map.record;
   std::string text =
       fmt::format("{}, {}, {} steps", label(record.setting), name(record.sensor), record.step);
-  if (record.score && record.frame == Frame::kTruth)
-    text += fmt::format(": MPE {} m, MOE {} %", format_number(record.score->mpe_m, 3),
-                        format_number(record.score->moe_percent, 2));
-  else if (record.score)
-    text += fmt::format(": {} m after the best affine fit to all, MOE {} % up to a mirror",
-                        format_number(record.score->mpe_all_fitted_m, 3),
-                        format_number(record.score->moe_unmirrored_percent, 2));
+  if (record.score)
+    if (const std::string score = score_words(*record.score); !score.empty()) text += ": " + score;
   return text + "\n" + (out / "report.html").string() + "\n";
 }
 
@@ -156,18 +152,15 @@ void write_outputs(const Arguments& arguments, const ObservationSource& source, 
                   .figure = figure_block(figure),
                   .provenance = build_provenance(),
                   .command = invocation.command});
-  const Theme theme = report_theme();
-  const std::string html = report_html(report, page, [&](const std::string& id) {
-    return id == figure.id ? figure_svg(figure, theme) : std::string();
-  });
-
   const MapFolder folder(arguments.out);
   const fs::path& out = folder.path();
   // The file that marks the folder as a map's comes first: a killed command can then be repeated.
   write_file(out / kMapFile, map_json(map.record));
   write_file(out / "map.csv", map_csv(map.record));
-  write_figure(figure, theme, out / "figures");
+  const std::string svg = write_figure(figure, report_theme(), out / "figures");
   write_tables(report, out / "tables");
+  const std::string html = report_html(
+      report, page, [&](const std::string& id) { return id == figure.id ? svg : std::string(); });
   write_file(out / "report.html", html);
 }
 

@@ -20,16 +20,15 @@ std::string figure_pdf(const Figure& figure, const Theme& theme) {
   return to_pdf(lay_out(figure, theme));
 }
 
-FigureFiles write_figure(const Figure& figure, const Theme& theme,
+std::string write_figure(const Figure& figure, const Theme& theme,
                          const std::filesystem::path& folder) {
   const Drawing drawing = lay_out(figure, theme);
-  const FigureFiles files{folder / (figure.id + ".svg"), folder / (figure.id + ".png"),
-                          folder / (figure.id + ".pdf"), folder / (figure.id + ".figure.json")};
-  write_file(files.svg, to_svg(drawing));
-  write_file(files.png, to_png(drawing));
-  write_file(files.pdf, to_pdf(drawing));
-  write_file(files.json, figure_to_json(figure));
-  return files;
+  std::string svg = to_svg(drawing);
+  write_file(folder / (figure.id + ".svg"), svg);
+  write_file(folder / (figure.id + ".png"), to_png(drawing));
+  write_file(folder / (figure.id + ".pdf"), to_pdf(drawing));
+  write_file(folder / (figure.id + ".figure.json"), figure_to_json(figure));
+  return svg;
 }
 
 }  // namespace mapproof

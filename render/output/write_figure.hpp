@@ -19,13 +19,10 @@ std::string figure_png(const Figure& figure, const Theme& theme);
 /// A PDF file with selectable text and a fixed date. Otherwise as figure_svg.
 std::string figure_pdf(const Figure& figure, const Theme& theme);
 
-struct FigureFiles {
-  std::filesystem::path svg, png, pdf, json;
-};
-
 /// Writes ID.svg, ID.png, ID.pdf and ID.figure.json, each at once or not at all.
+/// @return The SVG file's text, as of figure_svg.
 /// @throws InvalidInput as figure_svg; IoError if a file cannot be written.
-FigureFiles write_figure(const Figure& figure, const Theme& theme,
+std::string write_figure(const Figure& figure, const Theme& theme,
                          const std::filesystem::path& folder);
 
 }  // namespace mapproof

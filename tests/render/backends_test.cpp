@@ -106,13 +106,13 @@ TEST_F(Backends, ThePictureIsTheSameForEveryThread) {
 
 TEST_F(Backends, FilesAreNamedByTheFigureAndHoldWhatTheBytesFunctionsGive) {
   const Figure figure = usual_map();
-  const FigureFiles files = write_figure(figure, report_theme(), folder_ / "figures");
-  EXPECT_EQ(files.svg, folder_ / "figures" / "map-usual.svg");
-  EXPECT_EQ(read_file(files.svg), figure_svg(figure, report_theme()));
-  EXPECT_EQ(read_file(files.png), figure_png(figure, report_theme()));
-  EXPECT_EQ(read_file(files.pdf), figure_pdf(figure, report_theme()));
-  EXPECT_EQ(figure_from_json(read_file(files.json), "x"), figure);
-  EXPECT_EQ(files.json.filename(), "map-usual.figure.json");
+  const fs::path folder = folder_ / "figures";
+  const std::string svg = write_figure(figure, report_theme(), folder);
+  EXPECT_EQ(svg, figure_svg(figure, report_theme()));
+  EXPECT_EQ(read_file(folder / "map-usual.svg"), svg);
+  EXPECT_EQ(read_file(folder / "map-usual.png"), figure_png(figure, report_theme()));
+  EXPECT_EQ(read_file(folder / "map-usual.pdf"), figure_pdf(figure, report_theme()));
+  EXPECT_EQ(figure_from_json(read_file(folder / "map-usual.figure.json"), "x"), figure);
 }
 
 TEST_F(Backends, AnIdThatIsAPathNeverReachesTheDisk) {

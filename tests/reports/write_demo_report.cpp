@@ -19,10 +19,8 @@ void write_demo(const std::filesystem::path& folder) {
   const StudyFigures figures =
       study_figures(study, [&](const RunId& run) { return synthetic_maps(study, run); });
   std::map<std::string, std::string> drawings;
-  for (const Figure* figure : all_figures(figures)) {
-    drawings[figure->id] = figure_svg(*figure, report_theme());
-    write_figure(*figure, report_theme(), folder / "figures");
-  }
+  for (const Figure* figure : all_figures(figures))
+    drawings[figure->id] = write_figure(*figure, report_theme(), folder / "figures");
   const auto sessions = synthetic_sessions();
   const auto timings = synthetic_timings(study);
   const Report report = study_report(
