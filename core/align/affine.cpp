@@ -3,7 +3,6 @@
 #include <algorithm>
 
 #include <Eigen/QR>
-#include <Eigen/SVD>
 
 #include "core/base/errors.hpp"
 
@@ -42,13 +41,6 @@ double sum_of_distances(const Affine& affine, const Points& from, const Points& 
 }
 
 }  // namespace
-
-double planarity(const Points& points) {
-  if (points.rows() < 3) return 0.0;
-  const Points centered = points.rowwise() - points.colwise().mean();
-  const Eigen::Vector2d values = Eigen::JacobiSVD<Points>(centered).singularValues();
-  return values(0) > 0.0 ? values(1) / values(0) : 0.0;
-}
 
 Affine fit_affine(const Points& from, const Points& to, AffineFit fit) {
   const Eigen::Index n = from.rows();

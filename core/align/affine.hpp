@@ -2,6 +2,7 @@
 
 #include <Eigen/Core>
 
+#include "core/linalg/planarity.hpp"
 #include "core/model/experiment.hpp"
 #include "core/model/points.hpp"
 
@@ -14,10 +15,6 @@ struct Affine {
 
   Points operator()(const Points& points) const { return (points * linear).rowwise() + offset; }
 };
-
-/// How far a set of points is from lying on one line: the smaller singular value of the centred
-/// points over the larger one, in [0, 1]; 0 for fewer than 3 points.
-double planarity(const Points& points);
 
 /// The affine map that takes `from` closest to `to` [yairi2007, section 3, step 4].
 ///

@@ -24,6 +24,24 @@ Embedding failed(Eigen::Index landmarks, std::string why) {
   return result;
 }
 
+/// What went wrong with the map that `result` started from, unless it says the same of itself.
+void add_statuses_of_start(Embedding& result, const Embedding& start, std::string_view name) {
+  std::vector<Status> added;
+  for (const Status& status : start.statuses)
+    if (std::ranges::find(result.statuses, status.code, &Status::code) == result.statuses.end())
+      added.push_back({status.code, fmt::format("Its start, {}: {}", name, status.detail)});
+  result.statuses.insert(result.statuses.begin(), added.begin(), added.end());
+}
+
+/// "L3, L7", at most ten of them.
+std::string listed(const std::vector<std::string>& names, const std::vector<Eigen::Index>& rows) {
+  constexpr std::size_t kShown = 10;
+  std::string list;
+  for (std::size_t i = 0; i < std::min(rows.size(), kShown); ++i)
+    list += (i == 0 ? "" : ", ") + names[static_cast<std::size_t>(rows[i])];
+  return rows.size() > kShown ? fmt::format("{} and {} more", list, rows.size() - kShown) : list;
+}
+
 Eigen::MatrixXd adjacency(const Graph& graph) {
   Eigen::MatrixXd weights = Eigen::MatrixXd::Zero(std::ssize(graph), std::ssize(graph));
   for (std::size_t i = 0; i < graph.size(); ++i)
@@ -84,8 +102,10 @@ Embedding Embedder::weighted_smacof(int neighbours) {
   const ConnectedGraph graph =
       connected_neighbour_graph(distances_, {.neighbours = neighbours, .cutoff = cutoff_});
   if (!graph.connected) return failed(distances_.rows(), graph.statuses.front().detail);
-  Embedding result = smacof(complete_distances_, adjacency(graph.graph),
-                            equal_weights().coordinates, options_.smacof_knn);
+  const Embedding& start = equal_weights();
+  Embedding result =
+      smacof(complete_distances_, adjacency(graph.graph), start.coordinates, options_.smacof_knn);
+  add_statuses_of_start(result, start, info(Method::kSmacof).label);
   result.statuses.insert(result.statuses.begin(), graph.statuses.begin(), graph.statuses.end());
   return result;
 }
@@ -96,8 +116,10 @@ const Embedding& Embedder::linear() {
 }
 
 const Embedding& Embedder::equal_weights() {
-  if (!equal_weights_)
+  if (!equal_weights_) {
     equal_weights_ = smacof(complete_distances_, {}, linear().coordinates, options_.smacof);
+    add_statuses_of_start(*equal_weights_, linear(), info(Method::kLpca).label);
+  }
   return *equal_weights_;
 }
 
@@ -107,15 +129,11 @@ HistoryEmbedder::HistoryEmbedder(const ObservationHistory& history, Eigen::Index
   const std::vector<Eigen::Index> unseen = unseen_landmarks(history, steps);
   for (Eigen::Index i = 0; i < landmarks_; ++i)
     if (!std::ranges::binary_search(unseen, i)) seen_.push_back(i);
-  if (!unseen.empty()) {
-    std::string names;
-    for (const Eigen::Index i : unseen)
-      names += (names.empty() ? "" : ", ") + history.names[static_cast<std::size_t>(i)];
+  if (!unseen.empty())
     statuses_.push_back(
         {StatusCode::kLandmarkUnseen,
          fmt::format("{} of {} landmarks were never observed and are not on the map: {}.",
-                     unseen.size(), landmarks_, names)});
-  }
+                     unseen.size(), landmarks_, listed(history.names, unseen))});
   options.only_seen_together &= history.sensor == Sensor::kVisibility;
   if (seen_.empty()) {
     embedder_.emplace(Proximities{}, options);

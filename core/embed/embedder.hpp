@@ -24,12 +24,13 @@ struct EmbedderOptions {
 /// once.
 class Embedder {
  public:
-  /// @param proximities  Of landmarks that were all observed, n >= 3. Pairs without a common step
-  ///        (infinite distance) take the shortest path over the others where a method needs all
-  ///        distances, and the embedding says so.
+  /// @param proximities  Of landmarks that were all observed; fewer than 3 make every embedding
+  ///        kFailed. Pairs without a common step (infinite distance) take the shortest path over
+  ///        the others where a method needs all distances, and the embedding says so.
   explicit Embedder(Proximities proximities, EmbedderOptions options = {});
 
-  /// @return kFailed, with NaN coordinates, if the method cannot give a map of these data.
+  /// @return kFailed, with NaN coordinates, if the method cannot give a map of these data. The
+  ///         statuses of a map that the method started from are among those of the result.
   Embedding embed(const MethodSetting& setting);
 
  private:
@@ -49,10 +50,10 @@ class Embedder {
 };
 
 /// Maps the landmarks seen in the first `steps` observations of a history; the others get NaN rows
-/// and the status kLandmarkUnseen.
+/// and the status kLandmarkUnseen, which names the first ten.
 class HistoryEmbedder {
  public:
-  /// @throws InvalidInput if `steps` is out of bounds.
+  /// @throws InvalidInput unless 1 <= steps <= history.steps().
   HistoryEmbedder(const ObservationHistory& history, Eigen::Index steps,
                   EmbedderOptions options = {});
 

@@ -1,6 +1,7 @@
 #include "core/embed/lpca.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 #include <fmt/format.h>
 
@@ -25,6 +26,9 @@ Embedding lpca(const Eigen::MatrixXd& squared_distances) {
   int rank = 0;
   for (; rank < 2 && pairs.values(rank) > floor; ++rank)
     result.coordinates.col(rank) = std::sqrt(pairs.values(rank)) * pairs.vectors.col(rank);
+  if (!pairs.converged)
+    result.statuses.push_back(
+        {StatusCode::kNotConverged, "The eigenvalues' solver gave up; these are its best."});
   if (rank < 2)
     result.statuses.push_back(
         {StatusCode::kRankDeficient,

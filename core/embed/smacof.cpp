@@ -6,6 +6,7 @@
 #include <Eigen/Cholesky>
 
 #include "core/base/errors.hpp"
+#include "core/linalg/planarity.hpp"
 
 namespace mapproof {
 namespace {
@@ -66,17 +67,25 @@ class Majorization {
   double scale_ = 0.0;
 };
 
-}  // namespace
-
-Embedding smacof(const Eigen::MatrixXd& distances, const Eigen::MatrixXd& weights,
-                 const Points& start, const SmacofOptions& options) {
+void check(const Eigen::MatrixXd& distances, const Eigen::MatrixXd& weights, const Points& start,
+           const SmacofOptions& options) {
   const Eigen::Index n = distances.rows();
   if (distances.cols() != n || start.rows() != n ||
       (weights.size() > 0 && (weights.rows() != n || weights.cols() != n)))
     throw InvalidInput("SMACOF needs distances, weights and a start of one size");
   if (!distances.allFinite() || !start.allFinite())
     throw InvalidInput("SMACOF needs finite distances and a finite start");
+  if (!weights.allFinite() || (weights.array() < 0.0).any())
+    throw InvalidInput("SMACOF needs finite weights of 0 or more");
+  if (options.max_iterations < 1) throw InvalidInput("SMACOF needs one iteration or more");
+  if (!(options.relative_fall >= 0.0)) throw InvalidInput("SMACOF needs a relative fall >= 0");
+}
 
+}  // namespace
+
+Embedding smacof(const Eigen::MatrixXd& distances, const Eigen::MatrixXd& weights,
+                 const Points& start, const SmacofOptions& options) {
+  check(distances, weights, start, options);
   const Majorization problem(distances, weights);
   Embedding result;
   result.coordinates = start;
@@ -97,6 +106,9 @@ Embedding smacof(const Eigen::MatrixXd& distances, const Eigen::MatrixXd& weight
     result.statuses.push_back(
         {StatusCode::kNotConverged,
          fmt::format("The stress still fell after {} iterations.", options.max_iterations)});
+  if (planarity(result.coordinates) <= kFlatPlanarity)
+    result.statuses.push_back({StatusCode::kRankDeficient,
+                               "The map is flat: its landmarks lie on one line or in one place."});
   return result;
 }
 

@@ -1,10 +1,12 @@
 #include "core/experiment/run.hpp"
 
+#include <algorithm>
 #include <chrono>
 #include <utility>
 
 #include <fmt/format.h>
 
+#include "core/base/errors.hpp"
 #include "core/embed/embedder.hpp"
 #include "core/observe/proximities.hpp"
 #include "core/score/map_score.hpp"
@@ -95,8 +97,10 @@ RunResult simulate_run(const Experiment& experiment, const RunId& id) {
 
   // One walk, long enough for every sensor, so that sensors can be compared on it.
   int observations = 1;
-  for (const SensorStudy& study : experiment.sensors)
+  for (const SensorStudy& study : experiment.sensors) {
+    if (study.checkpoints.empty()) throw InvalidInput("a sensor's study without checkpoints");
     observations = std::max(observations, study.checkpoints.back());
+  }
   Random wander(derive_seed(experiment.seed, {kWalk, layout, pose}));
   const Path path = random_walk(result.run.world, experiment.walk, observations, wander);
 

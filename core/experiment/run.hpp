@@ -17,7 +17,7 @@ std::vector<MethodSetting> settings_of(const SensorStudy& study);
 /// Pure but for the timings: the same experiment and id give the same records and maps. The world
 /// depends on the seed and the layout alone, the walk on the pose too, and a sensor's noise on the
 /// sensor too, so that adding a sensor or a method changes nothing else.
-/// @throws InvalidInput if the landmarks do not fit the room.
+/// @throws InvalidInput if the landmarks do not fit the room or a sensor has no checkpoint.
 RunResult simulate_run(const Experiment& experiment, const RunId& id);
 
 }  // namespace mapproof

@@ -11,7 +11,7 @@
 namespace mapproof {
 namespace {
 
-/// 12 significant digits: distances that differ by rounding alone become ties.
+/// 40 bits, some 12 significant digits: distances that differ by rounding alone become ties.
 double rounded(double distance) {
   if (distance == 0.0 || !std::isfinite(distance)) return distance;
   int exponent = 0;

@@ -25,7 +25,8 @@ struct NeighbourOptions {
 };
 
 /// Symmetric K-nearest-neighbour graph: i and j are joined if either is among the K nearest of the
-/// other. Ties, after rounding to 12 digits, go to the lower row. Infinite distances join nothing.
+/// other. Ties, after rounding to 40 bits (some 12 digits), go to the lower row. Infinite distances
+/// join nothing.
 ///
 /// @param distances  n x n, symmetric, entries >= 0 or infinite.
 /// @throws InvalidInput if K is not in [1, n).

@@ -1,5 +1,6 @@
 #include "core/graph/shortest_paths.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <functional>
 #include <queue>

@@ -1,5 +1,7 @@
 #include "core/linalg/sign.hpp"
 
+#include <cmath>
+
 namespace mapproof {
 
 void fix_signs(Eigen::Ref<Eigen::MatrixXd> columns) {

@@ -2,14 +2,17 @@
 
 namespace mapproof {
 
-/// How far a map is from the truth [yairi2007, section 4.1].
+/// How far a map is from the truth [yairi2007, section 4.1]. NaN where there is nothing to judge.
 struct Score {
-  double mpe_m = 0.0;        ///< Mean position error over the mapped landmarks that are no anchors.
-  double moe_percent = 0.0;  ///< Share of landmark triples whose orientation is wrong.
+  /// Mean position error over the mapped landmarks that are no anchors; NaN if there are none.
+  double mpe_m = 0.0;
+  /// Share of landmark triples whose orientation is wrong; NaN if the truth lies on one line.
+  double moe_percent = 0.0;
 
-  /// Free of the anchors' choice: the affine map fitted to all landmarks, the error over all.
+  /// Free of the anchors' choice: the affine map fitted to all landmarks, the error over all. NaN
+  /// if the map is flat.
   double mpe_all_fitted_m = 0.0;
-  /// Free of reflection: min(moe, 100 - moe).
+  /// Free of reflection: min(moe, 100 - moe); NaN as moe_percent.
   double moe_unmirrored_percent = 0.0;
 };
 

@@ -19,11 +19,14 @@ Eigen::MatrixXd centered_rows(const Eigen::MatrixXd& rows, const Mask& missing) 
 
 }  // namespace
 
-Features features(const ObservationHistory& history, Eigen::Index steps) {
+void require_steps(const ObservationHistory& history, Eigen::Index steps) {
   if (steps < 1 || steps > history.steps())
     throw InvalidInput(
         fmt::format("{} observations asked for, 1 to {} are there", steps, history.steps()));
+}
 
+Features features(const ObservationHistory& history, Eigen::Index steps) {
+  require_steps(history, steps);
   const auto raw = history.values.leftCols(steps);
   const Mask missing = raw.array().isNaN();
   const Eigen::MatrixXd known = missing.select(0.0, raw);

@@ -8,10 +8,13 @@ namespace mapproof {
 
 /// The vectors whose distances the mapping methods keep, a landmark a row, zero where missing.
 struct Features {
-  Eigen::MatrixXd values;  ///< M x C; C = N, or 2 N for bearings (cosines, then sines).
-  Eigen::MatrixXd
-      observed;  ///< M x C: 1 where a value was observed, 0 elsewhere. Empty: everywhere.
+  Eigen::MatrixXd values;  ///< M x C; C = steps, or 2 * steps for bearings (cosines, then sines).
+  /// M x C: 1 where a value was observed, 0 elsewhere. Empty: everywhere.
+  Eigen::MatrixXd observed;
 };
+
+/// @throws InvalidInput unless 1 <= steps <= history.steps().
+void require_steps(const ObservationHistory& history, Eigen::Index steps);
 
 /// Visibility: the 0/1 entries, normalised later over common steps [yairi2007, eq. 7].
 /// Bearing: unit direction vectors, not normalised [yairi2007, section 4.4.1].

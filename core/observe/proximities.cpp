@@ -56,6 +56,7 @@ Proximities proximities(const ObservationHistory& history, Eigen::Index steps) {
 }
 
 std::vector<Eigen::Index> unseen_landmarks(const ObservationHistory& history, Eigen::Index steps) {
+  require_steps(history, steps);
   std::vector<Eigen::Index> rows;
   for (Eigen::Index i = 0; i < history.landmarks(); ++i) {
     const auto row = history.values.row(i).leftCols(steps).array();

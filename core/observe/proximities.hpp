@@ -12,8 +12,6 @@ namespace mapproof {
 struct Proximities {
   Eigen::MatrixXd inner_products;     ///< M x M; of normalised vectors for visibility.
   Eigen::MatrixXd squared_distances;  ///< M x M, zero diagonal; infinite: no common step.
-
-  Eigen::Index landmarks() const { return squared_distances.rows(); }
 };
 
 /// Euclidean proximities of the observation vectors (see features.hpp). With missing entries the
@@ -27,7 +25,8 @@ struct Proximities {
 Proximities proximities(const ObservationHistory& history, Eigen::Index steps);
 
 /// Rows without any information in the first `steps` observations: nothing but missing entries or,
-/// for visibility, nothing but "not seen".
+/// for visibility, nothing but "not seen". Ascending.
+/// @throws InvalidInput if `steps` is out of bounds.
 std::vector<Eigen::Index> unseen_landmarks(const ObservationHistory& history, Eigen::Index steps);
 
 /// The history of some landmarks alone, in the order given.

@@ -8,17 +8,27 @@
 
 #include "core/align/affine.hpp"
 #include "core/base/errors.hpp"
+#include "core/linalg/planarity.hpp"
 #include "core/score/orientation_error.hpp"
 
 namespace mapproof {
 namespace {
 
-constexpr double kFlat = 1e-6;  ///< Anchors flatter than this say nothing about the second axis.
+void check(const Points& estimate, const Points& truth, const std::vector<Eigen::Index>& anchors) {
+  if (estimate.rows() != truth.rows())
+    throw InvalidInput(
+        fmt::format("a map of {} landmarks and a truth of {}", estimate.rows(), truth.rows()));
+  for (const Eigen::Index anchor : anchors)
+    if (anchor < 0 || anchor >= truth.rows())
+      throw InvalidInput(
+          fmt::format("anchor {} is none of the {} landmarks", anchor, truth.rows()));
+}
 
 }  // namespace
 
 AlignedMap align_to_anchors(const Points& coordinates, const Points& anchors_m,
                             const std::vector<Eigen::Index>& anchors, AffineFit fit) {
+  check(coordinates, anchors_m, anchors);
   AlignedMap result{.positions_m = coordinates, .statuses = {}};
   std::vector<Eigen::Index> mapped;
   std::ranges::copy_if(anchors, std::back_inserter(mapped),
@@ -32,8 +42,8 @@ AlignedMap align_to_anchors(const Points& coordinates, const Points& anchors_m,
   }
   const Points from = coordinates(mapped, Eigen::all);
   const Points to = anchors_m(mapped, Eigen::all);
-  if (planarity(to) <= kFlat) throw InvalidInput("the anchors lie on one line");
-  if (planarity(from) <= kFlat) {
+  if (planarity(to) <= kFlatPlanarity) throw InvalidInput("the anchors lie on one line");
+  if (planarity(from) <= kFlatPlanarity) {
     result.statuses.push_back({StatusCode::kAnchorsDegenerate,
                                "The anchors lie on one line in the embedding: nothing ties its "
                                "second axis to the truth."});
@@ -46,6 +56,7 @@ AlignedMap align_to_anchors(const Points& coordinates, const Points& anchors_m,
 
 std::optional<Score> score_map(const Points& estimate_m, const Points& truth_m,
                                const std::vector<Eigen::Index>& anchors, AffineFit fit) {
+  check(estimate_m, truth_m, anchors);
   std::vector<Eigen::Index> both;
   for (Eigen::Index i = 0; i < truth_m.rows(); ++i)
     if (estimate_m.row(i).allFinite() && truth_m.row(i).allFinite()) both.push_back(i);
@@ -67,7 +78,7 @@ std::optional<Score> score_map(const Points& estimate_m, const Points& truth_m,
   score.moe_percent = orientation_error_percent(truth, estimate);
   score.moe_unmirrored_percent = std::min(score.moe_percent, 100.0 - score.moe_percent);
   score.mpe_all_fitted_m =
-      planarity(estimate) > kFlat
+      planarity(estimate) > kFlatPlanarity
           ? (fit_affine(estimate, truth, fit)(estimate) - truth).rowwise().norm().mean()
           : nan;
   return score;

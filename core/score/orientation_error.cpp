@@ -6,6 +6,12 @@
 #include "core/base/errors.hpp"
 
 namespace mapproof {
+namespace {
+
+/// The sine of an angle that rounding alone may have opened.
+constexpr double kStraight = 1e-12;
+
+}  // namespace
 
 double orientation_error_percent(const Points& truth, const Points& estimate) {
   const Eigen::Index n = truth.rows();
@@ -13,7 +19,8 @@ double orientation_error_percent(const Points& truth, const Points& estimate) {
   std::int64_t judged = 0;
   std::int64_t wrong = 0;
   for (Eigen::Index i = 0; i < n; ++i) {
-    const Points t = truth.bottomRows(n - i - 1).rowwise() - truth.row(i);
+    // Of length one, so that each turn is a sine; NaN where two points coincide.
+    const Points t = (truth.bottomRows(n - i - 1).rowwise() - truth.row(i)).rowwise().normalized();
     const Points e = estimate.bottomRows(n - i - 1).rowwise() - estimate.row(i);
     for (Eigen::Index j = 0; j < t.rows(); ++j) {
       const auto rest = t.rows() - j - 1;
@@ -21,7 +28,7 @@ double orientation_error_percent(const Points& truth, const Points& estimate) {
           t(j, 0) * t.col(1).tail(rest).array() - t(j, 1) * t.col(0).tail(rest).array();
       const auto found =
           e(j, 0) * e.col(1).tail(rest).array() - e(j, 1) * e.col(0).tail(rest).array();
-      const auto counts = turn != 0.0;
+      const auto counts = turn.abs() > kStraight;
       judged += counts.count();
       wrong += (counts && !((turn > 0.0 && found > 0.0) || (turn < 0.0 && found < 0.0))).count();
     }

@@ -1,5 +1,6 @@
 #include "core/simulate/robot_walk.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <optional>

@@ -81,10 +81,11 @@ ObservationHistory observe(const World& world, const Path& path, const SensorOpt
   const Eigen::Index N = path.positions_m.rows();
   ObservationHistory history{
       .sensor = options.sensor, .names = landmark_names(M), .values = Eigen::MatrixXd(M, N)};
-  for (Eigen::Index t = 0; t < N; ++t)
-    history.values.col(t) = measured_from(world, path, t, options).unaryExpr([&](double value) {
-      return disturbed(value, options, random);
-    });
+  for (Eigen::Index t = 0; t < N; ++t) {
+    const Eigen::VectorXd measured = measured_from(world, path, t, options);
+    for (Eigen::Index i = 0; i < M; ++i)
+      history.values(i, t) = disturbed(measured(i), options, random);
+  }
   return history;
 }
 

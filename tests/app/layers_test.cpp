@@ -33,7 +33,7 @@ const std::map<std::string, Modules>& allowed() {
       {"core/observe", with_leaves({})},
       {"core/embed", with_leaves({"core/linalg", "core/graph", "core/observe"})},
       {"core/align", with_leaves({"core/linalg"})},
-      {"core/score", with_leaves({"core/align"})},
+      {"core/score", with_leaves({"core/align", "core/linalg"})},
       {"core/records", {"core/model", "core/base"}},
       {"core/experiment", with_leaves({"core/simulate", "core/observe", "core/embed", "core/align",
                                        "core/score", "core/records"})},

@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <cmath>
 
 #include <gtest/gtest.h>
@@ -103,6 +104,29 @@ TEST(Smacof, RefusesWeightsThatLeaveTheLandmarksInPieces) {
   EXPECT_THROW(smacof(distances_of(scattered(6, 1)), W, scattered(6, 2)), InvalidInput);
 }
 
+TEST(Smacof, RefusesWeightsAndOptionsOutOfBounds) {
+  const Points points = scattered(6, 1);
+  const Eigen::MatrixXd D = distances_of(points);
+  for (const double weight : {-1.0, std::nan(""), HUGE_VAL}) {
+    Eigen::MatrixXd W = Eigen::MatrixXd::Ones(6, 6);
+    W(2, 3) = W(3, 2) = weight;
+    EXPECT_THROW(smacof(D, W, points), InvalidInput) << weight;
+  }
+  EXPECT_THROW(smacof(D, {}, points, {.relative_fall = -1e-9}), InvalidInput);
+  EXPECT_THROW(smacof(D, {}, points, {.relative_fall = std::nan("")}), InvalidInput);
+  EXPECT_THROW(smacof(D, {}, points, {.max_iterations = 0}), InvalidInput);
+}
+
+TEST(Embedder, SaysThatTheStartOfWeightedSmacofDidNotConverge) {
+  EmbedderOptions options;
+  options.smacof = {.relative_fall = 0.0, .max_iterations = 2};
+  const Points points = scattered(25, 9);
+  Embedder embedder({.inner_products = {}, .squared_distances = distances_of(points)}, options);
+  const Embedding map = embedder.embed({Method::kSmacofKnn, 6.0});
+  ASSERT_TRUE(has(map, StatusCode::kNotConverged));
+  EXPECT_NE(map.statuses.front().detail.find("Its start, SMACOF"), std::string::npos);
+}
+
 TEST(Isomap, UnrollsASpiral) {
   const Eigen::Index n = 100;
   Eigen::VectorXd along(n);
@@ -182,6 +206,18 @@ TEST_P(EveryMethod, GivesAMapOrSaysWhyNotForHardData) {
   check(distances_of(scattered(2, 1)), "two landmarks");
 }
 
+TEST_P(EveryMethod, SaysWhenItsMapIsFlat) {
+  Points line = scattered(10, 1);
+  line.col(1) = 2.0 * line.col(0);
+  for (const Points& points : {line, Points(Points::Zero(10, 2))}) {
+    const Embedding map = Embedder(proximities_of(points)).embed(setting(GetParam()));
+    const auto flat = std::ranges::count(map.statuses, StatusCode::kRankDeficient, &Status::code);
+    EXPECT_EQ(flat, 1);
+  }
+  const Embedding map = Embedder(proximities_of(scattered(10, 1))).embed(setting(GetParam()));
+  EXPECT_FALSE(has(map, StatusCode::kRankDeficient));
+}
+
 TEST_P(EveryMethod, CompletesPairsWithoutACommonStep) {
   const Points points = scattered(25, 9);
   Proximities data = proximities_of(points);
@@ -213,6 +249,26 @@ TEST(HistoryEmbedder, LeavesUnseenLandmarksOutAndNamesThem) {
   EXPECT_TRUE(map.coordinates.row(2).allFinite());
   ASSERT_TRUE(has(map, StatusCode::kLandmarkUnseen));
   EXPECT_NE(map.statuses.back().detail.find("L4"), std::string::npos);
+}
+
+TEST(HistoryEmbedder, NamesTenUnseenLandmarksAndCountsTheRest) {
+  Eigen::MatrixXd seen = Eigen::MatrixXd::Zero(20, 6);
+  seen.topRows(5).setOnes();
+  const ObservationHistory history{
+      .sensor = Sensor::kVisibility, .names = landmark_names(20), .values = seen};
+  const Embedding map = HistoryEmbedder(history, 6).embed({Method::kLpca, std::nullopt});
+  const std::string detail = map.statuses.back().detail;
+  EXPECT_TRUE(detail.ends_with("L14, L15 and 5 more.")) << detail;
+}
+
+TEST(HistoryEmbedder, RefusesStepsThatTheHistoryDoesNotHave) {
+  const ObservationHistory history{.sensor = Sensor::kVisibility,
+                                   .names = landmark_names(5),
+                                   .values = Eigen::MatrixXd::Ones(5, 10)};
+  for (const Eigen::Index steps : {-1, 0, 11}) {
+    EXPECT_THROW(HistoryEmbedder(history, steps), InvalidInput) << steps;
+    EXPECT_THROW(unseen_landmarks(history, steps), InvalidInput) << steps;
+  }
 }
 
 TEST(HistoryEmbedder, FailsPolitelyWhenNothingWasSeen) {

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include "core/base/errors.hpp"
 #include "core/experiment/run.hpp"
 #include "tests/support/worlds.hpp"
 
@@ -42,6 +43,12 @@ TEST(SimulateRun, GivesAMethodTheSameMapWhateverStandsBesideIt) {
   for (const MapRecord& map : all.maps) maps[map.id] = map.estimate;
   ASSERT_FALSE(few.maps.empty());
   for (const MapRecord& map : few.maps) EXPECT_EQ(map.estimate, maps.at(map.id)) << map.id;
+}
+
+TEST(SimulateRun, RefusesASensorWithoutCheckpoints) {
+  Experiment experiment = small_experiment();
+  experiment.sensors.back().checkpoints.clear();
+  EXPECT_THROW(simulate_run(experiment, {1, 1}), InvalidInput);
 }
 
 TEST(SimulateRun, ReportsLandmarksThatWereNeverSeen) {

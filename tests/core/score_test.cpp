@@ -1,6 +1,7 @@
 #include <cmath>
 
 #include <gtest/gtest.h>
+#include <Eigen/Geometry>
 #include <Eigen/LU>
 #include <Eigen/SVD>
 
@@ -116,6 +117,34 @@ TEST(OrientationError, CountsFlattenedTriplesAsWrongAndLeavesFlatTruthOut) {
   EXPECT_EQ(orientation_error_percent(truth, Points::Zero(4, 2)), 100.0);
   EXPECT_EQ(orientation_error_percent(truth, truth), 0.0);
   EXPECT_TRUE(std::isnan(orientation_error_percent(truth.topRows(3), truth.topRows(3))));
+}
+
+TEST(OrientationError, LeavesALineInTheTruthOutHoweverItIsTurned) {
+  Points truth(9, 2);
+  for (Eigen::Index i = 0; i < 8; ++i) truth.row(i) << 0.1 * static_cast<double>(i * i), 0.0;
+  truth.row(8) << 0.3, 1.0;
+  const Points estimate = scattered(9, 1);
+  const double level = orientation_error_percent(truth, estimate);
+  for (const double turn : {0.1, 0.7, 1.3, 2.9}) {
+    const Points turned = truth * Eigen::Rotation2Dd(turn).toRotationMatrix().transpose();
+    EXPECT_EQ(orientation_error_percent(turned, estimate), level) << turn;
+    EXPECT_TRUE(std::isnan(orientation_error_percent(turned.topRows(8), estimate.topRows(8))));
+  }
+}
+
+TEST(OrientationError, LeavesOutPointsThatCoincideInTheTruth) {
+  Points truth(4, 2);
+  truth << 0, 0, 0, 0, 1, 0, 0, 1;
+  EXPECT_EQ(orientation_error_percent(truth, truth), 0.0);
+}
+
+TEST(ScoreMap, RefusesRowsThatDoNotMatch) {
+  const Points truth = test::grid(3, 3);
+  const auto fit = AffineFit::kLeastSquares;
+  EXPECT_THROW(score_map(truth.topRows(8), truth, {}, fit), InvalidInput);
+  EXPECT_THROW(score_map(truth, truth, {9}, fit), InvalidInput);
+  EXPECT_THROW(align_to_anchors(truth, truth.topRows(8), {0, 2, 6}, fit), InvalidInput);
+  EXPECT_THROW(align_to_anchors(truth, truth, {0, 2, -1}, fit), InvalidInput);
 }
 
 TEST(ScoreMap, AveragesTheErrorOverLandmarksThatAreNoAnchors) {
