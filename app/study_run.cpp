@@ -13,6 +13,7 @@
 #include "core/experiment/run_experiment.hpp"
 #include "core/records/study_store.hpp"
 #include "reports/sections/method_summary.hpp"
+#include "reports/sections/study_counts.hpp"
 
 namespace mapproof {
 namespace {
@@ -67,17 +68,13 @@ void make_records(const Experiment& experiment, const std::filesystem::path& fol
 }
 
 nlohmann::ordered_json study_result(const Study& study) {
-  std::size_t records = 0;
-  std::size_t with_status = 0;
-  for (const Run& run : study.runs)
-    for (const RunRecord& record : run.records) {
-      ++records;
-      if (!record.statuses.empty()) ++with_status;
-    }
-  nlohmann::ordered_json object{
-      {"experiment", study.experiment.name}, {"seed", study.experiment.seed},
-      {"runs", study.runs.size()},           {"records", records},
-      {"records_with_status", with_status},  {"results", nlohmann::ordered_json::array()}};
+  const StudyCounts counts = count(study);
+  nlohmann::ordered_json object{{"experiment", study.experiment.name},
+                                {"seed", study.experiment.seed},
+                                {"runs", study.runs.size()},
+                                {"records", counts.maps},
+                                {"records_with_status", counts.with_status},
+                                {"results", nlohmann::ordered_json::array()}};
   for_each_result(study, [&](const SettingSummary& result) {
     object["results"].push_back(
         {{"sensor", name(result.sensor)},

@@ -15,7 +15,6 @@
 #include "render/figures/score_words.hpp"
 #include "render/output/write_figure.hpp"
 #include "reports/html/report_html.hpp"
-#include "reports/model/format.hpp"
 #include "reports/sections/map_report.hpp"
 #include "reports/sections/study_figures.hpp"
 #include "reports/tables/write_tables.hpp"
@@ -204,7 +203,7 @@ Action map_verb(CLI::App& app) {
       "(step, landmark, value), JSON of mapproof.observations, or a folder of MRCLAM files.\n"
       "Exit code 1 if no map came out; the report then says why.\n");
   app.add_option("OBSERVATIONS", arguments->observations, "File or folder")->required();
-  app.add_option("--out", arguments->out, "Folder for map, figure and report")->required();
+  add_out_option(app, arguments->out, "Folder for map, figure and report")->required();
   app.add_option("--method", arguments->method, "See \"mapproof methods\"")->capture_default_str();
   app.add_option("--parameter,-K", arguments->parameter,
                  "The method's parameter (default: K = 6, or what there can be)");

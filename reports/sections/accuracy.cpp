@@ -123,9 +123,9 @@ Table accuracy_table(const SensorStudy& sensor, std::span<const SettingSummary> 
   table.caption = fmt::format("{}: errors after {} observations", title_of(sensor.sensor.sensor),
                               last_step(sensor));
   table.columns = accuracy_columns(published);
+  const int decimals = mpe_decimals(best);
   for (const SettingSummary& summary : best)
-    table.rows.push_back(
-        {accuracy_cells(summary, published, mpe_decimals(best)), source_of(summary), false});
+    table.rows.push_back({accuracy_cells(summary, published, decimals), source_of(summary), false});
   mark_best(table, best);
   if (grid)
     table.notes.push_back(

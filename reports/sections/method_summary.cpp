@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <map>
+#include <tuple>
 
 #include <fmt/format.h>
 
@@ -11,12 +13,23 @@ namespace {
 
 constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 
-/// What the records of one setting hold, value by value.
+/// A score can be used if both of the numbers that are averaged are.
+bool usable(const Score& score) {
+  return std::isfinite(score.mpe_m) && std::isfinite(score.moe_percent);
+}
+
+/// What the records of one setting at one step hold, value by value.
 struct Samples {
+  int runs = 0;
+  int with_status = 0;
   std::vector<double> mpe, moe, mpe_all, moe_unmirrored;
   std::vector<int> layouts;
 
-  void add(const Score& score, int layout) {
+  void add(const RunRecord& record, int layout) {
+    ++runs;
+    if (!record.statuses.empty()) ++with_status;
+    if (!record.score || !usable(*record.score)) return;
+    const Score& score = *record.score;
     mpe.push_back(score.mpe_m);
     moe.push_back(score.moe_percent);
     mpe_all.push_back(score.mpe_all_fitted_m);
@@ -50,27 +63,32 @@ std::optional<PublishedValue> published_for(const SensorStudy& sensor, Method me
   return std::nullopt;
 }
 
-/// A score can be used if both of the numbers that are averaged are.
-bool usable(const Score& score) {
-  return std::isfinite(score.mpe_m) && std::isfinite(score.moe_percent);
+using Key = std::tuple<int, Method, std::optional<double>>;  ///< Step and setting.
+
+Key key_of(int step, const MethodSetting& setting) {
+  return {step, setting.method, setting.parameter};
 }
 
-SettingSummary summarize_setting(const Study& study, const SensorStudy& sensor,
-                                 const MethodSetting& setting, int step) {
-  SettingSummary summary;
-  summary.sensor = sensor.sensor.sensor;
-  summary.setting = setting;
-  summary.step = step;
-  summary.published = published_for(sensor, setting.method);
-  Samples samples;
+/// The samples of each setting at each step, in one pass over the records.
+std::map<Key, Samples> samples_of(const Study& study, Sensor sensor,
+                                  std::span<const MethodSetting> settings,
+                                  std::span<const int> steps) {
+  std::map<Key, Samples> samples;
+  for (const int step : steps)
+    for (const MethodSetting& setting : settings) samples[key_of(step, setting)];
   for (const Run& run : study.runs)
     for (const RunRecord& record : run.records) {
-      if (record.sensor != summary.sensor || record.setting != setting || record.step != step)
-        continue;
-      ++summary.runs;
-      if (!record.statuses.empty()) ++summary.with_status;
-      if (record.score && usable(*record.score)) samples.add(*record.score, run.id.layout);
+      if (record.sensor != sensor) continue;
+      const auto found = samples.find(key_of(record.step, record.setting));
+      if (found != samples.end()) found->second.add(record, run.id.layout);
     }
+  return samples;
+}
+
+SettingSummary summary_of(const Samples& samples) {
+  SettingSummary summary;
+  summary.runs = samples.runs;
+  summary.with_status = samples.with_status;
   summary.scored = static_cast<int>(samples.mpe.size());
   if (summary.scored > 0) {
     summary.mpe_m = clustered_mean(samples.mpe, samples.layouts);
@@ -88,12 +106,28 @@ bool better(const SettingSummary& a, const SettingSummary& b) {
 
 }  // namespace
 
-std::vector<SettingSummary> summarize(const Study& study, const SensorStudy& sensor, int step) {
-  std::vector<SettingSummary> summaries;
+std::vector<std::vector<SettingSummary>> summarize(const Study& study, const SensorStudy& sensor,
+                                                   std::span<const int> steps) {
+  std::vector<MethodSetting> settings;
   for (const MethodGrid& grid : sensor.methods)
-    for (const MethodSetting& setting : settings_of(grid))
-      summaries.push_back(summarize_setting(study, sensor, setting, step));
+    for (const MethodSetting& setting : settings_of(grid)) settings.push_back(setting);
+  const auto samples = samples_of(study, sensor.sensor.sensor, settings, steps);
+  std::vector<std::vector<SettingSummary>> summaries;
+  for (const int step : steps) {
+    std::vector<SettingSummary>& at_step = summaries.emplace_back();
+    for (const MethodSetting& setting : settings) {
+      SettingSummary& summary = at_step.emplace_back(summary_of(samples.at(key_of(step, setting))));
+      summary.sensor = sensor.sensor.sensor;
+      summary.setting = setting;
+      summary.step = step;
+      summary.published = published_for(sensor, setting.method);
+    }
+  }
   return summaries;
+}
+
+std::vector<SettingSummary> summarize(const Study& study, const SensorStudy& sensor, int step) {
+  return std::move(summarize(study, sensor, std::span(&step, 1)).front());
 }
 
 std::vector<SettingSummary> best_of_each_method(std::span<const SettingSummary> summaries) {

@@ -30,6 +30,10 @@ struct SettingSummary {
 /// Every parameter of every method of `sensor` at `step`, in the order of the experiment.
 std::vector<SettingSummary> summarize(const Study& study, const SensorStudy& sensor, int step);
 
+/// The same at each of `steps`, in one pass over the records.
+std::vector<std::vector<SettingSummary>> summarize(const Study& study, const SensorStudy& sensor,
+                                                   std::span<const int> steps);
+
 /// For each method the parameter of least mean MPE, as the paper chose; a method without any score
 /// stands with its first parameter.
 std::vector<SettingSummary> best_of_each_method(std::span<const SettingSummary> summaries);

@@ -6,6 +6,7 @@
 
 #include "reports/model/format.hpp"
 #include "reports/sections/method_summary.hpp"
+#include "reports/sections/study_counts.hpp"
 #include "reports/sections/study_report.hpp"
 #include "reports/sections/wording.hpp"
 
@@ -19,10 +20,6 @@ using Kind = std::tuple<Sensor, Method, double>;
 
 Kind kind_of(const RunRecord& record) {
   return {record.sensor, record.setting.method, record.setting.parameter.value_or(0.0)};
-}
-
-bool carries(const RunRecord& record, StatusCode code) {
-  return std::ranges::any_of(record.statuses, [&](const auto& s) { return s.code == code; });
 }
 
 void add_record(StatusList::Item& item, const RunId& run, const RunRecord& record,
@@ -68,30 +65,10 @@ StatusList status_list(const Study& study) {
   return list;
 }
 
-/// Maps by how they ended.
-struct Counts {
-  long maps = 0;
-  long with_status = 0;
-  long failed = 0;
-  long unscored = 0;
-};
-
-Counts count(const Study& study) {
-  Counts counts;
-  for (const Run& run : study.runs)
-    for (const RunRecord& record : run.records) {
-      ++counts.maps;
-      if (!record.statuses.empty()) ++counts.with_status;
-      if (carries(record, StatusCode::kFailed)) ++counts.failed;
-      if (!record.score) ++counts.unscored;
-    }
-  return counts;
-}
-
 }  // namespace
 
 Section statuses_section(const Study& study) {
-  const Counts counts = count(study);
+  const StudyCounts counts = count(study);
   Section section;
   section.id = "statuses";
   section.title = "What went other than well";

@@ -46,10 +46,10 @@ using History = std::vector<std::vector<SettingSummary>>;
 History best_history(const Study& study, const SensorStudy& sensor) {
   const auto best = best_of_each_method(summarize(study, sensor, last_step(sensor)));
   History history(best.size());
-  for (const int step : sensor.checkpoints)
-    for (const SettingSummary& at_step : summarize(study, sensor, step))
+  for (const auto& at_step : summarize(study, sensor, sensor.checkpoints))
+    for (const SettingSummary& summary : at_step)
       for (std::size_t i = 0; i < best.size(); ++i)
-        if (best[i].setting == at_step.setting) history[i].push_back(at_step);
+        if (best[i].setting == summary.setting) history[i].push_back(summary);
   return history;
 }
 

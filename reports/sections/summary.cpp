@@ -5,6 +5,7 @@
 
 #include "reports/model/format.hpp"
 #include "reports/sections/method_summary.hpp"
+#include "reports/sections/study_counts.hpp"
 #include "reports/sections/study_report.hpp"
 #include "reports/sections/wording.hpp"
 
@@ -141,25 +142,8 @@ void add_sensor(const Study& study, const SensorStudy& sensor, BulletList& findi
   highlights.items.push_back({title + ", best MPE", metres(best->mpe_m->mean), detail});
 }
 
-struct Ends {
-  long maps = 0;
-  long with_status = 0;
-  long failed = 0;
-};
-
-Ends ends(const Study& study) {
-  Ends counts;
-  for (const Run& run : study.runs)
-    for (const RunRecord& record : run.records) {
-      ++counts.maps;
-      counts.with_status += record.statuses.empty() ? 0 : 1;
-      counts.failed += record.score ? 0 : 1;
-    }
-  return counts;
-}
-
 void add_ends(const Study& study, BulletList& findings, Highlights& highlights) {
-  const Ends counts = ends(study);
+  const StudyCounts counts = count(study);
   const Experiment& experiment = study.experiment;
   const long planned = static_cast<long>(experiment.layouts) * experiment.poses;
   highlights.items.push_back({"Runs", fmt::format("{} of {}", study.runs.size(), planned),
@@ -167,16 +151,16 @@ void add_ends(const Study& study, BulletList& findings, Highlights& highlights) 
                                           count_of(experiment.poses, "initial pose"))});
   highlights.items.push_back({"Maps with a status",
                               fmt::format("{} of {}", counts.with_status, counts.maps),
-                              fmt::format("{} without a score", counts.failed)});
+                              fmt::format("{} without a score", counts.unscored)});
   if (counts.maps == 0) return;
   const std::string maps = count_of(counts.maps, "map");
   const std::string text =
-      counts.with_status + counts.failed == 0
+      counts.with_status + counts.unscored == 0
           ? fmt::format(": none: every one of {} ended well.", maps)
           : fmt::format(
                 ": of {}, {} without a score and {} with a status, all listed below with "
                 "the reason.",
-                maps, counts.failed, counts.with_status);
+                maps, counts.unscored, counts.with_status);
   findings.items.push_back({{strong("Failures"), words(text)}});
 }
 
