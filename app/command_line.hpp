@@ -1,7 +1,8 @@
 #pragma once
 
-#include <filesystem>
+#include <cstdint>
 #include <functional>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -28,5 +29,11 @@ std::string quoted_command(const std::vector<std::string>& words);
 
 /// Adds --jobs to a verb: threads, by default one a core.
 void add_jobs_option(CLI::App& app, int& jobs);
+
+/// Adds --seed to a verb: a whole number from 0 to 2^64 - 1; others are refused, not wrapped round.
+void add_seed_option(CLI::App& app, std::optional<std::uint64_t>& seed);
+
+/// Adds --out to a verb: a folder, with a name.
+CLI::Option* add_out_option(CLI::App& app, std::string& out, const std::string& what);
 
 }  // namespace mapproof

@@ -1,10 +1,14 @@
 #include "app/map_folder.hpp"
 
-#include <algorithm>
+#include <optional>
+#include <string>
 #include <system_error>
+
+#include <fmt/format.h>
 
 #include "core/base/errors.hpp"
 #include "core/base/files.hpp"
+#include "core/records/map_files.hpp"
 #include "core/records/study_store.hpp"
 
 namespace mapproof {
@@ -28,6 +32,27 @@ bool holds_files(const fs::path& folder) {
   return false;
 }
 
+/// Equal where both are numbers, and missing in the same places.
+bool same_positions(const std::optional<Points>& a, const std::optional<Points>& b) {
+  if (a.has_value() != b.has_value()) return false;
+  if (!a) return true;
+  return a->rows() == b->rows() &&
+         ((a->array() == b->array()) || (a->array().isNaN() && b->array().isNaN())).all();
+}
+
+/// What tells two maps apart that are not the same one made twice; empty if nothing does.
+std::string difference(const MapRecord& there, const MapRecord& here) {
+  if (there.sensor != here.sensor)
+    return fmt::format("of {} there, of {} here", name(there.sensor), name(here.sensor));
+  if (there.setting != here.setting)
+    return fmt::format("{} there, {} here", label(there.setting), label(here.setting));
+  if (there.step != here.step) return fmt::format("{} steps there, {} here", there.step, here.step);
+  if (there.names != here.names) return "of other landmarks";
+  if (there.anchors != here.anchors) return "with other anchors";
+  if (!same_positions(there.truth_m, here.truth_m)) return "with other known positions";
+  return "";
+}
+
 }  // namespace
 
 void check_map_folder(const fs::path& folder) {
@@ -42,7 +67,19 @@ void check_map_folder(const fs::path& folder) {
     throw IoError(folder.string(), "holds files that are no map; choose another --out");
 }
 
-MapFolder::MapFolder(const fs::path& folder) : path_(folder), lock_(made(folder)) {
+void check_same_map(const fs::path& folder, const MapRecord& map) {
+  const fs::path file = folder / kMapFile;
+  std::error_code error;
+  if (!fs::exists(file, error)) return;
+  const std::string what = difference(parse_map(read_file(file), file.string()), map);
+  if (!what.empty())
+    throw IoError(folder.string(),
+                  fmt::format("holds another map ({}); choose another --out or remove it", what));
+}
+
+MapFolder::MapFolder(const fs::path& folder, const MapRecord& map)
+    : path_(folder), lock_(made(folder)) {
+  check_same_map(folder, map);
   remove_leftovers(folder);
 }
 

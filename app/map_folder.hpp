@@ -2,6 +2,7 @@
 
 #include <filesystem>
 
+#include "core/model/map_record.hpp"
 #include "core/records/folder_lock.hpp"
 
 namespace mapproof {
@@ -9,16 +10,21 @@ namespace mapproof {
 /// The file that marks a folder as that of a map.
 inline constexpr const char* kMapFile = "map.json";
 
-/// Throws unless a map may be written there: the folder is new, empty, or holds an earlier map.
+/// Throws unless a map may be written there: the folder is new, empty, or holds a map.
 /// @throws IoError saying what is in the way.
 void check_map_folder(const std::filesystem::path& folder);
+
+/// Throws if the folder holds another map than `map`: of other landmarks, another sensor, method,
+/// parameter or number of steps, other anchors or another truth. The same one may be made again.
+/// @throws IoError saying what differs.
+void check_same_map(const std::filesystem::path& folder, const MapRecord& map);
 
 /// The folder of a map while it is written: made, checked, locked, and rid of what a killed process
 /// left behind.
 class MapFolder {
  public:
-  /// @throws IoError as check_map_folder, or if another process writes there.
-  explicit MapFolder(const std::filesystem::path& folder);
+  /// @throws IoError as the checks above, or if another process writes there.
+  MapFolder(const std::filesystem::path& folder, const MapRecord& map);
 
   const std::filesystem::path& path() const { return path_; }
 

@@ -1,7 +1,9 @@
+#include <algorithm>
 #include <csignal>
 #include <exception>
 #include <iostream>
 #include <new>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -10,6 +12,7 @@
 #include "app/build_facts.hpp"
 #include "app/commands/verbs.hpp"
 #include "core/base/errors.hpp"
+#include "core/base/spelling.hpp"
 
 namespace mapproof {
 namespace {
@@ -37,6 +40,19 @@ void add_common_options(CLI::App& app, Common& common) {
   app.add_flag("--verbose", common.verbose, "Details")->excludes(quiet);
 }
 
+/// What is wrong with the first word if it is meant as a verb and is none; empty otherwise.
+std::string unknown_verb(const CLI::App& app, int argc, char** argv) {
+  if (argc < 2 || argv[1][0] == '-') return "";
+  const std::string word = argv[1];
+  std::vector<std::string_view> verbs;
+  for (const CLI::App* sub : app.get_subcommands({})) verbs.push_back(sub->get_name());
+  if (std::ranges::find(verbs, word) != verbs.end()) return "";
+  const std::string_view meant = likely_word(word, verbs);
+  return "unknown verb \"" + printable(word) + "\"" +
+         (meant.empty() ? "; \"mapproof --help\" lists them"
+                        : "; did you mean \"" + std::string(meant) + "\"?");
+}
+
 int run_verb_of(int argc, char** argv) {
   CLI::App app(
       "Maps from what a robot observed, without ever estimating its pose, and proof of them",
@@ -58,6 +74,8 @@ int run_verb_of(int argc, char** argv) {
     sub->footer(sub->get_footer() + "\n" + kExitCodes);
   }
 
+  if (const std::string complaint = unknown_verb(app, argc, argv); !complaint.empty())
+    throw InvalidInput(complaint);
   try {
     app.parse(argc, argv);
   } catch (const CLI::Success& asked) {  // --help, --version

@@ -144,6 +144,19 @@ struct Reference {
   std::vector<Eigen::Index> anchors;  ///< Ascending; empty: the map stays a shape.
 };
 
+/// Anchors that stand elsewhere in the truth than in their own file.
+void remark_disagreement(const Points& truth_m, const Reference& known,
+                         std::vector<std::string>& remarks) {
+  const auto moved = std::ranges::count_if(known.anchors, [&](Eigen::Index row) {
+    return (truth_m.row(row) - known.positions_m.row(row)).norm() > 1e-6;
+  });
+  if (moved > 0)
+    remarks.push_back(
+        fmt::format("Anchors that the truth puts elsewhere: {}. The anchors' own "
+                    "positions are used.",
+                    moved));
+}
+
 Reference reference_of(const ObservationSource& source,
                        const std::optional<NamedPointsFile>& anchors,
                        const std::optional<NamedPointsFile>& truth, Eigen::Index steps,
@@ -157,7 +170,9 @@ Reference reference_of(const ObservationSource& source,
     known.positions_m = *source.truth_m;
   }
   if (anchors) {
+    const Points truth_m = known.positions_m;
     known.anchors = matched_anchors(source, *anchors, steps, known.positions_m);
+    remark_disagreement(truth_m, known, remarks);
   } else if (source.truth_m) {
     known.anchors = own_anchors(source, steps, known.positions_m, remarks);
   }

@@ -9,6 +9,7 @@
 
 #include "app/build_facts.hpp"
 #include "app/progress_line.hpp"
+#include "app/result_json.hpp"
 #include "core/base/version.hpp"
 #include "core/experiment/run_experiment.hpp"
 #include "core/records/study_store.hpp"
@@ -76,14 +77,12 @@ nlohmann::ordered_json study_result(const Study& study) {
                                 {"records_with_status", counts.with_status},
                                 {"results", nlohmann::ordered_json::array()}};
   for_each_result(study, [&](const SettingSummary& result) {
-    object["results"].push_back(
-        {{"sensor", name(result.sensor)},
-         {"method", info(result.setting.method).name},
-         {"parameter", result.setting.parameter ? nlohmann::ordered_json(*result.setting.parameter)
-                                                : nlohmann::ordered_json(nullptr)},
-         {"step", result.step},
-         {"mpe_m", number(result.mpe_m)},
-         {"moe_percent", number(result.moe_percent)}});
+    object["results"].push_back({{"sensor", name(result.sensor)},
+                                 {"method", info(result.setting.method).name},
+                                 {"parameter", parameter_json(result.setting)},
+                                 {"step", result.step},
+                                 {"mpe_m", number(result.mpe_m)},
+                                 {"moe_percent", number(result.moe_percent)}});
   });
   return object;
 }

@@ -8,6 +8,7 @@
 #include "app/commands/verbs.hpp"
 #include "app/map_folder.hpp"
 #include "app/own_map.hpp"
+#include "app/result_json.hpp"
 #include "core/base/errors.hpp"
 #include "core/base/files.hpp"
 #include "core/records/map_files.hpp"
@@ -96,26 +97,20 @@ std::vector<std::pair<std::string, std::string>> facts(const Arguments& argument
   return items;
 }
 
-nlohmann::ordered_json number_or_null(double value) {
-  return std::isfinite(value) ? nlohmann::ordered_json(value) : nlohmann::ordered_json(nullptr);
-}
-
 nlohmann::ordered_json map_result(const OwnMap& map, const fs::path& out) {
   const MapRecord& record = map.record;
   const bool metric = record.frame == Frame::kTruth;
-  nlohmann::ordered_json object{
-      {"sensor", name(record.sensor)},
-      {"method", info(record.setting.method).name},
-      {"parameter", record.setting.parameter ? number_or_null(*record.setting.parameter)
-                                             : nlohmann::ordered_json(nullptr)},
-      {"steps", record.step},
-      {"frame", metric ? "truth" : "similarity"},
-      {"score", nullptr},
-      {"landmarks", nlohmann::ordered_json::array()},
-      {"statuses", nlohmann::ordered_json::array()},
-      {"remarks", map.remarks},
-      {"map", (out / kMapFile).string()},
-      {"report", (out / "report.html").string()}};
+  nlohmann::ordered_json object{{"sensor", name(record.sensor)},
+                                {"method", info(record.setting.method).name},
+                                {"parameter", parameter_json(record.setting)},
+                                {"steps", record.step},
+                                {"frame", metric ? "truth" : "similarity"},
+                                {"score", nullptr},
+                                {"landmarks", nlohmann::ordered_json::array()},
+                                {"statuses", nlohmann::ordered_json::array()},
+                                {"remarks", map.remarks},
+                                {"map", (out / kMapFile).string()},
+                                {"report", (out / "report.html").string()}};
   if (record.score)
     object["score"] = {
         {"mpe_m", number_or_null(record.score->mpe_m)},
@@ -151,7 +146,7 @@ void write_outputs(const Arguments& arguments, const ObservationSource& source, 
                   .figure = figure_block(figure),
                   .provenance = build_provenance(),
                   .command = invocation.command});
-  const MapFolder folder(arguments.out);
+  const MapFolder folder(arguments.out, map.record);
   const fs::path& out = folder.path();
   // The file that marks the folder as a map's comes first: a killed command can then be repeated.
   write_file(out / kMapFile, map_json(map.record));

@@ -70,11 +70,11 @@ Action reproduce_verb(CLI::App& app) {
   app.add_option("NAME", arguments->name,
                  fmt::format("Experiment: {}", fmt::join(experiment_names(), ", ")))
       ->required();
-  app.add_option("--out", arguments->out, "Folder for records, figures and report")
+  add_out_option(app, arguments->out, "Folder for records, figures and report")
       ->capture_default_str();
   app.add_option("--profile", arguments->profile, "quick or full")->capture_default_str();
   add_jobs_option(app, arguments->jobs);
-  app.add_option("--seed", arguments->seed, "Replaces the experiment's seed");
+  add_seed_option(app, arguments->seed);
   app.add_option("--templates", arguments->templates,
                  "Folder whose templates and experiments replace the embedded ones");
   app.add_option("--plaza", arguments->plaza, "Folder of the Plaza data, for experiments on them")

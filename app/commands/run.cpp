@@ -48,10 +48,10 @@ Action run_verb(CLI::App& app) {
       "  mapproof run templates/experiments/yairi2007.json --profile quick --out out/study\n\n"
       "docs/file-formats.md says what an experiment's file holds.\n");
   app.add_option("EXPERIMENT", arguments->experiment, "The experiment's JSON file")->required();
-  app.add_option("--out", arguments->out, "Folder for the records")->required();
+  add_out_option(app, arguments->out, "Folder for the records")->required();
   app.add_option("--profile", arguments->profile, "One of the profiles in the file");
   add_jobs_option(app, arguments->jobs);
-  app.add_option("--seed", arguments->seed, "Replaces the experiment's seed");
+  add_seed_option(app, arguments->seed);
   return [arguments](const Invocation& invocation) { return run(*arguments, invocation); };
 }
 

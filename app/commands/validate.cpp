@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include "app/commands/verbs.hpp"
+#include "app/output_files.hpp"
 #include "core/base/errors.hpp"
 #include "core/records/validate.hpp"
 #include "render/plot/figure_json.hpp"
@@ -17,15 +18,20 @@ bool read_foreign(std::string_view schema, std::string_view text, const std::str
   return true;
 }
 
+/// What a path holds; one that is not there is a finding as well.
+std::vector<Finding> findings_at(const std::string& path) {
+  std::error_code error;
+  if (std::filesystem::exists(path, error)) return validate_all(path, read_foreign);
+  const IoError missing(path, error ? error.message() : "is not there");
+  return {{.path = path, .kind = "", .problem = missing.what()}};
+}
+
 int validate_files(const std::vector<std::string>& paths, const Invocation& invocation) {
   nlohmann::ordered_json object{{"valid", true}, {"files", nlohmann::ordered_json::array()}};
   std::string text;
   bool all_valid = true;
-  for (const std::string& path : paths) {
-    std::error_code error;
-    if (!std::filesystem::exists(path, error))
-      throw IoError(path, error ? error.message() : "is not there");
-    for (const Finding& finding : validate(path, read_foreign)) {
+  for (const std::string& path : paths)
+    for (const Finding& finding : findings_at(path)) {
       const bool valid = finding.problem.empty();
       all_valid &= valid;
       object["files"].push_back({{"path", finding.path},
@@ -33,9 +39,8 @@ int validate_files(const std::vector<std::string>& paths, const Invocation& invo
                                  {"valid", valid},
                                  {"problem", finding.problem}});
       text += valid ? fmt::format("{}: {}\n", printable(finding.path, 300), finding.kind)
-                    : fmt::format("{}\n", finding.problem);
+                    : printable(finding.problem, 4000) + "\n";
     }
-  }
   object["valid"] = all_valid;
   invocation.console.result(text, object);
   return all_valid ? kDone : kNo;
@@ -50,8 +55,8 @@ Action validate_verb(CLI::App& app) {
       "Examples:\n"
       "  mapproof validate observations.csv anchors.csv\n"
       "  mapproof validate out\n\n"
-      "Exit code 1 if a file is not valid.\n");
-  app.add_option("FILE", *paths, "Files, or folders of studies")->required();
+      "Exit code 1 if a file is not valid or not there.\n");
+  app.add_option("FILE", *paths, "Files, or folders of studies and maps")->required();
   return [paths](const Invocation& invocation) { return validate_files(*paths, invocation); };
 }
 

@@ -42,6 +42,8 @@ TEST(CommandLine, WrongUsageIsTwoAndOneClearLine) {
       {"render"},
       {"reproduce", "unheard-of"},
       {"reproduce", "yairi2007", "--profile", "slow"},
+      {"methods", "too", "many"},
+      {"reproduce", "yairi2007", "--out", ""},
       {"run", "/nonexistent.json", "--out", "/tmp/mapproof-never-made"},
   };
   for (const auto& arguments : wrong) {
@@ -95,7 +97,51 @@ TEST(CommandLine, ValidateSaysNoToABrokenFileAndNamesThePlace) {
   const Outcome outcome = mapproof({"validate", good, broken});
   EXPECT_EQ(outcome.exit_code, 1);
   EXPECT_NE(outcome.out.find("broken.json: line 1"), std::string::npos) << outcome.out;
-  EXPECT_EQ(mapproof({"validate", folder / "none"}).exit_code, 2);
+  const Outcome missing = mapproof({"validate", folder / "none", good});
+  EXPECT_EQ(missing.exit_code, 1);
+  EXPECT_NE(missing.out.find("none: is not there"), std::string::npos) << missing.out;
+  EXPECT_NE(missing.out.find("small.json: mapproof.experiment 1"), std::string::npos);
+}
+
+TEST(CommandLine, ValidateKnowsEveryFileThatAStudyAndAMapLeaveAndWhenOneIsCut) {
+  const TemporaryFolder folder;
+  ASSERT_EQ(mapproof({"reproduce", "yairi2007", "--profile", "quick", "--out", folder / "study"})
+                .exit_code,
+            0);
+  ASSERT_EQ(mapproof({"map", std::string(MAPPROOF_TEST_DATA) + "/mrclam", "--method", "lpca",
+                      "--out", folder / "map"})
+                .exit_code,
+            0);
+  for (const char* name : {"study", "map"}) {
+    const Outcome whole = mapproof({"validate", folder / name, "--json"});
+    EXPECT_EQ(whole.exit_code, 0) << whole.out;
+    const auto files = contents(folder / name);
+    EXPECT_GE(nlohmann::json::parse(whole.out)["files"].size(), files.size());
+    for (const auto& [file, bytes] : files) {
+      if (bytes.size() < 2 || file.ends_with(".md") || file.ends_with(".csv") ||
+          file.ends_with(".jsonl"))
+        continue;  // A cut may leave these whole.
+      std::filesystem::resize_file(folder / name / file, bytes.size() / 2);
+      const Outcome cut = mapproof({"validate", (folder / name / file).string()});
+      EXPECT_EQ(cut.exit_code, 1) << file;
+      EXPECT_NE(cut.out.find(file), std::string::npos) << cut.out;
+    }
+  }
+}
+
+TEST(CommandLine, ASeedThatIsNoneIsRefusedNotWrappedRound) {
+  const TemporaryFolder folder;
+  for (const char* seed : {"-1", "18446744073709551616", "1.5", "seven", ""}) {
+    const Outcome outcome = mapproof({"reproduce", "yairi2007", "--profile", "quick", "--seed",
+                                      seed, "--out", folder / "study"});
+    EXPECT_EQ(outcome.exit_code, 2) << seed;
+    EXPECT_NE(outcome.error.find("--seed"), std::string::npos) << outcome.error;
+  }
+  EXPECT_FALSE(std::filesystem::exists(folder / "study"));
+}
+
+TEST(CommandLine, AMisspeltVerbIsMetWithTheOneMeant) {
+  EXPECT_NE(mapproof({"reprodcue"}).error.find("did you mean \"reproduce\"?"), std::string::npos);
 }
 
 }  // namespace

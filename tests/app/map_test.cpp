@@ -202,6 +202,40 @@ TEST(Map, CanBeWrittenAgainOverAnEarlierOneAndWhatAKillLeft) {
   EXPECT_EQ(contents(folder / "map"), first);
 }
 
+TEST(Map, OfAnotherKindIsRefusedAFolderThatHoldsAMap) {
+  const TemporaryFolder folder;
+  const std::string data = std::string(MAPPROOF_TEST_DATA) + "/mrclam";
+  ASSERT_EQ(mapproof({"map", data, "--method", "lpca", "--out", folder / "map"}).exit_code, 0);
+  const auto before = contents(folder / "map");
+  const Survey survey;
+  const std::string other = folder.file("seen.csv", survey.wide());
+  for (const std::vector<std::string>& arguments :
+       {std::vector<std::string>{"map", data, "--method", "smacof"},
+        {"map", data, "--method", "lpca", "--steps", "3"},
+        {"map", other, "--kind", "bearing", "--method", "lpca"}}) {
+    std::vector<std::string> call = arguments;
+    call.insert(call.end(), {"--out", folder / "map"});
+    const Outcome outcome = mapproof(call);
+    EXPECT_EQ(outcome.exit_code, 2);
+    EXPECT_NE(outcome.error.find("holds another map"), std::string::npos) << outcome.error;
+    EXPECT_EQ(contents(folder / "map"), before);
+  }
+}
+
+TEST(Map, SaysWhenAnchorsAndTruthDisagree) {
+  const TemporaryFolder folder;
+  const Survey survey;
+  const std::string truth = folder.file("truth.csv", survey.positions(survey.all()));
+  const std::string anchors =
+      folder.file("anchors.csv", "post 0,0,0\npost 4,4,0\npost 15,0,9000\n");
+  const Outcome outcome =
+      mapproof({"map", folder.file("seen.csv", survey.wide()), "--kind", "bearing", "--anchors",
+                anchors, "--truth", truth, "--out", folder / "map"});
+  EXPECT_EQ(outcome.exit_code, 0);
+  EXPECT_NE(outcome.error.find("Anchors that the truth puts elsewhere: 1."), std::string::npos)
+      << outcome.error;
+}
+
 TEST(DiagonalAnchors, AreTheFurthestOutAndAllDifferent) {
   EXPECT_EQ(diagonal_anchors(grid(3, 3)), (std::vector<Eigen::Index>{0, 2, 6, 8}));
   Points line(5, 2);

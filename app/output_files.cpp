@@ -1,0 +1,140 @@
+#include "app/output_files.hpp"
+
+#include <algorithm>
+#include <array>
+#include <memory>
+#include <string>
+#include <string_view>
+#include <system_error>
+
+#include <expat.h>
+#include <fmt/format.h>
+
+#include "core/base/errors.hpp"
+#include "core/base/files.hpp"
+#include "core/records/table_reader.hpp"
+#include "render/image/png_check.hpp"
+
+namespace mapproof {
+namespace {
+
+namespace fs = std::filesystem;
+
+void check_svg(const std::string& bytes, const std::string& source) {
+  const std::unique_ptr<XML_ParserStruct, decltype(&XML_ParserFree)> parser(
+      XML_ParserCreate("UTF-8"), &XML_ParserFree);
+  if (XML_Parse(parser.get(), bytes.data(), static_cast<int>(bytes.size()), XML_TRUE) ==
+      XML_STATUS_OK)
+    return;
+  throw IoError(source,
+                fmt::format("line {}, column {}", XML_GetCurrentLineNumber(parser.get()),
+                            XML_GetCurrentColumnNumber(parser.get()) + 1),
+                XML_ErrorString(XML_GetErrorCode(parser.get())));
+}
+
+void check_png(const std::string& bytes, const std::string& source) {
+  const std::string problem = png_problem(bytes);
+  if (!problem.empty()) throw IoError(source, problem);
+}
+
+/// Files that are told whole by how they begin and end.
+void check_ends(const std::string& bytes, const std::string& source, std::string_view begin,
+                std::string_view end) {
+  if (!bytes.starts_with(begin))
+    throw IoError(source, "line 1", fmt::format("expected \"{}\"", begin));
+  const std::size_t last = bytes.find_last_not_of(" \r\n");
+  if (!std::string_view(bytes).substr(0, last + 1).ends_with(end))
+    throw IoError(source, fmt::format("is truncated: it does not end with \"{}\"", end));
+}
+
+void check_pdf(const std::string& bytes, const std::string& source) {
+  check_ends(bytes, source, "%PDF-", "%%EOF");
+}
+
+void check_page(const std::string& bytes, const std::string& source) {
+  check_ends(bytes, source, "<!DOCTYPE html>", "</html>");
+}
+
+void check_latex(const std::string& bytes, const std::string& source) {
+  for (const char* part : {"\\toprule", "\\bottomrule"})
+    if (bytes.find(part) == std::string::npos)
+      throw IoError(source, fmt::format("is no table of ours: {} is missing", part));
+}
+
+void check_markdown(const std::string& bytes, const std::string& source) {
+  if (bytes.find("\n|") == std::string::npos)
+    throw IoError(source, "is no table of ours: it has no row");
+}
+
+void check_csv(const std::string& bytes, const std::string& source) {
+  TableReader reader(bytes, source, ',');
+  TableRow row;
+  std::size_t width = 0;
+  while (reader.next(row)) {
+    if (width == 0) width = row.cells.size();
+    if (row.cells.size() != width)
+      throw IoError(source, fmt::format("line {}", row.line),
+                    fmt::format("has {} cells, expected {}", row.cells.size(), width));
+  }
+  if (width == 0) throw IoError(source, "is empty");
+}
+
+/// A kind of file that is written and never read again.
+struct Output {
+  std::string_view extension;
+  std::string_view kind;
+  void (*check)(const std::string& bytes, const std::string& source);
+};
+
+constexpr std::array kOutputs = {
+    Output{".svg", "figure, SVG", check_svg},    Output{".png", "figure, PNG", check_png},
+    Output{".pdf", "figure, PDF", check_pdf},    Output{".html", "report", check_page},
+    Output{".tex", "table, LaTeX", check_latex}, Output{".md", "table, Markdown", check_markdown},
+    Output{".csv", "table, CSV", check_csv},
+};
+
+/// The kind of an output file; null for files that core reads. A table's CSV is told from
+/// observations by its folder.
+const Output* output_of(const fs::path& path) {
+  const auto* found = std::ranges::find(kOutputs, path.extension().string(), &Output::extension);
+  if (found == kOutputs.end()) return nullptr;
+  if (found->extension == ".csv" && path.parent_path().filename() != "tables") return nullptr;
+  return found;
+}
+
+Finding check_output(const fs::path& path, const Output& output) {
+  Finding finding{.path = path.string(), .kind = std::string(output.kind), .problem = ""};
+  try {
+    output.check(read_file(path), finding.path);
+  } catch (const IoError& error) {
+    finding.problem = error.what();
+  }
+  return finding;
+}
+
+/// The output files below a folder, in the order of their paths.
+std::vector<fs::path> outputs_below(const fs::path& folder) {
+  std::vector<fs::path> paths;
+  std::error_code error;
+  for (fs::recursive_directory_iterator entry(folder, error), end; !error && entry != end;
+       entry.increment(error))
+    if (output_of(entry->path()) != nullptr) paths.push_back(entry->path());
+  std::ranges::sort(paths);
+  return paths;
+}
+
+}  // namespace
+
+std::vector<Finding> validate_all(const fs::path& path, const ForeignReader& foreign) {
+  std::error_code error;
+  if (!fs::is_directory(path, error)) {
+    if (const Output* output = output_of(path)) return {check_output(path, *output)};
+    return validate(path, foreign);
+  }
+  std::vector<Finding> findings = validate(path, foreign);
+  for (const fs::path& output : outputs_below(path))
+    findings.push_back(check_output(output, *output_of(output)));
+  return findings;
+}
+
+}  // namespace mapproof
