@@ -13,7 +13,7 @@ struct EigenPairs {
 
 /// The k algebraically largest eigenpairs.
 ///
-/// Dense up to n = 300, above that Lanczos with a fixed start [Spectra], and dense again where
+/// Dense up to n = 300, above that Lanczos with a fixed start (Spectra), and dense again where
 /// that does not converge.
 /// @param matrix  n x n, symmetric (the lower half is read), finite.
 /// @throws InvalidInput unless 1 <= k <= n and all entries are finite.

@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include "core/base/errors.hpp"
+#include "render/base/span.hpp"
 #include "render/figures/words.hpp"
 
 namespace mapproof {
@@ -18,21 +19,6 @@ constexpr std::array kMarkers = {Marker::kCircle,  Marker::kSquare,       Marker
                                  Marker::kCross};
 constexpr std::array kDashes = {Dash::kSolid, Dash::kDashed, Dash::kDashDot, Dash::kDotted,
                                 Dash::kLongDash};
-
-/// The least and greatest of finite values.
-struct Span {
-  double low = INFINITY;
-  double high = -INFINITY;
-
-  void see(const std::vector<double>& values) {
-    for (const double value : values) {
-      if (!std::isfinite(value)) continue;
-      low = std::min(low, value);
-      high = std::max(high, value);
-    }
-  }
-  bool known() const { return low <= high; }
-};
 
 void require_consistent(const ErrorCurveSpec& spec) {
   for (const Curve& curve : spec.curves) {

@@ -1,28 +1,14 @@
 #include "render/plot/axis_map.hpp"
 
 #include <cmath>
-#include <span>
+
+#include "render/base/span.hpp"
 
 namespace mapproof {
 namespace {
 
 constexpr double kPadding = 0.05;
 constexpr double kMostElongated = 2.5;
-
-/// The least and the greatest of what it is shown, NaN left out.
-struct Span {
-  double low = INFINITY;
-  double high = -INFINITY;
-
-  void see(double value) {
-    if (!std::isfinite(value)) return;
-    low = std::min(low, value);
-    high = std::max(high, value);
-  }
-  void see(std::span<const double> values) {
-    for (const double value : values) see(value);
-  }
-};
 
 struct Spans {
   Span x, y;
@@ -56,7 +42,7 @@ struct Spans {
 };
 
 Range linear_range(Span span) {
-  if (!(span.low <= span.high)) return {0.0, 1.0};
+  if (!span.known()) return {0.0, 1.0};
   const double size = std::max(std::abs(span.low), std::abs(span.high));
   const double width = span.high - span.low;
   const double padding = width > 1e-9 * size ? kPadding * width : std::max(0.5, 0.05 * size);
@@ -66,7 +52,7 @@ Range linear_range(Span span) {
 Range axis_range(const Axis& axis, Span span) {
   if (axis.limits) return *axis.limits;
   if (axis.scale == Scale::kLinear) return linear_range(span);
-  if (!(span.low <= span.high)) return {0.1, 1.0};
+  if (!span.known()) return {0.1, 1.0};
   const double factor = std::max(std::pow(span.high / span.low, kPadding), 1.2);
   return {span.low / factor, span.high * factor};
 }

@@ -84,15 +84,6 @@ bool Obstacles::hit(const Box& box) const {
   return false;
 }
 
-double Obstacles::weight(const Box& box) const {
-  double sum = 0.0;
-  for (const Box& other : boxes)
-    if (box.overlaps(other)) sum += 1.0;
-  for (const Line& line : lines)
-    if (crosses(box.grown(line.half_width), line.a, line.b)) sum += 1.0;
-  return sum;
-}
-
 Obstacles data_obstacles(const Panel& panel, const PanelMap& map, const Theme& theme) {
   Obstacles found;
   for (const Layer& layer : panel.layers) std::visit(Collector(map, theme, found), layer);

@@ -19,8 +19,6 @@ struct Obstacles {
   std::vector<Line> lines;
 
   bool hit(const Box& box) const;
-  /// The area of boxes and number of lines under `box`, roughly: 0 exactly if nothing is hit.
-  double weight(const Box& box) const;
 };
 
 /// The places that the panel's layers take.

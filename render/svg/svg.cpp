@@ -10,8 +10,6 @@
 namespace mapproof {
 namespace {
 
-constexpr double kUnitsPerEm = 2048.0;
-
 /// Writes a path's data, each point relative to the one before in whole steps of `scale`, so that
 /// rounding never adds up.
 void append_path(std::string& out, const Path& path, double scale) {
@@ -244,7 +242,7 @@ class SvgWriter {
     out_ += ' ';
     append_number(out_, line.at.y);
     out_ += line.upward ? ")rotate(-90)" : ")";
-    out_ += fmt::format("scale({:.6f})\">", line.size / kUnitsPerEm);
+    out_ += fmt::format("scale({:.6f})\">", line.size / FontFacts::kUnitsPerEm);
     if (!line.whole.empty()) {
       out_ += "<title>";
       append_xml(out_, line.whole);
@@ -252,8 +250,8 @@ class SvgWriter {
     }
     for (const Glyph& glyph : line.shaped.glyphs) {
       out_ += fmt::format("<use href=\"#{}-g{}\"", drawing_.id, glyph.index);
-      if (glyph.x != 0.0) attribute("x", std::round(glyph.x * kUnitsPerEm));
-      if (glyph.y != 0.0) attribute("y", std::round(glyph.y * kUnitsPerEm));
+      if (glyph.x != 0.0) attribute("x", std::round(glyph.x * FontFacts::kUnitsPerEm));
+      if (glyph.y != 0.0) attribute("y", std::round(glyph.y * FontFacts::kUnitsPerEm));
       out_ += "/>";
     }
     out_ += "</g>\n";

@@ -16,7 +16,6 @@ std::span<const Resource> font_resources();
 
 namespace {
 
-constexpr double kUnitsPerEm = 2048.0;
 constexpr std::size_t kMostMarks = 2;         // Combining marks on one letter; more is mischief.
 constexpr std::size_t kMostCodePoints = 400;  // Of one line; no figure is wider.
 
@@ -123,8 +122,9 @@ Box glyph_ink(std::uint32_t glyph) {
   hb_glyph_extents_t e{};
   if (!hb_font_get_glyph_extents(shared_font(), glyph, &e) || e.width == 0 || e.height == 0)
     return {};
-  return {e.x_bearing / kUnitsPerEm, -e.y_bearing / kUnitsPerEm,
-          (e.x_bearing + e.width) / kUnitsPerEm, -(e.y_bearing + e.height) / kUnitsPerEm};
+  return {e.x_bearing / FontFacts::kUnitsPerEm, -e.y_bearing / FontFacts::kUnitsPerEm,
+          (e.x_bearing + e.width) / FontFacts::kUnitsPerEm,
+          -(e.y_bearing + e.height) / FontFacts::kUnitsPerEm};
 }
 
 /// Glyphs of equal cluster number, in the order of the text.
@@ -163,15 +163,16 @@ void shape_stretch(const Stretch& stretch, hb_buffer_t* buffer, ShapedText& shap
   shaped.runs.push_back({stretch.begin, shaped.glyphs.size(), stretch.right_to_left,
                          clusters_of({infos, count}, stretch)});
   for (unsigned i = 0; i < count; ++i) {
-    const Glyph glyph{infos[i].codepoint, shaped.advance + places[i].x_offset / kUnitsPerEm,
-                      -places[i].y_offset / kUnitsPerEm};
+    const Glyph glyph{infos[i].codepoint,
+                      shaped.advance + places[i].x_offset / FontFacts::kUnitsPerEm,
+                      -places[i].y_offset / FontFacts::kUnitsPerEm};
     const Box ink = glyph_ink(glyph.index);
     if (ink.width() > 0.0) {
       const Box placed = ink.moved(glyph.x, glyph.y);
       shaped.ink = shaped.ink.width() > 0.0 ? shaped.ink.united(placed) : placed;
     }
     shaped.glyphs.push_back(glyph);
-    shaped.advance += places[i].x_advance / kUnitsPerEm;
+    shaped.advance += places[i].x_advance / FontFacts::kUnitsPerEm;
   }
 }
 

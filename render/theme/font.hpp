@@ -17,7 +17,8 @@ struct FontFacts {
   static constexpr double kDescent = 0.24;  ///< Of "g".
   static constexpr double kCapHeight = 0.729;
   static constexpr double kXHeight = 0.547;
-  static constexpr double kLine = 1.3;  ///< From baseline to baseline.
+  static constexpr double kUnitsPerEm = 2048.0;  ///< Of the outlines in the file.
+  static constexpr double kLine = 1.3;           ///< From baseline to baseline.
 };
 
 struct Glyph {

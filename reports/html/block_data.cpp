@@ -15,9 +15,6 @@ namespace {
 using kainjow::mustache::data;
 using kainjow::mustache::list;
 
-/// The text, or false where an empty one shall leave nothing behind.
-data optional(const std::string& text) { return text.empty() ? data(false) : data(text); }
-
 /// Longer texts scroll in a box of their own.
 constexpr std::size_t kLong = 200;
 constexpr std::size_t kLongCaption = 800;
@@ -47,11 +44,11 @@ data figure_data(const FigureBlock& figure, const SvgLookup& svg, const HtmlOpti
   out.set("alt", figure.alt);
   out.set("long", figure.caption.size() > kLongCaption);
   const std::string drawing = svg ? svg(figure.id) : "";
-  out.set("svg", optional(drawing));
-  out.set("folder", optional(options.figure_folder));
+  out.set("svg", text_or_false(drawing));
+  out.set("folder", text_or_false(options.figure_folder));
   std::string records;
   for (const std::string& id : figure.record_ids) records += (records.empty() ? "" : "; ") + id;
-  out.set("records", optional(records));
+  out.set("records", text_or_false(records));
   return out;
 }
 

@@ -12,9 +12,7 @@ namespace {
 using kainjow::mustache::data;
 using kainjow::mustache::list;
 
-constexpr std::size_t kLong = 80;  ///< Longer texts scroll in a box of their own.
-
-data optional(const std::string& text) { return text.empty() ? data(false) : data(text); }
+constexpr std::size_t kLongCell = 80;  ///< Longer texts scroll in a box of their own.
 
 bool any_group(const Table& table) {
   for (const Column& column : table.columns)
@@ -26,8 +24,8 @@ data heading_data(const Table& table, std::size_t index, bool two_rows) {
   const Column& column = table.columns[index];
   data out;
   out.set("title", column.title);
-  out.set("unit", optional(column.unit));
-  out.set("hint", optional(column.hint));
+  out.set("unit", text_or_false(column.unit));
+  out.set("hint", text_or_false(column.hint));
   out.set("index", fmt::format("{}", index));
   out.set("text", holds_text(table, index));
   out.set("group", false);
@@ -91,7 +89,7 @@ data cell_data(const Table& table, const Row& row, std::size_t index) {
   out.set("is_text", text != nullptr || holds_text(table, index));
   out.set("code", emphasis == Emphasis::kCode);
   out.set("data", emphasis != Emphasis::kCode);
-  out.set("long", text != nullptr && text->text.size() > kLong);
+  out.set("long", text != nullptr && text->text.size() > kLongCell);
   const std::string key = std::visit(SortKey{}, cell);
   out.set("sort", text == nullptr ? data("key", key) : data(false));
   const bool begins = index > 0 && table.columns[index - 1].group != table.columns[index].group;
@@ -106,7 +104,7 @@ data row_data(const Table& table, const Row& row) {
   for (std::size_t i = 0; i < row.cells.size(); ++i) cells.push_back(cell_data(table, row, i));
   out.set("cells", cells);
   out.set("marked", row.marked);
-  out.set("source", optional(row.source));
+  out.set("source", text_or_false(row.source));
   return out;
 }
 
@@ -116,7 +114,7 @@ data table_data(const Table& table, const HtmlOptions& options) {
   data out;
   out.set("id", table.id);
   out.set("caption", table.caption);
-  out.set("folder", optional(options.table_folder));
+  out.set("folder", text_or_false(options.table_folder));
   add_headings(table, out);
   list rows;
   rows.reserve(table.rows.size());

@@ -57,6 +57,12 @@ std::string format_number(double value, int decimals, bool with_sign) {
 
 std::string format_cell(const Cell& cell) { return std::visit(CellFormatter{}, cell); }
 
+std::string full_heading(const Column& column) {
+  std::string text = column.group.empty() ? column.title : column.group + ": " + column.title;
+  if (!column.unit.empty()) text += " [" + column.unit + "]";
+  return text;
+}
+
 std::string count_of(long count, const std::string& noun) {
   return fmt::format("{} {}{}", count, noun, count == 1 ? "" : "s");
 }

@@ -16,6 +16,9 @@ std::string format_number(double value, int decimals, bool with_sign = false);
 /// As a reader sees it: "0.219", "0.191–0.247", "–".
 std::string format_cell(const Cell& cell);
 
+/// "MPE: Mean [m]": group, title and unit of a column.
+std::string full_heading(const Column& column);
+
 /// "1 run", "25 runs".
 std::string count_of(long count, const std::string& noun);
 

@@ -198,8 +198,7 @@ Section accuracy_section(const Study& study, const SensorStudy& sensor) {
   section.blocks.emplace_back(plain(fmt::format(
       "Maps after {} observations, aligned to {} by the affine map of {}. Smaller is better.",
       last_step(sensor), count_of(study.experiment.anchors, "anchor"),
-      study.experiment.affine_fit == AffineFit::kLeastDistances ? "least distances"
-                                                                : "least squares")));
+      label(study.experiment.affine_fit))));
   section.blocks.emplace_back(accuracy_table(sensor, best, grid));
   section.blocks.emplace_back(spread_table(sensor, best));
   if (grid) section.blocks.emplace_back(parameter_table(sensor, all));

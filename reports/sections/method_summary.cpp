@@ -50,13 +50,6 @@ double mean_of_finite(std::span<const double> values) {
   return count > 0 ? sum / count : kNan;
 }
 
-std::vector<MethodSetting> settings_of(const MethodGrid& grid) {
-  if (grid.parameters.empty()) return {{grid.method, std::nullopt}};
-  std::vector<MethodSetting> settings;
-  for (const double parameter : grid.parameters) settings.push_back({grid.method, parameter});
-  return settings;
-}
-
 std::optional<PublishedValue> published_for(const SensorStudy& sensor, Method method) {
   for (const PublishedValue& value : sensor.published)
     if (value.setting.method == method) return value;
@@ -108,9 +101,7 @@ bool better(const SettingSummary& a, const SettingSummary& b) {
 
 std::vector<std::vector<SettingSummary>> summarize(const Study& study, const SensorStudy& sensor,
                                                    std::span<const int> steps) {
-  std::vector<MethodSetting> settings;
-  for (const MethodGrid& grid : sensor.methods)
-    for (const MethodSetting& setting : settings_of(grid)) settings.push_back(setting);
+  const std::vector<MethodSetting> settings = settings_of(sensor);
   const auto samples = samples_of(study, sensor.sensor.sensor, settings, steps);
   std::vector<std::vector<SettingSummary>> summaries;
   for (const int step : steps) {
@@ -167,10 +158,6 @@ std::optional<Interval> interval_of(const std::optional<MeanEstimate>& estimate)
   if (!estimate || !estimate->half_width) return std::nullopt;
   return Interval{std::max(0.0, estimate->mean - *estimate->half_width),
                   estimate->mean + *estimate->half_width};
-}
-
-std::string record_id(const RunId& run, Sensor sensor, const MethodSetting& setting, int step) {
-  return fmt::format("{}/{}/{}/{}", slug(run), name(sensor), slug(setting), step);
 }
 
 std::string source_of(const SettingSummary& summary) {

@@ -56,9 +56,6 @@ struct Interval {
 /// The 95 % interval of an error, cut at 0; empty where one layout, or none, was run.
 std::optional<Interval> interval_of(const std::optional<MeanEstimate>& estimate);
 
-/// "layout-1-pose-2/bearing/isomap-K9/2000", as in MapRecord.
-std::string record_id(const RunId& run, Sensor sensor, const MethodSetting& setting, int step);
-
 /// "bearing/isomap-K9/2000 of 25 runs": which records a summary rests on.
 std::string source_of(const SettingSummary& summary);
 

@@ -28,12 +28,6 @@ bool is_interval(const Table& table, std::size_t column) {
   return false;
 }
 
-std::string heading(const Column& column) {
-  std::string text = column.group.empty() ? column.title : column.group + ": " + column.title;
-  if (!column.unit.empty()) text += " [" + column.unit + "]";
-  return text;
-}
-
 struct Writer {
   bool interval;  ///< The column takes two fields.
 
@@ -53,7 +47,7 @@ std::string table_csv(const Table& table) {
   std::vector<bool> intervals;
   for (std::size_t i = 0; i < table.columns.size(); ++i) {
     intervals.push_back(is_interval(table, i));
-    const std::string title = heading(table.columns[i]);
+    const std::string title = full_heading(table.columns[i]);
     if (i > 0) text += ',';
     text += intervals[i] ? field(title + ", low") + "," + field(title + ", high") : field(title);
   }

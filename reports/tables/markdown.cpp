@@ -34,12 +34,6 @@ std::string escaped(const std::string& text) {
   return out;
 }
 
-std::string heading(const Column& column) {
-  std::string text = column.group.empty() ? column.title : column.group + ": " + column.title;
-  if (!column.unit.empty()) text += " [" + column.unit + "]";
-  return escaped(text);
-}
-
 /// Words are escaped; numbers need none ("+0.01" and "1.00e+07" are read as they stand).
 std::string cell_text(const Cell& cell) {
   if (const auto* text = std::get_if<TextCell>(&cell)) return escaped(text->text);
@@ -50,7 +44,7 @@ std::string cell_text(const Cell& cell) {
 
 std::string table_markdown(const Table& table) {
   std::string text = "**" + escaped(table.caption) + "**\n\n|";
-  for (const Column& column : table.columns) text += " " + heading(column) + " |";
+  for (const Column& column : table.columns) text += " " + escaped(full_heading(column)) + " |";
   text += "\n|";
   for (std::size_t i = 0; i < table.columns.size(); ++i)
     text += holds_text(table, i) ? " :--- |" : " ---: |";
