@@ -4,8 +4,6 @@
 #include <chrono>
 #include <utility>
 
-#include <fmt/format.h>
-
 #include "core/base/errors.hpp"
 #include "core/embed/embedder.hpp"
 #include "core/observe/proximities.hpp"
@@ -28,18 +26,17 @@ MapRecord scored_map(const Experiment& experiment, const Run& run,
                      const Embedding& embedding) {
   AlignedMap aligned = align_to_anchors(embedding.coordinates, run.world.landmarks_m, run.anchors,
                                         experiment.affine_fit);
-  MapRecord map{
-      .id = fmt::format("{}/{}/{}/{}", slug(run.id), name(history.sensor), slug(setting), step),
-      .sensor = history.sensor,
-      .setting = setting,
-      .step = step,
-      .frame = aligned.aligned ? Frame::kTruth : Frame::kSimilarity,
-      .names = history.names,
-      .estimate = std::move(aligned.positions_m),
-      .truth_m = run.world.landmarks_m,
-      .anchors = run.anchors,
-      .statuses = embedding.statuses,
-      .score = std::nullopt};
+  MapRecord map{.id = record_id(run.id, history.sensor, setting, step),
+                .sensor = history.sensor,
+                .setting = setting,
+                .step = step,
+                .frame = aligned.aligned ? Frame::kTruth : Frame::kSimilarity,
+                .names = history.names,
+                .estimate = std::move(aligned.positions_m),
+                .truth_m = run.world.landmarks_m,
+                .anchors = run.anchors,
+                .statuses = embedding.statuses,
+                .score = std::nullopt};
   map.statuses.insert(map.statuses.end(), aligned.statuses.begin(), aligned.statuses.end());
   if (aligned.aligned)
     map.score = score_map(map.estimate, *map.truth_m, run.anchors, experiment.affine_fit);
@@ -73,15 +70,6 @@ std::vector<RunId> runs_of(const Experiment& experiment) {
   for (int layout = 1; layout <= experiment.layouts; ++layout)
     for (int pose = 1; pose <= experiment.poses; ++pose) runs.push_back({layout, pose});
   return runs;
-}
-
-std::vector<MethodSetting> settings_of(const SensorStudy& study) {
-  std::vector<MethodSetting> settings;
-  for (const MethodGrid& grid : study.methods) {
-    if (grid.parameters.empty()) settings.push_back({grid.method, std::nullopt});
-    for (const double parameter : grid.parameters) settings.push_back({grid.method, parameter});
-  }
-  return settings;
 }
 
 RunResult simulate_run(const Experiment& experiment, const RunId& id) {

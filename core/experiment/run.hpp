@@ -8,9 +8,6 @@ namespace mapproof {
 /// All runs of an experiment, ascending.
 std::vector<RunId> runs_of(const Experiment& experiment);
 
-/// The settings of one sensor's study, in the order of its methods and their parameters.
-std::vector<MethodSetting> settings_of(const SensorStudy& study);
-
 /// One run: scatters the landmarks, walks, observes, maps and scores at every checkpoint
 /// [yairi2007, section 3].
 ///

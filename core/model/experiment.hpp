@@ -1,7 +1,9 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "core/model/method.hpp"
@@ -49,6 +51,15 @@ enum class AffineFit {
   kLeastSquares,    ///< Least sum of squared distances.
 };
 
+/// The name used in files: "least_distances".
+std::string_view name(AffineFit fit);
+
+/// "least distances": for readers.
+std::string_view label(AffineFit fit);
+
+/// The fit of that name; empty if there is none.
+std::optional<AffineFit> affine_fit_named(std::string_view name);
+
 /// A number that a paper printed, shown beside ours.
 struct PublishedValue {
   MethodSetting setting;
@@ -64,6 +75,9 @@ struct SensorStudy {
   std::string published_source;  ///< "Yairi 2007, Table 1"; empty if nothing was published.
   std::vector<PublishedValue> published;
 };
+
+/// The settings of one sensor's study, in the order of its methods and their parameters.
+std::vector<MethodSetting> settings_of(const SensorStudy& study);
 
 /// A simulated study: `layouts` worlds, each walked from `poses` initial poses. A run is one pair.
 struct Experiment {

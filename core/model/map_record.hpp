@@ -2,6 +2,7 @@
 
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include <Eigen/Core>
@@ -20,6 +21,12 @@ enum class Frame {
   kSimilarity,  ///< No anchors, or none that could tie the map to the truth: shape alone; place,
                 ///< turn, scale and mirror are arbitrary.
 };
+
+/// The name used in files: "truth", "similarity".
+std::string_view name(Frame frame);
+
+/// The frame of that name; empty if there is none.
+std::optional<Frame> frame_named(std::string_view name);
 
 /// One map, of a study or of a person's own observations.
 struct MapRecord {

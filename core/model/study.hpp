@@ -2,6 +2,7 @@
 
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "core/model/experiment.hpp"
@@ -21,6 +22,9 @@ struct RunId {
 
 /// "layout-1-pose-2".
 std::string slug(const RunId& run);
+
+/// "layout-1-pose-2/bearing/isomap-K9/2000": which map or record of a study.
+std::string record_id(const RunId& run, Sensor sensor, const MethodSetting& setting, int step);
 
 /// How one map came out: the unit that tables and curves are made of.
 struct RunRecord {

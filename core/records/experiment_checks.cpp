@@ -13,6 +13,8 @@ namespace {
 /// [feder1980]; above this share it takes too long to find a place for the next.
 constexpr double kDensest = 0.45;
 constexpr double kMostRuns = 1e6;
+constexpr double kMostSubsteps = 1e4;        ///< Of one step.
+constexpr double kMostSubstepsOfWalk = 1e9;  ///< Some minutes.
 
 void check_room(const WorldOptions& world, const JsonCursor& document) {
   const double spacing_m = world.landmark_diameter_m + world.gap_m;
@@ -31,14 +33,26 @@ void check_room(const WorldOptions& world, const JsonCursor& document) {
 }
 
 void check_walk(const Experiment& experiment, const JsonCursor& document) {
-  if (2.0 * experiment.walk.wall_margin_m >= experiment.world.side_m)
-    document.at("walk")
-        .at("wall_margin_m")
-        .fail(
-            fmt::format("leaves the robot no room within walls of {} m", experiment.world.side_m));
-  if (experiment.walk.substep_m > experiment.walk.step_m)
-    document.at("walk").fail(fmt::format("substep_m = {} is longer than step_m = {}",
-                                         experiment.walk.substep_m, experiment.walk.step_m));
+  const WalkOptions& walk = experiment.walk;
+  const JsonCursor place = document.find("walk").value_or(document);  // Defaults break bounds too.
+  if (2.0 * walk.wall_margin_m >= experiment.world.side_m)
+    place.find("wall_margin_m")
+        .value_or(place)
+        .fail(fmt::format("wall_margin_m = {} leaves the robot no room within walls of {} m",
+                          walk.wall_margin_m, experiment.world.side_m));
+  if (walk.substep_m > walk.step_m)
+    place.fail(
+        fmt::format("substep_m = {} is longer than step_m = {}", walk.substep_m, walk.step_m));
+  const double substeps = walk.step_m / walk.substep_m;
+  if (substeps > kMostSubsteps)
+    place.fail(
+        fmt::format("step_m = {} in substeps of substep_m = {} are {:.0f} a step; at most "
+                    "{:.0f}",
+                    walk.step_m, walk.substep_m, substeps, kMostSubsteps));
+  for (const SensorStudy& study : experiment.sensors)
+    if (substeps * study.checkpoints.back() > kMostSubstepsOfWalk)
+      place.fail(fmt::format("{:.0f} substeps a step x {} steps are more than {:.0f}", substeps,
+                             study.checkpoints.back(), kMostSubstepsOfWalk));
 }
 
 void check_sensor(const SensorStudy& study, int landmarks, const JsonCursor& object) {

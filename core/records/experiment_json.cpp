@@ -1,5 +1,9 @@
 #include "core/records/experiment_json.hpp"
 
+#include <algorithm>
+#include <optional>
+#include <utility>
+
 #include <fmt/format.h>
 
 #include "core/base/errors.hpp"
@@ -13,10 +17,6 @@ namespace mapproof {
 namespace {
 
 using Json = nlohmann::ordered_json;
-
-std::string_view name(AffineFit fit) {
-  return fit == AffineFit::kLeastDistances ? "least_distances" : "least_squares";
-}
 
 Json methods_value(const std::vector<MethodGrid>& grids) {
   Json methods = Json::object();
@@ -55,6 +55,18 @@ Json sensor_value(const SensorStudy& study) {
   if (!study.published.empty() || !study.published_source.empty())
     value["published"] = published_value(study);
   return value;
+}
+
+/// "it has "a", "b" and 3 more": at most five of them.
+std::string known_profiles(const std::vector<std::pair<std::string, JsonCursor>>& profiles) {
+  constexpr std::size_t kShown = 5;
+  if (profiles.empty()) return "it has none";
+  std::vector<std::string> shown;
+  for (std::size_t i = 0; i < std::min(profiles.size(), kShown); ++i)
+    shown.push_back(in_quotes(profiles[i].first));
+  const std::string rest =
+      profiles.size() > kShown ? fmt::format(" and {} more", profiles.size() - kShown) : "";
+  return fmt::format("it has {}{}", fmt::join(shown, ", "), rest);
 }
 
 /// The document's profiles; an object of patches, empty if it has none.
@@ -109,15 +121,11 @@ Experiment parse_experiment(std::string_view text, const std::string& source,
   JsonDocument document = parse_json(text, source);
   expect_schema(document.cursor(), "mapproof.experiment");
   nlohmann::json patch;
-  std::vector<std::string_view> known;
   const auto members = profile_members(document.cursor());
-  for (const auto& [key, cursor] : members) known.push_back(key);
   if (!profile.empty()) {
-    if (!document.root.contains("profiles") || !document.root["profiles"].contains(profile)) {
-      const std::string names =
-          known.empty() ? "it has none" : fmt::format("it has {}", fmt::join(known, ", "));
-      throw IoError(source, "/profiles", "no profile " + in_quotes(profile) + ": " + names);
-    }
+    if (!document.root.contains("profiles") || !document.root["profiles"].contains(profile))
+      throw IoError(source, "/profiles",
+                    "no profile " + in_quotes(profile) + ": " + known_profiles(members));
     patch = document.root["profiles"][profile];
     document.source = fmt::format("{} with profile {}", source, printable(profile, 40));
   }

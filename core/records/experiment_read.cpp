@@ -138,8 +138,7 @@ std::string read_name(const JsonCursor& value) {
 
 AffineFit read_affine_fit(const JsonCursor& value) {
   const std::string text = value.text();
-  if (text == "least_distances") return AffineFit::kLeastDistances;
-  if (text == "least_squares") return AffineFit::kLeastSquares;
+  if (const std::optional<AffineFit> fit = affine_fit_named(text)) return *fit;
   value.fail("expected least_distances or least_squares, got " + in_quotes(text));
 }
 

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <functional>
+#include <set>
 
 #include <fmt/format.h>
 
@@ -60,7 +62,7 @@ double read_coordinate(std::string_view cell, const std::string& source, std::si
   return *value;
 }
 
-NamedPoints parse_landmarks(std::string_view text, const std::string& source) {
+NamedPoints parse_table(std::string_view text, const std::string& source) {
   TableReader reader(text, source);
   TableRow row;
   Columns columns = {0, 1, 2};
@@ -100,9 +102,31 @@ bool is_groundtruth(std::string_view text, const std::string& source) {
 NamedPoints read_landmarks(const std::filesystem::path& path) {
   const std::string source = path.string();
   const std::string bytes = read_file(path);
-  const std::string_view text = checked_text(bytes, source);
-  return is_groundtruth(text, source) ? parse_groundtruth(text, source)
-                                      : parse_landmarks(text, source);
+  return parse_landmarks(checked_text(bytes, source), source);
+}
+
+NamedPoints parse_landmarks(std::string_view text, const std::string& source) {
+  return is_groundtruth(text, source) ? parse_groundtruth(text, source) : parse_table(text, source);
+}
+
+bool is_landmarks_table(std::string_view text, const std::string& source) {
+  if (is_groundtruth(text, source)) return true;
+  TableReader reader(text, source);
+  TableRow row;
+  if (!reader.next(row)) return false;
+  if (row.cells.size() == 3 && is_header(row)) {
+    const auto names = [&](std::size_t column) {
+      return std::ranges::find(row.cells, column, column_named) != row.cells.end();
+    };
+    return names(1) && names(2);
+  }
+  std::set<std::string, std::less<>> names;
+  do {
+    if (row.cells.size() != 3 || !number_in(row.cells[1]) || !number_in(row.cells[2]) ||
+        !names.emplace(row.cells[0]).second)
+      return false;
+  } while (reader.next(row));
+  return true;
 }
 
 }  // namespace mapproof

@@ -2,6 +2,7 @@
 
 #include <filesystem>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "core/model/points.hpp"
@@ -18,5 +19,12 @@ struct NamedPoints {
 /// Reads CSV (name, x, y; header optional) or MRCLAM's Landmark_Groundtruth.dat.
 /// @throws IoError naming file and line.
 NamedPoints read_landmarks(const std::filesystem::path& path);
+
+/// The same from the text of a file, which is from checked_text().
+NamedPoints parse_landmarks(std::string_view text, const std::string& source);
+
+/// Whether a table of unknown kind is one of landmarks: MRCLAM's, or its header names x and y; or,
+/// without a header, all its rows are a name of their own and two numbers.
+bool is_landmarks_table(std::string_view text, const std::string& source);
 
 }  // namespace mapproof

@@ -12,12 +12,9 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-std::string_view name(Frame frame) { return frame == Frame::kTruth ? "truth" : "similarity"; }
-
 Frame read_frame(const JsonCursor& value) {
   const std::string text = value.text();
-  if (text == "truth") return Frame::kTruth;
-  if (text == "similarity") return Frame::kSimilarity;
+  if (const std::optional<Frame> frame = frame_named(text)) return *frame;
   value.fail("expected truth or similarity, got " + in_quotes(text));
 }
 

@@ -29,4 +29,8 @@ ObservationSource parse_observations(std::string_view text, const std::string& s
 /// Whether the table's first row names the columns landmark and value, as a long one does.
 bool has_long_header(std::string_view text, const std::string& source);
 
+/// Whether a table without a header starts with a step, a landmark's name that is no number, and a
+/// value: a row that no wide table holds.
+bool starts_as_long(std::string_view text, const std::string& source);
+
 }  // namespace mapproof

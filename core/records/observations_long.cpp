@@ -146,6 +146,14 @@ bool has_long_header(std::string_view text, const std::string& source) {
   return has("landmark") && has("value");
 }
 
+bool starts_as_long(std::string_view text, const std::string& source) {
+  TableReader reader(text, source);
+  TableRow row;
+  if (!reader.next(row) || row.cells.size() != kWords.size()) return false;
+  const auto is_value = [](std::string_view cell) { return is_missing(cell) || number_in(cell); };
+  return number_in(row.cells[0]) && !is_value(row.cells[1]) && is_value(row.cells[2]);
+}
+
 ObservationSource read_long(std::string_view text, const std::string& source, Sensor sensor) {
   TableReader reader(text, source);
   TableRow row;

@@ -64,17 +64,17 @@ void check_table(std::string_view text, const std::filesystem::path& path, std::
     kind = "map CSV";
     return check_map(reader, first, source);
   }
-  if (has_long_header(text, source)) {
+  if (has_long_header(text, source) || starts_as_long(text, source)) {
     kind = "long CSV observations";
     return check_observations(text, source, read_long);
   }
-  try {
-    read_landmarks(path);
+  if (is_landmarks_table(text, source)) {
     kind = "landmarks with positions";
-  } catch (const IoError&) {
-    kind = "wide CSV observations";
-    check_observations(text, source, read_wide);
+    parse_landmarks(text, source);
+    return;
   }
+  kind = "wide CSV observations";
+  check_observations(text, source, read_wide);
 }
 
 }  // namespace mapproof

@@ -7,8 +7,8 @@
 namespace mapproof {
 
 /// Reads a table of whatever kind mapproof knows: long or wide observations, landmarks with
-/// positions, a map. What the values of observations are is not told by a table: visibility,
-/// bearing and range are tried.
+/// positions, a map. The header decides which, or the rows if there is none. What the values of
+/// observations are is not told by a table: visibility, bearing and range are tried.
 /// @param kind  Set to what it was taken for, before anything is thrown.
 /// @throws IoError if it is none, or is broken.
 void check_table(std::string_view text, const std::filesystem::path& path, std::string& kind);

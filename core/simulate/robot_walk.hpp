@@ -12,6 +12,9 @@ namespace mapproof {
 ///
 /// @param observations  N >= 1, the first at the initial pose.
 /// @throws InvalidInput if no free initial pose is found in 10,000 tries.
+/// @note O(N M step_m / substep_m) time for M landmarks, up to 182 times that where the robot has
+/// to
+///       turn; every position is checked against every landmark.
 /// @note A robot that no turn frees turns about on the spot and stays where it is for that step.
 Path random_walk(const World& world, const WalkOptions& options, int observations, Random& random);
 

@@ -64,7 +64,7 @@ TEST(ExperimentJson, AppliesAProfileAsAMergePatch) {
   EXPECT_EQ(tiny.sensors.size(), 1U);
   EXPECT_EQ(parse_experiment(text, "e.json", "noisy").sensors[0].sensor.noise, 0.1);
   EXPECT_EQ(error_of([&] { parse_experiment(text, "e.json", "big"); }),
-            "e.json: /profiles: no profile \"big\": it has noisy, tiny");
+            "e.json: /profiles: no profile \"big\": it has \"noisy\", \"tiny\"");
 }
 
 TEST(ExperimentJson, NamesTheProfileInItsErrors) {
@@ -72,6 +72,16 @@ TEST(ExperimentJson, NamesTheProfileInItsErrors) {
   experiment["profiles"]["tiny"]["poses"] = 0;
   EXPECT_EQ(error_of([&] { parse_experiment(experiment.dump(), "e.json", "tiny"); }),
             "e.json with profile tiny: /poses: expected an integer from 1 to 10000, got 0");
+}
+
+TEST(ExperimentJson, QuotesTheProfilesThatItHasAndListsFive) {
+  json experiment = json::parse(read_file(test::data_file("experiments/small.json")));
+  experiment["profiles"] = {{"a\x1b[2J\n", json::object()}};
+  for (const char* name : {"b", "c", "d", "e", "f", "g"})
+    experiment["profiles"][name] = json::object();
+  EXPECT_EQ(error_of([&] { parse_experiment(experiment.dump(), "e.json", "none"); }),
+            "e.json: /profiles: no profile \"none\": it has \"a\\u{001B}[2J\\u{000A}\", \"b\", "
+            "\"c\", \"d\", \"e\" and 2 more");
 }
 
 TEST(ExperimentJson, HoldsThePapersTablesInItsTemplate) {
@@ -97,6 +107,31 @@ TEST(ExperimentJson, RefusesACountOfABillion) {
   EXPECT_EQ(error_with("/sensors/range/checkpoints/0", 1'000'000'000),
             "e.json: /sensors/range/checkpoints/0: expected an integer from 3 to 1000000, got "
             "1000000000");
+}
+
+TEST(ExperimentJson, RefusesWalksThatWouldNotEnd) {
+  EXPECT_EQ(error_with("/walk", {{"step_m", 1000}, {"substep_m", 0.0001}}),
+            "e.json: /walk: step_m = 1000 in substeps of substep_m = 0.0001 are 10000000 a step; "
+            "at most 10000");
+  json sensors = json::parse(read_file(test::data_file("experiments/small.json")))["sensors"];
+  for (auto& sensor : sensors) sensor["checkpoints"] = {1'000'000};
+  json experiment = json::parse(read_file(test::data_file("experiments/small.json")));
+  experiment["sensors"] = sensors;
+  experiment["walk"] = {{"step_m", 20}, {"substep_m", 0.01}};
+  EXPECT_EQ(error_of([&] { parse_experiment(experiment.dump(), "e.json"); }),
+            "e.json: /walk: 2000 substeps a step x 1000000 steps are more than 1000000000");
+}
+
+TEST(ExperimentJson, RefusesAWalkWithoutRoomEvenByDefault) {
+  json experiment = json::parse(read_file(test::data_file("experiments/small.json")));
+  experiment.erase("walk");
+  experiment["world"] = {{"side_m", 0.11},
+                         {"landmarks", 5},
+                         {"landmark_diameter_m", 0.001},
+                         {"gap_m", 0.0},
+                         {"wall_margin_m", 0.0}};
+  EXPECT_EQ(error_of([&] { parse_experiment(experiment.dump(), "e.json"); }),
+            "e.json: /: wall_margin_m = 0.06 leaves the robot no room within walls of 0.11 m");
 }
 
 TEST(ExperimentJson, AsksWhichMethodWasMeant) {

@@ -30,6 +30,7 @@ TEST(Validate, KnowsEveryKindOfFileThatIsRead) {
       {"mrclam", "MRCLAM observations"},
       {"mrclam/Landmark_Groundtruth.dat", "landmarks with positions"},
       {"observations/long.csv", "long CSV observations"},
+      {"observations/long_sightings.csv", "long CSV observations"},
       {"observations/observations.json", "mapproof.observations 1"},
       {"observations/wide_named.csv", "wide CSV observations"},
       {"observations/wide_plain.csv", "wide CSV observations"},
@@ -108,6 +109,22 @@ TEST(Validate, SaysWhatItDoesNotKnow) {
   EXPECT_NE(only(folder / "missing").problem.find("cannot be opened"), std::string::npos);
   EXPECT_NE(only(folder.path()).problem.find("no study"), std::string::npos);
   EXPECT_NE(only(folder.file("d.csv", "a,1,2\nb,-1\n")).problem.find("line 2"), std::string::npos);
+}
+
+TEST(Validate, TakesATableForWhatItsHeaderSays) {
+  const TemporaryFolder folder;
+  const Finding landmarks = only(folder.file("a.csv", "name,x,y\ndoor,1,2\ndesk,3,\n"));
+  EXPECT_EQ(landmarks.kind, "landmarks with positions");
+  EXPECT_NE(landmarks.problem.find("line 3: a coordinate is missing"), std::string::npos);
+  const Finding wide = only(folder.file("b.csv", "name,first,second\ndoor,1,0\ndesk,0,\n"));
+  EXPECT_EQ(wide.kind, "wide CSV observations");
+  EXPECT_EQ(wide.problem, "");
+  const Finding plain = only(folder.file("c.csv", "1,0,1\n0,1,1\n1,1,0\n"));
+  EXPECT_EQ(plain.kind, "wide CSV observations");
+  EXPECT_EQ(plain.problem, "");
+  const Finding torn = only(folder.file("d.csv", "0,oak,1\n1,elm\n"));
+  EXPECT_EQ(torn.kind, "long CSV observations");
+  EXPECT_NE(torn.problem.find("line 2: has 2 cells"), std::string::npos);
 }
 
 TEST(Validate, ChecksEveryProfileOfAnExperiment) {
