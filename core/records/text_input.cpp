@@ -8,26 +8,13 @@
 #include <fmt/format.h>
 
 #include "core/base/errors.hpp"
+#include "core/base/utf8.hpp"
 
 namespace mapproof {
 namespace {
 
 unsigned byte_at(std::string_view text, std::size_t at) {
   return at < text.size() ? static_cast<unsigned char>(text[at]) : 0U;
-}
-
-/// Bytes of the UTF-8 sequence at `at`; 0 if it is none (overlong and surrogates included).
-std::size_t sequence_length(std::string_view text, std::size_t at) {
-  const unsigned lead = byte_at(text, at);
-  if (lead < 0x80) return 1;
-  if (lead < 0xC2 || lead > 0xF4) return 0;
-  const std::size_t length = lead >= 0xF0 ? 4 : lead >= 0xE0 ? 3 : 2;
-  for (std::size_t i = 1; i < length; ++i)
-    if ((byte_at(text, at + i) & 0xC0U) != 0x80U) return 0;
-  const unsigned second = byte_at(text, at + 1);
-  if ((lead == 0xE0 && second < 0xA0) || (lead == 0xED && second > 0x9F)) return 0;
-  if ((lead == 0xF0 && second < 0x90) || (lead == 0xF4 && second > 0x8F)) return 0;
-  return length;
 }
 
 /// Offset of the first byte that is not UTF-8; text.size() if there is none.
@@ -42,9 +29,9 @@ std::size_t first_bad_byte(std::string_view text) {
         continue;
       }
     }
-    const std::size_t length = sequence_length(text, at);
-    if (length == 0) return at;
-    at += length;
+    std::string_view rest = text.substr(at);
+    if (!take_code_point(rest)) return at;
+    at = text.size() - rest.size();
   }
   return at;
 }

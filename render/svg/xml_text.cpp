@@ -5,7 +5,7 @@
 
 #include <fmt/format.h>
 
-#include "render/theme/unicode.hpp"
+#include "core/base/utf8.hpp"
 
 namespace mapproof {
 namespace {
@@ -13,12 +13,6 @@ namespace {
 bool forbidden(char32_t code) {
   return (code < 0x20 && code != '\t' && code != '\n' && code != '\r') || code == 0xFFFE ||
          code == 0xFFFF;
-}
-
-bool hidden(char32_t code) {
-  return code < 0x20 || (code >= 0x7F && code < 0xA0) || code == 0xAD || code == 0x61C ||
-         (code >= 0x200B && code <= 0x200F) || (code >= 0x2028 && code <= 0x202E) ||
-         (code >= 0x2060 && code <= 0x206F) || code == 0xFEFF;
 }
 
 }  // namespace
@@ -38,7 +32,7 @@ void append_xml(std::string& out, std::string_view text) {
       out += "&gt;";
     } else if (first == '"') {
       out += "&quot;";
-    } else if (hidden(*code)) {
+    } else if (is_hidden(*code)) {
       fmt::format_to(std::back_inserter(out), "&#x{:X};", static_cast<std::uint32_t>(*code));
     } else {
       out += rest.substr(0, rest.size() - text.size());

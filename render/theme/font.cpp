@@ -8,7 +8,7 @@
 #include <hb-ot.h>
 #include <hb.h>
 
-#include "render/theme/unicode.hpp"
+#include "core/base/utf8.hpp"
 
 namespace mapproof {
 

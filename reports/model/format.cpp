@@ -1,9 +1,12 @@
 #include "reports/model/format.hpp"
 
-#include <algorithm>
 #include <cmath>
+#include <optional>
+#include <string_view>
 
 #include <fmt/format.h>
+
+#include "core/base/utf8.hpp"
 
 namespace mapproof {
 namespace {
@@ -24,23 +27,6 @@ struct CellFormatter {
   }
   std::string operator()(const MissingCell&) const { return kMissingText; }
 };
-
-/// Bytes of the UTF-8 character at `at`; 0 if there is none (also overlong forms, surrogates).
-std::size_t utf8_length(const std::string& text, std::size_t at) {
-  const auto byte = [&](std::size_t i) -> unsigned {
-    return i < text.size() ? static_cast<unsigned char>(text[i]) : 0U;
-  };
-  const unsigned lead = byte(at);
-  if (lead < 0x80) return 1;
-  const std::size_t length = lead >= 0xF0 ? 4 : lead >= 0xE0 ? 3 : 2;
-  if (lead < 0xC2 || lead > 0xF4) return 0;
-  for (std::size_t i = 1; i < length; ++i)
-    if ((byte(at + i) & 0xC0U) != 0x80U) return 0;
-  const unsigned second = byte(at + 1);
-  if ((lead == 0xE0 && second < 0xA0) || (lead == 0xED && second > 0x9F)) return 0;
-  if ((lead == 0xF0 && second < 0x90) || (lead == 0xF4 && second > 0x8F)) return 0;
-  return length;
-}
 
 }  // namespace
 
@@ -81,18 +67,16 @@ std::string format_duration(double seconds) {
 std::string displayable(const std::string& text) {
   std::string out;
   out.reserve(text.size());
-  for (std::size_t at = 0; at < text.size();) {
-    const std::size_t length = utf8_length(text, at);
-    const auto byte = static_cast<unsigned char>(text[at]);
-    if (length == 0) {
+  for (std::string_view rest = text; !rest.empty();) {
+    const std::string_view before = rest;
+    const std::optional<char32_t> code = take_code_point(rest);
+    if (!code) {
       out += kReplacement;
-    } else if (length == 1 && ((byte < 0x20 && byte != '\t' && byte != '\n') || byte == 0x7F)) {
-      const unsigned picture = byte == 0x7F ? 0x21 : byte;  // U+2400 + picture
-      out += {'\xE2', '\x90', static_cast<char>(0x80 + picture)};
+    } else if ((*code < 0x20 && *code != '\t' && *code != '\n') || *code == 0x7F) {
+      append_utf8(out, 0x2400 + (*code == 0x7F ? 0x21 : *code));  // Its picture.
     } else {
-      out.append(text, at, length);
+      out += before.substr(0, before.size() - rest.size());
     }
-    at += std::max<std::size_t>(length, 1);
   }
   return out;
 }

@@ -10,6 +10,7 @@
 #include "core/base/errors.hpp"
 #include "core/base/files.hpp"
 #include "core/base/random.hpp"
+#include "core/base/utf8.hpp"
 #include "core/base/version.hpp"
 
 namespace mapproof {
@@ -89,6 +90,27 @@ TEST(Printable, ShowsWhatCannotBeSeenAndCutsWhatIsLong) {
   EXPECT_EQ(printable("\u202Eabc"), "\\u{202E}abc");
   EXPECT_EQ(printable("\xFF\xC0"), "\\xFF\\xC0");
   EXPECT_EQ(printable(std::string(10000, 'x'), 5), "xxxxx...");
+}
+
+TEST(Utf8, EveryCodePointComesBack) {
+  for (char32_t code = 0; code <= 0x10FFFF; ++code) {
+    if (code >= 0xD800 && code <= 0xDFFF) continue;
+    std::string text;
+    append_utf8(text, code);
+    std::string_view rest = text;
+    ASSERT_EQ(take_code_point(rest), code);
+    ASSERT_TRUE(rest.empty());
+  }
+}
+
+TEST(Utf8, WhatIsNotWellFormedIsTakenByteByByte) {
+  for (const std::string_view text :
+       {"\x80", "\xC0\x80", "\xC1\xBF", "\xE0\x9F\xBF", "\xED\xA0\x80", "\xED\xBF\xBF",
+        "\xF0\x8F\xBF\xBF", "\xF4\x90\x80\x80", "\xF5\x80\x80\x80", "\xFF", "\xE2\x82", "\xC3("}) {
+    std::string_view rest = text;
+    EXPECT_FALSE(take_code_point(rest)) << printable(std::string(text));
+    EXPECT_EQ(rest.size(), text.size() - 1);
+  }
 }
 
 TEST(Random, FollowsTheReferenceOfItsAuthors) {
