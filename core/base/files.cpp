@@ -8,6 +8,7 @@
 #include <cstring>
 #include <system_error>
 
+#include "core/base/descriptor.hpp"
 #include "core/base/errors.hpp"
 
 namespace mapproof {
@@ -15,37 +16,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// A file descriptor that closes itself.
-class Descriptor {
- public:
-  explicit Descriptor(int number) : number_(number) {}
-  ~Descriptor() { close(); }
-  Descriptor(const Descriptor&) = delete;
-  Descriptor& operator=(const Descriptor&) = delete;
-
-  int get() const { return number_; }
-  bool close() {
-    if (number_ < 0) return true;
-    const int number = number_;
-    number_ = -1;
-    return ::close(number) == 0;
-  }
-
- private:
-  int number_;
-};
-
 std::string reason() { return std::strerror(errno); }
-
-bool write_all(int file, std::string_view bytes) {
-  while (!bytes.empty()) {
-    const ssize_t count = ::write(file, bytes.data(), bytes.size());
-    if (count < 0 && errno == EINTR) continue;
-    if (count <= 0) return false;
-    bytes.remove_prefix(static_cast<std::size_t>(count));
-  }
-  return true;
-}
 
 }  // namespace
 
@@ -85,7 +56,7 @@ void write_file(const fs::path& path, std::string_view bytes) {
   try {
     Descriptor file(::open(beside.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0644));
     if (file.get() < 0) throw IoError(path.string(), "cannot be written: " + reason());
-    if (!write_all(file.get(), bytes) || !file.close())
+    if (!write_all(file, bytes) || !file.close())
       throw IoError(path.string(), "cannot be written: " + reason());
     if (::rename(beside.c_str(), path.c_str()) != 0)
       throw IoError(path.string(), "cannot be put in place: " + reason());
@@ -93,6 +64,17 @@ void write_file(const fs::path& path, std::string_view bytes) {
     ::unlink(beside.c_str());
     throw;
   }
+}
+
+void append_file(const fs::path& path, std::string_view bytes) {
+  if (bytes.empty()) return;
+  Descriptor file(::open(path.c_str(), O_WRONLY | O_CREAT | O_APPEND | O_CLOEXEC, 0644));
+  const off_t size = file.get() < 0 ? -1 : ::lseek(file.get(), 0, SEEK_END);
+  if (size >= 0 && write_all(file, bytes) && file.close()) return;
+  const std::string why = reason();
+  // Where that fails too, a part of the bytes stays.
+  if (size >= 0) static_cast<void>(::ftruncate(file.get(), size) == 0);
+  throw IoError(path.string(), "cannot be appended to: " + why);
 }
 
 }  // namespace mapproof

@@ -17,4 +17,9 @@ void make_folder(const std::filesystem::path& path);
 /// @throws IoError, and leaves nothing behind.
 void write_file(const std::filesystem::path& path, std::string_view bytes);
 
+/// Adds to the end of the file, which is made if it is not there. If the disk is full, nothing is
+/// added; after a kill a part of `bytes` may be there.
+/// @throws IoError.
+void append_file(const std::filesystem::path& path, std::string_view bytes);
+
 }  // namespace mapproof

@@ -153,8 +153,8 @@ Experiment read_experiment(const JsonCursor& document) {
   experiment.title = experiment.name;
   if (const auto title = document.find("title")) experiment.title = title->text(200);
   if (const auto seed = document.find("seed")) experiment.seed = seed->unsigned_integer();
-  read(document, "layouts", 1, 10'000, experiment.layouts);
-  read(document, "poses", 1, 10'000, experiment.poses);
+  read(document, "layouts", 1, kMostLayouts, experiment.layouts);
+  read(document, "poses", 1, kMostPoses, experiment.poses);
   if (const auto world = document.find("world")) read_world(*world, experiment.world);
   if (const auto walk = document.find("walk")) read_walk(*walk, experiment.walk);
   read(document, "anchors", 3, 1000, experiment.anchors);

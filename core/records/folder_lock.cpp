@@ -41,16 +41,15 @@ bool is_running(pid_t process) {
 
 FolderLock::FolderLock(const fs::path& folder)
     : folder_(::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC)) {
-  if (folder_ < 0)
+  if (folder_.get() < 0)
     throw IoError(folder.string(), std::string("cannot be opened: ") + std::strerror(errno));
-  if (::flock(folder_, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK) {
-    ::close(folder_);
+  int result = 0;
+  do result = ::flock(folder_.get(), LOCK_EX | LOCK_NB);
+  while (result != 0 && errno == EINTR);
+  if (result != 0 && errno == EWOULDBLOCK)
     throw IoError(folder.string(),
                   "is in use by another mapproof; wait for it, or choose another folder");
-  }
 }
-
-FolderLock::~FolderLock() { ::close(folder_); }
 
 bool is_leftover(const fs::path& file) { return writer(file).has_value(); }
 

@@ -1,7 +1,8 @@
 #pragma once
 
 #include <filesystem>
-#include <string_view>
+
+#include "core/base/descriptor.hpp"
 
 namespace mapproof {
 
@@ -12,12 +13,9 @@ class FolderLock {
  public:
   /// @throws IoError if another process, or another lock of this one, holds the folder.
   explicit FolderLock(const std::filesystem::path& folder);
-  ~FolderLock();
-  FolderLock(const FolderLock&) = delete;
-  FolderLock& operator=(const FolderLock&) = delete;
 
  private:
-  int folder_;
+  Descriptor folder_;
 };
 
 /// Removes what write_file() left beside its places when its process was killed: NAME.part-PID,

@@ -16,9 +16,6 @@ using Json = nlohmann::ordered_json;
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
-/// Of what the program itself wrote: a sentence that lists thousands of names is long.
-constexpr std::size_t kLongestText = 100'000'000;
-
 }  // namespace
 
 Sensor read_sensor(const JsonCursor& value) {

@@ -47,7 +47,7 @@ std::vector<Status> read_statuses(const JsonCursor& value);
 nlohmann::ordered_json score_value(const Score& score);
 Score read_score(const JsonCursor& value);
 
-/// Different, not empty names of at most 10,000 bytes.
+/// Different, not empty names of at most kLongestName bytes.
 std::vector<std::string> read_names(const JsonCursor& value);
 
 }  // namespace mapproof

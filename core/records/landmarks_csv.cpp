@@ -24,8 +24,8 @@ using Columns = std::array<std::size_t, 3>;
 
 /// 0, 1 or 2 for a word that names the column of names, x or y; 3 for any other.
 std::size_t column_named(std::string_view cell) {
+  if (is_word_for_names(cell)) return 0;
   const std::string word = lower_case(cell);
-  if (word == "name" || word == "landmark" || word == "object" || word == "id") return 0;
   if (word == "x" || word == "x_m") return 1;
   if (word == "y" || word == "y_m") return 2;
   return 3;
@@ -80,12 +80,7 @@ NamedPoints parse_table(std::string_view text, const std::string& source) {
     coordinates.push_back(read_coordinate(row.cells[columns[1]], source, row.line));
     coordinates.push_back(read_coordinate(row.cells[columns[2]], source, row.line));
   }
-  if (coordinates.empty()) throw IoError(source, "holds no landmarks");
-  using RowMajor = Eigen::Matrix<double, Eigen::Dynamic, 2, Eigen::RowMajor>;
-  return {.names = names.names(),
-          .positions_m = Eigen::Map<const RowMajor>(
-              coordinates.data(), static_cast<Eigen::Index>(names.names().size()), 2),
-          .places = names.places()};
+  return named_points(names, coordinates, source);
 }
 
 /// Five bare numbers between blanks, as in Landmark_Groundtruth.dat.

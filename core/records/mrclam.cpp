@@ -247,12 +247,7 @@ NamedPoints parse_groundtruth(std::string_view text, const std::string& source) 
       coordinates.push_back(rows[i]);
     }
   }
-  if (coordinates.empty()) throw IoError(source, "holds no landmarks");
-  using RowMajor = Eigen::Matrix<double, Eigen::Dynamic, 2, Eigen::RowMajor>;
-  return {.names = names.names(),
-          .positions_m = Eigen::Map<const RowMajor>(
-              coordinates.data(), static_cast<Eigen::Index>(names.names().size()), 2),
-          .places = names.places()};
+  return named_points(names, coordinates, source);
 }
 
 ObservationSource read_mrclam(const fs::path& folder, Sensor sensor) {

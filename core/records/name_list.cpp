@@ -8,6 +8,11 @@
 
 namespace mapproof {
 
+bool is_word_for_names(std::string_view cell) {
+  const std::string word = lower_case(cell);
+  return word == "name" || word == "landmark" || word == "object" || word == "id";
+}
+
 Eigen::Index NameList::add(std::string_view name, std::size_t line) {
   if (const auto other = index_.find(name); other != index_.end())
     throw IoError(source_, fmt::format("line {}", line),
@@ -30,6 +35,16 @@ Eigen::Index NameList::find_or_add(std::string_view name, std::size_t line) {
   names_.emplace_back(name);
   places_.push_back(place);
   return index;
+}
+
+NamedPoints named_points(const NameList& names, const std::vector<double>& coordinates,
+                         const std::string& source) {
+  if (coordinates.empty()) throw IoError(source, "holds no landmarks");
+  using RowMajor = Eigen::Matrix<double, Eigen::Dynamic, 2, Eigen::RowMajor>;
+  return {.names = names.names(),
+          .positions_m = Eigen::Map<const RowMajor>(
+              coordinates.data(), static_cast<Eigen::Index>(names.names().size()), 2),
+          .places = names.places()};
 }
 
 }  // namespace mapproof

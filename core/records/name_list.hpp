@@ -8,9 +8,15 @@
 
 #include <Eigen/Core>
 
+#include "core/records/landmarks_csv.hpp"
+
 namespace mapproof {
 
-/// The names of landmarks as a table is read: not empty, at most 10,000 bytes, at most 5000.
+/// Whether a header's cell names the column of names: name, landmark, object or id, in any case.
+bool is_word_for_names(std::string_view cell);
+
+/// The names of landmarks as a table is read: not empty, at most kLongestName bytes, at most
+/// kMostLandmarks of them (see limits.hpp).
 class NameList {
  public:
   explicit NameList(const std::string& source) : source_(source) {}
@@ -31,5 +37,10 @@ class NameList {
   std::vector<std::string> places_;
   std::map<std::string, Eigen::Index, std::less<>> index_;
 };
+
+/// The landmarks of a whole table. @param coordinates  x and y of each name in turn.
+/// @throws IoError if there are none.
+NamedPoints named_points(const NameList& names, const std::vector<double>& coordinates,
+                         const std::string& source);
 
 }  // namespace mapproof

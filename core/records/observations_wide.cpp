@@ -16,11 +16,6 @@ using Cells = std::span<const std::string_view>;
 
 bool is_text(std::string_view cell) { return !is_missing(cell) && !number_in(cell); }
 
-bool is_word_for_names(std::string_view cell) {
-  const std::string word = lower_case(cell);
-  return word == "name" || word == "landmark" || word == "object" || word == "id";
-}
-
 /// 0, 1, 2, ... or 1, 2, 3, ...: step numbers, at least to 2 so that they are no visibilities.
 bool counts_steps(Cells cells) {
   const std::optional<double> first = cells.empty() ? std::nullopt : number_in(cells.front());

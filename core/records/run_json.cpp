@@ -20,8 +20,8 @@ Json run_value(const RunId& run) { return {{"layout", run.layout}, {"pose", run.
 
 RunId read_run_id(const JsonCursor& value) {
   value.allow_only({"layout", "pose"});
-  return {.layout = value.at("layout").integer32(1, 10'000),
-          .pose = value.at("pose").integer32(1, 10'000)};
+  return {.layout = value.at("layout").integer32(1, kMostLayouts),
+          .pose = value.at("pose").integer32(1, kMostPoses)};
 }
 
 Json world_value(const World& world) {

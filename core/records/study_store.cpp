@@ -132,12 +132,12 @@ void StudyStore::write(const RunResult& result) {
   std::string lines;
   for (const Timing& timing : result.timings) lines += timing_line(timing);
   const std::lock_guard guard(state_->timings_mutex);
-  append_lines(state_->files.timings(), lines);
+  append_file(state_->files.timings(), lines);
 }
 
 void StudyStore::write_session(const Session& session) {
   const std::lock_guard guard(state_->timings_mutex);
-  append_lines(state_->files.timings(), session_line(session));
+  append_file(state_->files.timings(), session_line(session));
 }
 
 }  // namespace mapproof

@@ -1,11 +1,5 @@
 #include "core/records/timings_jsonl.hpp"
 
-#include <fcntl.h>
-#include <sys/stat.h>
-#include <unistd.h>
-
-#include <cerrno>
-#include <cstring>
 #include <limits>
 #include <system_error>
 
@@ -27,8 +21,8 @@ Timing read_timing(const JsonCursor& value) {
   Timing timing;
   timing.setting = read_setting(value, keys);
   value.allow_only(keys);
-  timing.run = {.layout = value.at("layout").integer32(1, 10'000),
-                .pose = value.at("pose").integer32(1, 10'000)};
+  timing.run = {.layout = value.at("layout").integer32(1, kMostLayouts),
+                .pose = value.at("pose").integer32(1, kMostPoses)};
   timing.sensor = read_sensor(value.at("sensor"));
   timing.step = value.at("step").integer32(0, kMostSteps);
   timing.seconds = value.at("seconds").number(0.0, kLongest_s);
@@ -37,7 +31,7 @@ Timing read_timing(const JsonCursor& value) {
 
 Session read_session(const JsonCursor& value) {
   value.allow_only({"kind", "command", "started_utc", "host", "jobs", "seconds"});
-  return {.command = value.at("command").text(100'000'000),
+  return {.command = value.at("command").text(kLongestText),
           .started_utc = value.at("started_utc").text(),
           .host = value.at("host").text(),
           .jobs = value.at("jobs").integer32(0, 1'000'000),
@@ -87,25 +81,6 @@ Timings parse_timings(std::string_view text, const std::string& source) {
     read_line(line, fmt::format("{}: line {}", source, number), timings);
   }
   return timings;
-}
-
-void append_lines(const std::filesystem::path& path, std::string_view lines) {
-  if (lines.empty()) return;
-  const int file = ::open(path.c_str(), O_WRONLY | O_CREAT | O_APPEND | O_CLOEXEC, 0644);
-  const off_t size = file < 0 ? -1 : ::lseek(file, 0, SEEK_END);
-  bool is_good = size >= 0;
-  if (is_good) {
-    const ssize_t written = ::write(file, lines.data(), lines.size());
-    is_good = written == static_cast<ssize_t>(lines.size());
-    if (written >= 0 && !is_good) errno = ENOSPC;
-  }
-  const int reason = errno;
-  if (size >= 0 && !is_good && ::ftruncate(file, size) != 0) {
-    // The torn line stays; the next start mends it.
-  }
-  if (file >= 0) ::close(file);
-  if (!is_good)
-    throw IoError(path.string(), std::string("cannot be appended to: ") + std::strerror(reason));
 }
 
 void mend_lines(const std::filesystem::path& path) {

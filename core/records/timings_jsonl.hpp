@@ -11,9 +11,9 @@ namespace mapproof {
 
 /// timings.jsonl: one JSON object a line, {"kind": "map", ...} or {"kind": "session", ...}.
 ///
-/// Lines are appended, each batch by one write(): to rewrite the whole file for every run would
-/// cost the square of their number, and a kill can only tear the last line, which readers leave
-/// out and mend_lines() removes.
+/// Lines are appended, a batch at a time, by append_file(): to rewrite the whole file for every run
+/// would cost the square of their number, and a kill can only tear the last line, which readers
+/// leave out and mend_lines() removes.
 struct Timings {
   std::vector<Timing> maps;
   std::vector<Session> sessions;
@@ -24,9 +24,6 @@ std::string session_line(const Session& session);
 
 /// All whole lines in their order. @throws IoError naming the line.
 Timings parse_timings(std::string_view text, const std::string& source);
-
-/// Appends whole lines; if the disk is full, none of them. @throws IoError.
-void append_lines(const std::filesystem::path& path, std::string_view lines);
 
 /// Removes a last line without an end, if there is one. @throws IoError.
 void mend_lines(const std::filesystem::path& path);

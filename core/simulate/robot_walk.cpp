@@ -6,6 +6,7 @@
 #include <optional>
 
 #include "core/base/errors.hpp"
+#include "core/simulate/angle.hpp"
 
 namespace mapproof {
 namespace {
@@ -13,8 +14,6 @@ namespace {
 constexpr double kPi = std::numbers::pi;
 constexpr double kTurnResolution =
     kPi / 90.0;  // 2 degrees: finer turns change nothing in the maps.
-
-double wrapped(double angle) { return std::remainder(angle, 2.0 * kPi); }
 
 /// Where the robot's centre may be.
 class FreeSpace {

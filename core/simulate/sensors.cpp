@@ -7,10 +7,10 @@
 
 #include <fmt/format.h>
 
+#include "core/simulate/angle.hpp"
+
 namespace mapproof {
 namespace {
-
-double wrapped(double angle) { return std::remainder(angle, 2.0 * std::numbers::pi); }
 
 /// Whether a cylinder of that radius stands on the segment from `from` to `to`.
 bool cuts(const Eigen::RowVector2d& center, double radius, const Eigen::RowVector2d& from,

@@ -46,6 +46,14 @@ TEST_F(Files, WhatIsWrittenIsReadBackAndNothingElseIsLeft) {
   EXPECT_EQ(std::distance(fs::directory_iterator(folder_ / "deep"), {}), 1);
 }
 
+TEST_F(Files, WhatIsAppendedStandsBehindWhatWasThere) {
+  append_file(folder_ / "file", "one\n");
+  append_file(folder_ / "file", "");
+  append_file(folder_ / "file", "two\n");
+  EXPECT_EQ(read_file(folder_ / "file"), "one\ntwo\n");
+  EXPECT_THROW(append_file(folder_ / "missing" / "file", "x"), IoError);
+}
+
 TEST_F(Files, AFullDiskLeavesTheOldFileAndNoPart) {
   write_file(folder_ / "file", "old");
   const auto full = [&] {

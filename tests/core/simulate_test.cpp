@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "core/base/errors.hpp"
+#include "core/simulate/angle.hpp"
 #include "core/simulate/robot_walk.hpp"
 #include "core/simulate/sensors.hpp"
 #include "core/simulate/world.hpp"
@@ -17,6 +18,17 @@ constexpr double kPi = std::numbers::pi;
 World paper_world(std::uint64_t seed) {
   Random random(seed);
   return scatter_landmarks({}, random);
+}
+
+TEST(Wrapped, IsAboveMinusPiAndAtMostPi) {
+  EXPECT_EQ(wrapped(-kPi), kPi);
+  EXPECT_EQ(wrapped(kPi), kPi);
+  for (double angle = -20.0 * kPi; angle <= 20.0 * kPi; angle += kPi / 4.0) {
+    EXPECT_GT(wrapped(angle), -kPi);
+    EXPECT_LE(wrapped(angle), kPi);
+  }
+  EXPECT_EQ(wrapped(0.5), 0.5);
+  EXPECT_NEAR(wrapped(0.5 - 8.0 * kPi), 0.5, 1e-14);
 }
 
 TEST(ScatterLandmarks, KeepsEveryGap) {
@@ -55,8 +67,7 @@ TEST(RandomWalk, KeepsItsDistanceFromWallsAndLandmarksAtEveryObservation) {
 }
 
 TEST(RandomWalk, InTheOpenGoesOneStepAndTurnsWithinItsBounds) {
-  const World open{
-      .side_m = 1000.0, .landmark_diameter_m = 0.01, .landmarks_m = test::grid(2, 2)};
+  const World open{.side_m = 1000.0, .landmark_diameter_m = 0.01, .landmarks_m = test::grid(2, 2)};
   Random random(5);
   const Path path = random_walk(open, {}, 200, random);
   double largest = 0.0;
