@@ -94,6 +94,7 @@ StudyStore StudyStore::open(const fs::path& folder, const Experiment& experiment
     check_is_new(folder);
     remove_leftovers(folder);
     write_file(files.study(), text);
+    start_lines(files.timings());
     return StudyStore(std::move(state));
   }
   remove_leftovers(folder);
@@ -109,6 +110,7 @@ StudyStore StudyStore::open(const fs::path& folder, const Experiment& experiment
   }
   if (old_text != text) write_file(files.study(), text);
   mend_lines(files.timings());
+  start_lines(files.timings());
   return StudyStore(std::move(state));
 }
 

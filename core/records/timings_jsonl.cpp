@@ -14,6 +14,7 @@
 namespace mapproof {
 namespace {
 
+constexpr std::string_view kSchema = "mapproof.timings";
 constexpr double kLongest_s = std::numeric_limits<double>::max();
 
 Timing read_timing(const JsonCursor& value) {
@@ -41,6 +42,10 @@ Session read_session(const JsonCursor& value) {
 void read_line(std::string_view line, const std::string& source, Timings& timings) {
   const JsonDocument document = parse_json(line, source);
   const JsonCursor root = document.cursor();
+  if (root.is_object() && root.find("schema")) {
+    root.allow_only({"schema"});
+    return expect_schema(root, kSchema);
+  }
   const std::string kind = root.at("kind").text();
   if (kind == "map")
     timings.maps.push_back(read_timing(root));
@@ -51,6 +56,8 @@ void read_line(std::string_view line, const std::string& source, Timings& timing
 }
 
 }  // namespace
+
+std::string timings_header() { return json_line({{"schema", schema_value(kSchema)}}); }
 
 std::string timing_line(const Timing& timing) {
   nlohmann::ordered_json value = {{"kind", "map"},
@@ -91,6 +98,12 @@ void mend_lines(const std::filesystem::path& path) {
   const std::size_t last = text.rfind('\n');
   write_file(path, last == std::string::npos ? std::string_view()
                                              : std::string_view(text).substr(0, last + 1));
+}
+
+void start_lines(const std::filesystem::path& path) {
+  std::error_code error;
+  if (std::filesystem::exists(path, error) && std::filesystem::file_size(path, error) > 0) return;
+  write_file(path, timings_header());
 }
 
 }  // namespace mapproof

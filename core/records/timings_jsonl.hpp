@@ -9,7 +9,8 @@
 
 namespace mapproof {
 
-/// timings.jsonl: one JSON object a line, {"kind": "map", ...} or {"kind": "session", ...}.
+/// timings.jsonl: one JSON object a line: the schema, then {"kind": "map", ...} or
+/// {"kind": "session", ...}.
 ///
 /// Lines are appended, a batch at a time, by append_file(): to rewrite the whole file for every run
 /// would cost the square of their number, and a kill can only tear the last line, which readers
@@ -19,6 +20,9 @@ struct Timings {
   std::vector<Session> sessions;
 };
 
+/// The first line.
+std::string timings_header();
+
 std::string timing_line(const Timing& timing);
 std::string session_line(const Session& session);
 
@@ -27,5 +31,8 @@ Timings parse_timings(std::string_view text, const std::string& source);
 
 /// Removes a last line without an end, if there is one. @throws IoError.
 void mend_lines(const std::filesystem::path& path);
+
+/// Writes the first line if the file is empty or not there. @throws IoError.
+void start_lines(const std::filesystem::path& path);
 
 }  // namespace mapproof

@@ -54,7 +54,7 @@ std::string rgb_rows(const Image& image) {
 
 std::string compressed(std::string_view bytes) {
   std::vector<std::uint8_t> working(ISAL_DEF_LVL1_DEFAULT);
-  isal_zstream stream;
+  isal_zstream stream{};
   isal_deflate_init(&stream);
   stream.level = kCompressionLevel;
   stream.level_buf = working.data();
