@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <csignal>
 #include <exception>
+#include <functional>
 #include <iostream>
 #include <new>
 #include <string_view>
@@ -58,7 +59,7 @@ int run_verb_of(int argc, char** argv) {
       "Maps from what a robot observed, without ever estimating its pose, and proof of them",
       "mapproof");
   app.footer(std::string(kExitCodes) + "\n" + kFooter);
-  app.set_version_flag("--version", version_text());
+  app.set_version_flag("--version", std::function<std::string()>(version_text));
   app.require_subcommand(1);
   Common common;
   const std::vector<std::pair<const char*, Verb>> verbs = {

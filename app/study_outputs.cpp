@@ -33,10 +33,7 @@ std::map<std::string, std::string> write_figures(const std::vector<const Figure*
 }
 
 std::filesystem::path write_report(const StudyView& view, const std::string& command,
-                                   const std::optional<std::filesystem::path>& templates,
-                                   int jobs) {
-  // First of all, so that a template that cannot be used costs nothing.
-  const Templates page = load_templates(templates);
+                                   const Templates& page, int jobs) {
   const Theme theme = report_theme();
   const std::vector<const Figure*> figures = all_figures(view.figures);
   const std::map<std::string, std::string> drawings =

@@ -2,11 +2,11 @@
 
 #include <filesystem>
 #include <map>
-#include <optional>
 #include <string>
 #include <vector>
 
 #include "render/theme/theme.hpp"
+#include "reports/html/templates.hpp"
 #include "reports/sections/study_figures.hpp"
 
 namespace mapproof {
@@ -32,6 +32,6 @@ std::map<std::string, std::string> write_figures(const std::vector<const Figure*
 /// @param command  The one that makes the study again.
 /// @return The path of the report.
 std::filesystem::path write_report(const StudyView& view, const std::string& command,
-                                   const std::optional<std::filesystem::path>& templates, int jobs);
+                                   const Templates& page, int jobs);
 
 }  // namespace mapproof

@@ -22,9 +22,10 @@ std::string making_command(const Arguments& arguments, const Invocation& invocat
 }
 
 int report(const Arguments& arguments, const Invocation& invocation) {
+  const Templates page = load_templates(arguments.templates);
   const StudyView view = view_study(arguments.study);
-  const std::filesystem::path path = write_report(view, making_command(arguments, invocation),
-                                                  arguments.templates, arguments.jobs);
+  const std::filesystem::path path =
+      write_report(view, making_command(arguments, invocation), page, arguments.jobs);
   invocation.console.detail(fmt::format("{}: {} runs, {} figures", arguments.study,
                                         view.study.runs.size(), all_figures(view.figures).size()));
   invocation.console.result(path.string() + "\n", {{"study", arguments.study},

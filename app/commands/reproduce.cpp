@@ -39,15 +39,15 @@ std::string command_again(const Arguments& arguments, const Experiment& experime
 
 int reproduce(const Arguments& arguments, const Invocation& invocation) {
   const Experiment experiment = chosen_experiment(arguments);
-  load_templates(arguments.templates);
+  // First of all, so that a template that cannot be used costs no study.
+  const Templates page = load_templates(arguments.templates);
   if (!arguments.plaza.empty())
     invocation.console.warning("--plaza: the experiment " + arguments.name +
                                " uses no data from outside");
   const std::string command = command_again(arguments, experiment);
   make_records(experiment, arguments.out, arguments.jobs, command, invocation.console);
   const StudyView view = view_study(arguments.out);
-  const std::filesystem::path report =
-      write_report(view, command, arguments.templates, arguments.jobs);
+  const std::filesystem::path report = write_report(view, command, page, arguments.jobs);
 
   nlohmann::ordered_json object = study_result(view.study);
   object["figures"] = all_figures(view.figures).size();
