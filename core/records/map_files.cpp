@@ -1,39 +1,18 @@
 #include "core/records/map_files.hpp"
 
 #include <algorithm>
-#include <array>
-#include <charconv>
-#include <cmath>
 
+#include "core/base/csv.hpp"
 #include "core/records/json_text.hpp"
 #include "core/records/map_values.hpp"
 
 namespace mapproof {
 namespace {
 
-/// RFC 4180: in quotes if it holds a separator, a quote or a line's end, or spaces at an end.
-std::string csv_cell(const std::string& text) {
-  const bool is_plain = text.find_first_of(",;\t\"\r\n#") == std::string::npos &&
-                        (text.empty() || (text.front() != ' ' && text.back() != ' '));
-  if (is_plain) return text;
-  std::string cell = "\"";
-  for (const char c : text) {
-    if (c == '"') cell += '"';
-    cell += c;
-  }
-  return cell + '"';
-}
-
-std::string csv_number(double value) {
-  if (!std::isfinite(value)) return {};
-  std::array<char, 32> digits;
-  return {digits.data(), std::to_chars(digits.data(), digits.data() + digits.size(), value).ptr};
-}
-
 std::string csv_row(const MapRecord& map, Eigen::Index i) {
   const bool has_truth = map.truth_m && map.truth_m->row(i).allFinite();
   const bool is_metric = map.frame == Frame::kTruth;
-  std::string row = csv_cell(map.names[static_cast<std::size_t>(i)]);
+  std::string row = csv_field(map.names[static_cast<std::size_t>(i)]);
   for (const double x : {map.estimate(i, 0), map.estimate(i, 1)}) row += ',' + csv_number(x);
   row += ',' + (has_truth ? csv_number((*map.truth_m)(i, 0)) : "");
   row += ',' + (has_truth ? csv_number((*map.truth_m)(i, 1)) : "");

@@ -18,21 +18,6 @@ std::string significant(double value, int digits) {
   return number_text(value, std::max(0, digits - 1 - exponent));
 }
 
-std::string listed(const std::vector<std::string>& names, std::size_t most) {
-  const std::size_t shown = names.size() <= most ? names.size() : most - 1;
-  std::string text;
-  for (std::size_t i = 0; i < shown; ++i) {
-    const bool last = i + 1 == names.size();
-    text += (i == 0 ? "" : last ? " and " : ", ") + names[i];
-  }
-  if (shown < names.size()) text += fmt::format(" and {} more", names.size() - shown);
-  return text;
-}
-
-std::string counted(std::size_t count, const std::string& noun) {
-  return fmt::format("{} {}{}", count, noun, count == 1 ? "" : "s");
-}
-
 std::string data_number(double value) { return fmt::format("{:.6g}", value); }
 
 }  // namespace mapproof

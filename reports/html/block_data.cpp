@@ -6,6 +6,7 @@
 
 #include <fmt/format.h>
 
+#include "core/base/words.hpp"
 #include "reports/html/table_data.hpp"
 #include "reports/model/format.hpp"
 
@@ -133,7 +134,7 @@ class BlockVisitor {
     out.set("where", item.where);
     out.set("failed", item.failed);
     const double share = item.of > 0 ? 100.0 * item.count / item.of : 0.0;
-    out.set("count", fmt::format("{} of {} ({} %)", item.count, count_of(item.of, "map"),
+    out.set("count", fmt::format("{} of {} ({} %)", item.count, counted(item.of, "map"),
                                  format_number(share, share < 1.0 ? 1 : 0)));
     list places;
     for (const StatusList::Place& place : item.places) {

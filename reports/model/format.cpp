@@ -49,10 +49,6 @@ std::string full_heading(const Column& column) {
   return text;
 }
 
-std::string count_of(long count, const std::string& noun) {
-  return fmt::format("{} {}{}", count, noun, count == 1 ? "" : "s");
-}
-
 std::string format_duration(double seconds) {
   if (!std::isfinite(seconds) || seconds < 0.0) return kMissingText;
   if (seconds < 0.9995) return fmt::format("{:.3g} ms", seconds * 1e3);

@@ -19,9 +19,6 @@ std::string format_cell(const Cell& cell);
 /// "MPE: Mean [m]": group, title and unit of a column.
 std::string full_heading(const Column& column);
 
-/// "1 run", "25 runs".
-std::string count_of(long count, const std::string& noun);
-
 /// "340 ms", "12.3 s", "4 min 10 s", "2 h 5 min".
 std::string format_duration(double seconds);
 

@@ -3,7 +3,7 @@
 
 #include <fmt/format.h>
 
-#include "reports/model/format.hpp"
+#include "core/base/words.hpp"
 #include "reports/sections/method_summary.hpp"
 #include "reports/sections/study_report.hpp"
 #include "reports/sections/wording.hpp"
@@ -197,7 +197,7 @@ Section accuracy_section(const Study& study, const SensorStudy& sensor) {
   section.title = title_of(sensor.sensor.sensor) + ": methods";
   section.blocks.emplace_back(plain(fmt::format(
       "Maps after {} observations, aligned to {} by the affine map of {}. Smaller is better.",
-      last_step(sensor), count_of(study.experiment.anchors, "anchor"),
+      last_step(sensor), counted(study.experiment.anchors, "anchor"),
       label(study.experiment.affine_fit))));
   section.blocks.emplace_back(accuracy_table(sensor, best, grid));
   section.blocks.emplace_back(spread_table(sensor, best));

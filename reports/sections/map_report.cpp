@@ -2,10 +2,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 
 #include <fmt/format.h>
 
 #include "core/base/errors.hpp"
+#include "core/base/words.hpp"
 #include "render/figures/score_words.hpp"
 #include "reports/model/format.hpp"
 #include "reports/sections/wording.hpp"
@@ -89,7 +91,7 @@ Highlights highlights(const MapRecord& record) {
   Highlights out;
   out.items.push_back({"Landmarks mapped",
                        fmt::format("{} of {}", mapped_count(record), record.estimate.rows()),
-                       count_of(record.step, "observation") + " used"});
+                       counted(record.step, "observation") + " used"});
   if (record.score)
     for (const ErrorWords& error : error_words(*record.score))
       out.items.push_back(
@@ -136,13 +138,13 @@ Section summary(const MapReportInput& input) {
   BulletList findings;
   findings.items.push_back(plain(fmt::format(
       "{} from {} observations of {}: {}.", label(record.setting), name(record.sensor),
-      count_of(record.estimate.rows(), "landmark"), info(record.setting.method).summary)));
+      counted(record.estimate.rows(), "landmark"), info(record.setting.method).summary)));
   if (record.frame == Frame::kTruth && any_truth(record))
     if (Paragraph worst = worst_finding(record); !worst.phrases.empty())
       findings.items.push_back(std::move(worst));
   if (record.frame == Frame::kSimilarity) findings.items.push_back(plain(shape_finding(record)));
   if (!record.statuses.empty())
-    findings.items.push_back(plain(count_of(static_cast<long>(record.statuses.size()), "thing") +
+    findings.items.push_back(plain(counted(std::ssize(record.statuses), "thing") +
                                    " went other than well, listed below."));
   section.blocks.emplace_back(std::move(findings));
   return section;
@@ -211,7 +213,7 @@ Report map_report(const MapReportInput& input) {
   report.title = input.title;
   report.subtitle =
       fmt::format("{}, {}, {}", label(input.record.setting), name(input.record.sensor),
-                  count_of(input.record.step, "observation"));
+                  counted(input.record.step, "observation"));
   report.sections.push_back(summary(input));
   report.sections.push_back({"map", "Map", {input.figure}});
   Section landmarks{"positions", "Landmarks", {}};

@@ -4,7 +4,7 @@
 
 #include <fmt/format.h>
 
-#include "reports/model/format.hpp"
+#include "core/base/words.hpp"
 #include "reports/sections/method_summary.hpp"
 #include "reports/sections/study_report.hpp"
 #include "reports/sections/wording.hpp"
@@ -38,11 +38,11 @@ KeyValues experiment_items(const Experiment& experiment) {
   KeyValues items;
   items.items = {{"Experiment", data(experiment.name)},
                  {"Seed", data(fmt::format("{}", experiment.seed))},
-                 {"Runs", data(fmt::format("{} \u00D7 {}", count_of(experiment.layouts, "layout"),
-                                           count_of(experiment.poses, "initial pose")))},
+                 {"Runs", data(fmt::format("{} \u00D7 {}", counted(experiment.layouts, "layout"),
+                                           counted(experiment.poses, "initial pose")))},
                  {"Room", data(fmt::format("{:g} m \u00D7 {:g} m, {} of {:g} mm",
                                            experiment.world.side_m, experiment.world.side_m,
-                                           count_of(experiment.world.landmarks, "landmark"),
+                                           counted(experiment.world.landmarks, "landmark"),
                                            1e3 * experiment.world.landmark_diameter_m))},
                  {"Walk", data(fmt::format("steps of {:g} m, turns up to {:.4g} rad",
                                            experiment.walk.step_m, experiment.walk.turn_rad))},

@@ -4,7 +4,7 @@
 
 #include <fmt/format.h>
 
-#include "reports/model/format.hpp"
+#include "core/base/words.hpp"
 #include "reports/sections/method_summary.hpp"
 #include "reports/sections/study_counts.hpp"
 #include "reports/sections/study_report.hpp"
@@ -77,13 +77,13 @@ Section statuses_section(const Study& study) {
     section.blocks.emplace_back(
         plain(counts.maps == 0 ? "No map was made."
                                : fmt::format("Nothing: each solve ended well, {} in all.",
-                                             count_of(counts.maps, "map"))));
+                                             counted(counts.maps, "map"))));
     return section;
   }
   section.blocks.emplace_back(plain(fmt::format(
       "Of {}, {} with a status, {} without a score, and {} of these no map at all. A status is "
       "data: the numbers above include every map that could be scored, with or without one.",
-      count_of(counts.maps, "map"), counts.with_status, counts.unscored, counts.failed)));
+      counted(counts.maps, "map"), counts.with_status, counts.unscored, counts.failed)));
   section.blocks.emplace_back(std::move(list));
   return section;
 }

@@ -1,8 +1,10 @@
 #include "reports/sections/study_report.hpp"
 
+#include <iterator>
+
 #include <fmt/format.h>
 
-#include "reports/model/format.hpp"
+#include "core/base/words.hpp"
 
 namespace mapproof {
 namespace {
@@ -10,9 +12,8 @@ namespace {
 std::string subtitle(const Study& study) {
   const Experiment& experiment = study.experiment;
   return fmt::format("Experiment {}, seed {}: {}, {}, room of {:g} m", experiment.name,
-                     experiment.seed,
-                     count_of(static_cast<long>(study.runs.size()), "simulated run"),
-                     count_of(experiment.world.landmarks, "landmark"), experiment.world.side_m);
+                     experiment.seed, counted(std::ssize(study.runs), "simulated run"),
+                     counted(experiment.world.landmarks, "landmark"), experiment.world.side_m);
 }
 
 }  // namespace

@@ -1,8 +1,10 @@
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 
 #include <fmt/format.h>
 
+#include "core/base/words.hpp"
 #include "reports/model/format.hpp"
 #include "reports/sections/method_summary.hpp"
 #include "reports/sections/study_counts.hpp"
@@ -51,10 +53,9 @@ Paragraph best_finding(const SensorStudy& sensor, const SettingSummary& best) {
   text.phrases.push_back(strong(title_of(best.sensor)));
   text.phrases.push_back(words(fmt::format(": after {} observations ", best.step)));
   text.phrases.push_back(strong(label(best.setting)));
-  text.phrases.push_back(
-      words(fmt::format(" is the most accurate of {}: MPE {}, MOE {}.",
-                        count_of(static_cast<long>(sensor.methods.size()), "method"),
-                        with_interval(*best.mpe_m), percent(best.moe_percent->mean))));
+  text.phrases.push_back(words(fmt::format(
+      " is the most accurate of {}: MPE {}, MOE {}.", counted(std::ssize(sensor.methods), "method"),
+      with_interval(*best.mpe_m), percent(best.moe_percent->mean))));
   if (best.published)
     text.phrases.push_back(
         words(fmt::format(" The paper printed {} and {} for this method: ours differs by {}.",
@@ -147,13 +148,13 @@ void add_ends(const Study& study, BulletList& findings, Highlights& highlights) 
   const Experiment& experiment = study.experiment;
   const long planned = static_cast<long>(experiment.layouts) * experiment.poses;
   highlights.items.push_back({"Runs", fmt::format("{} of {}", study.runs.size(), planned),
-                              fmt::format("{}, {} each", count_of(experiment.layouts, "layout"),
-                                          count_of(experiment.poses, "initial pose"))});
+                              fmt::format("{}, {} each", counted(experiment.layouts, "layout"),
+                                          counted(experiment.poses, "initial pose"))});
   highlights.items.push_back({"Maps with a status",
                               fmt::format("{} of {}", counts.with_status, counts.maps),
                               fmt::format("{} without a score", counts.unscored)});
   if (counts.maps == 0) return;
-  const std::string maps = count_of(counts.maps, "map");
+  const std::string maps = counted(counts.maps, "map");
   const std::string text =
       counts.with_status + counts.unscored == 0
           ? fmt::format(": none: every one of {} ended well.", maps)
@@ -173,16 +174,16 @@ std::string smaller_than_paper(const Experiment& experiment) {
   std::string text;
   if (experiment.layouts < kPaperLayouts || experiment.poses < kPaperPoses)
     text += fmt::format("{} of {} each where the paper averaged {} of {} each. ",
-                        count_of(experiment.layouts, "layout"),
-                        count_of(experiment.poses, "initial pose"),
-                        count_of(kPaperLayouts, "layout"), count_of(kPaperPoses, "initial pose"));
+                        counted(experiment.layouts, "layout"),
+                        counted(experiment.poses, "initial pose"), counted(kPaperLayouts, "layout"),
+                        counted(kPaperPoses, "initial pose"));
   for (const SensorStudy& sensor : experiment.sensors)
     if (last_step(sensor) < kPaperSteps)
       text += fmt::format("{} stops at {} observations, the paper at {}. ",
                           title_of(sensor.sensor.sensor), last_step(sensor), kPaperSteps);
   if (experiment.world.landmarks != kPaperLandmarks)
     text += fmt::format("{} where the paper had {}. ",
-                        count_of(experiment.world.landmarks, "landmark"), kPaperLandmarks);
+                        counted(experiment.world.landmarks, "landmark"), kPaperLandmarks);
   return text;
 }
 
@@ -193,7 +194,7 @@ std::vector<Callout> caveats(const Study& study) {
   if (static_cast<long>(study.runs.size()) < planned)
     found.push_back({Callout::Tone::kWarning, "Incomplete",
                      plain(fmt::format("{} of {} are done; every number below rests on these.",
-                                       study.runs.size(), count_of(planned, "run")))});
+                                       study.runs.size(), counted(planned, "run")))});
   if (const std::string smaller = smaller_than_paper(experiment); !smaller.empty())
     found.push_back({Callout::Tone::kNote, "Not the paper\u2019s protocol",
                      plain(smaller + "The printed values are shown for orientation.")});
@@ -208,7 +209,7 @@ Section summary_section(const Study& study) {
       "Maps of {} built from what a simulated robot observed, without ever estimating its pose. "
       "MPE, mean position error: mean distance to the true position over the landmarks that are "
       "no anchors. MOE, mean orientation error: share of landmark triples that turn the wrong way.",
-      count_of(study.experiment.world.landmarks, "landmark"))));
+      counted(study.experiment.world.landmarks, "landmark"))));
   BulletList findings;
   Highlights highlights;
   for (const SensorStudy& sensor : study.experiment.sensors)

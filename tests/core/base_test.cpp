@@ -7,11 +7,13 @@
 #include <gtest/gtest.h>
 #include <sys/resource.h>
 
+#include "core/base/csv.hpp"
 #include "core/base/errors.hpp"
 #include "core/base/files.hpp"
 #include "core/base/random.hpp"
 #include "core/base/utf8.hpp"
 #include "core/base/version.hpp"
+#include "core/base/words.hpp"
 
 namespace mapproof {
 namespace {
@@ -154,6 +156,27 @@ TEST(Version, IsStated) {
   EXPECT_FALSE(version().empty());
   EXPECT_FALSE(source_commit().empty());
   EXPECT_EQ(solver_digest().size(), 64U);
+}
+
+TEST(Words, CountAndListAsASentenceDoes) {
+  EXPECT_EQ(counted(0, "run"), "0 runs");
+  EXPECT_EQ(counted(1, "run"), "1 run");
+  EXPECT_EQ(listed({}, 3), "");
+  EXPECT_EQ(listed({"a", "b", "c"}, 5), "a, b and c");
+  EXPECT_EQ(listed({"a", "b", "c", "d"}, 3), "a, b and 2 more");
+}
+
+TEST(Csv, QuotesWhatAReaderCouldSplitOrStrip) {
+  EXPECT_EQ(csv_field("a b"), "a b");
+  EXPECT_EQ(csv_field("a,\"b\""), "\"a,\"\"b\"\"\"");
+  for (const char* text : {"a;b", "a\tb", "a\nb", "#a", " a", "a "})
+    EXPECT_EQ(csv_field(text).front(), '"') << text;
+}
+
+TEST(Csv, WritesNumbersThatReadBackTheSame) {
+  EXPECT_EQ(csv_number(0.1 + 0.2), "0.30000000000000004");
+  EXPECT_EQ(csv_number(100'000.0), "100000");
+  EXPECT_EQ(csv_number(std::nan("")), "");
 }
 
 }  // namespace

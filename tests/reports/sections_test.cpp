@@ -3,7 +3,6 @@
 
 #include <gtest/gtest.h>
 
-#include "reports/model/format.hpp"
 #include "reports/sections/method_summary.hpp"
 #include "reports/sections/study_report.hpp"
 #include "tests/reports/synthetic_study.hpp"
