@@ -110,11 +110,10 @@ void check_method(const ObservationSource& source, const OwnMapOptions& options)
   if (M < 3)
     throw IoError(source.path,
                   fmt::format("{} landmark{}; a map needs 3 or more", M, M == 1 ? "" : "s"));
-  const MethodInfo& method = info(options.setting.method);
-  if (method.parameter && *options.setting.parameter >= static_cast<double>(M))
-    throw IoError(source.path, fmt::format("{} = {:g} needs more than {:g} landmarks, {} are there",
-                                           method.parameter->symbol, *options.setting.parameter,
-                                           *options.setting.parameter, M));
+  const double K = options.setting.parameter.value_or(0.0);
+  if (on_graph(options.setting.method) && K >= static_cast<double>(M))
+    throw IoError(source.path,
+                  fmt::format("K = {:g} needs more than {:g} landmarks, {} are there", K, K, M));
 }
 
 /// Errors of a map that no anchors tie to the truth: those that need none.
@@ -239,12 +238,14 @@ OwnMap map_own(const ObservationSource& source, const std::optional<NamedPointsF
 
   EmbedderOptions fitting;
   fitting.only_seen_together = options.only_seen_together;
-  const Embedding embedding =
-      HistoryEmbedder(source.history, steps, fitting).embed(options.setting);
+  HistoryEmbedder embedder(source.history, steps, fitting);
+  const MethodSetting setting =
+      options.setting.parameter ? options.setting : embedder.usual_setting(options.setting.method);
+  const Embedding embedding = embedder.embed(setting);
   MapRecord& record = result.record;
   record.id = "map";
   record.sensor = source.history.sensor;
-  record.setting = options.setting;
+  record.setting = setting;
   record.step = static_cast<int>(steps);
   record.names = source.history.names;
   record.statuses = embedding.statuses;

@@ -20,8 +20,8 @@ struct NamedPointsFile {
 
 /// How a person's own observations are to be mapped.
 struct OwnMapOptions {
-  MethodSetting setting;
-  int steps = 0;  ///< The first so many observations; 0: all.
+  MethodSetting setting;  ///< Without a parameter: the usual one of these data.
+  int steps = 0;          ///< The first so many observations; 0: all.
   AffineFit fit = AffineFit::kLeastDistances;
   bool drop_unseen = false;         ///< Map the others where a landmark was never observed.
   bool only_seen_together = false;  ///< See EmbedderOptions.

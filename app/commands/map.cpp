@@ -34,34 +34,68 @@ struct Arguments {
   std::string anchors;
   std::string truth;
   std::string fit = "least-distances";
-  std::optional<double> parameter;
+  std::optional<double> parameter;  ///< One of these four.
+  std::optional<double> neighbours;
+  std::optional<double> variance;
+  std::optional<double> degree;
   std::optional<std::string> templates;
   OwnMapOptions options;
 };
 
-constexpr double kUsualNeighbours = 6.0;
+/// The option that the parameter was given by, and its value; none: the usual value is taken.
+struct GivenParameter {
+  std::string_view option;
+  double value;
+};
 
-/// The method and its parameter; without one given, K = 6, or as many as there can be.
-MethodSetting chosen_setting(const Arguments& arguments, Eigen::Index landmarks) {
+/// An option for the parameter of a name, as that of the other methods: "--sigma2".
+struct ParameterOption {
+  std::string_view symbol;
+  std::string_view option;
+  std::optional<double> Arguments::*value;
+};
+
+constexpr ParameterOption kParameterOptions[] = {{"K", "-K", &Arguments::neighbours},
+                                                 {"sigma2", "--sigma2", &Arguments::variance},
+                                                 {"d", "--degree", &Arguments::degree}};
+
+/// @throws InvalidInput for an option of another method's parameter.
+std::optional<GivenParameter> given_parameter(const Arguments& arguments,
+                                              const MethodInfo& method) {
+  std::optional<GivenParameter> given;
+  if (arguments.parameter) given = {"--parameter", *arguments.parameter};
+  std::string_view usual;
+  for (const ParameterOption& option : kParameterOptions)
+    if (method.parameter && method.parameter->symbol == option.symbol) usual = option.option;
+  for (const ParameterOption& option : kParameterOptions) {
+    const std::optional<double>& value = arguments.*option.value;
+    if (!value) continue;
+    if (method.parameter && option.option != usual)
+      throw InvalidInput(fmt::format("{}: the method {} has the parameter {}; did you mean {}?",
+                                     option.option, method.name, method.parameter->shown, usual));
+    given = {option.option, *value};
+  }
+  if (given && !method.parameter)
+    throw InvalidInput(fmt::format("{}: the method {} has none", given->option, method.name));
+  return given;
+}
+
+/// The method, and its parameter if one was given.
+MethodSetting chosen_setting(const Arguments& arguments) {
   const std::optional<Method> method = method_named(arguments.method);
   if (!method)
     throw InvalidInput(fmt::format("--method: unknown method \"{}\"; did you mean \"{}\"?",
                                    printable(arguments.method),
                                    nearest_method_name(arguments.method)));
-  const std::optional<ParameterInfo>& parameter = info(*method).parameter;
-  if (!parameter) {
-    if (arguments.parameter)
-      throw InvalidInput(fmt::format("--parameter: the method {} has none", arguments.method));
-    return {*method, std::nullopt};
-  }
-  const double value = arguments.parameter.value_or(
-      std::max(1.0, std::min(kUsualNeighbours, static_cast<double>(landmarks - 1))));
-  if (!(value >= parameter->minimum && value <= parameter->maximum) ||
-      (parameter->integer && value != std::floor(value)))
+  const std::optional<GivenParameter> given = given_parameter(arguments, info(*method));
+  if (!given) return {*method, std::nullopt};
+  const ParameterInfo& parameter = *info(*method).parameter;
+  if (!(given->value >= parameter.minimum && given->value <= parameter.maximum) ||
+      (parameter.integer && given->value != std::floor(given->value)))
     throw InvalidInput(fmt::format(
-        "--parameter: {} = {:g} is not {} from {:g} to {:g}", parameter->symbol, value,
-        parameter->integer ? "an integer" : "a number", parameter->minimum, parameter->maximum));
-  return {*method, value};
+        "{}: {} = {:g} is not {} from {:g} to {:g}", given->option, parameter.shown, given->value,
+        parameter.integer ? "an integer" : "a number", parameter.minimum, parameter.maximum));
+  return {*method, given->value};
 }
 
 std::optional<NamedPointsFile> read_points(const std::string& path) {
@@ -167,7 +201,7 @@ int make_map(Arguments arguments, const Invocation& invocation) {
                         : arguments.layout == "long" ? Layout::kLong
                                                      : Layout::kAuto;
   const ObservationSource source = read_observations(arguments.observations, kind, layout);
-  arguments.options.setting = chosen_setting(arguments, source.history.landmarks());
+  arguments.options.setting = chosen_setting(arguments);
   arguments.options.fit =
       arguments.fit == "least-squares" ? AffineFit::kLeastSquares : AffineFit::kLeastDistances;
   const OwnMap map = map_own(source, read_points(arguments.anchors), read_points(arguments.truth),
@@ -192,7 +226,7 @@ Action map_verb(CLI::App& app) {
       "Examples:\n"
       "  mapproof map bearings.csv --kind bearing --anchors anchors.csv --out out/map\n"
       "  mapproof map seen.csv --kind visibility --method lpca --out out/shape\n"
-      "  mapproof map MRCLAM_Dataset2 --method isomap --parameter 5 --out out/mrclam\n\n"
+      "  mapproof map MRCLAM_Dataset2 --method isomap -K 5 --out out/mrclam\n\n"
       "OBSERVATIONS: wide CSV (a row a landmark, a column a step; empty or nan: missing), long "
       "CSV\n"
       "(step, landmark, value), JSON of mapproof.observations, or a folder of MRCLAM files.\n"
@@ -200,8 +234,16 @@ Action map_verb(CLI::App& app) {
   app.add_option("OBSERVATIONS", arguments->observations, "File or folder")->required();
   add_out_option(app, arguments->out, "Folder for map, figure and report")->required();
   app.add_option("--method", arguments->method, "See \"mapproof methods\"")->capture_default_str();
-  app.add_option("--parameter,-K", arguments->parameter,
-                 "The method's parameter (default: K = 6, or what there can be)");
+  CLI::Option_group* parameter =
+      app.add_option_group("Parameter of the method", "One of these, see \"mapproof methods\"");
+  parameter->require_option(0, 1);
+  parameter->add_option("--parameter", arguments->parameter, "Of whatever method");
+  parameter->add_option("-K,--neighbours", arguments->neighbours,
+                        "Number of nearest neighbours (default: 6, or what there can be)");
+  parameter->add_option("--sigma2", arguments->variance,
+                        "Variance of the Gaussian kernel (default: the median squared distance)");
+  parameter->add_option("--degree", arguments->degree,
+                        "Degree of the polynomial kernel (default: 2)");
   app.add_option("--kind", arguments->kind,
                  "What the values are: visibility (0/1), bearing [rad], "
                  "range [m]; needed for CSV")

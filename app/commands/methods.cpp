@@ -9,9 +9,13 @@ namespace {
 nlohmann::ordered_json parameter_json(const MethodInfo& method) {
   if (!method.parameter) return nullptr;
   const ParameterInfo& parameter = *method.parameter;
-  return {{"symbol", parameter.symbol},   {"meaning", parameter.meaning},
-          {"integer", parameter.integer}, {"minimum", parameter.minimum},
-          {"maximum", parameter.maximum}, {"below_number_of_landmarks", parameter.integer}};
+  return {{"symbol", parameter.symbol},
+          {"shown", parameter.shown},
+          {"meaning", parameter.meaning},
+          {"integer", parameter.integer},
+          {"minimum", parameter.minimum},
+          {"maximum", parameter.maximum},
+          {"below_number_of_landmarks", parameter.counts_neighbours}};
 }
 
 int methods(const Invocation& invocation) {
@@ -25,9 +29,10 @@ int methods(const Invocation& invocation) {
                                  {"parameter", parameter_json(method)}});
     text += fmt::format("{}\n  {}: {}\n", method.name, method.label, method.summary);
     if (method.parameter)
-      text += fmt::format("  parameter {}: {}, {:g} to {:g}, below the number of landmarks\n",
-                          method.parameter->symbol, method.parameter->meaning,
-                          method.parameter->minimum, method.parameter->maximum);
+      text += fmt::format("  parameter {}: {}, {:g} to {:g}{}\n", method.parameter->shown,
+                          method.parameter->meaning, method.parameter->minimum,
+                          method.parameter->maximum,
+                          on_graph(method.method) ? ", below the number of landmarks" : "");
     text += fmt::format("  source: {}\n", method.source);
   }
   invocation.console.result(text, object);

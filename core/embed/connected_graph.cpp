@@ -1,5 +1,8 @@
 #include "core/embed/connected_graph.hpp"
 
+#include <algorithm>
+#include <utility>
+
 #include <fmt/format.h>
 
 #include "core/graph/components.hpp"
@@ -8,7 +11,13 @@ namespace mapproof {
 
 ConnectedGraph connected_neighbour_graph(const Eigen::MatrixXd& distances,
                                          const NeighbourOptions& options) {
-  ConnectedGraph result{.graph = neighbour_graph(distances, options), .statuses = {}};
+  return connected_neighbour_graph(distances, nearest_neighbours(distances, options),
+                                   options.neighbours);
+}
+
+ConnectedGraph connected_neighbour_graph(const Eigen::MatrixXd& distances, const Graph& nearest,
+                                         int neighbours) {
+  ConnectedGraph result{.graph = neighbour_graph(nearest, neighbours), .statuses = {}};
   const auto bridging = bridge_components(result.graph, distances);
   if (!bridging) {
     result.connected = false;
@@ -20,8 +29,29 @@ ConnectedGraph connected_neighbour_graph(const Eigen::MatrixXd& distances,
         {StatusCode::kBridged,
          fmt::format("The graph of K = {} neighbours was in {} pieces; joined by its shortest "
                      "bridges, the longest {:.3g}.",
-                     options.neighbours, bridging->pieces, bridging->longest)});
+                     neighbours, bridging->pieces, bridging->longest)});
   }
+  return result;
+}
+
+ConnectedGraph connected_neighbourhoods(const Eigen::MatrixXd& distances, const Graph& nearest,
+                                        int neighbours) {
+  ConnectedGraph result = connected_neighbour_graph(distances, nearest, neighbours);
+  const Graph symmetric = std::exchange(result.graph, nearest);
+  for (std::vector<Edge>& edges : result.graph)
+    if (std::ssize(edges) > neighbours) edges.resize(static_cast<std::size_t>(neighbours));
+  if (result.statuses.empty()) return result;
+
+  const auto lists = [&](std::size_t i, Eigen::Index j) {
+    return std::ranges::find(result.graph[i], j, &Edge::to) != result.graph[i].end();
+  };
+  for (std::size_t i = 0; i < symmetric.size(); ++i)
+    for (const Edge& edge : symmetric[i]) {
+      const auto j = static_cast<std::size_t>(edge.to);
+      if (lists(i, edge.to) || lists(j, static_cast<Eigen::Index>(i))) continue;
+      result.graph[i].push_back(edge);
+      result.graph[j].push_back({static_cast<Eigen::Index>(i), edge.length});
+    }
   return result;
 }
 

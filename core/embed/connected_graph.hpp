@@ -21,4 +21,13 @@ struct ConnectedGraph {
 ConnectedGraph connected_neighbour_graph(const Eigen::MatrixXd& distances,
                                          const NeighbourOptions& options);
 
+/// The same from the first K of each list of `nearest` (see nearest_neighbours).
+ConnectedGraph connected_neighbour_graph(const Eigen::MatrixXd& distances, const Graph& nearest,
+                                         int neighbours);
+
+/// The K nearest neighbours of each landmark, in `graph`. Where the symmetric graph is in pieces,
+/// the ends of its shortest bridges become neighbours of each other, beyond their K.
+ConnectedGraph connected_neighbourhoods(const Eigen::MatrixXd& distances, const Graph& nearest,
+                                        int neighbours);
+
 }  // namespace mapproof

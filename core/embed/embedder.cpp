@@ -10,7 +10,10 @@
 
 #include "core/base/errors.hpp"
 #include "core/embed/connected_graph.hpp"
+#include "core/embed/hessian_lle.hpp"
 #include "core/embed/isomap.hpp"
+#include "core/embed/kernel_pca.hpp"
+#include "core/embed/laplacian_eigenmap.hpp"
 #include "core/embed/lpca.hpp"
 #include "core/graph/shortest_paths.hpp"
 
@@ -42,6 +45,23 @@ std::string listed(const std::vector<std::string>& names, const std::vector<Eige
   return rows.size() > kShown ? fmt::format("{} and {} more", list, rows.size() - kShown) : list;
 }
 
+/// The median of the finite entries below the diagonal; 1 if there is none above zero.
+double median_beside_diagonal(const Eigen::MatrixXd& matrix) {
+  std::vector<double> values;
+  for (Eigen::Index j = 0; j < matrix.cols(); ++j)
+    for (Eigen::Index i = j + 1; i < matrix.rows(); ++i)
+      if (std::isfinite(matrix(i, j)) && matrix(i, j) > 0.0) values.push_back(matrix(i, j));
+  if (values.empty()) return 1.0;
+  const auto middle = values.begin() + std::ssize(values) / 2;
+  std::ranges::nth_element(values, middle);
+  return *middle;
+}
+
+double two_digits(double value) {
+  const double unit = std::pow(10.0, std::floor(std::log10(value)) - 1.0);
+  return std::round(value / unit) * unit;
+}
+
 Eigen::MatrixXd adjacency(const Graph& graph) {
   Eigen::MatrixXd weights = Eigen::MatrixXd::Zero(std::ssize(graph), std::ssize(graph));
   for (std::size_t i = 0; i < graph.size(); ++i)
@@ -52,12 +72,16 @@ Eigen::MatrixXd adjacency(const Graph& graph) {
 }  // namespace
 
 Embedder::Embedder(Proximities proximities, EmbedderOptions options)
-    : options_(options), distances_(proximities.squared_distances.cwiseSqrt()) {
+    : options_(options),
+      inner_products_(std::move(proximities.inner_products)),
+      distances_(proximities.squared_distances.cwiseSqrt()) {
   const auto infinite = [](const Eigen::MatrixXd& D) {
     return (!D.array().isFinite()).count() / 2;
   };
   completed_pairs_ = infinite(distances_);
   complete_distances_ = completed_pairs_ > 0 ? completed_distances(distances_) : distances_;
+  complete_squares_ = completed_pairs_ > 0 ? Eigen::MatrixXd(complete_distances_.cwiseAbs2())
+                                           : std::move(proximities.squared_distances);
   seen_apart_ = infinite(complete_distances_) > 0;
   // Normalised visibility vectors without a common sighting are at right angles.
   cutoff_ = options_.only_seen_together ? std::numbers::sqrt2 * (1.0 - 1e-12)
@@ -66,24 +90,63 @@ Embedder::Embedder(Proximities proximities, EmbedderOptions options)
 
 Embedding Embedder::embed(const MethodSetting& setting) {
   const Eigen::Index n = distances_.rows();
-  if (n < 3) return failed(n, fmt::format("A map needs 3 observed landmarks, {} are there.", n));
-  const int neighbours = static_cast<int>(setting.parameter.value_or(0.0));
-  if (info(setting.method).parameter && neighbours >= n)
-    return failed(n, fmt::format("K = {} needs more than {} observed landmarks.", neighbours, n));
-  if (seen_apart_)
-    return failed(n,
-                  "Some groups of landmarks share no observation: nothing tells where they lie "
-                  "to each other.");
+  if (const auto why_not = obstacle(setting)) return failed(n, *why_not);
+  if (complete_squares_.maxCoeff() == 0.0) {
+    Embedding point;
+    point.coordinates.setZero(n, 2);
+    point.statuses.push_back({StatusCode::kRankDeficient,
+                              "The observations of all landmarks are the same: the map is a "
+                              "point."});
+    return point;
+  }
+  return solve(setting);
+}
 
+MethodSetting Embedder::usual_setting(Method method) const {
+  const std::optional<ParameterInfo>& parameter = info(method).parameter;
+  if (!parameter) return {method, std::nullopt};
+  if (parameter->counts_neighbours)
+    return {method, std::clamp(static_cast<double>(distances_.rows() - 1), 1.0, 6.0)};
+  if (method == Method::kKpcaPolynomial) return {method, 2.0};
+  const double median = median_beside_diagonal(complete_squares_);
+  return {method, std::clamp(two_digits(median), parameter->minimum, parameter->maximum)};
+}
+
+/// Why the method cannot give a map of these data; empty if it can.
+std::optional<std::string> Embedder::obstacle(const MethodSetting& setting) const {
+  const Eigen::Index n = distances_.rows();
+  if (n < 3) return fmt::format("A map needs 3 observed landmarks, {} are there.", n);
+  if (on_graph(setting.method) && setting.parameter.value_or(0.0) >= static_cast<double>(n))
+    return fmt::format("K = {} needs more than {} observed landmarks.",
+                       setting.parameter.value_or(0.0), n);
+  if (seen_apart_)
+    return "Some groups of landmarks share no observation: nothing tells where they lie to each "
+           "other.";
+  return std::nullopt;
+}
+
+Embedding Embedder::solve(const MethodSetting& setting) {
+  const double parameter = setting.parameter.value_or(0.0);
+  const int count = static_cast<int>(std::min(parameter, 1e6));
   switch (setting.method) {
     case Method::kLpca:
       return with_all_distances(linear());
     case Method::kSmacof:
       return with_all_distances(equal_weights());
     case Method::kSmacofKnn:
-      return with_all_distances(weighted_smacof(neighbours));
+      return with_all_distances(weighted_smacof(count));
+    case Method::kKpcaGaussian:
+      return with_all_distances(
+          kernel_pca(complete_squares_, GaussianKernel{.variance = parameter}));
+    case Method::kKpcaPolynomial:
+      return with_all_distances(
+          kernel_pca(complete_inner_products(), PolynomialKernel{.degree = count}));
     case Method::kIsomap:
-      return isomap(distances_, {.neighbours = neighbours, .cutoff = cutoff_});
+    case Method::kLaplacianEigenmap:
+      return on_graph_of(setting.method, count);
+    case Method::kLle:
+    case Method::kHessianLle:
+      return with_all_distances(on_neighbourhoods(setting.method, count));
   }
   throw InvalidInput("unknown method");
 }
@@ -100,7 +163,7 @@ Embedding Embedder::with_all_distances(Embedding embedding) const {
 
 Embedding Embedder::weighted_smacof(int neighbours) {
   const ConnectedGraph graph =
-      connected_neighbour_graph(distances_, {.neighbours = neighbours, .cutoff = cutoff_});
+      connected_neighbour_graph(distances_, nearest(neighbours), neighbours);
   if (!graph.connected) return failed(distances_.rows(), graph.statuses.front().detail);
   const Embedding& start = equal_weights();
   Embedding result =
@@ -110,8 +173,60 @@ Embedding Embedder::weighted_smacof(int neighbours) {
   return result;
 }
 
+Embedding Embedder::on_graph_of(Method method, int neighbours) {
+  const ConnectedGraph graph =
+      connected_neighbour_graph(distances_, nearest(neighbours), neighbours);
+  if (!graph.connected) return failed(distances_.rows(), graph.statuses.front().detail);
+  Embedding result =
+      method == Method::kIsomap ? isomap(graph.graph) : laplacian_eigenmap(graph.graph);
+  result.statuses.insert(result.statuses.begin(), graph.statuses.begin(), graph.statuses.end());
+  return result;
+}
+
+Embedding Embedder::on_neighbourhoods(Method method, int neighbours) {
+  const Eigen::Index n = distances_.rows();
+  const bool hessian = method == Method::kHessianLle;
+  if (hessian && neighbours < kFewestHessianNeighbours)
+    return failed(n, fmt::format("Hessian LLE of the plane needs K >= {}, K is {}.",
+                                 kFewestHessianNeighbours, neighbours));
+  const ConnectedGraph graph =
+      connected_neighbourhoods(distances_, nearest(neighbours), neighbours);
+  if (!graph.connected) return failed(n, graph.statuses.front().detail);
+  const auto few = std::ranges::count_if(graph.graph, [](const std::vector<Edge>& edges) {
+    return std::ssize(edges) < kFewestHessianNeighbours;
+  });
+  if (hessian && few > 0)
+    return failed(n, fmt::format("Hessian LLE needs {} neighbours of each landmark, {} have fewer.",
+                                 kFewestHessianNeighbours, few));
+  Embedding result = hessian ? hessian_lle(complete_squares_, graph.graph)
+                             : lle(complete_squares_, graph.graph, options_.lle);
+  result.statuses.insert(result.statuses.begin(), graph.statuses.begin(), graph.statuses.end());
+  return result;
+}
+
+/// Sorted once for all K up to some: most studies ask for one K after another.
+const Graph& Embedder::nearest(int neighbours) {
+  constexpr int kUsual = 16;
+  if (nearest_count_ < neighbours) {
+    nearest_count_ = static_cast<int>(
+        std::min<Eigen::Index>(std::max(neighbours, kUsual), distances_.rows() - 1));
+    nearest_ = nearest_neighbours(distances_, {.neighbours = nearest_count_, .cutoff = cutoff_});
+  }
+  return nearest_;
+}
+
+/// Those of pairs without a common step as their completed distances have them.
+Eigen::MatrixXd Embedder::complete_inner_products() const {
+  if (completed_pairs_ == 0) return inner_products_;
+  const Eigen::VectorXd squares = inner_products_.diagonal();
+  const Eigen::MatrixXd completed =
+      0.5 * (squares.replicate(1, squares.size()) +
+             squares.transpose().replicate(squares.size(), 1) - complete_squares_);
+  return distances_.array().isFinite().select(inner_products_, completed);
+}
+
 const Embedding& Embedder::linear() {
-  if (!linear_) linear_ = lpca(complete_distances_.cwiseAbs2());
+  if (!linear_) linear_ = lpca(complete_squares_);
   return *linear_;
 }
 

@@ -1,8 +1,10 @@
 #pragma once
 
 #include <optional>
+#include <string>
 #include <vector>
 
+#include "core/embed/lle.hpp"
 #include "core/embed/smacof.hpp"
 #include "core/model/embedding.hpp"
 #include "core/model/method.hpp"
@@ -18,6 +20,7 @@ struct EmbedderOptions {
   SmacofOptions smacof;
   /// Weighted SMACOF is stopped early: full convergence makes worse maps.
   SmacofOptions smacof_knn{.relative_fall = 1e-2, .max_iterations = 1000};
+  LleOptions lle;
 };
 
 /// Every mapping method over the same proximities; what several of them start from is computed
@@ -33,15 +36,29 @@ class Embedder {
   ///         statuses of a map that the method started from are among those of the result.
   Embedding embed(const MethodSetting& setting);
 
+  /// The method with a parameter to start from, if it has one: K = 6 or as many as there can be,
+  /// the median of the squared distances (to two digits) as sigma2, degree 2.
+  MethodSetting usual_setting(Method method) const;
+
  private:
+  std::optional<std::string> obstacle(const MethodSetting& setting) const;
+  Embedding solve(const MethodSetting& setting);
   Embedding with_all_distances(Embedding embedding) const;
   Embedding weighted_smacof(int neighbours);
+  Embedding on_graph_of(Method method, int neighbours);
+  Embedding on_neighbourhoods(Method method, int neighbours);
+  const Graph& nearest(int neighbours);
+  Eigen::MatrixXd complete_inner_products() const;
   const Embedding& linear();
   const Embedding& equal_weights();
 
   EmbedderOptions options_;
+  Eigen::MatrixXd inner_products_;
   Eigen::MatrixXd distances_;           ///< May hold infinities.
   Eigen::MatrixXd complete_distances_;  ///< All finite, if the data allow.
+  Eigen::MatrixXd complete_squares_;    ///< Of these.
+  Graph nearest_;                       ///< The first so many of each landmark, nearest first.
+  int nearest_count_ = 0;
   Eigen::Index completed_pairs_ = 0;
   bool seen_apart_ = false;  ///< Some landmarks share no step even over others.
   double cutoff_ = 0.0;
@@ -59,6 +76,9 @@ class HistoryEmbedder {
 
   /// @return M rows, as many as the history has landmarks.
   Embedding embed(const MethodSetting& setting);
+
+  /// See Embedder.
+  MethodSetting usual_setting(Method method) const { return embedder_->usual_setting(method); }
 
  private:
   Eigen::Index landmarks_;

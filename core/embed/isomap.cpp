@@ -8,11 +8,13 @@
 
 namespace mapproof {
 
+Embedding isomap(const Graph& graph) { return lpca(shortest_paths(graph).cwiseAbs2()); }
+
 Embedding isomap(const Eigen::MatrixXd& distances, const NeighbourOptions& options) {
   ConnectedGraph neighbours = connected_neighbour_graph(distances, options);
   Embedding result;
   if (neighbours.connected) {
-    result = lpca(shortest_paths(neighbours.graph).cwiseAbs2());
+    result = isomap(neighbours.graph);
   } else {
     result.coordinates.setConstant(distances.rows(), 2, std::numeric_limits<double>::quiet_NaN());
   }

@@ -16,4 +16,7 @@ namespace mapproof {
 /// @note O(n^2 K log n + n^3) time.
 Embedding isomap(const Eigen::MatrixXd& distances, const NeighbourOptions& options);
 
+/// The same of a graph of n >= 3 nodes that is in one piece.
+Embedding isomap(const Graph& graph);
+
 }  // namespace mapproof

@@ -11,8 +11,8 @@ namespace mapproof {
 ///
 /// @param squared_distances  n x n, symmetric, zero diagonal, finite, n >= 3.
 /// @return Centred, columns orthogonal, in descending order of spread; kRankDeficient if the data
-///         spread in fewer than two directions (the missing columns are zero); kNotConverged if the
-///         eigenvalues' solver gave up. The spectrum holds up to 10 eigenvalues.
+///         spread in fewer than two directions (the missing columns are zero); kUndetermined and
+///         kNotConverged as of principal_coordinates. The spectrum holds up to 10 eigenvalues.
 /// @throws InvalidInput if the matrix breaks the bounds above.
 /// @note O(n^3) time, O(n^2) memory.
 Embedding lpca(const Eigen::MatrixXd& squared_distances);

@@ -21,14 +21,13 @@ double rounded(double distance) {
 
 }  // namespace
 
-Graph neighbour_graph(const Eigen::MatrixXd& distances, const NeighbourOptions& options) {
+Graph nearest_neighbours(const Eigen::MatrixXd& distances, const NeighbourOptions& options) {
   const Eigen::Index n = distances.rows();
   if (options.neighbours < 1 || options.neighbours >= n)
     throw InvalidInput(
         fmt::format("K = {} nearest neighbours need 1 <= K < {} landmarks", options.neighbours, n));
 
-  Eigen::Matrix<bool, Eigen::Dynamic, Eigen::Dynamic> joined;
-  joined.setConstant(n, n, false);
+  Graph nearest(static_cast<std::size_t>(n));
   std::vector<std::pair<double, Eigen::Index>> order;
   for (Eigen::Index i = 0; i < n; ++i) {
     order.clear();
@@ -36,18 +35,38 @@ Graph neighbour_graph(const Eigen::MatrixXd& distances, const NeighbourOptions& 
       if (j != i && distances(j, i) < options.cutoff && std::isfinite(distances(j, i)))
         order.emplace_back(rounded(distances(j, i)), j);
     const auto count = std::min<std::ptrdiff_t>(options.neighbours, std::ssize(order));
-    std::partial_sort(order.begin(), order.begin() + count, order.end());
+    std::nth_element(order.begin(), order.begin() + count, order.end());
+    std::sort(order.begin(), order.begin() + count);
+    std::vector<Edge>& edges = nearest[static_cast<std::size_t>(i)];
     for (std::ptrdiff_t rank = 0; rank < count; ++rank) {
       const Eigen::Index j = order[static_cast<std::size_t>(rank)].second;
-      joined(i, j) = joined(j, i) = true;
+      edges.push_back({j, distances(j, i)});
     }
   }
+  return nearest;
+}
 
-  Graph graph(static_cast<std::size_t>(n));
-  for (Eigen::Index i = 0; i < n; ++i)
-    for (Eigen::Index j = 0; j < n; ++j)
-      if (joined(j, i)) graph[static_cast<std::size_t>(i)].push_back({j, distances(j, i)});
+Graph neighbour_graph(const Graph& nearest, int neighbours) {
+  Graph graph(nearest.size());
+  for (std::size_t i = 0; i < nearest.size(); ++i) {
+    const auto count = std::min<std::ptrdiff_t>(neighbours, std::ssize(nearest[i]));
+    for (std::ptrdiff_t rank = 0; rank < count; ++rank) {
+      const Edge& edge = nearest[i][static_cast<std::size_t>(rank)];
+      graph[i].push_back(edge);
+      graph[static_cast<std::size_t>(edge.to)].push_back(
+          {static_cast<Eigen::Index>(i), edge.length});
+    }
+  }
+  for (std::vector<Edge>& edges : graph) {
+    std::ranges::sort(edges, {}, &Edge::to);
+    const auto twice = std::ranges::unique(edges, {}, &Edge::to);
+    edges.erase(twice.begin(), twice.end());
+  }
   return graph;
+}
+
+Graph neighbour_graph(const Eigen::MatrixXd& distances, const NeighbourOptions& options) {
+  return neighbour_graph(nearest_neighbours(distances, options), options.neighbours);
 }
 
 }  // namespace mapproof

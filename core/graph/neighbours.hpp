@@ -24,6 +24,14 @@ struct NeighbourOptions {
   double cutoff = std::numeric_limits<double>::infinity();
 };
 
+/// The K nearest others of each node, nearest first: lists[i] are those of i, fewer where fewer are
+/// within the cutoff. Ties, after rounding to 40 bits (some 12 digits), go to the lower row.
+///
+/// @param distances  n x n, symmetric, entries >= 0 or infinite, which are nobody's neighbours.
+/// @throws InvalidInput if K is not in [1, n).
+/// @note O(n^2 + n K log K) time.
+Graph nearest_neighbours(const Eigen::MatrixXd& distances, const NeighbourOptions& options);
+
 /// Symmetric K-nearest-neighbour graph: i and j are joined if either is among the K nearest of the
 /// other. Ties, after rounding to 40 bits (some 12 digits), go to the lower row. Infinite distances
 /// join nothing.
@@ -32,5 +40,8 @@ struct NeighbourOptions {
 /// @throws InvalidInput if K is not in [1, n).
 /// @note O(n^2 log K) time.
 Graph neighbour_graph(const Eigen::MatrixXd& distances, const NeighbourOptions& options);
+
+/// The same graph from the first K of each list of `nearest` (see nearest_neighbours).
+Graph neighbour_graph(const Graph& nearest, int neighbours);
 
 }  // namespace mapproof

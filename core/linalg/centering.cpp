@@ -2,13 +2,16 @@
 
 namespace mapproof {
 
+Eigen::MatrixXd centered(Eigen::MatrixXd matrix) {
+  const Eigen::VectorXd means = matrix.rowwise().mean();
+  matrix.colwise() -= means;
+  matrix.rowwise() -= means.transpose();
+  matrix.array() += means.mean();
+  return matrix;
+}
+
 Eigen::MatrixXd double_centered(const Eigen::MatrixXd& squared_distances) {
-  const Eigen::VectorXd means = squared_distances.rowwise().mean();
-  Eigen::MatrixXd B = squared_distances;
-  B.colwise() -= means;
-  B.rowwise() -= means.transpose();
-  B.array() += means.mean();
-  return -0.5 * B;
+  return centered(-0.5 * squared_distances);
 }
 
 }  // namespace mapproof

@@ -1,17 +1,18 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <Eigen/SparseCore>
 
 namespace mapproof {
 
 /// Some eigenpairs of a symmetric matrix.
 struct EigenPairs {
-  Eigen::VectorXd values;   ///< k, descending.
+  Eigen::VectorXd values;   ///< k; the first asked for first.
   Eigen::MatrixXd vectors;  ///< n x k, orthonormal columns, signs fixed (see sign.hpp).
   bool converged = true;    ///< False: the solver gave up; the pairs are its best.
 };
 
-/// The k algebraically largest eigenpairs.
+/// The k algebraically largest eigenpairs, descending.
 ///
 /// Dense up to n = 300, above that Lanczos with a fixed start (Spectra), and dense again where
 /// that does not converge.
@@ -19,5 +20,19 @@ struct EigenPairs {
 /// @throws InvalidInput unless 1 <= k <= n and all entries are finite.
 /// @note O(n^3) time dense, O(k n^2) an iteration otherwise. Deterministic.
 EigenPairs largest_eigenpairs(const Eigen::MatrixXd& matrix, Eigen::Index k);
+
+/// The k smallest eigenpairs, ascending, beside a null vector that is known beforehand.
+///
+/// Dense up to n = 300. Above that Lanczos with a fixed start on the inverse of the matrix shifted
+/// off zero, which a sparse Cholesky factor applies; what comes out is judged by its residuals, and
+/// dense again where they are above 1e-9 of the matrix.
+/// @param matrix       n x n, symmetric, positive semidefinite up to rounding, finite.
+/// @param null_vector  n, of length 1, with matrix * null_vector = 0 up to rounding.
+/// @return Orthogonal to the null vector.
+/// @throws InvalidInput unless 1 <= k < n, sizes agree and all entries are finite.
+/// @note O(n^3) time dense; else that of a sparse Cholesky factor and some 40 solves.
+/// Deterministic.
+EigenPairs smallest_eigenpairs(const Eigen::SparseMatrix<double>& matrix, Eigen::Index k,
+                               const Eigen::VectorXd& null_vector);
 
 }  // namespace mapproof

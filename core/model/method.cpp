@@ -11,10 +11,28 @@ namespace mapproof {
 namespace {
 
 constexpr ParameterInfo kNeighbours{.symbol = "K",
+                                    .shown = "K",
                                     .meaning = "number of nearest neighbours",
                                     .integer = true,
                                     .minimum = 1,
-                                    .maximum = 1000};
+                                    .maximum = 1000,
+                                    .counts_neighbours = true};
+
+constexpr ParameterInfo kKernelVariance{.symbol = "sigma2",
+                                        .shown = "σ²",
+                                        .meaning =
+                                            "variance of the Gaussian kernel, in units of "
+                                            "squared distance",
+                                        .integer = false,
+                                        .minimum = 1e-9,
+                                        .maximum = 1e12};
+
+constexpr ParameterInfo kDegree{.symbol = "d",
+                                .shown = "d",
+                                .meaning = "degree of the polynomial kernel",
+                                .integer = true,
+                                .minimum = 1,
+                                .maximum = 20};
 
 constexpr std::array kMethods = {
     MethodInfo{.method = Method::kLpca,
@@ -35,11 +53,41 @@ constexpr std::array kMethods = {
                .summary = "least raw stress over neighbours alone, started from equal weights",
                .source = "de Leeuw 1977 [deleeuw1977]",
                .parameter = kNeighbours},
+    MethodInfo{.method = Method::kKpcaGaussian,
+               .name = "kpca-gaussian",
+               .label = "KPCA, Gaussian",
+               .summary = "kernel PCA with k(a, b) = exp(-|a - b|² / 2σ²)",
+               .source = "Schölkopf et al. 1998 [schoelkopf1998]",
+               .parameter = kKernelVariance},
+    MethodInfo{.method = Method::kKpcaPolynomial,
+               .name = "kpca-polynomial",
+               .label = "KPCA, polynomial",
+               .summary = "kernel PCA with k(a, b) = (a·b + 1)^d",
+               .source = "Schölkopf et al. 1998 [schoelkopf1998]",
+               .parameter = kDegree},
     MethodInfo{.method = Method::kIsomap,
                .name = "isomap",
                .label = "ISOMAP",
                .summary = "classical scaling of shortest paths in the kNN graph",
                .source = "Tenenbaum et al. 2000 [tenenbaum2000]",
+               .parameter = kNeighbours},
+    MethodInfo{.method = Method::kLle,
+               .name = "lle",
+               .label = "LLE",
+               .summary = "each landmark the same blend of its K neighbours in map and data",
+               .source = "Roweis and Saul 2000 [roweis2000]",
+               .parameter = kNeighbours},
+    MethodInfo{.method = Method::kLaplacianEigenmap,
+               .name = "lem",
+               .label = "LEM",
+               .summary = "eigenvectors of the kNN graph's Laplacian, all weights one",
+               .source = "Belkin and Niyogi 2003 [belkin2003]",
+               .parameter = kNeighbours},
+    MethodInfo{.method = Method::kHessianLle,
+               .name = "hlle",
+               .label = "HLLE",
+               .summary = "functions of least curvature over neighbourhoods of K",
+               .source = "Donoho and Grimes 2003 [donoho2003]",
                .parameter = kNeighbours},
 };
 
@@ -48,6 +96,11 @@ constexpr std::array kMethods = {
 std::span<const MethodInfo> all_methods() { return kMethods; }
 
 const MethodInfo& info(Method method) { return kMethods[static_cast<std::size_t>(method)]; }
+
+bool on_graph(Method method) {
+  const std::optional<ParameterInfo>& parameter = info(method).parameter;
+  return parameter && parameter->counts_neighbours;
+}
 
 std::optional<Method> method_named(std::string_view name) {
   for (const MethodInfo& candidate : kMethods)
@@ -67,10 +120,16 @@ std::string slug(const MethodSetting& setting) {
   return fmt::format("{}-{}{:g}", method.name, method.parameter->symbol, *setting.parameter);
 }
 
-std::string label(const MethodSetting& setting) {
+std::string parameter_text(const MethodSetting& setting) {
   const MethodInfo& method = info(setting.method);
-  if (!setting.parameter || !method.parameter) return std::string(method.label);
-  return fmt::format("{}, {} = {:g}", method.label, method.parameter->symbol, *setting.parameter);
+  if (!setting.parameter || !method.parameter) return "";
+  return fmt::format("{} = {:g}", method.parameter->shown, *setting.parameter);
+}
+
+std::string label(const MethodSetting& setting) {
+  const std::string parameter = parameter_text(setting);
+  const std::string_view method = info(setting.method).label;
+  return parameter.empty() ? std::string(method) : fmt::format("{}, {}", method, parameter);
 }
 
 }  // namespace mapproof

@@ -12,16 +12,23 @@ enum class Method {
   kLpca,
   kSmacof,
   kSmacofKnn,
+  kKpcaGaussian,
+  kKpcaPolynomial,
   kIsomap,
+  kLle,
+  kLaplacianEigenmap,
+  kHessianLle,
 };
 
 /// The one number a method is tuned by.
 struct ParameterInfo {
-  std::string_view symbol;  ///< As in the paper and in files: "K".
+  std::string_view symbol;  ///< In files and ids: "K", "sigma2"; letters and digits of ASCII.
+  std::string_view shown;   ///< In figures, tables and messages: "K", "σ²".
   std::string_view meaning;
   bool integer;
-  double minimum;  ///< Inclusive.
-  double maximum;  ///< Inclusive; K must also be below the number of landmarks.
+  double minimum;                  ///< Inclusive.
+  double maximum;                  ///< Inclusive.
+  bool counts_neighbours = false;  ///< Of the neighbour graph: below the number of landmarks, too.
 };
 
 /// Everything about a method that needs no solver.
@@ -39,6 +46,9 @@ std::span<const MethodInfo> all_methods();
 
 const MethodInfo& info(Method method);
 
+/// Whether the method works on the neighbour graph.
+bool on_graph(Method method);
+
 /// The method of that name; empty if there is none.
 std::optional<Method> method_named(std::string_view name);
 
@@ -55,6 +65,9 @@ struct MethodSetting {
 
 /// "isomap-K6", "lpca": unique among settings, safe in ids and file names.
 std::string slug(const MethodSetting& setting);
+
+/// "K = 6", "σ² = 0.5"; empty without a parameter.
+std::string parameter_text(const MethodSetting& setting);
 
 /// "ISOMAP, K = 6": for captions and legends.
 std::string label(const MethodSetting& setting);

@@ -12,6 +12,7 @@ enum class StatusCode {
   kBridged,             ///< The neighbour graph was in pieces; joined by the shortest bridges.
   kNotConverged,        ///< The iteration limit came before the stop rule.
   kRankDeficient,       ///< Fewer than two dimensions in the data: the map is flat or a point.
+  kUndetermined,        ///< Other maps fit equally well; which of them came out is arbitrary.
   kLandmarkUnseen,      ///< Landmarks never observed; they are missing from the map.
   kDistancesCompleted,  ///< Pairs without a common step took the shortest path over the others.
   kAnchorsMissing,      ///< Too few mapped anchors for an affine map: no score.

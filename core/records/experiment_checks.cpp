@@ -61,9 +61,8 @@ void check_sensor(const SensorStudy& study, int landmarks, const JsonCursor& obj
         .fail(fmt::format("{} landmarks x {} steps are more than {} entries", landmarks,
                           study.checkpoints.back(), kMostEntries));
   for (const MethodGrid& grid : study.methods) {
-    const MethodInfo& method = info(grid.method);
-    if (!method.parameter || method.parameter->symbol != "K") continue;
-    const JsonCursor values = object.at("methods").at(std::string(method.name)).at("K");
+    if (!on_graph(grid.method)) continue;
+    const JsonCursor values = object.at("methods").at(std::string(info(grid.method).name)).at("K");
     for (std::size_t i = 0; i < grid.parameters.size(); ++i)
       if (grid.parameters[i] >= landmarks)
         values.element(i).fail(fmt::format("K must be below the number of landmarks, {}, got {}",

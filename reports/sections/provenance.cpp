@@ -26,7 +26,7 @@ std::string methods_of(const SensorStudy& sensor) {
     text += fmt::format("{}{}", text.empty() ? "" : "; ", info(grid.method).label);
     const auto& parameter = info(grid.method).parameter;
     if (grid.parameters.empty() || !parameter) continue;
-    text += fmt::format(" ({} =", parameter->symbol);
+    text += fmt::format(" ({} =", parameter->shown);
     for (std::size_t i = 0; i < grid.parameters.size(); ++i)
       text += fmt::format("{}{:g}", i == 0 ? " " : ", ", grid.parameters[i]);
     text += ")";

@@ -38,8 +38,6 @@ struct Family {
 constexpr Family kFamilies[] = {{"global", "without a neighbour graph", false},
                                 {"graph", "on a neighbour graph", true}};
 
-bool on_graph(Method method) { return info(method).parameter.has_value(); }
-
 /// Summaries at every checkpoint of the settings that are best at the last.
 using History = std::vector<std::vector<SettingSummary>>;
 

@@ -18,6 +18,8 @@ std::string_view meaning(StatusCode code) {
       return "The limit of iterations came before the stop rule.";
     case StatusCode::kRankDeficient:
       return "The data have fewer than two dimensions: the map is flat or a point.";
+    case StatusCode::kUndetermined:
+      return "Other maps fit equally well: which of them came out is arbitrary.";
     case StatusCode::kLandmarkUnseen:
       return "Some landmarks were never observed; they are missing from the map.";
     case StatusCode::kDistancesCompleted:
@@ -33,12 +35,6 @@ std::string_view meaning(StatusCode code) {
 }
 
 Paragraph plain(std::string text) { return {{{std::move(text), Emphasis::kPlain}}}; }
-
-std::string parameter_text(const MethodSetting& setting) {
-  const auto& parameter = info(setting.method).parameter;
-  if (!parameter || !setting.parameter) return "";
-  return fmt::format("{} = {:g}", parameter->symbol, *setting.parameter);
-}
 
 KeyValues provenance_items(const Provenance& provenance) {
   KeyValues items;

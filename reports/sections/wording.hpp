@@ -20,9 +20,6 @@ std::string_view meaning(StatusCode code);
 /// A paragraph of plain text.
 Paragraph plain(std::string text);
 
-/// "K = 6"; empty without a parameter.
-std::string parameter_text(const MethodSetting& setting);
-
 /// Version, commit, digest and libraries, each an item.
 KeyValues provenance_items(const Provenance& provenance);
 

@@ -72,7 +72,7 @@ Points grid_points() {
 }  // namespace
 
 double synthetic_mpe(const MethodSetting& setting, const RunId& run, int step) {
-  constexpr double kBase[] = {0.2, 0.09, 0.04, 0.05};
+  constexpr double kBase[] = {0.2, 0.09, 0.04, 0.3, 0.25, 0.05, 0.1, 0.15, 0.06};
   const double tuned = setting.parameter ? 1.0 + 0.1 * std::abs(*setting.parameter - 6.0) : 1.0;
   return kBase[static_cast<int>(setting.method)] * tuned *
          (1.0 + 0.1 * run.layout + 0.01 * run.pose) * 200.0 / std::sqrt(step);

@@ -1,5 +1,8 @@
 #include "tests/support/worlds.hpp"
 
+#include <algorithm>
+
+#include <Eigen/QR>
 #include <Eigen/SVD>
 
 #include "core/base/random.hpp"
@@ -35,6 +38,13 @@ double procrustes_gap(const Points& points, const Points& estimate) {
   return (B * (svd.matrixU() * svd.matrixV().transpose()) - A).rowwise().norm().maxCoeff();
 }
 
+double affine_gap(const Points& points, const Points& estimate) {
+  Eigen::MatrixX3d A(estimate.rows(), 3);
+  A << estimate / std::max(estimate.norm(), 1e-300), Eigen::VectorXd::Ones(estimate.rows());
+  const Points fitted = A * A.colPivHouseholderQr().solve(points);
+  return (fitted - points).rowwise().norm().maxCoeff();
+}
+
 Experiment small_experiment() {
   Experiment experiment;
   experiment.name = "small";
@@ -50,7 +60,7 @@ Experiment small_experiment() {
     study.checkpoints = {100, 200};
     for (const MethodInfo& method : all_methods()) {
       MethodGrid grid{.method = method.method, .parameters = {}};
-      if (method.parameter) grid.parameters = {5, 6};
+      if (method.parameter) grid.parameters = {6, 7};
       study.methods.push_back(grid);
     }
     experiment.sensors.push_back(study);

@@ -17,6 +17,9 @@ Eigen::MatrixXd distances_of(const Points& points);
 /// Largest distance between `points` and `estimate` after the best rotation, reflection, shift.
 double procrustes_gap(const Points& points, const Points& estimate);
 
+/// Largest distance between `points` and the affine image of `estimate` that fits them best.
+double affine_gap(const Points& points, const Points& estimate);
+
 /// A study that runs in milliseconds: 12 landmarks, 2 layouts x 2 poses, both sensors, all methods.
 Experiment small_experiment();
 

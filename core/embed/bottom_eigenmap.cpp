@@ -1,0 +1,39 @@
+#include "core/embed/bottom_eigenmap.hpp"
+
+#include <algorithm>
+
+#include <fmt/format.h>
+
+#include "core/linalg/symmetric_eigen.hpp"
+
+namespace mapproof {
+namespace {
+
+/// Eigenvalues nearer to each other than this share of them, and of the matrix, count as one.
+constexpr double kSame = 1e-9;
+constexpr double kRounding = 1e-13;
+
+}  // namespace
+
+Embedding bottom_eigenmap(const Eigen::SparseMatrix<double>& matrix,
+                          const Eigen::VectorXd& null_vector) {
+  const Eigen::Index n = matrix.rows();
+  const EigenPairs pairs =
+      smallest_eigenpairs(matrix, std::min<Eigen::Index>(n - 1, 5), null_vector);
+  Embedding result;
+  result.coordinates = pairs.vectors.leftCols(2);
+  result.spectrum = pairs.values;
+  if (!pairs.converged)
+    result.statuses.push_back(
+        {StatusCode::kNotConverged, "The eigenvalues' solver gave up; these are its best."});
+  const double size = matrix.diagonal().sum();
+  if (n > 3 && pairs.values(2) - pairs.values(1) <= kSame * pairs.values(2) + kRounding * size)
+    result.statuses.push_back(
+        {StatusCode::kUndetermined,
+         fmt::format("Beside the constant, eigenvalues {:.3g}, {:.3g} and {:.3g} are smallest, and "
+                     "the last two do not differ: which map of them came out is arbitrary.",
+                     pairs.values(0), pairs.values(1), pairs.values(2))});
+  return result;
+}
+
+}  // namespace mapproof

@@ -1,0 +1,52 @@
+#include "core/embed/kernel_pca.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "core/base/errors.hpp"
+#include "core/embed/principal_coordinates.hpp"
+#include "core/linalg/centering.hpp"
+
+namespace mapproof {
+namespace {
+
+void check(const Eigen::MatrixXd& matrix) {
+  if (matrix.rows() < 3 || matrix.cols() != matrix.rows())
+    throw InvalidInput("kernel PCA needs a square matrix of at least 3 landmarks");
+  if (!matrix.allFinite()) throw InvalidInput("kernel PCA needs finite values");
+}
+
+Embedding of_kernel(Eigen::MatrixXd K) {
+  const double size = K.cwiseAbs().maxCoeff();
+  return principal_coordinates(centered(std::move(K)), size);
+}
+
+}  // namespace
+
+Embedding kernel_pca(const Eigen::MatrixXd& squared_distances, const GaussianKernel& kernel) {
+  check(squared_distances);
+  if (!(kernel.variance > 0.0)) throw InvalidInput("a Gaussian kernel needs a variance above 0");
+  return of_kernel((squared_distances.array() / (-2.0 * kernel.variance)).exp());
+}
+
+Embedding kernel_pca(const Eigen::MatrixXd& inner_products, const PolynomialKernel& kernel) {
+  check(inner_products);
+  if (kernel.degree < 1 || kernel.degree > 20)
+    throw InvalidInput("a polynomial kernel needs a degree from 1 to 20");
+  // Over its largest value, so that no power overflows; the map then gets its scale back.
+  const Eigen::ArrayXXd shifted = inner_products.array() + 1.0;
+  const double largest = std::max(shifted.abs().maxCoeff(), 1e-300);
+  const Eigen::ArrayXXd base = shifted / largest;
+  Eigen::ArrayXXd power = base;
+  for (int exponent = 1; exponent < kernel.degree; ++exponent) power *= base;
+  Embedding result = of_kernel(power.matrix());
+  const double scale = std::pow(largest, kernel.degree);
+  if (std::isfinite(scale) && scale > 0.0) {
+    result.coordinates *= std::sqrt(scale);
+    result.spectrum *= scale;
+  }
+  return result;
+}
+
+}  // namespace mapproof

@@ -1,0 +1,66 @@
+#include "core/embed/hessian_lle.hpp"
+
+#include <cmath>
+
+#include <gtest/gtest.h>
+
+#include "core/base/errors.hpp"
+#include "tests/support/worlds.hpp"
+
+namespace mapproof {
+namespace {
+
+using test::affine_gap;
+using test::distances_of;
+using test::scattered;
+
+Graph nearest(const Eigen::MatrixXd& distances, int neighbours) {
+  return nearest_neighbours(distances, {.neighbours = neighbours});
+}
+
+TEST(HessianLle, RecoversAPlaneUpToAnAffineMap) {
+  for (const Eigen::Index n : {40, 600})  // dense, and by the inverse
+    for (const int neighbours : {6, 9}) {
+      const Points points = scattered(n, 1);
+      const Eigen::MatrixXd D = distances_of(points);
+      const Embedding map = hessian_lle(D.cwiseAbs2(), nearest(D, neighbours));
+      EXPECT_TRUE(map.statuses.empty()) << n << " " << neighbours;
+      EXPECT_LT(affine_gap(points, map.coordinates), 1e-7) << n << " " << neighbours;
+    }
+}
+
+TEST(HessianLle, UnrollsASheetWithAHole) {
+  Points sheet(0, 2);
+  for (const auto& point : scattered(500, 4).rowwise())
+    if ((point - Eigen::RowVector2d(0.5, 0.5)).norm() > 0.2) {
+      sheet.conservativeResize(sheet.rows() + 1, 2);
+      sheet.row(sheet.rows() - 1) = point;
+    }
+  // Rolled into two thirds of a cylinder.
+  Eigen::MatrixX3d rolled(sheet.rows(), 3);
+  rolled << (4.0 * sheet.col(0)).array().cos() / 4.0, (4.0 * sheet.col(0)).array().sin() / 4.0,
+      sheet.col(1);
+  Eigen::MatrixXd D(sheet.rows(), sheet.rows());
+  for (Eigen::Index i = 0; i < D.rows(); ++i)
+    D.col(i) = (rolled.rowwise() - rolled.row(i)).rowwise().norm();
+  const Embedding map = hessian_lle(D.cwiseAbs2(), nearest(D, 10));
+  EXPECT_LT(affine_gap(sheet, map.coordinates), 0.03);
+}
+
+TEST(HessianLle, SaysThatALineHasNoTangentPlanes) {
+  Points line = scattered(12, 1);
+  line.col(1).setZero();
+  const Eigen::MatrixXd D = distances_of(line);
+  const Embedding map = hessian_lle(D.cwiseAbs2(), nearest(D, 6));
+  ASSERT_FALSE(map.statuses.empty());
+  EXPECT_EQ(map.statuses.back().code, StatusCode::kRankDeficient);
+  EXPECT_NE(map.statuses.back().detail.find("12 of 12"), std::string::npos);
+}
+
+TEST(HessianLle, RefusesFewerThanSixNeighbours) {
+  const Eigen::MatrixXd D = distances_of(scattered(20, 1));
+  EXPECT_THROW(hessian_lle(D.cwiseAbs2(), nearest(D, 5)), InvalidInput);
+}
+
+}  // namespace
+}  // namespace mapproof
