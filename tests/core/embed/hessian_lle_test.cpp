@@ -1,6 +1,7 @@
 #include "core/embed/hessian_lle.hpp"
 
 #include <cmath>
+#include <vector>
 
 #include <gtest/gtest.h>
 
@@ -30,12 +31,11 @@ TEST(HessianLle, RecoversAPlaneUpToAnAffineMap) {
 }
 
 TEST(HessianLle, UnrollsASheetWithAHole) {
-  Points sheet(0, 2);
-  for (const auto& point : scattered(500, 4).rowwise())
-    if ((point - Eigen::RowVector2d(0.5, 0.5)).norm() > 0.2) {
-      sheet.conservativeResize(sheet.rows() + 1, 2);
-      sheet.row(sheet.rows() - 1) = point;
-    }
+  const Points all = scattered(500, 4);
+  std::vector<Eigen::Index> kept;
+  for (Eigen::Index i = 0; i < all.rows(); ++i)
+    if ((all.row(i) - Eigen::RowVector2d(0.5, 0.5)).norm() > 0.2) kept.push_back(i);
+  const Points sheet = all(kept, Eigen::all);
   // Rolled into two thirds of a cylinder.
   Eigen::MatrixX3d rolled(sheet.rows(), 3);
   rolled << (4.0 * sheet.col(0)).array().cos() / 4.0, (4.0 * sheet.col(0)).array().sin() / 4.0,
