@@ -18,6 +18,15 @@ constexpr ParameterInfo kNeighbours{.symbol = "K",
                                     .maximum = 1000,
                                     .counts_neighbours = true};
 
+constexpr ParameterInfo kHessianNeighbours{.symbol = "K",
+                                           .shown = "K",
+                                           .meaning = "number of nearest neighbours; no map below "
+                                                      "6",
+                                           .integer = true,
+                                           .minimum = 1,
+                                           .maximum = 1000,
+                                           .counts_neighbours = true};
+
 constexpr ParameterInfo kKernelVariance{.symbol = "sigma2",
                                         .shown = "σ²",
                                         .meaning =
@@ -88,7 +97,7 @@ constexpr std::array kMethods = {
                .label = "HLLE",
                .summary = "functions of least curvature over neighbourhoods of K",
                .source = "Donoho and Grimes 2003 [donoho2003]",
-               .parameter = kNeighbours},
+               .parameter = kHessianNeighbours},
 };
 
 }  // namespace

@@ -99,7 +99,6 @@ INSTANTIATE_TEST_SUITE_P(
                kAnchors,
                {"--method", "kpca-polynomial", "--degree", "2.5"},
                "--degree: d = 2.5 is not an integer from 1 to 20"},
-        BadMap{"TwoParameters", kSeen, kAnchors, {"-K", "3", "--parameter", "4"}, "parameter"},
         BadMap{"UnknownMethod",
                kSeen,
                kAnchors,
