@@ -29,7 +29,7 @@ bool crosses(const Box& box, Point a, Point b) {
   return clip_line(box, a, b, enter, leave);
 }
 
-void Path::add_box(const Box& box) {
+void Outline::add_box(const Box& box) {
   move_to({box.x0, box.y0});
   line_to({box.x1, box.y0});
   line_to({box.x1, box.y1});
@@ -37,7 +37,7 @@ void Path::add_box(const Box& box) {
   close();
 }
 
-void Path::add_circle(Point centre, double radius) {
+void Outline::add_circle(Point centre, double radius) {
   const double k = 0.5522847498307936 * radius;  // Control points of a quarter circle.
   const auto [x, y] = centre;
   const double r = radius;
@@ -55,7 +55,7 @@ void Path::add_circle(Point centre, double radius) {
   close();
 }
 
-Box bounds(const Path& path) {
+Box bounds(const Outline& path) {
   if (path.points.empty()) return {};
   const Point first = path.points.front();
   Box box{first.x, first.y, first.x, first.y};

@@ -42,7 +42,7 @@ bool clip_line(const Box& box, Point a, Point b, double& enter, double& leave);
 enum class Verb : std::uint8_t { kMove, kLine, kQuad, kCubic, kClose };
 
 /// Outlines: kMove and kLine take one point, kQuad two, kCubic three, kClose none.
-struct Path {
+struct Outline {
   std::vector<Verb> verbs;
   std::vector<Point> points;
 
@@ -65,6 +65,6 @@ struct Path {
 };
 
 /// The least box that holds all points of the path, control points too.
-Box bounds(const Path& path);
+Box bounds(const Outline& path);
 
 }  // namespace mapproof

@@ -39,7 +39,7 @@ class Painter {
                           opacity);
   }
 
-  void trace(const Path& path, Point origin) {
+  void trace(const Outline& path, Point origin) {
     const Point* next = path.points.data();
     const auto x = [&](std::size_t i) { return next[i].x + origin.x; };
     const auto y = [&](std::size_t i) { return next[i].y + origin.y; };

@@ -22,7 +22,7 @@ struct ErrorCurveSpec {
   std::string title;
   std::string y_label = "MPE [m]";
   std::string quantity = "mean position error";  ///< In words, for the alt text.
-  std::vector<Curve> curves;                     ///< At most seven are told apart well.
+  std::vector<Curve> curves;                     ///< Up to ten are told apart.
   std::string caption;                           ///< Empty: one is made.
   std::vector<std::string> record_ids;
 };

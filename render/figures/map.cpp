@@ -54,16 +54,7 @@ class MapFigure {
       panel.y.limits = view_.limits->y;
     }
     panel.layers = {errors(), arrows(), truth(false), truth(true), estimates(), labels()};
-    std::erase_if(panel.layers, [](const Layer& layer) {
-      return std::visit(
-          [](const auto& one) {
-            if constexpr (requires { one.x0; })
-              return one.x0.empty();
-            else
-              return one.x.empty();
-          },
-          layer);
-    });
+    std::erase_if(panel.layers, is_empty);
     return std::move(figure_);
   }
 

@@ -2,15 +2,12 @@
 
 #include <algorithm>
 
+#include "render/plot/outlines.hpp"
+
 namespace mapproof {
 namespace {
 
 constexpr double kLabelLine = 1.55;  // From the foot of tick labels to the axis label's, em.
-
-Ticks ticks_for(const Axis& axis, Range range, int most) {
-  if (axis.scale == Scale::kLog) return log_ticks(range.low, range.high, most);
-  return linear_ticks(range.low, range.high, tick_step(range.low, range.high, most));
-}
 
 TickLabels shaped(Ticks ticks) {
   TickLabels labels{std::move(ticks), {}, 0.0};
@@ -23,17 +20,29 @@ TickLabels shaped(Ticks ticks) {
 
 }  // namespace
 
-AxesLayout::AxesLayout(const Panel& panel, const Theme& theme)
-    : panel_(panel), theme_(theme), limits_(panel_limits(panel)) {}
+AxesLayout::AxesLayout(const Panel& panel, const Theme& theme, AxisLabels shown)
+    : panel_(panel), theme_(theme), shown_(shown), limits_(panel_limits(panel)) {}
 
 Axes AxesLayout::within(const Box& room) const {
   // The margins depend on the ticks' labels, those on the frame: twice is enough.
   Axes axes;
   axes.frame = room;
   for (int pass = 0; pass < 2; ++pass) {
-    choose_ticks(axes);
-    axes.frame = frame_within(room, axes);
+    axes = in(axes.frame);
+    const Margins m = margins(axes);
+    axes.frame = {room.x0 + m.left, room.y0 + m.top, room.x1 - m.right, room.y1 - m.bottom};
+    if (panel_.equal_aspect) shrink_to_aspect(axes.frame);
   }
+  return axes;
+}
+
+Axes AxesLayout::in(const Box& frame) const {
+  Axes axes;
+  axes.frame = frame;
+  if (panel_.bare) return axes;
+  choose_ticks(axes);
+  if (!shown_.x_ticks) axes.x.texts.clear();
+  if (!shown_.y_ticks) axes.y.texts.clear(), axes.y.widest = 0.0;
   return axes;
 }
 
@@ -43,19 +52,28 @@ PanelMap AxesLayout::map(const Box& frame) const {
 }
 
 double AxesLayout::below_frame() const {
-  const double label = panel_.x.label.empty() ? 0.0 : kLabelLine * theme_.font_pt;
-  return tick_length() + tick_gap() + FontFacts::kAscent * theme_.tick_font_pt + label;
+  const double label = has_x_label() ? kLabelLine * theme_.font_pt : 0.0;
+  const double ticks = shown_.x_ticks ? tick_gap() + FontFacts::kAscent * theme_.tick_font_pt : 0.0;
+  return tick_length() + ticks + label;
+}
+
+Ticks AxesLayout::ticks_for(const Axis& axis, Range range, int most) const {
+  if (axis.scale == Scale::kLog) return log_ticks(range.low, range.high, most);
+  const double step = tick_step(range.low, range.high, most);
+  return linear_ticks(range.low, range.high, axis.whole ? std::max(step, 1.0) : step);
 }
 
 void AxesLayout::choose_ticks(Axes& axes) const {
   const double em = theme_.tick_font_pt;
   const int most_y = std::clamp(static_cast<int>(axes.frame.height() / (3.2 * em)), 2, 8);
-  int most_x = std::clamp(static_cast<int>(axes.frame.width() / (4.0 * em)), 2, 9);
+  const double per_label = panel_.x.whole ? 2.0 : 4.0;
+  int most_x = std::clamp(static_cast<int>(axes.frame.width() / (per_label * em)), 2, 9);
   if (panel_.equal_aspect) {
     choose_equal_ticks(axes, most_x, most_y);
   } else {
     axes.x = shaped(ticks_for(panel_.x, limits_.x, most_x));
-    axes.y = shaped(ticks_for(panel_.y, limits_.y, most_y));
+    const int most = panel_.y.scale == Scale::kLog ? std::max(most_y, 3) : most_y;
+    axes.y = shaped(ticks_for(panel_.y, limits_.y, most));
   }
   while (most_x > 2 && labels_touch(axes)) {
     axes.x = shaped(ticks_for(panel_.x, limits_.x, --most_x));
@@ -81,14 +99,38 @@ bool AxesLayout::labels_touch(const Axes& axes) const {
   return false;
 }
 
-Box AxesLayout::frame_within(const Box& room, const Axes& axes) const {
+Margins AxesLayout::margins(const Axes& axes) const {
+  Margins m = overhang(axes.frame);
+  if (panel_.bare) return m;
   const double em = theme_.tick_font_pt;
-  const double y_label = panel_.y.label.empty() ? 0.0 : 1.5 * theme_.font_pt;
+  const double y_label = has_y_label() ? 1.5 * theme_.font_pt : 0.0;
+  const double y_ticks = axes.y.texts.empty() ? 0.0 : axes.y.widest * em + tick_gap();
   const double last = axes.x.texts.empty() ? 0.0 : axes.x.texts.back().advance * em / 2.0;
-  Box frame{room.x0 + y_label + axes.y.widest * em + tick_gap() + tick_length(), room.y0 + 0.4 * em,
-            room.x1 - std::max(last, theme_.hairline_pt), room.y1 - below_frame()};
-  if (panel_.equal_aspect) shrink_to_aspect(frame);
-  return frame;
+  m.left = std::max(m.left, y_label + y_ticks + tick_length());
+  m.top = std::max(m.top, 0.4 * em);
+  m.right = std::max({m.right, last, theme_.hairline_pt});
+  m.bottom = std::max(m.bottom, below_frame());
+  return m;
+}
+
+/// How far texts at points reach over the sides of the frame.
+Margins AxesLayout::overhang(const Box& frame) const {
+  Margins m;
+  const PanelMap places = map(frame);
+  for (const Layer& layer : panel_.layers) {
+    const auto* texts = std::get_if<Texts>(&layer);
+    if (texts == nullptr) continue;
+    for (std::size_t i = 0; i < texts->x.size(); ++i) {
+      const auto line = placed_text(*texts, i, places, theme_);
+      if (!line) continue;
+      const Box ink = ink_box(*line).grown(theme_.hairline_pt);
+      m.left = std::max(m.left, frame.x0 - ink.x0);
+      m.top = std::max(m.top, frame.y0 - ink.y0);
+      m.right = std::max(m.right, ink.x1 - frame.x1);
+      m.bottom = std::max(m.bottom, ink.y1 - frame.y1);
+    }
+  }
+  return m;
 }
 
 void AxesLayout::shrink_to_aspect(Box& frame) const {

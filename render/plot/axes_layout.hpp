@@ -22,30 +22,49 @@ struct Axes {
   TickLabels x, y;
 };
 
+/// What labels need around a frame, in points.
+struct Margins {
+  double left = 0.0, top = 0.0, right = 0.0, bottom = 0.0;
+};
+
+/// Which axes are labelled: ticks' labels and, apart from them, the axis' own.
+struct AxisLabels {
+  bool x_ticks = true, y_ticks = true;
+  bool x_label = true, y_label = true;
+};
+
 /// Finds a frame's place in the room it is given, and its ticks.
 class AxesLayout {
  public:
-  AxesLayout(const Panel& panel, const Theme& theme);
+  AxesLayout(const Panel& panel, const Theme& theme, AxisLabels shown = {});
 
   /// The largest frame in `room` that leaves space for labels; empty or turned round if there is
   /// none.
   Axes within(const Box& room) const;
+  /// The ticks of a frame that stands already.
+  Axes in(const Box& frame) const;
+  /// Around those axes; texts at points that reach over the frame's sides count as labels.
+  Margins margins(const Axes& axes) const;
   PanelMap map(const Box& frame) const;
 
   double tick_length() const { return 0.6 * theme_.space_pt; }
   double tick_gap() const { return 0.6 * theme_.space_pt; }
   /// From the frame down to the foot of the axis label, in points.
   double below_frame() const;
+  bool has_x_label() const { return shown_.x_label && !panel_.bare && !panel_.x.label.empty(); }
+  bool has_y_label() const { return shown_.y_label && !panel_.bare && !panel_.y.label.empty(); }
 
  private:
   void choose_ticks(Axes& axes) const;
   void choose_equal_ticks(Axes& axes, int most_x, int most_y) const;
   bool labels_touch(const Axes& axes) const;
-  Box frame_within(const Box& room, const Axes& axes) const;
+  Ticks ticks_for(const Axis& axis, Range range, int most) const;
+  Margins overhang(const Box& frame) const;
   void shrink_to_aspect(Box& frame) const;
 
   const Panel& panel_;
   const Theme& theme_;
+  AxisLabels shown_;
   PanelLimits limits_;
 };
 

@@ -32,6 +32,25 @@ struct Spans {
     }
   }
   void operator()(const PointLabels&) {}
+  void operator()(const Area& area) {
+    for (std::size_t i = 0; i < area.x.size(); ++i) see(area.x[i], area.y[i]);
+  }
+  void operator()(const Ellipses& ellipses) {
+    for (std::size_t i = 0; i < ellipses.x.size(); ++i) {
+      const double c = std::cos(ellipses.turn_rad[i]), s = std::sin(ellipses.turn_rad[i]);
+      const double across = std::hypot(ellipses.a[i] * c, ellipses.b[i] * s);
+      const double up = std::hypot(ellipses.a[i] * s, ellipses.b[i] * c);
+      see(ellipses.x[i] - across, ellipses.y[i] - up);
+      see(ellipses.x[i] + across, ellipses.y[i] + up);
+    }
+  }
+  void operator()(const Cells& cells) {
+    see(cells.x.low, cells.y.low);
+    see(cells.x.high, cells.y.high);
+  }
+  void operator()(const Texts& texts) {
+    for (std::size_t i = 0; i < texts.x.size(); ++i) see(texts.x[i], texts.y[i]);
+  }
 
  private:
   void see(double px, double py) {

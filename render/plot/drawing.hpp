@@ -20,9 +20,12 @@ enum class Role {
   kTickLabel,
   kAxisLabel,
   kTitle,
+  kPanelArrow,
+  kPanelArrowLabel,
   kPanelTitle,
   kNote,
   kBand,
+  kCells,
   kLine,  ///< Joins or shows data.
   kMarker,
   kMarkLabel,
@@ -43,7 +46,7 @@ struct Stroke {
 
 /// An outline, filled, stroked or both.
 struct Shape {
-  Path path;
+  Outline path;
   std::optional<Colour> fill;
   double fill_opacity = 1.0;
   std::optional<Stroke> stroke;

@@ -1,5 +1,7 @@
 #include "render/plot/figure.hpp"
 
+#include <algorithm>
+#include <array>
 #include <cmath>
 #include <set>
 #include <span>
@@ -11,6 +13,8 @@
 
 namespace mapproof {
 namespace {
+
+constexpr double kGreatest = 1e150;  // Squares of it are still finite.
 
 bool is_slug(std::string_view text) {
   if (text.empty()) return false;
@@ -35,7 +39,10 @@ class Inspector {
     for (std::size_t p = 0; p < figure.panels.size(); ++p)
       if (std::string what = panel(figure.panels[p]); !what.empty())
         return fmt::format("panels/{}/{}", p, what);
-    return {};
+    for (std::size_t a = 0; a < figure.arrows.size(); ++a)
+      if (figure.arrows[a].from + 1 >= figure.panels.size())
+        return fmt::format("arrows/{}/from: no panel follows", a);
+    return shared_axes(figure);
   }
 
  private:
@@ -48,6 +55,15 @@ class Inspector {
       const auto inspect = [&](const auto& layer) { return this->layer(layer, panel); };
       if (std::string what = std::visit(inspect, panel.layers[i]); !what.empty())
         return fmt::format("layers/{}/{}", i, what);
+    }
+    return {};
+  }
+
+  static std::string shared_axes(const Figure& figure) {
+    const Panel& first = figure.panels.front();
+    for (const Panel& panel : figure.panels) {
+      if (figure.shared_x && panel.x.scale != first.x.scale) return "shared_x: scales differ";
+      if (figure.shared_y && panel.y.scale != first.y.scale) return "shared_y: scales differ";
     }
     return {};
   }
@@ -104,6 +120,63 @@ class Inspector {
     return values(labels.y, panel.y, "y");
   }
 
+  std::string layer(const Area& area, const Panel& panel) {
+    if (!same_size(area.x.size(), {area.y.size()})) return "y: not as long as x";
+    if (std::string what = values(area.x, panel.x, "x"); !what.empty()) return what;
+    if (std::string what = values(area.y, panel.y, "y"); !what.empty()) return what;
+    if (std::string what = size(area.width, "width"); !what.empty()) return what;
+    return mark(area.mark);
+  }
+
+  std::string layer(const Ellipses& ellipses, const Panel& panel) {
+    if (!is_linear(panel)) return "needs linear axes";
+    if (!same_size(ellipses.x.size(), {ellipses.y.size(), ellipses.a.size(), ellipses.b.size(),
+                                       ellipses.turn_rad.size()}))
+      return "y, a, b, turn_rad: not as long as x";
+    const std::array<std::pair<std::string_view, const std::vector<double>*>, 5> parts = {
+        {{"x", &ellipses.x},
+         {"y", &ellipses.y},
+         {"a", &ellipses.a},
+         {"b", &ellipses.b},
+         {"turn_rad", &ellipses.turn_rad}}};
+    for (const auto& [name, part] : parts)
+      if (std::string what = values(*part, panel.x, name); !what.empty()) return what;
+    for (const auto* part : {&ellipses.a, &ellipses.b})
+      for (const double half : *part)
+        if (half < 0.0) return "a, b: negative";
+    if (std::string what = size(ellipses.width, "width"); !what.empty()) return what;
+    return marks(ellipses.marks, ellipses.x.size());
+  }
+
+  std::string layer(const Cells& cells, const Panel& panel) {
+    constexpr std::size_t kMostCells = 1'000'000;
+    if (!is_linear(panel)) return "needs linear axes";
+    if (cells.columns == 0 ? !cells.values.empty() : cells.values.size() % cells.columns != 0)
+      return "values: no whole number of rows";
+    if (cells.values.size() > kMostCells) return "values: more than a million";
+    for (const auto& [name, range] :
+         {std::pair{"x", cells.x}, std::pair{"y", cells.y}, std::pair{"limits", cells.limits}})
+      if (!is_range(range)) return fmt::format("{}: not finite and ascending", name);
+    if (std::string what = values(cells.values, panel.x, "values"); !what.empty()) return what;
+    return mark(cells.mark);
+  }
+
+  std::string layer(const Texts& texts, const Panel& panel) {
+    if (!same_size(texts.x.size(), {texts.y.size(), texts.text.size()}))
+      return "y, text: not as long as x";
+    if (std::string what = values(texts.x, panel.x, "x"); !what.empty()) return what;
+    return values(texts.y, panel.y, "y");
+  }
+
+  static bool is_linear(const Panel& panel) {
+    return panel.x.scale == Scale::kLinear && panel.y.scale == Scale::kLinear;
+  }
+
+  static bool is_range(const Range& range) {
+    return std::isfinite(range.low) && std::isfinite(range.high) && range.low < range.high &&
+           std::max(-range.low, range.high) <= kGreatest;
+  }
+
   static std::string size(double size, std::string_view name) {
     return size > 0.0 && size <= 100.0 ? "" : fmt::format("{}: not in (0, 100]", name);
   }
@@ -112,7 +185,7 @@ class Inspector {
                             std::string_view name) {
     for (std::size_t i = 0; i < values.size(); ++i) {
       if (std::isinf(values[i])) return fmt::format("{}/{}: infinite", name, i);
-      if (std::abs(values[i]) > 1e150) return fmt::format("{}/{}: beyond 1e150", name, i);
+      if (std::abs(values[i]) > kGreatest) return fmt::format("{}/{}: beyond 1e150", name, i);
       if (axis.scale == Scale::kLog && values[i] <= 0.0)
         return fmt::format("{}/{}: not positive on a log axis", name, i);
     }
@@ -143,6 +216,19 @@ class Inspector {
 
 Ink series_ink(std::size_t i) {
   return static_cast<Ink>(static_cast<std::size_t>(Ink::kSeries1) + i % 7);
+}
+
+bool is_empty(const Layer& layer) {
+  return std::visit(
+      [](const auto& one) {
+        if constexpr (requires { one.x0; })
+          return one.x0.empty();
+        else if constexpr (requires { one.values; })
+          return one.values.empty();
+        else
+          return one.x.empty();
+      },
+      layer);
 }
 
 std::string problem(const Figure& figure) { return Inspector().figure(figure); }

@@ -15,7 +15,31 @@ Ink series_ink(std::size_t i);
 
 enum class Dash { kSolid, kDashed, kDotted, kDashDot, kLongDash };
 
+/// What an outline holds.
+enum class Fill {
+  kNone,
+  kTint,   ///< A little of the ink; what is below shows through.
+  kSolid,  ///< The ink.
+  kPaper,  ///< The background: hides what is below.
+};
+
+/// The colours of a field, from its least to its greatest value.
+enum class Ramp {
+  kInk,      ///< From the background to the ink.
+  kViridis,  ///< From dark to light.
+};
+
+/// Where a text stands at its point; in height always about its middle.
+enum class Align { kStart, kMiddle, kEnd };
+
 enum class Marker { kNone, kCircle, kSquare, kTriangle, kDiamond, kTriangleDown, kCross, kPlus };
+
+struct Range {
+  double low = 0.0;
+  double high = 1.0;
+
+  bool operator==(const Range&) const = default;
+};
 
 /// Who a mark is: its id within the figure and what a reader of the SVG can ask of it.
 struct Mark {
@@ -91,21 +115,75 @@ struct PointLabels {
   bool operator==(const PointLabels&) const = default;
 };
 
-using Layer = std::variant<Band, Segments, Polyline, Scatter, PointLabels>;
+/// Closed outlines; a NaN ends one and begins the next.
+struct Area {
+  std::string label = {};
+  std::vector<double> x = {};
+  std::vector<double> y = {};
+  Ink ink = Ink::kMuted;
+  Fill fill = Fill::kTint;
+  bool outlined = false;
+  Dash dash = Dash::kSolid;
+  double width = 1.0;
+  Mark mark = {};
+
+  bool operator==(const Area&) const = default;
+};
+
+/// Ellipses and discs in the units of linear axes, outlined; those with a NaN are not drawn.
+struct Ellipses {
+  std::string label = {};
+  std::vector<double> x = {};  ///< Of the centres.
+  std::vector<double> y = {};
+  std::vector<double> a = {};         ///< Half axes, >= 0.
+  std::vector<double> b = {};         ///< As many; the same as `a` for discs.
+  std::vector<double> turn_rad = {};  ///< Of `a` from the x axis, counter-clockwise.
+  Ink ink = Ink::kSeries1;
+  Fill fill = Fill::kNone;
+  Dash dash = Dash::kSolid;
+  double width = 1.0;
+  std::vector<Mark> marks = {};
+
+  bool operator==(const Ellipses&) const = default;
+};
+
+/// A matrix of coloured cells on linear axes; NaN cells stay empty.
+struct Cells {
+  std::string label = {};
+  Range x = {};  ///< From the left edge of the first column to the right edge of the last.
+  Range y = {};  ///< From the lower edge of the last row to the upper edge of the first.
+  std::size_t columns = 0;
+  std::vector<double> values = {};  ///< Row by row, the uppermost row first.
+  Range limits = {};                ///< The values at the ends of the ramp; beyond: the ends.
+  Ramp ramp = Ramp::kInk;
+  Ink ink = Ink::kText;  ///< For Ramp::kInk.
+  Mark mark = {};
+
+  std::size_t rows() const { return columns == 0 ? 0 : values.size() / columns; }
+  bool operator==(const Cells&) const = default;
+};
+
+/// Texts exactly at points; the frame leaves room for those that reach over its sides.
+struct Texts {
+  std::vector<double> x = {};
+  std::vector<double> y = {};
+  std::vector<std::string> text = {};
+  Align align = Align::kMiddle;
+  Ink ink = Ink::kText;
+
+  bool operator==(const Texts&) const = default;
+};
+
+using Layer =
+    std::variant<Band, Segments, Polyline, Scatter, PointLabels, Area, Ellipses, Cells, Texts>;
 
 enum class Scale { kLinear, kLog };
-
-struct Range {
-  double low = 0.0;
-  double high = 1.0;
-
-  bool operator==(const Range&) const = default;
-};
 
 struct Axis {
   std::string label = {};  ///< With its unit: "MPE [m]".
   Scale scale = Scale::kLinear;
   std::optional<Range> limits = {};  ///< Empty: what the layers need, and a little more.
+  bool whole = false;                ///< Linear: ticks at whole numbers alone.
 
   bool operator==(const Axis&) const = default;
 };
@@ -115,6 +193,7 @@ struct Panel {
   std::string title;
   Axis x, y;
   bool equal_aspect = false;  ///< One unit of x is as long as one unit of y.
+  bool bare = false;          ///< No frame, grid, ticks or axis labels.
   std::vector<Layer> layers;
 
   bool operator==(const Panel&) const = default;
@@ -128,6 +207,14 @@ struct Note {
   bool operator==(const Note&) const = default;
 };
 
+/// An arrow from a panel to the next one.
+struct PanelArrow {
+  std::size_t from = 0;
+  std::string label;
+
+  bool operator==(const PanelArrow&) const = default;
+};
+
 /// A figure as a value: the same for every back end, size and theme.
 struct Figure {
   std::string id;  ///< [a-z][a-z0-9-]*, at most 120 characters; never taken from data.
@@ -137,10 +224,17 @@ struct Figure {
   std::vector<std::string> record_ids;  ///< The records it was made from.
   bool varies = false;                  ///< Shows what differs from run to run, such as seconds.
   std::vector<Note> notes;
-  std::vector<Panel> panels;  ///< At least one, side by side.
+  std::vector<Panel> panels;  ///< At least one, row by row.
+  std::size_t columns = 0;  ///< Most panels in a row, fewer where they would be too narrow; 0: all.
+  bool shared_x = false;    ///< One x axis for all: the same limits, labels below the grid alone.
+  bool shared_y = false;    ///< One y axis likewise. Panels that share an axis share a legend.
+  std::vector<PanelArrow> arrows = {};
 
   bool operator==(const Figure&) const = default;
 };
+
+/// Whether the layer has nothing to draw.
+bool is_empty(const Layer& layer);
 
 /// What keeps the figure from being drawn, as one line that names the place; empty if nothing does:
 /// ids, sizes that do not match, limits that are no range, values <= 0 on a log axis.

@@ -19,6 +19,9 @@ constexpr std::array kInks = {"text",    "muted",   "warning", "series1", "serie
 constexpr std::array kDashes = {"solid", "dashed", "dotted", "dash-dot", "long-dash"};
 constexpr std::array kMarkers = {"none",    "circle",        "square", "triangle",
                                  "diamond", "triangle-down", "cross",  "plus"};
+constexpr std::array kFills = {"none", "tint", "solid", "paper"};
+constexpr std::array kRamps = {"ink", "viridis"};
+constexpr std::array kAligns = {"start", "middle", "end"};
 constexpr std::array kScales = {"linear", "log"};
 
 template <typename Enum, std::size_t N>
@@ -100,20 +103,72 @@ Json layer_json(const PointLabels& labels) {
           {"ink", enum_json(labels.ink, kInks)}};
 }
 
+Json range_json(const Range& range) { return Json{range.low, range.high}; }
+
+Json layer_json(const Area& area) {
+  return {{"kind", "area"},
+          {"label", area.label},
+          {"x", numbers_json(area.x)},
+          {"y", numbers_json(area.y)},
+          {"ink", enum_json(area.ink, kInks)},
+          {"fill", enum_json(area.fill, kFills)},
+          {"outlined", area.outlined},
+          {"dash", enum_json(area.dash, kDashes)},
+          {"width", area.width},
+          {"mark", mark_json(area.mark)}};
+}
+
+Json layer_json(const Ellipses& ellipses) {
+  return {{"kind", "ellipses"},
+          {"label", ellipses.label},
+          {"x", numbers_json(ellipses.x)},
+          {"y", numbers_json(ellipses.y)},
+          {"a", numbers_json(ellipses.a)},
+          {"b", numbers_json(ellipses.b)},
+          {"turn_rad", numbers_json(ellipses.turn_rad)},
+          {"ink", enum_json(ellipses.ink, kInks)},
+          {"fill", enum_json(ellipses.fill, kFills)},
+          {"dash", enum_json(ellipses.dash, kDashes)},
+          {"width", ellipses.width},
+          {"marks", marks_json(ellipses.marks)}};
+}
+
+Json layer_json(const Cells& cells) {
+  return {{"kind", "cells"},
+          {"label", cells.label},
+          {"x", range_json(cells.x)},
+          {"y", range_json(cells.y)},
+          {"columns", cells.columns},
+          {"values", numbers_json(cells.values)},
+          {"limits", range_json(cells.limits)},
+          {"ramp", enum_json(cells.ramp, kRamps)},
+          {"ink", enum_json(cells.ink, kInks)},
+          {"mark", mark_json(cells.mark)}};
+}
+
+Json layer_json(const Texts& texts) {
+  return {{"kind", "texts"},
+          {"x", numbers_json(texts.x)},
+          {"y", numbers_json(texts.y)},
+          {"text", texts.text},
+          {"align", enum_json(texts.align, kAligns)},
+          {"ink", enum_json(texts.ink, kInks)}};
+}
+
 Json axis_json(const Axis& axis) {
-  const Json limits = axis.limits ? Json{axis.limits->low, axis.limits->high} : Json();
-  return {{"label", axis.label}, {"scale", enum_json(axis.scale, kScales)}, {"limits", limits}};
+  return {{"label", axis.label},
+          {"scale", enum_json(axis.scale, kScales)},
+          {"limits", axis.limits ? range_json(*axis.limits) : Json()},
+          {"whole", axis.whole}};
 }
 
 Json panel_json(const Panel& panel) {
   Json layers = Json::array();
   for (const Layer& layer : panel.layers)
     layers.push_back(std::visit([](const auto& one) { return layer_json(one); }, layer));
-  return {{"title", panel.title},
-          {"x", axis_json(panel.x)},
-          {"y", axis_json(panel.y)},
-          {"equal_aspect", panel.equal_aspect},
-          {"layers", std::move(layers)}};
+  return {{"title", panel.title},    {"x", axis_json(panel.x)},
+          {"y", axis_json(panel.y)}, {"equal_aspect", panel.equal_aspect},
+          {"bare", panel.bare},      {"layers", std::move(layers)}};
 }
 
 /// A value of a document and where it stands, for messages.
@@ -156,6 +211,14 @@ class Reader {
     return value_.get<double>();
   }
 
+  std::size_t count() const {
+    const double value = number();
+    if (!(value >= 0.0 && value <= 1e9 && value == std::floor(value)))
+      refuse("a whole number from 0 to 10^9 was expected");
+    return static_cast<std::size_t>(value);
+  }
+
+  bool has(const char* key) const { return value_.is_object() && value_.contains(key); }
   bool is_null() const { return value_.is_null(); }
 
   std::vector<double> numbers() const {
@@ -245,6 +308,55 @@ PointLabels read_labels(const Reader& json) {
           json.at("ink").named<Ink>(kInks)};
 }
 
+Range read_range(const Reader& json) {
+  const std::vector<double> ends = json.numbers();
+  if (ends.size() != 2) json.refuse("two numbers were expected");
+  return {ends[0], ends[1]};
+}
+
+Area read_area(const Reader& json) {
+  return {json.at("label").text(),
+          json.at("x").numbers(),
+          json.at("y").numbers(),
+          json.at("ink").named<Ink>(kInks),
+          json.at("fill").named<Fill>(kFills),
+          json.at("outlined").flag(),
+          json.at("dash").named<Dash>(kDashes),
+          json.at("width").number(),
+          read_mark(json.at("mark"))};
+}
+
+Ellipses read_ellipses(const Reader& json) {
+  return {json.at("label").text(),
+          json.at("x").numbers(),
+          json.at("y").numbers(),
+          json.at("a").numbers(),
+          json.at("b").numbers(),
+          json.at("turn_rad").numbers(),
+          json.at("ink").named<Ink>(kInks),
+          json.at("fill").named<Fill>(kFills),
+          json.at("dash").named<Dash>(kDashes),
+          json.at("width").number(),
+          read_marks(json.at("marks"))};
+}
+
+Cells read_cells(const Reader& json) {
+  return {json.at("label").text(),
+          read_range(json.at("x")),
+          read_range(json.at("y")),
+          json.at("columns").count(),
+          json.at("values").numbers(),
+          read_range(json.at("limits")),
+          json.at("ramp").named<Ramp>(kRamps),
+          json.at("ink").named<Ink>(kInks),
+          read_mark(json.at("mark"))};
+}
+
+Texts read_texts(const Reader& json) {
+  return {json.at("x").numbers(), json.at("y").numbers(), json.at("text").texts(),
+          json.at("align").named<Align>(kAligns), json.at("ink").named<Ink>(kInks)};
+}
+
 Layer read_layer(const Reader& json) {
   const std::string kind = json.at("kind").text();
   if (kind == "polyline") return read_polyline(json);
@@ -252,16 +364,17 @@ Layer read_layer(const Reader& json) {
   if (kind == "scatter") return read_scatter(json);
   if (kind == "segments") return read_segments(json);
   if (kind == "labels") return read_labels(json);
+  if (kind == "area") return read_area(json);
+  if (kind == "ellipses") return read_ellipses(json);
+  if (kind == "cells") return read_cells(json);
+  if (kind == "texts") return read_texts(json);
   json.at("kind").refuse("\"" + printable(kind) + "\" is unknown");
 }
 
 Axis read_axis(const Reader& json) {
-  Axis axis{json.at("label").text(), json.at("scale").named<Scale>(kScales), std::nullopt};
-  const Reader limits = json.at("limits");
-  if (limits.is_null()) return axis;
-  const std::vector<double> ends = limits.numbers();
-  if (ends.size() != 2) limits.refuse("two numbers were expected");
-  axis.limits = Range{ends[0], ends[1]};
+  Axis axis{json.at("label").text(), json.at("scale").named<Scale>(kScales)};
+  if (json.has("whole")) axis.whole = json.at("whole").flag();
+  if (!json.at("limits").is_null()) axis.limits = read_range(json.at("limits"));
   return axis;
 }
 
@@ -270,6 +383,7 @@ Panel read_panel(const Reader& json) {
               read_axis(json.at("x")),
               read_axis(json.at("y")),
               json.at("equal_aspect").flag(),
+              json.has("bare") && json.at("bare").flag(),
               {}};
   for (const Reader& layer : json.at("layers").items()) panel.layers.push_back(read_layer(layer));
   return panel;
@@ -289,6 +403,13 @@ Figure read_figure(const Reader& json) {
   for (const Reader& note : json.at("notes").items())
     figure.notes.push_back({note.at("text").text(), note.at("ink").named<Ink>(kInks)});
   for (const Reader& panel : json.at("panels").items()) figure.panels.push_back(read_panel(panel));
+  // Figures written before there were grids of panels have none of these.
+  if (json.has("columns")) figure.columns = json.at("columns").count();
+  if (json.has("shared_x")) figure.shared_x = json.at("shared_x").flag();
+  if (json.has("shared_y")) figure.shared_y = json.at("shared_y").flag();
+  if (json.has("arrows"))
+    for (const Reader& arrow : json.at("arrows").items())
+      figure.arrows.push_back({arrow.at("from").count(), arrow.at("label").text()});
   if (const std::string what = problem(figure); !what.empty()) json.refuse(what);
   return figure;
 }
@@ -301,6 +422,9 @@ std::string figure_to_json(const Figure& figure) {
     notes.push_back({{"text", note.text}, {"ink", enum_json(note.ink, kInks)}});
   Json panels = Json::array();
   for (const Panel& panel : figure.panels) panels.push_back(panel_json(panel));
+  Json arrows = Json::array();
+  for (const PanelArrow& arrow : figure.arrows)
+    arrows.push_back({{"from", arrow.from}, {"label", arrow.label}});
   const Json json = {{"schema", {{"name", "mapproof.figure"}, {"version", 1}}},
                      {"id", figure.id},
                      {"title", figure.title},
@@ -309,7 +433,11 @@ std::string figure_to_json(const Figure& figure) {
                      {"records", figure.record_ids},
                      {"varies", figure.varies},
                      {"notes", std::move(notes)},
-                     {"panels", std::move(panels)}};
+                     {"panels", std::move(panels)},
+                     {"columns", figure.columns},
+                     {"shared_x", figure.shared_x},
+                     {"shared_y", figure.shared_y},
+                     {"arrows", std::move(arrows)}};
   // Names come from anywhere: bytes that are no UTF-8 become U+FFFD instead of an exception.
   return json.dump(1, ' ', false, Json::error_handler_t::replace) + "\n";
 }

@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "render/plot/markers.hpp"
+#include "render/plot/outlines.hpp"
 
 namespace mapproof {
 namespace {
@@ -17,10 +18,8 @@ class Painter {
       : panel_(panel), map_(map), theme_(theme), drawing_(drawing) {}
 
   void operator()(const Polyline& line) {
-    const Colour ink = theme_.of(line.ink);
-    const double width = line.width * theme_.line_pt;
     Shape shape;
-    shape.stroke = Stroke{ink, width, dash_lengths(line.dash, width)};
+    shape.stroke = stroke_of(line.ink, line.dash, line.width);
     bool pen_down = false;
     for (std::size_t i = 0; i < line.x.size(); ++i) {
       const Point p = map_(line.x[i], line.y[i]);
@@ -55,8 +54,7 @@ class Painter {
   }
 
   void operator()(const Segments& lines) {
-    const double width = lines.width * theme_.line_pt;
-    const Stroke stroke{theme_.of(lines.ink), width, dash_lengths(lines.dash, width)};
+    const Stroke stroke = stroke_of(lines.ink, lines.dash, lines.width);
     for (std::size_t i = 0; i < lines.x0.size(); ++i) {
       const Point from = map_(lines.x0[i], lines.y0[i]);
       const Point to = map_(lines.x1[i], lines.y1[i]);
@@ -74,7 +72,50 @@ class Painter {
 
   void operator()(const PointLabels&) {}
 
+  void operator()(const Area& area) {
+    Shape shape = filled(area.fill, area.ink);
+    if (area.outlined) shape.stroke = stroke_of(area.ink, area.dash, area.width);
+    shape.path = area_path(area, map_);
+    if (!shape.path.points.empty())
+      add(area.fill == Fill::kSolid ? Role::kMarker : Role::kBand, std::move(shape),
+          add_mark(area.mark));
+  }
+
+  void operator()(const Ellipses& ellipses) {
+    const Stroke stroke = stroke_of(ellipses.ink, ellipses.dash, ellipses.width);
+    for (std::size_t i = 0; i < ellipses.x.size(); ++i) {
+      Shape shape = filled(ellipses.fill, ellipses.ink);
+      shape.stroke = stroke;
+      shape.path = ellipse_path(ellipses, i, map_);
+      if (!shape.path.points.empty())
+        add(Role::kMarker, std::move(shape), mark_at(ellipses.marks, i));
+    }
+  }
+
+  void operator()(const Cells& cells) {
+    const auto mark = add_mark(cells.mark);
+    for (Shape& shape : cell_shapes(cells, map_, theme_)) add(Role::kCells, std::move(shape), mark);
+  }
+
+  void operator()(const Texts& texts) {
+    for (std::size_t i = 0; i < texts.x.size(); ++i)
+      if (auto line = placed_text(texts, i, map_, theme_))
+        drawing_.add(Role::kMarkLabel, panel_, std::move(*line));
+  }
+
  private:
+  Shape filled(Fill fill, Ink ink) const {
+    Shape shape;
+    if (fill != Fill::kNone) shape.fill = fill == Fill::kPaper ? theme_.background : theme_.of(ink);
+    if (fill == Fill::kTint) shape.fill_opacity = kBandOpacity;
+    return shape;
+  }
+
+  Stroke stroke_of(Ink ink, Dash dash, double width) const {
+    const double width_pt = width * theme_.line_pt;
+    return {theme_.of(ink), width_pt, dash_lengths(dash, width_pt)};
+  }
+
   /// Markers far enough apart to be told from each other, the first point always with one.
   void draw_markers(const Polyline& line, std::optional<std::size_t> mark) {
     if (line.marker == Marker::kNone) return;
@@ -90,7 +131,7 @@ class Painter {
   }
 
   /// A point without neighbours gets a band as wide as a marker.
-  void add_band_piece(const Band& band, std::size_t begin, std::size_t end, Path& path) {
+  void add_band_piece(const Band& band, std::size_t begin, std::size_t end, Outline& path) {
     if (end - begin == 1) {
       const Point low = map_(band.x[begin], band.low[begin]);
       const double high = map_.y(band.high[begin]), half = theme_.marker_pt / 2.0;

@@ -2,12 +2,14 @@
 
 #include <fmt/format.h>
 
+#include "render/plot/grid_layout.hpp"
 #include "render/plot/panel_layout.hpp"
 
 namespace mapproof {
 namespace {
 
-constexpr double kMostOfHead = 0.4;  // Of the page's height; below it, the panels.
+constexpr double kLeastOfPage = 0.3;  // Of the theme's height, for the frame.
+constexpr double kMostOfHead = 0.4;   // Of the page's height; below it, the panels.
 
 /// Title and notes from the top of the page down.
 class Head {
@@ -68,8 +70,14 @@ std::string_view name(Role role) {
       return "panel-title";
     case Role::kNote:
       return "note";
+    case Role::kPanelArrow:
+      return "panel-arrow";
+    case Role::kPanelArrowLabel:
+      return "panel-arrow-label";
     case Role::kBand:
       return "band";
+    case Role::kCells:
+      return "cells";
     case Role::kLine:
       return "line";
     case Role::kMarker:
@@ -98,8 +106,10 @@ Box ink_box(const TextLine& line) {
           line.at.y + ink.y1 * em};
 }
 
-Drawing lay_out(const Figure& figure, const Theme& theme) {
-  require_valid(figure);
+namespace {
+
+/// @param height  Of the page; that of several panels follows from them.
+Drawing lay_out_on(const Figure& figure, const Theme& theme, double height) {
   Drawing drawing;
   drawing.id = figure.id;
   drawing.title = figure.title;
@@ -108,21 +118,30 @@ Drawing lay_out(const Figure& figure, const Theme& theme) {
   drawing.record_ids = figure.record_ids;
   drawing.varies = figure.varies;
   drawing.width = theme.width_pt;
-  drawing.height = theme.height_pt;
+  drawing.height = height;
   drawing.dpi = theme.dpi;
   drawing.background = theme.background;
 
   const double margin = theme.space_pt;
-  const Box page{margin, margin, theme.width_pt - margin, theme.height_pt - margin};
+  const Box page{margin, margin, theme.width_pt - margin, height - margin};
   const Box room = Head(figure, page, theme, drawing).draw();
-  const auto count = static_cast<double>(figure.panels.size());
-  const double gap = 2.0 * theme.space_pt;
-  const double width = (room.width() - (count - 1.0) * gap) / count;
-  for (std::size_t p = 0; p < figure.panels.size(); ++p) {
-    const double left = room.x0 + static_cast<double>(p) * (width + gap);
-    lay_out_panel(figure.panels[p], p, {left, room.y0, left + width, room.y1}, theme, drawing);
-  }
+  if (figure.panels.size() == 1)
+    lay_out_panel(figure.panels[0], 0, room, theme, drawing);
+  else
+    lay_out_grid(figure, room, theme, drawing);
   return drawing;
+}
+
+}  // namespace
+
+Drawing lay_out(const Figure& figure, const Theme& theme) {
+  require_valid(figure);
+  Drawing drawing = lay_out_on(figure, theme, theme.height_pt);
+  if (figure.panels.size() > 1) return drawing;
+  // A legend that leaves the frame too little makes the page higher.
+  const double missing = kLeastOfPage * theme.height_pt - drawing.frames[0].height();
+  if (missing <= 0.0) return drawing;
+  return lay_out_on(figure, theme, theme.height_pt + missing);
 }
 
 }  // namespace mapproof

@@ -1,9 +1,11 @@
 #include "render/plot/legend.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 #include "render/plot/layers.hpp"
 #include "render/plot/markers.hpp"
+#include "render/plot/outlines.hpp"
 
 namespace mapproof {
 namespace {
@@ -34,11 +36,8 @@ class SamplePainter {
     if (line.marker != Marker::kNone) draw_marker(line.marker, true, 1.0, line.ink);
   }
   void operator()(const Band& band) {
-    Shape shape;
-    shape.path.add_box({place_.x0, place_.y0 + 0.15 * place_.height(), place_.x1,
-                        place_.y1 - 0.15 * place_.height()});
-    shape.fill = theme_.of(band.ink);
-    shape.fill_opacity = kBandOpacity;
+    Shape shape = swatch(Fill::kTint, band.ink);
+    shape.path.add_box(inset());
     add(std::move(shape));
   }
   void operator()(const Scatter& points) {
@@ -51,15 +50,60 @@ class SamplePainter {
     add(arrow_head({place_.x0, y}, {place_.x1, y}, theme_.of(lines.ink), theme_));
   }
   void operator()(const PointLabels&) {}
+  void operator()(const Texts&) {}
+  void operator()(const Area& area) {
+    Shape shape = swatch(area.fill, area.ink);
+    if (area.outlined) shape.stroke = stroke_of(area.ink, area.dash, area.width);
+    shape.path.add_box(inset());
+    add(std::move(shape));
+  }
+  void operator()(const Ellipses& ellipses) {
+    Shape shape = swatch(ellipses.fill, ellipses.ink);
+    shape.stroke = stroke_of(ellipses.ink, ellipses.dash, ellipses.width);
+    shape.path.add_circle(place_.centre(), 0.4 * place_.height());
+    add(std::move(shape));
+  }
+  /// The ramp from its least to its greatest value.
+  void operator()(const Cells& cells) {
+    constexpr int kSteps = 12;
+    const Box box = inset();
+    for (int i = 0; i < kSteps; ++i) {
+      const double from = std::lerp(box.x0, box.x1, static_cast<double>(i) / kSteps);
+      Shape shape;
+      shape.path.add_box({from, box.y0, box.x1, box.y1});
+      shape.fill = ramp_colour(cells, static_cast<double>(i) / (kSteps - 1), theme_);
+      add(std::move(shape));
+    }
+    Shape rim;
+    rim.path.add_box(box);
+    rim.stroke = Stroke{theme_.muted, theme_.hairline_pt, {}};
+    add(std::move(rim));
+  }
 
  private:
+  Box inset() const {
+    const double by = 0.15 * place_.height();
+    return {place_.x0, place_.y0 + by, place_.x1, place_.y1 - by};
+  }
+
+  Shape swatch(Fill fill, Ink ink) const {
+    Shape shape;
+    if (fill != Fill::kNone) shape.fill = fill == Fill::kPaper ? theme_.background : theme_.of(ink);
+    if (fill == Fill::kTint) shape.fill_opacity = kBandOpacity;
+    return shape;
+  }
+
+  Stroke stroke_of(Ink ink, Dash dash, double width) const {
+    const double width_pt = width * theme_.line_pt;
+    return {theme_.of(ink), width_pt, dash_lengths(dash, width_pt)};
+  }
+
   void draw_line(Ink ink, Dash dash, double width) {
     Shape shape;
     const double y = place_.centre().y;
     shape.path.move_to({place_.x0, y});
     shape.path.line_to({place_.x1, y});
-    const double width_pt = width * theme_.line_pt;
-    shape.stroke = Stroke{theme_.of(ink), width_pt, dash_lengths(dash, width_pt)};
+    shape.stroke = stroke_of(ink, dash, width);
     add(std::move(shape));
   }
 
@@ -90,7 +134,9 @@ Legend::Legend(const Panel& panel, const Theme& theme, double most_width_pt) : t
     if (label.empty()) continue;
     const auto same = std::ranges::find(entries_, label, &LegendEntry::whole);
     if (same != entries_.end()) {
-      same->layers.push_back(&layer);
+      const auto index = [](const Layer* one) { return one->index(); };
+      if (std::ranges::find(same->layers, layer.index(), index) == same->layers.end())
+        same->layers.push_back(&layer);
       continue;
     }
     entries_.push_back({shape_text_within(label, most_text, Elide::kMiddle), label, {&layer}});

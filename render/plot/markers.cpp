@@ -6,8 +6,8 @@
 namespace mapproof {
 namespace {
 
-Path polygon(std::initializer_list<Point> corners, double size) {
-  Path path;
+Outline polygon(std::initializer_list<Point> corners, double size) {
+  Outline path;
   for (const Point p : corners) {
     const Point at{p.x * size, p.y * size};
     path.points.empty() ? path.move_to(at) : path.line_to(at);
@@ -16,8 +16,8 @@ Path polygon(std::initializer_list<Point> corners, double size) {
   return path;
 }
 
-Path strokes(std::initializer_list<std::pair<Point, Point>> lines, double size) {
-  Path path;
+Outline strokes(std::initializer_list<std::pair<Point, Point>> lines, double size) {
+  Outline path;
   for (const auto& [a, b] : lines) {
     path.move_to({a.x * size, a.y * size});
     path.line_to({b.x * size, b.y * size});
@@ -25,8 +25,8 @@ Path strokes(std::initializer_list<std::pair<Point, Point>> lines, double size) 
   return path;
 }
 
-Path outline(Marker marker, double size) {
-  Path path;
+Outline outline(Marker marker, double size) {
+  Outline path;
   switch (marker) {
     case Marker::kNone:
       break;

@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "render/plot/markers.hpp"
+#include "render/plot/outlines.hpp"
 
 namespace mapproof {
 namespace {
@@ -58,7 +59,37 @@ class Collector {
 
   void operator()(const PointLabels&) {}
 
+  void operator()(const Area& area) {
+    add_outline(area_path(area, map_), area.fill != Fill::kNone, area.width);
+  }
+
+  void operator()(const Ellipses& ellipses) {
+    for (std::size_t i = 0; i < ellipses.x.size(); ++i)
+      add_outline(ellipse_path(ellipses, i, map_), ellipses.fill != Fill::kNone, ellipses.width);
+  }
+
+  void operator()(const Cells& cells) {
+    found_.boxes.push_back(
+        {map_.x(cells.x.low), map_.y(cells.y.high), map_.x(cells.x.high), map_.y(cells.y.low)});
+  }
+
+  void operator()(const Texts& texts) {
+    for (std::size_t i = 0; i < texts.x.size(); ++i)
+      if (const auto line = placed_text(texts, i, map_, theme_))
+        found_.boxes.push_back(ink_box(*line));
+  }
+
  private:
+  void add_outline(const Outline& path, bool filled, double width) {
+    const double half = width * theme_.line_pt / 2.0;
+    for (const std::vector<Point>& ring : flattened(path)) {
+      for (std::size_t i = 0; i < ring.size(); ++i)
+        add_line(ring[i], ring[(i + 1) % ring.size()], half);
+      if (!filled) continue;
+      for (const Box& slice : covering_slices(ring)) found_.boxes.push_back(slice);
+    }
+  }
+
   void add_line(Point a, Point b, double half) {
     if (!std::isnan(a.x + a.y + b.x + b.y)) found_.lines.push_back({a, b, half});
   }

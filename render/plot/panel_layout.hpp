@@ -1,5 +1,6 @@
 #pragma once
 
+#include "render/plot/axes_layout.hpp"
 #include "render/plot/drawing.hpp"
 #include "render/theme/theme.hpp"
 
@@ -8,6 +9,14 @@ namespace mapproof {
 /// Lays one panel out in `cell`: axes, legend, layers and labels.
 void lay_out_panel(const Panel& panel, std::size_t panel_index, const Box& cell, const Theme& theme,
                    Drawing& drawing);
+
+/// Draws a panel whose axes stand already: grid, layers, frame and labels of the axes.
+void draw_panel(const Panel& panel, std::size_t panel_index, const Axes& axes,
+                const AxesLayout& layout, const Theme& theme, Drawing& drawing);
+
+/// Draws the panel's title, in two lines if it has to. @return The room left below.
+Box draw_panel_title(const Panel& panel, std::size_t index, const Box& cell, const Theme& theme,
+                     Drawing& drawing);
 
 /// Adds text whose baseline starts at `at`; `whole` is what was asked for.
 void add_text(Drawing& drawing, Role role, std::size_t panel_index, const ShapedText& shaped,

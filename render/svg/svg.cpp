@@ -12,7 +12,7 @@ namespace {
 
 /// Writes a path's data, each point relative to the one before in whole steps of `scale`, so that
 /// rounding never adds up.
-void append_path(std::string& out, const Path& path, double scale) {
+void append_path(std::string& out, const Outline& path, double scale) {
   long long x = 0, y = 0;
   long long start_x = 0, start_y = 0;
   std::size_t next = 0;
@@ -151,7 +151,7 @@ class SvgWriter {
     attribute("height", box.height());
   }
 
-  void path_attribute(const Path& path) {
+  void path_attribute(const Outline& path) {
     out_ += " d=\"";
     append_path(out_, path, 0.01);
     out_ += '"';

@@ -291,38 +291,38 @@ std::vector<ShapedText> wrap_text(std::string_view text, double most, std::size_
   return wrapped;
 }
 
-Path glyph_outline(std::uint32_t glyph) {
+Outline glyph_outline(std::uint32_t glyph) {
   static hb_draw_funcs_t* const pen = [] {
     hb_draw_funcs_t* made = hb_draw_funcs_create();
     hb_draw_funcs_set_move_to_func(
         made,
         [](hb_draw_funcs_t*, void* path, hb_draw_state_t*, float x, float y, void*) {
-          static_cast<Path*>(path)->move_to({x, -y});
+          static_cast<Outline*>(path)->move_to({x, -y});
         },
         nullptr, nullptr);
     hb_draw_funcs_set_line_to_func(
         made,
         [](hb_draw_funcs_t*, void* path, hb_draw_state_t*, float x, float y, void*) {
-          static_cast<Path*>(path)->line_to({x, -y});
+          static_cast<Outline*>(path)->line_to({x, -y});
         },
         nullptr, nullptr);
     hb_draw_funcs_set_quadratic_to_func(
         made,
         [](hb_draw_funcs_t*, void* path, hb_draw_state_t*, float cx, float cy, float x, float y,
            void*) {
-          static_cast<Path*>(path)->quad_to({cx, -cy}, {x, -y});
+          static_cast<Outline*>(path)->quad_to({cx, -cy}, {x, -y});
         },
         nullptr, nullptr);
     hb_draw_funcs_set_close_path_func(
         made,
         [](hb_draw_funcs_t*, void* path, hb_draw_state_t*, void*) {
-          static_cast<Path*>(path)->close();
+          static_cast<Outline*>(path)->close();
         },
         nullptr, nullptr);
     hb_draw_funcs_make_immutable(made);
     return made;
   }();
-  Path path;
+  Outline path;
   hb_font_get_glyph_shape(shared_font(), glyph, pen, &path);
   return path;
 }

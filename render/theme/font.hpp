@@ -70,7 +70,7 @@ ShapedText shape_text_within(std::string_view text, double most, Elide elide = E
 std::vector<ShapedText> wrap_text(std::string_view text, double most, std::size_t lines);
 
 /// The outline of a glyph of the font, in units of 1/2048 em, y downward. Safe from any thread.
-Path glyph_outline(std::uint32_t glyph);
+Outline glyph_outline(std::uint32_t glyph);
 
 /// The font file.
 std::string_view font_bytes();

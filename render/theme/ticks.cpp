@@ -75,13 +75,15 @@ Ticks log_ticks(double low, double high, int most) {
     return value >= low * (1 - 1e-9) && value <= high * (1 + 1e-9);
   };
   const int stride = std::max(1, (decades + most - 1) / most);
+  // With room for it, 1, 2 and 5 of few decades.
+  const bool fine = decades < 3 && most > 2;
   for (int exponent = first - 1; exponent <= last; ++exponent) {
     const double decade = std::pow(10.0, exponent);
     for (const int factor : {1, 2, 3, 4, 5, 6, 7, 8, 9}) {
       const double value = factor * decade;
       if (!within(value)) continue;
       const bool labelled = (factor == 1 && (exponent - first) % stride == 0) ||
-                            (decades < 3 && (factor == 2 || factor == 5));
+                            (fine && (factor == 2 || factor == 5));
       if (labelled) {
         ticks.at.push_back(value);
         ticks.labels.push_back(log_label(factor, exponent));

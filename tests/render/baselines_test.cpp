@@ -23,7 +23,8 @@ std::vector<Figure> chosen() {
   std::vector<Figure> figures = sample_figures();
   std::erase_if(figures, [](const Figure& figure) {
     for (const char* id : {"map-usual", "map-one-far-off", "map-some-missing", "map-shape",
-                           "curve-usual", "curve-log", "curve-filled"})
+                           "curve-usual", "curve-log", "curve-filled", "measurement-visibility",
+                           "measurement-bearing", "parameter-usual"})
       if (figure.id == id) return false;
     return true;
   });

@@ -13,7 +13,8 @@ namespace {
 constexpr double kPixelsPerPoint = 2.0;
 
 bool is_data(Role role) {
-  return role == Role::kBand || role == Role::kLine || role == Role::kMarker;
+  return role == Role::kBand || role == Role::kCells || role == Role::kLine ||
+         role == Role::kMarker;
 }
 
 bool blocks_text(Role role) {
@@ -73,7 +74,9 @@ class Inspector {
   }
 
   void check_frames() {
-    const double least = 0.25 * std::min(drawing_.width, drawing_.height);
+    // Panels of a grid may be small.
+    const double share = drawing_.frames.size() == 1 ? 0.25 : 0.1;
+    const double least = share * std::min(drawing_.width, drawing_.height);
     for (const Box& frame : drawing_.frames)
       if (frame.width() < least || frame.height() < least)
         flaws_.push_back(fmt::format("frame of {:.0f} x {:.0f} pt", frame.width(), frame.height()));

@@ -7,6 +7,7 @@
 
 #include "core/base/random.hpp"
 #include "render/figures/map.hpp"
+#include "tests/support/sample_studies.hpp"
 
 namespace mapproof::test {
 namespace {
@@ -107,6 +108,8 @@ void add_curves(std::vector<Figure>& figures) {
   };
   add("usual", 4, [](ErrorCurveSpec&) {});
   add("seven", 7, [](ErrorCurveSpec&) {});
+  add("eight", 8, [](ErrorCurveSpec&) {});
+  add("ten", 10, [](ErrorCurveSpec&) {});
   add("one", 1, [](ErrorCurveSpec&) {});
   add("none", 0, [](ErrorCurveSpec&) {});
   add("log", 4, [](ErrorCurveSpec& spec) {
@@ -167,9 +170,16 @@ MapRecord sample_map(int landmarks, double error_m, std::uint64_t seed) {
 }
 
 ErrorCurveSpec sample_curves(std::size_t count, std::uint64_t seed) {
-  static const std::vector<std::string> labels = {
-      "LPCA",       "SMACOF, equal weights", "SMACOF, kNN weights, K = 8", "ISOMAP, K = 6",
-      "Kernel PCA", "LLE, K = 10",           "Laplacian eigenmap"};
+  static const std::vector<std::string> labels = {"LPCA",
+                                                  "SMACOF, equal weights",
+                                                  "SMACOF, kNN weights, K = 8",
+                                                  "ISOMAP, K = 6",
+                                                  "Kernel PCA",
+                                                  "LLE, K = 10",
+                                                  "Laplacian eigenmap",
+                                                  "SDE, K = 7",
+                                                  "Hessian LLE, K = 8",
+                                                  "Kernel PCA, polynomial"};
   Random random(seed);
   ErrorCurveSpec spec;
   spec.id = "curve";
@@ -209,6 +219,7 @@ std::vector<Figure> sample_figures() {
   std::vector<Figure> figures;
   add_maps(figures);
   add_curves(figures);
+  for (Figure& figure : sample_study_figures()) figures.push_back(std::move(figure));
   return figures;
 }
 

@@ -1,0 +1,276 @@
+#include "render/figures/measurement.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numbers>
+
+#include <fmt/format.h>
+
+#include "core/base/errors.hpp"
+#include "render/figures/parts.hpp"
+#include "render/figures/words.hpp"
+#include "render/theme/ticks.hpp"
+
+namespace mapproof {
+namespace {
+
+constexpr double kDegree = std::numbers::pi / 180.0;
+constexpr double kArcStep_rad = 3.0 * kDegree;  // Between the corners of an arc.
+constexpr double kViewOfReach = 1.3;            // Half the side of the picture of a disc.
+constexpr Eigen::Index kTrail = 40;             // Steps of the path that are drawn.
+
+void require_consistent(const Measurement& m) {
+  const auto refuse = [](const std::string& what) { throw InvalidInput("measurement: " + what); };
+  const auto count = static_cast<std::size_t>(m.world.landmarks_m.rows());
+  const auto positive = [](double value) { return value > 0.0 && std::isfinite(value); };
+  if (m.sensor == Sensor::kRange) refuse("ranges have no figure");
+  if (!positive(m.world.side_m) || !positive(m.world.landmark_diameter_m))
+    refuse("the room's side or the landmarks' diameter is not positive");
+  if (!m.world.landmarks_m.allFinite() || !m.path_m.allFinite() || !m.robot_m.allFinite() ||
+      !std::isfinite(m.heading_rad))
+    refuse("a place or the heading is not finite");
+  if (m.sensor == Sensor::kVisibility) {
+    if (m.views.size() != count)
+      refuse(fmt::format("{} views of {} landmarks", m.views.size(), count));
+    if (!positive(m.reach_m)) refuse("the reach is not positive");
+  } else {
+    if (static_cast<std::size_t>(m.bearings_rad.size()) != count)
+      refuse(fmt::format("{} bearings of {} landmarks", m.bearings_rad.size(), count));
+    if (m.bearings_rad.array().isInf().any()) refuse("an infinite bearing");
+  }
+}
+
+Point from(Point at, double distance, double angle_rad) {
+  return {at.x + distance * std::cos(angle_rad), at.y + distance * std::sin(angle_rad)};
+}
+
+/// Calls `add` with points of an arc, both ends among them.
+template <typename Add>
+void trace_arc(Point centre, double radius, double begin_rad, double end_rad, Add add) {
+  const double turn = end_rad - begin_rad;
+  const int pieces = std::max(1, static_cast<int>(std::ceil(std::abs(turn) / kArcStep_rad)));
+  for (int i = 0; i <= pieces; ++i) add(from(centre, radius, begin_rad + turn * i / pieces));
+}
+
+/// "−63°".
+std::string degrees(double angle_rad) { return number_text(angle_rad / kDegree, 0) + "°"; }
+
+class MeasurementFigure {
+ public:
+  MeasurementFigure(const Measurement& m, const std::string& id)
+      : m_(m), robot_(point_of(m.robot_m)), radius_(m.world.landmark_diameter_m / 2.0) {
+    figure_.id = id;
+    panel_.equal_aspect = true;
+    panel_.x.label = "x [m]";
+    panel_.y.label = "y [m]";
+  }
+
+  Figure make() {
+    m_.sensor == Sensor::kVisibility ? show_visibility() : show_bearings();
+    std::erase_if(panel_.layers, is_empty);
+    figure_.panels.push_back(std::move(panel_));
+    return std::move(figure_);
+  }
+
+ private:
+  void show_visibility() {
+    const double half = kViewOfReach * m_.reach_m;
+    panel_.x.limits = Range{robot_.x - half, robot_.x + half};
+    panel_.y.limits = Range{robot_.y - half, robot_.y + half};
+    Ellipses reach{.label = fmt::format("reach, {} mm", std::lround(1000.0 * m_.reach_m)),
+                   .ink = Ink::kText,
+                   .dash = Dash::kDashed,
+                   .width = 0.8};
+    add_disc(reach, robot_, m_.reach_m);
+    panel_.layers = {walls(),
+                     shadows(),
+                     reach,
+                     trail(),
+                     landmarks(View::kOutOfReach),
+                     landmarks(View::kHidden),
+                     landmarks(View::kVisible),
+                     heading(0.22 * m_.reach_m),
+                     robot()};
+    const std::size_t seen = count(View::kVisible), hidden = count(View::kHidden);
+    figure_.title = "Visibility-only measurement";
+    figure_.caption = fmt::format(
+        "Visibility at step {} of layout {}, pose {}: of {} the robot sees {}; {} within {} mm "
+        "hidden behind another. Filled: visible; heavy rings: hidden; pale: out of reach; grey: "
+        "shadows.",
+        m_.step, m_.run.layout, m_.run.pose, counted(m_.views.size(), "landmark"), seen,
+        hidden == 1 ? "1 is" : fmt::format("{} are", hidden), std::lround(1000.0 * m_.reach_m));
+    figure_.alt = fmt::format(
+        "Plan of the room around the robot at ({}, {}) m. Within {} m {} visible and {} hidden; {} "
+        "out of reach.",
+        significant(robot_.x), significant(robot_.y), significant(m_.reach_m),
+        counted(seen, "landmark"), hidden, count(View::kOutOfReach));
+  }
+
+  void show_bearings() {
+    const double margin = 0.04 * m_.world.side_m;
+    panel_.x.limits = panel_.y.limits = Range{-margin, m_.world.side_m + margin};
+    const std::vector<Eigen::Index> named = named_bearings();
+    panel_.layers = {walls(), trail(), rays(named), landmarks(std::nullopt)};
+    PointLabels labels;
+    std::vector<std::string> words;
+    for (std::size_t i = 0; i < named.size(); ++i) {
+      add_angle(named[i], i);
+      words.push_back(fmt::format("L{}: {}", named[i] + 1, degrees(m_.bearings_rad(named[i]))));
+      add_label(labels, place(named[i]), words.back());
+    }
+    panel_.layers.push_back(heading(0.16 * m_.world.side_m));
+    panel_.layers.push_back(robot());
+    panel_.layers.push_back(labels);
+    const auto known = static_cast<std::size_t>((m_.bearings_rad.array().isFinite()).count());
+    figure_.title = "Bearing-only measurement";
+    figure_.caption = fmt::format(
+        "Bearings at step {} of layout {}, pose {}: the angle from the heading (arrow) to each of "
+        "{}.",
+        m_.step, m_.run.layout, m_.run.pose, counted(known, "landmark"));
+    figure_.alt =
+        fmt::format("Plan of the room with the robot at ({}, {}) m and a ray to each of {}.",
+                    significant(robot_.x), significant(robot_.y), counted(known, "landmark"));
+    if (words.empty()) return;
+    figure_.caption += " Named: " + listed(words, 3) + ".";
+    figure_.alt += " Angles to the heading: " + listed(words, 3) + ".";
+  }
+
+  Area walls() const {
+    Area room{.label = "", .ink = Ink::kText, .fill = Fill::kNone, .outlined = true, .width = 1.6};
+    add_box(room, {0.0, m_.world.side_m}, {0.0, m_.world.side_m});
+    return room;
+  }
+
+  /// What each landmark within reach hides: between the tangents from the robot, from where they
+  /// touch it to the edge of the disc.
+  Area shadows() const {
+    Area area{.label = "shadow", .ink = Ink::kText, .fill = Fill::kTint};
+    for (Eigen::Index i = 0; i < rows(); ++i) {
+      const Eigen::RowVector2d offset = m_.world.landmarks_m.row(i) - m_.robot_m;
+      const double distance = offset.norm();
+      if (m_.views[i] == View::kOutOfReach || distance <= radius_) continue;
+      const double tangent = std::sqrt(distance * distance - radius_ * radius_);
+      if (tangent >= m_.reach_m) continue;
+      const double middle = std::atan2(offset.y(), offset.x());
+      const double half = std::asin(radius_ / distance);
+      add_corner(area, from(robot_, tangent, middle + half));
+      add_corner(area, from(robot_, tangent, middle - half));
+      trace_arc(robot_, m_.reach_m, middle - half, middle + half,
+                [&area](Point p) { add_corner(area, p); });
+      end_outline(area);
+    }
+    return area;
+  }
+
+  /// Those of one view; all of them without one.
+  Ellipses landmarks(std::optional<View> view) const {
+    Ellipses discs{.label = "landmark", .ink = Ink::kText, .fill = Fill::kPaper, .width = 0.8};
+    if (view == View::kVisible) discs.label = "visible", discs.fill = Fill::kSolid;
+    if (view == View::kVisible) discs.ink = Ink::kSeries1;
+    if (view == View::kHidden) discs.label = "hidden", discs.width = 1.3, discs.ink = Ink::kSeries2;
+    if (view == View::kOutOfReach) discs.label = "out of reach", discs.fill = Fill::kTint;
+    if (view == View::kOutOfReach) discs.ink = Ink::kMuted, discs.width = 0.6;
+    for (Eigen::Index i = 0; i < rows(); ++i) {
+      if (view && m_.views[i] != *view) continue;
+      if (!is_shown(place(i))) continue;
+      add_disc(discs, place(i), radius_);
+      Mark mark{fmt::format("landmark-{}", i + 1), {{"landmark", fmt::format("L{}", i + 1)}}};
+      if (view) mark.data.emplace_back("view", discs.label);
+      if (!view) mark.data.emplace_back("bearing-rad", data_number(m_.bearings_rad(i)));
+      discs.marks.push_back(std::move(mark));
+    }
+    return discs;
+  }
+
+  bool is_shown(Point p) const {
+    const Range &x = *panel_.x.limits, &y = *panel_.y.limits;
+    return x.low - radius_ < p.x && p.x < x.high + radius_ && y.low - radius_ < p.y &&
+           p.y < y.high + radius_;
+  }
+
+  Segments rays(const std::vector<Eigen::Index>& named) const {
+    Segments lines{.label = "ray", .ink = Ink::kMuted, .width = 0.4};
+    for (Eigen::Index i = 0; i < rows(); ++i)
+      if (std::isfinite(m_.bearings_rad(i)) && std::ranges::find(named, i) == named.end())
+        add_line(lines, robot_, place(i));
+    return lines;
+  }
+
+  /// Well apart, neither close by nor far away: those nearest to 45, -75 and 150 degrees.
+  std::vector<Eigen::Index> named_bearings() const {
+    std::vector<Eigen::Index> chosen;
+    for (const double target : {45.0 * kDegree, -75.0 * kDegree, 150.0 * kDegree}) {
+      double least = 30.0 * kDegree;
+      std::optional<Eigen::Index> best;
+      for (Eigen::Index i = 0; i < rows(); ++i) {
+        const double distance = (m_.world.landmarks_m.row(i) - m_.robot_m).norm();
+        const double off = std::abs(m_.bearings_rad(i) - target);
+        if (!(off < least) || distance < 0.16 * m_.world.side_m) continue;
+        least = off;
+        best = i;
+      }
+      if (best) chosen.push_back(*best);
+    }
+    return chosen;
+  }
+
+  /// The ray to a landmark and the arc from the heading to it, the n-th farther out.
+  void add_angle(Eigen::Index row, std::size_t n) {
+    const Ink ink = series_ink(n);
+    const Dash dash = std::array{Dash::kSolid, Dash::kDashed, Dash::kDashDot}[n % 3];
+    Polyline ray{.ink = ink, .dash = dash};
+    add_point(ray, robot_);
+    add_point(ray, place(row));
+    Polyline arc{.ink = ink, .dash = dash};
+    const double radius = (0.05 + 0.03 * static_cast<double>(n)) * m_.world.side_m;
+    trace_arc(robot_, radius, m_.heading_rad, m_.heading_rad + m_.bearings_rad(row),
+              [&arc](Point p) { add_point(arc, p); });
+    panel_.layers.push_back(ray);
+    panel_.layers.push_back(arc);
+  }
+
+  Polyline trail() const {
+    Polyline line{.label = "path so far", .ink = Ink::kMuted, .dash = Dash::kDotted, .width = 0.7};
+    const Eigen::Index first = std::max<Eigen::Index>(0, m_.path_m.rows() - kTrail);
+    for (Eigen::Index i = first; i < m_.path_m.rows(); ++i)
+      add_point(line, point_of(m_.path_m.row(i)));
+    return line;
+  }
+
+  Segments heading(double length) const {
+    Segments arrow{.label = "heading", .ink = Ink::kText, .arrow = true};
+    add_line(arrow, robot_, from(robot_, length, m_.heading_rad));
+    return arrow;
+  }
+
+  Scatter robot() const {
+    Scatter at{.label = "robot", .ink = Ink::kText, .marker = Marker::kDiamond, .size = 1.4};
+    add_point(at, robot_);
+    at.marks.push_back({"robot", {{"kind", "robot"}}});
+    return at;
+  }
+
+  std::size_t count(View view) const {
+    return static_cast<std::size_t>(std::ranges::count(m_.views, view));
+  }
+  Eigen::Index rows() const { return m_.world.landmarks_m.rows(); }
+  Point place(Eigen::Index row) const { return point_of(m_.world.landmarks_m.row(row)); }
+
+  const Measurement& m_;
+  Point robot_;
+  double radius_;
+  Panel panel_;
+  Figure figure_;
+};
+
+}  // namespace
+
+Figure measurement_figure(const Measurement& measurement, const std::string& id) {
+  require_consistent(measurement);
+  Figure figure = MeasurementFigure(measurement, id).make();
+  require_valid(figure);
+  return figure;
+}
+
+}  // namespace mapproof

@@ -1,0 +1,161 @@
+#include "render/plot/outlines.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "render/theme/palette.hpp"
+
+namespace mapproof {
+namespace {
+
+constexpr int kCurvePieces = 8;
+constexpr int kSlices = 8;
+constexpr int kShades = 32;
+constexpr double kMostOfPage = 0.37;  // The width of a text at a point.
+
+Point cubic_at(Point a, Point b, Point c, Point d, double t) {
+  const double s = 1.0 - t;
+  const double wa = s * s * s, wb = 3.0 * s * s * t, wc = 3.0 * s * t * t, wd = t * t * t;
+  return {wa * a.x + wb * b.x + wc * c.x + wd * d.x, wa * a.y + wb * b.y + wc * c.y + wd * d.y};
+}
+
+/// The shade of a cell, 0 to kShades - 1; -1 for NaN.
+int shade_of(double value, const Range& limits) {
+  if (std::isnan(value)) return -1;
+  const double share = (value - limits.low) / (limits.high - limits.low);
+  return static_cast<int>(std::lround(std::clamp(share, 0.0, 1.0) * (kShades - 1)));
+}
+
+/// Adds a box for each stretch of a row in which `wanted` holds.
+template <typename Wanted>
+void add_stretches(Outline& path, const Cells& cells, std::size_t row, const PanelMap& map,
+                   Wanted wanted) {
+  const auto rows = static_cast<double>(cells.rows());
+  const auto columns = static_cast<double>(cells.columns);
+  const auto x = [&](std::size_t c) {
+    return map.x(std::lerp(cells.x.low, cells.x.high, static_cast<double>(c) / columns));
+  };
+  const auto y = [&](std::size_t r) {
+    return map.y(std::lerp(cells.y.high, cells.y.low, static_cast<double>(r) / rows));
+  };
+  for (std::size_t c = 0; c < cells.columns;) {
+    std::size_t end = c;
+    while (end < cells.columns && wanted(row * cells.columns + end)) ++end;
+    if (end > c) path.add_box({x(c), y(row), x(end), y(row + 1)});
+    c = std::max(end, c + 1);
+  }
+}
+
+}  // namespace
+
+Outline area_path(const Area& area, const PanelMap& map) {
+  Outline path;
+  std::vector<Point> ring;
+  const auto finish = [&] {
+    for (std::size_t i = 0; ring.size() >= 3 && i < ring.size(); ++i)
+      i == 0 ? path.move_to(ring[i]) : path.line_to(ring[i]);
+    if (ring.size() >= 3) path.close();
+    ring.clear();
+  };
+  for (std::size_t i = 0; i < area.x.size(); ++i) {
+    const Point p = map(area.x[i], area.y[i]);
+    std::isnan(p.x + p.y) ? finish() : ring.push_back(p);
+  }
+  finish();
+  return path;
+}
+
+Outline ellipse_path(const Ellipses& ellipses, std::size_t i, const PanelMap& map) {
+  const double c = std::cos(ellipses.turn_rad[i]), s = std::sin(ellipses.turn_rad[i]);
+  const double a = ellipses.a[i], b = ellipses.b[i];
+  if (std::isnan(ellipses.x[i] + ellipses.y[i] + a + b + c)) return {};
+  Outline path;
+  path.add_circle({0.0, 0.0}, 1.0);
+  for (Point& p : path.points)
+    p = map(ellipses.x[i] + a * c * p.x - b * s * p.y, ellipses.y[i] + a * s * p.x + b * c * p.y);
+  return path;
+}
+
+std::vector<std::vector<Point>> flattened(const Outline& path) {
+  std::vector<std::vector<Point>> rings;
+  const Point* next = path.points.data();
+  for (const Verb verb : path.verbs) {
+    if (verb == Verb::kMove) rings.emplace_back();
+    if (verb == Verb::kMove || verb == Verb::kLine) rings.back().push_back(*next++);
+    if (verb != Verb::kCubic) continue;
+    const Point from = rings.back().back();
+    for (int piece = 1; piece <= kCurvePieces; ++piece)
+      rings.back().push_back(
+          cubic_at(from, next[0], next[1], next[2], static_cast<double>(piece) / kCurvePieces));
+    next += 3;
+  }
+  return rings;
+}
+
+std::vector<Box> covering_slices(const std::vector<Point>& ring) {
+  double top = INFINITY, bottom = -INFINITY;
+  for (const Point p : ring) top = std::min(top, p.y), bottom = std::max(bottom, p.y);
+  std::vector<Box> slices;
+  for (int i = 0; i < kSlices; ++i) {
+    Box slice{INFINITY, std::lerp(top, bottom, static_cast<double>(i) / kSlices), -INFINITY,
+              std::lerp(top, bottom, static_cast<double>(i + 1) / kSlices)};
+    const Box strip{-1e300, slice.y0, 1e300, slice.y1};
+    for (std::size_t k = 0; k < ring.size(); ++k) {
+      const Point a = ring[k], b = ring[(k + 1) % ring.size()];
+      double enter = 0.0, leave = 0.0;
+      if (!clip_line(strip, a, b, enter, leave)) continue;
+      for (const double t : {enter, leave}) {
+        slice.x0 = std::min(slice.x0, std::lerp(a.x, b.x, t));
+        slice.x1 = std::max(slice.x1, std::lerp(a.x, b.x, t));
+      }
+    }
+    if (slice.x0 < slice.x1) slices.push_back(slice);
+  }
+  return slices;
+}
+
+Colour ramp_colour(const Cells& cells, double share, const Theme& theme) {
+  if (cells.ramp == Ramp::kViridis) return viridis(share);
+  return mix(theme.of(cells.ink), theme.background, share);
+}
+
+std::vector<Shape> cell_shapes(const Cells& cells, const PanelMap& map, const Theme& theme) {
+  std::vector<int> shades;
+  shades.reserve(cells.values.size());
+  std::array<bool, kShades> used{};
+  for (const double value : cells.values) {
+    shades.push_back(shade_of(value, cells.limits));
+    if (shades.back() >= 0) used[shades.back()] = true;
+  }
+  std::vector<Shape> shapes;
+  for (int shade = 0; shade < kShades; ++shade) {
+    if (!used[shade]) continue;
+    Shape& shape = shapes.emplace_back();
+    shape.fill = ramp_colour(cells, static_cast<double>(shade) / (kShades - 1), theme);
+    for (std::size_t row = 0; row < cells.rows(); ++row)
+      add_stretches(shape.path, cells, row, map,
+                    [&](std::size_t cell) { return shades[cell] >= shade; });
+  }
+  return shapes;
+}
+
+std::optional<TextLine> placed_text(const Texts& texts, std::size_t i, const PanelMap& map,
+                                    const Theme& theme) {
+  const Point at = map(texts.x[i], texts.y[i]);
+  if (std::isnan(at.x + at.y)) return std::nullopt;
+  const double em = theme.tick_font_pt;
+  TextLine line{
+      .shaped = shape_text_within(texts.text[i], kMostOfPage * theme.width_pt / em, Elide::kMiddle),
+      .size = em,
+      .colour = theme.of(texts.ink)};
+  if (line.shaped.text != texts.text[i]) line.whole = texts.text[i];
+  const double width = line.shaped.advance * em;
+  const double left = texts.align == Align::kStart ? 0.0
+                      : texts.align == Align::kEnd ? width
+                                                   : width / 2.0;
+  line.at = {at.x - left, at.y + FontFacts::kCapHeight * em / 2.0};
+  return line;
+}
+
+}  // namespace mapproof

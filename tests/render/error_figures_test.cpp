@@ -1,0 +1,79 @@
+#include <cmath>
+#include <set>
+
+#include <gtest/gtest.h>
+
+#include "core/base/errors.hpp"
+#include "render/figures/error_by_parameter.hpp"
+#include "tests/support/figure_parts.hpp"
+#include "tests/support/sample_studies.hpp"
+
+namespace mapproof::test {
+namespace {
+
+TEST(SeriesLook, NoTwoOfTheFirstTwentyOneAreAlike) {
+  std::set<std::tuple<Ink, Dash, Marker>> looks;
+  std::set<std::pair<Dash, Marker>> grey;
+  for (std::size_t i = 0; i < 21; ++i) {
+    const SeriesLook look = series_look(i);
+    EXPECT_TRUE(looks.insert({look.ink, look.dash, look.marker}).second) << i;
+    grey.insert({look.dash, look.marker});
+    if (i == 9) {
+      EXPECT_EQ(grey.size(), 10u);  // In grey.
+    }
+  }
+}
+
+TEST(ErrorAxis, IsLogarithmicOnlyWhereTheMeansSpanMuch) {
+  EXPECT_EQ(error_axis({0.1, 1.0}, {}).scale, Scale::kLinear);
+  EXPECT_EQ(error_axis({0.1, 1.0}, {}, 6.0).scale, Scale::kLog);
+  EXPECT_EQ(error_axis({0.0, 9.0}, {}, 6.0).scale, Scale::kLinear);
+  EXPECT_EQ(error_axis({NAN}, {}).limits, (Range{0.0, 1.0}));
+}
+
+TEST(ErrorByParameterFigure, HasAPanelForEachKindOfParameter) {
+  const Figure figure = error_by_parameter_figure(sample_parameters());
+  ASSERT_EQ(figure.panels.size(), 3u);
+  EXPECT_TRUE(figure.shared_y);
+  EXPECT_EQ(figure.panels[0].x.label, "K");
+  EXPECT_EQ(figure.panels[1].x.scale, Scale::kLog);
+  EXPECT_EQ(layers_of<Polyline>(figure.panels[0]).size(), 6u);
+}
+
+TEST(ErrorByParameterFigure, MarksOurOptimumOnTheLineAndThePapersAtItsPrintedValue) {
+  const ErrorByParameterSpec spec = sample_parameters();
+  const Panel panel = error_by_parameter_figure(spec).panels[0];
+  const auto ours = labelled<Scatter>(panel, "our optimum");
+  EXPECT_EQ(ours.x.at(0), 6.0);
+  EXPECT_EQ(ours.y.at(0), spec.groups[0].methods[0].line.mean[2]);
+  const auto paper = labelled<Scatter>(panel, "the paper's optimum");
+  EXPECT_EQ(paper.x.at(0), 5.0);
+  EXPECT_EQ(paper.y.at(0), 0.206);
+}
+
+TEST(ErrorByParameterFigure, SaysBothOptimaInWords) {
+  const Figure figure = error_by_parameter_figure(sample_parameters());
+  EXPECT_TRUE(contains(figure.alt, "SDE: 0.167 at K = 5, in the paper 0.138 at K = 7."))
+      << figure.alt;
+}
+
+TEST(ErrorByParameterFigure, RefusesLinesWhosePartsDisagree) {
+  ErrorByParameterSpec spec = sample_parameters();
+  spec.groups[0].methods[0].line.mean.pop_back();
+  EXPECT_THROW(error_by_parameter_figure(spec), InvalidInput);
+  spec = sample_parameters();
+  spec.groups[0].methods[1].line.key = spec.groups[0].methods[0].line.key;
+  EXPECT_THROW(error_by_parameter_figure(spec), InvalidInput);
+}
+
+TEST(ErrorByParameterFigure, LeavesAnOptimumWithoutAnErrorOut) {
+  ErrorByParameterSpec spec = sample_parameters();
+  spec.groups.resize(1);
+  spec.groups[0].methods.resize(1);
+  spec.groups[0].methods[0].ours = ParameterValue{99.0, NAN};
+  const Figure figure = error_by_parameter_figure(spec);
+  EXPECT_TRUE(labelled<Scatter>(figure.panels[0], "our optimum").x.empty());
+}
+
+}  // namespace
+}  // namespace mapproof::test

@@ -1,0 +1,152 @@
+#include <cmath>
+
+#include <gtest/gtest.h>
+
+#include "core/base/errors.hpp"
+#include "render/plot/figure_json.hpp"
+#include "render/plot/layout.hpp"
+#include "render/plot/outlines.hpp"
+#include "tests/support/figure_checks.hpp"
+
+namespace mapproof::test {
+namespace {
+
+Figure grid(std::size_t count, bool shared) {
+  Figure figure;
+  figure.id = "grid";
+  figure.title = "A grid";
+  figure.columns = 5;
+  figure.shared_x = figure.shared_y = shared;
+  for (std::size_t i = 0; i < count; ++i) {
+    Panel& panel = figure.panels.emplace_back();
+    panel.title = "panel " + std::to_string(i + 1);
+    panel.x.label = "x";
+    panel.y.label = "y";
+    const double end = static_cast<double>(i + 1);
+    panel.layers.push_back(Polyline{.label = "line", .x = {0.0, end}, .y = {0.0, end}});
+  }
+  return figure;
+}
+
+std::size_t count_of(const Drawing& drawing, Role role) {
+  return static_cast<std::size_t>(std::ranges::count(drawing.items, role, &Item::role));
+}
+
+/// A figure with one layer of each kind of area.
+Figure of_areas() {
+  Figure figure;
+  figure.id = "areas";
+  Panel& panel = figure.panels.emplace_back();
+  panel.layers = {
+      Cells{.label = "cells", .x = {0, 2}, .y = {0, 2}, .columns = 2, .values = {0, 1, 1, NAN}},
+      Area{.label = "area", .x = {3, 4, 4, NAN}, .y = {0, 0, 1, NAN}, .outlined = true},
+      Ellipses{.x = {3}, .y = {2}, .a = {1}, .b = {0.5}, .turn_rad = {0.5}, .fill = Fill::kTint},
+      Texts{.x = {0}, .y = {3}, .text = {"a text that is quite long"}, .align = Align::kEnd}};
+  return figure;
+}
+
+TEST(PanelGrid, FramesOfSharedAxesHaveOneSizeAndStandInLine) {
+  const Drawing drawing = lay_out(grid(10, true), report_theme());
+  ASSERT_EQ(drawing.frames.size(), 10u);
+  const Box first = drawing.frames[0];
+  for (std::size_t i = 0; i < 10; ++i) {
+    EXPECT_NEAR(drawing.frames[i].width(), first.width(), 1e-9);
+    EXPECT_NEAR(drawing.frames[i].height(), first.height(), 1e-9);
+    EXPECT_NEAR(drawing.frames[i].x0, drawing.frames[i % 5].x0, 1e-9);
+  }
+  EXPECT_GT(drawing.frames[5].y0, first.y1);
+  EXPECT_EQ(count_of(drawing, Role::kAxisLabel), 2u);
+  EXPECT_EQ(count_of(drawing, Role::kLegendText), 1u);
+}
+
+TEST(PanelGrid, SharedAxesHaveTheSameLimits) {
+  const Drawing drawing = lay_out(grid(2, true), report_theme());
+  std::vector<Point> ends;
+  for (const Item& item : drawing.items)
+    if (item.role == Role::kLine) ends.push_back(std::get<Shape>(item.what).path.points[1]);
+  ASSERT_EQ(ends.size(), 2u);
+  const double first = (ends[0].x - drawing.frames[0].x0) / drawing.frames[0].width();
+  const double second = (ends[1].x - drawing.frames[1].x0) / drawing.frames[1].width();
+  EXPECT_NEAR((first - 0.05 / 1.1) * 2.0, second - 0.05 / 1.1, 1e-9);
+}
+
+TEST(PanelGrid, HasFewerColumnsOnANarrowPage) {
+  const Drawing wide = lay_out(grid(10, true), report_theme());
+  const Drawing narrow = lay_out(grid(10, true), paper_theme(3.25));
+  EXPECT_NEAR(wide.frames[4].y0, wide.frames[0].y0, 1e-9);
+  EXPECT_GT(narrow.frames[4].y0, narrow.frames[0].y0);
+  EXPECT_GT(narrow.height, paper_theme(3.25).height_pt);
+}
+
+TEST(PanelGrid, IsCleanInEveryTheme) {
+  for (const bool shared : {true, false})
+    for (const std::size_t count : {2u, 3u, 7u, 10u})
+      for (const Theme& theme : {report_theme(), paper_theme(3.25), paper_theme(6.75)})
+        for (const std::string& flaw : flaws(lay_out(grid(count, shared), theme)))
+          ADD_FAILURE() << count << ' ' << theme.name << ": " << flaw;
+}
+
+TEST(PanelGrid, ArrowsStandBetweenTheirPanels) {
+  Figure figure = grid(3, false);
+  figure.arrows = {{0, "observe"}, {1, "embed"}};
+  for (const Theme& theme : {report_theme(), paper_theme(3.25)}) {
+    const Drawing drawing = lay_out(figure, theme);
+    EXPECT_EQ(count_of(drawing, Role::kPanelArrowLabel), 2u);
+    EXPECT_EQ(count_of(drawing, Role::kPanelArrow), 4u);
+    for (const std::string& flaw : flaws(drawing)) ADD_FAILURE() << theme.name << ": " << flaw;
+  }
+}
+
+TEST(PanelGrid, AnArrowNeedsAPanelToPointTo) {
+  Figure figure = grid(2, false);
+  figure.arrows = {{1, "nowhere"}};
+  EXPECT_EQ(problem(figure), "arrows/0/from: no panel follows");
+}
+
+TEST(PanelGrid, PanelsOfDifferentScalesShareNoAxis) {
+  Figure figure = grid(2, true);
+  figure.panels[1].y.scale = Scale::kLog;
+  EXPECT_NE(problem(figure), "");
+}
+
+TEST(Areas, RoundTripThroughJson) {
+  const Figure figure = of_areas();
+  EXPECT_EQ(figure_to_json(figure_from_json(figure_to_json(figure), "f")), figure_to_json(figure));
+}
+
+TEST(Areas, RefuseWhatCannotBeDrawn) {
+  const auto refuses = [](auto change) {
+    Figure figure = of_areas();
+    change(figure.panels[0]);
+    EXPECT_NE(problem(figure), "");
+  };
+  refuses([](Panel& p) { std::get<Cells>(p.layers[0]).values.pop_back(); });
+  refuses([](Panel& p) { std::get<Cells>(p.layers[0]).x = {1.0, 1.0}; });
+  refuses([](Panel& p) { std::get<Area>(p.layers[1]).y.pop_back(); });
+  refuses([](Panel& p) { std::get<Ellipses>(p.layers[2]).a[0] = -1.0; });
+  refuses([](Panel& p) { std::get<Ellipses>(p.layers[2]).turn_rad.clear(); });
+  refuses([](Panel& p) { std::get<Texts>(p.layers[3]).text.clear(); });
+  refuses([](Panel& p) { p.x.scale = Scale::kLog; });
+}
+
+TEST(Areas, TextsOverTheSideOfTheFrameHaveRoom) {
+  Figure figure = of_areas();
+  figure.panels[0].bare = true;
+  const Drawing drawing = lay_out(figure, report_theme());
+  for (const std::string& flaw : flaws(drawing)) ADD_FAILURE() << flaw;
+}
+
+TEST(Areas, EveryShadeOfCellsCoversThoseAboveIt) {
+  const Cells cells{.x = {0, 3}, .y = {0, 1}, .columns = 3, .values = {0.0, 0.5, 1.0}};
+  const PanelMap map{AxisMap(Scale::kLinear, {0, 3}, 0, 30),
+                     AxisMap(Scale::kLinear, {0, 1}, 10, 0)};
+  const auto shapes = cell_shapes(cells, map, report_theme());
+  ASSERT_EQ(shapes.size(), 3u);
+  EXPECT_EQ(bounds(shapes[0].path).x0, 0.0);
+  EXPECT_EQ(bounds(shapes[1].path).x0, 10.0);
+  EXPECT_EQ(bounds(shapes[2].path).x0, 20.0);
+  for (const Shape& shape : shapes) EXPECT_EQ(bounds(shape.path).x1, 30.0);
+}
+
+}  // namespace
+}  // namespace mapproof::test

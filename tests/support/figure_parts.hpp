@@ -1,0 +1,38 @@
+#pragma once
+
+#include <algorithm>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "render/plot/figure.hpp"
+
+namespace mapproof::test {
+
+/// The layers of one type in a panel.
+template <typename Kind>
+std::vector<Kind> layers_of(const Panel& panel) {
+  std::vector<Kind> found;
+  for (const Layer& layer : panel.layers)
+    if (const auto* one = std::get_if<Kind>(&layer)) found.push_back(*one);
+  return found;
+}
+
+/// The layer of a type and label in a panel; an empty one if there is none.
+template <typename Kind>
+Kind labelled(const Panel& panel, const std::string& label) {
+  for (const Kind& layer : layers_of<Kind>(panel))
+    if (layer.label == label) return layer;
+  return {};
+}
+
+inline bool contains(const std::string& text, const std::string& part) {
+  return text.find(part) != std::string::npos;
+}
+
+inline bool notes_contain(const Figure& figure, const std::string& part) {
+  return std::ranges::any_of(figure.notes,
+                             [&](const Note& note) { return contains(note.text, part); });
+}
+
+}  // namespace mapproof::test
