@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 
+#include "core/graph/closed_groups.hpp"
 #include "core/graph/components.hpp"
 
 namespace mapproof {
@@ -53,6 +54,26 @@ ConnectedGraph connected_neighbourhoods(const Eigen::MatrixXd& distances, const 
       result.graph[j].push_back({static_cast<Eigen::Index>(i), edge.length});
     }
   return result;
+}
+
+void tie_blends(ConnectedGraph& neighbourhoods, const Eigen::MatrixXd& distances) {
+  const std::optional<int> added = open_closed_groups(neighbourhoods.graph, distances);
+  if (added == 0) return;
+  neighbourhoods.statuses.push_back(
+      {StatusCode::kBridged,
+       fmt::format("Some groups of landmarks had all their neighbours among themselves; {} got one "
+                   "more, the nearest outside.",
+                   added.value_or(0))});
+}
+
+void tie_sets(ConnectedGraph& neighbourhoods) {
+  const int joined = join_sets(neighbourhoods.graph);
+  if (joined == 0) return;
+  neighbourhoods.statuses.push_back(
+      {StatusCode::kBridged,
+       fmt::format("{} landmark{} not tied to the map by the neighbours of others, and joined {} "
+                   "own.",
+                   joined, joined == 1 ? " was" : "s were", joined == 1 ? "its" : "their")});
 }
 
 }  // namespace mapproof

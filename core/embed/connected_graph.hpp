@@ -30,4 +30,13 @@ ConnectedGraph connected_neighbour_graph(const Eigen::MatrixXd& distances, const
 ConnectedGraph connected_neighbourhoods(const Eigen::MatrixXd& distances, const Graph& nearest,
                                         int neighbours);
 
+/// Neighbourhoods for LLE: no group of landmarks but one has all of its neighbours within itself,
+/// which would let each such group shrink to a point of its own. Where there are more, the shortest
+/// way out of a group becomes a neighbour of the one it starts from (kBridged).
+void tie_blends(ConnectedGraph& neighbourhoods, const Eigen::MatrixXd& distances);
+
+/// Neighbourhoods for HLLE: all tied together by landmarks in common, which a landmark that is
+/// nobody's neighbour is not. Where they are not, landmarks join their own (kBridged).
+void tie_sets(ConnectedGraph& neighbourhoods);
+
 }  // namespace mapproof

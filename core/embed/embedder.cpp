@@ -189,9 +189,12 @@ Embedding Embedder::on_neighbourhoods(Method method, int neighbours) {
   if (hessian && neighbours < kFewestHessianNeighbours)
     return failed(n, fmt::format("Hessian LLE of the plane needs K >= {}, K is {}.",
                                  kFewestHessianNeighbours, neighbours));
-  const ConnectedGraph graph =
-      connected_neighbourhoods(distances_, nearest(neighbours), neighbours);
+  ConnectedGraph graph = connected_neighbourhoods(distances_, nearest(neighbours), neighbours);
   if (!graph.connected) return failed(n, graph.statuses.front().detail);
+  if (hessian)
+    tie_sets(graph);
+  else
+    tie_blends(graph, distances_);
   const auto few = std::ranges::count_if(graph.graph, [](const std::vector<Edge>& edges) {
     return std::ssize(edges) < kFewestHessianNeighbours;
   });

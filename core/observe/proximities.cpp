@@ -3,8 +3,6 @@
 #include <limits>
 #include <optional>
 
-#include "core/observe/features.hpp"
-
 namespace mapproof {
 namespace {
 
@@ -31,10 +29,13 @@ void normalise(Proximities& result, const Eigen::MatrixXd& Q) {
 }  // namespace
 
 Proximities proximities(const ObservationHistory& history, Eigen::Index steps) {
-  const Features rows = features(history, steps);
+  return proximities(features(history, steps), history.sensor);
+}
+
+Proximities proximities(const Features& rows, Sensor sensor) {
   Proximities result{.inner_products = gram(rows.values), .squared_distances = {}};
   const Eigen::MatrixXd Q = common_squares(rows, result.inner_products);
-  if (history.sensor == Sensor::kVisibility) {
+  if (sensor == Sensor::kVisibility) {
     normalise(result, Q);
   } else {
     const Eigen::MatrixXd both = Q + Q.transpose();
@@ -44,7 +45,7 @@ Proximities proximities(const ObservationHistory& history, Eigen::Index steps) {
   if (rows.observed.size() > 0) {
     const Eigen::ArrayXXd common = gram(rows.observed).array();
     const double infinity = std::numeric_limits<double>::infinity();
-    if (history.sensor != Sensor::kVisibility) {
+    if (sensor != Sensor::kVisibility) {
       const Eigen::ArrayXXd scale = static_cast<double>(rows.values.cols()) / common.max(1.0);
       result.squared_distances.array() *= scale;
       result.inner_products.array() *= scale;

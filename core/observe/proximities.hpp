@@ -5,6 +5,7 @@
 #include <Eigen/Core>
 
 #include "core/model/observation_history.hpp"
+#include "core/observe/features.hpp"
 
 namespace mapproof {
 
@@ -23,6 +24,9 @@ struct Proximities {
 /// @throws InvalidInput if `steps` is out of bounds.
 /// @note O(M^2 N) time.
 Proximities proximities(const ObservationHistory& history, Eigen::Index steps);
+
+/// The same of vectors at hand (see features).
+Proximities proximities(const Features& rows, Sensor sensor);
 
 /// Rows without any information in the first `steps` observations: nothing but missing entries or,
 /// for visibility, nothing but "not seen". Ascending.
