@@ -72,26 +72,38 @@ Eigen::MatrixXd adjacency(const Graph& graph) {
 }  // namespace
 
 Embedder::Embedder(Proximities proximities, EmbedderOptions options)
-    : options_(options),
-      inner_products_(std::move(proximities.inner_products)),
-      distances_(proximities.squared_distances.cwiseSqrt()) {
+    : options_(options), proximities_(std::move(proximities)) {
   const auto infinite = [](const Eigen::MatrixXd& D) {
     return (!D.array().isFinite()).count() / 2;
   };
-  completed_pairs_ = infinite(distances_);
-  complete_distances_ = completed_pairs_ > 0 ? completed_distances(distances_) : distances_;
-  complete_squares_ = completed_pairs_ > 0 ? Eigen::MatrixXd(complete_distances_.cwiseAbs2())
-                                           : std::move(proximities.squared_distances);
-  seen_apart_ = infinite(complete_distances_) > 0;
+  completed_pairs_ = infinite(proximities_.squared_distances);
+  if (completed_pairs_ > 0) {
+    completed_distances_ = completed_distances(distances());
+    completed_squares_ = completed_distances_.cwiseAbs2();
+    seen_apart_ = infinite(completed_distances_) > 0;
+  }
   // Normalised visibility vectors without a common sighting are at right angles.
   cutoff_ = options_.only_seen_together ? std::numbers::sqrt2 * (1.0 - 1e-12)
                                         : std::numeric_limits<double>::infinity();
 }
 
+const Eigen::MatrixXd& Embedder::distances() {
+  if (distances_.size() == 0) distances_ = proximities_.squared_distances.cwiseSqrt();
+  return distances_;
+}
+
+const Eigen::MatrixXd& Embedder::complete_distances() {
+  return completed_pairs_ > 0 ? completed_distances_ : distances();
+}
+
+const Eigen::MatrixXd& Embedder::complete_squares() const {
+  return completed_pairs_ > 0 ? completed_squares_ : proximities_.squared_distances;
+}
+
 Embedding Embedder::embed(const MethodSetting& setting) {
-  const Eigen::Index n = distances_.rows();
+  const Eigen::Index n = size();
   if (const auto why_not = obstacle(setting)) return failed(n, *why_not);
-  if (complete_squares_.maxCoeff() == 0.0) {
+  if (complete_squares().maxCoeff() == 0.0) {
     Embedding point;
     point.coordinates.setZero(n, 2);
     point.statuses.push_back({StatusCode::kRankDeficient,
@@ -106,15 +118,15 @@ MethodSetting Embedder::usual_setting(Method method) const {
   const std::optional<ParameterInfo>& parameter = info(method).parameter;
   if (!parameter) return {method, std::nullopt};
   if (parameter->counts_neighbours)
-    return {method, std::clamp(static_cast<double>(distances_.rows() - 1), 1.0, 6.0)};
+    return {method, std::clamp(static_cast<double>(size() - 1), 1.0, 6.0)};
   if (method == Method::kKpcaPolynomial) return {method, 2.0};
-  const double median = median_beside_diagonal(complete_squares_);
+  const double median = median_beside_diagonal(complete_squares());
   return {method, std::clamp(two_digits(median), parameter->minimum, parameter->maximum)};
 }
 
 /// Why the method cannot give a map of these data; empty if it can.
 std::optional<std::string> Embedder::obstacle(const MethodSetting& setting) const {
-  const Eigen::Index n = distances_.rows();
+  const Eigen::Index n = size();
   if (n < 3) return fmt::format("A map needs 3 observed landmarks, {} are there.", n);
   if (on_graph(setting.method) && setting.parameter.value_or(0.0) >= static_cast<double>(n))
     return fmt::format("K = {} needs more than {} observed landmarks.",
@@ -137,7 +149,7 @@ Embedding Embedder::solve(const MethodSetting& setting) {
       return with_all_distances(weighted_smacof(count));
     case Method::kKpcaGaussian:
       return with_all_distances(
-          kernel_pca(complete_squares_, GaussianKernel{.variance = parameter}));
+          kernel_pca(complete_squares(), GaussianKernel{.variance = parameter}));
     case Method::kKpcaPolynomial:
       return with_all_distances(
           kernel_pca(complete_inner_products(), PolynomialKernel{.degree = count}));
@@ -163,11 +175,11 @@ Embedding Embedder::with_all_distances(Embedding embedding) const {
 
 Embedding Embedder::weighted_smacof(int neighbours) {
   const ConnectedGraph graph =
-      connected_neighbour_graph(distances_, nearest(neighbours), neighbours);
-  if (!graph.connected) return failed(distances_.rows(), graph.statuses.front().detail);
+      connected_neighbour_graph(distances(), nearest(neighbours), neighbours);
+  if (!graph.connected) return failed(size(), graph.statuses.front().detail);
   const Embedding& start = equal_weights();
   Embedding result =
-      smacof(complete_distances_, adjacency(graph.graph), start.coordinates, options_.smacof_knn);
+      smacof(complete_distances(), adjacency(graph.graph), start.coordinates, options_.smacof_knn);
   add_statuses_of_start(result, start, info(Method::kSmacof).label);
   result.statuses.insert(result.statuses.begin(), graph.statuses.begin(), graph.statuses.end());
   return result;
@@ -175,8 +187,8 @@ Embedding Embedder::weighted_smacof(int neighbours) {
 
 Embedding Embedder::on_graph_of(Method method, int neighbours) {
   const ConnectedGraph graph =
-      connected_neighbour_graph(distances_, nearest(neighbours), neighbours);
-  if (!graph.connected) return failed(distances_.rows(), graph.statuses.front().detail);
+      connected_neighbour_graph(distances(), nearest(neighbours), neighbours);
+  if (!graph.connected) return failed(size(), graph.statuses.front().detail);
   Embedding result =
       method == Method::kIsomap ? isomap(graph.graph) : laplacian_eigenmap(graph.graph);
   result.statuses.insert(result.statuses.begin(), graph.statuses.begin(), graph.statuses.end());
@@ -184,25 +196,25 @@ Embedding Embedder::on_graph_of(Method method, int neighbours) {
 }
 
 Embedding Embedder::on_neighbourhoods(Method method, int neighbours) {
-  const Eigen::Index n = distances_.rows();
+  const Eigen::Index n = size();
   const bool hessian = method == Method::kHessianLle;
   if (hessian && neighbours < kFewestHessianNeighbours)
     return failed(n, fmt::format("Hessian LLE of the plane needs K >= {}, K is {}.",
                                  kFewestHessianNeighbours, neighbours));
-  ConnectedGraph graph = connected_neighbourhoods(distances_, nearest(neighbours), neighbours);
+  ConnectedGraph graph = connected_neighbourhoods(distances(), nearest(neighbours), neighbours);
   if (!graph.connected) return failed(n, graph.statuses.front().detail);
   if (hessian)
     tie_sets(graph);
   else
-    tie_blends(graph, distances_);
+    tie_blends(graph, distances());
   const auto few = std::ranges::count_if(graph.graph, [](const std::vector<Edge>& edges) {
     return std::ssize(edges) < kFewestHessianNeighbours;
   });
   if (hessian && few > 0)
     return failed(n, fmt::format("Hessian LLE needs {} neighbours of each landmark, {} have fewer.",
                                  kFewestHessianNeighbours, few));
-  Embedding result = hessian ? hessian_lle(complete_squares_, graph.graph)
-                             : lle(complete_squares_, graph.graph, options_.lle);
+  Embedding result = hessian ? hessian_lle(complete_squares(), graph.graph)
+                             : lle(complete_squares(), graph.graph, options_.lle);
   result.statuses.insert(result.statuses.begin(), graph.statuses.begin(), graph.statuses.end());
   return result;
 }
@@ -211,31 +223,32 @@ Embedding Embedder::on_neighbourhoods(Method method, int neighbours) {
 const Graph& Embedder::nearest(int neighbours) {
   constexpr int kUsual = 16;
   if (nearest_count_ < neighbours) {
-    nearest_count_ = static_cast<int>(
-        std::min<Eigen::Index>(std::max(neighbours, kUsual), distances_.rows() - 1));
-    nearest_ = nearest_neighbours(distances_, {.neighbours = nearest_count_, .cutoff = cutoff_});
+    nearest_count_ =
+        static_cast<int>(std::min<Eigen::Index>(std::max(neighbours, kUsual), size() - 1));
+    nearest_ = nearest_neighbours(distances(), {.neighbours = nearest_count_, .cutoff = cutoff_});
   }
   return nearest_;
 }
 
 /// Those of pairs without a common step as their completed distances have them.
 Eigen::MatrixXd Embedder::complete_inner_products() const {
-  if (completed_pairs_ == 0) return inner_products_;
-  const Eigen::VectorXd squares = inner_products_.diagonal();
+  if (completed_pairs_ == 0) return proximities_.inner_products;
+  const Eigen::VectorXd squares = proximities_.inner_products.diagonal();
   const Eigen::MatrixXd completed =
       0.5 * (squares.replicate(1, squares.size()) +
-             squares.transpose().replicate(squares.size(), 1) - complete_squares_);
-  return distances_.array().isFinite().select(inner_products_, completed);
+             squares.transpose().replicate(squares.size(), 1) - complete_squares());
+  return proximities_.squared_distances.array().isFinite().select(proximities_.inner_products,
+                                                                  completed);
 }
 
 const Embedding& Embedder::linear() {
-  if (!linear_) linear_ = lpca(complete_squares_);
+  if (!linear_) linear_ = lpca(complete_squares());
   return *linear_;
 }
 
 const Embedding& Embedder::equal_weights() {
   if (!equal_weights_) {
-    equal_weights_ = smacof(complete_distances_, {}, linear().coordinates, options_.smacof);
+    equal_weights_ = smacof(complete_distances(), {}, linear().coordinates, options_.smacof);
     add_statuses_of_start(*equal_weights_, linear(), info(Method::kLpca).label);
   }
   return *equal_weights_;

@@ -48,16 +48,21 @@ class Embedder {
   Embedding on_graph_of(Method method, int neighbours);
   Embedding on_neighbourhoods(Method method, int neighbours);
   const Graph& nearest(int neighbours);
+  Eigen::Index size() const { return proximities_.squared_distances.rows(); }
+  const Eigen::MatrixXd& distances();
+  const Eigen::MatrixXd& complete_distances();
+  const Eigen::MatrixXd& complete_squares() const;
   Eigen::MatrixXd complete_inner_products() const;
   const Embedding& linear();
   const Embedding& equal_weights();
 
   EmbedderOptions options_;
-  Eigen::MatrixXd inner_products_;
-  Eigen::MatrixXd distances_;           ///< May hold infinities.
-  Eigen::MatrixXd complete_distances_;  ///< All finite, if the data allow.
-  Eigen::MatrixXd complete_squares_;    ///< Of these.
-  Graph nearest_;                       ///< The first so many of each landmark, nearest first.
+  Proximities proximities_;
+  Eigen::MatrixXd distances_;  ///< Empty until asked for; may hold infinities.
+  /// Distances and squares, all finite if the data allow; empty where nothing had to be completed.
+  Eigen::MatrixXd completed_distances_;
+  Eigen::MatrixXd completed_squares_;
+  Graph nearest_;  ///< The first so many of each landmark, nearest first.
   int nearest_count_ = 0;
   Eigen::Index completed_pairs_ = 0;
   bool seen_apart_ = false;  ///< Some landmarks share no step even over others.

@@ -28,19 +28,30 @@ Graph nearest_neighbours(const Eigen::MatrixXd& distances, const NeighbourOption
         fmt::format("K = {} nearest neighbours need 1 <= K < {} landmarks", options.neighbours, n));
 
   Graph nearest(static_cast<std::size_t>(n));
+  std::vector<double> finite;
   std::vector<std::pair<double, Eigen::Index>> order;
   for (Eigen::Index i = 0; i < n; ++i) {
+    const auto row = distances.col(i);
+    const auto usable = [&](Eigen::Index j) {
+      return j != i && row(j) < options.cutoff && std::isfinite(row(j));
+    };
+    finite.clear();
+    for (Eigen::Index j = 0; j < n; ++j)
+      if (usable(j)) finite.push_back(row(j));
+    const auto count = std::min<std::ptrdiff_t>(options.neighbours, std::ssize(finite));
+    if (count == 0) continue;
+    // Rounding is slow: only what may be among the nearest is rounded.
+    std::nth_element(finite.begin(), finite.begin() + (count - 1), finite.end());
+    const double farthest = finite[static_cast<std::size_t>(count - 1)] * (1.0 + 1e-11);
     order.clear();
     for (Eigen::Index j = 0; j < n; ++j)
-      if (j != i && distances(j, i) < options.cutoff && std::isfinite(distances(j, i)))
-        order.emplace_back(rounded(distances(j, i)), j);
-    const auto count = std::min<std::ptrdiff_t>(options.neighbours, std::ssize(order));
-    std::nth_element(order.begin(), order.begin() + count, order.end());
-    std::sort(order.begin(), order.begin() + count);
+      if (row(j) <= farthest && usable(j)) order.emplace_back(rounded(row(j)), j);
+    std::sort(order.begin(), order.end());
     std::vector<Edge>& edges = nearest[static_cast<std::size_t>(i)];
+    edges.reserve(static_cast<std::size_t>(count));
     for (std::ptrdiff_t rank = 0; rank < count; ++rank) {
       const Eigen::Index j = order[static_cast<std::size_t>(rank)].second;
-      edges.push_back({j, distances(j, i)});
+      edges.push_back({j, row(j)});
     }
   }
   return nearest;

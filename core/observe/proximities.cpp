@@ -1,22 +1,25 @@
 #include "core/observe/proximities.hpp"
 
 #include <limits>
-#include <optional>
+
+#include "core/linalg/gram.hpp"
 
 namespace mapproof {
 namespace {
-
-/// X Y', the half below the diagonal mirrored: exactly symmetric where X Y' is.
-Eigen::MatrixXd gram(const Eigen::MatrixXd& X) {
-  Eigen::MatrixXd G = Eigen::MatrixXd::Zero(X.rows(), X.rows());
-  G.selfadjointView<Eigen::Lower>().rankUpdate(X);
-  return G.selfadjointView<Eigen::Lower>();
-}
 
 /// Q(i, j): sum of i's squared values over the steps that i and j have in common.
 Eigen::MatrixXd common_squares(const Features& observed, const Eigen::MatrixXd& G) {
   if (observed.observed.size() == 0) return G.diagonal().replicate(1, G.cols());
   return observed.values.cwiseAbs2() * observed.observed.transpose();
+}
+
+/// |a|^2 + |b|^2 - 2 a'b, where every entry was observed.
+Eigen::MatrixXd squared_distances(const Eigen::MatrixXd& G) {
+  const Eigen::ArrayXd squares = G.diagonal();
+  Eigen::MatrixXd D(G.rows(), G.cols());
+  for (Eigen::Index j = 0; j < G.cols(); ++j)
+    D.col(j) = ((squares + squares(j)) - 2.0 * G.col(j).array()).max(0.0);
+  return D;
 }
 
 /// Visibility: G becomes the cosines, distances 2 - 2 cos.
@@ -34,15 +37,17 @@ Proximities proximities(const ObservationHistory& history, Eigen::Index steps) {
 
 Proximities proximities(const Features& rows, Sensor sensor) {
   Proximities result{.inner_products = gram(rows.values), .squared_distances = {}};
-  const Eigen::MatrixXd Q = common_squares(rows, result.inner_products);
+  const bool complete = rows.observed.size() == 0;
   if (sensor == Sensor::kVisibility) {
-    normalise(result, Q);
+    normalise(result, common_squares(rows, result.inner_products));
+  } else if (complete) {
+    result.squared_distances = squared_distances(result.inner_products);
   } else {
-    const Eigen::MatrixXd both = Q + Q.transpose();
-    result.squared_distances = (both - 2.0 * result.inner_products).cwiseMax(0.0);
+    const Eigen::MatrixXd Q = common_squares(rows, result.inner_products);
+    result.squared_distances = (Q + Q.transpose() - 2.0 * result.inner_products).cwiseMax(0.0);
   }
 
-  if (rows.observed.size() > 0) {
+  if (!complete) {
     const Eigen::ArrayXXd common = gram(rows.observed).array();
     const double infinity = std::numeric_limits<double>::infinity();
     if (sensor != Sensor::kVisibility) {

@@ -30,7 +30,7 @@ const std::map<std::string, Modules>& allowed() {
       {"core/linalg", with_leaves({})},
       {"core/graph", with_leaves({})},
       {"core/simulate", with_leaves({})},
-      {"core/observe", with_leaves({})},
+      {"core/observe", with_leaves({"core/linalg"})},
       {"core/embed", with_leaves({"core/linalg", "core/graph", "core/observe"})},
       {"core/align", with_leaves({"core/linalg"})},
       {"core/score", with_leaves({"core/align", "core/linalg"})},
