@@ -1,9 +1,10 @@
 #include "core/embed/smacof.hpp"
 
 #include <cmath>
+#include <vector>
 
 #include <fmt/format.h>
-#include <Eigen/Cholesky>
+#include <Eigen/SparseCholesky>
 
 #include "core/base/errors.hpp"
 #include "core/linalg/planarity.hpp"
@@ -11,61 +12,134 @@
 namespace mapproof {
 namespace {
 
-/// One majorisation problem: Z <- V^+ B(Z) Z lowers its stress, or keeps it.
-class Majorization {
- public:
-  Majorization(const Eigen::MatrixXd& distances, const Eigen::MatrixXd& weights)
-      : distances_(distances), weights_(weights) {
-    const Eigen::Index n = distances.rows();
-    if (!weighted()) {
-      scale_ = distances.squaredNorm() / 2.0;
-      return;
-    }
-    scale_ = weights.cwiseProduct(distances.cwiseAbs2()).sum() / 2.0;
-    // V is the weights' Laplacian; adding 11'/n makes it regular and changes no centred solution.
-    Eigen::MatrixXd V = -weights;
-    V.diagonal() = weights.rowwise().sum() - weights.diagonal();
-    V.array() += 1.0 / static_cast<double>(n);
-    inverse_.compute(V);
-    if (inverse_.info() != Eigen::Success || inverse_.rcond() < 1e-14)
-      throw InvalidInput("SMACOF's weights leave the landmarks in pieces");
+/// Adds what one pair does to B(Z) Z, and returns what it does to the stress.
+double add_pair(const Points& Z, Eigen::Index i, Eigen::Index j, double delta, double weight,
+                Points& BZ) {
+  const double dx = Z(i, 0) - Z(j, 0);
+  const double dy = Z(i, 1) - Z(j, 1);
+  const double distance = std::sqrt(dx * dx + dy * dy);
+  const double residual = delta - distance;
+  if (distance > 0.0) {
+    const double ratio = weight * delta / distance;
+    BZ(i, 0) += ratio * dx;
+    BZ(i, 1) += ratio * dy;
+    BZ(j, 0) -= ratio * dx;
+    BZ(j, 1) -= ratio * dy;
   }
+  return weight * residual * residual;
+}
+
+/// One majorisation problem: Z <- V^+ B(Z) Z lowers its stress, or keeps it.
+class EqualWeights {
+ public:
+  explicit EqualWeights(const Eigen::MatrixXd& distances)
+      : distances_(distances), scale_(distances.squaredNorm() / 2.0) {}
+
+  double scale() const { return scale_; }
 
   /// The transform of Z; sets `stress` to that of Z before it.
   Points step(const Points& Z, double& stress) const {
     const Eigen::Index n = Z.rows();
-    Points BZ = Points::Zero(n, 2);
+    Points BZ(n, 2);
     stress = 0.0;
+    // All pairs of a landmark at once: twice the pairs, in a quarter of the time.
+    Eigen::ArrayXd dx(n), dy(n), distance(n), ratio(n);
+    for (Eigen::Index j = 0; j < n; ++j) {
+      dx = Z(j, 0) - Z.col(0).array();
+      dy = Z(j, 1) - Z.col(1).array();
+      distance = (dx.square() + dy.square()).sqrt();
+      stress += (distances_.col(j).array() - distance).square().sum();
+      ratio = (distance > 0.0).select(distances_.col(j).array() / distance, 0.0);
+      BZ(j, 0) = (ratio * dx).sum();
+      BZ(j, 1) = (ratio * dy).sum();
+    }
+    stress /= 2.0;
+    return BZ / static_cast<double>(n);
+  }
+
+ private:
+  const Eigen::MatrixXd& distances_;
+  double scale_;
+};
+
+/// The same over the pairs that have a weight.
+class SomeWeights {
+ public:
+  SomeWeights(const Eigen::MatrixXd& distances, const Eigen::MatrixXd& weights) {
+    const Eigen::Index n = distances.rows();
+    // V is the weights' Laplacian. Its solutions are arbitrary in place: the last landmark's is the
+    // origin, which leaves a regular matrix of the others, as sparse as the weights.
+    std::vector<Eigen::Triplet<double>> entries;
+    Eigen::VectorXd degree = Eigen::VectorXd::Zero(n);
     for (Eigen::Index j = 0; j < n; ++j)
       for (Eigen::Index i = j + 1; i < n; ++i) {
-        const double weight = weighted() ? weights_(i, j) : 1.0;
+        const double weight = weights(i, j);
         if (weight == 0.0) continue;
-        const double dx = Z(i, 0) - Z(j, 0);
-        const double dy = Z(i, 1) - Z(j, 1);
-        const double distance = std::sqrt(dx * dx + dy * dy);
-        const double residual = distances_(i, j) - distance;
-        stress += weight * residual * residual;
-        if (distance == 0.0) continue;
-        const double ratio = weight * distances_(i, j) / distance;
-        BZ(i, 0) += ratio * dx;
-        BZ(i, 1) += ratio * dy;
-        BZ(j, 0) -= ratio * dx;
-        BZ(j, 1) -= ratio * dy;
+        pairs_.push_back({i, j, distances(i, j), weight});
+        scale_ += weight * distances(i, j) * distances(i, j);
+        degree(i) += weight;
+        degree(j) += weight;
+        if (i < n - 1) entries.emplace_back(i, j, -weight);
       }
-    if (weighted()) return inverse_.solve(BZ);
-    return BZ / static_cast<double>(n);
+    for (Eigen::Index i = 0; i < n - 1; ++i) entries.emplace_back(i, i, degree(i));
+    Eigen::SparseMatrix<double> V(n - 1, n - 1);
+    V.setFromTriplets(entries.begin(), entries.end());
+    factor_.compute(V);
+    const Eigen::VectorXd pivots = factor_.vectorD();
+    if (factor_.info() != Eigen::Success || !(pivots.minCoeff() > 1e-12 * degree.maxCoeff()))
+      throw InvalidInput("SMACOF's weights leave the landmarks in pieces");
   }
 
   double scale() const { return scale_; }
 
- private:
-  bool weighted() const { return weights_.size() > 0; }
+  Points step(const Points& Z, double& stress) const {
+    const Eigen::Index n = Z.rows();
+    Points BZ = Points::Zero(n, 2);
+    stress = 0.0;
+    for (const Pair& pair : pairs_)
+      stress += add_pair(Z, pair.i, pair.j, pair.delta, pair.weight, BZ);
+    Points next = Points::Zero(n, 2);
+    next.topRows(n - 1) = factor_.solve(BZ.topRows(n - 1));
+    return next.rowwise() - next.colwise().mean();
+  }
 
-  const Eigen::MatrixXd& distances_;
-  const Eigen::MatrixXd& weights_;
-  Eigen::LDLT<Eigen::MatrixXd> inverse_;
+ private:
+  struct Pair {
+    Eigen::Index i;
+    Eigen::Index j;
+    double delta;
+    double weight;
+  };
+
+  std::vector<Pair> pairs_;
   double scale_ = 0.0;
+  Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>> factor_;
 };
+
+/// Lowers the stress from the start until it falls no more.
+template <typename Problem>
+Embedding lowered(const Problem& problem, const Points& start, const SmacofOptions& options) {
+  Embedding result;
+  result.coordinates = start;
+  double before = 0.0;
+  Points next = problem.step(start, before);
+  bool settled = before <= 1e-28 * problem.scale();
+  while (!settled && result.iterations < options.max_iterations) {
+    ++result.iterations;
+    double stress = 0.0;
+    result.coordinates.swap(next);
+    next = problem.step(result.coordinates, stress);
+    settled =
+        before - stress <= options.relative_fall * before || stress <= 1e-28 * problem.scale();
+    before = stress;
+  }
+  result.stress = problem.scale() > 0.0 ? before / problem.scale() : 0.0;
+  if (!settled)
+    result.statuses.push_back(
+        {StatusCode::kNotConverged,
+         fmt::format("The stress still fell after {} iterations.", options.max_iterations)});
+  return result;
+}
 
 void check(const Eigen::MatrixXd& distances, const Eigen::MatrixXd& weights, const Points& start,
            const SmacofOptions& options) {
@@ -86,26 +160,8 @@ void check(const Eigen::MatrixXd& distances, const Eigen::MatrixXd& weights, con
 Embedding smacof(const Eigen::MatrixXd& distances, const Eigen::MatrixXd& weights,
                  const Points& start, const SmacofOptions& options) {
   check(distances, weights, start, options);
-  const Majorization problem(distances, weights);
-  Embedding result;
-  result.coordinates = start;
-  double before = 0.0;
-  Points next = problem.step(start, before);
-  bool settled = before <= 1e-28 * problem.scale();
-  while (!settled && result.iterations < options.max_iterations) {
-    ++result.iterations;
-    double stress = 0.0;
-    result.coordinates.swap(next);
-    next = problem.step(result.coordinates, stress);
-    settled =
-        before - stress <= options.relative_fall * before || stress <= 1e-28 * problem.scale();
-    before = stress;
-  }
-  result.stress = problem.scale() > 0.0 ? before / problem.scale() : 0.0;
-  if (!settled)
-    result.statuses.push_back(
-        {StatusCode::kNotConverged,
-         fmt::format("The stress still fell after {} iterations.", options.max_iterations)});
+  Embedding result = weights.size() == 0 ? lowered(EqualWeights(distances), start, options)
+                                         : lowered(SomeWeights(distances, weights), start, options);
   if (planarity(result.coordinates) <= kFlatPlanarity)
     result.statuses.push_back({StatusCode::kRankDeficient,
                                "The map is flat: its landmarks lie on one line or in one place."});

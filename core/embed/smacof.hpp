@@ -24,7 +24,8 @@ struct SmacofOptions {
 ///         iterations came first; kRankDeficient if the map is flat (see planarity.hpp), as it is
 ///         from a flat start.
 /// @throws InvalidInput if the bounds above are broken, those of `options` among them.
-/// @note O(n^2) time an iteration, O(n^3) once for weights.
+/// @note O(n^2) time an iteration; with weights that of the pairs that have one, and a sparse
+/// solve.
 Embedding smacof(const Eigen::MatrixXd& distances, const Eigen::MatrixXd& weights,
                  const Points& start, const SmacofOptions& options = {});
 

@@ -1,9 +1,13 @@
 #include "core/graph/shortest_paths.hpp"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <functional>
+#include <queue>
+#include <utility>
 #include <vector>
 
 namespace mapproof {
@@ -17,82 +21,51 @@ struct FlatGraph {
   };
   std::vector<Step> steps;
   std::vector<std::size_t> first;  ///< Of each node's steps; one more at the end.
+  double shortest = HUGE_VAL;
+  double longest = 0.0;
 
   explicit FlatGraph(const Graph& graph) {
     for (const std::vector<Edge>& edges : graph) {
       first.push_back(steps.size());
-      for (const Edge& edge : edges)
+      for (const Edge& edge : edges) {
         steps.push_back({edge.length, static_cast<std::int32_t>(edge.to)});
+        shortest = std::min(shortest, edge.length);
+        longest = std::max(longest, edge.length);
+      }
     }
     first.push_back(steps.size());
   }
 };
 
-/// Nodes by their length so far, the shortest on top: a heap of four children a parent that knows
-/// where each node stands, so that a shorter length moves it up instead of adding it again.
-class NodeHeap {
+/// Nodes by their length so far, in buckets no wider than the shortest edge: no node of a bucket
+/// can shorten another's way, so that their order within it does not count. The buckets are a ring,
+/// as long as the longest edge. A node whose length fell stands in its old bucket as well, to be
+/// met there when it is long settled, which changes nothing.
+class Buckets {
  public:
-  explicit NodeHeap(std::size_t nodes) : place_(nodes, kNowhere) { heap_.reserve(nodes); }
+  static constexpr double kMost = 4096.0;
 
-  bool empty() const { return heap_.empty(); }
+  Buckets(double shortest, double longest)
+      : per_length_(1.001 / shortest),
+        ring_(std::bit_ceil(static_cast<std::size_t>(longest * per_length_) + 3)),
+        mask_(ring_.size() - 1) {}
 
-  void put(std::int32_t node, double length) {
-    std::size_t at = place_[static_cast<std::size_t>(node)];
-    if (at == kNowhere) {
-      at = heap_.size();
-      heap_.push_back({length, node});
+  /// Shortest lengths from the source, into n values that hold infinity.
+  void search(const FlatGraph& graph, std::int32_t source, double* lengths) {
+    lengths[source] = 0.0;
+    ring_[0].push_back(source);
+    std::size_t waiting = 1;
+    for (std::size_t at = 0; waiting > 0; at = (at + 1) & mask_) {
+      waiting -= ring_[at].size();
+      for (const std::int32_t node : ring_[at]) waiting += relax(graph, node, lengths);
+      ring_[at].clear();
     }
-    while (at > 0 && heap_[(at - 1) / 4].length > length) {
-      set(at, heap_[(at - 1) / 4]);
-      at = (at - 1) / 4;
-    }
-    set(at, {length, node});
-  }
-
-  std::int32_t pop() {
-    const std::int32_t top = heap_.front().node;
-    place_[static_cast<std::size_t>(top)] = kNowhere;
-    const Entry moved = heap_.back();
-    heap_.pop_back();
-    const std::size_t size = heap_.size();
-    if (size == 0) return top;
-    std::size_t at = 0;
-    for (std::size_t child = 1; child < size; child = 4 * at + 1) {
-      const std::size_t end = std::min(child + 4, size);
-      std::size_t least = child;
-      for (std::size_t other = child + 1; other < end; ++other)
-        if (heap_[other].length < heap_[least].length) least = other;
-      if (heap_[least].length >= moved.length) break;
-      set(at, heap_[least]);
-      at = least;
-    }
-    set(at, moved);
-    return top;
   }
 
  private:
-  struct Entry {
-    double length;
-    std::int32_t node;
-  };
-  static constexpr std::size_t kNowhere = static_cast<std::size_t>(-1);
-
-  void set(std::size_t at, const Entry& entry) {
-    heap_[at] = entry;
-    place_[static_cast<std::size_t>(entry.node)] = at;
-  }
-
-  std::vector<Entry> heap_;
-  std::vector<std::size_t> place_;
-};
-
-/// @param lengths  n values, to be filled.
-void dijkstra(const FlatGraph& graph, Eigen::Index source, NodeHeap& open, double* lengths) {
-  std::fill_n(lengths, graph.first.size() - 1, HUGE_VAL);
-  lengths[source] = 0.0;
-  open.put(static_cast<std::int32_t>(source), 0.0);
-  while (!open.empty()) {
-    const std::int32_t node = open.pop();
+  /// How many nodes got shorter.
+  std::size_t relax(const FlatGraph& graph, std::int32_t node, double* lengths) {
+    std::size_t count = 0;
     const double length = lengths[node];
     const std::size_t end = graph.first[static_cast<std::size_t>(node) + 1];
     for (std::size_t step = graph.first[static_cast<std::size_t>(node)]; step < end; ++step) {
@@ -100,7 +73,34 @@ void dijkstra(const FlatGraph& graph, Eigen::Index source, NodeHeap& open, doubl
       const double through = length + further;
       if (through >= lengths[to]) continue;
       lengths[to] = through;
-      open.put(to, through);
+      ring_[static_cast<std::size_t>(through * per_length_) & mask_].push_back(to);
+      ++count;
+    }
+    return count;
+  }
+
+  double per_length_;
+  std::vector<std::vector<std::int32_t>> ring_;  ///< As many as a power of two.
+  std::size_t mask_;
+};
+
+/// The same for edges of any lengths.
+void heap_search(const FlatGraph& graph, std::int32_t source, double* lengths) {
+  using Reached = std::pair<double, std::int32_t>;
+  std::priority_queue<Reached, std::vector<Reached>, std::greater<>> open;
+  lengths[source] = 0.0;
+  open.emplace(0.0, source);
+  while (!open.empty()) {
+    const auto [length, node] = open.top();
+    open.pop();
+    if (length > lengths[node]) continue;
+    const std::size_t end = graph.first[static_cast<std::size_t>(node) + 1];
+    for (std::size_t step = graph.first[static_cast<std::size_t>(node)]; step < end; ++step) {
+      const auto [further, to] = graph.steps[step];
+      const double through = length + further;
+      if (through >= lengths[to]) continue;
+      lengths[to] = through;
+      open.emplace(through, to);
     }
   }
 }
@@ -110,10 +110,16 @@ void dijkstra(const FlatGraph& graph, Eigen::Index source, NodeHeap& open, doubl
 Eigen::MatrixXd shortest_paths(const Graph& graph) {
   const Eigen::Index n = std::ssize(graph);
   const FlatGraph flat(graph);
-  NodeHeap open(graph.size());
-  Eigen::MatrixXd lengths(n, n);
-  for (Eigen::Index source = 0; source < n; ++source)
-    dijkstra(flat, source, open, lengths.col(source).data());
+  Eigen::MatrixXd lengths = Eigen::MatrixXd::Constant(n, n, HUGE_VAL);
+  const auto sources = static_cast<std::int32_t>(n);
+  if (flat.shortest > 0.0 && flat.longest <= Buckets::kMost * flat.shortest) {
+    Buckets buckets(flat.shortest, flat.longest);
+    for (std::int32_t source = 0; source < sources; ++source)
+      buckets.search(flat, source, lengths.col(source).data());
+  } else {
+    for (std::int32_t source = 0; source < sources; ++source)
+      heap_search(flat, source, lengths.col(source).data());
+  }
   // The two directions add the same edges in another order: take the lower sum for both.
   constexpr Eigen::Index kBlock = 32;  // of both halves fits the first cache
   for (Eigen::Index j0 = 0; j0 < n; j0 += kBlock)

@@ -6,7 +6,8 @@ namespace mapproof {
 
 /// Lengths of the shortest paths between all nodes; infinite between components.
 /// @return n x n, exactly symmetric, zero diagonal.
-/// @note Dijkstra from each node: O(n e log n) time for e edges.
+/// @note Dijkstra's search from each node: O(n e) time for e edges, over buckets as wide as the
+///       shortest edge; O(n e log n) over a heap where the longest is 4096 times as long.
 Eigen::MatrixXd shortest_paths(const Graph& graph);
 
 /// Shortest paths over a complete weighted graph: fills the infinite entries of `distances`.

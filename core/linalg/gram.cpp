@@ -37,18 +37,23 @@ using Lanes [[gnu::vector_size(32), gnu::aligned(8), gnu::may_alias]] = double;
       *reinterpret_cast<Lanes*>(tile + c * kTileRows + 4 * half) = sums[c][half];
 }
 
-/// Rows of some columns of X in panels of `height`, each k by k, the last one filled with zeros.
-void pack(const Eigen::MatrixXd& X, Index first, Index depth, Index height,
-          std::vector<double>& packed) {
+/// Rows of some columns of X in panels of so many, each k by k, the last one filled with zeros.
+template <Index kHeight>
+void pack(const Eigen::MatrixXd& X, Index first, Index depth, std::vector<double>& packed) {
   const Index n = X.rows();
-  const Index panels = (n + height - 1) / height;
-  packed.assign(static_cast<std::size_t>(panels * height * depth), 0.0);
+  const Index panels = (n + kHeight - 1) / kHeight;
+  packed.resize(static_cast<std::size_t>(panels * kHeight * depth));
   for (Index panel = 0; panel < panels; ++panel) {
-    const Index row = panel * height;
-    const Index count = std::min(height, n - row);
-    double* out = packed.data() + panel * height * depth;
-    for (Index k = 0; k < depth; ++k, out += height)
-      std::copy_n(X.data() + (first + k) * n + row, count, out);
+    const double* in = X.data() + first * n + panel * kHeight;
+    double* out = packed.data() + panel * kHeight * depth;
+    const Index count = std::min(kHeight, n - panel * kHeight);
+    for (Index k = 0; k < depth; ++k, in += n, out += kHeight) {
+      if (count == kHeight) {
+        for (Index r = 0; r < kHeight; ++r) out[r] = in[r];
+      } else {
+        for (Index r = 0; r < kHeight; ++r) out[r] = r < count ? in[r] : 0.0;
+      }
+    }
   }
 }
 
@@ -83,8 +88,8 @@ Eigen::MatrixXd gram(const Eigen::MatrixXd& X) {
   alignas(32) double tile[kTileRows * kTileColumns];
   for (Index first = 0; first < X.cols(); first += kDepth) {
     const Index depth = std::min(kDepth, X.cols() - first);
-    pack(X, first, depth, kTileRows, rows);
-    pack(X, first, depth, kTileColumns, columns);
+    pack<kTileRows>(X, first, depth, rows);
+    pack<kTileColumns>(X, first, depth, columns);
     for (Index block = 0; block < n; block += kBlockRows) {
       const Index end = std::min(block + kBlockRows, n);
       for (Index column = 0; column < end; column += kTileColumns)

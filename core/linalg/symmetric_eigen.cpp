@@ -13,7 +13,7 @@
 namespace mapproof {
 namespace {
 
-constexpr Eigen::Index kDenseLimit = 300;
+constexpr Eigen::Index kDenseLimit = 100;
 
 EigenPairs dense(const Eigen::MatrixXd& matrix, Eigen::Index k) {
   const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver(matrix);

@@ -51,8 +51,12 @@ TEST(NeighbourGraph, RefusesMoreNeighboursThanThereAre) {
   EXPECT_THROW(neighbour_graph(D, {.neighbours = 0}), InvalidInput);
 }
 
-TEST(ShortestPaths, AgreeWithFloydAndWarshall) {
-  const Eigen::MatrixXd D = distances_of(scattered(30, 2));
+class ShortestPaths : public ::testing::TestWithParam<bool> {};
+
+TEST_P(ShortestPaths, AgreeWithFloydAndWarshall) {
+  Points points = scattered(30, 2);
+  if (GetParam()) points.row(4) = points.row(7);  // an edge of no length
+  const Eigen::MatrixXd D = distances_of(points);
   const Graph graph = neighbour_graph(D, {.neighbours = 4});
   Eigen::MatrixXd edges = Eigen::MatrixXd::Constant(30, 30, HUGE_VAL);
   for (std::size_t i = 0; i < graph.size(); ++i)
@@ -64,6 +68,8 @@ TEST(ShortestPaths, AgreeWithFloydAndWarshall) {
         edges(i, j) = std::min(edges(i, j), edges(i, k) + edges(k, j));
   EXPECT_LT((shortest_paths(graph) - edges).cwiseAbs().maxCoeff(), 1e-12);
 }
+
+INSTANTIATE_TEST_SUITE_P(WithAndWithoutDuplicates, ShortestPaths, ::testing::Bool());
 
 TEST(CompletedDistances, FillOnlyWhatIsMissing) {
   Eigen::MatrixXd D = distances_of(test::grid(1, 5));
