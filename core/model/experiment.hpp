@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "core/model/method.hpp"
+#include "core/model/published.hpp"
 #include "core/model/sensor.hpp"
 
 namespace mapproof {
@@ -60,20 +61,12 @@ std::string_view label(AffineFit fit);
 /// The fit of that name; empty if there is none.
 std::optional<AffineFit> affine_fit_named(std::string_view name);
 
-/// A number that a paper printed, shown beside ours.
-struct PublishedValue {
-  MethodSetting setting;
-  double mpe_m = 0.0;
-  double moe_percent = 0.0;
-};
-
 /// One sensor's part of an experiment.
 struct SensorStudy {
   SensorOptions sensor;
   std::vector<int> checkpoints;  ///< Steps at which maps are built, ascending.
   std::vector<MethodGrid> methods;
-  std::string published_source;  ///< "Yairi 2007, Table 1"; empty if nothing was published.
-  std::vector<PublishedValue> published;
+  Published published;
 };
 
 /// The settings of one sensor's study, in the order of its methods and their parameters.

@@ -81,6 +81,7 @@ void check_experiment(const Experiment& experiment, const JsonCursor& document) 
                               experiment.anchors, experiment.world.landmarks));
   check_room(experiment.world, document);
   check_walk(experiment, document);
+  check_table_ids(experiment, document);
   for (const SensorStudy& study : experiment.sensors)
     check_sensor(study, experiment.world.landmarks,
                  document.at("sensors").at(std::string(name(study.sensor.sensor))));

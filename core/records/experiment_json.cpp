@@ -30,18 +30,6 @@ Json methods_value(const std::vector<MethodGrid>& grids) {
   return methods;
 }
 
-Json published_value(const SensorStudy& study) {
-  Json values = Json::array();
-  for (const PublishedValue& published : study.published) {
-    Json value = Json::object();
-    put_setting(value, published.setting);
-    value["mpe_m"] = published.mpe_m;
-    value["moe_percent"] = published.moe_percent;
-    values.push_back(std::move(value));
-  }
-  return {{"source", study.published_source}, {"values", std::move(values)}};
-}
-
 Json sensor_value(const SensorStudy& study) {
   Json value = Json::object();
   if (study.sensor.sensor == Sensor::kVisibility) {
@@ -52,8 +40,7 @@ Json sensor_value(const SensorStudy& study) {
   value["dropout_share"] = study.sensor.dropout_share;
   value["checkpoints"] = study.checkpoints;
   value["methods"] = methods_value(study.methods);
-  if (!study.published.empty() || !study.published_source.empty())
-    value["published"] = published_value(study);
+  if (!study.published.source.empty()) value["published"] = published_value(study.published);
   return value;
 }
 

@@ -86,19 +86,6 @@ std::vector<MethodGrid> read_methods(const JsonCursor& object) {
   return grids;
 }
 
-void read_published(const JsonCursor& object, SensorStudy& study) {
-  object.allow_only({"source", "values"});
-  study.published_source = object.at("source").text(200);
-  for (const JsonCursor& item : object.at("values").elements(0, 1000)) {
-    std::vector<std::string_view> keys = {"mpe_m", "moe_percent"};
-    PublishedValue& value = study.published.emplace_back();
-    value.setting = read_setting(item, keys);
-    item.allow_only(keys);
-    value.mpe_m = item.at("mpe_m").number(0.0, kFarthest_m);
-    value.moe_percent = item.at("moe_percent").number(0.0, 100.0);
-  }
-}
-
 SensorStudy read_sensor_study(Sensor sensor, const JsonCursor& object) {
   std::vector<std::string_view> keys = {"noise", "dropout_share", "checkpoints", "methods",
                                         "published"};
@@ -111,7 +98,7 @@ SensorStudy read_sensor_study(Sensor sensor, const JsonCursor& object) {
     return item.integer32(3, kMostSteps);
   });
   study.methods = read_methods(object.at("methods"));
-  if (const auto published = object.find("published")) read_published(*published, study);
+  if (const auto published = object.find("published")) study.published = read_published(*published);
   return study;
 }
 

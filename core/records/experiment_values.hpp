@@ -17,4 +17,12 @@ Experiment read_experiment(const JsonCursor& document);
 /// @throws IoError with the place in `document`, which `experiment` was read from.
 void check_experiment(const Experiment& experiment, const JsonCursor& document);
 
+/// What a paper printed on one sensor's part. @throws IoError with the place.
+Published read_published(const JsonCursor& object);
+nlohmann::ordered_json published_value(const Published& published);
+
+/// That no two sensors' tables get one id, those that go with them included.
+/// @throws IoError with the place in `document`.
+void check_table_ids(const Experiment& experiment, const JsonCursor& document);
+
 }  // namespace mapproof

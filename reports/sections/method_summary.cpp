@@ -8,15 +8,12 @@
 
 #include <fmt/format.h>
 
+#include "reports/sections/run_scores.hpp"
+
 namespace mapproof {
 namespace {
 
 constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
-
-/// A score can be used if both of the numbers that are averaged are.
-bool usable(const Score& score) {
-  return std::isfinite(score.mpe_m) && std::isfinite(score.moe_percent);
-}
 
 /// What the records of one setting at one step hold, value by value.
 struct Samples {
@@ -51,7 +48,7 @@ double mean_of_finite(std::span<const double> values) {
 }
 
 std::optional<PublishedValue> published_for(const SensorStudy& sensor, Method method) {
-  for (const PublishedValue& value : sensor.published)
+  for (const PublishedValue& value : sensor.published.values)
     if (value.setting.method == method) return value;
   return std::nullopt;
 }

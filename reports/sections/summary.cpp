@@ -1,11 +1,11 @@
 #include <algorithm>
-#include <cmath>
 #include <iterator>
 
 #include <fmt/format.h>
 
 #include "core/base/words.hpp"
 #include "reports/model/format.hpp"
+#include "reports/sections/findings.hpp"
 #include "reports/sections/method_summary.hpp"
 #include "reports/sections/study_counts.hpp"
 #include "reports/sections/study_report.hpp"
@@ -23,106 +23,6 @@ constexpr int kPaperLandmarks = 50;
 Phrase words(std::string text) { return {std::move(text), Emphasis::kPlain}; }
 Phrase strong(std::string text) { return {std::move(text), Emphasis::kStrong}; }
 
-std::string metres(double value) { return format_number(value, value < 0.1 ? 4 : 3) + " m"; }
-
-std::string percent(double value) { return format_number(value, 2) + " %"; }
-
-bool has_published(const SensorStudy& sensor) { return !sensor.published.empty(); }
-
-std::string with_interval(const MeanEstimate& mpe) {
-  const auto interval = interval_of(mpe);
-  if (!interval) return metres(mpe.mean);
-  const int decimals = mpe.mean < 0.1 ? 4 : 3;
-  return fmt::format("{} (95 % interval {} to {} m)", metres(mpe.mean),
-                     format_number(interval->low, decimals),
-                     format_number(interval->high, decimals));
-}
-
-const PublishedValue* best_published(const SensorStudy& sensor) {
-  const auto best = std::ranges::min_element(sensor.published, {}, &PublishedValue::mpe_m);
-  return best == sensor.published.end() ? nullptr : &*best;
-}
-
-std::string relative(double ours, double paper) {
-  return format_number(100.0 * (ours - paper) / paper, 0, true) + " %";
-}
-
-/// "Bearing: SMACOF, kNN weights, K = 7 is best, …"
-Paragraph best_finding(const SensorStudy& sensor, const SettingSummary& best) {
-  Paragraph text;
-  text.phrases.push_back(strong(title_of(best.sensor)));
-  text.phrases.push_back(words(fmt::format(": after {} observations ", best.step)));
-  text.phrases.push_back(strong(label(best.setting)));
-  text.phrases.push_back(words(fmt::format(
-      " is the most accurate of {}: MPE {}, MOE {}.", counted(std::ssize(sensor.methods), "method"),
-      with_interval(*best.mpe_m), percent(best.moe_percent->mean))));
-  if (best.published)
-    text.phrases.push_back(
-        words(fmt::format(" The paper printed {} and {} for this method: ours differs by {}.",
-                          metres(best.published->mpe_m), percent(best.published->moe_percent),
-                          relative(best.mpe_m->mean, best.published->mpe_m))));
-  const PublishedValue* paper_best = best_published(sensor);
-  if (paper_best != nullptr && paper_best->setting.method != best.setting.method)
-    text.phrases.push_back(
-        words(fmt::format(" The paper\u2019s best of these methods is {}, {}.",
-                          label(paper_best->setting), metres(paper_best->mpe_m))));
-  return text;
-}
-
-/// Methods from best to worst, and whether the paper has the same order.
-Paragraph order_finding(const SensorStudy& sensor, std::vector<SettingSummary> methods) {
-  std::erase_if(methods, [](const SettingSummary& s) { return !s.mpe_m; });
-  std::ranges::stable_sort(methods, {}, [](const SettingSummary& s) { return s.mpe_m->mean; });
-  std::string order;
-  for (const SettingSummary& s : methods)
-    order += fmt::format("{}{} ({})", order.empty() ? "" : " < ", info(s.setting.method).label,
-                         metres(s.mpe_m->mean));
-  Paragraph text{{strong(title_of(sensor.sensor.sensor)), words(", by MPE: " + order + ".")}};
-  std::erase_if(methods, [](const SettingSummary& s) { return !s.published; });
-  if (methods.size() < 2) return text;
-  const bool same = std::ranges::is_sorted(
-      methods, {}, [](const SettingSummary& s) { return s.published->mpe_m; });
-  if (same) {
-    text.phrases.push_back(words(" The paper has the same order."));
-    return text;
-  }
-  std::ranges::stable_sort(methods, {}, [](const SettingSummary& s) { return s.published->mpe_m; });
-  std::string paper_order;
-  for (const SettingSummary& s : methods)
-    paper_order +=
-        fmt::format("{}{}", paper_order.empty() ? "" : " < ", info(s.setting.method).label);
-  text.phrases.push_back(words(" The paper\u2019s order: " + paper_order + "."));
-  return text;
-}
-
-/// How many published values lie within our intervals.
-Paragraph agreement_finding(const SensorStudy& sensor, std::span<const SettingSummary> methods) {
-  int compared = 0;
-  int within = 0;
-  const SettingSummary* farthest = nullptr;
-  const auto gap = [](const SettingSummary& s) {
-    return std::abs(mpe_difference_m(s) / s.published->mpe_m);
-  };
-  for (const SettingSummary& s : methods) {
-    if (!s.published || !s.mpe_m) continue;
-    if (farthest == nullptr || gap(s) > gap(*farthest)) farthest = &s;
-    const auto interval = interval_of(s.mpe_m);
-    if (!interval) continue;
-    ++compared;
-    if (s.published->mpe_m >= interval->low && s.published->mpe_m <= interval->high) ++within;
-  }
-  Paragraph text{{strong(title_of(sensor.sensor.sensor)), words(", beside the paper: ")}};
-  if (compared > 0)
-    text.phrases.push_back(words(
-        fmt::format("{} of {} printed MPE lie within our 95 % intervals; ", within, compared)));
-  if (farthest != nullptr)
-    text.phrases.push_back(words(fmt::format(
-        "the largest difference is {} for {} ({}, printed {}).",
-        relative(farthest->mpe_m->mean, farthest->published->mpe_m), label(farthest->setting),
-        metres(farthest->mpe_m->mean), metres(farthest->published->mpe_m))));
-  return text;
-}
-
 void add_sensor(const Study& study, const SensorStudy& sensor, BulletList& findings,
                 Highlights& highlights) {
   const auto methods = best_of_each_method(summarize(study, sensor, last_step(sensor)));
@@ -133,11 +33,8 @@ void add_sensor(const Study& study, const SensorStudy& sensor, BulletList& findi
     highlights.items.push_back({title + ", best MPE", kMissingText, "no map could be scored"});
     return;
   }
-  findings.items.push_back(best_finding(sensor, *best));
-  if (methods.size() > 1) findings.items.push_back(order_finding(sensor, methods));
-  if (has_published(sensor) &&
-      std::ranges::any_of(methods, [](const SettingSummary& s) { return s.published && s.mpe_m; }))
-    findings.items.push_back(agreement_finding(sensor, methods));
+  std::ranges::move(sensor_findings(study, sensor, methods).items,
+                    std::back_inserter(findings.items));
   std::string detail = label(best->setting);
   if (best->published) detail += "; paper: " + metres(best->published->mpe_m);
   highlights.items.push_back({title + ", best MPE", metres(best->mpe_m->mean), detail});
@@ -168,7 +65,7 @@ void add_ends(const Study& study, BulletList& findings, Highlights& highlights) 
 /// In what the study is smaller than the paper's; empty if in nothing.
 std::string smaller_than_paper(const Experiment& experiment) {
   const bool yairi = std::ranges::any_of(experiment.sensors, [](const SensorStudy& sensor) {
-    return sensor.published_source.starts_with("Yairi 2007");
+    return sensor.published.source.starts_with("Yairi 2007");
   });
   if (!yairi) return "";
   std::string text;

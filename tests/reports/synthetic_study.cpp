@@ -16,8 +16,8 @@ SensorStudy sensor_study(Sensor sensor, std::vector<int> checkpoints, const std:
                    {Method::kSmacof, {}},
                    {Method::kSmacofKnn, {5, 6, 8}},
                    {Method::kIsomap, {4, 6, 9}}};
-  study.published_source = source;
-  study.published = std::move(published);
+  study.published.source = source;
+  study.published.values = std::move(published);
   return study;
 }
 

@@ -90,8 +90,8 @@ TEST(ExperimentJson, HoldsThePapersTablesInItsTemplate) {
   EXPECT_EQ(experiment_json(full), experiment_json(parse_experiment(text, "yairi2007.json")));
   EXPECT_EQ(full.layouts * full.poses, 25);
   ASSERT_EQ(full.sensors.size(), 2U);
-  EXPECT_EQ(full.sensors[0].published[3].mpe_m, 0.177);
-  EXPECT_EQ(full.sensors[1].published[2].moe_percent, 1.0);
+  EXPECT_EQ(full.sensors[0].published.values[3].mpe_m, 0.177);
+  EXPECT_EQ(full.sensors[1].published.values[2].moe_percent, 1.0);
   EXPECT_EQ(full.sensors[1].methods[3].parameters.back(), 14.0);
   const Experiment quick = parse_experiment(text, "yairi2007.json", "quick");
   EXPECT_EQ(quick.layouts * quick.poses, 5);

@@ -1,0 +1,205 @@
+#include "reports/sections/findings.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <iterator>
+#include <utility>
+#include <vector>
+
+#include <fmt/format.h>
+
+#include "core/base/words.hpp"
+#include "reports/model/format.hpp"
+#include "reports/sections/method_ranks.hpp"
+#include "reports/sections/wording.hpp"
+
+namespace mapproof {
+namespace {
+
+constexpr std::size_t kMostNamed = 4;
+
+Phrase words(std::string text) { return {std::move(text), Emphasis::kPlain}; }
+Phrase strong(std::string text) { return {std::move(text), Emphasis::kStrong}; }
+
+std::string percent(double value, int decimals = 2) {
+  return format_number(value, decimals) + " %";
+}
+
+std::string relative(double ours, double paper) {
+  return format_number(100.0 * (ours - paper) / paper, 0, true) + " %";
+}
+
+std::string method_label(Method method) { return std::string(info(method).label); }
+
+std::string with_interval(const MeanEstimate& mpe) {
+  const auto interval = interval_of(mpe);
+  if (!interval) return metres(mpe.mean);
+  const int decimals = mpe.mean < 0.1 ? 4 : 3;
+  return fmt::format("{} (95 % interval {} to {} m)", metres(mpe.mean),
+                     format_number(interval->low, decimals),
+                     format_number(interval->high, decimals));
+}
+
+/// The least published value among the methods that were tried.
+const SettingSummary* best_published(std::span<const SettingSummary> methods) {
+  const SettingSummary* best = nullptr;
+  for (const SettingSummary& s : methods)
+    if (s.published && (best == nullptr || s.published->mpe_m < best->published->mpe_m)) best = &s;
+  return best;
+}
+
+/// "Bearing: SMACOF, kNN weights, K = 7 is best, …"
+Paragraph best_finding(std::span<const SettingSummary> methods) {
+  const SettingSummary& best = *best_of(methods);
+  Paragraph text;
+  text.phrases.push_back(strong(title_of(best.sensor)));
+  text.phrases.push_back(words(fmt::format(": after {} observations ", best.step)));
+  text.phrases.push_back(strong(label(best.setting)));
+  text.phrases.push_back(words(fmt::format(
+      " is the most accurate of {}: MPE {}, MOE {}.", counted(std::ssize(methods), "method"),
+      with_interval(*best.mpe_m), percent(best.moe_percent->mean))));
+  if (best.published)
+    text.phrases.push_back(
+        words(fmt::format(" The paper printed {} and {} for this method: ours differs by {}.",
+                          metres(best.published->mpe_m), percent(best.published->moe_percent),
+                          relative(best.mpe_m->mean, best.published->mpe_m))));
+  const SettingSummary* paper_best = best_published(methods);
+  if (paper_best != nullptr && paper_best->setting.method != best.setting.method)
+    text.phrases.push_back(words(fmt::format(" The paper\u2019s best of these methods is {}, {}.",
+                                             label(paper_best->published->setting),
+                                             metres(paper_best->published->mpe_m))));
+  return text;
+}
+
+/// How many pairs of methods stand in the paper's order, and which do not.
+/// @param methods  All with a score and a published value, by ascending MPE.
+std::string pairs_text(const std::vector<SettingSummary>& methods) {
+  std::vector<std::string> swapped;
+  const std::size_t n = methods.size();
+  for (std::size_t i = 0; i < n; ++i)
+    for (std::size_t j = i + 1; j < n; ++j)
+      if (methods[i].published->mpe_m > methods[j].published->mpe_m)
+        swapped.push_back(fmt::format("{} before {}", method_label(methods[j].setting.method),
+                                      method_label(methods[i].setting.method)));
+  if (swapped.empty()) return " The paper has the same order.";
+  const std::size_t pairs = n * (n - 1) / 2;
+  return fmt::format(" Of {} of methods, {} stand in the paper\u2019s order; it has {}.",
+                     counted(static_cast<long long>(pairs), "pair"), pairs - swapped.size(),
+                     listed(swapped, kMostNamed));
+}
+
+/// Methods from best to worst, and how far the paper has the same order.
+Paragraph order_finding(Sensor sensor, std::vector<SettingSummary> methods) {
+  std::erase_if(methods, [](const SettingSummary& s) { return !s.mpe_m; });
+  std::ranges::stable_sort(methods, {}, [](const SettingSummary& s) { return s.mpe_m->mean; });
+  std::string order;
+  for (const SettingSummary& s : methods)
+    order += fmt::format("{}{} ({})", order.empty() ? "" : " < ", method_label(s.setting.method),
+                         metres(s.mpe_m->mean));
+  Paragraph text{{strong(title_of(sensor)), words(", by MPE: " + order + ".")}};
+  std::erase_if(methods, [](const SettingSummary& s) { return !s.published; });
+  if (methods.size() >= 2) text.phrases.push_back(words(pairs_text(methods)));
+  return text;
+}
+
+/// How many published values lie within our intervals; those with a note are known not to.
+Paragraph agreement_finding(Sensor sensor, std::span<const SettingSummary> methods) {
+  int compared = 0;
+  int within = 0;
+  int noted = 0;
+  const SettingSummary* farthest = nullptr;
+  const auto gap = [](const SettingSummary& s) {
+    return std::abs(mpe_difference_m(s) / s.published->mpe_m);
+  };
+  for (const SettingSummary& s : methods) {
+    if (!s.published || !s.mpe_m) continue;
+    if (!s.published->note.empty()) ++noted;
+    if (s.published->note.empty() && (farthest == nullptr || gap(s) > gap(*farthest)))
+      farthest = &s;
+    const auto interval = interval_of(s.mpe_m);
+    if (!interval) continue;
+    ++compared;
+    if (s.published->mpe_m >= interval->low && s.published->mpe_m <= interval->high) ++within;
+  }
+  std::string text = ", beside the paper: ";
+  if (compared > 0)
+    text += fmt::format("{} of {} printed MPE lie within our 95 % intervals; ", within, compared);
+  if (noted > 0)
+    text += fmt::format("{} cannot be matched, for reasons under the table; ",
+                        counted(noted, "printed value"));
+  if (farthest != nullptr)
+    text += fmt::format("the largest difference{} is {} for {} ({}, printed {}).",
+                        noted > 0 ? " of the others" : "",
+                        relative(farthest->mpe_m->mean, farthest->published->mpe_m),
+                        label(farthest->setting), metres(farthest->mpe_m->mean),
+                        metres(farthest->published->mpe_m));
+  if (text.ends_with("; ")) text.replace(text.size() - 2, 2, ".");
+  return {{strong(title_of(sensor)), words(text)}};
+}
+
+/// "3 of 4 orderings hold: not SDE < SMACOF."
+Paragraph ordering_finding(Sensor sensor, std::span<const OrderingClaim> claims) {
+  int tried = 0;
+  int sure = 0;
+  std::vector<std::string> broken;
+  for (const OrderingClaim& claim : claims) {
+    if (!claim.difference_m) continue;
+    ++tried;
+    if (claim.holds() && claim.is_sure()) ++sure;
+    if (!claim.holds())
+      broken.push_back(fmt::format("{} < {}", method_label(claim.less), method_label(claim.more)));
+  }
+  std::string text = fmt::format(
+      ": {} of the paper\u2019s {} hold, {} of them with an interval of the difference that leaves "
+      "0 out.",
+      tried - std::ssize(broken), counted(tried, "ordering"), sure);
+  if (!broken.empty()) text += " Not: " + listed(broken, kMostNamed) + ".";
+  return {{strong(title_of(sensor)), words(text)}};
+}
+
+}  // namespace
+
+std::string metres(double value) { return format_number(value, value < 0.1 ? 4 : 3) + " m"; }
+
+std::string optimism_words(const HalfChoices& choices) {
+  std::vector<double> shares;
+  const HalfChoice* most = nullptr;
+  for (const HalfChoice& choice : choices.methods) {
+    const double share = optimism_percent(choice);
+    if (!choice.has_choice || !std::isfinite(share)) continue;
+    shares.push_back(share);
+    if (most == nullptr || share > optimism_percent(*most)) most = &choice;
+  }
+  if (shares.empty()) return "";
+  const double middle = median(shares);
+  std::string text = fmt::format("on runs that had no part in the choice MPE is {} {}",
+                                 percent(std::abs(middle), 1), middle < 0.0 ? "lower" : "higher");
+  if (shares.size() > 1)
+    text += fmt::format(", in the median of {}; most for {}, {}",
+                        counted(std::ssize(shares), "method"), method_label(most->method),
+                        format_number(optimism_percent(*most), 1, true) + " %");
+  return text + ".";
+}
+
+BulletList sensor_findings(const Study& study, const SensorStudy& sensor,
+                           std::span<const SettingSummary> methods) {
+  const Sensor which = sensor.sensor.sensor;
+  BulletList findings;
+  findings.items.push_back(best_finding(methods));
+  if (methods.size() > 1)
+    findings.items.push_back(order_finding(which, {methods.begin(), methods.end()}));
+  if (std::ranges::any_of(methods, [](const SettingSummary& s) { return s.published && s.mpe_m; }))
+    findings.items.push_back(agreement_finding(which, methods));
+  const std::vector<OrderingClaim> claims = ordering_claims(study, sensor);
+  if (std::ranges::any_of(claims,
+                          [](const OrderingClaim& c) { return c.difference_m.has_value(); }))
+    findings.items.push_back(ordering_finding(which, claims));
+  if (const std::string optimism = optimism_words(half_choices(study, sensor)); !optimism.empty())
+    findings.items.push_back({{strong(title_of(which)),
+                               words(": the parameters are chosen by the runs that they are then "
+                                     "judged by, as in the paper; " +
+                                     optimism)}});
+  return findings;
+}
+
+}  // namespace mapproof
