@@ -11,9 +11,9 @@ namespace mapproof {
 namespace {
 
 constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
-const std::string kMpe = "Mean position error (MPE)";
-const std::string kMoe = "Mean orientation error (MOE)";
-const std::string kInterval = "Of the mean; layouts are the units.";
+constexpr const char* kMpe = "MPE";
+constexpr const char* kMoe = "MOE";
+constexpr const char* kInterval = "Of the mean; layouts are the units.";
 
 bool any_published(std::span<const SettingSummary> summaries) {
   return std::ranges::any_of(summaries, [](const auto& s) { return s.published.has_value(); });
@@ -86,8 +86,9 @@ Table accuracy_table(const SensorStudy& sensor, std::span<const SettingSummary> 
   const bool published = any_published(best);
   Table table;
   table.id = paper_table_id(sensor, "accuracy");
-  table.caption = fmt::format("{}: errors after {} observations", title_of(sensor.sensor.sensor),
-                              last_step(sensor));
+  table.caption = fmt::format(
+      "{}: mean position error (MPE) and mean orientation error (MOE) after {} observations",
+      title_of(sensor.sensor.sensor), last_step(sensor));
   table.columns = {{"Method", "", "", ""}};
   const std::string chosen = "The one of least mean MPE among those tried.";
   if (published) {
@@ -122,7 +123,7 @@ Table paper_parameter_table(const SensorStudy& sensor, std::span<const SettingSu
   table.columns = {{"Method", "", "", ""}, {"Parameter", "", "", "The one that was published."}};
   add_error_columns(table.columns, true);
   table.columns.push_back(
-      {"Within", "", "", "Whether the printed MPE lies in the 95 % interval of ours."});
+      {"Printed MPE within", "", "", "Whether the printed MPE lies in the 95 % interval of ours."});
   const int decimals = mpe_decimals(all);
   for (const PublishedValue& value : sensor.published.values) {
     SettingSummary s;

@@ -95,8 +95,7 @@ Table half_table(const SensorStudy& sensor, const HalfChoices& choices) {
                    {"Optimism", "m", mpe, "Other half less same runs, run by run."},
                    {"Its 95 % interval", "m", mpe, ""},
                    {"Other half", "%", moe, other},
-                   {"95 % interval", "%", moe, ""},
-                   {"Same runs", "%", moe, same}};
+                   {"95 % interval", "%", moe, ""}};
   const bool small = std::ranges::any_of(choices.methods, [](const HalfChoice& choice) {
     return choice.mpe_m && choice.mpe_m->mean < 0.1;
   });
@@ -110,8 +109,7 @@ Table half_table(const SensorStudy& sensor, const HalfChoices& choices) {
           mean_cell(c.same_runs_mpe_m, decimals),
           c.has_choice ? mean_cell(c.optimism_m, decimals, true) : Cell{MissingCell{}},
           c.has_choice ? difference_interval_cell(c.optimism_m, decimals) : Cell{MissingCell{}},
-          mean_cell(c.moe_percent, kMoeDecimals), interval_cell(c.moe_percent, kMoeDecimals),
-          mean_cell(c.same_runs_moe_percent, kMoeDecimals)},
+          mean_cell(c.moe_percent, kMoeDecimals), interval_cell(c.moe_percent, kMoeDecimals)},
          "",
          false});
   }

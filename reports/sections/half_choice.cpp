@@ -89,19 +89,16 @@ HalfChoice choice_of(std::span<const SettingScores> settings, const Parting& par
   const SettingScores other = judged(chosen, parting);
   const SettingScores* best = least(settings, [](const RunId&) { return true; });
   if (best == nullptr) return choice;
-  RunValues mpe, moe, best_mpe, best_moe;
+  RunValues mpe, moe, best_mpe;
   for (const auto& [run, score] : other.runs) {
     mpe.add(run, score.mpe_m);
     moe.add(run, score.moe_percent);
-    const auto same = best->runs.find(run);
-    if (same == best->runs.end()) continue;
-    best_mpe.add(run, same->second.mpe_m);
-    best_moe.add(run, same->second.moe_percent);
+    if (const auto same = best->runs.find(run); same != best->runs.end())
+      best_mpe.add(run, same->second.mpe_m);
   }
   choice.mpe_m = mpe.mean();
   choice.moe_percent = moe.mean();
   choice.same_runs_mpe_m = best_mpe.mean();
-  choice.same_runs_moe_percent = best_moe.mean();
   choice.optimism_m = mpe_differences_m(*best, other).mean();
   return choice;
 }

@@ -27,7 +27,6 @@ struct HalfChoice {
   std::optional<MeanEstimate> moe_percent;
   /// Over the same runs, with the parameter of least mean MPE over all of them.
   std::optional<MeanEstimate> same_runs_mpe_m;
-  std::optional<MeanEstimate> same_runs_moe_percent;
   /// By how much choosing and judging on the same runs flatters: the former MPE less the latter,
   /// run by run.
   std::optional<MeanEstimate> optimism_m;

@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <array>
 #include <string_view>
 #include <utility>
@@ -11,7 +12,10 @@ namespace mapproof {
 namespace {
 
 /// Characters outside ASCII that our own texts use; others go through as UTF-8.
-constexpr std::array<std::pair<std::string_view, std::string_view>, 18> kSymbols = {{
+constexpr std::array<std::pair<std::string_view, std::string_view>, 21> kSymbols = {{
+    {"\u03C3\u00B2", "$\\sigma^2$"},
+    {"\u03C7\u00B2", "$\\chi^2$"},
+    {"\u03C7", "$\\chi$"},
     {"\u2212", "$-$"},
     {"\u2013", "--"},
     {"\u2014", "---"},
@@ -89,8 +93,27 @@ std::string escaped(const std::string& raw) {
   return out;
 }
 
-std::string heading(const Column& column) {
-  return escaped(column.unit.empty() ? column.title : column.title + " [" + column.unit + "]");
+constexpr std::size_t kManyColumns = 8;    ///< From here on a table is tight for a page.
+constexpr std::size_t kShortHeading = 10;  ///< Characters of a line of its headings.
+
+/// "95 % interval [m]", in a tight table one word under the other as far as they are long.
+std::string heading(const Table& table, std::size_t index) {
+  const Column& column = table.columns[index];
+  const std::string title =
+      column.unit.empty() ? column.title : column.title + " [" + column.unit + "]";
+  if (table.columns.size() < kManyColumns || title.size() <= kShortHeading) return escaped(title);
+  std::string lines;
+  std::size_t length = 0;  ///< Of the last line.
+  for (std::size_t at = 0; at < title.size();) {
+    const std::size_t end = std::min(title.find(' ', at), title.size());
+    const std::string word = title.substr(at, end - at);
+    const bool fits = length > 0 && length + 1 + word.size() <= kShortHeading;
+    if (length > 0) lines += fits ? " " : "\\\\";
+    length = fits ? length + 1 + word.size() : word.size();
+    lines += escaped(word);
+    at = end + 1;
+  }
+  return fmt::format("\\shortstack[{}]{{{}}}", holds_text(table, index) ? 'l' : 'r', lines);
 }
 
 /// The line of group headings with its rules, empty if no column has a group.
@@ -122,13 +145,15 @@ std::string table_latex(const Table& table) {
   std::string titles;
   for (std::size_t i = 0; i < table.columns.size(); ++i) {
     format += holds_text(table, i) ? 'l' : 'r';
-    titles += (i > 0 ? " & " : "") + heading(table.columns[i]);
+    titles += (i > 0 ? " & " : "") + heading(table, i);
   }
+  const bool tight = table.columns.size() >= kManyColumns;
   std::string text =
-      "\\begin{table}\n  \\centering\n  \\footnotesize\n  \\setlength{\\tabcolsep}{3pt}\n  "
-      "\\caption{" +
-      escaped(table.caption) + "}\n  \\label{tab:" + table.id + "}\n  \\begin{tabular}{" + format +
-      "}\n  \\toprule\n" + group_line(table) + "  " + titles + " \\\\\n  \\midrule\n";
+      fmt::format("\\begin{{table}}\n  \\centering\n  \\{}\n  \\setlength{{\\tabcolsep}}{{{}pt}}\n",
+                  tight ? "scriptsize" : "footnotesize", tight ? 2 : 3) +
+      "  \\caption{" + escaped(table.caption) + "}\n  \\label{tab:" + table.id +
+      "}\n  \\makebox[\\linewidth]{\\begin{tabular}{" + format + "}\n  \\toprule\n" +
+      group_line(table) + "  " + titles + " \\\\\n  \\midrule\n";
   for (const Row& row : table.rows) {
     std::string line;
     for (std::size_t i = 0; i < row.cells.size(); ++i) {
@@ -137,7 +162,7 @@ std::string table_latex(const Table& table) {
     }
     text += "  " + line + " \\\\\n";
   }
-  text += "  \\bottomrule\n  \\end{tabular}\n";
+  text += "  \\bottomrule\n  \\end{tabular}}\n";
   for (const std::string& note : table.notes)
     text += "  \\par\\smallskip{\\footnotesize " + escaped(note) + "\\par}\n";
   return text + "\\end{table}\n";

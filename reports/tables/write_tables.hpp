@@ -12,7 +12,8 @@ namespace mapproof {
 /// as an empty field.
 std::string table_csv(const Table& table);
 
-/// A LaTeX table in booktabs style, to be \input; needs \usepackage{booktabs} alone.
+/// A LaTeX table in booktabs style, to be \input; needs \usepackage{booktabs} alone. One of many
+/// columns is set small, its headings stacked, and centred on the line even if it is wider.
 std::string table_latex(const Table& table);
 
 /// A Markdown table as GitHub reads it, with the caption above and the notes below.

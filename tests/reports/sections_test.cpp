@@ -115,6 +115,92 @@ TEST(AccuracySection, HasNoPaperColumnsWhereNothingWasPublished) {
     EXPECT_EQ(column.title.find("aper"), std::string::npos);
 }
 
+TEST(AccuracySection, NamesItsTablesAsTheExperimentDoesOrAfterTheSensor) {
+  Study study = synthetic_study();
+  const auto ids = [&] {
+    const Section section = accuracy_section(study, visibility(study));
+    std::vector<std::string> found;
+    for (const Block& block : section.blocks)
+      if (const auto* table = std::get_if<Table>(&block)) found.push_back(table->id);
+    return found;
+  };
+  EXPECT_EQ(ids(), (std::vector<std::string>{"accuracy-visibility", "paper-visibility",
+                                             "half-visibility", "friedman-visibility",
+                                             "behind-visibility", "parameters-visibility"}));
+  study.experiment.sensors[0].published.table = "table-1";
+  EXPECT_EQ(ids(), (std::vector<std::string>{"table-1", "table-1-paper", "table-1-half",
+                                             "friedman-visibility", "behind-visibility",
+                                             "parameters-visibility"}));
+}
+
+TEST(AccuracySection, ShowsOursAtThePapersParameterToo) {
+  Study study = synthetic_study();
+  study.experiment.sensors[0].published.values[3].setting.parameter = 7;  // was not tried
+  const Section section = accuracy_section(study, visibility(study));
+  const Table& table = table_named(section, "paper-visibility");
+  const Row& knn = table.rows[2];
+  EXPECT_EQ(std::get<TextCell>(knn.cells[1]).text, "K = 5");
+  const MethodSetting at_paper{Method::kSmacofKnn, 5};
+  EXPECT_EQ(std::get<NumberCell>(knn.cells[2]).value, summary_of(study, at_paper).mpe_m->mean);
+  EXPECT_EQ(knn.source, "visibility/smacof-knn-K5/2000 of 10 runs");
+  EXPECT_EQ(std::get<TextCell>(knn.cells.back()).text, "no");
+  const Row& isomap = table.rows[3];
+  EXPECT_TRUE(std::holds_alternative<MissingCell>(isomap.cells[2]));
+  EXPECT_EQ(std::get<NumberCell>(isomap.cells[4]).value, 0.177);
+  EXPECT_EQ(isomap.source, "");
+}
+
+TEST(AccuracySection, SaysWhyAPrintedValueCannotBeMatched) {
+  Study study = synthetic_study();
+  Published& published = study.experiment.sensors[0].published;
+  published.values[0].note = "The reason.";
+  published.notes = {"On all of them."};
+  const Section section = accuracy_section(study, visibility(study));
+  const auto& notes = table_named(section, "accuracy-visibility").notes;
+  ASSERT_EQ(notes.size(), 5U);
+  EXPECT_EQ(notes[3], "LPCA: The reason.");
+  EXPECT_EQ(notes[4], "On all of them.");
+  EXPECT_TRUE(says(summary_section(study), "1 printed value cannot be matched, for reasons under "))
+      << words(summary_section(study));
+}
+
+TEST(AccuracySection, SaysHowOptimisticThePapersChoiceIsAndWhyThereMayBeNoAnswer) {
+  Study study = synthetic_study(4, 1);
+  EXPECT_TRUE(
+      says(accuracy_section(study, visibility(study)), "is optimistic: on runs that had no "))
+      << words(accuracy_section(study, visibility(study)));
+  study = synthetic_study(1, 1);
+  EXPECT_TRUE(says(accuracy_section(study, visibility(study)), "there are no two halves"));
+}
+
+TEST(AccuracySection, HoldsThePapersOrderingsAgainstTheRuns) {
+  Study study = synthetic_study();
+  study.experiment.sensors[0].published.orderings = {
+      {Method::kSmacofKnn, Method::kIsomap, Method::kLpca}, {Method::kLpca, Method::kSmacof}};
+  const Section section = accuracy_section(study, visibility(study));
+  const Table& table = table_named(section, "orderings-visibility");
+  ASSERT_EQ(table.rows.size(), 3U);
+  EXPECT_EQ(std::get<TextCell>(table.rows[0].cells[2]).text, "yes");
+  EXPECT_EQ(std::get<TextCell>(table.rows[2].cells[2]).text, "no");
+  EXPECT_EQ(std::get<TextCell>(table.rows[0].cells[5]).text, "5 of 5");
+  EXPECT_TRUE(says(summary_section(study), "2 of the paper\u2019s 3 orderings hold"))
+      << words(summary_section(study));
+  EXPECT_TRUE(says(summary_section(study), "Not: LPCA < SMACOF, equal weights."));
+}
+
+TEST(AccuracySection, RanksTheMethodsOverLayoutsAndMarksWhatIsAlike) {
+  const Study study = synthetic_study(5, 2);
+  const Section section = accuracy_section(study, visibility(study));
+  const Table& table = table_named(section, "friedman-visibility");
+  EXPECT_EQ(std::get<TextCell>(table.rows[0].cells[0]).text, "SMACOF, kNN weights");
+  EXPECT_EQ(std::get<NumberCell>(table.rows[0].cells[2]).value, 1.0);
+  EXPECT_EQ(std::get<TextCell>(table.rows[1].cells[4]).text, "a, b");
+  EXPECT_EQ(std::get<TextCell>(table.rows[3].cells[4]).text, "b");
+  EXPECT_NE(table.notes[0].find("F is infinite, all layouts agreeing"), std::string::npos);
+  EXPECT_TRUE(says(accuracy_section(synthetic_study(1, 2), visibility(study)),
+                   "Methods cannot be ranked by a test: 1 layout scored by 4 methods"));
+}
+
 TEST(AccuracySection, SaysThatOneLayoutGivesNoInterval) {
   const Study study = synthetic_study(1, 3);
   const Section section = accuracy_section(study, visibility(study));

@@ -50,9 +50,15 @@ TEST(LatexTable, IsABooktabsTableWithGroupRulesAndBoldBest) {
 TEST(LatexTable, EscapesWhatTexReadsAsItsOwn) {
   const std::string text = table_latex(with_name("&%$#_{}~^\\\u03c3\u00b2\u2013"));
   EXPECT_NE(text.find("\\&\\%\\$\\#\\_\\{\\}\\textasciitilde{}\\textasciicircum{}"
-                      "\\textbackslash{}$\\sigma$$^2$--"),
+                      "\\textbackslash{}$\\sigma^2$--"),
             std::string::npos)
       << text;
+}
+
+TEST(LatexTable, SetsGreekInMathMode) {
+  EXPECT_NE(table_latex(with_name("\u03c3\u00b2 = 0.5")).find("$\\sigma^2$ = 0.5"),
+            std::string::npos);
+  EXPECT_NE(table_latex(with_name("\u03c7\u00b2")).find("$\\chi^2$"), std::string::npos);
 }
 
 TEST(LatexTable, CannotBeLeftByARowThatBeginsWithABracket) {

@@ -99,6 +99,48 @@ TEST(ExperimentJson, HoldsThePapersTablesInItsTemplate) {
   EXPECT_EQ(quick.sensors[1].methods[3].parameters, std::vector{9.0});
 }
 
+TEST(ExperimentJson, KeepsWhatIsSaidAboutPublishedValues) {
+  json experiment = json::parse(read_file(test::data_file("experiments/small.json")));
+  json& published = experiment["sensors"]["visibility"]["published"];
+  published["table"] = "table-7";
+  published["values"][0]["note"] = "\u03C3\u00B2 differs.";
+  published["notes"] = {"One.", "Two."};
+  published["orderings"] = json::parse(R"([["isomap", "lpca"], ["smacof", "lpca"]])");
+  const Experiment read = parse_experiment(experiment.dump(), "e.json");
+  const Published& kept = read.sensors[0].published;
+  EXPECT_EQ(kept.table, "table-7");
+  EXPECT_EQ(kept.values[0].note, "\u03C3\u00B2 differs.");
+  EXPECT_EQ(kept.notes.size(), 2U);
+  EXPECT_EQ(kept.orderings[1], (std::vector{Method::kSmacof, Method::kLpca}));
+  const std::string text = experiment_json(read);
+  EXPECT_EQ(experiment_json(parse_experiment(text, "again")), text);
+}
+
+TEST(ExperimentJson, RefusesTableIdsThatOthersCouldTake) {
+  EXPECT_EQ(error_with("/sensors/visibility/published/table", "accuracy-bearing"),
+            "e.json: /sensors/visibility/published/table: expected \"table-\" and small letters, "
+            "digits or '-', got \"accuracy-bearing\"");
+  json experiment = json::parse(read_file(test::data_file("experiments/small.json")));
+  experiment["sensors"]["visibility"]["published"]["table"] = "table-1";
+  experiment["sensors"]["range"]["published"] = {
+      {"source", "s"}, {"table", "table-1-half"}, {"values", json::array()}};
+  EXPECT_EQ(error_of([&] { parse_experiment(experiment.dump(), "e.json"); }),
+            "e.json: /sensors/range/published/table: \"table-1-half\" begins as the table of "
+            "visibility does, \"table-1\"");
+  experiment["sensors"]["range"]["published"]["table"] = "table-12";
+  EXPECT_NO_THROW(parse_experiment(experiment.dump(), "e.json"));
+}
+
+TEST(ExperimentJson, RefusesOrderingsThatOrderNothing) {
+  const std::string place = "/sensors/visibility/published/orderings";
+  EXPECT_EQ(error_with(place, json::array({json::array({"lpca"})})),
+            "e.json: " + place + "/0: expected at least 2 elements, got 1");
+  EXPECT_EQ(error_with(place, json::array({json::array({"lpca", "isomap", "lpca"})})),
+            "e.json: " + place + "/0/2: lpca stands twice in one ordering");
+  EXPECT_EQ(error_with(place, json::array({json::array({"lpca", "smakof"})})),
+            "e.json: " + place + "/0/1: unknown method \"smakof\": did you mean \"smacof\"?");
+}
+
 TEST(ExperimentJson, RefusesACountOfABillion) {
   EXPECT_EQ(error_with("/layouts", 1'000'000'000),
             "e.json: /layouts: expected an integer from 1 to 10000, got 1000000000");
