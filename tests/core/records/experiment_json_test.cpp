@@ -1,5 +1,8 @@
 #include "core/records/experiment_json.hpp"
 
+#include <algorithm>
+#include <stdexcept>
+
 #include <gtest/gtest.h>
 
 #include <nlohmann/json.hpp>
@@ -84,19 +87,32 @@ TEST(ExperimentJson, QuotesTheProfilesThatItHasAndListsFive) {
             "\"c\", \"d\", \"e\" and 2 more");
 }
 
+/// What was published for that method in the study of a sensor.
+const PublishedValue& published_for(const SensorStudy& study, Method method) {
+  for (const PublishedValue& value : study.published.values)
+    if (value.setting.method == method) return value;
+  throw std::runtime_error("nothing published");
+}
+
+const MethodGrid& grid_of(const SensorStudy& study, Method method) {
+  return *std::ranges::find(study.methods, method, &MethodGrid::method);
+}
+
 TEST(ExperimentJson, HoldsThePapersTablesInItsTemplate) {
   const std::string text = read_file(kTemplate);
   const Experiment full = parse_experiment(text, "yairi2007.json", "full");
   EXPECT_EQ(experiment_json(full), experiment_json(parse_experiment(text, "yairi2007.json")));
   EXPECT_EQ(full.layouts * full.poses, 25);
   ASSERT_EQ(full.sensors.size(), 2U);
-  EXPECT_EQ(full.sensors[0].published.values[3].mpe_m, 0.177);
-  EXPECT_EQ(full.sensors[1].published.values[2].moe_percent, 1.0);
-  EXPECT_EQ(full.sensors[1].methods[3].parameters.back(), 14.0);
+  EXPECT_EQ(full.sensors[0].published.table, "table-1");
+  EXPECT_EQ(published_for(full.sensors[0], Method::kIsomap).mpe_m, 0.177);
+  EXPECT_EQ(published_for(full.sensors[1], Method::kSmacofKnn).moe_percent, 1.0);
+  EXPECT_NE(published_for(full.sensors[1], Method::kKpcaGaussian).note, "");
+  EXPECT_EQ(grid_of(full.sensors[1], Method::kIsomap).parameters.back(), 14.0);
   const Experiment quick = parse_experiment(text, "yairi2007.json", "quick");
   EXPECT_EQ(quick.layouts * quick.poses, 5);
   EXPECT_EQ(quick.sensors[1].checkpoints, (std::vector{500, 1000, 2000}));
-  EXPECT_EQ(quick.sensors[1].methods[3].parameters, std::vector{9.0});
+  EXPECT_EQ(grid_of(quick.sensors[1], Method::kIsomap).parameters, std::vector{9.0});
 }
 
 TEST(ExperimentJson, KeepsWhatIsSaidAboutPublishedValues) {
