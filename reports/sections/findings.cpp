@@ -71,21 +71,30 @@ Paragraph best_finding(std::span<const SettingSummary> methods) {
   return text;
 }
 
+/// "a; b; and 3 more": labels hold commas of their own.
+std::string in_series(const std::vector<std::string>& items) {
+  const std::size_t shown = std::min(items.size(), kMostNamed);
+  std::string text;
+  for (std::size_t i = 0; i < shown; ++i) text += (i == 0 ? "" : "; ") + items[i];
+  if (shown < items.size()) text += fmt::format("; and {} more", items.size() - shown);
+  return text;
+}
+
 /// How many pairs of methods stand in the paper's order, and which do not.
-/// @param methods  All with a score and a published value, by ascending MPE.
+/// @param methods  All with a score and a published value that can be matched, by ascending MPE.
 std::string pairs_text(const std::vector<SettingSummary>& methods) {
   std::vector<std::string> swapped;
   const std::size_t n = methods.size();
   for (std::size_t i = 0; i < n; ++i)
     for (std::size_t j = i + 1; j < n; ++j)
       if (methods[i].published->mpe_m > methods[j].published->mpe_m)
-        swapped.push_back(fmt::format("{} before {}", method_label(methods[j].setting.method),
+        swapped.push_back(fmt::format("{} < {}", method_label(methods[j].setting.method),
                                       method_label(methods[i].setting.method)));
   if (swapped.empty()) return " The paper has the same order.";
   const std::size_t pairs = n * (n - 1) / 2;
   return fmt::format(" Of {} of methods, {} stand in the paper\u2019s order; it has {}.",
                      counted(static_cast<long long>(pairs), "pair"), pairs - swapped.size(),
-                     listed(swapped, kMostNamed));
+                     in_series(swapped));
 }
 
 /// Methods from best to worst, and how far the paper has the same order.
@@ -97,7 +106,8 @@ Paragraph order_finding(Sensor sensor, std::vector<SettingSummary> methods) {
     order += fmt::format("{}{} ({})", order.empty() ? "" : " < ", method_label(s.setting.method),
                          metres(s.mpe_m->mean));
   Paragraph text{{strong(title_of(sensor)), words(", by MPE: " + order + ".")}};
-  std::erase_if(methods, [](const SettingSummary& s) { return !s.published; });
+  std::erase_if(methods,
+                [](const SettingSummary& s) { return !s.published || !s.published->note.empty(); });
   if (methods.size() >= 2) text.phrases.push_back(words(pairs_text(methods)));
   return text;
 }
@@ -153,7 +163,7 @@ Paragraph ordering_finding(Sensor sensor, std::span<const OrderingClaim> claims)
       ": {} of the paper\u2019s {} hold, {} of them with an interval of the difference that leaves "
       "0 out.",
       tried - std::ssize(broken), counted(tried, "ordering"), sure);
-  if (!broken.empty()) text += " Not: " + listed(broken, kMostNamed) + ".";
+  if (!broken.empty()) text += " Not: " + in_series(broken) + ".";
   return {{strong(title_of(sensor)), words(text)}};
 }
 
@@ -171,13 +181,18 @@ std::string optimism_words(const HalfChoices& choices) {
     if (most == nullptr || share > optimism_percent(*most)) most = &choice;
   }
   if (shares.empty()) return "";
-  const double middle = median(shares);
-  std::string text = fmt::format("on runs that had no part in the choice MPE is {} {}",
-                                 percent(std::abs(middle), 1), middle < 0.0 ? "lower" : "higher");
-  if (shares.size() > 1)
-    text += fmt::format(", in the median of {}; most for {}, {}",
-                        counted(std::ssize(shares), "method"), method_label(most->method),
-                        format_number(optimism_percent(*most), 1, true) + " %");
+  const double largest = optimism_percent(*most);
+  if (shares.size() == 1)
+    return fmt::format("on runs that had no part in the choice MPE of {} is {} {}.",
+                       method_label(most->method), percent(std::abs(largest), 1),
+                       largest < 0.0 ? "lower" : "higher");
+  const auto higher = std::ranges::count_if(shares, [](double share) { return share > 0.0; });
+  std::string text =
+      fmt::format("on runs that had no part in the choice MPE is higher for {} of {}", higher,
+                  counted(std::ssize(shares), "method"));
+  if (higher > 0)
+    text += fmt::format(", most for {}, by {}; the median is {} %", method_label(most->method),
+                        percent(largest, 1), format_number(median(shares), 1, true));
   return text + ".";
 }
 

@@ -212,10 +212,10 @@ TEST(AccuracySection, SaysThatOneLayoutGivesNoInterval) {
 TEST(SummarySection, NamesTheBestMethodOfEachSensorWithItsNumbers) {
   const Section section = summary_section(synthetic_study());
   EXPECT_TRUE(says(section, "SMACOF, kNN weights, K = 6"));
-  EXPECT_TRUE(says(
-      section,
-      "Of 6 pairs of methods, 5 stand in the paper\u2019s order; it has ISOMAP before SMACOF, kNN "
-      "weights."))
+  EXPECT_TRUE(
+      says(section,
+           "Of 6 pairs of methods, 5 stand in the paper\u2019s order; it has ISOMAP < SMACOF, kNN "
+           "weights."))
       << words(section);
   EXPECT_TRUE(says(section, "8 without a score and 110 with a status")) << words(section);
 }
