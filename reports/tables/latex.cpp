@@ -164,7 +164,7 @@ std::string table_latex(const Table& table) {
   }
   text += "  \\bottomrule\n  \\end{tabular}}\n";
   for (const std::string& note : table.notes)
-    text += "  \\par\\smallskip{\\footnotesize " + escaped(note) + "\\par}\n";
+    text += "  \\par\\smallskip{\\footnotesize\\raggedright " + escaped(note) + "\\par}\n";
   return text + "\\end{table}\n";
 }
 
