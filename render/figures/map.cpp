@@ -44,7 +44,12 @@ class MapFigure {
   Figure make() {
     add_notes();
     add_words();
-    Panel& panel = figure_.panels.emplace_back();
+    figure_.panels.push_back(panel());
+    return std::move(figure_);
+  }
+
+  Panel panel() const {
+    Panel panel;
     panel.equal_aspect = true;
     const bool metres = record_.frame == Frame::kTruth;
     panel.x.label = metres ? "x [m]" : "x (arbitrary unit)";
@@ -55,7 +60,7 @@ class MapFigure {
     }
     panel.layers = {errors(), arrows(), truth(false), truth(true), estimates(), labels()};
     std::erase_if(panel.layers, is_empty);
-    return std::move(figure_);
+    return panel;
   }
 
  private:
@@ -254,6 +259,18 @@ class MapFigure {
 
 Figure map_figure(const MapRecord& record, const std::string& id) {
   return MapFigure(record, id).make();
+}
+
+Panel map_panel(const MapRecord& record, const std::string& prefix) {
+  Panel panel = MapFigure(record, "panel").panel();
+  for (Layer& layer : panel.layers)
+    std::visit(
+        [&prefix](auto& one) {
+          if constexpr (requires { one.marks; })
+            for (Mark& mark : one.marks) mark.id = prefix + mark.id;
+        },
+        layer);
+  return panel;
 }
 
 }  // namespace mapproof

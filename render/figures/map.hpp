@@ -16,4 +16,8 @@ namespace mapproof {
 /// @note Pure: O(landmarks).
 Figure map_figure(const MapRecord& record, const std::string& id);
 
+/// The panel of map_figure, for figures of several maps: each mark's id begins with `prefix`.
+/// @throws InvalidInput as map_figure.
+Panel map_panel(const MapRecord& record, const std::string& prefix);
+
 }  // namespace mapproof

@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 
 #include "core/base/errors.hpp"
+#include "core/base/words.hpp"
 #include "render/figures/parts.hpp"
 #include "render/figures/words.hpp"
 #include "render/theme/ticks.hpp"

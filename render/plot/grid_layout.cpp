@@ -13,7 +13,9 @@ namespace mapproof {
 namespace {
 
 constexpr double kLeastWidth = 14.0;       // Of a cell, in em.
+constexpr double kLowInColumn = 0.7;       // Height of panels below each other, of the theme's.
 constexpr double kLeastWidthShared = 8.5;  // Where labels stand outside the grid.
+constexpr double kArrowWidth = 5.0;        // Of an arrow and its word between cells, em.
 constexpr double kArrowGap = 2.4;          // Between panels below each other, em.
 
 /// Cells with axes of their own, and the arrows between them.
@@ -55,7 +57,8 @@ class CellGrid {
   }
 
   double cell_height(double width) const {
-    return std::min(width * 0.86 + 4.0 * theme_.font_pt, 1.1 * theme_.height_pt);
+    const double most = columns_ == 1 ? kLowInColumn : 1.1;
+    return std::min(width * 0.86 + 4.0 * theme_.font_pt, most * theme_.height_pt);
   }
 
   /// The lowest ink of the panels from `first` on.
@@ -122,7 +125,8 @@ std::size_t columns_within(const Figure& figure, double width, const Theme& them
   const std::size_t count = figure.panels.size();
   const std::size_t most = figure.columns == 0 ? count : std::min(figure.columns, count);
   const bool narrow = figure.shared_y || std::ranges::all_of(figure.panels, &Panel::bare);
-  const double least = (narrow ? kLeastWidthShared : kLeastWidth) * theme.font_pt;
+  const double least = (narrow ? kLeastWidthShared : kLeastWidth) * theme.font_pt +
+                       (figure.arrows.empty() ? 0.0 : kArrowWidth * theme.font_pt);
   const auto fit = static_cast<std::size_t>(std::max(1.0, std::floor(width / least)));
   if (fit >= most) return most;
   // As few columns as the same number of rows allows.

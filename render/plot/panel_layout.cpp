@@ -103,13 +103,29 @@ void add_text(Drawing& drawing, Role role, std::size_t panel_index, const Shaped
   drawing.add(role, panel_index, std::move(line));
 }
 
+std::vector<TitleLine> title_lines(const std::string& title, double most) {
+  std::vector<TitleLine> lines;
+  if (title.find('\n') == std::string::npos) {
+    for (ShapedText& line : wrap_text(title, most, kMostTitleLines))
+      lines.push_back({std::move(line), title});
+    return lines;
+  }
+  for (std::size_t begin = 0; begin <= title.size();) {
+    const std::size_t end = std::min(title.find('\n', begin), title.size());
+    const std::string whole = title.substr(begin, end - begin);
+    lines.push_back({shape_text_within(whole, most, Elide::kMiddle), whole});
+    begin = end + 1;
+  }
+  return lines;
+}
+
 Box draw_panel_title(const Panel& panel, std::size_t index, const Box& cell, const Theme& theme,
                      Drawing& drawing) {
   if (panel.title.empty()) return cell;
   const double em = theme.font_pt;
   double y = cell.y0;
-  for (const ShapedText& line : wrap_text(panel.title, cell.width() / em, kMostTitleLines)) {
-    add_text(drawing, Role::kPanelTitle, index, line, panel.title,
+  for (const TitleLine& line : title_lines(panel.title, cell.width() / em)) {
+    add_text(drawing, Role::kPanelTitle, index, line.shaped, line.whole,
              {cell.x0, y + FontFacts::kAscent * em}, em, theme.text);
     y += FontFacts::kLine * em;
   }

@@ -1,5 +1,8 @@
 #pragma once
 
+#include <string>
+#include <vector>
+
 #include "render/plot/axes_layout.hpp"
 #include "render/plot/drawing.hpp"
 #include "render/theme/theme.hpp"
@@ -14,7 +17,16 @@ void lay_out_panel(const Panel& panel, std::size_t panel_index, const Box& cell,
 void draw_panel(const Panel& panel, std::size_t panel_index, const Axes& axes,
                 const AxesLayout& layout, const Theme& theme, Drawing& drawing);
 
-/// Draws the panel's title, in two lines if it has to. @return The room left below.
+/// A line of a panel's title as it is drawn, and what was asked for.
+struct TitleLine {
+  ShapedText shaped;
+  std::string whole;
+};
+
+/// The lines of a title, each elided to `most` em; one without line feeds is wrapped, to two.
+std::vector<TitleLine> title_lines(const std::string& title, double most);
+
+/// Draws the panel's title. @return The room left below.
 Box draw_panel_title(const Panel& panel, std::size_t index, const Box& cell, const Theme& theme,
                      Drawing& drawing);
 

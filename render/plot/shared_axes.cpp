@@ -70,7 +70,7 @@ class SharedGrid {
     if (figure_.shared_x && !panels_.front().x.label.empty()) {
       const ShapedText text = shape_text_within(panels_.front().x.label, room_.width() / em);
       const double start = std::max(room_.x0, (left + right - text.advance * em) / 2.0);
-      top += 0.4 * em;
+      top += 0.5 * em;
       add_text(drawing_, Role::kAxisLabel, 0, text, panels_.front().x.label,
                {start, top + FontFacts::kAscent * em}, em, theme_.text);
       top += (FontFacts::kAscent + FontFacts::kDescent) * em;
@@ -81,28 +81,34 @@ class SharedGrid {
 
  private:
   /// The widths of the margins decide the frames, and their ticks the margins: thrice is enough.
+  /// What the last choice of ticks still lacks is taken from the frames.
   void find_frame_size() {
     width_ = 0.8 * room_.width() / static_cast<double>(columns_);
-    outer_left_ = y_label_width();
-    for (int pass = 0; pass < 3; ++pass) {
+    for (int pass = 0; pass < 4; ++pass) {
       height_ = frame_height();
-      outer_left_ = y_label_width();
-      inner_left_ = 0.0;
-      double right = 0.0;
-      for (std::size_t p = 0; p < panels_.size(); ++p) {
-        const Margins m = layouts_[p].margins(layouts_[p].in({0.0, 0.0, width_, height_}));
-        double& left = p % columns_ == 0 ? first_left_ : inner_left_;
-        if (p == 0) left = 0.0;
-        left = std::max(left, m.left);
-        right = std::max(right, m.right);
-      }
-      outer_left_ += first_left_;
-      inner_left_ += right + theme_.space_pt;
+      if (panels_.front().equal_aspect) width_ = height_ * aspect();
+      const double right = measure_margins();
       const double gaps = static_cast<double>(columns_ - 1) * inner_left_;
-      width_ = (room_.width() - outer_left_ - right - gaps) / static_cast<double>(columns_);
+      const double widest =
+          (room_.width() - outer_left_ - right - gaps) / static_cast<double>(columns_);
+      if (pass < 3 || width_ > widest) width_ = widest;
     }
     height_ = frame_height();
     if (panels_.front().equal_aspect) width_ = height_ * aspect();
+  }
+
+  /// What labels need left of the frames. @return What they need right of the last one.
+  double measure_margins() {
+    double first = 0.0, inner = 0.0, right = 0.0;
+    for (std::size_t p = 0; p < panels_.size(); ++p) {
+      const Margins m = layouts_[p].margins(layouts_[p].in({0.0, 0.0, width_, height_}));
+      double& left = p % columns_ == 0 ? first : inner;
+      left = std::max(left, m.left);
+      right = std::max(right, m.right);
+    }
+    outer_left_ = y_label_width() + first;
+    inner_left_ = inner + right + theme_.space_pt;
+    return right;
   }
 
   double y_label_width() const {
@@ -129,9 +135,8 @@ class SharedGrid {
     double lines = 0.0;
     for (std::size_t p = begin; p < end; ++p)
       if (!panels_[p].title.empty())
-        lines = std::max(
-            lines,
-            static_cast<double>(wrap_text(panels_[p].title, width_ / theme_.font_pt, 2).size()));
+        lines = std::max(lines, static_cast<double>(
+                                    title_lines(panels_[p].title, width_ / theme_.font_pt).size()));
     return lines * FontFacts::kLine * theme_.font_pt + 0.4 * theme_.tick_font_pt;
   }
 
@@ -190,8 +195,7 @@ class SharedGrid {
   Panel all_;                          ///< All layers, for the legend.
   double width_ = 0.0, height_ = 0.0;  ///< Of each frame.
   double outer_left_ = 0.0;            ///< From the room's edge to the first frame.
-  double first_left_ = 0.0;
-  double inner_left_ = 0.0;  ///< From a frame to the next one.
+  double inner_left_ = 0.0;            ///< From a frame to the next one.
 };
 
 }  // namespace

@@ -22,9 +22,13 @@ TEST_P(Baseline, IsMatched) {
 std::vector<Figure> chosen() {
   std::vector<Figure> figures = sample_figures();
   std::erase_if(figures, [](const Figure& figure) {
-    for (const char* id : {"map-usual", "map-one-far-off", "map-some-missing", "map-shape",
-                           "curve-usual", "curve-log", "curve-filled", "measurement-visibility",
-                           "measurement-bearing", "parameter-usual"})
+    for (const char* id :
+         {"map-usual",           "map-one-far-off", "map-some-missing", "map-shape",
+          "curve-usual",         "curve-log",       "curve-filled",     "measurement-visibility",
+          "measurement-bearing", "parameter-usual", "ranks-10",         "ellipses-usual",
+          "shepard-usual",       "spectrum-usual",  "film-four",        "pair-usual",
+          "idea-visibility",     "anchors-usual",   "levels-usual",     "occlusion-usual",
+          "pareto-usual"})
       if (figure.id == id) return false;
     return true;
   });

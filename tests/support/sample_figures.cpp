@@ -7,6 +7,7 @@
 
 #include "core/base/random.hpp"
 #include "render/figures/map.hpp"
+#include "tests/support/sample_comparisons.hpp"
 #include "tests/support/sample_studies.hpp"
 
 namespace mapproof::test {
@@ -220,6 +221,7 @@ std::vector<Figure> sample_figures() {
   add_maps(figures);
   add_curves(figures);
   for (Figure& figure : sample_study_figures()) figures.push_back(std::move(figure));
+  for (Figure& figure : sample_comparison_figures()) figures.push_back(std::move(figure));
   return figures;
 }
 

@@ -1,0 +1,41 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include <Eigen/Core>
+
+#include "core/model/points.hpp"
+#include "render/plot/figure.hpp"
+
+namespace mapproof {
+
+struct EllipseMapSpec {
+  std::string id;  ///< [a-z][a-z0-9-]*.
+  std::string title;
+  std::vector<std::string> names;     ///< M.
+  Points truth_m;                     ///< M x 2.
+  std::vector<Points> estimates_m;    ///< One a run, M x 2; NaN rows: not mapped.
+  std::vector<Eigen::Index> anchors;  ///< Rows.
+  std::vector<std::string> record_ids;
+};
+
+/// Mean and covariance of one landmark's estimates, as an ellipse.
+struct ScatterEllipse {
+  int runs = 0;  ///< That gave the landmark a place.
+  Eigen::RowVector2d mean_m = Eigen::RowVector2d::Constant(0.0);  ///< NaN without runs.
+  double a_m = 0.0;  ///< Half axes, a >= b; NaN below three runs.
+  double b_m = 0.0;
+  double turn_rad = 0.0;  ///< Of a from the x axis.
+};
+
+/// The ellipse that holds 95 % of a normal scatter with the mean and the covariance (n - 1) of the
+/// rows `row` of all runs.
+ScatterEllipse scatter_ellipse(const std::vector<Points>& estimates_m, Eigen::Index row);
+
+/// Where the runs of one layout put each landmark: the mean, joined to the truth, and the 95 %
+/// ellipse of the scatter.
+/// @throws InvalidInput if parts disagree in size, the truth is not finite, or places are infinite.
+Figure ellipse_map_figure(const EllipseMapSpec& spec);
+
+}  // namespace mapproof

@@ -1,0 +1,22 @@
+#include "render/figures/level_curve.hpp"
+
+#include <fmt/format.h>
+
+namespace mapproof {
+
+Figure level_curve_figure(const LevelCurveSpec& spec) {
+  ErrorLinesSpec lines;
+  lines.id = spec.id;
+  lines.title = spec.title;
+  lines.y_label = spec.y_label;
+  lines.quantity = spec.quantity;
+  lines.record_ids = spec.record_ids;
+  lines.caption = fmt::format("Lines: {} over {}, mean over runs; bands: its 95 % interval.",
+                              spec.quantity, spec.x_label);
+  ErrorPanel& panel = lines.panels.emplace_back();
+  panel.x.label = spec.x_label;
+  panel.lines = spec.methods;
+  return error_lines_figure(lines);
+}
+
+}  // namespace mapproof

@@ -1,0 +1,32 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "core/model/map_record.hpp"
+#include "render/plot/figure.hpp"
+
+namespace mapproof {
+
+/// A map of a grid and what stands above it; its score follows.
+struct TitledMap {
+  std::string title;  ///< "500 steps".
+  MapRecord map;
+};
+
+struct MapGridSpec {
+  std::string id;  ///< [a-z][a-z0-9-]*.
+  std::string title;
+  std::vector<TitledMap> maps;  ///< All in the frame of truth, or none.
+};
+
+/// One run's map at each checkpoint, at most ten of them, all with the same limits.
+/// @throws InvalidInput if there is no map, frames differ, or a record's parts disagree in size.
+Figure film_strip_figure(const MapGridSpec& spec);
+
+/// Two maps or a few beside each other with the same limits, such as the run nearest to a paper's
+/// example and the median run; the worst landmarks named as in map_figure.
+/// @throws InvalidInput as film_strip_figure.
+Figure map_pair_figure(const MapGridSpec& spec);
+
+}  // namespace mapproof

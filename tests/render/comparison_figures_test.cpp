@@ -1,0 +1,254 @@
+#include <cmath>
+
+#include <gtest/gtest.h>
+
+#include "core/base/errors.hpp"
+#include "render/plot/layout.hpp"
+#include "tests/support/figure_parts.hpp"
+#include "tests/support/sample_comparisons.hpp"
+
+namespace mapproof::test {
+namespace {
+
+TEST(CriticalDifferenceFigure, PutsEachMethodAtItsMeanRankTheBetterHalfToTheLeft) {
+  const Panel panel = critical_difference_figure(sample_ranks(10)).panels[0];
+  const auto dots = layers_of<Scatter>(panel).at(0);
+  ASSERT_EQ(dots.x.size(), 10u);
+  EXPECT_NEAR(dots.x.front(), 1.6, 1e-9);  // SDE.
+  EXPECT_TRUE(std::ranges::is_sorted(dots.x));
+  const auto texts = layers_of<Texts>(panel);
+  ASSERT_EQ(texts.size(), 3u);
+  EXPECT_EQ(texts[1].align, Align::kEnd);
+  EXPECT_EQ(texts[1].text.front(), "SDE 1.60");
+  EXPECT_EQ(texts[2].text.front(), "LEM 6.60");
+}
+
+TEST(CriticalDifferenceFigure, JoinsMethodsThatAreCloserThanTheCriticalDifference) {
+  CriticalDifferenceSpec spec = sample_ranks(4);
+  for (std::size_t i = 0; i < 4; ++i) spec.methods[i].mean_rank = 1.0 + static_cast<double>(i);
+  spec.critical_difference = 1.5;
+  const Figure figure = critical_difference_figure(spec);
+  const auto bars = layers_of<Segments>(figure.panels[0])[1];
+  EXPECT_EQ(bars.x0.size(), 3u);  // 1-2, 2-3, 3-4.
+  EXPECT_TRUE(contains(figure.alt, "No difference between LPCA and SMACOF.")) << figure.alt;
+  EXPECT_TRUE(contains(figure.caption, "Friedman test: p < 0.001"));
+}
+
+TEST(CriticalDifferenceFigure, SaysWhenTheFriedmanTestFindsNothing) {
+  CriticalDifferenceSpec spec = sample_ranks(4);
+  spec.friedman_p = 0.4;
+  EXPECT_TRUE(notes_contain(critical_difference_figure(spec), "finds no difference"));
+}
+
+TEST(CriticalDifferenceFigure, RefusesRanksThatAreNone) {
+  for (const double rank : {0.5, 5.0, NAN}) {
+    CriticalDifferenceSpec spec = sample_ranks(4);
+    spec.methods[1].mean_rank = rank;
+    EXPECT_THROW(critical_difference_figure(spec), InvalidInput) << rank;
+  }
+  CriticalDifferenceSpec spec = sample_ranks(4);
+  spec.critical_difference = 0.0;
+  EXPECT_THROW(critical_difference_figure(spec), InvalidInput);
+}
+
+TEST(ScatterEllipse, OfARectanglesCornersHasItsAxes) {
+  std::vector<Points> runs(4, Points(1, 2));
+  runs[0] << 3.0, 1.0;
+  runs[1] << -3.0, 1.0;
+  runs[2] << 3.0, -1.0;
+  runs[3] << -3.0, -1.0;
+  const ScatterEllipse ellipse = scatter_ellipse(runs, 0);
+  EXPECT_EQ(ellipse.runs, 4);
+  EXPECT_NEAR(ellipse.a_m, std::sqrt(-2.0 * std::log(0.05)) * std::sqrt(36.0 / 3.0), 1e-12);
+  EXPECT_NEAR(ellipse.b_m, std::sqrt(-2.0 * std::log(0.05)) * std::sqrt(4.0 / 3.0), 1e-12);
+  EXPECT_NEAR(ellipse.turn_rad, 0.0, 1e-12);
+}
+
+TEST(ScatterEllipse, TurnsWithItsPoints) {
+  std::vector<Points> runs(3, Points(1, 2));
+  runs[0] << 1.0, 1.0;
+  runs[1] << 0.0, 0.0;
+  runs[2] << -1.0, -1.0;
+  EXPECT_NEAR(scatter_ellipse(runs, 0).turn_rad, std::acos(-1.0) / 4.0, 1e-12);
+  EXPECT_NEAR(scatter_ellipse(runs, 0).b_m, 0.0, 1e-7);
+  runs.resize(2);
+  EXPECT_TRUE(std::isnan(scatter_ellipse(runs, 0).a_m));
+}
+
+TEST(EllipseMapFigure, JoinsTheTruthToTheMean) {
+  const EllipseMapSpec spec = sample_runs(20, 5);
+  const Figure figure = ellipse_map_figure(spec);
+  const auto bias = labelled<Segments>(figure.panels[0], "truth to mean");
+  ASSERT_EQ(bias.x0.size(), 20u);
+  EXPECT_EQ(bias.x0[3], spec.truth_m(3, 0));
+  EXPECT_NEAR(bias.x1[3], scatter_ellipse(spec.estimates_m, 3).mean_m.x(), 1e-15);
+  EXPECT_EQ(labelled<Ellipses>(figure.panels[0], "95 % of estimates").x.size(), 20u);
+  EXPECT_TRUE(contains(figure.caption, "20 landmarks over 5 runs"));
+}
+
+TEST(EllipseMapFigure, SaysWhatItCannotShow) {
+  EXPECT_TRUE(notes_contain(ellipse_map_figure(sample_runs(20, 2)), "Fewer than three runs"));
+  EXPECT_TRUE(notes_contain(ellipse_map_figure(sample_runs(20, 0)), "No run gave a landmark"));
+  EllipseMapSpec spec = sample_runs(20, 3);
+  spec.estimates_m[1].conservativeResize(19, 2);
+  EXPECT_THROW(ellipse_map_figure(spec), InvalidInput);
+}
+
+TEST(ShepardFit, OfProportionalDistancesIsPerfect) {
+  const ShepardFit fit = shepard_fit({"", {1.0, 2.0, 3.0, NAN}, {2.0, 4.0, 6.0, 1.0}});
+  EXPECT_EQ(fit.pairs, 3u);
+  EXPECT_NEAR(fit.correlation, 1.0, 1e-12);
+  EXPECT_NEAR(fit.slope, 2.0, 1e-12);
+  EXPECT_NEAR(fit.stress, 0.0, 1e-7);
+}
+
+TEST(ShepardFit, OfNothingIsUnknown) {
+  EXPECT_TRUE(std::isnan(shepard_fit({"", {}, {}}).correlation));
+  EXPECT_TRUE(std::isnan(shepard_fit({"", {1.0, 2.0}, {0.0, 0.0}}).stress));
+  EXPECT_THROW(shepard_fit({"", {1.0}, {}}), InvalidInput);
+  EXPECT_THROW(shepard_fit({"", {1.0}, {INFINITY}}), InvalidInput);
+  EXPECT_THROW(shepard_fit({"", {-1.0}, {1.0}}), InvalidInput);
+}
+
+TEST(ShepardFigure, CountsEveryPairOfAMap) {
+  const Figure figure = shepard_figure(sample_distances(3, 50));
+  ASSERT_EQ(figure.panels.size(), 3u);
+  const auto cells = layers_of<Cells>(figure.panels[1]).at(0);
+  double pairs = 0.0;
+  for (const double value : cells.values)
+    if (!std::isnan(value)) pairs += std::expm1(value);
+  EXPECT_NEAR(pairs, 1225.0, 1e-6);
+  EXPECT_TRUE(contains(figure.alt, "1225 pairs"));
+}
+
+TEST(ShepardFigure, AFailedMapDoesNotFlattenTheOthers) {
+  ShepardSpec spec = sample_distances(4, 50);
+  for (double& distance : spec.methods[1].mapped_m) distance *= 1e9;
+  const Figure figure = shepard_figure(spec);
+  EXPECT_LT(figure.panels[0].y.limits->high, 20.0);
+  EXPECT_TRUE(notes_contain(figure, "outside the picture"));
+}
+
+TEST(SpectrumFigure, StatesTheGapBetweenTheSecondAndTheThirdEigenvalue) {
+  EXPECT_DOUBLE_EQ(spectral_gap({10.0, 8.0, 2.0, 1.0}), 4.0);
+  EXPECT_DOUBLE_EQ(spectral_gap({1.0, 2.0, 6.0}), 3.0);  // The least make the map.
+  EXPECT_TRUE(std::isnan(spectral_gap({1.0, 0.5})));
+  EXPECT_TRUE(std::isnan(spectral_gap({1.0, 0.5, 0.0})));
+}
+
+TEST(SpectrumFigure, LeavesIterativeMethodsOutAndNamesThem) {
+  const Figure figure = spectrum_figure(sample_spectra(6));
+  EXPECT_EQ(figure.panels.size(), 4u);
+  EXPECT_TRUE(contains(figure.caption, "SMACOF and SMACOF, kNN"));
+  EXPECT_EQ(labelled<Scatter>(figure.panels[0], "axis of the map").x.size(), 2u);
+  EXPECT_EQ(labelled<Scatter>(figure.panels[0], "other eigenvalue").x.size(), 8u);
+}
+
+TEST(FilmStripFigure, ShowsAtMostTenMapsTheFirstAndTheLastAmongThem) {
+  const Figure figure = film_strip_figure(sample_maps(23));
+  ASSERT_EQ(figure.panels.size(), 10u);
+  EXPECT_TRUE(figure.panels.front().title.starts_with("200 steps\nMPE "));
+  EXPECT_TRUE(figure.panels.back().title.starts_with("4600 steps\nMPE "));
+  EXPECT_TRUE(figure.shared_x && figure.shared_y);
+}
+
+TEST(FilmStripFigure, SaysWhichMapsLackLandmarks) {
+  MapGridSpec spec = sample_maps(3);
+  spec.maps[1].map.estimate.row(4).setConstant(NAN);
+  EXPECT_TRUE(notes_contain(film_strip_figure(spec), "left out of: 400 steps"));
+}
+
+TEST(FilmStripFigure, RefusesNoMapsAndMapsInDifferentFrames) {
+  EXPECT_THROW(film_strip_figure(sample_maps(0)), InvalidInput);
+  MapGridSpec spec = sample_maps(2);
+  spec.maps[1].map.frame = Frame::kSimilarity;
+  EXPECT_THROW(map_pair_figure(spec), InvalidInput);
+}
+
+TEST(MapPairFigure, TitlesNameTheRunAndBothErrors) {
+  MapGridSpec spec = sample_maps(2);
+  spec.maps[0].title = "Median, layout 4";
+  const Figure figure = map_pair_figure(spec);
+  EXPECT_TRUE(contains(figure.panels[0].title, "Median, layout 4\nMPE "));
+  EXPECT_TRUE(contains(figure.panels[0].title, "MOE "));
+  EXPECT_EQ(figure.record_ids.size(), 2u);
+}
+
+TEST(AnchorCountFigure, HasAPanelASensorAndALineAPlacement) {
+  const Figure figure = anchor_count_figure(sample_anchor_counts());
+  ASSERT_EQ(figure.panels.size(), 2u);
+  EXPECT_EQ(layers_of<Polyline>(figure.panels[0]).size(), 3u);
+  EXPECT_EQ(layers_of<Band>(figure.panels[1]).size(), 3u);
+  EXPECT_TRUE(figure.panels[0].x.whole);
+  EXPECT_TRUE(contains(figure.alt, "corners and walls: least 0.140 at 20")) << figure.alt;
+}
+
+TEST(LevelCurveFigure, TakesItsAxisFromTheCaller) {
+  const Figure figure = level_curve_figure(sample_levels(8));
+  EXPECT_EQ(figure.panels[0].x.label, "standard deviation of bearing noise [°]");
+  EXPECT_EQ(layers_of<Polyline>(figure.panels[0]).size(), 8u);
+}
+
+TEST(OcclusionFigure, CountsEachRunInOneBin) {
+  const OcclusionSpec spec = sample_occlusion(25);
+  const auto bars = layers_of<Area>(occlusion_figure(spec).panels[0]).at(0);
+  double runs = 0.0;
+  for (std::size_t i = 2; i < bars.y.size(); i += 5) runs += bars.y[i];  // Upper right corners.
+  EXPECT_EQ(runs, 25.0);
+}
+
+TEST(OcclusionFigure, StatesTheMeanShareAndTheCorrelation) {
+  OcclusionSpec spec = sample_occlusion(3);
+  spec.hidden_share = {0.1, 0.2, 0.3};
+  spec.methods.resize(1);
+  spec.methods[0].mpe_m = {0.5, 0.6, 0.7};
+  const Figure figure = occlusion_figure(spec);
+  EXPECT_TRUE(contains(figure.alt, "decides 20.0 %")) << figure.alt;
+  EXPECT_TRUE(contains(figure.alt, "SDE, K = 7 1.0.")) << figure.alt;
+  spec.hidden_share[0] = 1.2;
+  EXPECT_THROW(occlusion_figure(spec), InvalidInput);
+}
+
+TEST(ParetoFront, HoldsWhatNoOtherBeatsInBoth) {
+  const std::vector<CostedSetting> settings = {{"slow good", 10.0, 0.1}, {"fast bad", 0.1, 0.9},
+                                               {"beaten", 11.0, 0.2},    {"middle", 1.0, 0.3},
+                                               {"twin", 1.0, 0.3},       {"nan", 0.01, NAN}};
+  EXPECT_EQ(pareto_front(settings), (std::vector<std::size_t>{1, 3, 0}));
+}
+
+TEST(ParetoFigure, IsMarkedAsVarying) {
+  const Figure figure = pareto_figure(sample_costs(10));
+  EXPECT_TRUE(figure.varies);
+  EXPECT_EQ(figure.panels[0].x.scale, Scale::kLog);
+  EXPECT_TRUE(contains(figure.alt, "On the Pareto front:"));
+  ParetoSpec spec = sample_costs(2);
+  spec.settings[0].seconds = INFINITY;
+  EXPECT_THROW(pareto_figure(spec), InvalidInput);
+}
+
+TEST(IdeaFigure, ShowsRoomHistoryAndMapWithArrowsBetween) {
+  const IdeaSpec spec = sample_idea(Sensor::kVisibility);
+  const Figure figure = idea_figure(spec);
+  ASSERT_EQ(figure.panels.size(), 3u);
+  EXPECT_EQ(figure.arrows, (std::vector<PanelArrow>{{0, "observe"}, {1, "embed"}}));
+  const auto cells = layers_of<Cells>(figure.panels[1]).at(0);
+  EXPECT_EQ(cells.columns, 100u);
+  EXPECT_EQ(cells.rows(), 50u);
+  EXPECT_EQ(cells.values[3 * 100 + 7], spec.history.values(3, 7));
+  EXPECT_EQ(layers_of<Polyline>(figure.panels[0]).at(0).x.size(), 100u);
+}
+
+TEST(IdeaFigure, RefusesPartsThatDisagree) {
+  IdeaSpec spec = sample_idea(Sensor::kBearing);
+  spec.history.values.conservativeResize(49, Eigen::NoChange);
+  EXPECT_THROW(idea_figure(spec), InvalidInput);
+  spec = sample_idea(Sensor::kBearing);
+  spec.steps = 0;
+  EXPECT_THROW(idea_figure(spec), InvalidInput);
+  spec = sample_idea(Sensor::kBearing);
+  spec.path_m(0, 0) = NAN;
+  EXPECT_THROW(idea_figure(spec), InvalidInput);
+}
+
+}  // namespace
+}  // namespace mapproof::test

@@ -1,0 +1,35 @@
+#pragma once
+
+#include <vector>
+
+#include "render/figures/anchor_count.hpp"
+#include "render/figures/critical_difference.hpp"
+#include "render/figures/ellipse_map.hpp"
+#include "render/figures/idea.hpp"
+#include "render/figures/level_curve.hpp"
+#include "render/figures/map_grid.hpp"
+#include "render/figures/occlusion.hpp"
+#include "render/figures/pareto.hpp"
+#include "render/figures/shepard.hpp"
+#include "render/figures/spectrum.hpp"
+
+namespace mapproof::test {
+
+/// The first `count` of ten labels of methods, short ones.
+std::vector<std::string> method_labels(std::size_t count);
+
+CriticalDifferenceSpec sample_ranks(std::size_t methods);
+EllipseMapSpec sample_runs(int landmarks, int runs);
+ShepardSpec sample_distances(std::size_t methods, int landmarks);
+SpectrumSpec sample_spectra(std::size_t methods);
+MapGridSpec sample_maps(std::size_t count);
+AnchorCountSpec sample_anchor_counts();
+LevelCurveSpec sample_levels(std::size_t methods);
+OcclusionSpec sample_occlusion(std::size_t runs);
+ParetoSpec sample_costs(std::size_t settings);
+IdeaSpec sample_idea(Sensor sensor);
+
+/// The figures that compare methods and runs, with tame data and with data that is hard to draw.
+std::vector<Figure> sample_comparison_figures();
+
+}  // namespace mapproof::test
