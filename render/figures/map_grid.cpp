@@ -41,6 +41,13 @@ std::string scored(const TitledMap& one, bool whole) {
   return whole ? words : words.substr(0, words.find(','));
 }
 
+/// The same, an error a line.
+std::string in_lines(std::string words) {
+  for (std::size_t at = 0; (at = words.find(", ", at)) != std::string::npos;)
+    words.replace(at, 2, "\n");
+  return words;
+}
+
 /// For a panel of a strip: no names, small marks.
 void make_small(Panel& panel) {
   std::erase_if(panel.layers,
@@ -58,7 +65,7 @@ Figure grid_of(const MapGridSpec& spec, const std::vector<const TitledMap*>& map
   for (std::size_t i = 0; i < maps.size(); ++i) {
     const MapRecord& record = maps[i]->map;
     Panel panel = map_panel(record, fmt::format("map-{}-", i + 1));
-    panel.title = maps[i]->title + "\n" + scored(*maps[i], named);
+    panel.title = maps[i]->title + "\n" + in_lines(scored(*maps[i], named));
     if (!named) make_small(panel);
     figure.panels.push_back(std::move(panel));
     figure.record_ids.push_back(record.id);

@@ -17,8 +17,8 @@ struct ShepardPanel {
 struct ShepardSpec {
   std::string id;  ///< [a-z][a-z0-9-]*.
   std::string title;
-  std::string x_label = "distance of observations";
-  std::string y_label = "distance on the map [m]";
+  std::string x_label = "observed distance";
+  std::string y_label = "map distance [m]";
   std::vector<ShepardPanel> methods;
   std::vector<std::string> record_ids;
 };

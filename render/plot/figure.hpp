@@ -190,7 +190,7 @@ struct Axis {
 
 /// One pair of axes and what is drawn in it, the first layer lowest.
 struct Panel {
-  std::string title;  ///< Wrapped, or with line feeds of its own.
+  std::string title;  ///< May hold line feeds; long lines are wrapped.
   Axis x, y;
   bool equal_aspect = false;  ///< One unit of x is as long as one unit of y.
   bool bare = false;          ///< No frame, grid, ticks or axis labels.

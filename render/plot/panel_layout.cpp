@@ -105,15 +105,11 @@ void add_text(Drawing& drawing, Role role, std::size_t panel_index, const Shaped
 
 std::vector<TitleLine> title_lines(const std::string& title, double most) {
   std::vector<TitleLine> lines;
-  if (title.find('\n') == std::string::npos) {
-    for (ShapedText& line : wrap_text(title, most, kMostTitleLines))
-      lines.push_back({std::move(line), title});
-    return lines;
-  }
-  for (std::size_t begin = 0; begin <= title.size();) {
+  for (std::size_t begin = 0; begin < title.size();) {
     const std::size_t end = std::min(title.find('\n', begin), title.size());
     const std::string whole = title.substr(begin, end - begin);
-    lines.push_back({shape_text_within(whole, most, Elide::kMiddle), whole});
+    for (ShapedText& line : wrap_text(whole, most, kMostTitleLines))
+      lines.push_back({std::move(line), whole});
     begin = end + 1;
   }
   return lines;

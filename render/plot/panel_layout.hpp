@@ -23,7 +23,7 @@ struct TitleLine {
   std::string whole;
 };
 
-/// The lines of a title, each elided to `most` em; one without line feeds is wrapped, to two.
+/// The lines of a title, split at line feeds, each wrapped to at most two of `most` em.
 std::vector<TitleLine> title_lines(const std::string& title, double most);
 
 /// Draws the panel's title. @return The room left below.

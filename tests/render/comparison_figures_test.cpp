@@ -41,7 +41,7 @@ TEST(CriticalDifferenceFigure, SaysWhenTheFriedmanTestFindsNothing) {
 }
 
 TEST(CriticalDifferenceFigure, RefusesRanksThatAreNone) {
-  for (const double rank : {0.5, 5.0, NAN}) {
+  for (const double rank : {0.5, 5.0, std::nan("")}) {
     CriticalDifferenceSpec spec = sample_ranks(4);
     spec.methods[1].mean_rank = rank;
     EXPECT_THROW(critical_difference_figure(spec), InvalidInput) << rank;
@@ -170,7 +170,7 @@ TEST(MapPairFigure, TitlesNameTheRunAndBothErrors) {
   spec.maps[0].title = "Median, layout 4";
   const Figure figure = map_pair_figure(spec);
   EXPECT_TRUE(contains(figure.panels[0].title, "Median, layout 4\nMPE "));
-  EXPECT_TRUE(contains(figure.panels[0].title, "MOE "));
+  EXPECT_TRUE(contains(figure.panels[0].title, "\nMOE "));
   EXPECT_EQ(figure.record_ids.size(), 2u);
 }
 
