@@ -52,7 +52,7 @@ TEST(CriticalDifferenceFigure, RefusesRanksThatAreNone) {
 }
 
 TEST(ScatterEllipse, OfARectanglesCornersHasItsAxes) {
-  std::vector<Points> runs(4, Points(1, 2));
+  std::vector<Points> runs(4, Points::Zero(1, 2));
   runs[0] << 3.0, 1.0;
   runs[1] << -3.0, 1.0;
   runs[2] << 3.0, -1.0;
@@ -65,7 +65,7 @@ TEST(ScatterEllipse, OfARectanglesCornersHasItsAxes) {
 }
 
 TEST(ScatterEllipse, TurnsWithItsPoints) {
-  std::vector<Points> runs(3, Points(1, 2));
+  std::vector<Points> runs(3, Points::Zero(1, 2));
   runs[0] << 1.0, 1.0;
   runs[1] << 0.0, 0.0;
   runs[2] << -1.0, -1.0;
