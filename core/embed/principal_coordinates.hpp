@@ -15,7 +15,7 @@ namespace mapproof {
 ///         eigenvalues are above 1e-12 of the largest and of `size` (the missing columns are zero);
 ///         kUndetermined if the third largest equals the second; kNotConverged if the eigenvalues'
 ///         solver gave up. The spectrum holds up to 10 eigenvalues.
-/// @note O(n^3) time up to n = 300, above that O(n^2) an iteration (see symmetric_eigen.hpp).
+/// @note O(n^3) time up to n = 80, above that O(n^2) an iteration (see symmetric_eigen.hpp).
 Embedding principal_coordinates(const Eigen::MatrixXd& B, double size);
 
 }  // namespace mapproof

@@ -15,7 +15,8 @@ constexpr Index kDepth = 256;     ///< Columns of X at a time.
 constexpr Index kBlockRows = 96;  ///< Rows of X that stay in the second cache.
 
 /// Four entries at a time; on processors with narrower vectors the compiler splits them.
-using Lanes [[gnu::vector_size(32), gnu::aligned(8), gnu::may_alias]] = double;
+using Lanes [[gnu::vector_size(32)]] = double;
+using LanesInMemory [[gnu::vector_size(32), gnu::aligned(8), gnu::may_alias]] = double;
 
 /// tile(r, c) = sum over k of rows(r, k) * columns(c, k), both packed k by k.
 [[gnu::target_clones("avx2", "default")]] void multiply_tile(const double* rows,
@@ -23,8 +24,8 @@ using Lanes [[gnu::vector_size(32), gnu::aligned(8), gnu::may_alias]] = double;
                                                              double* tile) {
   Lanes sums[kTileColumns][2] = {};
   for (Index k = 0; k < depth; ++k) {
-    const Lanes low = *reinterpret_cast<const Lanes*>(rows);
-    const Lanes high = *reinterpret_cast<const Lanes*>(rows + 4);
+    const Lanes low = *reinterpret_cast<const LanesInMemory*>(rows);
+    const Lanes high = *reinterpret_cast<const LanesInMemory*>(rows + 4);
     for (Index c = 0; c < kTileColumns; ++c) {
       sums[c][0] += low * columns[c];
       sums[c][1] += high * columns[c];
@@ -34,7 +35,7 @@ using Lanes [[gnu::vector_size(32), gnu::aligned(8), gnu::may_alias]] = double;
   }
   for (Index c = 0; c < kTileColumns; ++c)
     for (Index half = 0; half < 2; ++half)
-      *reinterpret_cast<Lanes*>(tile + c * kTileRows + 4 * half) = sums[c][half];
+      *reinterpret_cast<LanesInMemory*>(tile + c * kTileRows + 4 * half) = sums[c][half];
 }
 
 /// Rows of some columns of X in panels of so many, each k by k, the last one filled with zeros.

@@ -13,7 +13,7 @@
 namespace mapproof {
 namespace {
 
-constexpr Eigen::Index kDenseLimit = 100;
+constexpr Eigen::Index kDenseLimit = 40;
 
 EigenPairs dense(const Eigen::MatrixXd& matrix, Eigen::Index k) {
   const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver(matrix);
@@ -22,15 +22,44 @@ EigenPairs dense(const Eigen::MatrixXd& matrix, Eigen::Index k) {
           .converged = solver.info() == Eigen::Success};
 }
 
-EigenPairs lanczos(const Eigen::MatrixXd& matrix, Eigen::Index k) {
-  Spectra::DenseSymMatProd<double> product(matrix);
-  const Eigen::Index basis = std::min(matrix.rows(), std::max<Eigen::Index>(4 * k, 24));
-  Spectra::SymEigsSolver<Spectra::DenseSymMatProd<double>> solver(product, k, basis);
+/// Whether an operator has a larger eigenvalue than the smallest found, in the directions left
+/// over: Lanczos can miss copies of a multiple eigenvalue. A few steps of the power method tell,
+/// from a fixed start without symmetry.
+template <typename Operator>
+bool missed_any(const Operator& op, const EigenPairs& found) {
+  constexpr int kSteps = 6;
+  const Eigen::Index n = op.rows();
+  Eigen::VectorXd x(n), y(n);
+  for (Eigen::Index i = 0; i < n; ++i) {
+    const double turn = 0.6180339887498949 * static_cast<double>(i + 1);  // spreads evenly
+    x(i) = turn - std::floor(turn) - 0.5;
+  }
+  double largest = 0.0;
+  for (int step = 0; step < kSteps; ++step) {
+    x -= found.vectors * (found.vectors.transpose() * x);
+    const double length = x.norm();
+    if (!(length > 0.0)) return false;
+    x /= length;
+    op.perform_op(x.data(), y.data());
+    largest = x.dot(y);
+    x = y;
+  }
+  const double smallest = found.values.minCoeff();
+  return largest > smallest + 1e-6 * std::abs(smallest);
+}
+
+/// The k largest eigenpairs of an operator, from a fixed start; not converged if any is in doubt.
+template <typename Operator>
+EigenPairs lanczos(Operator& op, Eigen::Index k) {
+  const Eigen::Index basis = std::min(op.rows(), std::max<Eigen::Index>(4 * k, 20));
+  Spectra::SymEigsSolver<Operator> solver(op, k, basis);
   solver.init();
-  solver.compute(Spectra::SortRule::LargestAlge, 1000, 1e-12);
+  solver.compute(Spectra::SortRule::LargestAlge, 300, 1e-12);
   if (solver.info() != Spectra::CompInfo::Successful)
     return {.values = {}, .vectors = {}, .converged = false};
-  return {.values = solver.eigenvalues(), .vectors = solver.eigenvectors(), .converged = true};
+  EigenPairs pairs{.values = solver.eigenvalues(), .vectors = solver.eigenvectors()};
+  pairs.converged = !missed_any(op, pairs);
+  return pairs;
 }
 
 using Sparse = Eigen::SparseMatrix<double>;
@@ -82,21 +111,19 @@ double largest_row_sum(const Sparse& matrix) {
 }
 
 EigenPairs inverse_lanczos(const Sparse& matrix, Eigen::Index k, const Eigen::VectorXd& null) {
-  EigenPairs none{.values = {}, .vectors = {}, .converged = false};
   const double size = largest_row_sum(matrix);
   // Off zero, where the factor would not exist; far below what separates the eigenvectors.
   ShiftedInverse inverse(matrix, null, 1e-11 * size);
-  if (!inverse.usable()) return none;
-  Spectra::SymEigsSolver<ShiftedInverse> solver(inverse, k, std::max<Eigen::Index>(4 * k, 20));
-  solver.init();
-  solver.compute(Spectra::SortRule::LargestAlge, 300, 1e-12);
-  if (solver.info() != Spectra::CompInfo::Successful) return none;
+  EigenPairs pairs{.values = {}, .vectors = {}, .converged = false};
+  if (inverse.usable()) pairs = lanczos(inverse, k);
+  if (!pairs.converged) return pairs;
 
   // The inverse gives the directions; the matrix itself the values, and the residuals.
-  const Eigen::MatrixXd V = solver.eigenvectors();
+  const Eigen::MatrixXd V = pairs.vectors;
   const Eigen::MatrixXd AV = matrix * V;
   const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> small(V.transpose() * AV);
-  EigenPairs pairs{.values = small.eigenvalues(), .vectors = V * small.eigenvectors()};
+  pairs.values = small.eigenvalues();
+  pairs.vectors = V * small.eigenvectors();
   const Eigen::MatrixXd residuals =
       AV * small.eigenvectors() - pairs.vectors * pairs.values.asDiagonal();
   pairs.converged = residuals.colwise().norm().maxCoeff() <= 1e-9 * size;
@@ -126,7 +153,10 @@ EigenPairs largest_eigenpairs(const Eigen::MatrixXd& matrix, Eigen::Index k) {
   if (!matrix.allFinite()) throw InvalidInput("eigenpairs: the matrix holds NaN or infinity");
 
   EigenPairs pairs{.values = {}, .vectors = {}, .converged = false};
-  if (matrix.rows() > kDenseLimit && 8 * k < matrix.rows()) pairs = lanczos(matrix, k);
+  if (matrix.rows() > kDenseLimit && 8 * k < matrix.rows()) {
+    Spectra::DenseSymMatProd<double> product(matrix);
+    pairs = lanczos(product, k);
+  }
   if (!pairs.converged) pairs = dense(matrix, k);
   fix_signs(pairs.vectors);
   return pairs;

@@ -48,6 +48,16 @@ TEST(LargestEigenpairs, AgreeDenseAndLanczos) {
   EXPECT_LT((few.vectors - many.vectors.leftCols(4)).cwiseAbs().maxCoeff(), 1e-7);
 }
 
+// The symmetry of a square grid makes its eigenvalues come in pairs.
+TEST(LargestEigenpairs, FindBothCopiesOfADoubleEigenvalue) {
+  for (const Eigen::Index side : {10, 16, 20}) {
+    const Eigen::MatrixXd A = (-test::distances_of(test::grid(side, side))).array().exp();
+    const EigenPairs few = largest_eigenpairs(A, 10);            // Lanczos
+    const EigenPairs many = largest_eigenpairs(A, side * side);  // dense
+    EXPECT_LT((few.values - many.values.head(10)).cwiseAbs().maxCoeff(), 1e-9) << side;
+  }
+}
+
 TEST(LargestEigenpairs, RefuseWhatIsNoMatrix) {
   EXPECT_THROW(largest_eigenpairs(Eigen::MatrixXd::Zero(2, 3), 1), InvalidInput);
   EXPECT_THROW(largest_eigenpairs(Eigen::MatrixXd::Zero(2, 2), 3), InvalidInput);
