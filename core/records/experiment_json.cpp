@@ -8,10 +8,10 @@
 
 #include "core/base/errors.hpp"
 #include "core/base/spelling.hpp"
+#include "core/json/json_text.hpp"
+#include "core/json/text_input.hpp"
 #include "core/records/experiment_values.hpp"
-#include "core/records/json_text.hpp"
 #include "core/records/json_values.hpp"
-#include "core/records/text_input.hpp"
 
 namespace mapproof {
 namespace {

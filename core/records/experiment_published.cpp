@@ -4,9 +4,9 @@
 
 #include <fmt/format.h>
 
+#include "core/json/text_input.hpp"
 #include "core/records/experiment_values.hpp"
 #include "core/records/json_values.hpp"
-#include "core/records/text_input.hpp"
 
 namespace mapproof {
 namespace {

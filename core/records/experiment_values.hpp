@@ -2,8 +2,8 @@
 
 #include <nlohmann/json.hpp>
 
+#include "core/json/json_cursor.hpp"
 #include "core/model/experiment.hpp"
-#include "core/records/json_cursor.hpp"
 
 namespace mapproof {
 

@@ -7,7 +7,7 @@
 
 #include <fmt/format.h>
 
-#include "core/records/text_input.hpp"
+#include "core/json/text_input.hpp"
 
 namespace mapproof {
 namespace {

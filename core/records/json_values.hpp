@@ -5,12 +5,12 @@
 
 #include <nlohmann/json.hpp>
 
+#include "core/json/json_cursor.hpp"
 #include "core/model/method.hpp"
 #include "core/model/points.hpp"
 #include "core/model/score.hpp"
 #include "core/model/sensor.hpp"
 #include "core/model/status.hpp"
-#include "core/records/json_cursor.hpp"
 #include "core/records/limits.hpp"
 
 namespace mapproof {

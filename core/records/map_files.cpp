@@ -3,7 +3,7 @@
 #include <algorithm>
 
 #include "core/base/csv.hpp"
-#include "core/records/json_text.hpp"
+#include "core/json/json_text.hpp"
 #include "core/records/map_values.hpp"
 
 namespace mapproof {

@@ -4,8 +4,8 @@
 
 #include <fmt/format.h>
 
+#include "core/json/text_input.hpp"
 #include "core/records/json_values.hpp"
-#include "core/records/text_input.hpp"
 
 namespace mapproof {
 namespace {

@@ -7,8 +7,8 @@
 #include <fmt/format.h>
 
 #include "core/base/errors.hpp"
+#include "core/json/text_input.hpp"
 #include "core/records/limits.hpp"
-#include "core/records/text_input.hpp"
 
 namespace mapproof {
 namespace {

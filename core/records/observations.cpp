@@ -7,11 +7,11 @@
 
 #include "core/base/errors.hpp"
 #include "core/base/files.hpp"
-#include "core/records/json_text.hpp"
+#include "core/json/json_text.hpp"
+#include "core/json/text_input.hpp"
 #include "core/records/json_values.hpp"
 #include "core/records/mrclam.hpp"
 #include "core/records/observation_values.hpp"
-#include "core/records/text_input.hpp"
 
 namespace mapproof {
 namespace {

@@ -4,10 +4,10 @@
 #include <fmt/format.h>
 
 #include "core/base/errors.hpp"
+#include "core/json/text_input.hpp"
 #include "core/records/name_list.hpp"
 #include "core/records/observation_values.hpp"
 #include "core/records/table_reader.hpp"
-#include "core/records/text_input.hpp"
 
 namespace mapproof {
 namespace {

@@ -2,8 +2,8 @@
 
 #include <limits>
 
+#include "core/json/json_text.hpp"
 #include "core/records/experiment_values.hpp"
-#include "core/records/json_text.hpp"
 #include "core/records/json_values.hpp"
 #include "core/records/map_values.hpp"
 

@@ -8,16 +8,16 @@
 
 #include "core/base/errors.hpp"
 #include "core/base/files.hpp"
+#include "core/json/json_cursor.hpp"
+#include "core/json/text_input.hpp"
 #include "core/records/experiment_json.hpp"
 #include "core/records/folder_lock.hpp"
-#include "core/records/json_cursor.hpp"
 #include "core/records/map_files.hpp"
 #include "core/records/mrclam.hpp"
 #include "core/records/observation_values.hpp"
 #include "core/records/run_json.hpp"
 #include "core/records/study_files.hpp"
 #include "core/records/study_store.hpp"
-#include "core/records/text_input.hpp"
 #include "core/records/timings_jsonl.hpp"
 #include "core/records/validate_table.hpp"
 

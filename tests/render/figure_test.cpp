@@ -108,18 +108,21 @@ TEST(FigureJson, ReadsNullAsNotANumber) {
 
 TEST(FigureJson, NamesThePlaceOfWhatItCannotRead) {
   const std::string json = figure_to_json(small());
-  EXPECT_EQ(message_of("{"), "f.json: byte 2: is no JSON");
-  EXPECT_EQ(message_of("[1e999]"), "f.json: holds a number that is out of range");
-  EXPECT_EQ(message_of("[]"), "f.json: /: an object was expected");
-  EXPECT_EQ(message_of("{}"), "f.json: /: has no \"schema\"");
+  EXPECT_EQ(message_of("{"),
+            "f.json: line 1, column 2: the file is truncated: it ends within a value");
+  EXPECT_EQ(message_of("[1e999]"),
+            "f.json: line 1, column 6: the number \"1e999\" is beyond what a double holds");
+  EXPECT_TRUE(message_of("[]").starts_with("f.json: /: says not what it is"));
+  EXPECT_EQ(message_of(replaced(json, "\"alt\"", "\"other\"")), "f.json: /: lacks the key \"alt\"");
   EXPECT_EQ(message_of(replaced(json, "mapproof.figure", "other")),
-            "f.json: /schema/name: is no figure");
-  EXPECT_EQ(message_of(replaced(json, "\"version\": 1", "\"version\": 2")),
-            "f.json: /schema/version: only version 1 is known");
+            "f.json: /schema/name: expected \"mapproof.figure\", got \"other\"");
+  EXPECT_EQ(
+      message_of(replaced(json, "\"version\": 1", "\"version\": 2")),
+      "f.json: /schema/version: version 2 is not known to this program, which reads version 1");
   EXPECT_EQ(message_of(replaced(json, "\"polyline\"", "\"pie\"")),
-            "f.json: /panels/0/layers/0/kind: \"pie\" is unknown");
+            "f.json: /panels/0/layers/0/kind: the kind \"pie\" is unknown");
   EXPECT_EQ(message_of(replaced(json, "\"ink\": \"series1\"", "\"ink\": 3")),
-            "f.json: /panels/0/layers/0/ink: a string was expected");
+            "f.json: /panels/0/layers/0/ink: expected a string, got 3");
   EXPECT_EQ(message_of(replaced(json, "\"id\": \"small\"", "\"id\": \"../x\"")).substr(0, 12),
             "f.json: /: i");
 }

@@ -1,4 +1,4 @@
-#include "core/records/text_input.hpp"
+#include "core/json/text_input.hpp"
 
 #include <algorithm>
 #include <charconv>

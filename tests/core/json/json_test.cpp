@@ -5,8 +5,8 @@
 #include <limits>
 
 #include "core/base/errors.hpp"
-#include "core/records/json_cursor.hpp"
-#include "core/records/json_text.hpp"
+#include "core/json/json_cursor.hpp"
+#include "core/json/json_text.hpp"
 #include "tests/core/records/samples.hpp"
 
 namespace mapproof {

@@ -1,4 +1,4 @@
-#include "core/records/json_cursor.hpp"
+#include "core/json/json_cursor.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -7,7 +7,7 @@
 
 #include "core/base/errors.hpp"
 #include "core/base/spelling.hpp"
-#include "core/records/text_input.hpp"
+#include "core/json/text_input.hpp"
 
 namespace mapproof {
 namespace {

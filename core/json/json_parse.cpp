@@ -1,8 +1,8 @@
 #include <fmt/format.h>
 
 #include "core/base/errors.hpp"
-#include "core/records/json_cursor.hpp"
-#include "core/records/text_input.hpp"
+#include "core/json/json_cursor.hpp"
+#include "core/json/text_input.hpp"
 
 namespace mapproof {
 namespace {

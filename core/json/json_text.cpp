@@ -1,4 +1,4 @@
-#include "core/records/json_text.hpp"
+#include "core/json/json_text.hpp"
 
 #include <algorithm>
 #include <array>
