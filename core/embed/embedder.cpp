@@ -15,6 +15,7 @@
 #include "core/embed/kernel_pca.hpp"
 #include "core/embed/laplacian_eigenmap.hpp"
 #include "core/embed/lpca.hpp"
+#include "core/embed/sde/sde.hpp"
 #include "core/graph/shortest_paths.hpp"
 
 namespace mapproof {
@@ -159,6 +160,8 @@ Embedding Embedder::solve(const MethodSetting& setting) {
     case Method::kLle:
     case Method::kHessianLle:
       return with_all_distances(on_neighbourhoods(setting.method, count));
+    case Method::kSde:
+      return sde(distances(), {.neighbours = {.neighbours = count, .cutoff = cutoff_}});
   }
   throw InvalidInput("unknown method");
 }

@@ -58,7 +58,8 @@ void map_at(const Experiment& experiment, const ObservationHistory& history,
                                   .statuses = map.statuses,
                                   .score = map.score,
                                   .iterations = embedding.iterations,
-                                  .stress = embedding.stress});
+                                  .stress = embedding.stress,
+                                  .certificate = embedding.certificate});
     result.maps.push_back(std::move(map));
   }
 }

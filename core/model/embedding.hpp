@@ -5,6 +5,7 @@
 
 #include <Eigen/Core>
 
+#include "core/model/certificate.hpp"
 #include "core/model/points.hpp"
 #include "core/model/status.hpp"
 
@@ -19,6 +20,7 @@ struct Embedding {
   Eigen::VectorXd spectrum;
   int iterations = 0;            ///< Of an iterative method; 0 otherwise.
   std::optional<double> stress;  ///< Raw stress [yairi2007, eq. 6] over sum of w * delta^2.
+  std::optional<Certificate> certificate;  ///< Of a semidefinite program.
 };
 
 }  // namespace mapproof

@@ -98,6 +98,12 @@ constexpr std::array kMethods = {
                .summary = "functions of least curvature over neighbourhoods of K",
                .source = "Donoho and Grimes 2003 [donoho2003]",
                .parameter = kHessianNeighbours},
+    MethodInfo{.method = Method::kSde,
+               .name = "sde",
+               .label = "SDE",
+               .summary = "greatest variance that keeps the distances in neighbourhoods",
+               .source = "Weinberger and Saul 2004 [weinberger2004]",
+               .parameter = kNeighbours},
 };
 
 }  // namespace

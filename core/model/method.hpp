@@ -18,6 +18,7 @@ enum class Method {
   kLle,
   kLaplacianEigenmap,
   kHessianLle,
+  kSde,
 };
 
 /// The one number a method is tuned by.

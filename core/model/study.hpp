@@ -5,6 +5,7 @@
 #include <utility>
 #include <vector>
 
+#include "core/model/certificate.hpp"
 #include "core/model/experiment.hpp"
 #include "core/model/map_record.hpp"
 #include "core/model/score.hpp"
@@ -35,6 +36,7 @@ struct RunRecord {
   std::optional<Score> score;  ///< Empty if no map came out.
   int iterations = 0;
   std::optional<double> stress;
+  std::optional<Certificate> certificate;  ///< Of a semidefinite program.
 };
 
 /// One run: its world and every record, in order of sensor, method, parameter, step.

@@ -1,5 +1,6 @@
 #include "core/records/run_json.hpp"
 
+#include <cmath>
 #include <limits>
 
 #include "core/json/json_text.hpp"
@@ -37,6 +38,32 @@ World read_world(const JsonCursor& value) {
           .landmarks_m = read_points(value.at("landmarks_m"))};
 }
 
+/// null for infinity: no bound was proved.
+Json finite_value(double number) { return std::isfinite(number) ? Json(number) : Json(nullptr); }
+
+double read_finite(const JsonCursor& value) {
+  return value.is_null() ? kInfinity : value.number(0.0, kInfinity);
+}
+
+Json certificate_value(const Certificate& certificate) {
+  return {{"solver", name(certificate.solver)},
+          {"primal", certificate.primal},
+          {"dual", finite_value(certificate.dual)},
+          {"relative_gap", finite_value(certificate.relative_gap)},
+          {"constraint_residual", certificate.constraint_residual}};
+}
+
+Certificate read_certificate(const JsonCursor& value) {
+  value.allow_only({"solver", "primal", "dual", "relative_gap", "constraint_residual"});
+  const std::optional<SdpSolver> solver = sdp_solver_named(value.at("solver").text());
+  if (!solver) value.at("solver").fail("expected low_rank or csdp");
+  return {.solver = *solver,
+          .primal = value.at("primal").number(0.0, kInfinity),
+          .dual = read_finite(value.at("dual")),
+          .relative_gap = read_finite(value.at("relative_gap")),
+          .constraint_residual = value.at("constraint_residual").number(0.0, kInfinity)};
+}
+
 Json record_value(const RunRecord& record) {
   Json value = {{"sensor", name(record.sensor)}};
   put_setting(value, record.setting);
@@ -44,13 +71,14 @@ Json record_value(const RunRecord& record) {
   value["score"] = record.score ? score_value(*record.score) : Json(nullptr);
   value["iterations"] = record.iterations;
   value["stress"] = record.stress ? Json(*record.stress) : Json(nullptr);
+  if (record.certificate) value["certificate"] = certificate_value(*record.certificate);
   value["statuses"] = statuses_value(record.statuses);
   return value;
 }
 
 RunRecord read_record(const JsonCursor& value) {
-  std::vector<std::string_view> keys = {"sensor",     "step",   "score",
-                                        "iterations", "stress", "statuses"};
+  std::vector<std::string_view> keys = {"sensor", "step",     "score",      "iterations",
+                                        "stress", "statuses", "certificate"};
   RunRecord record;
   record.setting = read_setting(value, keys);
   value.allow_only(keys);
@@ -61,6 +89,8 @@ RunRecord read_record(const JsonCursor& value) {
   record.iterations = value.at("iterations").integer32(0, kMostIterations);
   if (const JsonCursor stress = value.at("stress"); !stress.is_null())
     record.stress = stress.number(-kInfinity, kInfinity);
+  if (const auto certificate = value.find("certificate"))
+    record.certificate = read_certificate(*certificate);
   record.statuses = read_statuses(value.at("statuses"));
   return record;
 }

@@ -66,14 +66,20 @@ RunResult made_up_result(const RunId& id) {
                   .statuses = {},
                   .score = score,
                   .iterations = 0,
-                  .stress = std::nullopt},
+                  .stress = std::nullopt,
+                  .certificate = std::nullopt},
                  {.sensor = Sensor::kRange,
                   .setting = {Method::kSmacofKnn, 4.0},
                   .step = 100,
                   .statuses = {{StatusCode::kFailed, "No map: \"made up\"."}},
                   .score = std::nullopt,
                   .iterations = 17,
-                  .stress = 0.1 * x}};
+                  .stress = 0.1 * x,
+                  .certificate = Certificate{.solver = SdpSolver::kCsdp,
+                                             .primal = 3.0 - 1e-7,
+                                             .dual = 3.0,
+                                             .relative_gap = 1e-7 / 3.0,
+                                             .constraint_residual = 1e-9}}};
   MapRecord map;
   map.id = slug(id) + "/visibility/lpca/50";
   map.step = 50;

@@ -181,6 +181,8 @@ INSTANTIATE_TEST_SUITE_P(
         Damage{"run", "/world/landmarks_m/0", {1}}, Damage{"run", "/records/0/sensor", "sonar"},
         Damage{"run", "/records/0/K", 4}, Damage{"run", "/records/1/K", nullptr},
         Damage{"run", "/records/1/statuses/0/code", "tired"},
+        Damage{"run", "/records/1/certificate/solver", "magic"},
+        Damage{"run", "/records/1/certificate/dual", -1},
         Damage{"run", "/records/0/score/moe_percent", 101}, Damage{"run", "/anchors", {1, 1}},
         Damage{"maps", "/names/0", ""}, Damage{"maps", "/maps/0/estimate", nullptr},
         Damage{"maps", "/maps/0/frame", "lies"}, Damage{"map", "/names", {"a", "a"}},

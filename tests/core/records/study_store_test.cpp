@@ -47,6 +47,7 @@ TEST(StudyStore, GivesBackWhatWasWritten) {
   EXPECT_EQ(run.records[1].setting, expected.records[1].setting);
   EXPECT_EQ(run.records[1].statuses, expected.records[1].statuses);
   EXPECT_EQ(run.records[1].stress, expected.records[1].stress);
+  EXPECT_EQ(run.records[1].certificate, expected.records[1].certificate);
   EXPECT_FALSE(run.records[1].score.has_value());
 }
 

@@ -1,0 +1,173 @@
+#include "core/embed/sde/lagrangian.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include <Eigen/Cholesky>
+
+namespace mapproof::unfolding {
+namespace {
+
+constexpr double kPenalty = 10.0;
+constexpr int kNewtonSteps = 2;
+constexpr int kMostProducts = 60;  // A Newton step.
+constexpr double kForcing = 0.1;   // Of the gradient, left over by conjugate gradients.
+
+double dot(const Rows& A, const Rows& B) { return A.cwiseProduct(B).sum(); }
+
+double variance(const Problem& problem, const Rows& Y) {
+  const Eigen::RowVectorXd sum = problem.mass.transpose() * Y;
+  return problem.mass.dot(Y.rowwise().squaredNorm()) - sum.squaredNorm() / problem.mass.sum();
+}
+
+/// -(M - M11'M / sum) Y.
+void take_mass(const Problem& problem, const Rows& Y, Rows& out) {
+  const Eigen::RowVectorXd mean = problem.mass.transpose() * Y / problem.mass.sum();
+  out = problem.mass.asDiagonal() * (Y.rowwise() - mean);
+  out = -out;
+}
+
+}  // namespace
+
+void centre(const Problem& problem, Rows& Y) {
+  const Eigen::RowVectorXd mean = problem.mass.transpose() * Y / problem.mass.sum();
+  Y.rowwise() -= mean;
+}
+
+Eigen::VectorXd residuals(const Problem& problem, const Rows& Y) {
+  Eigen::VectorXd c(problem.squared.size());
+  for (Eigen::Index k = 0; k < c.size(); ++k) {
+    const auto& [i, j] = problem.pairs[static_cast<std::size_t>(k)];
+    c(k) = (Y.row(i) - Y.row(j)).squaredNorm() - problem.squared(k);
+  }
+  return c;
+}
+
+Rows slack_times(const Problem& problem, const Eigen::VectorXd& w, const Rows& Y) {
+  Rows out;
+  take_mass(problem, Y, out);
+  Eigen::RowVectorXd along(Y.cols());
+  for (Eigen::Index k = 0; k < w.size(); ++k) {
+    const auto& [i, j] = problem.pairs[static_cast<std::size_t>(k)];
+    along.noalias() = w(k) * (Y.row(i) - Y.row(j));
+    out.row(i) += along;
+    out.row(j) -= along;
+  }
+  return out;
+}
+
+AugmentedLagrangian::AugmentedLagrangian(const Problem& problem)
+    : problem_(problem),
+      penalty_(kPenalty * problem.squared.cwiseMax(1e-3 * problem.squared.mean()).cwiseInverse()) {}
+
+double AugmentedLagrangian::value(const Rows& Y, const Eigen::VectorXd& w,
+                                  Eigen::VectorXd& c) const {
+  c = residuals(problem_, Y);
+  return w.dot(c) + 0.5 * (penalty_.array() * c.array().square()).sum() - variance(problem_, Y);
+}
+
+Eigen::VectorXd AugmentedLagrangian::multipliers(const Eigen::VectorXd& w,
+                                                 const Eigen::VectorXd& c) const {
+  return w + penalty_.cwiseProduct(c);
+}
+
+void AugmentedLagrangian::hessian_times(const Rows& Y, const Eigen::VectorXd& x, const Rows& V,
+                                        Rows& out) {
+  ++products_;
+  take_mass(problem_, V, out);
+  Eigen::RowVectorXd pull(Y.cols());
+  for (Eigen::Index k = 0; k < x.size(); ++k) {
+    const auto& [i, j] = problem_.pairs[static_cast<std::size_t>(k)];
+    const auto y = Y.row(i) - Y.row(j);
+    const auto v = V.row(i) - V.row(j);
+    const double stretch = 2.0 * penalty_(k) * y.dot(v);
+    pull.noalias() = x(k) * v + stretch * y;
+    out.row(i) += pull;
+    out.row(j) -= pull;
+  }
+  out *= 2.0;
+}
+
+void AugmentedLagrangian::make_blocks(const Rows& Y, const Eigen::VectorXd& x) {
+  const Eigen::Index rank = Y.cols();
+  blocks_.assign(static_cast<std::size_t>(Y.rows()), Eigen::MatrixXd::Zero(rank, rank));
+  Eigen::VectorXd degree = -problem_.mass;
+  Eigen::MatrixXd outer(rank, rank);
+  for (Eigen::Index k = 0; k < x.size(); ++k) {
+    const auto& [i, j] = problem_.pairs[static_cast<std::size_t>(k)];
+    const Eigen::VectorXd y = Y.row(i) - Y.row(j);
+    outer.noalias() = (4.0 * penalty_(k)) * y * y.transpose();
+    blocks_[static_cast<std::size_t>(i)] += outer;
+    blocks_[static_cast<std::size_t>(j)] += outer;
+    degree(i) += x(k);
+    degree(j) += x(k);
+  }
+  for (Eigen::Index i = 0; i < Y.rows(); ++i) {
+    Eigen::MatrixXd& block = blocks_[static_cast<std::size_t>(i)];
+    block.diagonal().array() += std::max(2.0 * degree(i), 0.5);
+    block = block.llt().solve(Eigen::MatrixXd::Identity(rank, rank));
+  }
+}
+
+Rows AugmentedLagrangian::preconditioned(const Rows& R) const {
+  Rows Z(R.rows(), R.cols());
+  for (Eigen::Index i = 0; i < R.rows(); ++i)
+    Z.row(i).transpose().noalias() = blocks_[static_cast<std::size_t>(i)] * R.row(i).transpose();
+  return Z;
+}
+
+Rows AugmentedLagrangian::newton_direction(const Rows& Y, const Eigen::VectorXd& x,
+                                           const Rows& gradient) {
+  const double target = kForcing * gradient.norm();
+  Rows direction = Rows::Zero(Y.rows(), Y.cols());
+  Rows rest = -gradient;
+  Rows step = preconditioned(rest);
+  Rows product;
+  double size = dot(rest, step);
+  for (int count = 0; count < kMostProducts; ++count) {
+    hessian_times(Y, x, step, product);
+    const double curvature = dot(step, product);
+    if (!(curvature > 1e-14 * step.squaredNorm())) {
+      if (count == 0) direction = step;
+      break;
+    }
+    const double length = size / curvature;
+    direction += length * step;
+    rest -= length * product;
+    if (rest.norm() <= target) break;
+    const Rows scaled = preconditioned(rest);
+    const double next = dot(rest, scaled);
+    step = scaled + (next / size) * step;
+    size = next;
+  }
+  return direction;
+}
+
+void AugmentedLagrangian::descend(Rows& Y, Eigen::VectorXd& w, bool refresh) {
+  Eigen::VectorXd c;
+  double f = value(Y, w, c);
+  for (int step = 0; step < kNewtonSteps; ++step) {
+    const Eigen::VectorXd x = multipliers(w, c);
+    const Rows gradient = 2.0 * slack_times(problem_, x, Y);
+    if (gradient.norm() <= c.cwiseAbs().maxCoeff()) break;
+    if (blocks_.empty() || blocks_.front().rows() != Y.cols() || (refresh && step == 0))
+      make_blocks(Y, x);
+    const Rows direction = newton_direction(Y, x, gradient);
+    const double slope = dot(gradient, direction);
+    double length = 1.0;
+    for (int halvings = 0; halvings < 30; ++halvings, length /= 2.0) {
+      Rows trial = Y + length * direction;
+      Eigen::VectorXd trial_c;
+      const double trial_f = value(trial, w, trial_c);
+      if (trial_f > f + 1e-4 * length * slope + 1e-13 * std::abs(f)) continue;
+      centre(problem_, trial);
+      Y = std::move(trial);
+      c = std::move(trial_c);
+      f = trial_f;
+      break;
+    }
+  }
+  w = multipliers(w, c);
+}
+
+}  // namespace mapproof::unfolding

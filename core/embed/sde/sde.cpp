@@ -1,0 +1,126 @@
+#include "core/embed/sde/sde.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "core/base/errors.hpp"
+#include "core/embed/connected_graph.hpp"
+#include "core/embed/sde/csdp.hpp"
+#include "core/embed/sde/low_rank.hpp"
+#include "core/graph/shortest_paths.hpp"
+#include "core/linalg/centering.hpp"
+#include "core/linalg/sign.hpp"
+#include "core/linalg/symmetric_eigen.hpp"
+
+namespace mapproof {
+namespace {
+
+constexpr Eigen::Index kMostPairsToAskAgain = 2000;
+
+void check(const Eigen::MatrixXd& distances, const SdeOptions& options) {
+  if (distances.rows() < 3 || distances.cols() != distances.rows())
+    throw InvalidInput("SDE needs a square matrix of at least 3 landmarks");
+  for (const double bound : {options.relative_gap, options.constraint_residual})
+    if (!(bound > 0.0 && bound < 1.0)) throw InvalidInput("SDE needs tolerances between 0 and 1");
+}
+
+/// The two leading principal axes of the points, a row a landmark.
+/// Classical scaling of all distances, a row a point: near to feasible, as the data are.
+Eigen::MatrixXd start(const unfolding::Problem& problem, const Eigen::MatrixXd& distances) {
+  std::vector<Eigen::Index> first(static_cast<std::size_t>(problem.points()));
+  for (std::size_t i = problem.point_of.size(); i-- > 0;)
+    first[static_cast<std::size_t>(problem.point_of[i])] = static_cast<Eigen::Index>(i);
+  const Eigen::MatrixXd complete =
+      distances.allFinite() ? distances : completed_distances(distances);
+  const Eigen::MatrixXd relative = complete(first, first) / std::sqrt(problem.scale);
+  // Some point of the optimal face has at most this rank (Pataki's bound); most have less.
+  const double bound = std::sqrt(2.0 * static_cast<double>(problem.squared.size()));
+  const auto rank = std::min(
+      {static_cast<Eigen::Index>(std::ceil(0.7 * bound)), problem.points() - 1, Eigen::Index{60}});
+  const EigenPairs pairs = largest_eigenpairs(double_centered(relative.cwiseAbs2()), rank);
+  return pairs.vectors * pairs.values.cwiseMax(0.0).cwiseSqrt().asDiagonal();
+}
+
+bool meets(const Certificate& certificate, const SdeOptions& options) {
+  return certificate.relative_gap <= options.relative_gap &&
+         certificate.constraint_residual <= options.constraint_residual;
+}
+
+/// By the solver asked for; where ours proves too little, CSDP is asked too if that is cheap.
+unfolding::ProvedSolution solve(const unfolding::Problem& problem, const Eigen::MatrixXd& distances,
+                                const SdeOptions& options) {
+  unfolding::ProvedSolution own;
+  if (options.solver == SdpSolver::kLowRank) {
+    own = unfolding::solve_low_rank(
+        problem, start(problem, distances),
+        {.relative_gap = options.relative_gap, .constraint_residual = options.constraint_residual});
+    if (meets(own.certificate, options) || problem.squared.size() > kMostPairsToAskAgain)
+      return own;
+  }
+  unfolding::ProvedSolution other{.solution = unfolding::solve_with_csdp(problem).solution,
+                                  .certificate = {}};
+  other.certificate = unfolding::certify(problem, other.solution);
+  if (options.solver == SdpSolver::kLowRank && !meets(other.certificate, options)) return own;
+  return other;
+}
+
+/// Eigenvalues up to `floor` of the largest carry no direction.
+void put_coordinates(const unfolding::Problem& problem, const Eigen::MatrixXd& Y, double floor,
+                     Embedding& result) {
+  const Eigen::MatrixXd rows = Y(problem.point_of, Eigen::all) * std::sqrt(problem.scale);
+  // Y Y' has the eigenvalues of the smaller Y' Y.
+  const Eigen::Index rank = std::min<Eigen::Index>(rows.cols(), 10);
+  const EigenPairs pairs = largest_eigenpairs(rows.transpose() * rows, rank);
+  result.spectrum = pairs.values.cwiseMax(0.0);
+  result.coordinates.setZero(rows.rows(), 2);
+  Eigen::Index axes = 0;
+  for (;
+       axes < std::min<Eigen::Index>(rank, 2) && result.spectrum(axes) > floor * result.spectrum(0);
+       ++axes)
+    result.coordinates.col(axes) = rows * pairs.vectors.col(axes);
+  fix_signs(result.coordinates);
+  if (axes < 2)
+    result.statuses.push_back(
+        {StatusCode::kRankDeficient,
+         fmt::format("The unfolded points spread in {} direction{}, a map needs two.", axes,
+                     axes == 1 ? "" : "s")});
+}
+
+}  // namespace
+
+Embedding sde(const Eigen::MatrixXd& distances, const SdeOptions& options) {
+  check(distances, options);
+  const ConnectedGraph graph = connected_neighbour_graph(distances, options.neighbours);
+  Embedding result;
+  result.statuses = graph.statuses;
+  if (!graph.connected) {
+    result.coordinates.setConstant(distances.rows(), 2, std::numeric_limits<double>::quiet_NaN());
+    return result;
+  }
+  const unfolding::Problem problem =
+      unfolding::neighbourhood_problem(distances, options.neighbours, graph.graph);
+  if (problem.is_one_point()) {
+    put_coordinates(problem, Eigen::MatrixXd::Zero(1, 1), 0.0, result);
+    return result;
+  }
+  const unfolding::ProvedSolution proved = solve(problem, distances, options);
+  result.iterations = proved.solution.iterations;
+  result.certificate = proved.certificate;
+  // What is below the accuracy of the solve is no spread.
+  put_coordinates(problem, proved.solution.Y, options.relative_gap + options.constraint_residual,
+                  result);
+  if (!meets(proved.certificate, options))
+    result.statuses.push_back(
+        {StatusCode::kNotConverged,
+         fmt::format("Variance {:.6g} against a bound of {:.6g}, distances kept to {:.1e} of the "
+                     "largest.",
+                     result.certificate->primal, result.certificate->dual,
+                     result.certificate->constraint_residual)});
+  return result;
+}
+
+}  // namespace mapproof

@@ -1,0 +1,32 @@
+#pragma once
+
+#include <optional>
+#include <string_view>
+
+namespace mapproof {
+
+/// What solved a semidefinite program.
+enum class SdpSolver {
+  kLowRank,  ///< Our own: factors of low rank [burer2003], proved by its multipliers.
+  kCsdp,     ///< CSDP, an interior-point method [borchers1999].
+};
+
+/// The name used in files ("low_rank", "csdp").
+std::string_view name(SdpSolver solver);
+
+/// The solver of that name; empty if there is none.
+std::optional<SdpSolver> sdp_solver_named(std::string_view name);
+
+/// How near the optimum a maximisation by semidefinite programming came, proved by its dual.
+struct Certificate {
+  SdpSolver solver = SdpSolver::kLowRank;
+  double primal = 0.0;        ///< The objective reached, in squared units of the data.
+  double dual = 0.0;          ///< No feasible point's objective is above this; infinite: nothing
+                              ///< was proved.
+  double relative_gap = 0.0;  ///< |dual - primal| / dual; 0 if both are 0.
+  double constraint_residual = 0.0;  ///< Largest violation over the largest right-hand side.
+
+  bool operator==(const Certificate&) const = default;
+};
+
+}  // namespace mapproof
