@@ -41,7 +41,8 @@ class Ascent {
 
   ProvedSolution run() {
     const bool direct = problem_.squared.size() <= kMostDirectPairs;
-    for (int round = 0; round < options_.max_rounds && !proved(); ++round) {
+    const int most = direct ? options_.max_rounds : options_.max_rounds_of_many_pairs;
+    for (int round = 0; round < most && !proved(); ++round) {
       lagrangian_.descend(Y_, w_, round < 3 || round % 5 == 0);
       const double fit = residuals(problem_, Y_).cwiseAbs().maxCoeff();
       if (direct) {
@@ -49,7 +50,7 @@ class Ascent {
         take_direct_steps();
         judge();
         adapt_rank();
-      } else if (round % 20 == 19) {
+      } else if (round % 40 == 39) {
         judge();
         adapt_rank();
       }

@@ -8,7 +8,9 @@ namespace mapproof::unfolding {
 struct LowRankOptions {
   double relative_gap = 1e-6;
   double constraint_residual = 1e-6;
-  int max_rounds = 400;  ///< Of the augmented Lagrangian; several Hessian products each.
+  int max_rounds = 250;  ///< Of the augmented Lagrangian, at most 120 Hessian products each.
+  /// The same above kMostDirectPairs: under a minute at 1000 points.
+  int max_rounds_of_many_pairs = 80;
 };
 
 /// An answer with its proof.
