@@ -61,7 +61,6 @@ const std::map<std::string, Modules>& kept_in() {
       {"cairo", {"render/cairo"}},
       {"nlohmann/", {"core/json", "core/records", "render/plot"}},
       {"csdp/", {"core/embed"}},
-      {"nlohmann/", {"core/records", "render/plot"}},
       {"hb", {"render/theme", "render/cairo"}},
       {"ft2build", {"render/theme", "render/cairo"}},
       {"kainjow/", {"reports/html"}},
