@@ -35,16 +35,35 @@ void add_jobs_option(CLI::App& app, int& jobs) {
       ->capture_default_str();
 }
 
-void add_seed_option(CLI::App& app, std::optional<std::uint64_t>& seed) {
-  const auto read = [&seed](const std::string& text) {
+void add_experiment_options(CLI::App& app, ExperimentChanges& changes) {
+  const auto read = [&changes](const std::string& text) {
     std::uint64_t value = 0;
     const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
     if (error != std::errc() || end != text.data() + text.size())
       throw CLI::ValidationError(
           "--seed", "\"" + printable(text) + "\" is no whole number from 0 to 2^64 - 1");
-    seed = value;
+    changes.seed = value;
   };
   app.add_option_function<std::string>("--seed", read, "Replaces the experiment's seed");
+  app.add_option("--layouts", changes.layouts, "Replaces the number of layouts")
+      ->check(CLI::Range(1, 10'000));
+  app.add_option("--poses", changes.poses, "Replaces the number of initial poses in each")
+      ->check(CLI::Range(1, 10'000));
+}
+
+void apply(const ExperimentChanges& changes, Experiment& experiment) {
+  experiment.seed = changes.seed.value_or(experiment.seed);
+  experiment.layouts = changes.layouts.value_or(experiment.layouts);
+  experiment.poses = changes.poses.value_or(experiment.poses);
+  if (static_cast<long>(experiment.layouts) * experiment.poses > 1'000'000)
+    throw CLI::ValidationError("--layouts", "more than 1000000 runs, with all poses");
+}
+
+std::vector<std::string> words_of(const ExperimentChanges& changes, const Experiment& experiment) {
+  std::vector<std::string> words = {"--seed", std::to_string(experiment.seed)};
+  if (changes.layouts) words.insert(words.end(), {"--layouts", std::to_string(experiment.layouts)});
+  if (changes.poses) words.insert(words.end(), {"--poses", std::to_string(experiment.poses)});
+  return words;
 }
 
 CLI::Option* add_out_option(CLI::App& app, std::string& out, const std::string& what) {

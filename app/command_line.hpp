@@ -9,6 +9,7 @@
 #include <CLI/CLI.hpp>
 
 #include "app/console.hpp"
+#include "core/model/experiment.hpp"
 
 namespace mapproof {
 
@@ -30,8 +31,22 @@ std::string quoted_command(const std::vector<std::string>& words);
 /// Adds --jobs to a verb: threads, by default one a core.
 void add_jobs_option(CLI::App& app, int& jobs);
 
-/// Adds --seed to a verb: a whole number from 0 to 2^64 - 1; others are refused, not wrapped round.
-void add_seed_option(CLI::App& app, std::optional<std::uint64_t>& seed);
+/// What the command line says about an experiment in place of its file.
+struct ExperimentChanges {
+  std::optional<std::uint64_t> seed;
+  std::optional<int> layouts;
+  std::optional<int> poses;
+};
+
+/// Adds --seed (a whole number from 0 to 2^64 - 1; others are refused, not wrapped round),
+/// --layouts and --poses to a verb.
+void add_experiment_options(CLI::App& app, ExperimentChanges& changes);
+
+/// @throws CLI::ValidationError if the experiment becomes too large.
+void apply(const ExperimentChanges& changes, Experiment& experiment);
+
+/// The options that give the same experiment again.
+std::vector<std::string> words_of(const ExperimentChanges& changes, const Experiment& experiment);
 
 /// Adds --out to a verb: a folder, with a name.
 CLI::Option* add_out_option(CLI::App& app, std::string& out, const std::string& what);

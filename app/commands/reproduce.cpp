@@ -19,7 +19,7 @@ struct Arguments {
   std::string out = "out";
   std::string profile = "full";
   int jobs = 1;
-  std::optional<std::uint64_t> seed;
+  ExperimentChanges changes;
   std::optional<std::string> templates;
   std::string plaza;
 };
@@ -27,14 +27,18 @@ struct Arguments {
 Experiment chosen_experiment(const Arguments& arguments) {
   const ExperimentText file = experiment_text(arguments.name, arguments.templates);
   Experiment experiment = parse_experiment(file.text, file.source, arguments.profile);
-  if (arguments.seed) experiment.seed = *arguments.seed;
+  apply(arguments.changes, experiment);
   return experiment;
 }
 
 /// The command that makes the same study and report again, wherever it was typed.
 std::string command_again(const Arguments& arguments, const Experiment& experiment) {
-  return quoted_command({"mapproof", "reproduce", arguments.name, "--profile", arguments.profile,
-                         "--seed", std::to_string(experiment.seed), "--out", arguments.out});
+  std::vector<std::string> words = {"mapproof", "reproduce", arguments.name, "--profile",
+                                    arguments.profile};
+  const std::vector<std::string> changes = words_of(arguments.changes, experiment);
+  words.insert(words.end(), changes.begin(), changes.end());
+  words.insert(words.end(), {"--out", arguments.out});
+  return quoted_command(words);
 }
 
 int reproduce(const Arguments& arguments, const Invocation& invocation) {
@@ -74,7 +78,7 @@ Action reproduce_verb(CLI::App& app) {
       ->capture_default_str();
   app.add_option("--profile", arguments->profile, "quick or full")->capture_default_str();
   add_jobs_option(app, arguments->jobs);
-  add_seed_option(app, arguments->seed);
+  add_experiment_options(app, arguments->changes);
   app.add_option("--templates", arguments->templates,
                  "Folder whose templates and experiments replace the embedded ones");
   app.add_option("--plaza", arguments->plaza, "Folder of the Plaza data, for experiments on them")

@@ -14,21 +14,23 @@ struct Arguments {
   std::string out;
   std::string profile;
   int jobs = 1;
-  std::optional<std::uint64_t> seed;
+  ExperimentChanges changes;
 };
 
 /// The two commands that make the same study and a report of it, wherever they are typed.
 std::string command_again(const Arguments& arguments, const Experiment& experiment) {
   std::vector<std::string> words = {"mapproof", "run", arguments.experiment};
   if (!arguments.profile.empty()) words.insert(words.end(), {"--profile", arguments.profile});
-  words.insert(words.end(), {"--seed", std::to_string(experiment.seed), "--out", arguments.out});
+  const std::vector<std::string> changes = words_of(arguments.changes, experiment);
+  words.insert(words.end(), changes.begin(), changes.end());
+  words.insert(words.end(), {"--out", arguments.out});
   return quoted_command(words) + " && " + quoted_command({"mapproof", "report", arguments.out});
 }
 
 int run(const Arguments& arguments, const Invocation& invocation) {
   Experiment experiment =
       parse_experiment(read_file(arguments.experiment), arguments.experiment, arguments.profile);
-  if (arguments.seed) experiment.seed = *arguments.seed;
+  apply(arguments.changes, experiment);
   make_records(experiment, arguments.out, arguments.jobs, command_again(arguments, experiment),
                invocation.console);
   const Study study = read_study(arguments.out);
@@ -51,7 +53,7 @@ Action run_verb(CLI::App& app) {
   add_out_option(app, arguments->out, "Folder for the records")->required();
   app.add_option("--profile", arguments->profile, "One of the profiles in the file");
   add_jobs_option(app, arguments->jobs);
-  add_seed_option(app, arguments->seed);
+  add_experiment_options(app, arguments->changes);
   return [arguments](const Invocation& invocation) { return run(*arguments, invocation); };
 }
 

@@ -6,8 +6,10 @@
 
 #include "core/base/errors.hpp"
 #include "core/embed/embedder.hpp"
-#include "core/observe/proximities.hpp"
-#include "core/score/map_score.hpp"
+#include "core/experiment/run_details.hpp"
+#include "core/experiment/scored_map.hpp"
+#include "core/experiment/seeds.hpp"
+#include "core/experiment/variations.hpp"
 #include "core/simulate/robot_walk.hpp"
 #include "core/simulate/sensors.hpp"
 #include "core/simulate/world.hpp"
@@ -17,41 +19,18 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-/// What the parts of a run draw their random numbers for.
-enum Purpose : std::uint64_t { kLayout = 1, kWalk = 2, kNoise = 3 };
-
-/// A map as it goes to disk, aligned to the anchors and scored.
-MapRecord scored_map(const Experiment& experiment, const Run& run,
-                     const ObservationHistory& history, const MethodSetting& setting, int step,
-                     const Embedding& embedding) {
-  AlignedMap aligned = align_to_anchors(embedding.coordinates, run.world.landmarks_m, run.anchors,
-                                        experiment.affine_fit);
-  MapRecord map{.id = record_id(run.id, history.sensor, setting, step),
-                .sensor = history.sensor,
-                .setting = setting,
-                .step = step,
-                .frame = aligned.aligned ? Frame::kTruth : Frame::kSimilarity,
-                .names = history.names,
-                .estimate = std::move(aligned.positions_m),
-                .truth_m = run.world.landmarks_m,
-                .anchors = run.anchors,
-                .statuses = embedding.statuses,
-                .score = std::nullopt};
-  map.statuses.insert(map.statuses.end(), aligned.statuses.begin(), aligned.statuses.end());
-  if (aligned.aligned)
-    map.score = score_map(map.estimate, *map.truth_m, run.anchors, experiment.affine_fit);
-  return map;
-}
-
+/// Builds, scores and keeps the maps of one sensor after `step` observations.
 void map_at(const Experiment& experiment, const ObservationHistory& history,
             const SensorStudy& study, int step, RunResult& result) {
-  HistoryEmbedder embedder(history, step);
+  const Run& run = result.run;
+  HistoryEmbedder embedder(history, step, embedder_options(experiment.solver));
   for (const MethodSetting& setting : settings_of(study)) {
     const Clock::time_point start = Clock::now();
     const Embedding embedding = embedder.embed(setting);
     const double seconds = std::chrono::duration<double>(Clock::now() - start).count();
-    MapRecord map = scored_map(experiment, result.run, history, setting, step, embedding);
-    result.timings.push_back({result.run.id, history.sensor, setting, step, seconds});
+    ScoredMap map =
+        scored_map(embedding, run.world.landmarks_m, run.anchors, experiment.affine_fit);
+    result.timings.push_back({run.id, history.sensor, setting, step, seconds});
     result.run.records.push_back({.sensor = history.sensor,
                                   .setting = setting,
                                   .step = step,
@@ -60,8 +39,32 @@ void map_at(const Experiment& experiment, const ObservationHistory& history,
                                   .iterations = embedding.iterations,
                                   .stress = embedding.stress,
                                   .certificate = embedding.certificate});
-    result.maps.push_back(std::move(map));
+    if (step == study.checkpoints.back() && embedding.spectrum.size() > 0)
+      result.details.sensors.back().spectra.emplace_back(setting, embedding.spectrum);
+    result.maps.push_back({.id = record_id(run.id, history.sensor, setting, step),
+                           .sensor = history.sensor,
+                           .setting = setting,
+                           .step = step,
+                           .frame = map.frame,
+                           .names = history.names,
+                           .estimate = std::move(map.positions_m),
+                           .truth_m = run.world.landmarks_m,
+                           .anchors = run.anchors,
+                           .statuses = std::move(map.statuses),
+                           .score = map.score});
   }
+}
+
+/// One walk, long enough for every part of the experiment, so that sensors can be compared on it.
+int observations_of(const Experiment& experiment) {
+  int observations = 1;
+  for (const SensorStudy& study : experiment.sensors) {
+    if (study.checkpoints.empty()) throw InvalidInput("a sensor's study without checkpoints");
+    observations = std::max(observations, study.checkpoints.back());
+  }
+  for (const Variation& variation : experiment.variations)
+    observations = std::max(observations, variation.step);
+  return observations;
 }
 
 }  // namespace
@@ -79,26 +82,28 @@ RunResult simulate_run(const Experiment& experiment, const RunId& id) {
 
   // The same layout for all its poses.
   Random scatter(derive_seed(experiment.seed, {kLayout, layout}));
+  Random choice(derive_seed(experiment.seed, {kPlacement, layout}));
   RunResult result;
-  result.run.id = id;
-  result.run.world = scatter_landmarks(experiment.world, scatter);
-  result.run.anchors = corner_anchors(result.run.world, experiment.anchors);
+  Run& run = result.run;
+  run.id = result.details.id = id;
+  run.world = scatter_landmarks(experiment.world, scatter);
+  run.anchors = place_anchors(run.world, experiment.anchors, experiment.anchor_placement, choice);
 
-  // One walk, long enough for every sensor, so that sensors can be compared on it.
-  int observations = 1;
-  for (const SensorStudy& study : experiment.sensors) {
-    if (study.checkpoints.empty()) throw InvalidInput("a sensor's study without checkpoints");
-    observations = std::max(observations, study.checkpoints.back());
-  }
   Random wander(derive_seed(experiment.seed, {kWalk, layout, pose}));
-  const Path path = random_walk(result.run.world, experiment.walk, observations, wander);
+  result.details.path =
+      random_walk(run.world, experiment.walk, observations_of(experiment), wander);
+  const Path& path = result.details.path;
 
   for (const SensorStudy& study : experiment.sensors) {
     const auto sensor = static_cast<std::uint64_t>(study.sensor.sensor);
     Random noise(derive_seed(experiment.seed, {kNoise, layout, pose, sensor}));
-    const ObservationHistory history = observe(result.run.world, path, study.sensor, noise);
+    const ObservationHistory history = observe(run.world, path, study.sensor, noise);
+    if (study.sensor.sensor == Sensor::kVisibility && study.sensor.occlusion)
+      run.occlusion = count_occlusion(run.world, path, study.sensor);
+    result.details.sensors.push_back(sensor_details(study, run.world, path, history));
     for (const int step : study.checkpoints) map_at(experiment, history, study, step, result);
   }
+  run.variations = vary(experiment, run, path);
   return result;
 }
 

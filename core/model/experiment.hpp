@@ -6,9 +6,11 @@
 #include <string_view>
 #include <vector>
 
+#include "core/model/anchor_placement.hpp"
 #include "core/model/method.hpp"
 #include "core/model/published.hpp"
 #include "core/model/sensor.hpp"
+#include "core/model/variation.hpp"
 
 namespace mapproof {
 
@@ -46,6 +48,16 @@ struct MethodGrid {
   std::vector<double> parameters;  ///< Empty exactly if the method has no parameter.
 };
 
+/// What the paper leaves open about its solvers.
+struct SolverOptions {
+  /// Equal-weight SMACOF stops once a step lowers the stress by less than this share of it.
+  double smacof_relative_fall = 1e-7;
+  /// The same of kNN-weighted SMACOF, which is stopped early: convergence makes worse maps.
+  double smacof_knn_relative_fall = 1e-2;
+  /// Visibility: pairs never seen together are no neighbours.
+  bool only_seen_together = false;
+};
+
 /// How the affine map to the anchors is fitted.
 enum class AffineFit {
   kLeastDistances,  ///< Least sum of distances, as the paper says.
@@ -69,8 +81,37 @@ struct SensorStudy {
   Published published;
 };
 
+/// The settings of some grids, in the order of their methods and parameters.
+std::vector<MethodSetting> settings_of(const std::vector<MethodGrid>& grids);
+
+/// The grids that hold just those settings, which stand method by method.
+std::vector<MethodGrid> grids_of(const std::vector<MethodSetting>& settings);
+
 /// The settings of one sensor's study, in the order of its methods and their parameters.
 std::vector<MethodSetting> settings_of(const SensorStudy& study);
+
+/// What a paper's figure shows.
+enum class FigureKind {
+  kIdea,         ///< Observation histories become a map.
+  kMeasurement,  ///< One look of the sensor.
+  kErrorCurve,   ///< MPE over the steps, a curve a method.
+  kMap,          ///< The map of one run.
+};
+
+/// The name used in files: "idea", "measurement", "error_curve", "map".
+std::string_view name(FigureKind kind);
+
+/// The kind of that name; empty if there is none.
+std::optional<FigureKind> figure_kind_named(std::string_view name);
+
+/// A figure of the paper that is drawn again, under an id of its own.
+struct PaperFigure {
+  std::string id;  ///< [a-z][a-z0-9-]*, unique in the experiment: "fig-4".
+  FigureKind kind = FigureKind::kMap;
+  Sensor sensor = Sensor::kVisibility;
+  std::vector<Method> methods;  ///< kErrorCurve: all that it shows; kIdea and kMap: the one.
+  std::optional<PublishedValue> example;  ///< kMap: the map that the paper shows.
+};
 
 /// A simulated study: `layouts` worlds, each walked from `poses` initial poses. A run is one pair.
 struct Experiment {
@@ -81,9 +122,16 @@ struct Experiment {
   int poses = 1;
   WorldOptions world;
   WalkOptions walk;
-  int anchors = 4;  ///< The landmarks nearest the corners; other counts: spread along the walls.
+  int anchors = 4;
+  AnchorPlacement anchor_placement = AnchorPlacement::kWalls;
   AffineFit affine_fit = AffineFit::kLeastDistances;
+  SolverOptions solver;
   std::vector<SensorStudy> sensors;
+  std::vector<Variation> variations;
+  std::vector<PaperFigure> figures;
 };
+
+/// The study of that sensor; null if the experiment has none.
+const SensorStudy* find_sensor(const Experiment& experiment, Sensor sensor);
 
 }  // namespace mapproof

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <optional>
+#include <string_view>
 #include <vector>
 
 #include <Eigen/Core>
@@ -17,6 +19,12 @@ enum class View {
   kHidden,      ///< Within reach, but another landmark cuts the ray to its centre.
   kOutOfReach,  ///< Looks narrower than the visual angle.
 };
+
+/// The name used in files: "visible", "hidden", "out_of_reach".
+std::string_view name(View view);
+
+/// The view of that name; empty if there is none.
+std::optional<View> view_named(std::string_view name);
 
 /// What one sensor measured at one step of one run, and where everything stood.
 struct Measurement {

@@ -20,8 +20,9 @@ constexpr ParameterInfo kNeighbours{.symbol = "K",
 
 constexpr ParameterInfo kHessianNeighbours{.symbol = "K",
                                            .shown = "K",
-                                           .meaning = "number of nearest neighbours; no map below "
-                                                      "6",
+                                           .meaning =
+                                               "number of nearest neighbours; no map below "
+                                               "6",
                                            .integer = true,
                                            .minimum = 1,
                                            .maximum = 1000,

@@ -39,12 +39,20 @@ struct RunRecord {
   std::optional<Certificate> certificate;  ///< Of a semidefinite program.
 };
 
+/// How often occlusion decided what was seen: eq. 4 of the paper holds where it does not.
+struct Occlusion {
+  long within_reach = 0;  ///< Looks at a landmark near enough to be seen.
+  long hidden = 0;        ///< Of them, those that another landmark hid.
+};
+
 /// One run: its world and every record, in order of sensor, method, parameter, step.
 struct Run {
   RunId id;
   World world;
   std::vector<Eigen::Index> anchors;
+  std::optional<Occlusion> occlusion;  ///< If the experiment has visibility with occlusion.
   std::vector<RunRecord> records;
+  std::vector<VariationRecord> variations;  ///< In order of variation, level, setting.
 };
 
 /// What made a study: enough to make it again, nothing that varies between two makings.

@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
@@ -49,10 +50,19 @@ void check_walk(const Experiment& experiment, const JsonCursor& document) {
         fmt::format("step_m = {} in substeps of substep_m = {} are {:.0f} a step; at most "
                     "{:.0f}",
                     walk.step_m, walk.substep_m, substeps, kMostSubsteps));
+  int steps = 0;
   for (const SensorStudy& study : experiment.sensors)
-    if (substeps * study.checkpoints.back() > kMostSubstepsOfWalk)
-      place.fail(fmt::format("{:.0f} substeps a step x {} steps are more than {:.0f}", substeps,
-                             study.checkpoints.back(), kMostSubstepsOfWalk));
+    steps = std::max(steps, study.checkpoints.back());
+  for (const Variation& variation : experiment.variations) steps = std::max(steps, variation.step);
+  if (substeps * steps > kMostSubstepsOfWalk)
+    place.fail(fmt::format("{:.0f} substeps a step x {} steps are more than {:.0f}", substeps,
+                           steps, kMostSubstepsOfWalk));
+}
+
+void check_variation(const Variation& variation, int landmarks, const JsonCursor& object) {
+  if (static_cast<double>(landmarks) * variation.step > kMostEntries)
+    object.fail(fmt::format("{} landmarks x {} steps are more than {} entries", landmarks,
+                            variation.step, kMostEntries));
 }
 
 void check_sensor(const SensorStudy& study, int landmarks, const JsonCursor& object) {
@@ -60,14 +70,7 @@ void check_sensor(const SensorStudy& study, int landmarks, const JsonCursor& obj
     object.at("checkpoints")
         .fail(fmt::format("{} landmarks x {} steps are more than {} entries", landmarks,
                           study.checkpoints.back(), kMostEntries));
-  for (const MethodGrid& grid : study.methods) {
-    if (!on_graph(grid.method)) continue;
-    const JsonCursor values = object.at("methods").at(std::string(info(grid.method).name)).at("K");
-    for (std::size_t i = 0; i < grid.parameters.size(); ++i)
-      if (grid.parameters[i] >= landmarks)
-        values.element(i).fail(fmt::format("K must be below the number of landmarks, {}, got {}",
-                                           landmarks, grid.parameters[i]));
-  }
+  check_grids(study.methods, landmarks, object.at("methods"));
 }
 
 }  // namespace
@@ -85,6 +88,9 @@ void check_experiment(const Experiment& experiment, const JsonCursor& document) 
   for (const SensorStudy& study : experiment.sensors)
     check_sensor(study, experiment.world.landmarks,
                  document.at("sensors").at(std::string(name(study.sensor.sensor))));
+  for (std::size_t i = 0; i < experiment.variations.size(); ++i)
+    check_variation(experiment.variations[i], experiment.world.landmarks,
+                    document.at("variations").element(i));
 }
 
 }  // namespace mapproof

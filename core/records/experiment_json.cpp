@@ -18,18 +18,6 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-Json methods_value(const std::vector<MethodGrid>& grids) {
-  Json methods = Json::object();
-  for (const MethodGrid& grid : grids) {
-    const MethodInfo& method = info(grid.method);
-    Json& entry = methods[std::string(method.name)] = Json::object();
-    if (!method.parameter) continue;
-    Json& values = entry[std::string(method.parameter->symbol)] = Json::array();
-    for (const double value : grid.parameters) values.push_back(number_value(value));
-  }
-  return methods;
-}
-
 Json sensor_value(const SensorStudy& study) {
   Json value = Json::object();
   if (study.sensor.sensor == Sensor::kVisibility) {
@@ -76,27 +64,34 @@ Json experiment_value(const Experiment& experiment) {
   Json sensors = Json::object();
   for (const SensorStudy& study : experiment.sensors)
     sensors[std::string(name(study.sensor.sensor))] = sensor_value(study);
-  return {{"schema", schema_value("mapproof.experiment")},
-          {"name", experiment.name},
-          {"title", experiment.title},
-          {"seed", experiment.seed},
-          {"layouts", experiment.layouts},
-          {"poses", experiment.poses},
-          {"world",
-           {{"side_m", world.side_m},
-            {"landmarks", world.landmarks},
-            {"landmark_diameter_m", world.landmark_diameter_m},
-            {"gap_m", world.gap_m},
-            {"wall_margin_m", world.wall_margin_m}}},
-          {"walk",
-           {{"step_m", walk.step_m},
-            {"turn_rad", walk.turn_rad},
-            {"substep_m", walk.substep_m},
-            {"clearance_m", walk.clearance_m},
-            {"wall_margin_m", walk.wall_margin_m}}},
-          {"anchors", experiment.anchors},
-          {"affine_fit", name(experiment.affine_fit)},
-          {"sensors", std::move(sensors)}};
+  Json value = {{"schema", schema_value("mapproof.experiment")},
+                {"name", experiment.name},
+                {"title", experiment.title},
+                {"seed", experiment.seed},
+                {"layouts", experiment.layouts},
+                {"poses", experiment.poses},
+                {"world",
+                 {{"side_m", world.side_m},
+                  {"landmarks", world.landmarks},
+                  {"landmark_diameter_m", world.landmark_diameter_m},
+                  {"gap_m", world.gap_m},
+                  {"wall_margin_m", world.wall_margin_m}}},
+                {"walk",
+                 {{"step_m", walk.step_m},
+                  {"turn_rad", walk.turn_rad},
+                  {"substep_m", walk.substep_m},
+                  {"clearance_m", walk.clearance_m},
+                  {"wall_margin_m", walk.wall_margin_m}}},
+                {"anchors", experiment.anchors},
+                {"anchor_placement", name(experiment.anchor_placement)},
+                {"affine_fit", name(experiment.affine_fit)},
+                {"solver",
+                 {{"smacof_relative_fall", experiment.solver.smacof_relative_fall},
+                  {"smacof_knn_relative_fall", experiment.solver.smacof_knn_relative_fall},
+                  {"only_seen_together", experiment.solver.only_seen_together}}},
+                {"sensors", std::move(sensors)}};
+  put_extras(value, experiment);
+  return value;
 }
 
 std::string experiment_json(const Experiment& experiment) {

@@ -50,42 +50,6 @@ void read_sensor_options(const JsonCursor& object, SensorOptions& options) {
   read(object, "dropout_share", 0.0, 0.99, options.dropout_share);
 }
 
-/// At least one value, each above the one before it.
-template <typename Value, typename Read>
-std::vector<Value> read_ascending(const JsonCursor& array, Read read_one) {
-  std::vector<Value> values;
-  for (const JsonCursor& item : array.elements(1, 1000)) {
-    const Value value = read_one(item);
-    if (!values.empty() && value <= values.back())
-      item.fail(
-          fmt::format("expected values in ascending order, got {} after {}", value, values.back()));
-    values.push_back(value);
-  }
-  return values;
-}
-
-MethodGrid read_grid(const std::string& name, const JsonCursor& object) {
-  MethodGrid grid{.method = read_method(name, object), .parameters = {}};
-  const auto& parameter = info(grid.method).parameter;
-  if (!parameter) {
-    if (!object.members().empty()) object.fail(name + " has no parameter: expected {}");
-    return grid;
-  }
-  object.allow_only({parameter->symbol});
-  grid.parameters = read_ascending<double>(
-      object.at(std::string(parameter->symbol)),
-      [&](const JsonCursor& item) { return read_parameter(*parameter, item); });
-  return grid;
-}
-
-std::vector<MethodGrid> read_methods(const JsonCursor& object) {
-  std::vector<MethodGrid> grids;
-  for (const auto& [name, value] : object.members()) grids.push_back(read_grid(name, value));
-  if (grids.empty()) object.fail("expected at least one method");
-  std::ranges::sort(grids, {}, &MethodGrid::method);
-  return grids;
-}
-
 SensorStudy read_sensor_study(Sensor sensor, const JsonCursor& object) {
   std::vector<std::string_view> keys = {"noise", "dropout_share", "checkpoints", "methods",
                                         "published"};
@@ -129,12 +93,21 @@ AffineFit read_affine_fit(const JsonCursor& value) {
   value.fail("expected least_distances or least_squares, got " + in_quotes(text));
 }
 
+void read_solver(const JsonCursor& object, SolverOptions& solver) {
+  object.allow_only({"smacof_relative_fall", "smacof_knn_relative_fall", "only_seen_together"});
+  read(object, "smacof_relative_fall", 0.0, 1.0, solver.smacof_relative_fall);
+  read(object, "smacof_knn_relative_fall", 0.0, 1.0, solver.smacof_knn_relative_fall);
+  if (const auto only = object.find("only_seen_together"))
+    solver.only_seen_together = only->boolean();
+}
+
 }  // namespace
 
 Experiment read_experiment(const JsonCursor& document) {
   expect_schema(document, "mapproof.experiment");
   document.allow_only({"schema", "name", "title", "seed", "layouts", "poses", "world", "walk",
-                       "anchors", "affine_fit", "sensors"});
+                       "anchors", "anchor_placement", "affine_fit", "solver", "sensors",
+                       "variations", "figures"});
   Experiment experiment;
   experiment.name = read_name(document.at("name"));
   experiment.title = experiment.name;
@@ -146,7 +119,11 @@ Experiment read_experiment(const JsonCursor& document) {
   if (const auto walk = document.find("walk")) read_walk(*walk, experiment.walk);
   read(document, "anchors", 3, 1000, experiment.anchors);
   if (const auto fit = document.find("affine_fit")) experiment.affine_fit = read_affine_fit(*fit);
+  if (const auto placement = document.find("anchor_placement"))
+    experiment.anchor_placement = read_anchor_placement(*placement);
+  if (const auto solver = document.find("solver")) read_solver(*solver, experiment.solver);
   experiment.sensors = read_sensors(document.at("sensors"));
+  read_extras(document, experiment);
   check_experiment(experiment, document);
   return experiment;
 }

@@ -1,5 +1,8 @@
 #pragma once
 
+#include <vector>
+
+#include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
 #include "core/json/json_cursor.hpp"
@@ -24,5 +27,32 @@ nlohmann::ordered_json published_value(const Published& published);
 /// That no two sensors' tables get one id, those that go with them included.
 /// @throws IoError with the place in `document`.
 void check_table_ids(const Experiment& experiment, const JsonCursor& document);
+/// Parts of an experiment, each with its counterpart for writing. Readers throw IoError with the
+/// place.
+std::vector<MethodGrid> read_methods(const JsonCursor& object);
+nlohmann::ordered_json methods_value(const std::vector<MethodGrid>& grids);
+
+/// @param methods  What `grids` were read from. @throws IoError at a K of `landmarks` or more.
+void check_grids(const std::vector<MethodGrid>& grids, int landmarks, const JsonCursor& methods);
+
+AnchorPlacement read_anchor_placement(const JsonCursor& value);
+
+/// Variations and figures, which rest on everything else in the experiment.
+void read_extras(const JsonCursor& document, Experiment& experiment);
+void put_extras(nlohmann::ordered_json& value, const Experiment& experiment);
+
+/// At least one value, each above the one before it.
+template <typename Value, typename Read>
+std::vector<Value> read_ascending(const JsonCursor& array, Read read_one) {
+  std::vector<Value> values;
+  for (const JsonCursor& item : array.elements(1, 1000)) {
+    const Value value = read_one(item);
+    if (!values.empty() && value <= values.back())
+      item.fail(
+          fmt::format("expected values in ascending order, got {} after {}", value, values.back()));
+    values.push_back(value);
+  }
+  return values;
+}
 
 }  // namespace mapproof

@@ -25,6 +25,14 @@ Sensor read_sensor(const JsonCursor& value) {
   return *sensor;
 }
 
+Json run_id_value(const RunId& run) { return {{"layout", run.layout}, {"pose", run.pose}}; }
+
+RunId read_run_id(const JsonCursor& value) {
+  value.allow_only({"layout", "pose"});
+  return {.layout = value.at("layout").integer32(1, kMostLayouts),
+          .pose = value.at("pose").integer32(1, kMostPoses)};
+}
+
 Method read_method(const std::string& name, const JsonCursor& place) {
   const std::optional<Method> method = method_named(name);
   if (!method)
@@ -90,6 +98,13 @@ Points read_points(const JsonCursor& value) {
     points(i, 1) = pair[1].number(-kInfinity, kInfinity);
   }
   return points;
+}
+
+Json numbers_value(const Eigen::VectorXd& numbers) {
+  Json values = Json::array();
+  for (const double number : numbers)
+    values.push_back(std::isfinite(number) ? number_value(number) : Json(nullptr));
+  return values;
 }
 
 Json indices_value(const std::vector<Eigen::Index>& indices) {

@@ -11,6 +11,7 @@
 #include "core/model/score.hpp"
 #include "core/model/sensor.hpp"
 #include "core/model/status.hpp"
+#include "core/model/study.hpp"
 #include "core/records/limits.hpp"
 
 namespace mapproof {
@@ -18,6 +19,9 @@ namespace mapproof {
 /// The small values that several files hold, to and from JSON. Readers throw IoError.
 
 Sensor read_sensor(const JsonCursor& value);
+
+nlohmann::ordered_json run_id_value(const RunId& run);
+RunId read_run_id(const JsonCursor& value);
 
 /// The method that a key or a value names. @throws IoError at `place`, with "did you mean".
 Method read_method(const std::string& name, const JsonCursor& place);
@@ -36,6 +40,9 @@ nlohmann::ordered_json number_value(double number);
 /// [[x, y], null, ...]: null for a row that is not finite.
 nlohmann::ordered_json points_value(const Points& points);
 Points read_points(const JsonCursor& value);
+
+/// Numbers, null for those that are not finite.
+nlohmann::ordered_json numbers_value(const Eigen::VectorXd& numbers);
 
 nlohmann::ordered_json indices_value(const std::vector<Eigen::Index>& indices);
 /// Different indices below `size`.

@@ -17,14 +17,6 @@ constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr int kMostIterations = std::numeric_limits<int>::max();
 constexpr std::size_t kMostRecords = 1'000'000;
 
-Json run_value(const RunId& run) { return {{"layout", run.layout}, {"pose", run.pose}}; }
-
-RunId read_run_id(const JsonCursor& value) {
-  value.allow_only({"layout", "pose"});
-  return {.layout = value.at("layout").integer32(1, kMostLayouts),
-          .pose = value.at("pose").integer32(1, kMostPoses)};
-}
-
 Json world_value(const World& world) {
   return {{"side_m", world.side_m},
           {"landmark_diameter_m", world.landmark_diameter_m},
@@ -95,6 +87,42 @@ RunRecord read_record(const JsonCursor& value) {
   return record;
 }
 
+Json occlusion_value(const std::optional<Occlusion>& occlusion) {
+  if (!occlusion) return nullptr;
+  return {{"within_reach", occlusion->within_reach}, {"hidden", occlusion->hidden}};
+}
+
+std::optional<Occlusion> read_occlusion(const JsonCursor& value) {
+  if (value.is_null()) return std::nullopt;
+  constexpr std::int64_t kMostLooks = std::int64_t{kMostLandmarks} * kMostSteps;
+  value.allow_only({"within_reach", "hidden"});
+  Occlusion occlusion;
+  occlusion.within_reach = value.at("within_reach").integer(0, kMostLooks);
+  occlusion.hidden = value.at("hidden").integer(0, occlusion.within_reach);
+  return occlusion;
+}
+
+Json variation_record_value(const VariationRecord& record) {
+  Json value = {{"variation", record.variation}, {"level", number_value(record.level)}};
+  put_setting(value, record.setting);
+  value["score"] = record.score ? score_value(*record.score) : Json(nullptr);
+  value["statuses"] = statuses_value(record.statuses);
+  return value;
+}
+
+VariationRecord read_variation_record(const JsonCursor& value) {
+  std::vector<std::string_view> keys = {"variation", "level", "score", "statuses"};
+  VariationRecord record;
+  record.setting = read_setting(value, keys);
+  value.allow_only(keys);
+  record.variation = value.at("variation").text(64);
+  record.level = value.at("level").number(-kInfinity, kInfinity);
+  if (const JsonCursor score = value.at("score"); !score.is_null())
+    record.score = read_score(score);
+  record.statuses = read_statuses(value.at("statuses"));
+  return record;
+}
+
 Json provenance_value(const Provenance& provenance) {
   Json libraries = Json::array();
   for (const auto& [library, version] : provenance.libraries)
@@ -123,30 +151,40 @@ Provenance read_provenance(const JsonCursor& value) {
 std::string run_json(const Run& run) {
   Json records = Json::array();
   for (const RunRecord& record : run.records) records.push_back(record_value(record));
+  Json variations = Json::array();
+  for (const VariationRecord& record : run.variations)
+    variations.push_back(variation_record_value(record));
   return json_text({{"schema", schema_value("mapproof.run")},
-                    {"run", run_value(run.id)},
+                    {"run", run_id_value(run.id)},
                     {"world", world_value(run.world)},
                     {"anchors", indices_value(run.anchors)},
-                    {"records", std::move(records)}});
+                    {"occlusion", occlusion_value(run.occlusion)},
+                    {"records", std::move(records)},
+                    {"variations", std::move(variations)}});
 }
 
 Run parse_run(std::string_view text, const std::string& source) {
   const JsonDocument document = parse_json(text, source);
   const JsonCursor root = document.cursor();
   expect_schema(root, "mapproof.run");
-  root.allow_only({"schema", "run", "world", "anchors", "records"});
+  root.allow_only({"schema", "run", "world", "anchors", "occlusion", "records", "variations"});
   Run run;
   run.id = read_run_id(root.at("run"));
   run.world = read_world(root.at("world"));
   run.anchors = read_indices(root.at("anchors"), run.world.landmarks_m.rows());
   for (const JsonCursor& record : root.at("records").elements(0, kMostRecords))
     run.records.push_back(read_record(record));
+  // Studies made before there were variations do not have these.
+  if (const auto occlusion = root.find("occlusion")) run.occlusion = read_occlusion(*occlusion);
+  if (const auto variations = root.find("variations"))
+    for (const JsonCursor& record : variations->elements(0, kMostRecords))
+      run.variations.push_back(read_variation_record(record));
   return run;
 }
 
 std::string maps_json(const RunMaps& maps) {
   const MapRecord shared = maps.maps.empty() ? MapRecord{} : maps.maps.front();
-  Json value = {{"schema", schema_value("mapproof.maps")}, {"run", run_value(maps.run)}};
+  Json value = {{"schema", schema_value("mapproof.maps")}, {"run", run_id_value(maps.run)}};
   put_landmarks(value, shared);
   value["maps"] = Json::array();
   for (const MapRecord& map : maps.maps) value["maps"].push_back(map_value(map, &shared));

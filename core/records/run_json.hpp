@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "core/model/map_record.hpp"
+#include "core/model/run_details.hpp"
 #include "core/model/study.hpp"
 
 namespace mapproof {
@@ -12,6 +13,10 @@ namespace mapproof {
 /// runs/layout-1-pose-2.json (mapproof.run).
 std::string run_json(const Run& run);
 Run parse_run(std::string_view text, const std::string& source);
+
+/// details/layout-1-pose-2.json (mapproof.details).
+std::string details_json(const RunDetails& details);
+RunDetails parse_details(std::string_view text, const std::string& source);
 
 /// The maps of one run in a file.
 struct RunMaps {

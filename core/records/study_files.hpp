@@ -17,8 +17,10 @@ struct StudyFiles {
   std::filesystem::path timings() const { return folder / "timings.jsonl"; }
   std::filesystem::path runs() const { return folder / "runs"; }
   std::filesystem::path maps() const { return folder / "maps"; }
+  std::filesystem::path details() const { return folder / "details"; }
   std::filesystem::path run(const RunId& id) const { return runs() / (slug(id) + ".json"); }
   std::filesystem::path map(const RunId& id) const { return maps() / (slug(id) + ".json"); }
+  std::filesystem::path detail(const RunId& id) const { return details() / (slug(id) + ".json"); }
 
   /// The runs that have a file, ascending; other files are passed over. @throws IoError.
   std::vector<RunId> listed_runs() const;

@@ -86,6 +86,16 @@ Study read_study(const fs::path& folder) {
   return study;
 }
 
+std::optional<RunDetails> read_details(const fs::path& folder, const RunId& run) {
+  const fs::path path = StudyFiles{folder}.detail(run);
+  std::error_code error;
+  if (!fs::exists(path, error)) return std::nullopt;
+  RunDetails details = parse_details(read_file(path), path.string());
+  if (details.id != run)
+    throw IoError(path.string(), "/run", "says that it is " + slug(details.id));
+  return details;
+}
+
 std::vector<MapRecord> read_maps(const fs::path& folder, const RunId& run) {
   const std::string path = StudyFiles{folder}.map(run).string();
   RunMaps maps = parse_maps(read_file(path), path);

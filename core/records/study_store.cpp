@@ -43,6 +43,7 @@ void remove_tree(const fs::path& path) {
 void remove_runs(const StudyFiles& files) {
   remove_tree(files.runs());
   remove_tree(files.maps());
+  remove_tree(files.details());
   remove_tree(files.timings());
 }
 
@@ -55,12 +56,14 @@ void check_is_new(const fs::path& folder) {
   if (error) throw IoError(folder.string(), "cannot be listed: " + error.message());
 }
 
-/// Whether the run's files are both there, whole, and of that run.
+/// Whether the run's files are all there, whole, and of that run.
 bool is_whole(const StudyFiles& files, const RunId& id) {
   try {
     const std::string run = files.run(id).string();
     const std::string maps = files.map(id).string();
-    return parse_run(read_file(run), run).id == id && parse_maps(read_file(maps), maps).run == id;
+    const std::string details = files.detail(id).string();
+    return parse_run(read_file(run), run).id == id && parse_maps(read_file(maps), maps).run == id &&
+           parse_details(read_file(details), details).id == id;
   } catch (const IoError&) {
     return false;
   }
@@ -130,6 +133,7 @@ void StudyStore::write(const RunResult& result) {
     throw InvalidInput(
         fmt::format("{} is no run of the experiment {}", slug(id), state_->experiment.name));
   write_file(state_->files.map(id), maps_json({.run = id, .maps = result.maps}));
+  write_file(state_->files.detail(id), details_json(result.details));
   write_file(state_->files.run(id), run_json(result.run));
   std::string lines;
   for (const Timing& timing : result.timings) lines += timing_line(timing);

@@ -2,10 +2,12 @@
 
 #include <filesystem>
 #include <memory>
+#include <optional>
 #include <vector>
 
 #include "core/model/experiment.hpp"
 #include "core/model/map_record.hpp"
+#include "core/model/run_details.hpp"
 #include "core/model/study.hpp"
 
 namespace mapproof {
@@ -13,6 +15,7 @@ namespace mapproof {
 /// Everything that one run leaves behind.
 struct RunResult {
   Run run;
+  RunDetails details;
   std::vector<MapRecord> maps;
   std::vector<Timing> timings;
 };
@@ -59,6 +62,10 @@ bool is_study(const std::filesystem::path& folder);
 /// The study in a folder: the runs finished so far, ascending, each as it was written.
 /// @throws IoError if there is no study or a file of it is damaged.
 Study read_study(const std::filesystem::path& folder);
+
+/// What figures show of one run beyond its maps; empty in a study of an older version.
+/// @throws IoError.
+std::optional<RunDetails> read_details(const std::filesystem::path& folder, const RunId& run);
 
 /// The maps of one run, in the order they were written. @throws IoError.
 std::vector<MapRecord> read_maps(const std::filesystem::path& folder, const RunId& run);

@@ -37,6 +37,7 @@ struct KnownSchema {
 };
 
 constexpr std::array kSchemas = {
+    KnownSchema{"mapproof.details", [](auto text, auto& source) { parse_details(text, source); }},
     KnownSchema{"mapproof.experiment", check_experiment_file},
     KnownSchema{"mapproof.map", [](auto text, auto& source) { parse_map(text, source); }},
     KnownSchema{"mapproof.maps", [](auto text, auto& source) { parse_maps(text, source); }},
@@ -118,6 +119,7 @@ Finding check_study(const fs::path& folder) {
       if (maps > run.records.size())
         throw IoError(StudyFiles{folder}.map(run.id).string(), "/maps",
                       fmt::format("{} maps for {} records", maps, run.records.size()));
+      read_details(folder, run.id);
     }
   } catch (const std::exception& error) {
     finding.problem = error.what();

@@ -23,24 +23,10 @@ bool cuts(const Eigen::RowVector2d& center, double radius, const Eigen::RowVecto
 /// One column of a visibility history: what is seen from `position`.
 Eigen::VectorXd seen_from(const World& world, const Eigen::RowVector2d& position,
                           const SensorOptions& options) {
-  const double radius = world.landmark_diameter_m / 2.0;
-  // A cylinder looks 2 asin(r / d) wide.
-  const double reach =
-      radius / std::sin(std::min(options.visual_angle_rad, std::numbers::pi) / 2.0);
-  const Eigen::VectorXd distances = (world.landmarks_m.rowwise() - position).rowwise().norm();
-  std::vector<Eigen::Index> near;
-  for (Eigen::Index i = 0; i < distances.size(); ++i)
-    if (distances(i) <= reach) near.push_back(i);
-
-  Eigen::VectorXd seen = Eigen::VectorXd::Zero(distances.size());
-  for (const Eigen::Index i : near) {
-    const bool hidden =
-        options.occlusion && std::ranges::any_of(near, [&](Eigen::Index j) {
-          return j != i && distances(j) < distances(i) &&
-                 cuts(world.landmarks_m.row(j), radius, position, world.landmarks_m.row(i));
-        });
-    seen(i) = hidden ? 0.0 : 1.0;
-  }
+  const std::vector<View> views = views_from(world, position, options);
+  Eigen::VectorXd seen(std::ssize(views));
+  for (std::size_t i = 0; i < views.size(); ++i)
+    seen(static_cast<Eigen::Index>(i)) = views[i] == View::kVisible ? 1.0 : 0.0;
   return seen;
 }
 
@@ -87,6 +73,42 @@ ObservationHistory observe(const World& world, const Path& path, const SensorOpt
       history.values(i, t) = disturbed(measured(i), options, random);
   }
   return history;
+}
+
+double visibility_reach(const World& world, const SensorOptions& options) {
+  return world.landmark_diameter_m / 2.0 /
+         std::sin(std::min(options.visual_angle_rad, std::numbers::pi) / 2.0);
+}
+
+std::vector<View> views_from(const World& world, const Eigen::RowVector2d& position,
+                             const SensorOptions& options) {
+  const double radius = world.landmark_diameter_m / 2.0;
+  const double reach = visibility_reach(world, options);
+  const Eigen::VectorXd distances = (world.landmarks_m.rowwise() - position).rowwise().norm();
+  std::vector<Eigen::Index> near;
+  for (Eigen::Index i = 0; i < distances.size(); ++i)
+    if (distances(i) <= reach) near.push_back(i);
+
+  std::vector<View> views(static_cast<std::size_t>(distances.size()), View::kOutOfReach);
+  for (const Eigen::Index i : near) {
+    const bool hidden =
+        options.occlusion && std::ranges::any_of(near, [&](Eigen::Index j) {
+          return j != i && distances(j) < distances(i) &&
+                 cuts(world.landmarks_m.row(j), radius, position, world.landmarks_m.row(i));
+        });
+    views[static_cast<std::size_t>(i)] = hidden ? View::kHidden : View::kVisible;
+  }
+  return views;
+}
+
+Occlusion count_occlusion(const World& world, const Path& path, const SensorOptions& options) {
+  Occlusion count;
+  for (Eigen::Index t = 0; t < path.positions_m.rows(); ++t)
+    for (const View view : views_from(world, path.positions_m.row(t), options)) {
+      if (view != View::kOutOfReach) ++count.within_reach;
+      if (view == View::kHidden) ++count.hidden;
+    }
+  return count;
 }
 
 std::vector<std::string> landmark_names(Eigen::Index count) {

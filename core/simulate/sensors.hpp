@@ -5,7 +5,9 @@
 
 #include "core/base/random.hpp"
 #include "core/model/experiment.hpp"
+#include "core/model/measurement.hpp"
 #include "core/model/observation_history.hpp"
+#include "core/model/study.hpp"
 #include "core/model/world.hpp"
 
 namespace mapproof {
@@ -19,6 +21,17 @@ namespace mapproof {
 /// @note Without noise and dropout `random` is not drawn from.
 ObservationHistory observe(const World& world, const Path& path, const SensorOptions& options,
                            Random& random);
+
+/// How far a landmark's centre may be and still be seen, m: its cylinder looks 2 asin(r / d) wide.
+double visibility_reach(const World& world, const SensorOptions& options);
+
+/// What visibility makes of each landmark from `position`, without noise: M.
+std::vector<View> views_from(const World& world, const Eigen::RowVector2d& position,
+                             const SensorOptions& options);
+
+/// How often one landmark hid another along the path.
+/// @note As costly as observe().
+Occlusion count_occlusion(const World& world, const Path& path, const SensorOptions& options);
 
 /// "L1", "L2", ...: the names of simulated landmarks.
 std::vector<std::string> landmark_names(Eigen::Index count);

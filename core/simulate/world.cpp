@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 #include <optional>
 #include <utility>
 
@@ -46,6 +47,41 @@ Eigen::RowVector2d outline_point(double side, int index, int count) {
   }
 }
 
+std::vector<Eigen::Index> along_the_walls(const World& world, int count) {
+  std::vector<Eigen::Index> chosen;
+  for (int k = 0; k < count; ++k) {
+    const Eigen::RowVector2d target = outline_point(world.side_m, k, count);
+    Eigen::VectorXd distances = (world.landmarks_m.rowwise() - target).rowwise().norm();
+    for (const Eigen::Index taken : chosen) distances(taken) = HUGE_VAL;
+    Eigen::Index nearest = 0;
+    distances.minCoeff(&nearest);
+    chosen.push_back(nearest);
+  }
+  return chosen;
+}
+
+/// The first `count` of a shuffled deck.
+std::vector<Eigen::Index> drawn(Eigen::Index landmarks, int count, Random& random) {
+  std::vector<Eigen::Index> deck(static_cast<std::size_t>(landmarks));
+  std::iota(deck.begin(), deck.end(), 0);
+  for (std::size_t i = 0; i < static_cast<std::size_t>(count); ++i) {
+    const double left = static_cast<double>(deck.size() - i);
+    const auto offset = static_cast<std::size_t>(random.uniform() * left);
+    std::swap(deck[i], deck[std::min(i + offset, deck.size() - 1)]);
+  }
+  deck.resize(static_cast<std::size_t>(count));
+  return deck;
+}
+
+std::vector<Eigen::Index> nearest(const World& world, const Eigen::RowVector2d& place, int count) {
+  const Eigen::VectorXd distances = (world.landmarks_m.rowwise() - place).rowwise().norm();
+  std::vector<Eigen::Index> order(static_cast<std::size_t>(distances.size()));
+  std::iota(order.begin(), order.end(), 0);
+  std::ranges::stable_sort(order, {}, [&](Eigen::Index i) { return distances(i); });
+  order.resize(static_cast<std::size_t>(count));
+  return order;
+}
+
 }  // namespace
 
 World scatter_landmarks(const WorldOptions& options, Random& random) {
@@ -61,16 +97,20 @@ World scatter_landmarks(const WorldOptions& options, Random& random) {
                                  options.landmarks, options.landmark_diameter_m, options.side_m));
 }
 
-std::vector<Eigen::Index> corner_anchors(const World& world, int count) {
-  std::vector<Eigen::Index> chosen;
+std::vector<Eigen::Index> place_anchors(const World& world, int count, AnchorPlacement placement,
+                                        Random& random) {
   const int wanted = std::min<int>(count, static_cast<int>(world.landmarks_m.rows()));
-  for (int k = 0; k < wanted; ++k) {
-    const Eigen::RowVector2d target = outline_point(world.side_m, k, wanted);
-    Eigen::VectorXd distances = (world.landmarks_m.rowwise() - target).rowwise().norm();
-    for (const Eigen::Index taken : chosen) distances(taken) = HUGE_VAL;
-    Eigen::Index nearest = 0;
-    distances.minCoeff(&nearest);
-    chosen.push_back(nearest);
+  std::vector<Eigen::Index> chosen;
+  switch (placement) {
+    case AnchorPlacement::kWalls:
+      chosen = along_the_walls(world, wanted);
+      break;
+    case AnchorPlacement::kRandom:
+      chosen = drawn(world.landmarks_m.rows(), wanted, random);
+      break;
+    case AnchorPlacement::kCluster:
+      chosen = nearest(world, {0.0, 0.0}, wanted);
+      break;
   }
   std::ranges::sort(chosen);
   return chosen;

@@ -17,7 +17,7 @@ namespace {
 constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 
 /// One of the two quantities that curves show.
-struct Quantity {
+struct Measure {
   const char* id;
   const char* name;
   const char* unit;
@@ -25,8 +25,8 @@ struct Quantity {
   std::optional<MeanEstimate> SettingSummary::*estimate;
 };
 
-constexpr Quantity kMpe{"mpe", "MPE", "m", "mean position error", &SettingSummary::mpe_m};
-constexpr Quantity kMoe{"moe", "MOE", "%", "mean orientation error", &SettingSummary::moe_percent};
+constexpr Measure kMpe{"mpe", "MPE", "m", "mean position error", &SettingSummary::mpe_m};
+constexpr Measure kMoe{"moe", "MOE", "%", "mean orientation error", &SettingSummary::moe_percent};
 
 /// Methods that share a figure: the paper, too, draws its curves in two.
 struct Family {
@@ -51,13 +51,13 @@ History best_history(const Study& study, const SensorStudy& sensor) {
   return history;
 }
 
-Curve curve(const std::vector<SettingSummary>& steps, const Quantity& quantity) {
+Curve curve(const std::vector<SettingSummary>& steps, const Measure& measure) {
   Curve curve;
   curve.label = label(steps.front().setting);
   curve.key = std::string(info(steps.front().setting.method).name);
   bool any_interval = false;
   for (const SettingSummary& summary : steps) {
-    const auto& estimate = summary.*quantity.estimate;
+    const auto& estimate = summary.*measure.estimate;
     const auto interval = interval_of(estimate);
     curve.steps.push_back(summary.step);
     curve.mean.push_back(estimate ? estimate->mean : kNan);
@@ -77,21 +77,21 @@ bool has_score(const std::vector<SettingSummary>& steps) {
 }
 
 std::string curve_caption(const std::vector<std::vector<SettingSummary>>& curves,
-                          const Quantity& quantity, const Family& family) {
+                          const Measure& measure, const Family& family) {
   std::string ends;
   for (const auto& steps : curves) {
-    const auto& estimate = steps.back().*quantity.estimate;
+    const auto& estimate = steps.back().*measure.estimate;
     if (!estimate) continue;
     ends += fmt::format("{}{}: {:.3g} {}", ends.empty() ? "" : "; ", label(steps.back().setting),
-                        estimate->mean, quantity.unit);
+                        estimate->mean, measure.unit);
   }
   const SettingSummary& first = curves.front().back();
   return fmt::format("{}, methods {}: {} ({}) over observations. After {} of them \u2013 {}.",
-                     title_of(first.sensor), family.words, quantity.words, quantity.name,
-                     first.step, ends);
+                     title_of(first.sensor), family.words, measure.words, measure.name, first.step,
+                     ends);
 }
 
-std::optional<Figure> curve_figure(const History& history, const Quantity& quantity,
+std::optional<Figure> curve_figure(const History& history, const Measure& measure,
                                    const Family& family) {
   std::vector<std::vector<SettingSummary>> shown;
   for (const auto& steps : history)
@@ -101,13 +101,13 @@ std::optional<Figure> curve_figure(const History& history, const Quantity& quant
   if (shown.empty()) return std::nullopt;
   const Sensor sensor = shown.front().front().sensor;
   ErrorCurveSpec spec;
-  spec.id = fmt::format("{}-{}-{}", quantity.id, name(sensor), family.id);
-  spec.title = fmt::format("{}, {}: methods {}", title_of(sensor), quantity.name, family.words);
-  spec.y_label = fmt::format("{} [{}]", quantity.name, quantity.unit);
-  spec.quantity = quantity.words;
-  spec.caption = curve_caption(shown, quantity, family);
+  spec.id = fmt::format("{}-{}-{}", measure.id, name(sensor), family.id);
+  spec.title = fmt::format("{}, {}: methods {}", title_of(sensor), measure.name, family.words);
+  spec.y_label = fmt::format("{} [{}]", measure.name, measure.unit);
+  spec.quantity = measure.words;
+  spec.caption = curve_caption(shown, measure, family);
   for (const auto& steps : shown) {
-    spec.curves.push_back(curve(steps, quantity));
+    spec.curves.push_back(curve(steps, measure));
     for (const SettingSummary& summary : steps) spec.record_ids.push_back(source_of(summary));
   }
   return error_curve_figure(spec);
@@ -169,9 +169,9 @@ StudyFigures study_figures(const Study& study, const MapReader& read_maps) {
     SensorFigures& drawn = figures.sensors.emplace_back();
     drawn.sensor = sensor.sensor.sensor;
     const History history = best_history(study, sensor);
-    for (const Quantity& quantity : {kMpe, kMoe})
+    for (const Measure& measure : {kMpe, kMoe})
       for (const Family& family : kFamilies)
-        if (auto figure = curve_figure(history, quantity, family))
+        if (auto figure = curve_figure(history, measure, family))
           drawn.curves.push_back(*std::move(figure));
     for (std::size_t i = 0; i < history.size(); ++i) {
       if (history[i].empty()) continue;

@@ -61,6 +61,106 @@ TEST(SimulateRun, ReportsLandmarksThatWereNeverSeen) {
   EXPECT_FALSE(record.score);
 }
 
+Variation noise_variation() {
+  return {.id = "noise",
+          .sensor = Sensor::kBearing,
+          .quantity = Quantity::kNoise,
+          .levels = {0.0, 0.05, 0.6},
+          .step = 200,
+          .placement = std::nullopt,
+          .settings = {{Method::kLpca, std::nullopt}, {Method::kIsomap, 6.0}}};
+}
+
+TEST(Variations, HoldEveryLevelAndSettingInOrder) {
+  Experiment experiment = small_experiment();
+  experiment.variations = {noise_variation()};
+  const RunResult result = simulate_run(experiment, {1, 1});
+  const std::vector<VariationRecord>& records = result.run.variations;
+  ASSERT_EQ(records.size(), 6U);
+  EXPECT_EQ(records[2].level, 0.05);
+  EXPECT_EQ(records[3].setting, (MethodSetting{Method::kIsomap, 6.0}));
+}
+
+TEST(Variations, AgreeWithTheStudyWhereNothingVaries) {
+  Experiment experiment = small_experiment();
+  experiment.variations = {noise_variation()};
+  const RunResult result = simulate_run(experiment, {2, 1});
+  const auto same = [&](const VariationRecord& varied) {
+    for (const RunRecord& record : result.run.records)
+      if (record.sensor == Sensor::kBearing && record.step == 200 &&
+          record.setting == varied.setting)
+        return record.score->mpe_m == varied.score->mpe_m;
+    return false;
+  };
+  EXPECT_TRUE(same(result.run.variations[0]));
+  EXPECT_TRUE(same(result.run.variations[1]));
+  EXPECT_FALSE(same(result.run.variations[2]));
+}
+
+TEST(Variations, OfNoiseMakeWorseMaps) {
+  Experiment experiment = small_experiment();
+  experiment.variations = {noise_variation()};
+  double low = 0.0;
+  double high = 0.0;
+  for (const RunId& id : runs_of(experiment)) {
+    const RunResult result = simulate_run(experiment, id);
+    low += result.run.variations[0].score->moe_percent;
+    high += result.run.variations[4].score->moe_percent;
+  }
+  EXPECT_LT(low, high);
+}
+
+TEST(Variations, OfAnchorsScoreOneEmbeddingOverOtherAnchors) {
+  Experiment experiment = small_experiment();
+  Variation variation = noise_variation();
+  variation.quantity = Quantity::kAnchors;
+  variation.levels = {4, 8};
+  variation.placement = AnchorPlacement::kWalls;
+  experiment.variations = {variation};
+  const RunResult result = simulate_run(experiment, {1, 1});
+  const std::vector<VariationRecord>& records = result.run.variations;
+  ASSERT_EQ(records.size(), 4U);
+  EXPECT_NE(records[0].score->mpe_m, records[2].score->mpe_m);
+  EXPECT_EQ(records[0].score->moe_unmirrored_percent, records[2].score->moe_unmirrored_percent);
+}
+
+TEST(Variations, OfASensorThatIsNotThereAreRefused) {
+  Experiment experiment = small_experiment();
+  experiment.variations = {noise_variation()};
+  experiment.variations[0].sensor = Sensor::kRange;
+  EXPECT_THROW(simulate_run(experiment, {1, 1}), InvalidInput);
+}
+
+TEST(RunDetails, ShowALookThatTheHistoryHolds) {
+  const RunResult result = simulate_run(small_experiment(), {1, 1});
+  ASSERT_EQ(result.details.sensors.size(), 2U);
+  const SensorDetails& visibility = result.details.sensors[0];
+  ASSERT_EQ(visibility.views.size(), 12U);
+  for (std::size_t i = 0; i < visibility.views.size(); ++i)
+    EXPECT_EQ(visibility.values(static_cast<Eigen::Index>(i)) == 1.0,
+              visibility.views[i] == View::kVisible);
+  EXPECT_EQ(visibility.first_steps.cols(), 60);
+  EXPECT_EQ(visibility.distances.size(), 66);
+  EXPECT_NEAR(visibility.reach_m, 0.55, 0.001);
+
+  const Measurement look = measurement(result.details, visibility, result.run.world);
+  EXPECT_EQ(look.path_m.rows(), visibility.look_step);
+  const SensorDetails& bearing = result.details.sensors[1];
+  EXPECT_TRUE(bearing.views.empty());
+  EXPECT_EQ(result.details.path.positions_m.rows(), 200);
+  EXPECT_FALSE(bearing.spectra.empty());
+}
+
+TEST(RunDetails, CountHowOftenOneLandmarkHidAnother) {
+  const RunResult result = simulate_run(small_experiment(), {1, 1});
+  ASSERT_TRUE(result.run.occlusion);
+  EXPECT_GT(result.run.occlusion->hidden, 0);
+  EXPECT_LT(result.run.occlusion->hidden, result.run.occlusion->within_reach / 2);
+  Experiment clear = small_experiment();
+  clear.sensors[0].sensor.occlusion = false;
+  EXPECT_FALSE(simulate_run(clear, {1, 1}).run.occlusion);
+}
+
 // The paper's protocol on 8 layouts x 2 poses: wide bounds around the bands of independent
 // prototypes (40 layouts x 5 poses), so that a broken method fails and chance does not.
 TEST(PaperProtocol, LandsNearThePublishedErrors) {

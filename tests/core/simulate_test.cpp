@@ -1,3 +1,4 @@
+#include <array>
 #include <cmath>
 #include <numbers>
 
@@ -47,11 +48,33 @@ TEST(ScatterLandmarks, RefusesWhatDoesNotFit) {
   EXPECT_THROW(scatter_landmarks({.side_m = 0.1, .landmarks = 4}, random), InvalidInput);
 }
 
-TEST(CornerAnchors, AreTheLandmarksNearestTheCorners) {
+TEST(PlaceAnchors, TakesTheLandmarksNearestTheCorners) {
   const World world{.side_m = 2.0, .landmark_diameter_m = 0.1, .landmarks_m = test::grid(3, 3)};
-  EXPECT_EQ(corner_anchors(world, 4), (std::vector<Eigen::Index>{0, 2, 6, 8}));
-  EXPECT_EQ(corner_anchors(world, 9).size(), 9U);
-  EXPECT_EQ(corner_anchors(world, 100).size(), 9U);
+  Random random(1);
+  const auto along_the_walls = [&](int count) {
+    return place_anchors(world, count, AnchorPlacement::kWalls, random);
+  };
+  EXPECT_EQ(along_the_walls(4), (std::vector<Eigen::Index>{0, 2, 6, 8}));
+  EXPECT_EQ(along_the_walls(9).size(), 9U);
+  EXPECT_EQ(along_the_walls(100).size(), 9U);
+  EXPECT_EQ(random.next(), Random(1).next());
+}
+
+TEST(PlaceAnchors, TakesAClusterFromTheFirstCorner) {
+  const World world{.side_m = 2.0, .landmark_diameter_m = 0.1, .landmarks_m = test::grid(3, 3)};
+  Random random(1);
+  EXPECT_EQ(place_anchors(world, 3, AnchorPlacement::kCluster, random),
+            (std::vector<Eigen::Index>{0, 1, 3}));
+}
+
+TEST(PlaceAnchors, DrawsEveryLandmarkEquallyOften) {
+  const World world{.side_m = 2.0, .landmark_diameter_m = 0.1, .landmarks_m = test::grid(3, 3)};
+  Random random(1);
+  std::array<int, 9> count{};
+  for (int i = 0; i < 3000; ++i)
+    for (const Eigen::Index anchor : place_anchors(world, 3, AnchorPlacement::kRandom, random))
+      ++count[static_cast<std::size_t>(anchor)];
+  for (const int times : count) EXPECT_NEAR(times, 1000, 110);
 }
 
 TEST(RandomWalk, KeepsItsDistanceFromWallsAndLandmarksAtEveryObservation) {

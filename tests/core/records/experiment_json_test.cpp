@@ -182,7 +182,7 @@ TEST(ExperimentJson, RefusesWalksThatWouldNotEnd) {
 
 TEST(ExperimentJson, RefusesAWalkWithoutRoomEvenByDefault) {
   json experiment = json::parse(read_file(test::data_file("experiments/small.json")));
-  experiment.erase("walk");
+  for (const char* key : {"walk", "variations"}) experiment.erase(key);
   experiment["world"] = {{"side_m", 0.11},
                          {"landmarks", 5},
                          {"landmark_diameter_m", 0.001},
@@ -237,6 +237,35 @@ TEST(ExperimentJson, RefusesWhatOneSensorHasNoUseFor) {
             "e.json: /sensors/range: unknown key \"occlusion\"");
   EXPECT_EQ(error_with("/sensors/visibility/noise", 0.75),
             "e.json: /sensors/visibility/noise: expected a number from 0 to 0.5, got 0.75");
+}
+
+TEST(ExperimentJson, ReadsVariationsAndThePapersFigures) {
+  const Experiment experiment = test::small_experiment();
+  EXPECT_EQ(experiment.solver.smacof_knn_relative_fall, 1e-3);
+  ASSERT_EQ(experiment.variations.size(), 2U);
+  EXPECT_EQ(experiment.variations[0].step, 100);
+  EXPECT_EQ(experiment.variations[0].settings,
+            (std::vector<MethodSetting>{{Method::kLpca, {}}, {Method::kIsomap, 4.0}}));
+  EXPECT_EQ(experiment.variations[1].placement, AnchorPlacement::kRandom);
+  ASSERT_EQ(experiment.figures.size(), 3U);
+  EXPECT_EQ(experiment.figures[1].methods, std::vector{Method::kIsomap});
+  EXPECT_EQ(experiment.figures[2].example->setting.parameter, 5.0);
+}
+
+TEST(ExperimentJson, RefusesVariationsThatTheExperimentCannotMake) {
+  EXPECT_EQ(error_with("/variations/0/sensor", "bearing"),
+            "e.json: /variations/0/sensor: the experiment has no sensor bearing");
+  EXPECT_EQ(error_with("/variations/0/levels", {0.1, 0.6}),
+            "e.json: /variations/0/levels/1: expected a number from 0 to 0.5, got 0.6");
+  EXPECT_EQ(error_with("/variations/1/levels", {3, 12}),
+            "e.json: /variations/1/levels/1: expected an integer from 3 to 11, got 12");
+  EXPECT_EQ(error_with("/variations/1/id", "noise"), "e.json: /variations/1/id: is there twice");
+  EXPECT_EQ(error_with("/variations/0/methods/isomap/K", {12}),
+            "e.json: /variations/0/methods/isomap/K/0: K must be below the number of landmarks, "
+            "12, got 12");
+  EXPECT_EQ(error_with("/figures/0/id", "../fig"),
+            "e.json: /figures/0/id: expected lower-case letters, digits and '-', a letter first, "
+            "got \"../fig\"");
 }
 
 TEST(ExperimentJson, RefusesWhatHasNoNameOrNoSensors) {

@@ -47,6 +47,27 @@ Provenance made_up_provenance(const std::string& solver_digest) {
           .libraries = {{"Eigen", "3.4.0"}, {"a library before it in the alphabet", "1"}}};
 }
 
+RunDetails made_up_details(const RunId& id) {
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  RunDetails details{
+      .id = id, .path = {.positions_m = Points(3, 2), .headings_rad = {}}, .sensors = {}};
+  details.path.positions_m << 0.5, 0.25, 0.75, 0.25, 0.75, 0.5;
+  details.path.headings_rad = Eigen::Vector3d(0.0, 0.1, -3.0);
+  SensorDetails sensor{.look_step = 2,
+                       .reach_m = 0.55,
+                       .views = {View::kVisible, View::kHidden, View::kOutOfReach, View::kVisible},
+                       .values = Eigen::Vector4d(1.0, 0.0, nan, 1.0),
+                       .first_steps = Eigen::MatrixXd::Identity(4, 3),
+                       .step = 3,
+                       .distances = Eigen::VectorXd::LinSpaced(6, 0.1, 0.9),
+                       .spectra = {}};
+  sensor.distances(2) = nan;
+  sensor.spectra = {{{Method::kLpca, std::nullopt}, Eigen::Vector3d(3.0, 2.0, 1e-9)},
+                    {{Method::kIsomap, 5.0}, Eigen::Vector2d(3.0, -2.0)}};
+  details.sensors = {sensor};
+  return details;
+}
+
 RunResult made_up_result(const RunId& id) {
   const double x = id.layout + id.pose / 8.0;
   const double nan = std::numeric_limits<double>::quiet_NaN();
@@ -80,6 +101,18 @@ RunResult made_up_result(const RunId& id) {
                                              .dual = 3.0,
                                              .relative_gap = 1e-7 / 3.0,
                                              .constraint_residual = 1e-9}}};
+  run.occlusion = {.within_reach = 90, .hidden = 20};
+  run.variations = {{.variation = "noise",
+                     .level = 0.125,
+                     .setting = {Method::kSmacofKnn, 4.0},
+                     .statuses = {},
+                     .score = score},
+                    {.variation = "noise",
+                     .level = 0.25,
+                     .setting = {Method::kLpca, std::nullopt},
+                     .statuses = {{StatusCode::kFailed, "No map."}},
+                     .score = std::nullopt}};
+  result.details = made_up_details(id);
   MapRecord map;
   map.id = slug(id) + "/visibility/lpca/50";
   map.step = 50;

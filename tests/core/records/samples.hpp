@@ -25,6 +25,7 @@ Experiment small_experiment();
 Provenance made_up_provenance(const std::string& solver_digest = "0123abcd");
 
 /// A run whose numbers are made up from its id: two records, one of them failed, and one map.
+RunDetails made_up_details(const RunId& id);
 RunResult made_up_result(const RunId& id);
 
 Session made_up_session();

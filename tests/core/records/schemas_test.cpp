@@ -66,8 +66,8 @@ TEST(Schemas, HoldForEveryFileOfAStudy) {
     store.write(result);
     store.write_session(test::made_up_session());
   }
-  for (const char* file :
-       {"study.json", "runs/layout-1-pose-1.json", "maps/layout-1-pose-1.json"}) {
+  for (const char* file : {"study.json", "runs/layout-1-pose-1.json", "maps/layout-1-pose-1.json",
+                           "details/layout-1-pose-1.json"}) {
     const json value = json::parse(read_file(folder / file));
     EXPECT_EQ(schema_problem(kind_of(value), value), "") << file;
   }
@@ -137,8 +137,8 @@ class Damaged : public ::testing::TestWithParam<Damage> {
     StudyStore::open(folder_.path(), test::small_experiment(), test::made_up_provenance())
         .write(test::made_up_result({1, 1}));
     if (kind == "study") return json::parse(read_file(folder_ / "study.json"));
-    return json::parse(
-        read_file(folder_ / (kind == "run" ? "runs" : "maps") / "layout-1-pose-1.json"));
+    const char* subfolder = kind == "run" ? "runs" : kind == "maps" ? "maps" : "details";
+    return json::parse(read_file(folder_ / subfolder / "layout-1-pose-1.json"));
   }
 
   const test::TemporaryFolder folder_;
@@ -184,10 +184,24 @@ INSTANTIATE_TEST_SUITE_P(
         Damage{"run", "/records/1/certificate/solver", "magic"},
         Damage{"run", "/records/1/certificate/dual", -1},
         Damage{"run", "/records/0/score/moe_percent", 101}, Damage{"run", "/anchors", {1, 1}},
-        Damage{"maps", "/names/0", ""}, Damage{"maps", "/maps/0/estimate", nullptr},
-        Damage{"maps", "/maps/0/frame", "lies"}, Damage{"map", "/names", {"a", "a"}},
-        Damage{"map", "/truth_m", nullptr}, Damage{"map", "/step", -1},
-        Damage{"map", "/estimate/0", {1, 2, 3}}, Damage{"observations", "/sensor", "sonar"},
+        Damage{"run", "/occlusion/hidden", -1}, Damage{"run", "/variations/0/K", nullptr},
+        Damage{"run", "/variations/1/level", "high"},
+        Damage{"experiment", "/variations/0/quantity", "weather"},
+        Damage{"experiment", "/variations/0/id", "Noise"},
+        Damage{"experiment", "/variations/0/levels", json::array()},
+        Damage{"experiment", "/variations/0/sensor", "sonar"},
+        Damage{"experiment", "/figures/0/kind", "pie"},
+        Damage{"experiment", "/figures/0/id", nullptr},
+        Damage{"experiment", "/solver/smacof_relative_fall", 2},
+        Damage{"experiment", "/anchor_placement", "moon"},
+        Damage{"details", "/sensors/0/look/views/0", "lost"},
+        Damage{"details", "/sensors/0/look/step", 0}, Damage{"details", "/path/positions_m/0", {1}},
+        Damage{"details", "/sensors/0/distances/0", "far"},
+        Damage{"details", "/sensors/0/spectra/0/method", "magic"}, Damage{"maps", "/names/0", ""},
+        Damage{"maps", "/maps/0/estimate", nullptr}, Damage{"maps", "/maps/0/frame", "lies"},
+        Damage{"map", "/names", {"a", "a"}}, Damage{"map", "/truth_m", nullptr},
+        Damage{"map", "/step", -1}, Damage{"map", "/estimate/0", {1, 2, 3}},
+        Damage{"observations", "/sensor", "sonar"},
         Damage{"observations", "/landmarks", json::array()},
         Damage{"observations", "/values/0/0", "1"},
         Damage{"observations", "/values/0", json::array()}));

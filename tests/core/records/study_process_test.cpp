@@ -92,7 +92,8 @@ TEST(StudyLock, KeepsASecondStoreOfOneProcessOut) {
 TEST(StudyLock, LeavesNoFileBehind) {
   const TemporaryFolder folder;
   open(folder.path());
-  EXPECT_EQ(std::distance(std::filesystem::directory_iterator(folder.path()), {}), 2);  // study.json, timings.jsonl
+  EXPECT_EQ(std::distance(std::filesystem::directory_iterator(folder.path()), {}),
+            2);  // study.json, timings.jsonl
 }
 
 TEST(StudyStore, EndsInTheSameBytesAfterAKill) {

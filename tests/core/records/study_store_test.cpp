@@ -51,6 +51,33 @@ TEST(StudyStore, GivesBackWhatWasWritten) {
   EXPECT_FALSE(run.records[1].score.has_value());
 }
 
+TEST(StudyStore, GivesBackVariationsAndDetails) {
+  const TemporaryFolder folder;
+  const RunId id{.layout = 1, .pose = 2};
+  const RunResult written = made_up_result(id);
+  open(folder.path()).write(written);
+  const mapproof::Run run = read_study(folder.path()).runs.at(0);
+  ASSERT_EQ(run.variations.size(), 2U);
+  EXPECT_EQ(run.variations[0].level, 0.125);
+  EXPECT_EQ(run.variations[0].score->mpe_m, written.run.variations[0].score->mpe_m);
+  EXPECT_EQ(run.variations[1].setting, written.run.variations[1].setting);
+  EXPECT_EQ(run.occlusion->hidden, 20);
+
+  const RunDetails details = read_details(folder.path(), id).value();
+  EXPECT_EQ(details.path.positions_m, written.details.path.positions_m);
+  EXPECT_EQ(details.path.headings_rad, written.details.path.headings_rad);
+  ASSERT_EQ(details.sensors.size(), 1U);
+  const SensorDetails& sensor = details.sensors[0];
+  EXPECT_EQ(sensor.views, written.details.sensors[0].views);
+  EXPECT_EQ(sensor.first_steps, written.details.sensors[0].first_steps);
+  EXPECT_TRUE(std::isnan(sensor.values(2)));
+  EXPECT_TRUE(std::isnan(sensor.distances(2)));
+  EXPECT_EQ(sensor.distances(5), 0.9);
+  EXPECT_EQ(sensor.spectra[1].first, written.details.sensors[0].spectra[1].first);
+  EXPECT_EQ(sensor.spectra[1].second, written.details.sensors[0].spectra[1].second);
+  EXPECT_FALSE(read_details(folder.path(), {.layout = 2, .pose = 2}));
+}
+
 TEST(StudyStore, KeepsTheMapsOfARunWithTheirHoles) {
   const TemporaryFolder folder;
   const RunId id{.layout = 1, .pose = 1};

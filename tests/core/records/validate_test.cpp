@@ -68,8 +68,9 @@ TEST(Validate, GoesThroughAllOfAStudy) {
     kinds.push_back(finding.kind);
     EXPECT_EQ(finding.problem, "") << finding.path;
   }
-  EXPECT_EQ(kinds, (std::vector<std::string>{"study", "mapproof.figure 1", "mapproof.maps 1",
-                                             "mapproof.run 1", "mapproof.study 1", "timings"}));
+  EXPECT_EQ(kinds, (std::vector<std::string>{"study", "mapproof.details 1", "mapproof.figure 1",
+                                             "mapproof.maps 1", "mapproof.run 1",
+                                             "mapproof.study 1", "timings"}));
 }
 
 TEST(Validate, NamesTheDamagedFileOfAStudy) {
@@ -80,7 +81,7 @@ TEST(Validate, NamesTheDamagedFileOfAStudy) {
   const std::vector<Finding> findings = validate(folder.path());
   EXPECT_EQ(std::ranges::count_if(findings, [](const Finding& f) { return !f.problem.empty(); }),
             2);
-  EXPECT_NE(findings[1].problem.find("maps/layout-1-pose-1.json: line 1, column 2: the file is"),
+  EXPECT_NE(findings[2].problem.find("maps/layout-1-pose-1.json: line 1, column 2: the file is"),
             std::string::npos);
 }
 

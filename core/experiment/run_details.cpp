@@ -1,0 +1,83 @@
+#include "core/experiment/run_details.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <utility>
+
+#include "core/observe/proximities.hpp"
+#include "core/simulate/sensors.hpp"
+
+namespace mapproof {
+namespace {
+
+constexpr Eigen::Index kFirstSteps = 60;
+constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
+
+/// Counted from 0.
+Eigen::Index telling_look(const SensorStudy& study, const World& world, const Path& path,
+                          Eigen::Index steps) {
+  Eigen::Index best = 0;
+  if (study.sensor.sensor != Sensor::kVisibility) {
+    const Eigen::RowVector2d center(world.side_m / 2.0, world.side_m / 2.0);
+    (path.positions_m.topRows(steps).rowwise() - center).rowwise().squaredNorm().minCoeff(&best);
+    return best;
+  }
+  std::pair<std::ptrdiff_t, std::ptrdiff_t> most{-1, -1};
+  for (Eigen::Index t = 0; t < steps; ++t) {
+    const std::vector<View> views = views_from(world, path.positions_m.row(t), study.sensor);
+    const std::pair found{std::ranges::count(views, View::kHidden),
+                          std::ranges::count(views, View::kVisible)};
+    if (found > most) {
+      most = found;
+      best = t;
+    }
+  }
+  return best;
+}
+
+/// The entries above the diagonal, row by row.
+Eigen::VectorXd upper_triangle(const Eigen::MatrixXd& squared) {
+  const Eigen::Index n = squared.rows();
+  Eigen::VectorXd distances(n * (n - 1) / 2);
+  Eigen::Index k = 0;
+  for (Eigen::Index i = 0; i < n; ++i)
+    for (Eigen::Index j = i + 1; j < n; ++j) {
+      const double distance = std::sqrt(squared(i, j));
+      distances(k++) = std::isfinite(distance) ? distance : kNaN;
+    }
+  return distances;
+}
+
+Eigen::VectorXd observed_distances(const ObservationHistory& history, Eigen::Index steps) {
+  Eigen::MatrixXd squared = proximities(history, steps).squared_distances;
+  for (const Eigen::Index i : unseen_landmarks(history, steps)) {
+    squared.row(i).setConstant(kNaN);
+    squared.col(i).setConstant(kNaN);
+  }
+  return upper_triangle(squared);
+}
+
+}  // namespace
+
+SensorDetails sensor_details(const SensorStudy& study, const World& world, const Path& path,
+                             const ObservationHistory& history) {
+  const int step = study.checkpoints.back();
+  const Eigen::Index look = telling_look(study, world, path, step);
+  SensorDetails details{
+      .sensor = study.sensor.sensor,
+      .look_step = static_cast<int>(look) + 1,
+      .views = {},
+      .values = history.values.col(look),
+      .first_steps = history.values.leftCols(std::min<Eigen::Index>(kFirstSteps, step)),
+      .step = step,
+      .distances = observed_distances(history, step),
+      .spectra = {}};
+  if (study.sensor.sensor == Sensor::kVisibility) {
+    details.reach_m = visibility_reach(world, study.sensor);
+    details.views = views_from(world, path.positions_m.row(look), study.sensor);
+  }
+  return details;
+}
+
+}  // namespace mapproof

@@ -1,0 +1,26 @@
+#pragma once
+
+#include "core/embed/embedder.hpp"
+#include "core/model/experiment.hpp"
+#include "core/model/map_record.hpp"
+#include "core/model/score.hpp"
+
+namespace mapproof {
+
+/// A map in the frame of its anchors, with its score if it could be tied to them.
+struct ScoredMap {
+  Points positions_m;  ///< M x 2; NaN rows where a landmark has no place.
+  Frame frame = Frame::kTruth;
+  std::vector<Status> statuses;  ///< Of the embedding and of the alignment.
+  std::optional<Score> score;
+};
+
+/// Aligns an embedding to the anchors and scores it against the truth.
+/// @param truth_m  M x 2.
+ScoredMap scored_map(const Embedding& embedding, const Points& truth_m,
+                     const std::vector<Eigen::Index>& anchors, AffineFit fit);
+
+/// The solvers' options as an experiment states them.
+EmbedderOptions embedder_options(const SolverOptions& solver);
+
+}  // namespace mapproof

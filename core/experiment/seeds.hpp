@@ -1,0 +1,16 @@
+#pragma once
+
+#include <cstdint>
+
+namespace mapproof {
+
+/// What the parts of a run draw their random numbers for: the first key of derive_seed().
+enum Purpose : std::uint64_t {
+  kLayout = 1,
+  kWalk = 2,
+  kNoise = 3,
+  kVariationNoise = 4,
+  kPlacement = 5
+};
+
+}  // namespace mapproof

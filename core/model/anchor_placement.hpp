@@ -1,0 +1,21 @@
+#pragma once
+
+#include <optional>
+#include <string_view>
+
+namespace mapproof {
+
+/// Which landmarks are anchors.
+enum class AnchorPlacement {
+  kWalls,    ///< Those nearest the corners; beyond four, nearest points spread along the walls.
+  kRandom,   ///< Any, drawn for each layout.
+  kCluster,  ///< Those nearest one corner.
+};
+
+/// The name used in files: "walls", "random", "cluster".
+std::string_view name(AnchorPlacement placement);
+
+/// The placement of that name; empty if there is none.
+std::optional<AnchorPlacement> anchor_placement_named(std::string_view name);
+
+}  // namespace mapproof

@@ -1,0 +1,22 @@
+#include "core/model/measurement.hpp"
+
+#include <array>
+#include <cstddef>
+
+namespace mapproof {
+namespace {
+
+constexpr std::array kNames = {std::string_view("visible"), std::string_view("hidden"),
+                               std::string_view("out_of_reach")};
+
+}  // namespace
+
+std::string_view name(View view) { return kNames[static_cast<std::size_t>(view)]; }
+
+std::optional<View> view_named(std::string_view name) {
+  for (std::size_t i = 0; i < kNames.size(); ++i)
+    if (kNames[i] == name) return static_cast<View>(i);
+  return std::nullopt;
+}
+
+}  // namespace mapproof
