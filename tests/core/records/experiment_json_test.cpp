@@ -113,20 +113,10 @@ TEST(ExperimentJson, HoldsThePapersTablesInItsTemplate) {
   EXPECT_EQ(quick.layouts * quick.poses, 5);
   EXPECT_EQ(quick.sensors[1].checkpoints, (std::vector{500, 1000, 2000}));
   EXPECT_EQ(grid_of(quick.sensors[1], Method::kIsomap).parameters, std::vector{9.0});
-  const auto printed = [](const SensorStudy& study, Method method) {
-    return *std::ranges::find(study.published.values, method,
-                              [](const PublishedValue& value) { return value.setting.method; });
-  };
-  EXPECT_EQ(printed(full.sensors[0], Method::kIsomap).mpe_m, 0.177);
-  EXPECT_EQ(printed(full.sensors[0], Method::kKpcaPolynomial).setting.parameter, 8.0);
-  EXPECT_EQ(printed(full.sensors[1], Method::kSmacofKnn).moe_percent, 1.0);
   for (const SensorStudy& study : full.sensors)
     EXPECT_EQ(study.methods.size(), all_methods().size());
   for (const char* id : {"fig-1", "fig-2", "fig-3", "fig-4", "fig-5", "fig-6", "fig-8", "fig-9"})
     EXPECT_EQ(std::ranges::count(full.figures, id, &PaperFigure::id), 1) << id;
-  const Experiment quick = parse_experiment(text, "yairi2007.json", "quick");
-  EXPECT_EQ(quick.layouts * quick.poses, 5);
-  EXPECT_EQ(quick.sensors[1].checkpoints, (std::vector{500, 1000, 2000}));
   EXPECT_TRUE(quick.variations.empty());
 }
 
