@@ -4,9 +4,9 @@
 #include <fmt/format.h>
 
 #include "core/json/json_text.hpp"
+#include "core/json/text_input.hpp"
 #include "core/records/json_values.hpp"
 #include "core/records/run_json.hpp"
-#include "core/json/text_input.hpp"
 
 namespace mapproof {
 namespace {

@@ -3,9 +3,9 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include "core/json/text_input.hpp"
 #include "core/records/experiment_values.hpp"
 #include "core/records/json_values.hpp"
-#include "core/json/text_input.hpp"
 
 namespace mapproof {
 namespace {

@@ -263,7 +263,7 @@ IdeaSpec sample_idea(Sensor sensor) {
   for (Eigen::Index i = 0; i < 50; ++i)
     spec.map.estimate.row(i) =
         spec.world.landmarks_m.row(i) + 0.06 * Eigen::RowVector2d(random.normal(), random.normal());
-  spec.map.anchors = corner_anchors(spec.world, 4);
+  spec.map.anchors = place_anchors(spec.world, 4, AnchorPlacement::kWalls, random);
   spec.steps = 100;
   return spec;
 }
