@@ -13,9 +13,14 @@
 namespace mapproof {
 
 StudyView view_study(const std::filesystem::path& folder) {
-  StudyView view{.folder = folder, .study = read_study(folder), .figures = {}};
+  StudyView view{.folder = folder,
+                 .study = read_study(folder),
+                 .timings = read_timings(folder),
+                 .figures = {}};
   view.figures =
-      study_figures(view.study, [&](const RunId& run) { return read_maps(folder, run); });
+      study_figures(view.study, view.timings,
+                    {.maps = [&](const RunId& run) { return read_maps(folder, run); },
+                     .details = [&](const RunId& run) { return read_details(folder, run); }});
   return view;
 }
 
@@ -40,10 +45,9 @@ std::filesystem::path write_report(const StudyView& view, const std::string& com
       write_figures(figures, theme, view.folder / "figures", jobs);
 
   const std::vector<Session> sessions = read_sessions(view.folder);
-  const std::vector<Timing> timings = read_timings(view.folder);
   const Report report = study_report({.study = view.study,
                                       .sessions = sessions,
-                                      .timings = timings,
+                                      .timings = view.timings,
                                       .figures = view.figures,
                                       .command = command});
   write_tables(report, view.folder / "tables");

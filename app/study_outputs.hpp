@@ -15,6 +15,7 @@ namespace mapproof {
 struct StudyView {
   std::filesystem::path folder;
   Study study;
+  std::vector<Timing> timings;
   StudyFigures figures;
 };
 

@@ -1,6 +1,9 @@
-#include <fmt/format.h>
+#include <algorithm>
+#include <iterator>
 
+#include "core/base/words.hpp"
 #include "reports/sections/study_report.hpp"
+#include "reports/sections/variation_summary.hpp"
 #include "reports/sections/wording.hpp"
 
 namespace mapproof {
@@ -9,33 +12,23 @@ FigureBlock figure_block(const Figure& figure) {
   return {figure.id, figure.title, figure.caption, figure.alt, figure.record_ids};
 }
 
-Section curves_section(const StudyFigures& figures) {
-  Section section{"curves", "Error over observations", {}};
-  section.blocks.emplace_back(
-      plain("Mean over runs; bands are 95 % intervals of the mean, layouts being the units. Each "
-            "method stands with its best parameter at the last checkpoint."));
+Section figures_section(const FigureGroup& group) {
+  Section section{group.id, group.title, {}};
+  section.blocks.emplace_back(plain(group.words));
   Gallery gallery;
-  for (const SensorFigures& sensor : figures.sensors)
-    for (const Figure& figure : sensor.curves) gallery.figures.push_back(figure_block(figure));
-  if (gallery.figures.empty())
-    section.blocks.emplace_back(plain("No curve could be drawn: no map was scored."));
-  else
-    section.blocks.emplace_back(std::move(gallery));
+  for (const Figure& figure : group.figures) gallery.figures.push_back(figure_block(figure));
+  section.blocks.emplace_back(std::move(gallery));
   return section;
 }
 
-Section maps_section(const StudyFigures& figures) {
-  Section section{"maps", "Maps", {}};
+std::optional<Section> variations_section(const Study& study) {
+  if (study.experiment.variations.empty()) return std::nullopt;
+  Section section{"variations", "Variations", {}};
   section.blocks.emplace_back(
-      plain("For each method the run whose MPE is the median at the last checkpoint: neither its "
-            "best map nor its worst."));
-  Gallery gallery;
-  for (const SensorFigures& sensor : figures.sensors)
-    for (const Figure& figure : sensor.maps) gallery.figures.push_back(figure_block(figure));
-  if (gallery.figures.empty())
-    section.blocks.emplace_back(plain("No map could be shown."));
-  else
-    section.blocks.emplace_back(std::move(gallery));
+      plain("The numbers behind the figures of anchors, noise and missing entries, one thing "
+            "changed at a time."));
+  for (const Variation& variation : study.experiment.variations)
+    section.blocks.emplace_back(variation_table(study, variation));
   return section;
 }
 

@@ -1,39 +1,32 @@
 #pragma once
 
-#include <functional>
+#include <span>
+#include <string>
 #include <vector>
 
-#include "core/model/map_record.hpp"
-#include "core/model/study.hpp"
 #include "render/plot/figure.hpp"
 #include "reports/model/report.hpp"
+#include "reports/sections/figures/figure_source.hpp"
 
 namespace mapproof {
 
-/// The figures of one sensor's part of a study.
-struct SensorFigures {
-  Sensor sensor = Sensor::kVisibility;
-  std::vector<Figure> curves;
-  std::vector<Figure> maps;
+/// Figures that stand together in a report.
+struct FigureGroup {
+  std::string id;  ///< Of its section, [a-z0-9-]+.
+  std::string title;
+  std::string words;  ///< What they have in common, a sentence or two.
+  std::vector<Figure> figures;
 };
 
 struct StudyFigures {
-  std::vector<SensorFigures> sensors;
+  std::vector<FigureGroup> groups;  ///< None is empty.
 };
 
-/// Gives the maps of one run.
-using MapReader = std::function<std::vector<MapRecord>(const RunId&)>;
-
-/// The figures that a study's report shows.
-///
-/// For each sensor: MPE and MOE over the steps (mean over runs, 95 % interval), each method at its
-/// best parameter: "mpe-bearing-global" for LPCA and SMACOF, "mpe-bearing-graph" for the methods on
-/// a neighbour graph; and for each method the map of the run with median MPE at the last
-/// checkpoint: "map-bearing-isomap".
-///
-/// @param read_maps Called once for each run that a map is shown of; a map it does not give is
-///                  left out.
-StudyFigures study_figures(const Study& study, const MapReader& read_maps);
+/// The figures that a study's report shows, in its order; those that the records do not allow are
+/// left out. docs/figures.md lists their ids.
+/// @param read  Asked once for each run that something is shown of.
+StudyFigures study_figures(const Study& study, std::span<const Timing> timings,
+                           const StudyReader& read);
 
 /// All figures, in the order of the report. The pointers hold as long as `figures`.
 std::vector<const Figure*> all_figures(const StudyFigures& figures);

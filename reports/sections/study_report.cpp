@@ -26,8 +26,10 @@ Report study_report(const StudyReportInput& input) {
   report.sections.push_back(summary_section(input.study));
   for (const SensorStudy& sensor : experiment.sensors)
     report.sections.push_back(accuracy_section(input.study, sensor));
-  report.sections.push_back(curves_section(input.figures));
-  report.sections.push_back(maps_section(input.figures));
+  for (const FigureGroup& group : input.figures.groups)
+    report.sections.push_back(figures_section(group));
+  if (auto variations = variations_section(input.study))
+    report.sections.push_back(*std::move(variations));
   report.sections.push_back(statuses_section(input.study));
   report.sections.push_back(
       provenance_section(input.study, input.sessions, input.timings, input.command));

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <span>
 #include <string>
 
@@ -17,14 +18,15 @@ struct StudyReportInput {
   std::string command;  ///< The one that makes this study and report again, ready to be typed.
 };
 
-/// The whole report of a study: summary, accuracy, curves, maps, statuses, provenance.
+/// The whole report of a study: summary, accuracy, figures, variations, statuses, provenance.
 Report study_report(const StudyReportInput& input);
 
 /// Its parts, each a pure function of the records.
 Section summary_section(const Study& study);
 Section accuracy_section(const Study& study, const SensorStudy& sensor);
-Section curves_section(const StudyFigures& figures);
-Section maps_section(const StudyFigures& figures);
+Section figures_section(const FigureGroup& group);
+/// Empty if the experiment has none.
+std::optional<Section> variations_section(const Study& study);
 Section statuses_section(const Study& study);
 Section provenance_section(const Study& study, std::span<const Session> sessions,
                            std::span<const Timing> timings, const std::string& command);

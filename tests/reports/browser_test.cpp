@@ -78,8 +78,7 @@ TEST_F(Browser, ShowsHostileTextsAsTextAndRunsNoneOfThem) {
 
 TEST_F(Browser, FindsAStudysReportReadableInLightAndDarkAndOnAPhone) {
   const Study study = test::synthetic_study();
-  const StudyFigures figures =
-      study_figures(study, [&](const RunId& run) { return test::synthetic_maps(study, run); });
+  const StudyFigures figures = test::synthetic_figures(study);
   const auto timings = test::synthetic_timings(study);
   const auto sessions = test::synthetic_sessions();
   Findings found = look_at(study_report({study, sessions, timings, figures, "mapproof run x"}));

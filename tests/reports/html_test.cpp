@@ -17,8 +17,7 @@ namespace {
 
 std::string study_page() {
   const Study study = test::synthetic_study(3, 1);
-  const StudyFigures figures =
-      study_figures(study, [&](const RunId& run) { return test::synthetic_maps(study, run); });
+  const StudyFigures figures = test::synthetic_figures(study);
   const auto timings = test::synthetic_timings(study);
   const auto sessions = test::synthetic_sessions();
   return report_html(

@@ -141,4 +141,10 @@ std::vector<Session> synthetic_sessions() {
            75.0}};
 }
 
+StudyFigures synthetic_figures(const Study& study) {
+  return study_figures(study, synthetic_timings(study),
+                       {.maps = [&](const RunId& run) { return synthetic_maps(study, run); },
+                        .details = [](const RunId&) { return std::nullopt; }});
+}
+
 }  // namespace mapproof::test

@@ -3,6 +3,7 @@
 #include <functional>
 
 #include "core/model/study.hpp"
+#include "reports/sections/study_figures.hpp"
 
 namespace mapproof::test {
 
@@ -21,5 +22,8 @@ std::vector<MapRecord> synthetic_maps(const Study& study, const RunId& run);
 /// Seconds and one session, as a store would give them.
 std::vector<Timing> synthetic_timings(const Study& study);
 std::vector<Session> synthetic_sessions();
+
+/// The figures of it, without details of its runs.
+StudyFigures synthetic_figures(const Study& study);
 
 }  // namespace mapproof::test

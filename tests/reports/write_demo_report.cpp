@@ -16,8 +16,7 @@ namespace {
 
 void write_demo(const std::filesystem::path& folder) {
   const Study study = synthetic_study();
-  const StudyFigures figures =
-      study_figures(study, [&](const RunId& run) { return synthetic_maps(study, run); });
+  const StudyFigures figures = synthetic_figures(study);
   std::map<std::string, std::string> drawings;
   for (const Figure* figure : all_figures(figures))
     drawings[figure->id] = write_figure(*figure, report_theme(), folder / "figures");

@@ -1,0 +1,34 @@
+#pragma once
+
+#include <span>
+#include <string>
+#include <vector>
+
+#include "render/plot/figure.hpp"
+#include "reports/sections/figures/figure_source.hpp"
+
+namespace mapproof {
+
+/// The parts of study_figures(), each a pure function of the records. A figure that the records do
+/// not allow is left out. Ids of paper figures are the experiment's; the others are made of what
+/// they show and the sensor: "mpe-bearing-graph".
+
+/// The paper's figures of one kind.
+std::vector<Figure> idea_figures(FigureSource& source);
+std::vector<Figure> measurement_figures(FigureSource& source);
+/// Error over steps: the paper's, then MPE of the methods that they leave out, then MOE.
+std::vector<Figure> curve_figures(FigureSource& source);
+/// The run nearest to the paper's example beside the median run; then each method's median run.
+std::vector<Figure> map_figures(FigureSource& source);
+/// A map forming over the steps, and what scatters between the runs of one layout.
+std::vector<Figure> forming_figures(FigureSource& source);
+/// Error over the parameter of each method.
+std::vector<Figure> parameter_figures(FigureSource& source);
+/// Mean ranks, distances and eigenvalues of the methods.
+std::vector<Figure> comparison_figures(FigureSource& source);
+/// What the experiment's variations show, and how often occlusion decided.
+std::vector<Figure> condition_figures(FigureSource& source);
+/// Error against seconds; varies from run to run.
+std::vector<Figure> cost_figures(FigureSource& source, std::span<const Timing> timings);
+
+}  // namespace mapproof

@@ -1,0 +1,164 @@
+#include <algorithm>
+#include <limits>
+
+#include <fmt/format.h>
+
+#include "render/figures/anchor_count.hpp"
+#include "render/figures/error_lines.hpp"
+#include "render/figures/level_curve.hpp"
+#include "render/figures/occlusion.hpp"
+#include "reports/sections/figures/builders.hpp"
+#include "reports/sections/variation_summary.hpp"
+#include "reports/sections/wording.hpp"
+
+namespace mapproof {
+namespace {
+
+constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
+
+void add_point(ErrorLine& line, double x, const std::optional<MeanEstimate>& estimate) {
+  const auto interval = interval_of(estimate);
+  line.x.push_back(x);
+  line.mean.push_back(estimate ? estimate->mean : kNan);
+  line.low.push_back(interval ? interval->low : kNan);
+  line.high.push_back(interval ? interval->high : kNan);
+}
+
+ErrorLine line_over_levels(const Variation& variation, const VariedSetting& setting) {
+  ErrorLine line;
+  line.label = label(setting.setting);
+  line.key = fmt::format("m{}", static_cast<int>(setting.setting.method));
+  if (setting.setting.parameter) line.key += fmt::format("-{}", *setting.setting.parameter);
+  std::ranges::replace(line.key, '.', '-');
+  for (std::size_t i = 0; i < variation.levels.size(); ++i)
+    add_point(line, shown_level(variation, variation.levels[i]), setting.mpe_m[i]);
+  return line;
+}
+
+std::string record_of(const Variation& variation) {
+  return fmt::format("variation {}", variation.id);
+}
+
+/// Whether a variation tries several parameters of its methods.
+bool has_grids(const Variation& variation) {
+  return grids_of(variation.settings).size() < variation.settings.size();
+}
+
+/// A panel a level, error over the parameter.
+Figure grid_figure(const Study& study, const Variation& variation) {
+  const std::vector<VariedSetting> settings = summarize(study, variation);
+  ErrorLinesSpec spec;
+  spec.id = "level-" + variation.id;
+  spec.title = fmt::format("{}: MPE by {}", title_of(variation.sensor), level_words(variation));
+  for (std::size_t level = 0; level < variation.levels.size(); ++level) {
+    ErrorPanel panel;
+    panel.title = fmt::format("{:g}", shown_level(variation, variation.levels[level]));
+    panel.x = {.label = "parameter", .limits = {}};
+    for (const MethodGrid& grid : grids_of(variation.settings)) {
+      ErrorLine line;
+      line.label = std::string(info(grid.method).label);
+      line.key = std::string(info(grid.method).name);
+      for (const VariedSetting& setting : settings)
+        if (setting.setting.method == grid.method)
+          add_point(line, setting.setting.parameter.value_or(0.0), setting.mpe_m[level]);
+      panel.lines.push_back(std::move(line));
+    }
+    spec.panels.push_back(std::move(panel));
+  }
+  spec.record_ids = {record_of(variation)};
+  return error_lines_figure(spec);
+}
+
+Figure level_figure(const Study& study, const Variation& variation) {
+  if (has_grids(variation)) return grid_figure(study, variation);
+  LevelCurveSpec spec;
+  spec.id = "level-" + variation.id;
+  spec.title = fmt::format("{}: MPE by {}", title_of(variation.sensor), level_words(variation));
+  spec.x_label = level_words(variation);
+  for (const VariedSetting& setting : summarize(study, variation))
+    spec.methods.push_back(line_over_levels(variation, setting));
+  spec.record_ids = {record_of(variation)};
+  if (variation.quantity == Quantity::kSmacofKnnFall ||
+      variation.quantity == Quantity::kSmacofFall) {
+    ErrorPanel panel;
+    panel.x.label = spec.x_label;
+    panel.x.scale = Scale::kLog;
+    panel.lines = spec.methods;
+    ErrorLinesSpec lines;
+    lines.id = spec.id;
+    lines.title = spec.title;
+    lines.panels.push_back(std::move(panel));
+    lines.record_ids = spec.record_ids;
+    if (variation.levels.front() > 0.0) return error_lines_figure(lines);
+  }
+  return level_curve_figure(spec);
+}
+
+/// All placements of one sensor's anchors, a panel a method.
+void add_anchors(const Study& study, Sensor sensor, std::vector<Figure>& figures) {
+  AnchorCountSpec spec;
+  spec.id = fmt::format("anchors-{}", name(sensor));
+  spec.title = fmt::format("{}: MPE by number and placement of anchors", title_of(sensor));
+  for (const Variation& variation : study.experiment.variations) {
+    if (variation.sensor != sensor || variation.quantity != Quantity::kAnchors) continue;
+    const AnchorPlacement placement =
+        variation.placement.value_or(study.experiment.anchor_placement);
+    for (const VariedSetting& setting : summarize(study, variation)) {
+      const std::string title = label(setting.setting);
+      auto panel = std::ranges::find(spec.panels, title, &AnchorPanel::title);
+      if (panel == spec.panels.end()) panel = spec.panels.insert(panel, {title, {}});
+      ErrorLine line = line_over_levels(variation, setting);
+      line.label = std::string(name(placement));
+      line.key = variation.id;
+      panel->placements.push_back(std::move(line));
+    }
+    spec.record_ids.push_back(record_of(variation));
+  }
+  if (!spec.panels.empty()) figures.push_back(anchor_count_figure(spec));
+}
+
+void add_occlusion(FigureSource& source, std::vector<Figure>& figures) {
+  const Study& study = source.study();
+  const SensorStudy* sensor = find_sensor(study.experiment, Sensor::kVisibility);
+  if (sensor == nullptr) return;
+  OcclusionSpec spec;
+  spec.id = "occlusion-visibility";
+  spec.title = "Visibility: looks within reach that occlusion decides";
+  std::vector<const Run*> runs;
+  for (const Run& run : study.runs)
+    if (run.occlusion && run.occlusion->within_reach > 0) {
+      runs.push_back(&run);
+      spec.hidden_share.push_back(static_cast<double>(run.occlusion->hidden) /
+                                  static_cast<double>(run.occlusion->within_reach));
+    }
+  if (runs.empty()) return;
+  for (const SettingSummary& best : source.best(*sensor)) {
+    OcclusionMethod method{label(best.setting), std::string(info(best.setting.method).name), {}};
+    for (const Run* run : runs) {
+      const auto found = std::ranges::find_if(run->records, [&](const RunRecord& record) {
+        return record.sensor == best.sensor && record.setting == best.setting &&
+               record.step == best.step;
+      });
+      method.mpe_m.push_back(found != run->records.end() && found->score ? found->score->mpe_m
+                                                                         : kNan);
+    }
+    spec.methods.push_back(std::move(method));
+    spec.record_ids.push_back(source_of(best));
+  }
+  figures.push_back(occlusion_figure(spec));
+}
+
+}  // namespace
+
+std::vector<Figure> condition_figures(FigureSource& source) {
+  const Study& study = source.study();
+  std::vector<Figure> figures;
+  for (const SensorStudy& sensor : study.experiment.sensors)
+    add_anchors(study, sensor.sensor.sensor, figures);
+  add_occlusion(source, figures);
+  for (const Variation& variation : study.experiment.variations)
+    if (variation.quantity != Quantity::kAnchors) figures.push_back(level_figure(study, variation));
+  return figures;
+}
+
+}  // namespace mapproof

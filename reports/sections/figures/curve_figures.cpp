@@ -1,0 +1,148 @@
+#include <algorithm>
+#include <limits>
+
+#include <fmt/format.h>
+
+#include "render/figures/error_curve.hpp"
+#include "reports/sections/figures/builders.hpp"
+#include "reports/sections/wording.hpp"
+
+namespace mapproof {
+namespace {
+
+constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
+
+using Steps = std::vector<SettingSummary>;
+
+/// One of the two errors that curves show.
+struct Measure {
+  const char* id;
+  const char* name;
+  const char* unit;
+  const char* words;
+  std::optional<MeanEstimate> SettingSummary::*estimate;
+};
+
+constexpr Measure kMpe{"mpe", "MPE", "m", "mean position error", &SettingSummary::mpe_m};
+constexpr Measure kMoe{"moe", "MOE", "%", "mean orientation error", &SettingSummary::moe_percent};
+
+/// Methods that share a figure.
+struct Family {
+  std::string id;
+  std::string words;  ///< ", methods on a neighbour graph"; may be empty.
+  std::vector<Method> methods;
+};
+
+Curve curve(const Steps& steps, const Measure& measure) {
+  Curve curve;
+  curve.label = label(steps.front().setting);
+  curve.key = std::string(info(steps.front().setting.method).name);
+  bool any_interval = false;
+  for (const SettingSummary& summary : steps) {
+    const auto& estimate = summary.*measure.estimate;
+    const auto interval = interval_of(estimate);
+    curve.steps.push_back(summary.step);
+    curve.mean.push_back(estimate ? estimate->mean : kNan);
+    curve.low.push_back(interval ? interval->low : kNan);
+    curve.high.push_back(interval ? interval->high : kNan);
+    any_interval = any_interval || interval;
+  }
+  if (!any_interval) {
+    curve.low.clear();
+    curve.high.clear();
+  }
+  return curve;
+}
+
+bool has_score(const Steps& steps) {
+  return std::ranges::any_of(steps, [](const SettingSummary& s) { return s.scored > 0; });
+}
+
+std::string caption(const std::vector<Steps>& curves, const Measure& measure,
+                    const Family& family) {
+  std::string ends;
+  for (const Steps& steps : curves) {
+    const auto& estimate = steps.back().*measure.estimate;
+    if (!estimate) continue;
+    ends += fmt::format("{}{}: {:.3g} {}", ends.empty() ? "" : "; ", label(steps.back().setting),
+                        estimate->mean, measure.unit);
+  }
+  const SettingSummary& first = curves.front().back();
+  return fmt::format("{}{}: {} ({}) over observations. After {} of them \u2013 {}.",
+                     title_of(first.sensor), family.words, measure.words, measure.name, first.step,
+                     ends);
+}
+
+/// Nothing if none of the methods was scored.
+void add_curves(const std::vector<Steps>& history, const Measure& measure, const Family& family,
+                std::vector<Figure>& figures) {
+  std::vector<Steps> shown;
+  for (const Method method : family.methods)
+    for (const Steps& steps : history)
+      if (!steps.empty() && steps.front().setting.method == method && has_score(steps))
+        shown.push_back(steps);
+  if (shown.empty()) return;
+  ErrorCurveSpec spec;
+  spec.id = family.id;
+  spec.title =
+      fmt::format("{}: {}{}", title_of(shown.front().front().sensor), measure.name, family.words);
+  spec.y_label = fmt::format("{} [{}]", measure.name, measure.unit);
+  spec.quantity = measure.words;
+  spec.caption = caption(shown, measure, family);
+  for (const Steps& steps : shown) {
+    spec.curves.push_back(curve(steps, measure));
+    for (const SettingSummary& summary : steps) spec.record_ids.push_back(source_of(summary));
+  }
+  figures.push_back(error_curve_figure(spec));
+}
+
+std::vector<Method> methods_where(bool graph) {
+  std::vector<Method> methods;
+  for (const MethodInfo& method : all_methods())
+    if (on_graph(method.method) == graph) methods.push_back(method.method);
+  return methods;
+}
+
+/// The two families that a sensor's methods fall into.
+std::vector<Family> families(const char* id, Sensor sensor) {
+  return {{fmt::format("{}-{}-global", id, name(sensor)), ", methods without a neighbour graph",
+           methods_where(false)},
+          {fmt::format("{}-{}-graph", id, name(sensor)), ", methods on a neighbour graph",
+           methods_where(true)}};
+}
+
+/// The figures of the paper, and one of the methods that they leave out.
+std::vector<Family> paper_families(const Experiment& experiment, Sensor sensor) {
+  std::vector<Family> result;
+  std::vector<Method> shown;
+  for (const PaperFigure& figure : experiment.figures)
+    if (figure.kind == FigureKind::kErrorCurve && figure.sensor == sensor) {
+      result.push_back({figure.id, "", figure.methods});
+      shown.insert(shown.end(), figure.methods.begin(), figure.methods.end());
+    }
+  if (result.empty()) return families(kMpe.id, sensor);
+  Family others{fmt::format("mpe-{}-others", name(sensor)),
+                ", methods that the paper's figures leave out",
+                {}};
+  for (const MethodInfo& method : all_methods())
+    if (std::ranges::find(shown, method.method) == shown.end())
+      others.methods.push_back(method.method);
+  result.push_back(others);
+  return result;
+}
+
+}  // namespace
+
+std::vector<Figure> curve_figures(FigureSource& source) {
+  std::vector<Figure> figures;
+  const Experiment& experiment = source.study().experiment;
+  for (const SensorStudy& sensor : experiment.sensors)
+    for (const Family& family : paper_families(experiment, sensor.sensor.sensor))
+      add_curves(source.best_history(sensor), kMpe, family, figures);
+  for (const SensorStudy& sensor : experiment.sensors)
+    for (const Family& family : families(kMoe.id, sensor.sensor.sensor))
+      add_curves(source.best_history(sensor), kMoe, family, figures);
+  return figures;
+}
+
+}  // namespace mapproof

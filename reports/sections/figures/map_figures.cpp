@@ -1,0 +1,129 @@
+#include <algorithm>
+
+#include <fmt/format.h>
+
+#include "render/figures/ellipse_map.hpp"
+#include "render/figures/map.hpp"
+#include "render/figures/map_grid.hpp"
+#include "reports/sections/figures/builders.hpp"
+#include "reports/sections/wording.hpp"
+
+namespace mapproof {
+namespace {
+
+/// "layout 1, pose 2".
+std::string words_of(const RunId& run) {
+  return fmt::format("layout {}, pose {}", run.layout, run.pose);
+}
+
+/// The summary of one setting at the last checkpoint; empty if it was not tried or never scored.
+std::optional<SettingSummary> summary_of(const Study& study, const SensorStudy& sensor,
+                                         const MethodSetting& setting) {
+  for (const SettingSummary& summary : summarize(study, sensor, last_step(sensor)))
+    if (summary.setting == setting && summary.scored > 0) return summary;
+  return std::nullopt;
+}
+
+void add_pair(FigureSource& source, const PaperFigure& wanted, std::vector<Figure>& figures) {
+  const Study& study = source.study();
+  const SensorStudy* sensor = find_sensor(study.experiment, wanted.sensor);
+  if (sensor == nullptr || !wanted.example) return;
+  const auto summary = summary_of(study, *sensor, wanted.example->setting);
+  if (!summary) return;
+  const auto nearest = nearest_run(study, *summary, wanted.example->mpe_m);
+  const auto median = median_run(study, *summary);
+  if (!nearest || !median) return;
+  const auto map_of = [&](const RunId& run) {
+    return source.map(run, wanted.sensor, summary->setting, summary->step);
+  };
+  const MapRecord* first = map_of(*nearest);
+  const MapRecord* second = map_of(*median);
+  if (first == nullptr || second == nullptr || first->frame != second->frame) return;
+  MapGridSpec spec{.id = wanted.id,
+                   .title = fmt::format("{}, {} after {} steps", title_of(wanted.sensor),
+                                        label(summary->setting), summary->step),
+                   .maps = {{fmt::format("nearest to the paper's: {}", words_of(*nearest)), *first},
+                            {fmt::format("median run: {}", words_of(*median)), *second}}};
+  Figure figure = map_pair_figure(spec);
+  figure.caption += fmt::format(
+      " The paper's example has MPE {:.4g} m and MOE {:.4g} %; the run drawn on the left is the "
+      "one "
+      "of {} whose MPE is nearest to that.",
+      wanted.example->mpe_m, wanted.example->moe_percent, summary->scored);
+  figures.push_back(std::move(figure));
+}
+
+/// The method of least mean MPE that has maps to show.
+std::optional<SettingSummary> best_setting(FigureSource& source, const SensorStudy& sensor) {
+  const std::vector<SettingSummary> all = source.best(sensor);
+  if (const SettingSummary* best = best_of(all)) return *best;
+  return std::nullopt;
+}
+
+void add_film(FigureSource& source, const SensorStudy& sensor, const SettingSummary& best,
+              std::vector<Figure>& figures) {
+  const auto run = median_run(source.study(), best);
+  if (!run || sensor.checkpoints.size() < 2) return;
+  MapGridSpec spec{.id = fmt::format("forming-{}", name(best.sensor)),
+                   .title = fmt::format("{}, {}: a map forming, {}", title_of(best.sensor),
+                                        label(best.setting), words_of(*run)),
+                   .maps = {}};
+  for (const int step : sensor.checkpoints)
+    if (const MapRecord* map = source.map(*run, best.sensor, best.setting, step);
+        map != nullptr && map->frame == Frame::kTruth && spec.maps.size() < 10)
+      spec.maps.push_back({fmt::format("{} steps", step), *map});
+  if (!spec.maps.empty()) figures.push_back(film_strip_figure(spec));
+}
+
+void add_ellipses(FigureSource& source, const SettingSummary& best, std::vector<Figure>& figures) {
+  const Study& study = source.study();
+  const auto median = median_run(study, best);
+  if (!median) return;
+  EllipseMapSpec spec{
+      .id = fmt::format("scatter-{}", name(best.sensor)),
+      .title = fmt::format("{}, {}: scatter over the poses of layout {}", title_of(best.sensor),
+                           label(best.setting), median->layout),
+      .names = {},
+      .truth_m = {},
+      .estimates_m = {},
+      .anchors = {},
+      .record_ids = {}};
+  for (const Run& run : study.runs) {
+    if (run.id.layout != median->layout) continue;
+    const MapRecord* map = source.map(run.id, best.sensor, best.setting, best.step);
+    if (map == nullptr || map->frame != Frame::kTruth || !map->truth_m) continue;
+    spec.names = map->names;
+    spec.truth_m = *map->truth_m;
+    spec.anchors = map->anchors;
+    spec.estimates_m.push_back(map->estimate);
+    spec.record_ids.push_back(map->id);
+  }
+  if (spec.estimates_m.size() >= 3) figures.push_back(ellipse_map_figure(spec));
+}
+
+}  // namespace
+
+std::vector<Figure> map_figures(FigureSource& source) {
+  std::vector<Figure> figures;
+  for (const PaperFigure& figure : source.study().experiment.figures)
+    if (figure.kind == FigureKind::kMap) add_pair(source, figure, figures);
+  for (const SensorStudy& sensor : source.study().experiment.sensors)
+    for (const SettingSummary& best : source.best(sensor))
+      if (const auto run = median_run(source.study(), best))
+        if (const MapRecord* map = source.map(*run, best.sensor, best.setting, best.step))
+          figures.push_back(map_figure(
+              *map, fmt::format("map-{}-{}", name(best.sensor), info(best.setting.method).name)));
+  return figures;
+}
+
+std::vector<Figure> forming_figures(FigureSource& source) {
+  std::vector<Figure> figures;
+  for (const SensorStudy& sensor : source.study().experiment.sensors)
+    if (const auto best = best_setting(source, sensor)) {
+      add_film(source, sensor, *best, figures);
+      add_ellipses(source, *best, figures);
+    }
+  return figures;
+}
+
+}  // namespace mapproof

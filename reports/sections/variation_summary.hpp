@@ -1,0 +1,33 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "core/model/study.hpp"
+#include "reports/model/report.hpp"
+#include "reports/sections/method_summary.hpp"
+
+namespace mapproof {
+
+/// One setting over the levels of a variation. All vectors are as long as the levels.
+struct VariedSetting {
+  MethodSetting setting;
+  std::vector<int> runs;                           ///< Records found.
+  std::vector<int> scored;                         ///< Of them with a score.
+  std::vector<std::optional<MeanEstimate>> mpe_m;  ///< Over the scored.
+  std::vector<std::optional<MeanEstimate>> moe_percent;
+};
+
+/// Every setting of a variation, in its order.
+std::vector<VariedSetting> summarize(const Study& study, const Variation& variation);
+
+/// A level as a reader takes it: degrees for bearing noise, percent for shares.
+double shown_level(const Variation& variation, double level);
+
+/// "bearing noise [°]": what the levels are, with their unit.
+std::string level_words(const Variation& variation);
+
+/// "noise-bearing-noise": MPE of each setting at each level.
+Table variation_table(const Study& study, const Variation& variation);
+
+}  // namespace mapproof
