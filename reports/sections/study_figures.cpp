@@ -48,7 +48,10 @@ StudyFigures study_figures(const Study& study, std::span<const Timing> timings,
   add("conditions", "Anchors, occlusion, noise and missing entries",
       "Methods at the paper's parameters. The levels of one figure share their random numbers.",
       condition_figures(source));
-  add("cost", "Accuracy against seconds", "Seconds differ from one run of the program to the next.",
+  add("cost", "Accuracy against seconds",
+      "Seconds of one map beyond what the methods of a history share: distances, the order of "
+      "neighbours, and the map that a method starts from. They differ from one run of the program "
+      "to the next.",
       cost_figures(source, timings));
   return figures;
 }

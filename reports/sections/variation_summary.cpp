@@ -34,7 +34,7 @@ Shown shown(const Variation& variation) {
     case Quantity::kSmacofKnnFall:
       return {"relative fall of the stress at which SMACOF stops"};
     case Quantity::kOnlySeenTogether:
-      return {"edges between landmarks seen together alone (0: no, 1: yes)"};
+      return {"neighbours (0: any pair, 1: pairs seen together alone)"};
   }
   return {};
 }

@@ -44,6 +44,12 @@ bool has_grids(const Variation& variation) {
   return grids_of(variation.settings).size() < variation.settings.size();
 }
 
+std::string level_title(const Variation& variation, double level) {
+  if (variation.quantity != Quantity::kOnlySeenTogether)
+    return fmt::format("{}: {:g}", level_words(variation), shown_level(variation, level));
+  return level > 0.0 ? "pairs seen together alone" : "all pairs";
+}
+
 /// A panel a level, error over the parameter.
 Figure grid_figure(const Study& study, const Variation& variation) {
   const std::vector<VariedSetting> settings = summarize(study, variation);
@@ -52,7 +58,7 @@ Figure grid_figure(const Study& study, const Variation& variation) {
   spec.title = fmt::format("{}: MPE by {}", title_of(variation.sensor), level_words(variation));
   for (std::size_t level = 0; level < variation.levels.size(); ++level) {
     ErrorPanel panel;
-    panel.title = fmt::format("{:g}", shown_level(variation, variation.levels[level]));
+    panel.title = level_title(variation, variation.levels[level]);
     panel.x = {.label = "parameter", .limits = {}};
     for (const MethodGrid& grid : grids_of(variation.settings)) {
       ErrorLine line;

@@ -12,6 +12,8 @@ namespace {
 
 constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 
+char lower_case(char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c; }
+
 using Estimate = std::optional<MeanEstimate> SettingSummary::*;
 
 ParameterLine parameter_line(const std::vector<SettingSummary>& values, Estimate estimate,
@@ -35,43 +37,54 @@ ParameterLine parameter_line(const std::vector<SettingSummary>& values, Estimate
   return line;
 }
 
-/// The group of that parameter, made if it is new.
-ParameterGroup& group_of(const ParameterInfo& parameter, std::vector<ParameterGroup>& groups) {
-  const std::string symbol(parameter.shown);
-  const auto found = std::ranges::find(groups, symbol, &ParameterGroup::symbol);
-  if (found != groups.end()) return *found;
-  return groups.emplace_back(
-      ParameterGroup{.symbol = symbol,
-                     .title = fmt::format("{}: {}", symbol, parameter.meaning),
-                     .scale = parameter.integer ? Scale::kLinear : Scale::kLog,
-                     .whole = parameter.integer,
-                     .methods = {}});
-}
-
-void add_figure(const SensorStudy& sensor, const std::vector<SettingSummary>& all, bool of_mpe,
-                std::vector<Figure>& figures) {
+/// The figure of all methods with that parameter: methods of different ones err on different
+/// scales.
+void add_figure(const SensorStudy& sensor, const std::vector<SettingSummary>& all,
+                const ParameterInfo& parameter, bool of_mpe, std::vector<Figure>& figures) {
+  ParameterGroup group{.symbol = std::string(parameter.shown),
+                       .title = std::string(parameter.meaning),
+                       .scale = parameter.integer ? Scale::kLinear : Scale::kLog,
+                       .whole = parameter.integer,
+                       .methods = {}};
   ErrorByParameterSpec spec;
-  spec.id = fmt::format("parameter-{}-{}", of_mpe ? "mpe" : "moe", name(sensor.sensor.sensor));
-  spec.title = fmt::format("{}: {} over the parameter", title_of(sensor.sensor.sensor),
-                           of_mpe ? "MPE" : "MOE");
+  std::string file_symbol(parameter.symbol);
+  std::ranges::transform(file_symbol, file_symbol.begin(), lower_case);
+  spec.id = fmt::format("parameter-{}-{}-{}", of_mpe ? "mpe" : "moe", name(sensor.sensor.sensor),
+                        file_symbol);
+  spec.title = fmt::format("{}: {} over {}", title_of(sensor.sensor.sensor), of_mpe ? "MPE" : "MOE",
+                           parameter.shown);
   if (!of_mpe) {
     spec.y_label = "MOE [%]";
     spec.quantity = "mean orientation error";
   }
   for (const MethodGrid& grid : sensor.methods) {
+    if (!info(grid.method).parameter || info(grid.method).parameter->symbol != parameter.symbol)
+      continue;
     std::vector<SettingSummary> values;
     for (const SettingSummary& summary : all)
       if (summary.setting.method == grid.method && summary.setting.parameter)
         values.push_back(summary);
     if (values.size() < 2 || best_of(values) == nullptr) continue;
-    group_of(*info(grid.method).parameter, spec.groups)
-        .methods.push_back(
-            of_mpe ? parameter_line(values, &SettingSummary::mpe_m, &PublishedValue::mpe_m)
-                   : parameter_line(values, &SettingSummary::moe_percent,
-                                    &PublishedValue::moe_percent));
+    group.methods.push_back(
+        of_mpe
+            ? parameter_line(values, &SettingSummary::mpe_m, &PublishedValue::mpe_m)
+            : parameter_line(values, &SettingSummary::moe_percent, &PublishedValue::moe_percent));
     for (const SettingSummary& value : values) spec.record_ids.push_back(source_of(value));
   }
-  if (!spec.groups.empty()) figures.push_back(error_by_parameter_figure(spec));
+  if (group.methods.empty()) return;
+  spec.groups.push_back(std::move(group));
+  figures.push_back(error_by_parameter_figure(spec));
+}
+
+/// The parameters of the sensor's methods, each once.
+std::vector<const ParameterInfo*> parameters_of(const SensorStudy& sensor) {
+  std::vector<const ParameterInfo*> parameters;
+  for (const MethodGrid& grid : sensor.methods)
+    if (const auto& parameter = info(grid.method).parameter;
+        parameter && std::ranges::find(parameters, parameter->symbol, &ParameterInfo::symbol) ==
+                         parameters.end())
+      parameters.push_back(&*parameter);
+  return parameters;
 }
 
 }  // namespace
@@ -80,7 +93,8 @@ std::vector<Figure> parameter_figures(FigureSource& source) {
   std::vector<Figure> figures;
   for (const SensorStudy& sensor : source.study().experiment.sensors) {
     const auto all = summarize(source.study(), sensor, last_step(sensor));
-    for (const bool of_mpe : {true, false}) add_figure(sensor, all, of_mpe, figures);
+    for (const ParameterInfo* parameter : parameters_of(sensor))
+      for (const bool of_mpe : {true, false}) add_figure(sensor, all, *parameter, of_mpe, figures);
   }
   return figures;
 }
