@@ -38,30 +38,32 @@ def weighted_smacof(distances, weights, start, relative_fall=1e-2, limit=1000):
 
 
 def write_sdpa(path, size, pairs, squares):
-    """Largest tr K: the pairs' squared distances are kept, K sums to zero."""
-    rows = []
-    for k, (i, j) in enumerate(pairs, start=1):
-        rows.append(f"{k} 1 {i + 1} {i + 1} 1\n{k} 1 {i + 1} {j + 1} -1\n{k} 1 {j + 1} {j + 1} 1\n")
-    centre = len(pairs) + 1
-    upper = zip(*(index.tolist() for index in numpy.triu_indices(size)))
-    rows += [f"{centre} 1 {i + 1} {j + 1} 1\n" for i, j in upper]
-    goal = [f"0 1 {i} {i} 1\n" for i in range(1, size + 1)]
-    kept = " ".join(f"{value:.17g}" for value in [*squares, 0.0])
+    """Largest spread about the centroid that keeps the pairs' squared distances.
+
+    The first landmark is the origin, which leaves the matrix of the others an interior: to have it
+    sum to zero instead would not, and CSDP then often makes no progress.
+    """
     with open(path, "w", encoding="ascii") as out:
-        out.write(f"{centre}\n1\n{size}\n{kept}\n")
-        out.writelines(goal + rows)
+        out.write(f"{len(pairs)}\n1\n{size - 1}\n{' '.join(f'{value:.17g}' for value in squares)}\n")
+        for i in range(1, size):
+            out.writelines(f"0 1 {i} {j} {(i == j) - 1.0 / size:.17g}\n" for j in range(i, size))
+        for k, (i, j) in enumerate(pairs, start=1):
+            if i > 0:
+                out.write(f"{k} 1 {i} {i} 1\n{k} 1 {i} {j} -1\n")
+            out.write(f"{k} 1 {j} {j} 1\n")
 
 
 def read_solution(path, size):
-    """The primal matrix: its entries are those of matrix 2."""
+    """The primal matrix, matrix 2 of the file, about the centroid of all landmarks."""
     K = numpy.zeros((size, size))
     with open(path, encoding="ascii") as lines:
         next(lines)
         for line in lines:
             matrix, _, i, j, value = line.split()
             if matrix == "2":
-                K[int(i) - 1, int(j) - 1] = K[int(j) - 1, int(i) - 1] = float(value)
-    return K
+                K[int(i), int(j)] = K[int(j), int(i)] = float(value)
+    centre = numpy.eye(size) - 1.0 / size
+    return centre @ K @ centre
 
 
 def unfolded(distances, count):
