@@ -12,16 +12,13 @@
 #include "core/base/errors.hpp"
 #include "core/base/files.hpp"
 #include "core/base/random.hpp"
+#include "core/experiment/seeds.hpp"
 #include "core/records/study_store.hpp"
 #include "core/simulate/robot_walk.hpp"
 #include "core/simulate/sensors.hpp"
 
 namespace mapproof {
 namespace {
-
-/// Keys of the seeds that simulate_run() draws walks and noise with.
-constexpr std::uint64_t kWalk = 2;
-constexpr std::uint64_t kNoise = 3;
 
 const Run& run_of(const Study& study, const RunId& id) {
   const auto found = std::ranges::find(study.runs, id, &Run::id);
