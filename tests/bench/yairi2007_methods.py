@@ -44,7 +44,8 @@ def write_sdpa(path, size, pairs, squares):
     sum to zero instead would not, and CSDP then often makes no progress.
     """
     with open(path, "w", encoding="ascii") as out:
-        out.write(f"{len(pairs)}\n1\n{size - 1}\n{' '.join(f'{value:.17g}' for value in squares)}\n")
+        kept = " ".join(f"{value:.17g}" for value in squares)
+        out.write(f"{len(pairs)}\n1\n{size - 1}\n{kept}\n")
         for i in range(1, size):
             out.writelines(f"0 1 {i} {j} {(i == j) - 1.0 / size:.17g}\n" for j in range(i, size))
         for k, (i, j) in enumerate(pairs, start=1):
@@ -88,7 +89,7 @@ def unfolded(distances, count):
 def isometric(squares):
     """Points with these squared distances, in as few columns as there are points.
 
-    For methods that take no distances: with vectors as long as the history LLE takes 5 times as long.
+    For methods that take no distances: over vectors as long as the history LLE is slower.
     """
     centre = numpy.eye(len(squares)) - 1.0 / len(squares)
     values, vectors = numpy.linalg.eigh(-0.5 * centre @ squares @ centre)

@@ -2,13 +2,14 @@
 
     yairi2007_python.py STUDY HISTORIES LAYOUT-POSE...
 
-STUDY is a study that mapproof made of the experiment: its settings, layouts, SMACOF's iterations and
-the scores to compare with are read from there. HISTORIES holds what mapproof_yairi2007_histories
-wrote, so that both map the same observations. Of each run the checkpoints below are mapped with every
-method and parameter; semidefinite programs on the first run alone, three parameters a checkpoint.
+STUDY is a study that mapproof made of the experiment: its settings, layouts, SMACOF's iterations
+and the scores to compare with are read from there. HISTORIES holds what
+mapproof_yairi2007_histories wrote, so that both map the same observations. Of each run two
+checkpoints are mapped with every method and parameter; semidefinite programs on the first run
+alone, three parameters a checkpoint.
 
-Prints a line an item: "map LAYOUT POSE SENSOR STEP METHOD PARAMETER SECONDS MPE MOE" (PARAMETER is -
-for methods without), "part NAME SECONDS COUNT", and "note TEXT".
+Prints a line an item: "map LAYOUT POSE SENSOR STEP METHOD PARAMETER SECONDS MPE MOE" (PARAMETER is
+- for methods without), "part NAME SECONDS COUNT", and "note TEXT".
 """
 import json
 import os

@@ -102,13 +102,13 @@ awk '
     if (python) {
       theirs = their_maps + their_rest + part["figures"] * figures
       row("the whole protocol", 1, ours, ours, "", theirs, theirs)
-      print "\n* python: seconds by the item (measured on as many items as \"tried\" says) times the",
-            "count"
-      print "  of the full protocol. Its figures: no report around them."
+      print "\n* python: seconds by the item, measured on as many as \"tried\" says, times the count"
+      print "  of the full protocol. It makes no report around its figures."
     } else {
       row("the whole protocol", 1, ours, ours)
     }
-    for (i = 1; i <= n; ++i) if (total[kinds[i]] > most) { most = total[kinds[i]]; top = kinds[i] }
+    for (i = 1; i <= n; ++i)
+      if (total[kinds[i]] > most) { most = total[kinds[i]]; top = kinds[i] }
     printf "\nOf our %.2f s one thread spends %.0f %% on maps (most on %s, %.0f %%), %.0f %% on",
            ours, 100 * maps / ours, top, 100 * most / ours, 100 * rest / ours
     printf " simulation, distances,\nscores and records, %.0f %% on figures and report.\n",
