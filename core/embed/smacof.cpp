@@ -7,6 +7,7 @@
 #include <Eigen/SparseCholesky>
 
 #include "core/base/errors.hpp"
+#include "core/base/vectorised.hpp"
 #include "core/linalg/planarity.hpp"
 
 namespace mapproof {
@@ -41,12 +42,10 @@ struct PairBuffers {
 /// Without a sum, so that the compiler may take several pairs at a time, with the same bits
 /// whatever the width of the processor's vectors.
 /// @param at  The landmark's place; the others' and their distances are `count` values each.
-[[gnu::target_clones("avx2", "default")]] void pair_terms(const Eigen::RowVector2d& at,
-                                                          const double* x, const double* y,
-                                                          const double* delta, Eigen::Index count,
-                                                          double* __restrict out_x,
-                                                          double* __restrict out_y,
-                                                          double* __restrict out_stress) {
+MAPPROOF_VECTORISED void pair_terms(const Eigen::RowVector2d& at, const double* x, const double* y,
+                                    const double* delta, Eigen::Index count,
+                                    double* __restrict out_x, double* __restrict out_y,
+                                    double* __restrict out_stress) {
   const double at_x = at.x();
   const double at_y = at.y();
   for (Eigen::Index i = 0; i < count; ++i) {

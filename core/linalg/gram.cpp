@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <vector>
 
+#include "core/base/vectorised.hpp"
+
 namespace mapproof {
 namespace {
 
@@ -19,9 +21,8 @@ using Lanes [[gnu::vector_size(32)]] = double;
 using LanesInMemory [[gnu::vector_size(32), gnu::aligned(8), gnu::may_alias]] = double;
 
 /// tile(r, c) = sum over k of rows(r, k) * columns(c, k), both packed k by k.
-[[gnu::target_clones("avx2", "default")]] void multiply_tile(const double* rows,
-                                                             const double* columns, Index depth,
-                                                             double* tile) {
+MAPPROOF_VECTORISED void multiply_tile(const double* rows, const double* columns, Index depth,
+                                       double* tile) {
   Lanes sums[kTileColumns][2] = {};
   for (Index k = 0; k < depth; ++k) {
     const Lanes low = *reinterpret_cast<const LanesInMemory*>(rows);

@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "core/base/errors.hpp"
+#include "core/base/vectorised.hpp"
 
 namespace mapproof {
 namespace {
@@ -24,9 +25,8 @@ struct Count {
 };
 
 /// Of the triples that the offset `first` forms with all after it.
-[[gnu::target_clones("avx2", "default")]] Count count_turns(Offsets truth, Offsets estimate,
-                                                            Eigen::Index first,
-                                                            Eigen::Index count) {
+MAPPROOF_VECTORISED Count count_turns(Offsets truth, Offsets estimate, Eigen::Index first,
+                                      Eigen::Index count) {
   const double tx = truth.x[first], ty = truth.y[first];
   const double ex = estimate.x[first], ey = estimate.y[first];
   std::int64_t judged = 0;
