@@ -50,13 +50,16 @@ class Diagram {
     const double margin = 0.02 * (highest_ - 1.0);
     panel.x.limits = Range{1.0 - margin, highest_ + margin};
     panel.y.limits = Range{-first_row() - static_cast<double>(left_count()) + 0.4, 2.9};
-    panel.layers = {lines_, bars_, difference_, dots_, numbers_, left_, right_};
+    panel.layers = {lines_, bars_, difference_, open_difference_, dots_, numbers_, left_, right_};
     std::erase_if(panel.layers, is_empty);
     return panel;
   }
 
   const std::vector<RankedMethod>& methods() const { return methods_; }
   const std::vector<std::vector<int>>& groups() const { return groups_; }
+
+  /// No two mean ranks can then differ by the critical difference.
+  bool beyond_axis() const { return 1.0 + spec_.critical_difference > highest_; }
 
  private:
   void draw_axis() {
@@ -69,11 +72,16 @@ class Diagram {
     }
   }
 
-  /// The length of the critical difference above the axis.
+  /// The length of the critical difference above the axis; an arrow if it is longer than the axis.
   void draw_difference() {
     const double end = std::min(1.0 + spec_.critical_difference, highest_);
-    add_line(difference_, {1.0, 1.7}, {end, 1.7});
-    for (const double x : {1.0, end}) add_line(difference_, {x, 1.55}, {x, 1.85});
+    add_line(difference_, {1.0, 1.55}, {1.0, 1.85});
+    if (beyond_axis()) {
+      add_line(open_difference_, {1.0, 1.7}, {end, 1.7});
+    } else {
+      add_line(difference_, {1.0, 1.7}, {end, 1.7});
+      add_line(difference_, {end, 1.55}, {end, 1.85});
+    }
     add_text(numbers_, {(1.0 + end) / 2.0, 2.4}, "CD = " + significant(spec_.critical_difference));
   }
 
@@ -114,6 +122,7 @@ class Diagram {
   Segments lines_{.ink = Ink::kText, .width = 0.6};
   Segments bars_{.ink = Ink::kSeries2, .width = 3.0};
   Segments difference_{.ink = Ink::kText};
+  Segments open_difference_{.ink = Ink::kText, .arrow = true};
   Scatter dots_{.ink = Ink::kText, .size = 0.7};
   Texts numbers_;
   Texts left_{.align = Align::kEnd};
@@ -151,6 +160,9 @@ Figure critical_difference_figure(const CriticalDifferenceSpec& spec) {
   if (spec.friedman_p > spec.alpha)
     figure.notes.push_back(
         {"The Friedman test finds no difference: the bars prove nothing.", Ink::kWarning});
+  if (!spec.methods.empty() && diagram.beyond_axis())
+    figure.notes.push_back(
+        {"CD is longer than the axis (arrow): so few units tell no methods apart.", Ink::kWarning});
   if (spec.methods.empty()) figure.notes.push_back({"There are no methods.", Ink::kWarning});
   figure.caption = fmt::format(
       "Mean ranks of {} over {}, the best to the left. Bars join methods that do not differ: their "

@@ -43,6 +43,91 @@ PanelLimits limits_of(const Points& truth_m) {
   return {{x.low - by, x.high + by}, {y.low - by, y.high + by}};
 }
 
+/// What is drawn, landmark by landmark.
+struct EllipseLayers {
+  Ellipses scatter{
+      .label = "95 % of estimates", .ink = Ink::kSeries1, .fill = Fill::kTint, .width = 0.6};
+  Segments bias{.label = "truth to mean", .ink = Ink::kText, .width = 0.7};
+  Scatter means{.label = "mean estimate", .ink = Ink::kSeries1, .size = 0.6};
+  Scatter truth{.label = "true position", .ink = Ink::kText, .filled = false, .size = 0.7};
+  Scatter anchors{.label = "anchor",
+                  .ink = Ink::kSeries2,
+                  .marker = Marker::kSquare,
+                  .filled = false,
+                  .size = 1.3};
+
+  void add(const EllipseMapSpec& spec, Eigen::Index i, const ScatterEllipse& e) {
+    const bool anchor = std::ranges::find(spec.anchors, i) != spec.anchors.end();
+    const Point at = point_of(spec.truth_m.row(i));
+    add_point(anchor ? anchors : truth, at);
+    if (e.runs == 0) return;
+    const std::vector<std::pair<std::string, std::string>> data = {{"landmark", spec.names[i]},
+                                                                   {"runs", std::to_string(e.runs)},
+                                                                   {"a", data_number(e.a_m)},
+                                                                   {"b", data_number(e.b_m)}};
+    const Point mean = point_of(e.mean_m);
+    add_line(bias, at, mean);
+    add_point(means, mean);
+    means.marks.push_back({fmt::format("mean-{}", i + 1), data});
+    if (std::isnan(e.a_m)) return;
+    scatter.x.push_back(mean.x), scatter.y.push_back(mean.y);
+    scatter.a.push_back(e.a_m), scatter.b.push_back(e.b_m);
+    scatter.turn_rad.push_back(e.turn_rad);
+    scatter.marks.push_back({fmt::format("ellipse-{}", i + 1), data});
+  }
+};
+
+/// What the words say.
+struct EllipseSummary {
+  std::size_t placed = 0;        ///< Landmarks with a mean.
+  std::size_t with_ellipse = 0;  ///< With three runs or more.
+  std::size_t outside = 0;       ///< Means beyond the picture.
+  double sum_bias_m = 0.0;       ///< Over those placed.
+  double sum_a_m = 0.0;          ///< Over those with an ellipse.
+  double worst_a_m = 0.0;
+  std::string worst;  ///< The first with the longest axis.
+
+  void add(const EllipseMapSpec& spec, Eigen::Index i, const ScatterEllipse& e,
+           const PanelLimits& limits) {
+    if (e.runs == 0) return;
+    ++placed;
+    sum_bias_m += (e.mean_m - spec.truth_m.row(i)).norm();
+    const Point mean = point_of(e.mean_m);
+    outside += limits.x.low > mean.x || mean.x > limits.x.high || limits.y.low > mean.y ||
+               mean.y > limits.y.high;
+    if (std::isnan(e.a_m)) return;
+    ++with_ellipse;
+    sum_a_m += e.a_m;
+    if (with_ellipse == 1 || e.a_m > worst_a_m) worst_a_m = e.a_m, worst = spec.names[i];
+  }
+};
+
+std::string alt_of(const EllipseMapSpec& spec, const EllipseSummary& summary) {
+  std::string text =
+      fmt::format("Scatter of the estimates of {} over {}.", counted(spec.names.size(), "landmark"),
+                  counted(spec.estimates_m.size(), "run"));
+  if (summary.placed > 0)
+    text += fmt::format(" The means are {} m from the truth on average.",
+                        significant(summary.sum_bias_m / static_cast<double>(summary.placed)));
+  if (summary.with_ellipse > 0)
+    text +=
+        fmt::format(" Half the long axis of an ellipse is {} m on average, {} m at most, of {}.",
+                    significant(summary.sum_a_m / static_cast<double>(summary.with_ellipse)),
+                    significant(summary.worst_a_m), summary.worst);
+  return text;
+}
+
+std::vector<Note> notes_of(const EllipseSummary& summary) {
+  std::vector<Note> notes;
+  if (summary.placed == 0) notes.push_back({"No run gave a landmark a place.", Ink::kWarning});
+  if (summary.placed > 0 && summary.with_ellipse == 0)
+    notes.push_back({"Fewer than three runs: no ellipses.", Ink::kWarning});
+  if (summary.outside > 0)
+    notes.push_back(
+        {counted(summary.outside, "mean estimate") + " outside the picture.", Ink::kWarning});
+  return notes;
+}
+
 }  // namespace
 
 ScatterEllipse scatter_ellipse(const std::vector<Points>& estimates_m, Eigen::Index row) {
@@ -71,81 +156,32 @@ ScatterEllipse scatter_ellipse(const std::vector<Points>& estimates_m, Eigen::In
 
 Figure ellipse_map_figure(const EllipseMapSpec& spec) {
   require_consistent(spec);
+  const PanelLimits limits = limits_of(spec.truth_m);
+  EllipseLayers layers;
+  EllipseSummary summary;
+  for (Eigen::Index i = 0; i < spec.truth_m.rows(); ++i) {
+    const ScatterEllipse ellipse = scatter_ellipse(spec.estimates_m, i);
+    layers.add(spec, i, ellipse);
+    summary.add(spec, i, ellipse, limits);
+  }
   Figure figure;
   figure.id = spec.id;
   figure.title = spec.title;
   figure.record_ids = spec.record_ids;
-  Ellipses scatter{
-      .label = "95 % of estimates", .ink = Ink::kSeries1, .fill = Fill::kTint, .width = 0.6};
-  Segments bias{.label = "truth to mean", .ink = Ink::kText, .width = 0.7};
-  Scatter means{.label = "mean estimate", .ink = Ink::kSeries1, .size = 0.6};
-  Scatter truth{.label = "true position", .ink = Ink::kText, .filled = false, .size = 0.7};
-  Scatter anchors{.label = "anchor",
-                  .ink = Ink::kSeries2,
-                  .marker = Marker::kSquare,
-                  .filled = false,
-                  .size = 1.3};
-  double sum_bias = 0.0, sum_a = 0.0, worst_a = 0.0;
-  std::size_t placed = 0, with_ellipse = 0, outside = 0;
-  std::string worst;
-  const PanelLimits limits = limits_of(spec.truth_m);
-  for (Eigen::Index i = 0; i < spec.truth_m.rows(); ++i) {
-    const bool anchor = std::ranges::find(spec.anchors, i) != spec.anchors.end();
-    add_point(anchor ? anchors : truth, point_of(spec.truth_m.row(i)));
-    const ScatterEllipse e = scatter_ellipse(spec.estimates_m, i);
-    if (e.runs == 0) continue;
-    const std::vector<std::pair<std::string, std::string>> data = {{"landmark", spec.names[i]},
-                                                                   {"runs", std::to_string(e.runs)},
-                                                                   {"a", data_number(e.a_m)},
-                                                                   {"b", data_number(e.b_m)}};
-    const Point mean = point_of(e.mean_m);
-    const double off = (e.mean_m - spec.truth_m.row(i)).norm();
-    add_line(bias, point_of(spec.truth_m.row(i)), mean);
-    add_point(means, mean);
-    means.marks.push_back({fmt::format("mean-{}", i + 1), data});
-    sum_bias += off;
-    ++placed;
-    outside += limits.x.low > mean.x || mean.x > limits.x.high || limits.y.low > mean.y ||
-               mean.y > limits.y.high;
-    if (std::isnan(e.a_m)) continue;
-    scatter.x.push_back(mean.x), scatter.y.push_back(mean.y);
-    scatter.a.push_back(e.a_m), scatter.b.push_back(e.b_m);
-    scatter.turn_rad.push_back(e.turn_rad);
-    scatter.marks.push_back({fmt::format("ellipse-{}", i + 1), data});
-    sum_a += e.a_m;
-    ++with_ellipse;
-    if (e.a_m > worst_a) worst_a = e.a_m, worst = spec.names[i];
-  }
   Panel& panel = figure.panels.emplace_back();
   panel.equal_aspect = true;
   panel.x.label = "x [m]";
   panel.y.label = "y [m]";
   panel.x.limits = limits.x;
   panel.y.limits = limits.y;
-  panel.layers = {scatter, bias, truth, anchors, means};
+  panel.layers = {layers.scatter, layers.bias, layers.truth, layers.anchors, layers.means};
   std::erase_if(panel.layers, is_empty);
-
   figure.caption = fmt::format(
       "Estimates of {} over {}: dots are means, joined to the true positions (open circles); "
       "ellipses hold 95 % of a normal scatter; squares: anchors.",
       counted(spec.names.size(), "landmark"), counted(spec.estimates_m.size(), "run"));
-  figure.alt =
-      fmt::format("Scatter of the estimates of {} over {}.", counted(spec.names.size(), "landmark"),
-                  counted(spec.estimates_m.size(), "run"));
-  if (placed > 0)
-    figure.alt += fmt::format(" The means are {} m from the truth on average.",
-                              significant(sum_bias / static_cast<double>(placed)));
-  if (with_ellipse > 0)
-    figure.alt += fmt::format(
-        " Half the long axis of an ellipse is {} m on average, {} m at most, "
-        "of {}.",
-        significant(sum_a / static_cast<double>(with_ellipse)), significant(worst_a), worst);
-  if (placed == 0) figure.notes.push_back({"No run gave a landmark a place.", Ink::kWarning});
-  if (placed > 0 && with_ellipse == 0)
-    figure.notes.push_back({"Fewer than three runs: no ellipses.", Ink::kWarning});
-  if (outside > 0)
-    figure.notes.push_back(
-        {counted(outside, "mean estimate") + " outside the picture.", Ink::kWarning});
+  figure.alt = alt_of(spec, summary);
+  figure.notes = notes_of(summary);
   require_valid(figure);
   return figure;
 }

@@ -40,6 +40,25 @@ TEST(CriticalDifferenceFigure, SaysWhenTheFriedmanTestFindsNothing) {
   EXPECT_TRUE(notes_contain(critical_difference_figure(spec), "finds no difference"));
 }
 
+TEST(CriticalDifferenceFigure, DrawsADifferenceAtItsLengthOrOpenAtTheEndOfTheAxis) {
+  CriticalDifferenceSpec spec = sample_ranks(10);
+  const auto arrows = [](const Figure& figure) {
+    std::vector<Segments> found = layers_of<Segments>(figure.panels[0]);
+    std::erase_if(found, [](const Segments& lines) { return !lines.arrow; });
+    return found;
+  };
+  spec.critical_difference = 9.0;  // From 1 to 10.
+  const Figure whole = critical_difference_figure(spec);
+  EXPECT_EQ(std::ranges::max(layers_of<Segments>(whole.panels[0]).at(2).x1), 10.0);
+  EXPECT_TRUE(arrows(whole).empty());
+  EXPECT_FALSE(notes_contain(whole, "longer than the axis"));
+  spec.critical_difference = 9.58;
+  const Figure open = critical_difference_figure(spec);
+  ASSERT_EQ(arrows(open).size(), 1u);
+  EXPECT_EQ(arrows(open)[0].x1.at(0), 10.0);
+  EXPECT_TRUE(notes_contain(open, "longer than the axis"));
+}
+
 TEST(CriticalDifferenceFigure, RefusesRanksThatAreNone) {
   for (const double rank : {0.5, 5.0, std::nan("")}) {
     CriticalDifferenceSpec spec = sample_ranks(4);
@@ -84,6 +103,13 @@ TEST(EllipseMapFigure, JoinsTheTruthToTheMean) {
   EXPECT_NEAR(bias.x1[3], scatter_ellipse(spec.estimates_m, 3).mean_m.x(), 1e-15);
   EXPECT_EQ(labelled<Ellipses>(figure.panels[0], "95 % of estimates").x.size(), 20u);
   EXPECT_TRUE(contains(figure.caption, "20 landmarks over 5 runs"));
+}
+
+TEST(EllipseMapFigure, NamesALandmarkEvenIfAllRunsAgree) {
+  EllipseMapSpec spec = sample_runs(20, 4);
+  for (Points& run : spec.estimates_m) run = spec.estimates_m.front();
+  const Figure figure = ellipse_map_figure(spec);
+  EXPECT_TRUE(contains(figure.alt, "0 m at most, of " + spec.names.front() + ".")) << figure.alt;
 }
 
 TEST(EllipseMapFigure, SaysWhatItCannotShow) {

@@ -40,6 +40,10 @@ void add_ranks(std::vector<Figure>& figures) {
   for (RankedMethod& method : equal.methods) method.mean_rank = 3.5;
   equal.friedman_p = 1.0;
   figures.push_back(critical_difference_figure(equal));
+  CriticalDifferenceSpec few = with_id(sample_ranks(10), "ranks-two-layouts");
+  few.critical_difference = 9.58;  // of ten methods on two layouts
+  few.units = 2;
+  figures.push_back(critical_difference_figure(few));
   CriticalDifferenceSpec names = with_id(sample_ranks(5), "ranks-hostile");
   for (std::size_t i = 0; i < 5; ++i) names.methods[i].label = hostile_names()[i + 1];
   figures.push_back(critical_difference_figure(names));
