@@ -16,8 +16,8 @@ ConnectedGraph connected_neighbour_graph(const Eigen::MatrixXd& distances,
                                    options.neighbours);
 }
 
-ConnectedGraph connected_neighbour_graph(const Eigen::MatrixXd& distances, const Graph& nearest,
-                                         int neighbours) {
+ConnectedGraph connected_neighbour_graph(const Eigen::MatrixXd& distances,
+                                         const NeighbourLists& nearest, int neighbours) {
   ConnectedGraph result{.graph = neighbour_graph(nearest, neighbours), .statuses = {}};
   const auto bridging = bridge_components(result.graph, distances);
   if (!bridging) {
@@ -35,8 +35,8 @@ ConnectedGraph connected_neighbour_graph(const Eigen::MatrixXd& distances, const
   return result;
 }
 
-ConnectedGraph connected_neighbourhoods(const Eigen::MatrixXd& distances, const Graph& nearest,
-                                        int neighbours) {
+ConnectedGraph connected_neighbourhoods(const Eigen::MatrixXd& distances,
+                                        const NeighbourLists& nearest, int neighbours) {
   ConnectedGraph result = connected_neighbour_graph(distances, nearest, neighbours);
   const Graph symmetric = std::exchange(result.graph, nearest);
   for (std::vector<Edge>& edges : result.graph)

@@ -11,7 +11,7 @@ namespace mapproof {
 
 /// A neighbour graph in one piece, with what it took.
 struct ConnectedGraph {
-  Graph graph;
+  Graph graph;                   ///< Of connected_neighbourhoods: NeighbourLists.
   std::vector<Status> statuses;  ///< kBridged, or kFailed if it stays in pieces.
   bool connected = true;
 };
@@ -22,13 +22,13 @@ ConnectedGraph connected_neighbour_graph(const Eigen::MatrixXd& distances,
                                          const NeighbourOptions& options);
 
 /// The same from the first K of each list of `nearest` (see nearest_neighbours).
-ConnectedGraph connected_neighbour_graph(const Eigen::MatrixXd& distances, const Graph& nearest,
-                                         int neighbours);
+ConnectedGraph connected_neighbour_graph(const Eigen::MatrixXd& distances,
+                                         const NeighbourLists& nearest, int neighbours);
 
 /// The K nearest neighbours of each landmark, in `graph`. Where the symmetric graph is in pieces,
 /// the ends of its shortest bridges become neighbours of each other, beyond their K.
-ConnectedGraph connected_neighbourhoods(const Eigen::MatrixXd& distances, const Graph& nearest,
-                                        int neighbours);
+ConnectedGraph connected_neighbourhoods(const Eigen::MatrixXd& distances,
+                                        const NeighbourLists& nearest, int neighbours);
 
 /// Neighbourhoods for LLE: no group of landmarks but one has all of its neighbours within itself,
 /// which would let each such group shrink to a point of its own. Where there are more, the shortest

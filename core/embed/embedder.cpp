@@ -9,6 +9,7 @@
 #include <fmt/format.h>
 
 #include "core/base/errors.hpp"
+#include "core/base/words.hpp"
 #include "core/embed/connected_graph.hpp"
 #include "core/embed/hessian_lle.hpp"
 #include "core/embed/isomap.hpp"
@@ -37,16 +38,14 @@ void add_statuses_of_start(Embedding& result, const Embedding& start, std::strin
   result.statuses.insert(result.statuses.begin(), added.begin(), added.end());
 }
 
-/// "L3, L7", at most ten of them.
-std::string listed(const std::vector<std::string>& names, const std::vector<Eigen::Index>& rows) {
-  constexpr std::size_t kShown = 10;
-  std::string list;
-  for (std::size_t i = 0; i < std::min(rows.size(), kShown); ++i)
-    list += (i == 0 ? "" : ", ") + names[static_cast<std::size_t>(rows[i])];
-  return rows.size() > kShown ? fmt::format("{} and {} more", list, rows.size() - kShown) : list;
+/// "L3 and L7", ten of them or fewer.
+std::string names_of(const std::vector<std::string>& names, const std::vector<Eigen::Index>& rows) {
+  std::vector<std::string> some;
+  for (const Eigen::Index row : rows) some.push_back(names[static_cast<std::size_t>(row)]);
+  return listed(some, 10);
 }
 
-/// The median of the finite entries below the diagonal; 1 if there is none above zero.
+/// The median of the finite entries above zero below the diagonal; 1 if there is none.
 double median_beside_diagonal(const Eigen::MatrixXd& matrix) {
   std::vector<double> values;
   for (Eigen::Index j = 0; j < matrix.cols(); ++j)
@@ -223,7 +222,7 @@ Embedding Embedder::on_neighbourhoods(Method method, int neighbours) {
 }
 
 /// Sorted once for all K up to some: most studies ask for one K after another.
-const Graph& Embedder::nearest(int neighbours) {
+const NeighbourLists& Embedder::nearest(int neighbours) {
   constexpr int kUsual = 16;
   if (nearest_count_ < neighbours) {
     nearest_count_ =
@@ -267,7 +266,7 @@ HistoryEmbedder::HistoryEmbedder(const ObservationHistory& history, Eigen::Index
     statuses_.push_back(
         {StatusCode::kLandmarkUnseen,
          fmt::format("{} of {} landmarks were never observed and are not on the map: {}.",
-                     unseen.size(), landmarks_, listed(history.names, unseen))});
+                     unseen.size(), landmarks_, names_of(history.names, unseen))});
   options.only_seen_together &= history.sensor == Sensor::kVisibility;
   if (seen_.empty()) {
     embedder_.emplace(Proximities{}, options);

@@ -47,7 +47,7 @@ class Embedder {
   Embedding weighted_smacof(int neighbours);
   Embedding on_graph_of(Method method, int neighbours);
   Embedding on_neighbourhoods(Method method, int neighbours);
-  const Graph& nearest(int neighbours);
+  const NeighbourLists& nearest(int neighbours);
   Eigen::Index size() const { return proximities_.squared_distances.rows(); }
   const Eigen::MatrixXd& distances();
   const Eigen::MatrixXd& complete_distances();
@@ -62,7 +62,7 @@ class Embedder {
   /// Distances and squares, all finite if the data allow; empty where nothing had to be completed.
   Eigen::MatrixXd completed_distances_;
   Eigen::MatrixXd completed_squares_;
-  Graph nearest_;  ///< The first so many of each landmark, nearest first.
+  NeighbourLists nearest_;  ///< The first so many of each landmark, nearest first.
   int nearest_count_ = 0;
   Eigen::Index completed_pairs_ = 0;
   bool seen_apart_ = false;  ///< Some landmarks share no step even over others.

@@ -42,7 +42,7 @@ Eigen::MatrixX3d hessian_directions(const Eigen::MatrixX2d& tangent) {
 
 }  // namespace
 
-Embedding hessian_lle(const Eigen::MatrixXd& squared_distances, const Graph& neighbours) {
+Embedding hessian_lle(const Eigen::MatrixXd& squared_distances, const NeighbourLists& neighbours) {
   check_neighbourhoods(squared_distances, neighbours, kFewestHessianNeighbours);
   const Eigen::Index n = squared_distances.rows();
   QuadraticForms H(n);

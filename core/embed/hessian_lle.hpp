@@ -25,6 +25,6 @@ inline constexpr int kFewestHessianNeighbours = 6;
 ///         so have no tangent plane.
 /// @throws InvalidInput if the bounds above are broken.
 /// @note O(n K^3) time beside that of the eigenvalues.
-Embedding hessian_lle(const Eigen::MatrixXd& squared_distances, const Graph& neighbours);
+Embedding hessian_lle(const Eigen::MatrixXd& squared_distances, const NeighbourLists& neighbours);
 
 }  // namespace mapproof

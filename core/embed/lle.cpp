@@ -27,7 +27,7 @@ void blend(Eigen::MatrixXd& G, double regularization, Eigen::LLT<Eigen::MatrixXd
 
 }  // namespace
 
-Embedding lle(const Eigen::MatrixXd& squared_distances, const Graph& neighbours,
+Embedding lle(const Eigen::MatrixXd& squared_distances, const NeighbourLists& neighbours,
               const LleOptions& options) {
   check_neighbourhoods(squared_distances, neighbours, 1);
   if (!(options.regularization > 0.0)) throw InvalidInput("LLE needs a regularization above 0");

@@ -22,7 +22,7 @@ struct LleOptions {
 ///         neighbourhood the data spread in one direction alone.
 /// @throws InvalidInput if the bounds above are broken.
 /// @note O(n K^3) time beside that of the eigenvalues.
-Embedding lle(const Eigen::MatrixXd& squared_distances, const Graph& neighbours,
+Embedding lle(const Eigen::MatrixXd& squared_distances, const NeighbourLists& neighbours,
               const LleOptions& options = {});
 
 }  // namespace mapproof

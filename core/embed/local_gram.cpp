@@ -8,8 +8,8 @@
 
 namespace mapproof {
 
-void check_neighbourhoods(const Eigen::MatrixXd& squared_distances, const Graph& neighbours,
-                          int fewest) {
+void check_neighbourhoods(const Eigen::MatrixXd& squared_distances,
+                          const NeighbourLists& neighbours, int fewest) {
   const Eigen::Index n = squared_distances.rows();
   if (n < 3 || squared_distances.cols() != n || std::ssize(neighbours) != n)
     throw InvalidInput("need a square matrix of at least 3 landmarks, and neighbours of each");

@@ -13,8 +13,8 @@ namespace mapproof {
 
 /// @throws InvalidInput unless `squared_distances` is n x n with n >= 3 and finite, and
 ///         `neighbours` lists at least `fewest` others for each landmark.
-void check_neighbourhoods(const Eigen::MatrixXd& squared_distances, const Graph& neighbours,
-                          int fewest);
+void check_neighbourhoods(const Eigen::MatrixXd& squared_distances,
+                          const NeighbourLists& neighbours, int fewest);
 
 /// Inner products (x_a - x_i)'(x_b - x_i) of the neighbours of i, from distances alone.
 void gram_about(const Eigen::MatrixXd& squared_distances, Eigen::Index i,

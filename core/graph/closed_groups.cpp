@@ -8,7 +8,7 @@ namespace mapproof {
 namespace {
 
 /// Nodes in the order in which a depth-first search leaves them, over `next`.
-std::vector<std::size_t> finishing_order(const Graph& next) {
+std::vector<std::size_t> finishing_order(const NeighbourLists& next) {
   std::vector<std::size_t> order;
   std::vector<bool> seen(next.size(), false);
   std::vector<std::pair<std::size_t, std::size_t>> open;  // a node and its next edge
@@ -33,8 +33,8 @@ std::vector<std::size_t> finishing_order(const Graph& next) {
 }
 
 /// The strong component of each node, by Kosaraju's two searches, and how many there are.
-std::pair<std::vector<int>, int> strong_components(const Graph& lists) {
-  Graph reversed(lists.size());
+std::pair<std::vector<int>, int> strong_components(const NeighbourLists& lists) {
+  NeighbourLists reversed(lists.size());
   for (std::size_t i = 0; i < lists.size(); ++i)
     for (const Edge& edge : lists[i])
       reversed[static_cast<std::size_t>(edge.to)].push_back({static_cast<Eigen::Index>(i), 0.0});
@@ -78,7 +78,7 @@ class Sets {
 
 }  // namespace
 
-std::vector<std::vector<Eigen::Index>> closed_groups(const Graph& lists) {
+std::vector<std::vector<Eigen::Index>> closed_groups(const NeighbourLists& lists) {
   const auto [component, count] = strong_components(lists);
   std::vector<bool> closed(static_cast<std::size_t>(count), true);
   for (std::size_t i = 0; i < lists.size(); ++i)
@@ -94,7 +94,7 @@ std::vector<std::vector<Eigen::Index>> closed_groups(const Graph& lists) {
   return groups;
 }
 
-std::optional<int> open_closed_groups(Graph& lists, const Eigen::MatrixXd& distances) {
+std::optional<int> open_closed_groups(NeighbourLists& lists, const Eigen::MatrixXd& distances) {
   int added = 0;
   // Each round opens all groups but the first, so that there are fewer every time.
   for (auto groups = closed_groups(lists); groups.size() > 1; groups = closed_groups(lists))
@@ -114,7 +114,7 @@ std::optional<int> open_closed_groups(Graph& lists, const Eigen::MatrixXd& dista
   return added;
 }
 
-int join_sets(Graph& lists) {
+int join_sets(NeighbourLists& lists) {
   Sets sets(lists.size());
   for (const std::vector<Edge>& edges : lists)
     for (const Edge& edge : edges)

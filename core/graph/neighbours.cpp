@@ -21,13 +21,14 @@ double rounded(double distance) {
 
 }  // namespace
 
-Graph nearest_neighbours(const Eigen::MatrixXd& distances, const NeighbourOptions& options) {
+NeighbourLists nearest_neighbours(const Eigen::MatrixXd& distances,
+                                  const NeighbourOptions& options) {
   const Eigen::Index n = distances.rows();
   if (options.neighbours < 1 || options.neighbours >= n)
     throw InvalidInput(
         fmt::format("K = {} nearest neighbours need 1 <= K < {} landmarks", options.neighbours, n));
 
-  Graph nearest(static_cast<std::size_t>(n));
+  NeighbourLists nearest(static_cast<std::size_t>(n));
   std::vector<double> finite;
   std::vector<std::pair<double, Eigen::Index>> order;
   for (Eigen::Index i = 0; i < n; ++i) {
@@ -57,7 +58,7 @@ Graph nearest_neighbours(const Eigen::MatrixXd& distances, const NeighbourOption
   return nearest;
 }
 
-Graph neighbour_graph(const Graph& nearest, int neighbours) {
+Graph neighbour_graph(const NeighbourLists& nearest, int neighbours) {
   Graph graph(nearest.size());
   for (std::size_t i = 0; i < nearest.size(); ++i) {
     const auto count = std::min<std::ptrdiff_t>(neighbours, std::ssize(nearest[i]));

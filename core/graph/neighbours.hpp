@@ -16,6 +16,10 @@ struct Edge {
 /// Undirected graph as neighbour lists: graph[i] lists the edges at i, ascending in `to`.
 using Graph = std::vector<std::vector<Edge>>;
 
+/// Directed lists of neighbours of the same form: lists[i] are those of i, nearest first, and after
+/// them such as were added to tie a map together (in join_sets even i itself, at length 0).
+using NeighbourLists = Graph;
+
 /// Which pairs become edges.
 struct NeighbourOptions {
   int neighbours = 8;  ///< K, 1 <= K < n.
@@ -29,8 +33,9 @@ struct NeighbourOptions {
 ///
 /// @param distances  n x n, symmetric, entries >= 0 or infinite, which are nobody's neighbours.
 /// @throws InvalidInput if K is not in [1, n).
-/// @note O(n^2 + n K log K) time.
-Graph nearest_neighbours(const Eigen::MatrixXd& distances, const NeighbourOptions& options);
+/// @note O(n^2 + n K log K) time on average, O(n^2 log n) if all distances are alike.
+NeighbourLists nearest_neighbours(const Eigen::MatrixXd& distances,
+                                  const NeighbourOptions& options);
 
 /// Symmetric K-nearest-neighbour graph: i and j are joined if either is among the K nearest of the
 /// other. Ties, after rounding to 40 bits (some 12 digits), go to the lower row. Infinite distances
@@ -38,10 +43,11 @@ Graph nearest_neighbours(const Eigen::MatrixXd& distances, const NeighbourOption
 ///
 /// @param distances  n x n, symmetric, entries >= 0 or infinite.
 /// @throws InvalidInput if K is not in [1, n).
-/// @note O(n^2 log K) time.
+/// @note nearest_neighbours, and O(n K log n).
 Graph neighbour_graph(const Eigen::MatrixXd& distances, const NeighbourOptions& options);
 
 /// The same graph from the first K of each list of `nearest` (see nearest_neighbours).
-Graph neighbour_graph(const Graph& nearest, int neighbours);
+/// @note O(n K log n) time.
+Graph neighbour_graph(const NeighbourLists& nearest, int neighbours);
 
 }  // namespace mapproof

@@ -35,6 +35,20 @@ struct FlatGraph {
     }
     first.push_back(steps.size());
   }
+
+  /// Tells `shortened` each new length and its node, where the way through `node` is shorter.
+  template <typename Shortened>
+  void relax(std::int32_t node, double* lengths, const Shortened& shortened) const {
+    const double length = lengths[node];
+    const std::size_t end = first[static_cast<std::size_t>(node) + 1];
+    for (std::size_t step = first[static_cast<std::size_t>(node)]; step < end; ++step) {
+      const auto [further, to] = steps[step];
+      const double through = length + further;
+      if (through >= lengths[to]) continue;
+      lengths[to] = through;
+      shortened(through, to);
+    }
+  }
 };
 
 /// Nodes by their length so far, in buckets no wider than the shortest edge: no node of a bucket
@@ -57,28 +71,16 @@ class Buckets {
     std::size_t waiting = 1;
     for (std::size_t at = 0; waiting > 0; at = (at + 1) & mask_) {
       waiting -= ring_[at].size();
-      for (const std::int32_t node : ring_[at]) waiting += relax(graph, node, lengths);
+      for (const std::int32_t node : ring_[at])
+        graph.relax(node, lengths, [&](double length, std::int32_t reached) {
+          ring_[static_cast<std::size_t>(length * per_length_) & mask_].push_back(reached);
+          ++waiting;
+        });
       ring_[at].clear();
     }
   }
 
  private:
-  /// How many nodes got shorter.
-  std::size_t relax(const FlatGraph& graph, std::int32_t node, double* lengths) {
-    std::size_t count = 0;
-    const double length = lengths[node];
-    const std::size_t end = graph.first[static_cast<std::size_t>(node) + 1];
-    for (std::size_t step = graph.first[static_cast<std::size_t>(node)]; step < end; ++step) {
-      const auto [further, to] = graph.steps[step];
-      const double through = length + further;
-      if (through >= lengths[to]) continue;
-      lengths[to] = through;
-      ring_[static_cast<std::size_t>(through * per_length_) & mask_].push_back(to);
-      ++count;
-    }
-    return count;
-  }
-
   double per_length_;
   std::vector<std::vector<std::int32_t>> ring_;  ///< As many as a power of two.
   std::size_t mask_;
@@ -94,14 +96,8 @@ void heap_search(const FlatGraph& graph, std::int32_t source, double* lengths) {
     const auto [length, node] = open.top();
     open.pop();
     if (length > lengths[node]) continue;
-    const std::size_t end = graph.first[static_cast<std::size_t>(node) + 1];
-    for (std::size_t step = graph.first[static_cast<std::size_t>(node)]; step < end; ++step) {
-      const auto [further, to] = graph.steps[step];
-      const double through = length + further;
-      if (through >= lengths[to]) continue;
-      lengths[to] = through;
-      open.emplace(through, to);
-    }
+    graph.relax(node, lengths,
+                [&open](double through, std::int32_t reached) { open.emplace(through, reached); });
   }
 }
 
@@ -111,13 +107,13 @@ Eigen::MatrixXd shortest_paths(const Graph& graph) {
   const Eigen::Index n = std::ssize(graph);
   const FlatGraph flat(graph);
   Eigen::MatrixXd lengths = Eigen::MatrixXd::Constant(n, n, HUGE_VAL);
-  const auto sources = static_cast<std::int32_t>(n);
+  const auto nodes = static_cast<std::int32_t>(n);
   if (flat.shortest > 0.0 && flat.longest <= Buckets::kMost * flat.shortest) {
     Buckets buckets(flat.shortest, flat.longest);
-    for (std::int32_t source = 0; source < sources; ++source)
+    for (std::int32_t source = 0; source < nodes; ++source)
       buckets.search(flat, source, lengths.col(source).data());
   } else {
-    for (std::int32_t source = 0; source < sources; ++source)
+    for (std::int32_t source = 0; source < nodes; ++source)
       heap_search(flat, source, lengths.col(source).data());
   }
   // The two directions add the same edges in another order: take the lower sum for both.

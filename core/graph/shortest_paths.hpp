@@ -7,7 +7,8 @@ namespace mapproof {
 /// Lengths of the shortest paths between all nodes; infinite between components.
 /// @return n x n, exactly symmetric, zero diagonal.
 /// @note Dijkstra's search from each node: O(n e) time for e edges, over buckets as wide as the
-///       shortest edge; O(n e log n) over a heap where the longest is 4096 times as long.
+///       shortest edge; O(n e log n) over a heap where the longest is more than 4096 times as
+///       long, so always where an edge has length 0.
 Eigen::MatrixXd shortest_paths(const Graph& graph);
 
 /// Shortest paths over a complete weighted graph: fills the infinite entries of `distances`.

@@ -14,8 +14,8 @@ struct EigenPairs {
 
 /// The k algebraically largest eigenpairs, descending.
 ///
-/// Dense up to n = 40 or 8 k, above that Lanczos with a fixed start (Spectra), and dense again where
-/// that does not converge or is found to have missed a copy of a multiple eigenvalue.
+/// Dense up to n = 40 or 8 k, above that Lanczos with a fixed start (Spectra), and dense again
+/// where that does not converge or is found to have missed a copy of a multiple eigenvalue.
 /// @param matrix  n x n, symmetric (the lower half is read), finite.
 /// @throws InvalidInput unless 1 <= k <= n and all entries are finite.
 /// @note O(n^3) time dense, O(k n^2) an iteration otherwise. Deterministic.
@@ -23,9 +23,9 @@ EigenPairs largest_eigenpairs(const Eigen::MatrixXd& matrix, Eigen::Index k);
 
 /// The k smallest eigenpairs, ascending, beside a null vector that is known beforehand.
 ///
-/// Dense up to n = 40 or 8 k. Above that Lanczos with a fixed start on the inverse of the matrix shifted
-/// off zero, which a sparse Cholesky factor applies; what comes out is judged by its residuals, and
-/// dense again where they are above 1e-9 of the matrix.
+/// Dense up to n = 40 or 8 k. Above that Lanczos with a fixed start on the inverse of the matrix
+/// shifted off zero, which a sparse Cholesky factor applies; what comes out is judged by its
+/// residuals, and dense again where they are above 1e-9 of the matrix.
 /// @param matrix       n x n, symmetric, positive semidefinite up to rounding, finite.
 /// @param null_vector  n, of length 1, with matrix * null_vector = 0 up to rounding.
 /// @return Orthogonal to the null vector.

@@ -15,7 +15,7 @@ namespace mapproof {
 /// What figures show of one sensor in one run beyond its maps.
 struct SensorDetails {
   Sensor sensor = Sensor::kVisibility;
-  int look_step = 1;            ///< The step of `look`, counted from 1.
+  int look_step = 1;            ///< The step of the look, counted from 1.
   double reach_m = 0.0;         ///< See Measurement.
   std::vector<View> views;      ///< Of the look; see Measurement.
   Eigen::VectorXd values;       ///< Of the look: M; NaN: missing.

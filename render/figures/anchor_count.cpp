@@ -13,8 +13,7 @@ Figure anchor_count_figure(const AnchorCountSpec& spec) {
   lines.record_ids = spec.record_ids;
   lines.caption = fmt::format(
       "Lines: {} over the number of anchors, mean over runs, a line a way to place them; bands: "
-      "its "
-      "95 % interval.",
+      "its 95 % interval.",
       spec.quantity);
   for (const AnchorPanel& from : spec.panels) {
     ErrorPanel& panel = lines.panels.emplace_back();

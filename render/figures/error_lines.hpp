@@ -56,7 +56,7 @@ struct ErrorLinesSpec {
 };
 
 /// Lines with bands in panels that share the y axis, which is logarithmic if the means span more
-/// than `log_from`, else from 0.
+/// than `log_from`; else from 0, or from the lowest band where an interval reaches below.
 /// @throws InvalidInput if a line's vectors disagree in length, or a key is no id or there twice.
 Figure error_lines_figure(const ErrorLinesSpec& spec);
 

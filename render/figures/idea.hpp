@@ -15,7 +15,7 @@ struct IdeaSpec {
   std::string id;  ///< [a-z][a-z0-9-]*.
   World world;
   Points path_m;               ///< N x 2, the whole walk or its first steps.
-  ObservationHistory history;  ///< M x at least `steps`.
+  ObservationHistory history;  ///< M x any number of steps.
   MapRecord map;               ///< Of M landmarks.
   int steps = 100;             ///< Of path and history that are shown; fewer if there are fewer.
 };

@@ -7,6 +7,7 @@
 
 #include "render/base/geometry.hpp"
 #include "render/figures/map_view.hpp"
+#include "render/figures/parts.hpp"
 #include "render/figures/score_words.hpp"
 #include "render/figures/words.hpp"
 
@@ -212,9 +213,7 @@ class MapFigure {
       // At the true place, which is the same on the maps of all methods.
       if (is_outside(i) && !view_.has_truth[i]) continue;
       const Point at = view_.has_truth[i] ? true_place(i) : place(i);
-      labels.x.push_back(at.x);
-      labels.y.push_back(at.y);
-      labels.text.push_back(record_.names[i]);
+      add_label(labels, at, record_.names[i]);
     }
     return labels;
   }
@@ -236,18 +235,6 @@ class MapFigure {
   static void add_place(Mark& mark, Point p) {
     mark.data.emplace_back("x", data_number(p.x));
     mark.data.emplace_back("y", data_number(p.y));
-  }
-
-  static void add_point(Scatter& points, Point p) {
-    points.x.push_back(p.x);
-    points.y.push_back(p.y);
-  }
-
-  static void add_line(Segments& lines, Point from, Point to) {
-    lines.x0.push_back(from.x);
-    lines.y0.push_back(from.y);
-    lines.x1.push_back(to.x);
-    lines.y1.push_back(to.y);
   }
 
   const MapRecord& record_;

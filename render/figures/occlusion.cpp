@@ -126,8 +126,7 @@ Figure occlusion_figure(const OcclusionSpec& spec) {
   figure.caption =
       "Share of the looks at landmarks within reach in which another landmark hides the one looked "
       "at, so that visibility is no matter of robot and landmark alone; the number of runs, and "
-      "the "
-      "error of each run's maps.";
+      "the error of each run's maps.";
   if (shares.empty()) {
     figure.notes.push_back({"There are no runs.", Ink::kWarning});
     figure.alt = "No runs.";

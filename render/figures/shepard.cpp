@@ -141,8 +141,7 @@ Figure shepard_figure(const ShepardSpec& spec) {
   figure.caption =
       "Each pair of landmarks: its distance in the observations and on the map, darker where there "
       "are more pairs; r: their correlation; dashed: the best proportion; stress: what it leaves, "
-      "root mean square "
-      "over that of the map distances.";
+      "root mean square over that of the map distances.";
   if (figure.panels.empty()) {
     figure.panels.resize(1);
     figure.notes.push_back({"There are no methods.", Ink::kWarning});
