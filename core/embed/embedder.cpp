@@ -38,11 +38,11 @@ void add_statuses_of_start(Embedding& result, const Embedding& start, std::strin
   result.statuses.insert(result.statuses.begin(), added.begin(), added.end());
 }
 
-/// "L3 and L7", ten of them or fewer.
+/// "L3 and L7"; of more than eleven the first ten and how many more.
 std::string names_of(const std::vector<std::string>& names, const std::vector<Eigen::Index>& rows) {
   std::vector<std::string> some;
   for (const Eigen::Index row : rows) some.push_back(names[static_cast<std::size_t>(row)]);
-  return listed(some, 10);
+  return listed(some, 11);
 }
 
 /// The median of the finite entries above zero below the diagonal; 1 if there is none.
