@@ -19,7 +19,7 @@ class Painter {
 
   void operator()(const Polyline& line) {
     Shape shape;
-    shape.stroke = stroke_of(line.ink, line.dash, line.width);
+    shape.stroke = stroke_of(line.ink, line.dash, line.width, theme_);
     bool pen_down = false;
     for (std::size_t i = 0; i < line.x.size(); ++i) {
       const Point p = map_(line.x[i], line.y[i]);
@@ -54,7 +54,7 @@ class Painter {
   }
 
   void operator()(const Segments& lines) {
-    const Stroke stroke = stroke_of(lines.ink, lines.dash, lines.width);
+    const Stroke stroke = stroke_of(lines.ink, lines.dash, lines.width, theme_);
     for (std::size_t i = 0; i < lines.x0.size(); ++i) {
       const Point from = map_(lines.x0[i], lines.y0[i]);
       const Point to = map_(lines.x1[i], lines.y1[i]);
@@ -73,8 +73,8 @@ class Painter {
   void operator()(const PointLabels&) {}
 
   void operator()(const Area& area) {
-    Shape shape = filled(area.fill, area.ink);
-    if (area.outlined) shape.stroke = stroke_of(area.ink, area.dash, area.width);
+    Shape shape = filled_shape(area.fill, area.ink, theme_);
+    if (area.outlined) shape.stroke = stroke_of(area.ink, area.dash, area.width, theme_);
     shape.path = area_path(area, map_);
     if (!shape.path.points.empty())
       add(area.fill == Fill::kSolid ? Role::kMarker : Role::kBand, std::move(shape),
@@ -82,9 +82,9 @@ class Painter {
   }
 
   void operator()(const Ellipses& ellipses) {
-    const Stroke stroke = stroke_of(ellipses.ink, ellipses.dash, ellipses.width);
+    const Stroke stroke = stroke_of(ellipses.ink, ellipses.dash, ellipses.width, theme_);
     for (std::size_t i = 0; i < ellipses.x.size(); ++i) {
-      Shape shape = filled(ellipses.fill, ellipses.ink);
+      Shape shape = filled_shape(ellipses.fill, ellipses.ink, theme_);
       shape.stroke = stroke;
       shape.path = ellipse_path(ellipses, i, map_);
       if (!shape.path.points.empty())
@@ -104,18 +104,6 @@ class Painter {
   }
 
  private:
-  Shape filled(Fill fill, Ink ink) const {
-    Shape shape;
-    if (fill != Fill::kNone) shape.fill = fill == Fill::kPaper ? theme_.background : theme_.of(ink);
-    if (fill == Fill::kTint) shape.fill_opacity = kBandOpacity;
-    return shape;
-  }
-
-  Stroke stroke_of(Ink ink, Dash dash, double width) const {
-    const double width_pt = width * theme_.line_pt;
-    return {theme_.of(ink), width_pt, dash_lengths(dash, width_pt)};
-  }
-
   /// Markers far enough apart to be told from each other, the first point always with one.
   void draw_markers(const Polyline& line, std::optional<std::size_t> mark) {
     if (line.marker == Marker::kNone) return;
@@ -182,6 +170,18 @@ class Painter {
 };
 
 }  // namespace
+
+Stroke stroke_of(Ink ink, Dash dash, double width, const Theme& theme) {
+  const double width_pt = width * theme.line_pt;
+  return {theme.of(ink), width_pt, dash_lengths(dash, width_pt)};
+}
+
+Shape filled_shape(Fill fill, Ink ink, const Theme& theme) {
+  Shape shape;
+  if (fill != Fill::kNone) shape.fill = fill == Fill::kPaper ? theme.background : theme.of(ink);
+  if (fill == Fill::kTint) shape.fill_opacity = kBandOpacity;
+  return shape;
+}
 
 std::vector<double> dash_lengths(Dash dash, double width_pt) {
   const double w = width_pt;

@@ -13,6 +13,12 @@ void draw_layers(const Panel& panel, std::size_t panel_index, const PanelMap& ma
 /// The lengths of a dash, in points; empty for a solid line.
 std::vector<double> dash_lengths(Dash dash, double width_pt);
 
+/// A line of that ink, its width in the theme's lines.
+Stroke stroke_of(Ink ink, Dash dash, double width, const Theme& theme);
+
+/// A shape without a path, filled so.
+Shape filled_shape(Fill fill, Ink ink, const Theme& theme);
+
 /// How much of a band covers what is below.
 inline constexpr double kBandOpacity = 0.2;
 

@@ -36,7 +36,7 @@ class SamplePainter {
     if (line.marker != Marker::kNone) draw_marker(line.marker, true, 1.0, line.ink);
   }
   void operator()(const Band& band) {
-    Shape shape = swatch(Fill::kTint, band.ink);
+    Shape shape = filled_shape(Fill::kTint, band.ink, theme_);
     shape.path.add_box(inset());
     add(std::move(shape));
   }
@@ -52,14 +52,14 @@ class SamplePainter {
   void operator()(const PointLabels&) {}
   void operator()(const Texts&) {}
   void operator()(const Area& area) {
-    Shape shape = swatch(area.fill, area.ink);
-    if (area.outlined) shape.stroke = stroke_of(area.ink, area.dash, area.width);
+    Shape shape = filled_shape(area.fill, area.ink, theme_);
+    if (area.outlined) shape.stroke = stroke_of(area.ink, area.dash, area.width, theme_);
     shape.path.add_box(inset());
     add(std::move(shape));
   }
   void operator()(const Ellipses& ellipses) {
-    Shape shape = swatch(ellipses.fill, ellipses.ink);
-    shape.stroke = stroke_of(ellipses.ink, ellipses.dash, ellipses.width);
+    Shape shape = filled_shape(ellipses.fill, ellipses.ink, theme_);
+    shape.stroke = stroke_of(ellipses.ink, ellipses.dash, ellipses.width, theme_);
     shape.path.add_circle(place_.centre(), 0.4 * place_.height());
     add(std::move(shape));
   }
@@ -86,24 +86,12 @@ class SamplePainter {
     return {place_.x0, place_.y0 + by, place_.x1, place_.y1 - by};
   }
 
-  Shape swatch(Fill fill, Ink ink) const {
-    Shape shape;
-    if (fill != Fill::kNone) shape.fill = fill == Fill::kPaper ? theme_.background : theme_.of(ink);
-    if (fill == Fill::kTint) shape.fill_opacity = kBandOpacity;
-    return shape;
-  }
-
-  Stroke stroke_of(Ink ink, Dash dash, double width) const {
-    const double width_pt = width * theme_.line_pt;
-    return {theme_.of(ink), width_pt, dash_lengths(dash, width_pt)};
-  }
-
   void draw_line(Ink ink, Dash dash, double width) {
     Shape shape;
     const double y = place_.centre().y;
     shape.path.move_to({place_.x0, y});
     shape.path.line_to({place_.x1, y});
-    shape.stroke = stroke_of(ink, dash, width);
+    shape.stroke = stroke_of(ink, dash, width, theme_);
     add(std::move(shape));
   }
 

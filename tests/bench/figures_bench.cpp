@@ -31,10 +31,11 @@ void write_inputs(const fs::path& folder) {
                           (*map.truth_m)(row, 1), map.estimate(row, 0), map.estimate(row, 1));
     write_file(folder / fmt::format("map-{}.txt", i), text);
     text.clear();
-    for (const Curve& curve : test::sample_curves(4, static_cast<std::uint64_t>(i) + 1).curves) {
-      for (std::size_t k = 0; k < curve.steps.size(); ++k)
-        text += fmt::format("{} {} {} {}\n", curve.steps[k], curve.mean[k], curve.low[k],
-                            curve.high[k]);
+    for (const ErrorLine& curve :
+         test::sample_curves(4, static_cast<std::uint64_t>(i) + 1).curves) {
+      for (std::size_t k = 0; k < curve.x.size(); ++k)
+        text +=
+            fmt::format("{} {} {} {}\n", curve.x[k], curve.mean[k], curve.low[k], curve.high[k]);
       text += "\n\n";
     }
     write_file(folder / fmt::format("curve-{}.txt", i), text);

@@ -97,11 +97,11 @@ TEST(ScatterEllipse, TurnsWithItsPoints) {
 TEST(EllipseMapFigure, JoinsTheTruthToTheMean) {
   const EllipseMapSpec spec = sample_runs(20, 5);
   const Figure figure = ellipse_map_figure(spec);
-  const auto bias = labelled<Segments>(figure.panels[0], "truth to mean");
+  const auto bias = labelled<Segments>(figure.panels[0], "truth to mean").value();
   ASSERT_EQ(bias.x0.size(), 20u);
   EXPECT_EQ(bias.x0[3], spec.truth_m(3, 0));
   EXPECT_NEAR(bias.x1[3], scatter_ellipse(spec.estimates_m, 3).mean_m.x(), 1e-15);
-  EXPECT_EQ(labelled<Ellipses>(figure.panels[0], "95 % of estimates").x.size(), 20u);
+  EXPECT_EQ(labelled<Ellipses>(figure.panels[0], "95 % of estimates").value().x.size(), 20u);
   EXPECT_TRUE(contains(figure.caption, "20 landmarks over 5 runs"));
 }
 
@@ -166,8 +166,8 @@ TEST(SpectrumFigure, LeavesIterativeMethodsOutAndNamesThem) {
   const Figure figure = spectrum_figure(sample_spectra(6));
   EXPECT_EQ(figure.panels.size(), 4u);
   EXPECT_TRUE(contains(figure.caption, "SMACOF and SMACOF, kNN"));
-  EXPECT_EQ(labelled<Scatter>(figure.panels[0], "axis of the map").x.size(), 2u);
-  EXPECT_EQ(labelled<Scatter>(figure.panels[0], "other eigenvalue").x.size(), 8u);
+  EXPECT_EQ(labelled<Scatter>(figure.panels[0], "axis of the map").value().x.size(), 2u);
+  EXPECT_EQ(labelled<Scatter>(figure.panels[0], "other eigenvalue").value().x.size(), 8u);
 }
 
 TEST(FilmStripFigure, ShowsAtMostTenMapsTheFirstAndTheLastAmongThem) {

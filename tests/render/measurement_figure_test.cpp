@@ -25,7 +25,7 @@ Measurement one_landmark() {
 
 TEST(MeasurementFigure, CastsAShadowBetweenTheTangentsOutToTheDisc) {
   const Figure figure = measurement_figure(one_landmark(), "m");
-  const auto shadow = labelled<Area>(figure.panels[0], "shadow");
+  const auto shadow = labelled<Area>(figure.panels[0], "shadow").value();
   ASSERT_GE(shadow.x.size(), 5u);
   // A tangent touches the cylinder: right angle between its radius and the ray.
   const double tangent = std::sqrt(0.3 * 0.3 - 0.03 * 0.03);
@@ -43,15 +43,15 @@ TEST(MeasurementFigure, CastsAShadowBetweenTheTangentsOutToTheDisc) {
 TEST(MeasurementFigure, CastsNoShadowOfWhatIsOutOfReach) {
   Measurement m = one_landmark();
   m.views = {View::kOutOfReach};
-  EXPECT_TRUE(labelled<Area>(measurement_figure(m, "m").panels[0], "shadow").x.empty());
+  EXPECT_FALSE(labelled<Area>(measurement_figure(m, "m").panels[0], "shadow").has_value());
 }
 
 TEST(MeasurementFigure, TellsViewsApartByFillAndOutline) {
   const Measurement m = sample_measurement(Sensor::kVisibility, 50);
   const Panel panel = measurement_figure(m, "m").panels[0];
-  const auto visible = labelled<Ellipses>(panel, "visible");
-  const auto hidden = labelled<Ellipses>(panel, "hidden");
-  const auto far = labelled<Ellipses>(panel, "out of reach");
+  const auto visible = labelled<Ellipses>(panel, "visible").value();
+  const auto hidden = labelled<Ellipses>(panel, "hidden").value();
+  const auto far = labelled<Ellipses>(panel, "out of reach").value();
   ASSERT_FALSE(visible.x.empty());
   ASSERT_FALSE(hidden.x.empty());
   EXPECT_NE(visible.fill, hidden.fill);
@@ -76,7 +76,7 @@ TEST(MeasurementFigure, DrawsARayToEachLandmarkWhoseBearingIsKnown) {
   Measurement m = sample_measurement(Sensor::kBearing, 20);
   m.bearings_rad(3) = NAN;
   const Panel panel = measurement_figure(m, "m").panels[0];
-  std::size_t rays = labelled<Segments>(panel, "ray").x0.size();
+  std::size_t rays = labelled<Segments>(panel, "ray").value().x0.size();
   for (const Polyline& line : layers_of<Polyline>(panel))
     if (line.x.size() == 2 && line.label.empty()) ++rays;  // Those that are named.
   EXPECT_EQ(rays, 19u);
@@ -114,7 +114,7 @@ TEST(MeasurementFigure, RefusesWhatIsNoMeasurement) {
 TEST(MeasurementFigure, ARobotWithinALandmarkCastsNoShadow) {
   Measurement m = one_landmark();
   m.robot_m << 1.3, 1.0;
-  EXPECT_TRUE(labelled<Area>(measurement_figure(m, "m").panels[0], "shadow").x.empty());
+  EXPECT_FALSE(labelled<Area>(measurement_figure(m, "m").panels[0], "shadow").has_value());
 }
 
 }  // namespace

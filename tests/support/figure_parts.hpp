@@ -1,6 +1,7 @@
 #pragma once
 
 #include <algorithm>
+#include <optional>
 #include <string>
 #include <variant>
 #include <vector>
@@ -18,12 +19,12 @@ std::vector<Kind> layers_of(const Panel& panel) {
   return found;
 }
 
-/// The layer of a type and label in a panel; an empty one if there is none.
+/// The layer of a type and label in a panel, if there is one.
 template <typename Kind>
-Kind labelled(const Panel& panel, const std::string& label) {
+std::optional<Kind> labelled(const Panel& panel, const std::string& label) {
   for (const Kind& layer : layers_of<Kind>(panel))
     if (layer.label == label) return layer;
-  return {};
+  return std::nullopt;
 }
 
 inline bool contains(const std::string& text, const std::string& part) {

@@ -127,7 +127,8 @@ void add_curves(std::vector<Figure>& figures) {
       }
   });
   add("long-labels", 3, [](ErrorCurveSpec& spec) {
-    for (Curve& curve : spec.curves) curve.label += ", with quite a long explanation of what it is";
+    for (ErrorLine& curve : spec.curves)
+      curve.label += ", with quite a long explanation of what it is";
   });
   add("gaps", 3, [](ErrorCurveSpec& spec) {
     spec.curves[0].mean[3] = NAN;
@@ -135,12 +136,12 @@ void add_curves(std::vector<Figure>& figures) {
     spec.curves[2].mean.assign(spec.curves[2].mean.size(), NAN);
   });
   add("one-step", 2, [](ErrorCurveSpec& spec) {
-    for (Curve& curve : spec.curves)
-      for (std::vector<double>* part : {&curve.steps, &curve.mean, &curve.low, &curve.high})
+    for (ErrorLine& curve : spec.curves)
+      for (std::vector<double>* part : {&curve.x, &curve.mean, &curve.low, &curve.high})
         part->resize(1);
   });
   add("tiny", 2, [](ErrorCurveSpec& spec) {
-    for (Curve& curve : spec.curves)
+    for (ErrorLine& curve : spec.curves)
       for (std::vector<double>* part : {&curve.mean, &curve.low, &curve.high})
         for (double& value : *part) value *= 1e-9;
   });
@@ -186,14 +187,14 @@ ErrorCurveSpec sample_curves(std::size_t count, std::uint64_t seed) {
   spec.id = "curve";
   spec.title = "Mean position error over observations, visibility";
   for (std::size_t c = 0; c < count; ++c) {
-    Curve curve;
+    ErrorLine curve;
     curve.label = labels[c % labels.size()];
     curve.key = fmt::format("method-{}", c + 1);
     const double end = 0.15 + 0.07 * static_cast<double>(c);
     for (const double step : {50, 100, 200, 400, 600, 800, 1000, 1200, 1400, 1600, 1800, 2000}) {
       const double mean = end + 0.7 * std::exp(-step / 250.0) + 0.008 * random.normal();
       const double half = 0.02 + 1.5 / (step + 20.0);
-      curve.steps.push_back(step);
+      curve.x.push_back(step);
       curve.mean.push_back(mean);
       curve.low.push_back(mean - half);
       curve.high.push_back(mean + half);

@@ -33,15 +33,15 @@ struct Family {
   std::vector<Method> methods;
 };
 
-Curve curve(const Steps& steps, const Measure& measure) {
-  Curve curve;
+ErrorLine curve(const Steps& steps, const Measure& measure) {
+  ErrorLine curve;
   curve.label = label(steps.front().setting);
   curve.key = std::string(info(steps.front().setting.method).name);
   bool any_interval = false;
   for (const SettingSummary& summary : steps) {
     const auto& estimate = summary.*measure.estimate;
     const auto interval = interval_of(estimate);
-    curve.steps.push_back(summary.step);
+    curve.x.push_back(summary.step);
     curve.mean.push_back(estimate ? estimate->mean : kNan);
     curve.low.push_back(interval ? interval->low : kNan);
     curve.high.push_back(interval ? interval->high : kNan);

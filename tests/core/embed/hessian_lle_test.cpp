@@ -6,6 +6,7 @@
 #include <gtest/gtest.h>
 
 #include "core/base/errors.hpp"
+#include "core/embed/embedder.hpp"
 #include "tests/support/worlds.hpp"
 
 namespace mapproof {
@@ -60,6 +61,16 @@ TEST(HessianLle, SaysThatALineHasNoTangentPlanes) {
 TEST(HessianLle, RefusesFewerThanSixNeighbours) {
   const Eigen::MatrixXd D = distances_of(scattered(20, 1));
   EXPECT_THROW(hessian_lle(D.cwiseAbs2(), nearest(D, 5)), InvalidInput);
+}
+
+TEST(HessianLle, PlacesALandmarkThatIsNobodysNeighbour) {
+  Points points(31, 2);
+  points << scattered(30, 3), 3.0, 0.4;  // far from all others
+  Embedder embedder({.inner_products = {}, .squared_distances = distances_of(points).cwiseAbs2()});
+  const Embedding map = embedder.embed({Method::kHessianLle, 6.0});
+  ASSERT_FALSE(map.statuses.empty());
+  EXPECT_EQ(map.statuses.front().code, StatusCode::kBridged);
+  EXPECT_LT(affine_gap(points, map.coordinates), 1e-6);
 }
 
 }  // namespace

@@ -2,7 +2,6 @@
 
 #include <gtest/gtest.h>
 
-#include "core/embed/embedder.hpp"
 #include "tests/support/worlds.hpp"
 
 namespace mapproof {
@@ -41,17 +40,6 @@ TEST(JoinSets, LetsALandmarkThatIsNobodysNeighbourJoinItsOwn) {
   EXPECT_EQ(join_sets(graph), 1);
   EXPECT_EQ(graph[3].back().to, 3);
   EXPECT_EQ(join_sets(graph), 0);
-}
-
-TEST(HessianLle, PlacesALandmarkThatIsNobodysNeighbour) {
-  Points points(31, 2);
-  points << test::scattered(30, 3), 3.0, 0.4;  // far from all others
-  Embedder embedder(
-      {.inner_products = {}, .squared_distances = test::distances_of(points).cwiseAbs2()});
-  const Embedding map = embedder.embed({Method::kHessianLle, 6.0});
-  ASSERT_FALSE(map.statuses.empty());
-  EXPECT_EQ(map.statuses.front().code, StatusCode::kBridged);
-  EXPECT_LT(test::affine_gap(points, map.coordinates), 1e-6);
 }
 
 }  // namespace
