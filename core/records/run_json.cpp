@@ -48,7 +48,7 @@ Json certificate_value(const Certificate& certificate) {
 Certificate read_certificate(const JsonCursor& value) {
   value.allow_only({"solver", "primal", "dual", "relative_gap", "constraint_residual"});
   const std::optional<SdpSolver> solver = sdp_solver_named(value.at("solver").text());
-  if (!solver) value.at("solver").fail("expected low_rank or csdp");
+  if (!solver) value.at("solver").fail("expected interior_point, low_rank or csdp");
   return {.solver = *solver,
           .primal = value.at("primal").number(0.0, kInfinity),
           .dual = read_finite(value.at("dual")),

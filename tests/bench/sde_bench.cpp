@@ -50,9 +50,9 @@ Timed timed(const Eigen::MatrixXd& distances, int neighbours, SdpSolver solver) 
 
 void row(int landmarks, Sensor sensor, int neighbours) {
   const Eigen::MatrixXd D = observed_distances(landmarks, sensor);
-  const Timed own = timed(D, neighbours, SdpSolver::kLowRank);
+  const Timed own = timed(D, neighbours, SdpSolver::kInteriorPoint);
   const Certificate& proof = own.map.certificate.value();
-  fmt::print("{:5} {:10} {:3} {:9} {:9.4f} {:8.1e} {:8.1e}", landmarks, name(sensor), neighbours,
+  fmt::print("{:5} {:10} {:3} {:14} {:9.4f} {:8.1e} {:8.1e}", landmarks, name(sensor), neighbours,
              name(proof.solver), own.seconds, proof.relative_gap, proof.constraint_residual);
   if (landmarks <= kMostLandmarksForCsdp) {
     const Timed other = timed(D, neighbours, SdpSolver::kCsdp);
@@ -71,7 +71,7 @@ void row(int landmarks, Sensor sensor, int neighbours) {
 int main(int count, char** arguments) {
   using namespace mapproof;
   fmt::print(
-      "    M sensor       K by          seconds      gap residual   CSDP s  ratio objective "
+      "    M sensor       K by               seconds      gap residual   CSDP s  ratio objective "
       "      map\n");
   for (int i = 1; i < count; ++i)
     for (const Sensor sensor : {Sensor::kVisibility, Sensor::kBearing})

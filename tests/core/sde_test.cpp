@@ -116,10 +116,21 @@ TEST_P(EverySolver, SaysWhenNoPointsHaveSuchDistances) {
   EXPECT_GT(map.certificate->constraint_residual, 1e-3);
 }
 
-INSTANTIATE_TEST_SUITE_P(Sde, EverySolver, ::testing::Values(SdpSolver::kLowRank, SdpSolver::kCsdp),
-                         [](const auto& solver) {
-                           return solver.param == SdpSolver::kCsdp ? "Csdp" : "LowRank";
-                         });
+INSTANTIATE_TEST_SUITE_P(Sde, EverySolver,
+                         ::testing::Values(SdpSolver::kInteriorPoint, SdpSolver::kCsdp),
+                         [](const auto& solver) { return std::string(name(solver.param)); });
+
+TEST(Sde, IsSolvedByFactorsOfLowRankToo) {
+  const Eigen::MatrixXd D = noisy_distances(30, 7);
+  for (const int neighbours : {3, 5, 8}) {
+    const SdeOptions options{.neighbours = {.neighbours = neighbours},
+                             .solver = SdpSolver::kLowRank};
+    const Certificate own = sde(D, options).certificate.value();
+    EXPECT_EQ(own.solver, SdpSolver::kLowRank);
+    EXPECT_LT(own.relative_gap, 1e-6);
+    EXPECT_LT(own.constraint_residual, 1e-6);
+  }
+}
 
 TEST(Sde, SaysThatItBridgedIslands) {
   Points points(20, 2);

@@ -2,8 +2,9 @@
 
 #include <algorithm>
 
-#include <Eigen/Cholesky>
 #include <Eigen/Eigenvalues>
+
+#include "core/linalg/cholesky.hpp"
 
 namespace mapproof::unfolding {
 namespace {
@@ -70,9 +71,8 @@ std::optional<KktStep> kkt_newton_step(const Problem& problem, const Rows& Y,
     const auto& [i, j] = problem.pairs[static_cast<std::size_t>(k)];
     right(k) -= 2.0 * (Y.row(i) - Y.row(j)).dot(pulled.row(i) - pulled.row(j));
   }
-  const Eigen::LLT<Eigen::Ref<Eigen::MatrixXd>> factor(T);
-  if (factor.info() != Eigen::Success) return std::nullopt;
-  const Eigen::VectorXd change = factor.solve(right);
+  if (!factor_cholesky(T)) return std::nullopt;
+  const Eigen::VectorXd change = solve_cholesky(T, right);
 
   Rows force = -gradient;
   for (Eigen::Index k = 0; k < change.size(); ++k) {

@@ -13,12 +13,6 @@ struct LowRankOptions {
   int max_rounds_of_many_pairs = 80;
 };
 
-/// An answer with its proof.
-struct ProvedSolution {
-  Solution solution;
-  Certificate certificate;
-};
-
 /// Solves by factors of low rank [burer2003]: rounds of the augmented Lagrangian until the
 /// distances fit to some 1e-3, then Newton steps on the conditions of optimality, which double the
 /// digits (up to kMostDirectPairs pairs; above that, rounds alone). Columns are added to Y where

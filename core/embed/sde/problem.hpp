@@ -52,6 +52,12 @@ struct Solution {
   int iterations = 0;
 };
 
+/// An answer with its proof.
+struct ProvedSolution {
+  Solution solution;
+  Certificate certificate;
+};
+
 /// T = M^-1/2 L(w) M^-1/2 + 2 u u' with M = diag(mass) and u its unit vector of sqrt(mass): w is
 /// feasible exactly if T >= I (the second term only lifts the eigenvalue 0 that L(w) always has).
 Eigen::MatrixXd dual_matrix(const Problem& problem, const Eigen::VectorXd& w);

@@ -10,6 +10,7 @@
 #include "core/base/errors.hpp"
 #include "core/embed/connected_graph.hpp"
 #include "core/embed/sde/csdp.hpp"
+#include "core/embed/sde/interior_point.hpp"
 #include "core/embed/sde/low_rank.hpp"
 #include "core/graph/shortest_paths.hpp"
 #include "core/linalg/centering.hpp"
@@ -28,20 +29,24 @@ void check(const Eigen::MatrixXd& distances, const SdeOptions& options) {
     if (!(bound > 0.0 && bound < 1.0)) throw InvalidInput("SDE needs tolerances between 0 and 1");
 }
 
-/// The two leading principal axes of the points, a row a landmark.
-/// Classical scaling of all distances, a row a point: near to feasible, as the data are.
-Eigen::MatrixXd start(const unfolding::Problem& problem, const Eigen::MatrixXd& distances) {
+/// Inner products by classical scaling of all distances: near to feasible, as the data are.
+Eigen::MatrixXd data_gram(const unfolding::Problem& problem, const Eigen::MatrixXd& distances) {
   std::vector<Eigen::Index> first(static_cast<std::size_t>(problem.points()));
   for (std::size_t i = problem.point_of.size(); i-- > 0;)
     first[static_cast<std::size_t>(problem.point_of[i])] = static_cast<Eigen::Index>(i);
   const Eigen::MatrixXd complete =
       distances.allFinite() ? distances : completed_distances(distances);
   const Eigen::MatrixXd relative = complete(first, first) / std::sqrt(problem.scale);
+  return double_centered(relative.cwiseAbs2());
+}
+
+/// Coordinates of the data, of a rank that suffices.
+Eigen::MatrixXd low_rank_start(const unfolding::Problem& problem, const Eigen::MatrixXd& gram) {
   // Some point of the optimal face has at most this rank (Pataki's bound); most have less.
   const double bound = std::sqrt(2.0 * static_cast<double>(problem.squared.size()));
   const auto rank = std::min(
       {static_cast<Eigen::Index>(std::ceil(0.7 * bound)), problem.points() - 1, Eigen::Index{60}});
-  const EigenPairs pairs = largest_eigenpairs(double_centered(relative.cwiseAbs2()), rank);
+  const EigenPairs pairs = largest_eigenpairs(gram, rank);
   return pairs.vectors * pairs.values.cwiseMax(0.0).cwiseSqrt().asDiagonal();
 }
 
@@ -50,22 +55,29 @@ bool meets(const Certificate& certificate, const SdeOptions& options) {
          certificate.constraint_residual <= options.constraint_residual;
 }
 
+unfolding::ProvedSolution proved(const unfolding::Problem& problem, unfolding::Solution solution) {
+  const Certificate certificate = unfolding::certify(problem, solution);
+  return {.solution = std::move(solution), .certificate = certificate};
+}
+
 /// By the solver asked for; where ours proves too little, CSDP is asked too if that is cheap.
 unfolding::ProvedSolution solve(const unfolding::Problem& problem, const Eigen::MatrixXd& distances,
                                 const SdeOptions& options) {
-  unfolding::ProvedSolution own;
-  if (options.solver == SdpSolver::kLowRank) {
-    own = unfolding::solve_low_rank(
-        problem, start(problem, distances),
+  if (options.solver == SdpSolver::kCsdp)
+    return proved(problem, unfolding::solve_with_csdp(problem).solution);
+  const Eigen::MatrixXd gram = data_gram(problem, distances);
+  if (options.solver == SdpSolver::kLowRank ||
+      problem.squared.size() > unfolding::kMostInteriorPairs)
+    return unfolding::solve_low_rank(
+        problem, low_rank_start(problem, gram),
         {.relative_gap = options.relative_gap, .constraint_residual = options.constraint_residual});
-    if (meets(own.certificate, options) || problem.squared.size() > kMostPairsToAskAgain)
-      return own;
-  }
-  unfolding::ProvedSolution other{.solution = unfolding::solve_with_csdp(problem).solution,
-                                  .certificate = {}};
-  other.certificate = unfolding::certify(problem, other.solution);
-  if (options.solver == SdpSolver::kLowRank && !meets(other.certificate, options)) return own;
-  return other;
+  unfolding::ProvedSolution own = unfolding::solve_by_interior_point(
+      problem, gram,
+      {.relative_gap = 0.01 * options.relative_gap,
+       .constraint_residual = 0.01 * options.constraint_residual});
+  if (meets(own.certificate, options) || problem.squared.size() > kMostPairsToAskAgain) return own;
+  unfolding::ProvedSolution other = proved(problem, unfolding::solve_with_csdp(problem).solution);
+  return meets(other.certificate, options) ? other : own;
 }
 
 /// Eigenvalues up to `floor` of the largest carry no direction.
@@ -107,13 +119,13 @@ Embedding sde(const Eigen::MatrixXd& distances, const SdeOptions& options) {
     put_coordinates(problem, Eigen::MatrixXd::Zero(1, 1), 0.0, result);
     return result;
   }
-  const unfolding::ProvedSolution proved = solve(problem, distances, options);
-  result.iterations = proved.solution.iterations;
-  result.certificate = proved.certificate;
+  const unfolding::ProvedSolution answer = solve(problem, distances, options);
+  result.iterations = answer.solution.iterations;
+  result.certificate = answer.certificate;
   // What is below the accuracy of the solve is no spread.
-  put_coordinates(problem, proved.solution.Y, options.relative_gap + options.constraint_residual,
+  put_coordinates(problem, answer.solution.Y, options.relative_gap + options.constraint_residual,
                   result);
-  if (!meets(proved.certificate, options))
+  if (!meets(answer.certificate, options))
     result.statuses.push_back(
         {StatusCode::kNotConverged,
          fmt::format("Variance {:.6g} against a bound of {:.6g}, distances kept to {:.1e} of the "

@@ -10,7 +10,8 @@ namespace mapproof {
 /// How a semidefinite embedding is computed.
 struct SdeOptions {
   NeighbourOptions neighbours;
-  SdpSolver solver = SdpSolver::kLowRank;
+  /// kInteriorPoint stands for ours: low rank above unfolding::kMostInteriorPairs.
+  SdpSolver solver = SdpSolver::kInteriorPoint;
   double relative_gap = 1e-6;         ///< To be proved, in (0, 1).
   double constraint_residual = 1e-6;  ///< To be reached, in (0, 1).
 };
