@@ -57,13 +57,13 @@ ConnectedGraph connected_neighbourhoods(const Eigen::MatrixXd& distances,
 }
 
 void tie_blends(ConnectedGraph& neighbourhoods, const Eigen::MatrixXd& distances) {
-  const std::optional<int> added = open_closed_groups(neighbourhoods.graph, distances);
+  const int added = open_closed_groups(neighbourhoods.graph, distances).value_or(0);
   if (added == 0) return;
   neighbourhoods.statuses.push_back(
       {StatusCode::kBridged,
        fmt::format("Some groups of landmarks had all their neighbours among themselves; {} got one "
                    "more, the nearest outside.",
-                   added.value_or(0))});
+                   added)});
 }
 
 void tie_sets(ConnectedGraph& neighbourhoods) {

@@ -109,7 +109,7 @@ Embedding Embedder::embed(const MethodSetting& setting) {
     point.statuses.push_back({StatusCode::kRankDeficient,
                               "The observations of all landmarks are the same: the map is a "
                               "point."});
-    return point;
+    return with_all_distances(point);
   }
   return solve(setting);
 }

@@ -42,7 +42,7 @@ Embedding kernel_pca(const Eigen::MatrixXd& inner_products, const PolynomialKern
   for (int exponent = 1; exponent < kernel.degree; ++exponent) power *= base;
   Embedding result = of_kernel(power.matrix());
   const double scale = std::pow(largest, kernel.degree);
-  if (std::isfinite(scale) && scale > 0.0) {
+  if (scale > 0.0 && std::isfinite(scale * result.spectrum.cwiseAbs().maxCoeff())) {
     result.coordinates *= std::sqrt(scale);
     result.spectrum *= scale;
   }

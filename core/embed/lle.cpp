@@ -3,7 +3,9 @@
 #include <cmath>
 #include <vector>
 
+#include <fmt/format.h>
 #include <Eigen/Cholesky>
+#include <Eigen/Eigenvalues>
 
 #include "core/base/errors.hpp"
 #include "core/embed/bottom_eigenmap.hpp"
@@ -15,14 +17,33 @@ namespace {
 /// Below this share of the squared trace the local Gram matrix has rank one.
 constexpr double kFlat = 1e-12;
 
+/// The nearest matrix that inner products of points can be, with trace 1: negative eigenvalues cut.
+Eigen::MatrixXd without_negative_part(const Eigen::MatrixXd& G) {
+  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver(G);
+  const Eigen::VectorXd values = solver.eigenvalues().cwiseMax(0.0);
+  const Eigen::MatrixXd& vectors = solver.eigenvectors();
+  const double trace = values.sum();
+  if (trace <= 0.0) return Eigen::MatrixXd::Zero(G.rows(), G.cols());
+  return vectors * (values / trace).asDiagonal() * vectors.transpose();
+}
+
 /// Weights that sum to one and blend a landmark from its neighbours best.
 /// @param G  Inner products of the neighbours about the landmark, trace 1 or 0; overwritten.
-void blend(Eigen::MatrixXd& G, double regularization, Eigen::LLT<Eigen::MatrixXd>& factor,
+/// @return False if no points have such inner products; their nearest are taken.
+bool blend(Eigen::MatrixXd& G, double regularization, Eigen::LLT<Eigen::MatrixXd>& factor,
            Eigen::VectorXd& weights) {
   G.diagonal().array() += regularization;
   factor.compute(G);
+  const bool euclidean = factor.info() == Eigen::Success;
+  if (!euclidean) {
+    G.diagonal().array() -= regularization;
+    G = without_negative_part(G);
+    G.diagonal().array() += regularization;
+    factor.compute(G);
+  }
   weights = factor.solve(Eigen::VectorXd::Ones(G.rows()));
   weights /= weights.sum();
+  return euclidean;
 }
 
 }  // namespace
@@ -36,6 +57,7 @@ Embedding lle(const Eigen::MatrixXd& squared_distances, const NeighbourLists& ne
   const Eigen::Index n = squared_distances.rows();
   QuadraticForms M(n);
   bool all_flat = true;
+  int not_euclidean = 0;
   Eigen::MatrixXd G;
   Eigen::LLT<Eigen::MatrixXd> factor;
   Eigen::VectorXd weights;
@@ -46,7 +68,7 @@ Embedding lle(const Eigen::MatrixXd& squared_distances, const NeighbourLists& ne
     const double trace = G.trace();
     if (trace > 0.0) G /= trace;
     all_flat = all_flat && (trace == 0.0 || 1.0 - G.squaredNorm() <= kFlat);
-    blend(G, options.regularization, factor, weights);
+    if (!blend(G, options.regularization, factor, weights)) ++not_euclidean;
 
     support.assign(1, i);
     for (const Edge& edge : edges) support.push_back(edge.to);
@@ -60,6 +82,12 @@ Embedding lle(const Eigen::MatrixXd& squared_distances, const NeighbourLists& ne
     result.statuses.push_back(
         {StatusCode::kRankDeficient,
          "In every neighbourhood the observations spread in one direction alone."});
+  if (not_euclidean > 0)
+    result.statuses.push_back(
+        {StatusCode::kNotEuclidean,
+         fmt::format("No points have the distances about {} of {} landmarks, as with missing "
+                     "entries; the nearest that some have were taken.",
+                     not_euclidean, n)});
   return result;
 }
 

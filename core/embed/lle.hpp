@@ -18,8 +18,9 @@ struct LleOptions {
 ///
 /// @param squared_distances  n x n, symmetric, zero diagonal, finite, n >= 3.
 /// @param neighbours  Those of each landmark (see nearest_neighbours), one at least, in one piece.
-/// @return Columns of length 1; statuses as of bottom_eigenmap, and kRankDeficient if in every
-///         neighbourhood the data spread in one direction alone.
+/// @return Columns of length 1; statuses as of bottom_eigenmap, kRankDeficient if in every
+///         neighbourhood the data spread in one direction alone, and kNotEuclidean if in some no
+///         points have such distances: the negative eigenvalues of their Gram matrix are cut.
 /// @throws InvalidInput if the bounds above are broken.
 /// @note O(n K^3) time beside that of the eigenvalues.
 Embedding lle(const Eigen::MatrixXd& squared_distances, const NeighbourLists& neighbours,

@@ -15,8 +15,8 @@ namespace mapproof {
 struct Embedding {
   Points coordinates;  ///< M x 2, arbitrary frame; NaN rows where a landmark has no place.
   std::vector<Status> statuses;  ///< Empty if all went well.
-  /// Eigenvalues, those of the map's columns first: descending, but for LLE, LEM and HLLE ascending,
-  /// without the constant's; empty for iterative methods.
+  /// Eigenvalues, those of the map's columns first: descending, but for LLE, LEM and HLLE
+  /// ascending, without the constant's; empty for iterative methods.
   Eigen::VectorXd spectrum;
   int iterations = 0;            ///< Of an iterative method; 0 otherwise.
   std::optional<double> stress;  ///< Raw stress [yairi2007, eq. 6] over sum of w * delta^2.

@@ -109,7 +109,7 @@ struct PaperFigure {
   std::string id;  ///< [a-z][a-z0-9-]*, unique in the experiment: "fig-4".
   FigureKind kind = FigureKind::kMap;
   Sensor sensor = Sensor::kVisibility;
-  std::vector<Method> methods;  ///< kErrorCurve: all that it shows; kIdea and kMap: the one.
+  std::vector<Method> methods;  ///< kErrorCurve: all that it shows; kMap: the one; else none.
   std::optional<PublishedValue> example;  ///< kMap: the map that the paper shows.
 };
 

@@ -133,7 +133,7 @@ std::string_view nearest_method_name(std::string_view name) {
 std::string slug(const MethodSetting& setting) {
   const MethodInfo& method = info(setting.method);
   if (!setting.parameter || !method.parameter) return std::string(method.name);
-  return fmt::format("{}-{}{:g}", method.name, method.parameter->symbol, *setting.parameter);
+  return fmt::format("{}-{}{}", method.name, method.parameter->symbol, *setting.parameter);
 }
 
 std::string parameter_text(const MethodSetting& setting) {

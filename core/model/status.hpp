@@ -15,6 +15,8 @@ enum class StatusCode {
   kUndetermined,        ///< Other maps fit equally well; which of them came out is arbitrary.
   kLandmarkUnseen,      ///< Landmarks never observed; they are missing from the map.
   kDistancesCompleted,  ///< Pairs without a common step took the shortest path over the others.
+  kNotEuclidean,        ///< No points have the observed distances; the nearest that some have were
+                        ///< taken.
   kAnchorsMissing,      ///< Too few mapped anchors for an affine map: no score.
   kAnchorsDegenerate,   ///< Anchors nearly on one line in the embedding: the affine map is
                         ///< arbitrary.

@@ -76,15 +76,28 @@ FigureKind read_kind(const JsonCursor& value) {
   value.fail("expected idea, measurement, error_curve or map, got " + in_quotes(text));
 }
 
+/// "fig-4": kept apart from the ids that the program gives.
+std::string read_figure_id(const JsonCursor& value) {
+  const std::string id = read_id(value);
+  if (!id.starts_with("fig-")) value.fail("expected \"fig-\" first, got " + in_quotes(id));
+  return id;
+}
+
 PaperFigure read_figure(const Experiment& experiment, const JsonCursor& object) {
-  PaperFigure figure{.id = read_id(object.at("id")), .methods = {}, .example = {}};
+  PaperFigure figure{.id = read_figure_id(object.at("id")), .methods = {}, .example = {}};
   figure.kind = read_kind(object.at("kind"));
   figure.sensor = read_sensor_of(experiment, object.at("sensor")).sensor.sensor;
+  if (figure.kind == FigureKind::kMeasurement && figure.sensor == Sensor::kRange)
+    object.at("sensor").fail("a look of ranges has no figure; expected visibility or bearing");
   std::vector<std::string_view> keys = {"id", "kind", "sensor"};
   if (figure.kind == FigureKind::kErrorCurve) {
     keys.push_back("methods");
-    for (const JsonCursor& item : object.at("methods").elements(1, 100))
-      figure.methods.push_back(read_method(item.text(), item));
+    for (const JsonCursor& item : object.at("methods").elements(1, 100)) {
+      const Method method = read_method(item.text(), item);
+      if (std::ranges::find(figure.methods, method) != figure.methods.end())
+        item.fail(in_quotes(info(method).name) + " is there twice");
+      figure.methods.push_back(method);
+    }
   } else if (figure.kind == FigureKind::kMap) {
     keys.insert(keys.end(), {"mpe_m", "moe_percent"});
     PublishedValue& example = figure.example.emplace();

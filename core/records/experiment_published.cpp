@@ -32,7 +32,7 @@ PublishedValue read_value(const JsonCursor& item) {
   PublishedValue value;
   value.setting = read_setting(item, keys);
   item.allow_only(keys);
-  value.mpe_m = item.at("mpe_m").number(0.0, kFarthest_m);
+  value.mpe_m = item.at("mpe_m").number(1e-9, kFarthest_m);
   value.moe_percent = item.at("moe_percent").number(0.0, 100.0);
   if (const auto note = item.find("note")) value.note = note->text(kLongestNote);
   return value;

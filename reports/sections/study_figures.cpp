@@ -45,8 +45,10 @@ StudyFigures study_figures(const Study& study, std::span<const Timing> timings,
       "Each at its best parameter. Ranks are over layouts, since runs in one layout are not "
       "independent; distances and eigenvalues are of the median run of the best method.",
       comparison_figures(source));
-  add("conditions", "Anchors, occlusion, noise and missing entries",
-      "Methods at the paper's parameters. The levels of one figure share their random numbers.",
+  add("conditions", "Occlusion and variations",
+      "What happens if one thing is changed: methods with the parameters that the experiment "
+      "names. "
+      "The levels of one figure share their random numbers.",
       condition_figures(source));
   add("cost", "Accuracy against seconds",
       "Seconds of one map beyond what the methods of a history share: distances, the order of "

@@ -92,7 +92,7 @@ Table variation_table(const Study& study, const Variation& variation) {
   table.columns.push_back({"Parameter", "", "", ""});
   for (const double level : variation.levels)
     table.columns.push_back(
-        {fmt::format("{:.3g}", shown_level(variation, level)), "", level_words(variation), ""});
+        {fmt::format("{:.6g}", shown_level(variation, level)), "", level_words(variation), ""});
   for (const VariedSetting& setting : settings) {
     Row row{{method_cell(setting.setting.method), parameter_cell(setting.setting)}, "", false};
     for (const auto& estimate : setting.mpe_m) row.cells.push_back(mean_cell(estimate, 3));
@@ -102,7 +102,7 @@ Table variation_table(const Study& study, const Variation& variation) {
   for (std::size_t i = 0; i < settings.size(); ++i)
     for (std::size_t level = 0; level < variation.levels.size(); ++level)
       if (settings[i].scored[level] < settings[i].runs[level])
-        table.notes.push_back(fmt::format("{} at {:.3g}: {} of {} runs scored.",
+        table.notes.push_back(fmt::format("{} at {:.6g}: {} of {} runs scored.",
                                           label(settings[i].setting),
                                           shown_level(variation, variation.levels[level]),
                                           settings[i].scored[level], settings[i].runs[level]));

@@ -27,7 +27,7 @@ double shown_level(const Variation& variation, double level);
 /// "bearing noise [°]": what the levels are, with their unit.
 std::string level_words(const Variation& variation);
 
-/// "noise-bearing-noise": MPE of each setting at each level.
+/// "variation-bearing-noise": MPE of each setting at each level.
 Table variation_table(const Study& study, const Variation& variation);
 
 }  // namespace mapproof

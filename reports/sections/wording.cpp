@@ -24,6 +24,10 @@ std::string_view meaning(StatusCode code) {
       return "Some landmarks were never observed; they are missing from the map.";
     case StatusCode::kDistancesCompleted:
       return "Pairs without a common step took the shortest path over the others.";
+    case StatusCode::kNotEuclidean:
+      return "No points have the observed distances, as with missing entries; the nearest that "
+             "some "
+             "have were taken.";
     case StatusCode::kAnchorsMissing:
       return "Too few anchors were mapped for an affine map: there is no score.";
     case StatusCode::kAnchorsDegenerate:

@@ -27,8 +27,8 @@ void add_point(ErrorLine& line, double x, const std::optional<MeanEstimate>& est
 ErrorLine line_over_levels(const Variation& variation, const VariedSetting& setting) {
   ErrorLine line;
   line.label = label(setting.setting);
-  line.key = fmt::format("m{}", static_cast<int>(setting.setting.method));
-  if (setting.setting.parameter) line.key += fmt::format("-{}", *setting.setting.parameter);
+  line.key = slug(setting.setting);
+  std::ranges::transform(line.key, line.key.begin(), [](char c) { return c == 'K' ? 'k' : c; });
   std::ranges::replace(line.key, '.', '-');
   for (std::size_t i = 0; i < variation.levels.size(); ++i)
     add_point(line, shown_level(variation, variation.levels[i]), setting.mpe_m[i]);
@@ -36,7 +36,8 @@ ErrorLine line_over_levels(const Variation& variation, const VariedSetting& sett
 }
 
 std::string record_of(const Variation& variation) {
-  return fmt::format("variation {}", variation.id);
+  return fmt::format("variation {} of all runs, {} after {} observations", variation.id,
+                     name(variation.sensor), variation.step);
 }
 
 /// Whether a variation tries several parameters of its methods.

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <utility>
 
+#include "reports/sections/run_scores.hpp"
+
 namespace mapproof {
 
 FigureSource::FigureSource(const Study& study, StudyReader reader)
@@ -63,7 +65,7 @@ std::vector<std::pair<double, RunId>> ranked_runs(const Study& study,
   for (const Run& run : study.runs)
     for (const RunRecord& record : run.records)
       if (record.sensor == setting.sensor && record.setting == setting.setting &&
-          record.step == setting.step && record.score && std::isfinite(record.score->mpe_m))
+          record.step == setting.step && record.score && usable(*record.score))
         runs.emplace_back(record.score->mpe_m, run.id);
   std::ranges::sort(runs);
   return runs;

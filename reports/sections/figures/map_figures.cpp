@@ -70,7 +70,7 @@ void add_film(FigureSource& source, const SensorStudy& sensor, const SettingSumm
                    .maps = {}};
   for (const int step : sensor.checkpoints)
     if (const MapRecord* map = source.map(*run, best.sensor, best.setting, step);
-        map != nullptr && map->frame == Frame::kTruth && spec.maps.size() < 10)
+        map != nullptr && map->frame == Frame::kTruth)
       spec.maps.push_back({fmt::format("{} steps", step), *map});
   if (!spec.maps.empty()) figures.push_back(film_strip_figure(spec));
 }
