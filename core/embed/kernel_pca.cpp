@@ -4,6 +4,8 @@
 #include <cmath>
 #include <utility>
 
+#include <fmt/format.h>
+
 #include "core/base/errors.hpp"
 #include "core/embed/principal_coordinates.hpp"
 #include "core/linalg/centering.hpp"
@@ -17,9 +19,27 @@ void check(const Eigen::MatrixXd& matrix) {
   if (!matrix.allFinite()) throw InvalidInput("kernel PCA needs finite values");
 }
 
+/// A second eigenvalue below this many times the mean one is no axis of a map.
+constexpr double kLeastOfMean = 2.0;
+
 Embedding of_kernel(Eigen::MatrixXd K) {
   const double size = K.cwiseAbs().maxCoeff();
-  return principal_coordinates(centered(std::move(K)), size);
+  const Eigen::MatrixXd B = centered(std::move(K));
+  const double mean = B.trace() / static_cast<double>(B.rows() - 1);
+  Embedding result = principal_coordinates(B, size);
+  const bool is_said = std::ranges::any_of(result.statuses, [](const Status& status) {
+    return status.code == StatusCode::kUndetermined || status.code == StatusCode::kRankDeficient;
+  });
+  // Three landmarks or four have too few eigenvalues to tell.
+  if (!is_said && B.rows() > 4 && result.spectrum.size() > 1 &&
+      result.spectrum(1) < kLeastOfMean * mean)
+    result.statuses.push_back(
+        {StatusCode::kUndetermined,
+         fmt::format(
+             "The kernel is nearly that of landmarks equally far from each other: its second "
+             "eigenvalue is {:.3g} times the mean one. The map means little.",
+             result.spectrum(1) / mean)});
+  return result;
 }
 
 }  // namespace

@@ -155,7 +155,7 @@ Score read_score(const JsonCursor& value) {
   return {.mpe_m = value.at("mpe_m").number_or_null(0.0, kInfinity),
           .moe_percent = value.at("moe_percent").number_or_null(0.0, 100.0),
           .mpe_all_fitted_m = value.at("mpe_all_fitted_m").number_or_null(0.0, kInfinity),
-          .moe_unmirrored_percent = value.at("moe_unmirrored_percent").number_or_null(0.0, 50.0)};
+          .moe_unmirrored_percent = value.at("moe_unmirrored_percent").number_or_null(0.0, 100.0)};
 }
 
 std::vector<std::string> read_names(const JsonCursor& value) {

@@ -76,7 +76,12 @@ std::optional<Score> score_map(const Points& estimate_m, const Points& truth_m,
   Score score;
   score.mpe_m = count > 0 ? sum / count : nan;
   score.moe_percent = orientation_error_percent(truth, estimate);
-  score.moe_unmirrored_percent = std::min(score.moe_percent, 100.0 - score.moe_percent);
+  // Not 100 less the other: triples that the map flattens are wrong both ways round.
+  const Points mirrored = estimate.rowwise().reverse();
+  score.moe_unmirrored_percent =
+      score.moe_percent > 50.0
+          ? std::min(score.moe_percent, orientation_error_percent(truth, mirrored))
+          : score.moe_percent;
   score.mpe_all_fitted_m =
       planarity(estimate) > kFlatPlanarity
           ? (fit_affine(estimate, truth, fit)(estimate) - truth).rowwise().norm().mean()

@@ -74,6 +74,18 @@ void add_paper_notes(Table& table, const Published& published) {
   table.notes.insert(table.notes.end(), published.notes.begin(), published.notes.end());
 }
 
+/// "LLE, K = 14": the optima that are the first or the last of several values tried.
+std::string optima_at_an_end(const SensorStudy& sensor, std::span<const SettingSummary> best) {
+  std::vector<std::string> labels;
+  for (const SettingSummary& s : best)
+    for (const MethodGrid& grid : sensor.methods)
+      if (grid.method == s.setting.method && grid.parameters.size() > 1 && s.scored > 0 &&
+          (s.setting.parameter == grid.parameters.front() ||
+           s.setting.parameter == grid.parameters.back()))
+        labels.push_back(label(s.setting));
+  return fmt::format("{}", fmt::join(labels, "; "));
+}
+
 }  // namespace
 
 std::string paper_table_id(const SensorStudy& sensor, std::string_view kind) {
@@ -86,9 +98,10 @@ Table accuracy_table(const SensorStudy& sensor, std::span<const SettingSummary> 
   const bool published = any_published(best);
   Table table;
   table.id = paper_table_id(sensor, "accuracy");
+  const std::string number = paper_number(table.id);
   table.caption = fmt::format(
-      "{}: mean position error (MPE) and mean orientation error (MOE) after {} observations",
-      title_of(sensor.sensor.sensor), last_step(sensor));
+      "{}{}: mean position error (MPE) and mean orientation error (MOE) after {} observations",
+      number.empty() ? "" : number + ". ", title_of(sensor.sensor.sensor), last_step(sensor));
   table.columns = {{"Method", "", "", ""}};
   const std::string chosen = "The one of least mean MPE among those tried.";
   if (published) {
@@ -111,6 +124,9 @@ Table accuracy_table(const SensorStudy& sensor, std::span<const SettingSummary> 
     table.notes.push_back(
         "Each method stands with the parameter of least mean MPE over these very runs, as the "
         "paper chose its own: an optimistic choice.");
+  if (const std::string ends = optima_at_an_end(sensor, best); !ends.empty())
+    table.notes.push_back(
+        "At an end of the values tried, so that a better one may lie beyond: " + ends + ".");
   table.notes.push_back(interval_note(any_interval(best)));
   if (published) add_paper_notes(table, sensor.published);
   return table;
@@ -123,7 +139,9 @@ Table paper_parameter_table(const SensorStudy& sensor, std::span<const SettingSu
   table.columns = {{"Method", "", "", ""}, {"Parameter", "", "", "The one that was published."}};
   add_error_columns(table.columns, true);
   table.columns.push_back(
-      {"Printed MPE within", "", "", "Whether the printed MPE lies in the 95 % interval of ours."});
+      {"Printed MPE within", "", "",
+       "Whether the printed MPE lies in the 95 % interval of ours; not where a note says that the "
+       "two cannot be compared."});
   const int decimals = mpe_decimals(all);
   for (const PublishedValue& value : sensor.published.values) {
     SettingSummary s;
@@ -134,7 +152,7 @@ Table paper_parameter_table(const SensorStudy& sensor, std::span<const SettingSu
     std::vector<Cell> cells = {method_cell(value.setting.method), parameter_cell(value.setting)};
     add_error_cells(cells, s, true, decimals);
     const auto interval = interval_of(s.mpe_m);
-    if (interval)
+    if (interval && value.note.empty())
       cells.emplace_back(
           TextCell{value.mpe_m >= interval->low && value.mpe_m <= interval->high ? "yes" : "no"});
     else

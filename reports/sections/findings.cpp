@@ -112,7 +112,7 @@ Paragraph order_finding(Sensor sensor, std::vector<SettingSummary> methods) {
   return text;
 }
 
-/// How many published values lie within our intervals; those with a note are known not to.
+/// How many published values lie within our intervals; those with a note cannot be compared.
 Paragraph agreement_finding(Sensor sensor, std::span<const SettingSummary> methods) {
   int compared = 0;
   int within = 0;
@@ -123,9 +123,11 @@ Paragraph agreement_finding(Sensor sensor, std::span<const SettingSummary> metho
   };
   for (const SettingSummary& s : methods) {
     if (!s.published || !s.mpe_m) continue;
-    if (!s.published->note.empty()) ++noted;
-    if (s.published->note.empty() && (farthest == nullptr || gap(s) > gap(*farthest)))
-      farthest = &s;
+    if (!s.published->note.empty()) {
+      ++noted;
+      continue;
+    }
+    if (farthest == nullptr || gap(s) > gap(*farthest)) farthest = &s;
     const auto interval = interval_of(s.mpe_m);
     if (!interval) continue;
     ++compared;

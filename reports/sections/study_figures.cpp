@@ -2,13 +2,23 @@
 
 #include <utility>
 
+#include <fmt/format.h>
+
 #include "reports/sections/figures/builders.hpp"
+#include "reports/sections/wording.hpp"
 
 namespace mapproof {
 namespace {
 
 void append(std::vector<Figure>& all, std::vector<Figure> more) {
   for (Figure& figure : more) all.push_back(std::move(figure));
+}
+
+/// The paper's figures carry their numbers.
+void number(std::vector<Figure>& figures) {
+  for (Figure& figure : figures)
+    if (const std::string words = paper_number(figure.id); !words.empty())
+      figure.title = fmt::format("{}. {}", words, figure.title);
 }
 
 }  // namespace
@@ -22,6 +32,7 @@ StudyFigures study_figures(const Study& study, std::span<const Timing> timings,
   StudyFigures figures;
   const auto add = [&](const char* id, const char* title, const char* words,
                        std::vector<Figure> group) {
+    number(group);
     if (!group.empty()) figures.groups.push_back({id, title, words, std::move(group)});
   };
   add("observations", "From observations to a map",

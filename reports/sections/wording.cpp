@@ -38,6 +38,14 @@ std::string_view meaning(StatusCode code) {
   return "";
 }
 
+std::string paper_number(std::string_view id) {
+  const auto with = [&](std::string_view prefix, std::string_view word) {
+    return id.starts_with(prefix) ? fmt::format("{} {}", word, id.substr(prefix.size())) : "";
+  };
+  const std::string figure = with("fig-", "Fig.");
+  return figure.empty() ? with("table-", "Table") : figure;
+}
+
 Paragraph plain(std::string text) { return {{{std::move(text), Emphasis::kPlain}}}; }
 
 KeyValues provenance_items(const Provenance& provenance) {

@@ -189,5 +189,22 @@ TEST(AlignToAnchors, SaysWhyItCannot) {
   EXPECT_THROW(align_to_anchors(truth, flat, {0, 1, 2}, AffineFit::kLeastSquares), InvalidInput);
 }
 
+TEST(ScoreMap, CountsEveryTripleOfAFlatMapAsWrongBothWaysRound) {
+  const Points truth = test::grid(3, 3);
+  Points flat = truth;
+  flat.col(1).setZero();
+  const Points point = Points::Zero(9, 2);
+  for (const Points& estimate : {flat, point}) {
+    const Score score = score_map(estimate, truth, {0, 1, 3}, AffineFit::kLeastSquares).value();
+    EXPECT_EQ(score.moe_percent, 100.0);
+    EXPECT_EQ(score.moe_unmirrored_percent, 100.0);
+  }
+  Points mirrored = truth;
+  mirrored.col(0) *= -1.0;
+  const Score score = score_map(mirrored, truth, {0, 1, 3}, AffineFit::kLeastSquares).value();
+  EXPECT_EQ(score.moe_percent, 100.0);
+  EXPECT_EQ(score.moe_unmirrored_percent, 0.0);
+}
+
 }  // namespace
 }  // namespace mapproof

@@ -1,5 +1,7 @@
 #include "core/embed/kernel_pca.hpp"
 
+#include <algorithm>
+
 #include <gtest/gtest.h>
 
 #include "core/base/errors.hpp"
@@ -51,6 +53,18 @@ TEST(KernelPca, RefusesKernelsOutOfBounds) {
   EXPECT_THROW(kernel_pca(D, PolynomialKernel{.degree = 21}), InvalidInput);
   EXPECT_THROW(kernel_pca(Eigen::MatrixXd::Constant(5, 5, HUGE_VAL), GaussianKernel{}),
                InvalidInput);
+}
+
+TEST(KernelPca, SaysThatAKernelNearTheIdentityMakesNoMap) {
+  const Eigen::MatrixXd squares = distances_of(test::grid(5, 6)).cwiseAbs2();
+  const auto is_undetermined = [&](double variance) {
+    const Embedding map = kernel_pca(squares, GaussianKernel{variance});
+    return std::ranges::any_of(map.statuses, [](const Status& status) {
+      return status.code == StatusCode::kUndetermined;
+    });
+  };
+  EXPECT_TRUE(is_undetermined(0.02));
+  EXPECT_FALSE(is_undetermined(20.0));
 }
 
 }  // namespace

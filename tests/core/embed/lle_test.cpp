@@ -65,5 +65,15 @@ TEST(Lle, RefusesWhatItCannotUse) {
   EXPECT_THROW(lle(Eigen::MatrixXd::Constant(10, 10, HUGE_VAL), nearest(points, 4)), InvalidInput);
 }
 
+TEST(Lle, SaysWhereNoPointsHaveTheDistances) {
+  // Two of the neighbours of landmark 0 are farther from each other than over it.
+  Eigen::MatrixXd squares = distances_of(test::grid(3, 4)).cwiseAbs2();
+  squares(1, 4) = squares(4, 1) = 40.0;
+  const Embedding map = lle(squares, nearest_neighbours(squares.cwiseSqrt(), {.neighbours = 5}));
+  ASSERT_FALSE(map.statuses.empty());
+  EXPECT_EQ(map.statuses.back().code, StatusCode::kNotEuclidean);
+  EXPECT_TRUE(map.coordinates.allFinite());
+}
+
 }  // namespace
 }  // namespace mapproof

@@ -271,6 +271,14 @@ TEST(ExperimentJson, RefusesVariationsThatTheExperimentCannotMake) {
   EXPECT_EQ(error_with("/figures/0/id", "../fig"),
             "e.json: /figures/0/id: expected lower-case letters, digits and '-', a letter first, "
             "got \"../fig\"");
+  EXPECT_EQ(error_with("/figures/0/id", "map-visibility-lpca"),
+            "e.json: /figures/0/id: expected \"fig-\" first, got \"map-visibility-lpca\"");
+  EXPECT_EQ(error_with("/figures/1/methods", {"isomap", "isomap"}),
+            "e.json: /figures/1/methods/1: \"isomap\" is there twice");
+  EXPECT_EQ(
+      error_with("/figures/0", {{"id", "fig-2"}, {"kind", "measurement"}, {"sensor", "range"}}),
+      "e.json: /figures/0/sensor: a look of ranges has no figure; expected visibility or "
+      "bearing");
 }
 
 TEST(ExperimentJson, RefusesWhatHasNoNameOrNoSensors) {
