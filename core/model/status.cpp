@@ -6,11 +6,17 @@ namespace mapproof {
 namespace {
 
 constexpr std::array kNames = {
-    std::string_view("bridged"),         std::string_view("not_converged"),
-    std::string_view("rank_deficient"),  std::string_view("undetermined"),
-    std::string_view("landmark_unseen"), std::string_view("distances_completed"),
+    std::string_view("bridged"),
+    std::string_view("not_converged"),
+    std::string_view("rank_deficient"),
+    std::string_view("undetermined"),
+    std::string_view("landmark_unseen"),
+    std::string_view("distances_completed"),
     std::string_view("not_euclidean"),
-    std::string_view("anchors_missing"), std::string_view("anchors_degenerate"),
+    std::string_view("anchors_missing"),
+    std::string_view("anchors_degenerate"),
+    std::string_view("degenerate_geometry"),
+    std::string_view("too_few_observations"),
     std::string_view("failed"),
 };
 

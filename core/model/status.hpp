@@ -20,6 +20,9 @@ enum class StatusCode {
   kAnchorsMissing,      ///< Too few mapped anchors for an affine map: no score.
   kAnchorsDegenerate,   ///< Anchors nearly on one line in the embedding: the affine map is
                         ///< arbitrary.
+  kDegenerateGeometry,  ///< Known landmarks or path in a special position, e.g. on one line or
+                        ///< circle: the condition number says so.
+  kTooFewObservations,  ///< Fewer steps, landmarks or readings than the method needs.
   kFailed,              ///< No map came out at all; the detail says why.
 };
 

@@ -26,12 +26,15 @@ std::string_view meaning(StatusCode code) {
       return "Pairs without a common step took the shortest path over the others.";
     case StatusCode::kNotEuclidean:
       return "No points have the observed distances, as with missing entries; the nearest that "
-             "some "
-             "have were taken.";
+             "some have were taken.";
     case StatusCode::kAnchorsMissing:
       return "Too few anchors were mapped for an affine map: there is no score.";
     case StatusCode::kAnchorsDegenerate:
       return "The anchors lie nearly on one line in the embedding: the affine map is arbitrary.";
+    case StatusCode::kDegenerateGeometry:
+      return "Known landmarks or path lie in a special position, e.g. on one line or circle.";
+    case StatusCode::kTooFewObservations:
+      return "There are fewer steps, landmarks or readings than the method needs.";
     case StatusCode::kFailed:
       return "No map came out.";
   }

@@ -1,0 +1,57 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include <Eigen/Core>
+
+#include "core/model/points.hpp"
+
+namespace mapproof {
+
+/// One measured distance from the robot to a landmark.
+struct RangeReading {
+  double time_s = 0.0;
+  Eigen::Index landmark = 0;  ///< Row in RangeLog::landmarks.
+  double range_m = 0.0;
+};
+
+/// Motion of the robot from the pose before to the pose at `time_s`: first forward along the
+/// heading before, then the turn.
+struct Motion {
+  double time_s = 0.0;
+  double distance_m = 0.0;
+  double turn_rad = 0.0;
+};
+
+/// Poses over time, T of them.
+struct Trajectory {
+  Eigen::VectorXd time_s;       ///< T, ascending.
+  Points positions_m;           ///< T x 2.
+  Eigen::VectorXd heading_rad;  ///< T, or empty where headings are not known.
+
+  Eigen::Index size() const { return time_s.size(); }
+};
+
+/// Where integrated odometry begins.
+struct StartPose {
+  double time_s = 0.0;
+  double x_m = 0.0;
+  double y_m = 0.0;
+  double heading_rad = 0.0;
+};
+
+/// What a robot recorded on its way: odometry and ranges, and the truth where somebody surveyed it.
+struct RangeLog {
+  std::string name;                    ///< For titles, e.g. "Plaza 1".
+  std::vector<std::string> landmarks;  ///< Names, N of them, all different.
+  std::vector<RangeReading> ranges;    ///< Ascending in time.
+  StartPose start;                     ///< Zero where the log has none: the frame is then its own.
+  std::vector<Motion> odometry;        ///< Ascending in time; empty: no odometry.
+  std::optional<Trajectory> truth;     ///< The surveyed path.
+  std::optional<Points> true_landmarks;  ///< N x 2, m; NaN rows: not surveyed.
+  std::vector<std::string> remarks;      ///< What the reader did or noticed, a sentence each.
+};
+
+}  // namespace mapproof

@@ -1,0 +1,30 @@
+#include "core/model/slam.hpp"
+
+#include <array>
+#include <utility>
+
+namespace mapproof {
+namespace {
+
+constexpr std::array<std::pair<Alignment, std::string_view>, 4> kNames{{
+    {Alignment::kNone, "none"},
+    {Alignment::kRigid, "rigid"},
+    {Alignment::kRigidWithReflection, "rigid-with-reflection"},
+    {Alignment::kSimilarity, "similarity"},
+}};
+
+}  // namespace
+
+std::string_view name(Alignment alignment) {
+  for (const auto& [value, text] : kNames)
+    if (value == alignment) return text;
+  return {};
+}
+
+std::optional<Alignment> alignment_named(std::string_view name) {
+  for (const auto& [value, text] : kNames)
+    if (text == name) return value;
+  return std::nullopt;
+}
+
+}  // namespace mapproof
