@@ -33,6 +33,7 @@ const std::map<std::string, Modules>& allowed() {
       {"core/observe", with_leaves({"core/linalg"})},
       {"core/embed", with_leaves({"core/linalg", "core/graph", "core/observe"})},
       {"core/align", with_leaves({"core/linalg"})},
+      {"core/range_slam", with_leaves({"core/linalg", "core/align"})},
       {"core/score", with_leaves({"core/align", "core/linalg"})},
       {"core/json", {"core/base"}},
       {"core/records", {"core/model", "core/base", "core/json"}},

@@ -1,0 +1,60 @@
+#include "core/range_slam/factorization.hpp"
+
+#include <limits>
+
+#include <fmt/format.h>
+#include <Eigen/QR>
+#include <Eigen/SVD>
+
+#include "core/base/errors.hpp"
+#include "core/linalg/sign.hpp"
+
+namespace mapproof {
+namespace {
+
+/// Singular values down to this share of the largest are rounding.
+constexpr double kRounding = 1e-13;
+/// A kept singular value is signal only if it stands out by this from the largest left out.
+constexpr double kAboveFloor = 1.5;
+
+/// A matrix with the left singular vectors and singular values of Y, at most N x N.
+Eigen::MatrixXd compressed(const Eigen::MatrixXd& Y) {
+  const Eigen::Index N = Y.rows();
+  if (Y.cols() <= N) return Y;
+  const Eigen::HouseholderQR<Eigen::MatrixXd> qr(Y.transpose());
+  return Eigen::MatrixXd(qr.matrixQR().topRows(N).triangularView<Eigen::Upper>()).transpose();
+}
+
+void judge(Factorization& result, Eigen::Index rank) {
+  const Eigen::VectorXd& s = result.singular_values;
+  const double smallest = s(rank - 1);
+  result.noise_floor = s.size() > rank ? s(rank) : 0.0;
+  result.condition = smallest > 0.0 ? s(0) / smallest : std::numeric_limits<double>::infinity();
+  const double floor = std::max(kRounding * s(0), kAboveFloor * result.noise_floor);
+  if (smallest > floor) return;
+  const auto signals = (s.head(rank).array() > floor).count();
+  result.statuses.push_back(
+      {StatusCode::kRankDeficient,
+       fmt::format("Squared ranges have rank {} above the noise, {} is needed: condition number "
+                   "{:.3g}. So it is where the robot or the landmarks keep to a line or a circle.",
+                   signals, rank, result.condition)});
+}
+
+}  // namespace
+
+Factorization factorize(const Eigen::MatrixXd& Y, Eigen::Index rank) {
+  if (rank < 1 || rank > std::min(Y.rows(), Y.cols()))
+    throw InvalidInput("a factorisation's rank must be 1 to the lesser side of the matrix");
+  if (!Y.allFinite()) throw InvalidInput("a factorisation needs finite entries");
+
+  const Eigen::BDCSVD<Eigen::MatrixXd> svd(compressed(Y), Eigen::ComputeThinU);
+  Factorization result;
+  result.U = svd.matrixU().leftCols(rank);
+  fix_signs(result.U);
+  result.V = result.U.transpose() * Y;
+  result.singular_values = svd.singularValues();
+  judge(result, rank);
+  return result;
+}
+
+}  // namespace mapproof

@@ -1,0 +1,31 @@
+#pragma once
+
+#include <vector>
+
+#include <Eigen/Core>
+
+#include "core/model/status.hpp"
+
+namespace mapproof {
+
+/// Y = U V up to noise: the leading singular vectors of squared ranges.
+struct Factorization {
+  Eigen::MatrixXd U;                ///< N x rank, orthonormal columns, signs fixed (see sign.hpp).
+  Eigen::MatrixXd V;                ///< rank x T: singular values times right singular vectors.
+  Eigen::VectorXd singular_values;  ///< All min(N, T) of them, descending.
+  double condition = 1.0;           ///< Largest kept over smallest kept; infinite if that is 0.
+  double noise_floor = 0.0;         ///< Largest left out; 0 if none is.
+  std::vector<Status> statuses;     ///< kRankDeficient: some of `rank` are no more than noise.
+};
+
+/// The thin SVD cut at `rank` [boots2013, algorithm 1, line 2].
+///
+/// A wide Y is brought to a triangle first, by Householder reflections: as fast as its Gram matrix
+/// Y Y', without squaring the condition number.
+/// @param Y     N x T, finite.
+/// @param rank  1 to min(N, T).
+/// @throws InvalidInput if a bound is broken.
+/// @note O(N^2 T + N^3) time, O(N T) memory.
+Factorization factorize(const Eigen::MatrixXd& Y, Eigen::Index rank);
+
+}  // namespace mapproof

@@ -1,0 +1,85 @@
+#include "core/range_slam/known_landmarks.hpp"
+
+#include <cmath>
+#include <limits>
+#include <set>
+
+#include <fmt/format.h>
+#include <Eigen/LU>
+#include <Eigen/SVD>
+
+#include "core/base/errors.hpp"
+#include "core/range_slam/squared_ranges.hpp"
+
+namespace mapproof {
+namespace {
+
+void check(const Factorization& factors, const KnownLandmarks& known) {
+  if (factors.U.cols() != 4) throw InvalidInput("a map needs a factorisation of rank 4");
+  const std::set<Eigen::Index> rows(known.rows.begin(), known.rows.end());
+  if (std::ssize(known.rows) != known.positions_m.rows() || rows.size() != known.rows.size())
+    throw InvalidInput("known landmarks: as many positions as different rows are needed");
+  if (!known.positions_m.allFinite()) throw InvalidInput("known landmarks must be finite");
+  if (!rows.empty() && (*rows.begin() < 0 || *rows.rbegin() >= factors.U.rows()))
+    throw InvalidInput("a known landmark is none of the map's");
+}
+
+/// Takes Y = C' M' V, with C' of landmarks moved by -center and divided by `unit`, to Y = C M V.
+Eigen::Matrix4d in_metres(const Eigen::Matrix4d& M, const Eigen::RowVector2d& center, double unit) {
+  Eigen::Matrix4d change;
+  change << 1.0, 0.0, 0.0, 0.0,    //
+      -center(0), unit, 0.0, 0.0,  //
+      -center(1), 0.0, unit, 0.0,  //
+      0.5 * center.squaredNorm(), -unit * center, unit * unit;
+  return change * M / (unit * unit);
+}
+
+}  // namespace
+
+SpectralMap map_from_known_landmarks(const Factorization& factors, const KnownLandmarks& known) {
+  check(factors, known);
+  SpectralMap map;
+  map.statuses = factors.statuses;
+  if (known.rows.size() < 4) {
+    map.statuses.push_back(
+        {StatusCode::kTooFewObservations,
+         fmt::format("{} landmarks are known, 4 are needed.", known.rows.size())});
+    return map;
+  }
+
+  // In units of their spread about their centre the condition is one of shape alone.
+  const Eigen::RowVector2d center = known.positions_m.colwise().mean();
+  const Points offsets = known.positions_m.rowwise() - center;
+  const double unit = std::sqrt(offsets.squaredNorm() / static_cast<double>(offsets.rows()));
+  const Points shape = unit > 0.0 ? Points(offsets / unit) : offsets;
+  const Eigen::JacobiSVD<Eigen::MatrixXd> svd(landmark_states(shape),
+                                              Eigen::ComputeThinU | Eigen::ComputeThinV);
+  const Eigen::VectorXd& s = svd.singularValues();
+  map.condition = s(3) > 0.0 ? s(0) / s(3) : std::numeric_limits<double>::infinity();
+  if (!(*map.condition < kDegenerateCondition)) {
+    map.statuses.push_back({StatusCode::kDegenerateGeometry,
+                            fmt::format("The known landmarks lie on one line or circle: condition "
+                                        "number {:.3g}.",
+                                        *map.condition)});
+    return map;
+  }
+
+  // U = C S^-1 on the known rows, so X = S^-1 V; longer ranges lengthen all of X.
+  const Eigen::Matrix4d inverse_S =
+      in_metres(svd.solve(factors.U(known.rows, Eigen::all)), center, unit);
+  const Eigen::FullPivLU<Eigen::Matrix4d> lu(inverse_S);
+  const Eigen::MatrixXd X = inverse_S * factors.V;
+  const double squared_scale = X.row(0).mean();
+  if (!(squared_scale > 0.0) || !lu.isInvertible()) {
+    map.statuses.push_back({StatusCode::kFailed,
+                            "The ranges do not tell positions from the known landmarks: their rank "
+                            "is lower than that of a path in the plane."});
+    return map;
+  }
+  map.X = X / squared_scale;
+  map.range_scale = std::sqrt(squared_scale);
+  map.C = factors.U * lu.inverse();
+  return map;
+}
+
+}  // namespace mapproof

@@ -1,0 +1,35 @@
+#pragma once
+
+#include <vector>
+
+#include "core/model/points.hpp"
+#include "core/range_slam/factorization.hpp"
+#include "core/range_slam/spectral_map.hpp"
+
+namespace mapproof {
+
+/// Landmarks whose place is given.
+struct KnownLandmarks {
+  std::vector<Eigen::Index> rows;  ///< In the map, all different.
+  Points positions_m;              ///< As many as rows.
+};
+
+/// A known set at or above this condition number counts as degenerate.
+inline constexpr double kDegenerateCondition = 1e6;
+
+/// Map and path from the places of four landmarks or more, by linear regression from U to C
+/// [boots2013, algorithm 1, line 3].
+///
+/// The mean of X's first row, which should be 1, tells the square of a common scale of the ranges;
+/// it is divided out and returned.
+/// @param factors  Of rank 4.
+/// @param known    Finite.
+/// @return Empty with kTooFewObservations below four known landmarks, with kDegenerateGeometry
+/// where
+///         they lie on one line or circle; `condition` is that of their C about their centre, in
+///         units of their spread.
+/// @throws InvalidInput if a bound is broken.
+/// @note O(T) time.
+SpectralMap map_from_known_landmarks(const Factorization& factors, const KnownLandmarks& known);
+
+}  // namespace mapproof

@@ -1,0 +1,9 @@
+#include "core/range_slam/spectral_map.hpp"
+
+namespace mapproof {
+
+Points landmarks_of(const Eigen::MatrixXd& C) { return C.middleCols(1, 2); }
+
+Points positions_of(const Eigen::MatrixXd& X) { return -X.middleRows(1, 2).transpose(); }
+
+}  // namespace mapproof

@@ -1,0 +1,32 @@
+#include "core/range_slam/squared_ranges.hpp"
+
+#include "core/base/errors.hpp"
+
+namespace mapproof {
+
+Eigen::MatrixXd half_squared_ranges(const Eigen::MatrixXd& ranges_m, const RangeNoise& noise) {
+  if (!(noise.sigma_m >= 0.0) || !(noise.share >= 0.0))
+    throw InvalidInput("the noise of ranges must not be negative");
+  if (!ranges_m.allFinite()) throw InvalidInput("ranges must be finite");
+  const double growth = 1.0 + noise.share * noise.share;
+  Eigen::MatrixXd Y = 0.5 * (ranges_m.array().square() - noise.sigma_m * noise.sigma_m) / growth;
+  if (!Y.allFinite()) throw InvalidInput("a squared range overflows");
+  return Y;
+}
+
+Eigen::MatrixXd landmark_states(const Points& landmarks_m) {
+  Eigen::MatrixXd C(landmarks_m.rows(), 4);
+  C << 0.5 * landmarks_m.rowwise().squaredNorm(), landmarks_m,
+      Eigen::VectorXd::Ones(landmarks_m.rows());
+  return C;
+}
+
+Eigen::MatrixXd robot_states(const Points& positions_m) {
+  Eigen::MatrixXd X(4, positions_m.rows());
+  X.row(0).setOnes();
+  X.middleRows(1, 2) = -positions_m.transpose();
+  X.row(3) = 0.5 * positions_m.rowwise().squaredNorm().transpose();
+  return X;
+}
+
+}  // namespace mapproof

@@ -1,0 +1,29 @@
+#pragma once
+
+#include <Eigen/Core>
+
+#include "core/model/points.hpp"
+
+namespace mapproof {
+
+/// Standard deviation of one range reading at distance d: the root of sigma_m^2 + (share d)^2.
+struct RangeNoise {
+  double sigma_m = 0.0;  ///< >= 0.
+  double share = 0.0;    ///< Of the distance, >= 0.
+};
+
+/// Y = 1/2 d^2 [boots2013, eq. 1], less what noise adds: E[r^2] = (1 + share^2) d^2 + sigma^2.
+/// @param ranges_m  N x T, finite: rows landmarks, columns times.
+/// @return N x T, m^2; short ranges under much noise may come out below 0.
+/// @throws InvalidInput if a bound is broken, or a square overflows.
+Eigen::MatrixXd half_squared_ranges(const Eigen::MatrixXd& ranges_m, const RangeNoise& noise = {});
+
+/// C with the rows [|m|^2/2, m_x, m_y, 1] [boots2013, eq. 3].
+/// @param landmarks_m  N x 2.
+Eigen::MatrixXd landmark_states(const Points& landmarks_m);
+
+/// X with the columns [1, -x, -y, (x^2 + y^2)/2] [boots2013, eq. 3], so that Y = C X.
+/// @param positions_m  T x 2.
+Eigen::MatrixXd robot_states(const Points& positions_m);
+
+}  // namespace mapproof
