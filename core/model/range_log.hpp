@@ -18,11 +18,12 @@ struct RangeReading {
 };
 
 /// Motion of the robot from the pose before to the pose at `time_s`: first forward along the
-/// heading before, then the turn.
+/// heading before and leftwards across it, then the turn.
 struct Motion {
   double time_s = 0.0;
   double distance_m = 0.0;
   double turn_rad = 0.0;
+  double sideways_m = 0.0;  ///< To the left; 0 for what has wheels.
 };
 
 /// Poses over time, T of them.

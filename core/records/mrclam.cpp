@@ -16,8 +16,8 @@
 #include "core/json/text_input.hpp"
 #include "core/records/limits.hpp"
 #include "core/records/name_list.hpp"
+#include "core/records/number_rows.hpp"
 #include "core/records/observation_values.hpp"
-#include "core/records/table_reader.hpp"
 
 namespace mapproof {
 namespace {
@@ -25,44 +25,6 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr int kLastRobot = 5;
-
-/// Rows of a .dat file, each of `width` numbers.
-class NumberRows {
- public:
-  NumberRows(std::string_view text, const std::string& source, std::size_t width)
-      : source_(source), reader_(text, source, TableReader::kBlanks), values_(width) {}
-
-  bool next() {
-    if (!reader_.next(row_)) return false;
-    if (row_.cells.size() != values_.size())
-      fail(fmt::format("has {} numbers, expected {}", row_.cells.size(), values_.size()));
-    for (std::size_t i = 0; i < values_.size(); ++i) {
-      const std::optional<double> value = number_in(row_.cells[i]);
-      if (!value || !std::isfinite(*value)) fail(number_problem(row_.cells[i]));
-      values_[i] = *value;
-    }
-    return true;
-  }
-
-  [[noreturn]] void fail(const std::string& what) const {
-    throw IoError(source_, fmt::format("line {}", row_.line), what);
-  }
-
-  std::size_t line() const { return row_.line; }
-  double operator[](std::size_t i) const { return values_[i]; }
-  /// A number of somebody or something: an integer from 0.
-  int id(std::size_t i) const {
-    if (!(values_[i] >= 0.0 && values_[i] <= 1e9 && values_[i] == std::trunc(values_[i])))
-      fail("expected a number without decimals, got " + in_quotes(row_.cells[i]));
-    return static_cast<int>(values_[i]);
-  }
-
- private:
-  const std::string& source_;
-  TableReader reader_;
-  TableRow row_;
-  std::vector<double> values_;
-};
 
 std::map<int, int> read_barcodes(const fs::path& path) {
   const std::string source = path.string();

@@ -15,6 +15,7 @@
 #include "core/records/map_files.hpp"
 #include "core/records/mrclam.hpp"
 #include "core/records/observation_values.hpp"
+#include "core/records/range_log_files.hpp"
 #include "core/records/run_json.hpp"
 #include "core/records/study_files.hpp"
 #include "core/records/study_store.hpp"
@@ -86,7 +87,12 @@ void check_file(const fs::path& path, const ForeignReader& foreign, Finding& fin
 Finding check(const fs::path& path, const ForeignReader& foreign) {
   Finding finding{.path = path.string(), .kind = {}, .problem = {}};
   try {
-    check_file(path, foreign, finding);
+    if (is_range_log(path)) {
+      finding.kind = "range log";
+      read_range_log(path);
+    } else {
+      check_file(path, foreign, finding);
+    }
   } catch (const std::exception& error) {
     finding.problem = error.what();
   }
@@ -139,8 +145,10 @@ std::vector<Finding> check_folder(const fs::path& folder, const ForeignReader& f
     }
     return findings;
   }
+  if (is_range_log(folder)) return {check(folder, foreign)};
   if (!is_mrclam(folder))
-    throw IoError(folder.string(), "is a folder with no study, no map and no MRCLAM data in it");
+    throw IoError(folder.string(),
+                  "is a folder with no study, no map, no range log and no MRCLAM data in it");
   read_mrclam(folder, Sensor::kVisibility);
   return {{.path = folder.string(), .kind = "MRCLAM observations", .problem = {}}};
 }

@@ -62,6 +62,7 @@ const std::map<std::string, Modules>& kept_in() {
       {"cairo", {"render/cairo"}},
       {"nlohmann/", {"core/json", "core/records", "render/plot"}},
       {"csdp/", {"core/embed"}},
+      {"matio", {"core/records"}},
       {"hb", {"render/theme", "render/cairo"}},
       {"ft2build", {"render/theme", "render/cairo"}},
       {"kainjow/", {"reports/html"}},

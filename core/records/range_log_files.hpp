@@ -1,0 +1,42 @@
+#pragma once
+
+#include <filesystem>
+#include <string>
+
+#include "core/model/range_log.hpp"
+
+namespace mapproof {
+
+/// Which odometry is taken where a file holds more than one.
+enum class OdometrySource {
+  kRecovered,  ///< That of the dead-reckoned path, which is the robot's own.
+  kAsGiven,    ///< The table of odometry as it stands.
+};
+
+struct RangeLogOptions {
+  std::string name;  ///< For titles; empty: made of the path.
+  OdometrySource odometry = OdometrySource::kRecovered;
+};
+
+/// Odometry and ranges of one robot [djugash2009], with the truth if it is there, from
+///
+/// - a folder, or the file ranges.csv in it: ranges.csv and, if they are there, odometry_drp.csv
+/// with
+///   odometry_drp_start.csv or else odometry.csv with odometry_start.csv, groundtruth.csv,
+///   landmarks.csv;
+/// - NAME.mat of MATLAB 5 to 7.2: TD (time, sender, landmark, range) and, if they are there, DR
+///   (time, distance, turn), DRp and GT (time, x, y, heading), TL (landmark, x, y);
+/// - NAME_DR.txt or NAME_TD.txt, with the other beside it: DR and TD as text;
+/// - NAME.pyfg: VERTEX_SE2, VERTEX_XY, EDGE_SE2, EDGE_RANGE.
+///
+/// What was sorted, turned, recovered, left out or is not to be trusted stands in `remarks`.
+/// @throws IoError naming file and line (or variable and row) if the source cannot be read as such,
+///         holds a number that is not finite or beyond any map, or shows more than one robot.
+/// @note Linear in the size of the files, but for sorting.
+RangeLog read_range_log(const std::filesystem::path& path, const RangeLogOptions& options = {});
+
+/// Whether the path is one that read_range_log() takes, by its name and, for ranges.csv, its
+/// header.
+bool is_range_log(const std::filesystem::path& path);
+
+}  // namespace mapproof

@@ -1,0 +1,33 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "core/model/range_log.hpp"
+#include "core/records/range_tables.hpp"
+
+namespace mapproof {
+
+/// What the readers of the several formats gather before a log is made of it.
+struct RangeLogParts {
+  std::string source;  ///< File or folder, for errors.
+  std::string name;
+  std::vector<NamedReading> readings = {};  ///< In the order of the file.
+  std::vector<Motion> odometry = {};
+  std::optional<StartPose> start = {};
+  std::optional<Trajectory> truth = {};
+  NamedPoints true_landmarks = {};
+  std::vector<std::string> remarks = {};
+};
+
+/// Puts the landmarks in order (of their numbers if all names end in one, else as they first come),
+/// sorts the readings by time, turns true headings that are off by half a turn, and remarks on all
+/// of it and on what is missing or not to be trusted.
+/// @throws IoError if there is no reading, or the start is not before the first motion.
+RangeLog assemble(RangeLogParts parts);
+
+/// Whether the turns are the increments of the true heading to the last digit, and turn at all.
+bool turns_are_the_truths(const std::vector<Motion>& motions, const Trajectory& truth);
+
+}  // namespace mapproof

@@ -1,0 +1,24 @@
+#pragma once
+
+#include <filesystem>
+#include <string>
+
+#include "core/model/range_log.hpp"
+
+namespace mapproof {
+
+/// A path as TUM's text [sturm2012]: a line `t x y z qx qy qz qw` a pose, z = 0, the quaternion
+/// that of the heading, or of none where headings are not known. Numbers read back as they were.
+/// @throws InvalidInput if the sizes of `path` differ or a number is not finite.
+std::string trajectory_tum(const Trajectory& path);
+
+/// A path as CSV with the columns time_s, x_m, y_m and, if it is known, heading_rad; lines end in
+/// CR LF [rfc4180]. @throws InvalidInput as above.
+std::string trajectory_csv(const Trajectory& path);
+
+/// Landmarks as CSV with the columns name, x_m, y_m, which read_landmarks() takes.
+/// @throws InvalidInput if `positions_m` has other than `names.size()` rows.
+/// @note A landmark without a place is left out.
+std::string landmarks_csv(const std::vector<std::string>& names, const Points& positions_m);
+
+}  // namespace mapproof
