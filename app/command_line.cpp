@@ -6,7 +6,10 @@
 #include <system_error>
 #include <thread>
 
+#include <fmt/format.h>
+
 #include "core/base/errors.hpp"
+#include "core/records/limits.hpp"
 
 namespace mapproof {
 namespace {
@@ -46,17 +49,18 @@ void add_experiment_options(CLI::App& app, ExperimentChanges& changes) {
   };
   app.add_option_function<std::string>("--seed", read, "Replaces the experiment's seed");
   app.add_option("--layouts", changes.layouts, "Replaces the number of layouts")
-      ->check(CLI::Range(1, 10'000));
+      ->check(CLI::Range(1, kMostLayouts));
   app.add_option("--poses", changes.poses, "Replaces the number of initial poses in each")
-      ->check(CLI::Range(1, 10'000));
+      ->check(CLI::Range(1, kMostPoses));
 }
 
 void apply(const ExperimentChanges& changes, Experiment& experiment) {
   experiment.seed = changes.seed.value_or(experiment.seed);
   experiment.layouts = changes.layouts.value_or(experiment.layouts);
   experiment.poses = changes.poses.value_or(experiment.poses);
-  if (static_cast<long>(experiment.layouts) * experiment.poses > 1'000'000)
-    throw CLI::ValidationError("--layouts", "more than 1000000 runs, with all poses");
+  if (static_cast<long>(experiment.layouts) * experiment.poses > kMostRuns)
+    throw CLI::ValidationError("--layouts",
+                               fmt::format("more than {} runs, with all poses", kMostRuns));
 }
 
 std::vector<std::string> words_of(const ExperimentChanges& changes, const Experiment& experiment) {

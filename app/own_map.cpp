@@ -249,6 +249,7 @@ OwnMap map_own(const ObservationSource& source, const std::optional<NamedPointsF
   record.step = static_cast<int>(steps);
   record.names = source.history.names;
   record.statuses = embedding.statuses;
+  record.certificate = embedding.certificate;
   align_and_score(record, embedding.coordinates, reference, options.fit);
   return result;
 }

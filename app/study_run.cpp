@@ -5,6 +5,7 @@
 
 #include <fmt/chrono.h>
 #include <fmt/format.h>
+#include <sys/resource.h>
 #include <unistd.h>
 
 #include "app/build_facts.hpp"
@@ -24,6 +25,12 @@ std::string host_name() {
   return ::gethostname(name, sizeof name - 1) == 0 ? name : "";
 }
 
+std::optional<double> peak_memory_mib() {
+  rusage usage{};
+  if (::getrusage(RUSAGE_SELF, &usage) != 0) return std::nullopt;
+  return static_cast<double>(usage.ru_maxrss) / 1024.0;  // Linux counts in KiB.
+}
+
 /// Calls `use` with the best setting of each method and sensor at its last checkpoint.
 template <typename Use>
 void for_each_result(const Study& study, Use use) {
@@ -31,6 +38,11 @@ void for_each_result(const Study& study, Use use) {
     for (const SettingSummary& summary :
          best_of_each_method(summarize(study, sensor, last_step(sensor))))
       use(summary);
+}
+
+/// A map that came out arbitrary may be 1e14 m off.
+std::string plain_or_power(double metres) {
+  return metres < 1e4 ? fmt::format("{:.4f}", metres) : fmt::format("{:.4g}", metres);
 }
 
 nlohmann::ordered_json number(const std::optional<MeanEstimate>& estimate) {
@@ -60,7 +72,8 @@ void make_records(const Experiment& experiment, const std::filesystem::path& fol
                          .started_utc = started,
                          .host = host_name(),
                          .jobs = jobs,
-                         .seconds = std::chrono::duration<double>(Clock::now() - start).count()});
+                         .seconds = std::chrono::duration<double>(Clock::now() - start).count(),
+                         .peak_memory_mib = peak_memory_mib()});
   console.detail(fmt::format("{}: solver {}, commit {}, {} jobs, {:.2f} s", folder.string(),
                              solver_digest().substr(0, 12), source_commit(), jobs,
                              std::chrono::duration<double>(Clock::now() - start).count()));
@@ -92,7 +105,7 @@ std::string study_text(const Study& study) {
   for_each_result(study, [&](const SettingSummary& result) {
     text += fmt::format("{:<10}  {:<28}", name(result.sensor), label(result.setting));
     text += result.mpe_m && result.moe_percent
-                ? fmt::format("  MPE {:.4f} m  MOE {:5.2f} %\n", result.mpe_m->mean,
+                ? fmt::format("  MPE {} m  MOE {:5.2f} %\n", plain_or_power(result.mpe_m->mean),
                               result.moe_percent->mean)
                 : std::string("  no map\n");
   });

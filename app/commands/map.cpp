@@ -11,6 +11,7 @@
 #include "app/result_json.hpp"
 #include "core/base/errors.hpp"
 #include "core/base/files.hpp"
+#include "core/base/words.hpp"
 #include "core/records/map_files.hpp"
 #include "render/figures/map.hpp"
 #include "render/figures/score_words.hpp"
@@ -82,7 +83,7 @@ std::optional<GivenParameter> given_parameter(const Arguments& arguments,
 
 /// The method, and its parameter if one was given.
 MethodSetting chosen_setting(const Arguments& arguments) {
-  const std::optional<Method> method = method_named(arguments.method);
+  const std::optional<Method> method = method_named(lower_case(arguments.method));
   if (!method)
     throw InvalidInput(fmt::format("--method: unknown method \"{}\"; did you mean \"{}\"?",
                                    printable(arguments.method),

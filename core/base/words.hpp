@@ -10,7 +10,11 @@ namespace mapproof {
 /// "1 run", "25 runs".
 std::string counted(long long count, std::string_view noun);
 
-/// "a", "a and b", "a, b and c"; beyond `most` names: "a, b and 5 more".
+/// A to Z as small letters, all else as it is.
+std::string lower_case(std::string text);
+
+/// "a", "a and b", "a, b and c"; of more than `most` names, most - 1 and how many
+/// more: "a, b and 5 more".
 std::string listed(const std::vector<std::string>& names, std::size_t most);
 
 }  // namespace mapproof

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <numbers>
 #include <utility>
 
 #include <fmt/format.h>
@@ -17,6 +16,7 @@
 #include "core/embed/laplacian_eigenmap.hpp"
 #include "core/embed/lpca.hpp"
 #include "core/embed/sde/sde.hpp"
+#include "core/embed/seen_together.hpp"
 #include "core/graph/shortest_paths.hpp"
 
 namespace mapproof {
@@ -38,7 +38,6 @@ void add_statuses_of_start(Embedding& result, const Embedding& start, std::strin
   result.statuses.insert(result.statuses.begin(), added.begin(), added.end());
 }
 
-/// "L3 and L7"; of more than eleven the first ten and how many more.
 std::string names_of(const std::vector<std::string>& names, const std::vector<Eigen::Index>& rows) {
   std::vector<std::string> some;
   for (const Eigen::Index row : rows) some.push_back(names[static_cast<std::size_t>(row)]);
@@ -82,9 +81,8 @@ Embedder::Embedder(Proximities proximities, EmbedderOptions options)
     completed_squares_ = completed_distances_.cwiseAbs2();
     seen_apart_ = infinite(completed_distances_) > 0;
   }
-  // Normalised visibility vectors without a common sighting are at right angles.
-  cutoff_ = options_.only_seen_together ? std::numbers::sqrt2 * (1.0 - 1e-12)
-                                        : std::numeric_limits<double>::infinity();
+  apart_ = std::sqrt(proximities_.apart_squared) * (1.0 - 1e-12);
+  cutoff_ = options_.only_seen_together ? apart_ : std::numeric_limits<double>::infinity();
 }
 
 const Eigen::MatrixXd& Embedder::distances() {
@@ -111,7 +109,13 @@ Embedding Embedder::embed(const MethodSetting& setting) {
                               "point."});
     return with_all_distances(point);
   }
-  return solve(setting);
+  Embedding result = solve(setting);
+  if (on_graph(setting.method)) {
+    const int neighbours = static_cast<int>(setting.parameter.value_or(0.0));
+    if (auto status = arbitrary_neighbours(nearest(neighbours), neighbours, apart_))
+      result.statuses.push_back(std::move(*status));
+  }
+  return result;
 }
 
 MethodSetting Embedder::usual_setting(Method method) const {
@@ -267,7 +271,6 @@ HistoryEmbedder::HistoryEmbedder(const ObservationHistory& history, Eigen::Index
         {StatusCode::kLandmarkUnseen,
          fmt::format("{} of {} landmarks were never observed and are not on the map: {}.",
                      unseen.size(), landmarks_, names_of(history.names, unseen))});
-  options.only_seen_together &= history.sensor == Sensor::kVisibility;
   if (seen_.empty()) {
     embedder_.emplace(Proximities{}, options);
   } else {

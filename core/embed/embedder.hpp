@@ -66,7 +66,8 @@ class Embedder {
   int nearest_count_ = 0;
   Eigen::Index completed_pairs_ = 0;
   bool seen_apart_ = false;  ///< Some landmarks share no step even over others.
-  double cutoff_ = 0.0;
+  double apart_ = 0.0;       ///< Landmarks as far as this were never seen together.
+  double cutoff_ = 0.0;      ///< Landmarks as far as this are nobody's neighbours.
   std::optional<Embedding> linear_;
   std::optional<Embedding> equal_weights_;
 };

@@ -7,6 +7,7 @@
 
 #include <Eigen/Core>
 
+#include "core/model/certificate.hpp"
 #include "core/model/method.hpp"
 #include "core/model/points.hpp"
 #include "core/model/score.hpp"
@@ -40,7 +41,8 @@ struct MapRecord {
   std::optional<Points> truth_m;      ///< M x 2; NaN rows: truth unknown.
   std::vector<Eigen::Index> anchors;  ///< Rows whose true position was given.
   std::vector<Status> statuses;
-  std::optional<Score> score;  ///< If there is a truth and the map could be scored.
+  std::optional<Certificate> certificate;  ///< Of a semidefinite program on a person's own data.
+  std::optional<Score> score;              ///< If there is a truth and the map could be scored.
 };
 
 }  // namespace mapproof

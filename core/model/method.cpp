@@ -56,13 +56,15 @@ constexpr std::array kMethods = {
                .label = "SMACOF, equal weights",
                .summary = "least raw stress over all pairs, started from LPCA",
                .source = "de Leeuw 1977 [deleeuw1977]",
-               .parameter = std::nullopt},
+               .parameter = std::nullopt,
+               .starts_from = Method::kLpca},
     MethodInfo{.method = Method::kSmacofKnn,
                .name = "smacof-knn",
                .label = "SMACOF, kNN weights",
                .summary = "least raw stress over neighbours alone, started from equal weights",
                .source = "de Leeuw 1977 [deleeuw1977]",
-               .parameter = kNeighbours},
+               .parameter = kNeighbours,
+               .starts_from = Method::kSmacof},
     MethodInfo{.method = Method::kKpcaGaussian,
                .name = "kpca-gaussian",
                .label = "KPCA, Gaussian",
@@ -133,7 +135,10 @@ std::string_view nearest_method_name(std::string_view name) {
 std::string slug(const MethodSetting& setting) {
   const MethodInfo& method = info(setting.method);
   if (!setting.parameter || !method.parameter) return std::string(method.name);
-  return fmt::format("{}-{}{}", method.name, method.parameter->symbol, *setting.parameter);
+  // "K6", but "sigma2-1": a digit after a digit would read as one number.
+  const std::string_view symbol = method.parameter->symbol;
+  const std::string_view between = symbol.back() >= '0' && symbol.back() <= '9' ? "-" : "";
+  return fmt::format("{}-{}{}{}", method.name, symbol, between, *setting.parameter);
 }
 
 std::string parameter_text(const MethodSetting& setting) {

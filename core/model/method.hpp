@@ -40,6 +40,7 @@ struct MethodInfo {
   std::string_view summary;
   std::string_view source;  ///< Author and year, with the key in docs/references.bib in brackets.
   std::optional<ParameterInfo> parameter;
+  std::optional<Method> starts_from = std::nullopt;  ///< Whose map its iteration begins with.
 };
 
 /// All methods in the order of the paper's tables.

@@ -10,6 +10,7 @@ constexpr std::array kNames = {
     std::string_view("not_converged"),
     std::string_view("rank_deficient"),
     std::string_view("undetermined"),
+    std::string_view("arbitrary_neighbours"),
     std::string_view("landmark_unseen"),
     std::string_view("distances_completed"),
     std::string_view("not_euclidean"),

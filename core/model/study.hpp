@@ -87,6 +87,7 @@ struct Session {
   std::string host;
   int jobs = 1;
   double seconds = 0.0;
+  std::optional<double> peak_memory_mib;  ///< Of the process, at its end.
 };
 
 }  // namespace mapproof

@@ -27,6 +27,7 @@ void normalise(Proximities& result, const Eigen::MatrixXd& Q) {
   const Eigen::ArrayXXd scale = (Q.array() * Q.transpose().array()).sqrt();
   result.inner_products = (scale > 0.0).select(result.inner_products.array() / scale, 0.0);
   result.squared_distances = (2.0 - 2.0 * result.inner_products.array()).max(0.0);
+  result.apart_squared = 2.0;
 }
 
 }  // namespace
@@ -36,7 +37,7 @@ Proximities proximities(const ObservationHistory& history, Eigen::Index steps) {
 }
 
 Proximities proximities(const Features& rows, Sensor sensor) {
-  Proximities result{.inner_products = gram(rows.values), .squared_distances = {}};
+  Proximities result{.inner_products = gram(rows.values)};
   const bool complete = rows.observed.size() == 0;
   if (sensor == Sensor::kVisibility) {
     normalise(result, common_squares(rows, result.inner_products));

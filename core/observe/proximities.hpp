@@ -1,5 +1,6 @@
 #pragma once
 
+#include <limits>
 #include <vector>
 
 #include <Eigen/Core>
@@ -13,6 +14,9 @@ namespace mapproof {
 struct Proximities {
   Eigen::MatrixXd inner_products;     ///< M x M; of normalised vectors for visibility.
   Eigen::MatrixXd squared_distances;  ///< M x M, zero diagonal; infinite: no common step.
+  /// The squared distance of landmarks never seen together, 2 for visibility: among several of them
+  /// nothing tells which is nearer. Infinite for other sensors.
+  double apart_squared = std::numeric_limits<double>::infinity();
 };
 
 /// Euclidean proximities of the observation vectors (see features.hpp). With missing entries the

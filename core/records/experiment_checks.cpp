@@ -13,7 +13,6 @@ namespace {
 /// Discs dropped at random, one after another, jam when they cover some 0.547 of the plane
 /// [feder1980]; above this share it takes too long to find a place for the next.
 constexpr double kDensest = 0.45;
-constexpr double kMostRuns = 1e6;
 constexpr double kMostSubsteps = 1e4;        ///< Of one step.
 constexpr double kMostSubstepsOfWalk = 1e9;  ///< Some minutes.
 
@@ -76,8 +75,8 @@ void check_sensor(const SensorStudy& study, int landmarks, const JsonCursor& obj
 }  // namespace
 
 void check_experiment(const Experiment& experiment, const JsonCursor& document) {
-  if (static_cast<double>(experiment.layouts) * experiment.poses > kMostRuns)
-    document.fail(fmt::format("{} layouts x {} poses are more than {:.0f} runs", experiment.layouts,
+  if (static_cast<long>(experiment.layouts) * experiment.poses > kMostRuns)
+    document.fail(fmt::format("{} layouts x {} poses are more than {} runs", experiment.layouts,
                               experiment.poses, kMostRuns));
   if (experiment.anchors >= experiment.world.landmarks)
     document.fail(fmt::format("{} anchors leave none of {} landmarks to be mapped",

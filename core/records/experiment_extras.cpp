@@ -15,10 +15,7 @@ using Json = nlohmann::ordered_json;
 /// A name that is safe in ids of figures and files.
 std::string read_id(const JsonCursor& value) {
   const std::string text = value.text(64);
-  const auto is_allowed = [](char c) {
-    return (c >= '0' && c <= '9') || (c >= 'a' && c <= 'z') || c == '-';
-  };
-  if (text.empty() || text[0] < 'a' || text[0] > 'z' || !std::ranges::all_of(text, is_allowed))
+  if (!is_plain_id(text) || text[0] < 'a' || text[0] > 'z')
     value.fail("expected lower-case letters, digits and '-', a letter first, got " +
                in_quotes(text));
   return text;

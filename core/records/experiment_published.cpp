@@ -19,10 +19,7 @@ constexpr std::size_t kMostNotes = 100;
 /// Ids that the program makes itself never begin like that.
 std::string read_table_id(const JsonCursor& value) {
   const std::string text = value.text(40);
-  const auto is_allowed = [](char c) {
-    return (c >= '0' && c <= '9') || (c >= 'a' && c <= 'z') || c == '-';
-  };
-  if (!text.starts_with("table-") || text.ends_with('-') || !std::ranges::all_of(text, is_allowed))
+  if (!text.starts_with("table-") || text.ends_with('-') || !is_plain_id(text))
     value.fail("expected \"table-\" and small letters, digits or '-', got " + in_quotes(text));
   return text;
 }

@@ -158,6 +158,11 @@ Score read_score(const JsonCursor& value) {
           .moe_unmirrored_percent = value.at("moe_unmirrored_percent").number_or_null(0.0, 100.0)};
 }
 
+bool is_plain_id(std::string_view text) {
+  constexpr std::string_view kAllowed = "abcdefghijklmnopqrstuvwxyz0123456789-";
+  return !text.empty() && text.find_first_not_of(kAllowed) == std::string_view::npos;
+}
+
 std::vector<std::string> read_names(const JsonCursor& value) {
   std::vector<std::string> names;
   std::map<std::string, std::string> places;

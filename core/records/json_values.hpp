@@ -1,6 +1,7 @@
 #pragma once
 
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include <nlohmann/json.hpp>
@@ -53,6 +54,9 @@ std::vector<Status> read_statuses(const JsonCursor& value);
 
 nlohmann::ordered_json score_value(const Score& score);
 Score read_score(const JsonCursor& value);
+
+/// Whether a text is [a-z0-9-]+, which is safe in ids and names of files.
+bool is_plain_id(std::string_view text);
 
 /// Different, not empty names of at most kLongestName bytes.
 std::vector<std::string> read_names(const JsonCursor& value);

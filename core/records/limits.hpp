@@ -7,6 +7,7 @@ namespace mapproof {
 /// Sizes beyond which an input is taken for a mistake.
 inline constexpr int kMostLayouts = 10'000;
 inline constexpr int kMostPoses = 10'000;  ///< In each layout.
+inline constexpr long kMostRuns = 1'000'000;
 inline constexpr int kMostLandmarks = 5000;
 inline constexpr int kMostSteps = 1'000'000;
 inline constexpr double kMostEntries = 2e8;  ///< Of an observation history.

@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include "core/json/text_input.hpp"
+#include "core/records/certificate_values.hpp"
 #include "core/records/json_values.hpp"
 
 namespace mapproof {
@@ -54,6 +55,7 @@ Json map_value(const MapRecord& map, const MapRecord* shared) {
   value["step"] = map.step;
   value["frame"] = name(map.frame);
   value["score"] = map.score ? score_value(*map.score) : Json(nullptr);
+  if (map.certificate) value["certificate"] = certificate_value(*map.certificate);
   value["statuses"] = statuses_value(map.statuses);
   Json landmarks;
   put_landmarks(landmarks, map);
@@ -67,8 +69,9 @@ Json map_value(const MapRecord& map, const MapRecord* shared) {
 
 MapRecord read_map(const JsonCursor& object, const MapRecord* shared,
                    const std::vector<std::string_view>& extra_keys) {
-  std::vector<std::string_view> keys = {"id",       "sensor", "step",    "frame",   "score",
-                                        "statuses", "names",  "anchors", "truth_m", "estimate"};
+  std::vector<std::string_view> keys = {"id",      "sensor",   "step",       "frame",
+                                        "score",   "statuses", "names",      "anchors",
+                                        "truth_m", "estimate", "certificate"};
   keys.insert(keys.end(), extra_keys.begin(), extra_keys.end());
   MapRecord map;
   map.setting = read_setting(object, keys);
@@ -78,6 +81,8 @@ MapRecord read_map(const JsonCursor& object, const MapRecord* shared,
   map.step = object.at("step").integer32(0, kMostSteps);
   map.frame = read_frame(object.at("frame"));
   if (const JsonCursor score = object.at("score"); !score.is_null()) map.score = read_score(score);
+  if (const auto certificate = object.find("certificate"))
+    map.certificate = read_certificate(*certificate);
   map.statuses = read_statuses(object.at("statuses"));
   if (shared != nullptr) {
     map.names = shared->names;

@@ -4,6 +4,7 @@
 #include <limits>
 
 #include "core/json/json_text.hpp"
+#include "core/records/certificate_values.hpp"
 #include "core/records/experiment_values.hpp"
 #include "core/records/json_values.hpp"
 #include "core/records/map_values.hpp"
@@ -28,32 +29,6 @@ World read_world(const JsonCursor& value) {
   return {.side_m = value.at("side_m").number(0.0, kFarthest_m),
           .landmark_diameter_m = value.at("landmark_diameter_m").number(0.0, kFarthest_m),
           .landmarks_m = read_points(value.at("landmarks_m"))};
-}
-
-/// null for infinity: no bound was proved.
-Json finite_value(double number) { return std::isfinite(number) ? Json(number) : Json(nullptr); }
-
-double read_finite(const JsonCursor& value) {
-  return value.is_null() ? kInfinity : value.number(0.0, kInfinity);
-}
-
-Json certificate_value(const Certificate& certificate) {
-  return {{"solver", name(certificate.solver)},
-          {"primal", certificate.primal},
-          {"dual", finite_value(certificate.dual)},
-          {"relative_gap", finite_value(certificate.relative_gap)},
-          {"constraint_residual", certificate.constraint_residual}};
-}
-
-Certificate read_certificate(const JsonCursor& value) {
-  value.allow_only({"solver", "primal", "dual", "relative_gap", "constraint_residual"});
-  const std::optional<SdpSolver> solver = sdp_solver_named(value.at("solver").text());
-  if (!solver) value.at("solver").fail("expected interior_point, low_rank or csdp");
-  return {.solver = *solver,
-          .primal = value.at("primal").number(0.0, kInfinity),
-          .dual = read_finite(value.at("dual")),
-          .relative_gap = read_finite(value.at("relative_gap")),
-          .constraint_residual = value.at("constraint_residual").number(0.0, kInfinity)};
 }
 
 Json record_value(const RunRecord& record) {

@@ -31,12 +31,17 @@ Timing read_timing(const JsonCursor& value) {
 }
 
 Session read_session(const JsonCursor& value) {
-  value.allow_only({"kind", "command", "started_utc", "host", "jobs", "seconds"});
-  return {.command = value.at("command").text(kLongestText),
-          .started_utc = value.at("started_utc").text(),
-          .host = value.at("host").text(),
-          .jobs = value.at("jobs").integer32(0, 1'000'000),
-          .seconds = value.at("seconds").number(0.0, kLongest_s)};
+  value.allow_only(
+      {"kind", "command", "started_utc", "host", "jobs", "seconds", "peak_memory_mib"});
+  Session session{.command = value.at("command").text(kLongestText),
+                  .started_utc = value.at("started_utc").text(),
+                  .host = value.at("host").text(),
+                  .jobs = value.at("jobs").integer32(0, 1'000'000),
+                  .seconds = value.at("seconds").number(0.0, kLongest_s),
+                  .peak_memory_mib = std::nullopt};
+  if (const auto peak = value.find("peak_memory_mib"))
+    session.peak_memory_mib = peak->number(0.0, std::numeric_limits<double>::max());
+  return session;
 }
 
 void read_line(std::string_view line, const std::string& source, Timings& timings) {
@@ -71,12 +76,11 @@ std::string timing_line(const Timing& timing) {
 }
 
 std::string session_line(const Session& session) {
-  return json_line({{"kind", "session"},
-                    {"command", session.command},
-                    {"started_utc", session.started_utc},
-                    {"host", session.host},
-                    {"jobs", session.jobs},
-                    {"seconds", session.seconds}});
+  nlohmann::ordered_json value = {
+      {"kind", "session"},    {"command", session.command}, {"started_utc", session.started_utc},
+      {"host", session.host}, {"jobs", session.jobs},       {"seconds", session.seconds}};
+  if (session.peak_memory_mib) value["peak_memory_mib"] = *session.peak_memory_mib;
+  return json_line(value);
 }
 
 Timings parse_timings(std::string_view text, const std::string& source) {

@@ -49,6 +49,7 @@ Figure error_by_parameter_figure(const ErrorByParameterSpec& spec) {
   lines.quantity = spec.quantity;
   lines.log_from = 6.0;  // The methods of one panel would else lie on each other.
   lines.record_ids = spec.record_ids;
+  lines.ceiling = spec.ceiling;
   lines.alt = fmt::format("{} over each method's parameter, mean over runs. Least:", spec.y_label);
   for (const ParameterGroup& group : spec.groups) {
     ErrorPanel& panel = lines.panels.emplace_back();

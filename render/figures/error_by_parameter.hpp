@@ -1,5 +1,6 @@
 #pragma once
 
+#include <limits>
 #include <optional>
 #include <string>
 #include <vector>
@@ -37,6 +38,7 @@ struct ErrorByParameterSpec {
   std::string y_label = "MPE [m]";
   std::string quantity = "mean position error";
   std::vector<ParameterGroup> groups;
+  double ceiling = std::numeric_limits<double>::infinity();  ///< As of ErrorLinesSpec.
   std::vector<std::string> record_ids;
 };
 

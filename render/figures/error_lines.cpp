@@ -3,10 +3,12 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <set>
 
 #include <fmt/format.h>
 
 #include "core/base/errors.hpp"
+#include "core/base/words.hpp"
 #include "render/base/span.hpp"
 #include "render/figures/words.hpp"
 
@@ -45,16 +47,41 @@ ErrorAxis axis_of(const ErrorLinesSpec& spec) {
     }
     for (const ErrorPoint& point : panel.points) means.push_back(point.y);
   }
+  const auto beyond = [&](double value) { return value > spec.ceiling; };
+  std::erase_if(means, beyond);
+  std::ranges::replace_if(intervals, beyond, spec.ceiling);
   return error_axis(means, intervals, spec.log_from);
 }
 
-/// The places of labels in the order of their first appearance.
-std::vector<std::string> labels_of(const ErrorLinesSpec& spec) {
+/// Labels in the order of their first appearance, and the look of each.
+struct Labels {
   std::vector<std::string> labels;
+  std::vector<std::size_t> series;
+};
+
+Labels labels_of(const ErrorLinesSpec& spec) {
+  Labels all;
+  std::vector<std::optional<std::size_t>> asked;
+  for (const ErrorPanel& panel : spec.panels)
+    for (const ErrorLine& line : panel.lines) {
+      if (std::ranges::find(all.labels, line.label) != all.labels.end()) continue;
+      all.labels.push_back(line.label);
+      asked.push_back(line.series);
+    }
+  all.series = series_of(asked);
+  return all;
+}
+
+/// Says how many means lie above the frame.
+void note_ceiling(const ErrorLinesSpec& spec, Figure& figure) {
+  long long above = 0;
   for (const ErrorPanel& panel : spec.panels)
     for (const ErrorLine& line : panel.lines)
-      if (std::ranges::find(labels, line.label) == labels.end()) labels.push_back(line.label);
-  return labels;
+      above += std::ranges::count_if(line.mean, [&](double mean) { return mean > spec.ceiling; });
+  if (above > 0)
+    figure.notes.push_back({fmt::format("{} above {} {} off the frame.", counted(above, "mean"),
+                                        significant(spec.ceiling), above == 1 ? "is" : "are"),
+                            Ink::kMuted});
 }
 
 std::string words_of(const ErrorLine& line) {
@@ -128,13 +155,13 @@ class Builder {
 
  private:
   SeriesLook look(const std::string& label) const {
-    return series_look(
-        static_cast<std::size_t>(std::ranges::find(labels_, label) - labels_.begin()));
+    return series_look(labels_.series[static_cast<std::size_t>(
+        std::ranges::find(labels_.labels, label) - labels_.labels.begin())]);
   }
 
   const ErrorLinesSpec& spec_;
   const ErrorAxis& axis_;
-  std::vector<std::string> labels_;
+  Labels labels_;
 };
 
 }  // namespace
@@ -143,6 +170,14 @@ SeriesLook series_look(std::size_t i) {
   // After seven the colours come again, with other markers and dashes.
   return {series_ink(i), kDashes[i % kDashes.size()],
           kMarkers[(i + 3 * (i / kMarkers.size())) % kMarkers.size()]};
+}
+
+std::vector<std::size_t> series_of(const std::vector<std::optional<std::size_t>>& asked) {
+  std::vector<std::size_t> series(asked.size());
+  const std::set<std::optional<std::size_t>> different(asked.begin(), asked.end());
+  const bool usable = different.size() == asked.size() && !different.contains(std::nullopt);
+  for (std::size_t i = 0; i < asked.size(); ++i) series[i] = usable ? *asked[i] : i;
+  return series;
 }
 
 ErrorAxis error_axis(const std::vector<double>& means, const std::vector<double>& intervals,
@@ -184,9 +219,11 @@ Figure error_lines_figure(const ErrorLinesSpec& spec) {
                                         : spec.caption;
   figure.alt = spec.alt.empty() ? alt_of(spec, axis) : spec.alt;
   figure.notes = spec.notes;
+  note_ceiling(spec, figure);
   const Builder builder(spec, axis);
   for (std::size_t i = 0; i < spec.panels.size(); ++i) figure.panels.push_back(builder.panel(i));
-  if (labels_of(spec).empty()) figure.notes.push_back({"There are no curves.", Ink::kWarning});
+  if (labels_of(spec).labels.empty())
+    figure.notes.push_back({"There are no curves.", Ink::kWarning});
   if (figure.panels.empty()) {
     figure.panels.resize(1);
     figure.panels[0].y.label = spec.y_label;

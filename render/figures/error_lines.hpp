@@ -1,5 +1,6 @@
 #pragma once
 
+#include <limits>
 #include <optional>
 #include <string>
 #include <vector>
@@ -24,6 +25,9 @@ struct ErrorLine {
   std::vector<double> mean;  ///< Over runs.
   std::vector<double> low;   ///< Of the 95 % interval; empty, with `high`: no band.
   std::vector<double> high;
+  /// Which look it takes (see series_look), so that a method looks alike in all figures; empty, or
+  /// two labels of one figure with the same: by first appearance.
+  std::optional<std::size_t> series = std::nullopt;
 };
 
 /// A point to be told apart from the lines, such as a published value.
@@ -52,8 +56,13 @@ struct ErrorLinesSpec {
   std::string alt;  ///< Empty: one is made of the panels' numbers.
   std::vector<std::string> record_ids;
   std::vector<Note> notes;
+  double ceiling = std::numeric_limits<double>::infinity();  ///< Means above are off the frame,
+                                                             ///< and a note says so.
   double log_from = 20.0;  ///< Greatest over least mean from which the y axis is logarithmic.
 };
+
+/// The look of each label, in the order of their first appearance, by what its line asks for.
+std::vector<std::size_t> series_of(const std::vector<std::optional<std::size_t>>& asked);
 
 /// Lines with bands in panels that share the y axis, which is logarithmic if the means span more
 /// than `log_from`; else from 0, or from the lowest band where an interval reaches below.

@@ -15,6 +15,7 @@ Figure level_curve_figure(const LevelCurveSpec& spec) {
                               spec.quantity, spec.x_label);
   ErrorPanel& panel = lines.panels.emplace_back();
   panel.x.label = spec.x_label;
+  panel.x.scale = spec.x_scale;
   panel.lines = spec.methods;
   return error_lines_figure(lines);
 }

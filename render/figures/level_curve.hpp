@@ -12,6 +12,7 @@ struct LevelCurveSpec {
   std::string id;  ///< [a-z][a-z0-9-]*.
   std::string title;
   std::string x_label;  ///< With its unit: "bearing noise [°]", "missing entries [%]".
+  Scale x_scale = Scale::kLinear;
   std::string y_label = "MPE [m]";
   std::string quantity = "mean position error";
   std::vector<ErrorLine> methods;  ///< `x` holds the level.

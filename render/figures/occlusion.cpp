@@ -72,9 +72,12 @@ Panel errors(const OcclusionSpec& spec, const std::vector<double>& shares) {
   panel.y.label = "MPE [m]";
   panel.y.scale = axis.scale;
   panel.y.limits = axis.limits;
+  std::vector<std::optional<std::size_t>> asked;
+  for (const OcclusionMethod& method : spec.methods) asked.push_back(method.series);
+  const std::vector<std::size_t> series = series_of(asked);
   for (std::size_t i = 0; i < spec.methods.size(); ++i) {
     const OcclusionMethod& method = spec.methods[i];
-    const SeriesLook look = series_look(i);
+    const SeriesLook look = series_look(series[i]);
     Scatter points{.label = method.label,
                    .ink = look.ink,
                    .marker = look.marker,
@@ -132,10 +135,12 @@ Figure occlusion_figure(const OcclusionSpec& spec) {
     figure.alt = "No runs.";
   } else {
     const auto [low, high] = std::ranges::minmax(shares);
-    figure.alt = fmt::format(
+    const std::string share = fmt::format(
         "Occlusion decides {} % of the looks within reach on average over {}, {} to {} %.",
         significant(mean(shares)), counted(static_cast<long long>(shares.size()), "run"),
         significant(low), significant(high));
+    figure.caption += " " + share;
+    figure.alt = share;
     if (!spec.methods.empty()) figure.alt += " Correlation with the error:";
     for (const OcclusionMethod& method : spec.methods)
       figure.alt +=

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -10,8 +11,9 @@ namespace mapproof {
 /// One method's errors, one a run in the order of OcclusionSpec::hidden_share.
 struct OcclusionMethod {
   std::string label;
-  std::string key;            ///< [a-z0-9-]+, unique in the figure.
-  std::vector<double> mpe_m;  ///< NaN: no score.
+  std::string key;                                   ///< [a-z0-9-]+, unique in the figure.
+  std::vector<double> mpe_m;                         ///< NaN: no score.
+  std::optional<std::size_t> series = std::nullopt;  ///< As of ErrorLine.
 };
 
 struct OcclusionSpec {

@@ -14,7 +14,7 @@
 namespace mapproof {
 namespace {
 
-constexpr std::size_t kMostNamed = 14;  // Of more settings only those on the front are named.
+constexpr int kMostNamed = 14;  // Of more settings only those on the front are named.
 
 bool usable(const CostedSetting& setting) {
   return setting.seconds > 0.0 && !std::isnan(setting.mpe_m);
@@ -25,6 +25,51 @@ std::string duration(double seconds) {
   if (seconds < 1e-3) return significant(1e6 * seconds, 2) + " µs";
   if (seconds < 1.0) return significant(1e3 * seconds, 2) + " ms";
   return significant(seconds, 2) + " s";
+}
+
+/// The points of a Pareto figure and the words on them.
+struct ParetoLayers {
+  Polyline steps{
+      .label = "Pareto front", .ink = Ink::kSeries2, .dash = Dash::kDashed, .mark = {"front", {}}};
+  Scatter best{.label = "on the front", .ink = Ink::kSeries2, .marker = Marker::kDiamond};
+  Scatter beaten{.label = "beaten in both", .ink = Ink::kSeries1, .filled = false};
+  PointLabels names;
+  std::vector<std::string> words;  ///< Of those on the front.
+};
+
+void add_setting(Scatter& points, const CostedSetting& one, std::size_t i) {
+  add_point(points, {one.seconds, one.mpe_m});
+  points.marks.push_back({fmt::format("setting-{}", i + 1),
+                          {{"setting", one.label}, {"error", data_number(one.mpe_m)}}});
+}
+
+ParetoLayers layers_of(const std::vector<CostedSetting>& settings) {
+  ParetoLayers layers;
+  const std::vector<std::size_t> front = pareto_front(settings);
+  for (const std::size_t i : front) {
+    const CostedSetting& one = settings[i];
+    if (!layers.steps.x.empty()) add_point(layers.steps, {one.seconds, layers.steps.y.back()});
+    add_point(layers.steps, {one.seconds, one.mpe_m});
+    add_setting(layers.best, one, i);
+    add_label(layers.names, {one.seconds, one.mpe_m}, one.label);
+    layers.words.push_back(
+        fmt::format("{} ({} m in {})", one.label, significant(one.mpe_m), duration(one.seconds)));
+  }
+  const bool crowded = std::ranges::count_if(settings, usable) > kMostNamed;
+  for (std::size_t i = 0; i < settings.size(); ++i) {
+    const CostedSetting& one = settings[i];
+    if (!usable(one) || std::ranges::find(front, i) != front.end()) continue;
+    add_setting(layers.beaten, one, i);
+    if (!crowded) add_label(layers.names, {one.seconds, one.mpe_m}, one.label);
+  }
+  return layers;
+}
+
+void require_costs(const ParetoSpec& spec) {
+  for (const CostedSetting& one : spec.settings)
+    if (std::isinf(one.seconds) || std::isinf(one.mpe_m) || one.seconds < 0.0 || one.mpe_m < 0.0)
+      throw InvalidInput("figure " + printable(spec.id) + ": " + printable(one.label) +
+                         ": a value is infinite or negative");
 }
 
 }  // namespace
@@ -44,61 +89,35 @@ std::vector<std::size_t> pareto_front(const std::vector<CostedSetting>& settings
 }
 
 Figure pareto_figure(const ParetoSpec& spec) {
+  require_costs(spec);
+  std::vector<double> errors;
   for (const CostedSetting& one : spec.settings)
-    if (std::isinf(one.seconds) || std::isinf(one.mpe_m) || one.seconds < 0.0 || one.mpe_m < 0.0)
-      throw InvalidInput("figure " + printable(spec.id) + ": " + printable(one.label) +
-                         ": a value is infinite or negative");
-  const std::vector<std::size_t> front = pareto_front(spec.settings);
+    if (usable(one)) errors.push_back(one.mpe_m);
+  const ErrorAxis axis = error_axis(errors, {}, 8.0);
+  const ParetoLayers layers = layers_of(spec.settings);
+
   Figure figure;
   figure.id = spec.id;
   figure.title = spec.title;
   figure.record_ids = spec.record_ids;
   figure.varies = true;
-
-  std::vector<double> errors;
-  for (const CostedSetting& one : spec.settings)
-    if (usable(one)) errors.push_back(one.mpe_m);
-  const ErrorAxis axis = error_axis(errors, {}, 8.0);
   Panel& panel = figure.panels.emplace_back();
   panel.x.label = "seconds a map";
   panel.x.scale = Scale::kLog;
   panel.y.label = spec.y_label;
   panel.y.scale = axis.scale;
   panel.y.limits = axis.limits;
-  Polyline steps{
-      .label = "Pareto front", .ink = Ink::kSeries2, .dash = Dash::kDashed, .mark = {"front", {}}};
-  Scatter best{.label = "on the front", .ink = Ink::kSeries2, .marker = Marker::kDiamond};
-  Scatter beaten{.label = "beaten in both", .ink = Ink::kSeries1, .filled = false};
-  PointLabels names;
-  std::vector<std::string> words;
-  const bool crowded = errors.size() > kMostNamed;
-  const auto add = [&](Scatter& points, std::size_t i) {
-    const CostedSetting& one = spec.settings[i];
-    add_point(points, {one.seconds, one.mpe_m});
-    points.marks.push_back({fmt::format("setting-{}", i + 1),
-                            {{"setting", one.label}, {"error", data_number(one.mpe_m)}}});
-    if (crowded && &points == &beaten) return;
-    add_label(names, {one.seconds, one.mpe_m}, one.label);
-  };
-  for (const std::size_t i : front) {
-    const CostedSetting& one = spec.settings[i];
-    if (!steps.x.empty()) add_point(steps, {one.seconds, steps.y.back()});
-    add_point(steps, {one.seconds, one.mpe_m});
-    add(best, i);
-    words.push_back(
-        fmt::format("{} ({} m in {})", one.label, significant(one.mpe_m), duration(one.seconds)));
-  }
-  for (std::size_t i = 0; i < spec.settings.size(); ++i)
-    if (usable(spec.settings[i]) && std::ranges::find(front, i) == front.end()) add(beaten, i);
-  panel.layers = {steps, beaten, best, names};
+  panel.layers = {layers.steps, layers.beaten, layers.best, layers.names};
   std::erase_if(panel.layers, is_empty);
 
   figure.caption =
-      "Mean error against seconds a map, a point a setting; filled: no other is both faster and "
-      "better. Seconds are of one run of the program and differ from run to run.";
+      "Mean error against the median seconds of a map, those of the maps it starts from included, "
+      "a point a setting; filled: no other is both faster and better. Seconds are of one run of "
+      "the program and differ from run to run.";
   figure.alt = fmt::format("{} against seconds a map for {}.", spec.y_label,
                            counted(static_cast<long long>(errors.size()), "setting"));
-  if (!words.empty()) figure.alt += " On the Pareto front: " + listed(words, 12) + ".";
+  if (!layers.words.empty())
+    figure.alt += " On the Pareto front: " + listed(layers.words, 12) + ".";
   if (errors.empty()) figure.notes.push_back({"There are no settings.", Ink::kWarning});
   require_valid(figure);
   return figure;

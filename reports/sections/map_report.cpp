@@ -10,6 +10,7 @@
 #include "core/base/words.hpp"
 #include "render/figures/score_words.hpp"
 #include "reports/model/format.hpp"
+#include "reports/sections/proofs.hpp"
 #include "reports/sections/wording.hpp"
 
 namespace mapproof {
@@ -170,6 +171,7 @@ Section input_section(const MapReportInput& input) {
 
 Section statuses(const MapRecord& record) {
   Section section{"statuses", "What went other than well", {}};
+  if (record.certificate) section.blocks.emplace_back(certificate_items(*record.certificate));
   if (record.statuses.empty()) {
     section.blocks.emplace_back(plain("Nothing: the solve ended well."));
     return section;

@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include "core/base/words.hpp"
+#include "reports/model/format.hpp"
 #include "reports/sections/method_summary.hpp"
 #include "reports/sections/study_report.hpp"
 #include "reports/sections/wording.hpp"
@@ -67,12 +68,15 @@ Table sessions_table(std::span<const Session> sessions) {
                    {"Command", "", "", ""},
                    {"Host", "", "", ""},
                    {"Jobs", "", "", ""},
-                   {"Duration", "s", "", "Wall clock."}};
+                   {"Duration", "s", "", "Wall clock; the records alone, without figures."},
+                   {"Peak memory", "MiB", "", "Of the process."}};
   for (const Session& session : sessions)
     table.rows.push_back(
         {{TextCell{session.started_utc, Emphasis::kData},
           TextCell{session.command, Emphasis::kCode}, TextCell{session.host, Emphasis::kData},
-          NumberCell{static_cast<double>(session.jobs), 0}, NumberCell{session.seconds, 1}},
+          NumberCell{static_cast<double>(session.jobs), 0}, NumberCell{session.seconds, 1},
+          session.peak_memory_mib ? Cell{NumberCell{*session.peak_memory_mib, 0}}
+                                  : Cell{MissingCell{}}},
          "",
          false});
   return table;
@@ -84,14 +88,36 @@ struct Duration {
   double longest = 0.0;
 };
 
-Table durations_table(std::span<const Timing> timings) {
-  std::map<std::tuple<Sensor, Method>, Duration> durations;
+using Durations = std::map<std::tuple<Sensor, Method>, Duration>;
+
+Durations durations_of(std::span<const Timing> timings) {
+  Durations durations;
   for (const Timing& timing : timings) {
     Duration& duration = durations[{timing.sensor, timing.setting.method}];
     ++duration.maps;
     duration.seconds += timing.seconds;
     duration.longest = std::max(duration.longest, timing.seconds);
   }
+  return durations;
+}
+
+/// Which method took most of the seconds.
+Paragraph dominance(const Durations& durations) {
+  std::map<Method, double> seconds;
+  double sum = 0.0;
+  for (const auto& [key, duration] : durations) {
+    seconds[std::get<1>(key)] += duration.seconds;
+    sum += duration.seconds;
+  }
+  const auto most = std::ranges::max_element(seconds, {}, [](const auto& s) { return s.second; });
+  return plain(fmt::format(
+      "{} takes most of the time: {} % of the {} s that the maps took over all "
+      "threads, those of the variations aside.",
+      info(most->first).label, format_number(100.0 * most->second / std::max(sum, 1e-12), 0),
+      format_number(sum, 1)));
+}
+
+Table durations_table(const Durations& durations) {
   Table table;
   table.id = "durations";
   table.caption = "How long the maps took";
@@ -122,7 +148,10 @@ Section provenance_section(const Study& study, std::span<const Session> sessions
   section.blocks.emplace_back(experiment_items(study.experiment));
   section.blocks.emplace_back(provenance_items(study.provenance));
   if (!sessions.empty()) section.blocks.emplace_back(sessions_table(sessions));
-  if (!timings.empty()) section.blocks.emplace_back(durations_table(timings));
+  if (timings.empty()) return section;
+  const Durations durations = durations_of(timings);
+  section.blocks.emplace_back(dominance(durations));
+  section.blocks.emplace_back(durations_table(durations));
   return section;
 }
 

@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include "core/base/words.hpp"
+#include "reports/sections/proofs.hpp"
 
 namespace mapproof {
 namespace {
@@ -31,6 +32,7 @@ Report study_report(const StudyReportInput& input) {
   if (auto variations = variations_section(input.study))
     report.sections.push_back(*std::move(variations));
   report.sections.push_back(statuses_section(input.study));
+  if (auto proofs = proofs_section(input.study)) report.sections.push_back(*std::move(proofs));
   report.sections.push_back(
       provenance_section(input.study, input.sessions, input.timings, input.command));
   report.footer = fmt::format("Made by mapproof {} ({}).", input.study.provenance.version,

@@ -20,6 +20,9 @@ std::string_view meaning(StatusCode code) {
       return "The data have fewer than two dimensions: the map is flat or a point.";
     case StatusCode::kUndetermined:
       return "Other maps fit equally well: which of them came out is arbitrary.";
+    case StatusCode::kArbitraryNeighbours:
+      return "Some landmarks have fewer than K others ever seen together with them: the rest of "
+             "their neighbours are arbitrary.";
     case StatusCode::kLandmarkUnseen:
       return "Some landmarks were never observed; they are missing from the map.";
     case StatusCode::kDistancesCompleted:

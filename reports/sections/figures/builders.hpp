@@ -13,6 +13,13 @@ namespace mapproof {
 /// not allow is left out. Ids of paper figures are the experiment's; the others are made of what
 /// they show and the sensor: "mpe-bearing-graph".
 
+/// The look of a method's line, the same in all figures (see series_look). Methods on a neighbour
+/// graph, and those without one, differ in colour among themselves.
+std::size_t series_of_method(Method method);
+
+/// label(), cut to what stands above a small panel: "SMACOF kNN, K = 7".
+std::string short_label(const MethodSetting& setting);
+
 /// The paper's figures of one kind.
 std::vector<Figure> idea_figures(FigureSource& source);
 std::vector<Figure> measurement_figures(FigureSource& source);

@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 
+#include "core/statistics/intervals.hpp"
 #include "render/figures/critical_difference.hpp"
 #include "render/figures/pareto.hpp"
 #include "render/figures/shepard.hpp"
@@ -61,7 +62,7 @@ void add_distances(FigureSource& source, const SensorStudy& sensor, const RunId&
   for (const SettingSummary& best : source.best(sensor)) {
     const MapRecord* map = source.map(run, best.sensor, best.setting, best.step);
     if (map == nullptr || map->frame != Frame::kTruth || best.step != details->step) continue;
-    spec.methods.push_back({label(best.setting),
+    spec.methods.push_back({short_label(best.setting),
                             {details->distances.begin(), details->distances.end()},
                             map_distances(map->estimate)});
     spec.record_ids.push_back(map->id);
@@ -79,7 +80,8 @@ void add_spectra(FigureSource& source, const SensorStudy& sensor, const RunId& r
                            run.layout, run.pose);
   bool any = false;
   for (const SettingSummary& best : source.best(sensor)) {
-    SpectrumPanel& panel = spec.methods.emplace_back(label(best.setting), std::vector<double>());
+    SpectrumPanel& panel =
+        spec.methods.emplace_back(short_label(best.setting), std::vector<double>());
     for (const auto& [setting, values] : details->spectra)
       if (setting == best.setting) panel.eigenvalues.assign(values.begin(), values.end());
     any = any || !panel.eigenvalues.empty();
@@ -87,6 +89,34 @@ void add_spectra(FigureSource& source, const SensorStudy& sensor, const RunId& r
   }
   if (any) figures.push_back(spectrum_figure(spec));
 }
+
+/// What the maps of a study took, by sensor, step and setting.
+class SecondsOfMaps {
+ public:
+  explicit SecondsOfMaps(std::span<const Timing> timings) {
+    for (const Timing& timing : timings)
+      seconds_[key(timing.sensor, timing.step, timing.setting)].push_back(timing.seconds);
+  }
+
+  /// The median over runs, with that of the maps that the method starts from: they are made once
+  /// for all that start from them. Empty if nothing was timed.
+  std::optional<double> of(Sensor sensor, int step, const MethodSetting& setting) const {
+    const auto found = seconds_.find(key(sensor, step, setting));
+    if (found == seconds_.end()) return std::nullopt;
+    double sum = median(found->second);
+    if (const auto start = info(setting.method).starts_from)
+      sum += of(sensor, step, {*start, std::nullopt}).value_or(0.0);
+    return sum;
+  }
+
+ private:
+  using Key = std::tuple<Sensor, int, Method, double>;
+  static Key key(Sensor sensor, int step, const MethodSetting& setting) {
+    return {sensor, step, setting.method, setting.parameter.value_or(0.0)};
+  }
+
+  std::map<Key, std::vector<double>> seconds_;
+};
 
 }  // namespace
 
@@ -103,26 +133,16 @@ std::vector<Figure> comparison_figures(FigureSource& source) {
 }
 
 std::vector<Figure> cost_figures(FigureSource& source, std::span<const Timing> timings) {
-  using Key = std::tuple<Sensor, int, Method, double>;
-  std::map<Key, std::pair<double, int>> seconds;
-  const auto key = [](Sensor sensor, int step, const MethodSetting& setting) {
-    return Key{sensor, step, setting.method, setting.parameter.value_or(0.0)};
-  };
-  for (const Timing& timing : timings) {
-    auto& [sum, count] = seconds[key(timing.sensor, timing.step, timing.setting)];
-    sum += timing.seconds;
-    ++count;
-  }
+  const SecondsOfMaps seconds(timings);
   std::vector<Figure> figures;
   for (const SensorStudy& sensor : source.study().experiment.sensors) {
     ParetoSpec spec;
     spec.id = fmt::format("cost-{}", name(sensor.sensor.sensor));
     spec.title = fmt::format("{}: error against seconds a map", title_of(sensor.sensor.sensor));
     for (const SettingSummary& best : source.best(sensor)) {
-      const auto found = seconds.find(key(best.sensor, best.step, best.setting));
-      if (found == seconds.end() || !best.mpe_m) continue;
-      spec.settings.push_back(
-          {label(best.setting), found->second.first / found->second.second, best.mpe_m->mean});
+      const auto cost = seconds.of(best.sensor, best.step, best.setting);
+      if (!cost || !best.mpe_m) continue;
+      spec.settings.push_back({label(best.setting), *cost, best.mpe_m->mean});
       spec.record_ids.push_back(source_of(best));
     }
     if (!spec.settings.empty()) figures.push_back(pareto_figure(spec));

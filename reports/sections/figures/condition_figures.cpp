@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include "core/base/words.hpp"
 #include "render/figures/anchor_count.hpp"
 #include "render/figures/error_lines.hpp"
 #include "render/figures/level_curve.hpp"
@@ -27,8 +28,8 @@ void add_point(ErrorLine& line, double x, const std::optional<MeanEstimate>& est
 ErrorLine line_over_levels(const Variation& variation, const VariedSetting& setting) {
   ErrorLine line;
   line.label = label(setting.setting);
-  line.key = slug(setting.setting);
-  std::ranges::transform(line.key, line.key.begin(), [](char c) { return c == 'K' ? 'k' : c; });
+  line.key = lower_case(slug(setting.setting));
+  line.series = series_of_method(setting.setting.method);
   std::ranges::replace(line.key, '.', '-');
   for (std::size_t i = 0; i < variation.levels.size(); ++i)
     add_point(line, shown_level(variation, variation.levels[i]), setting.mpe_m[i]);
@@ -51,6 +52,18 @@ std::string level_title(const Variation& variation, double level) {
   return level > 0.0 ? "pairs seen together alone" : "all pairs";
 }
 
+/// "K" where all methods are tuned by it; "parameter" where they differ.
+std::string parameter_words(const Variation& variation) {
+  std::string words;
+  for (const MethodSetting& setting : variation.settings) {
+    const auto& parameter = info(setting.method).parameter;
+    const std::string shown = parameter ? std::string(parameter->shown) : "parameter";
+    if (!words.empty() && words != shown) return "parameter";
+    words = shown;
+  }
+  return words;
+}
+
 /// A panel a level, error over the parameter.
 Figure grid_figure(const Study& study, const Variation& variation) {
   const std::vector<VariedSetting> settings = summarize(study, variation);
@@ -60,11 +73,12 @@ Figure grid_figure(const Study& study, const Variation& variation) {
   for (std::size_t level = 0; level < variation.levels.size(); ++level) {
     ErrorPanel panel;
     panel.title = level_title(variation, variation.levels[level]);
-    panel.x = {.label = "parameter", .limits = {}};
+    panel.x = {.label = parameter_words(variation), .limits = {}};
     for (const MethodGrid& grid : grids_of(variation.settings)) {
       ErrorLine line;
       line.label = std::string(info(grid.method).label);
       line.key = std::string(info(grid.method).name);
+      line.series = series_of_method(grid.method);
       for (const VariedSetting& setting : settings)
         if (setting.setting.method == grid.method)
           add_point(line, setting.setting.parameter.value_or(0.0), setting.mpe_m[level]);
@@ -85,19 +99,9 @@ Figure level_figure(const Study& study, const Variation& variation) {
   for (const VariedSetting& setting : summarize(study, variation))
     spec.methods.push_back(line_over_levels(variation, setting));
   spec.record_ids = {record_of(variation)};
-  if (variation.quantity == Quantity::kSmacofKnnFall ||
-      variation.quantity == Quantity::kSmacofFall) {
-    ErrorPanel panel;
-    panel.x.label = spec.x_label;
-    panel.x.scale = Scale::kLog;
-    panel.lines = spec.methods;
-    ErrorLinesSpec lines;
-    lines.id = spec.id;
-    lines.title = spec.title;
-    lines.panels.push_back(std::move(panel));
-    lines.record_ids = spec.record_ids;
-    if (variation.levels.front() > 0.0) return error_lines_figure(lines);
-  }
+  const bool is_fall =
+      variation.quantity == Quantity::kSmacofKnnFall || variation.quantity == Quantity::kSmacofFall;
+  if (is_fall && variation.levels.front() > 0.0) spec.x_scale = Scale::kLog;
   return level_curve_figure(spec);
 }
 
@@ -117,6 +121,7 @@ void add_anchors(const Study& study, Sensor sensor, std::vector<Figure>& figures
       ErrorLine line = line_over_levels(variation, setting);
       line.label = std::string(name(placement));
       line.key = variation.id;
+      line.series.reset();
       panel->placements.push_back(std::move(line));
     }
     spec.record_ids.push_back(record_of(variation));
@@ -140,7 +145,10 @@ void add_occlusion(FigureSource& source, std::vector<Figure>& figures) {
     }
   if (runs.empty()) return;
   for (const SettingSummary& best : source.best(*sensor)) {
-    OcclusionMethod method{label(best.setting), std::string(info(best.setting.method).name), {}};
+    OcclusionMethod method{.label = label(best.setting),
+                           .key = std::string(info(best.setting.method).name),
+                           .mpe_m = {},
+                           .series = series_of_method(best.setting.method)};
     for (const Run* run : runs) {
       const auto found = std::ranges::find_if(run->records, [&](const RunRecord& record) {
         return record.sensor == best.sensor && record.setting == best.setting &&

@@ -37,6 +37,7 @@ ErrorLine curve(const Steps& steps, const Measure& measure) {
   ErrorLine curve;
   curve.label = label(steps.front().setting);
   curve.key = std::string(info(steps.front().setting.method).name);
+  curve.series = series_of_method(steps.front().setting.method);
   bool any_interval = false;
   for (const SettingSummary& summary : steps) {
     const auto& estimate = summary.*measure.estimate;

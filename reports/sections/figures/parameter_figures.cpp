@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include "core/base/words.hpp"
 #include "render/figures/error_by_parameter.hpp"
 #include "reports/sections/figures/builders.hpp"
 #include "reports/sections/wording.hpp"
@@ -12,7 +13,8 @@ namespace {
 
 constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 
-char lower_case(char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c; }
+/// A map off by this many sides of the room says nothing but that it is wrong.
+constexpr double kOffTheRoom = 10.0;
 
 using Estimate = std::optional<MeanEstimate> SettingSummary::*;
 
@@ -22,6 +24,7 @@ ParameterLine parameter_line(const std::vector<SettingSummary>& values, Estimate
   ParameterLine line;
   line.line.label = std::string(method.label);
   line.line.key = std::string(method.name);
+  line.line.series = series_of_method(method.method);
   for (const SettingSummary& summary : values) {
     const auto& mean = summary.*estimate;
     const auto interval = interval_of(mean);
@@ -39,16 +42,16 @@ ParameterLine parameter_line(const std::vector<SettingSummary>& values, Estimate
 
 /// The figure of all methods with that parameter: methods of different ones err on different
 /// scales.
-void add_figure(const SensorStudy& sensor, const std::vector<SettingSummary>& all,
-                const ParameterInfo& parameter, bool of_mpe, std::vector<Figure>& figures) {
+void add_figure(const WorldOptions& world, const SensorStudy& sensor,
+                const std::vector<SettingSummary>& all, const ParameterInfo& parameter, bool of_mpe,
+                std::vector<Figure>& figures) {
   ParameterGroup group{.symbol = std::string(parameter.shown),
                        .title = std::string(parameter.meaning),
                        .scale = parameter.integer ? Scale::kLinear : Scale::kLog,
                        .whole = parameter.integer,
                        .methods = {}};
   ErrorByParameterSpec spec;
-  std::string file_symbol(parameter.symbol);
-  std::ranges::transform(file_symbol, file_symbol.begin(), lower_case);
+  const std::string file_symbol = lower_case(std::string(parameter.symbol));
   spec.id = fmt::format("parameter-{}-{}-{}", of_mpe ? "mpe" : "moe", name(sensor.sensor.sensor),
                         file_symbol);
   spec.title = fmt::format("{}: {} over {}", title_of(sensor.sensor.sensor), of_mpe ? "MPE" : "MOE",
@@ -73,6 +76,7 @@ void add_figure(const SensorStudy& sensor, const std::vector<SettingSummary>& al
   }
   if (group.methods.empty()) return;
   spec.groups.push_back(std::move(group));
+  if (of_mpe) spec.ceiling = kOffTheRoom * world.side_m;
   figures.push_back(error_by_parameter_figure(spec));
 }
 
@@ -94,7 +98,8 @@ std::vector<Figure> parameter_figures(FigureSource& source) {
   for (const SensorStudy& sensor : source.study().experiment.sensors) {
     const auto all = summarize(source.study(), sensor, last_step(sensor));
     for (const ParameterInfo* parameter : parameters_of(sensor))
-      for (const bool of_mpe : {true, false}) add_figure(sensor, all, *parameter, of_mpe, figures);
+      for (const bool of_mpe : {true, false})
+        add_figure(source.study().experiment.world, sensor, all, *parameter, of_mpe, figures);
   }
   return figures;
 }

@@ -1,0 +1,38 @@
+#include "core/embed/seen_together.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "core/base/words.hpp"
+#include "core/graph/components.hpp"
+
+namespace mapproof {
+
+std::optional<Status> arbitrary_neighbours(const NeighbourLists& nearest, int neighbours,
+                                           double apart) {
+  if (!std::isfinite(apart)) return std::nullopt;
+  const auto is_apart = [&](const Edge& edge) { return edge.length >= apart; };
+  NeighbourLists together = nearest;
+  long long landmarks = 0;
+  for (std::vector<Edge>& edges : together) {
+    if (std::ssize(edges) > neighbours) edges.resize(static_cast<std::size_t>(neighbours));
+    if (std::erase_if(edges, is_apart) > 0) ++landmarks;
+  }
+  if (landmarks == 0) return std::nullopt;
+
+  std::string text = fmt::format(
+      "{} {} fewer than K = {} others ever seen together with {}; the rest of the K are arbitrary.",
+      counted(landmarks, "landmark"), landmarks == 1 ? "has" : "have", neighbours,
+      landmarks == 1 ? "it" : "them");
+  const int pieces = std::ranges::max(components(neighbour_graph(together, neighbours))) + 1;
+  if (pieces > 1)
+    text += fmt::format(
+        " Without those the graph is in {} pieces: how they lie to each other is arbitrary too.",
+        pieces);
+  return Status{StatusCode::kArbitraryNeighbours, std::move(text)};
+}
+
+}  // namespace mapproof

@@ -1,0 +1,20 @@
+#pragma once
+
+#include <optional>
+
+#include "core/graph/neighbours.hpp"
+#include "core/model/status.hpp"
+
+namespace mapproof {
+
+/// Tells whether neighbours were chosen among landmarks of which the observations say nothing.
+///
+/// @param nearest  K or more of each landmark, nearest first (see nearest_neighbours).
+/// @param apart  The distance of landmarks never seen together; infinite: there are no such.
+/// @return kArbitraryNeighbours, with how many landmarks have such neighbours among their first K,
+///         and into how many pieces the graph falls without them; empty if none has.
+/// @note O(n K log n).
+std::optional<Status> arbitrary_neighbours(const NeighbourLists& nearest, int neighbours,
+                                           double apart);
+
+}  // namespace mapproof

@@ -1,0 +1,42 @@
+#include <algorithm>
+#include <array>
+
+#include <fmt/format.h>
+
+#include "reports/sections/figures/builders.hpp"
+
+namespace mapproof {
+
+std::size_t series_of_method(Method method) {
+  // There are seven colours: the last three take those of the first three, which are of the other
+  // family, with other dashes and markers.
+  constexpr std::array kOrder = {
+      Method::kSmacofKnn,    Method::kSde,
+      Method::kIsomap,       Method::kLle,
+      Method::kHessianLle,   Method::kLaplacianEigenmap,
+      Method::kSmacof,       Method::kLpca,
+      Method::kKpcaGaussian, Method::kKpcaPolynomial,
+  };
+  return static_cast<std::size_t>(std::ranges::find(kOrder, method) - kOrder.begin());
+}
+
+std::string short_label(const MethodSetting& setting) {
+  const std::string parameter = parameter_text(setting);
+  const auto with = [&](std::string_view method) {
+    return parameter.empty() ? std::string(method) : fmt::format("{}, {}", method, parameter);
+  };
+  switch (setting.method) {
+    case Method::kSmacof:
+      return with("SMACOF");
+    case Method::kSmacofKnn:
+      return with("SMACOF kNN");
+    case Method::kKpcaGaussian:
+      return with("KPCA Gauss");
+    case Method::kKpcaPolynomial:
+      return with("KPCA poly");
+    default:
+      return label(setting);
+  }
+}
+
+}  // namespace mapproof
