@@ -9,8 +9,6 @@
 #include "core/embed/lpca.hpp"
 #include "core/embed/smacof.hpp"
 #include "core/linalg/planarity.hpp"
-#include "core/linalg/symmetric_eigen.hpp"
-#include "core/simulate/sensors.hpp"
 #include "tests/support/worlds.hpp"
 
 namespace mapproof {
@@ -36,32 +34,6 @@ MethodSetting setting(const MethodInfo& method, double side = 1.0) {
 bool has(const Embedding& embedding, StatusCode code) {
   return std::ranges::any_of(embedding.statuses,
                              [&](const Status& status) { return status.code == code; });
-}
-
-TEST(LargestEigenpairs, AgreeDenseAndLanczos) {
-  const Points points = scattered(400, 3);
-  Eigen::MatrixXd A = (-3.0 * distances_of(points)).array().exp();
-  const EigenPairs few = largest_eigenpairs(A, 4);     // Lanczos
-  const EigenPairs many = largest_eigenpairs(A, 100);  // dense
-  EXPECT_LT((few.values - many.values.head(4)).cwiseAbs().maxCoeff(), 1e-9);
-  EXPECT_LT((A * few.vectors - few.vectors * few.values.asDiagonal()).norm(), 1e-8);
-  EXPECT_LT((few.vectors - many.vectors.leftCols(4)).cwiseAbs().maxCoeff(), 1e-7);
-}
-
-// The symmetry of a square grid makes its eigenvalues come in pairs.
-TEST(LargestEigenpairs, FindBothCopiesOfADoubleEigenvalue) {
-  for (const Eigen::Index side : {10, 16, 20}) {
-    const Eigen::MatrixXd A = (-test::distances_of(test::grid(side, side))).array().exp();
-    const EigenPairs few = largest_eigenpairs(A, 10);            // Lanczos
-    const EigenPairs many = largest_eigenpairs(A, side * side);  // dense
-    EXPECT_LT((few.values - many.values.head(10)).cwiseAbs().maxCoeff(), 1e-9) << side;
-  }
-}
-
-TEST(LargestEigenpairs, RefuseWhatIsNoMatrix) {
-  EXPECT_THROW(largest_eigenpairs(Eigen::MatrixXd::Zero(2, 3), 1), InvalidInput);
-  EXPECT_THROW(largest_eigenpairs(Eigen::MatrixXd::Zero(2, 2), 3), InvalidInput);
-  EXPECT_THROW(largest_eigenpairs(Eigen::MatrixXd::Constant(2, 2, NAN), 1), InvalidInput);
 }
 
 TEST(Lpca, RecoversPointsFromTheirDistances) {
@@ -297,60 +269,6 @@ INSTANTIATE_TEST_SUITE_P(Registry, EveryMethod, ::testing::ValuesIn(all_methods(
                            std::erase(name, '-');
                            return name;
                          });
-
-TEST(HistoryEmbedder, LeavesUnseenLandmarksOutAndNamesThem) {
-  Eigen::MatrixXd angles = Eigen::MatrixXd::NullaryExpr(10, 50, [](Eigen::Index i, Eigen::Index j) {
-    const auto row = static_cast<double>(i);
-    return std::sin(row) + 0.01 * static_cast<double>(j) * row;
-  });
-  angles.row(3).setConstant(NAN);
-  ObservationHistory history{
-      .sensor = Sensor::kBearing, .names = landmark_names(10), .values = angles};
-  const Embedding map = HistoryEmbedder(history, 50).embed({Method::kLpca, std::nullopt});
-  EXPECT_TRUE(map.coordinates.row(3).hasNaN());
-  EXPECT_TRUE(map.coordinates.row(2).allFinite());
-  ASSERT_TRUE(has(map, StatusCode::kLandmarkUnseen));
-  EXPECT_NE(map.statuses.back().detail.find("L4"), std::string::npos);
-}
-
-TEST(HistoryEmbedder, NamesTenUnseenLandmarksAndCountsTheRest) {
-  Eigen::MatrixXd seen = Eigen::MatrixXd::Zero(20, 6);
-  seen.topRows(5).setOnes();
-  const ObservationHistory history{
-      .sensor = Sensor::kVisibility, .names = landmark_names(20), .values = seen};
-  const Embedding map = HistoryEmbedder(history, 6).embed({Method::kLpca, std::nullopt});
-  const std::string detail = map.statuses.back().detail;
-  EXPECT_TRUE(detail.ends_with("L14, L15 and 5 more.")) << detail;
-}
-
-TEST(HistoryEmbedder, RefusesStepsThatTheHistoryDoesNotHave) {
-  const ObservationHistory history{.sensor = Sensor::kVisibility,
-                                   .names = landmark_names(5),
-                                   .values = Eigen::MatrixXd::Ones(5, 10)};
-  for (const Eigen::Index steps : {-1, 0, 11}) {
-    EXPECT_THROW(HistoryEmbedder(history, steps), InvalidInput) << steps;
-    EXPECT_THROW(unseen_landmarks(history, steps), InvalidInput) << steps;
-  }
-}
-
-TEST(HistoryEmbedder, FailsPolitelyWhenNothingWasSeen) {
-  ObservationHistory history{.sensor = Sensor::kVisibility,
-                             .names = landmark_names(5),
-                             .values = Eigen::MatrixXd::Zero(5, 10)};
-  const Embedding map = HistoryEmbedder(history, 10).embed({Method::kIsomap, 3.0});
-  EXPECT_TRUE(has(map, StatusCode::kFailed));
-  EXPECT_EQ(map.coordinates.rows(), 5);
-}
-
-TEST(MethodNames, FindTheNearest) {
-  EXPECT_EQ(nearest_method_name("isomp"), "isomap");
-  EXPECT_EQ(nearest_method_name("smacof_knn"), "smacof-knn");
-  EXPECT_FALSE(method_named("ISOMAP"));
-  for (const MethodInfo& method : all_methods()) {
-    EXPECT_EQ(info(method.method).name, method.name);
-    EXPECT_EQ(method_named(method.name), method.method);
-  }
-}
 
 }  // namespace
 }  // namespace mapproof

@@ -8,14 +8,18 @@
 #include "core/experiment/run.hpp"
 #include "reports/sections/method_summary.hpp"
 #include "reports/sections/study_report.hpp"
+#include "tests/reports/section_words.hpp"
 #include "tests/reports/synthetic_study.hpp"
 #include "tests/support/worlds.hpp"
 
 namespace mapproof {
 namespace {
 
+using test::says;
 using test::synthetic_mpe;
 using test::synthetic_study;
+using test::table_named;
+using test::words;
 
 const MethodSetting kIsomap4{Method::kIsomap, 4};
 const MethodSetting kIsomap6{Method::kIsomap, 6};
@@ -26,36 +30,6 @@ SettingSummary summary_of(const Study& study, const MethodSetting& setting) {
   for (const SettingSummary& summary : summarize(study, visibility(study), 2000))
     if (summary.setting == setting) return summary;
   return {};
-}
-
-const Table& table_named(const Section& section, const std::string& id) {
-  for (const Block& block : section.blocks)
-    if (const auto* table = std::get_if<Table>(&block); table != nullptr && table->id == id)
-      return *table;
-  throw std::runtime_error("no table " + id);
-}
-
-/// Every word of a section, for what is said rather than where.
-std::string words(const Section& section) {
-  std::string text;
-  const auto add = [&](const Paragraph& paragraph) {
-    for (const Phrase& phrase : paragraph.phrases) text += phrase.text;
-    text += '\n';
-  };
-  for (const Block& block : section.blocks) {
-    if (const auto* paragraph = std::get_if<Paragraph>(&block)) add(*paragraph);
-    if (const auto* callout = std::get_if<Callout>(&block)) {
-      text += callout->title + ": ";
-      add(callout->text);
-    }
-    if (const auto* bullets = std::get_if<BulletList>(&block))
-      for (const Paragraph& item : bullets->items) add(item);
-  }
-  return text;
-}
-
-bool says(const Section& section, const std::string& what) {
-  return words(section).find(what) != std::string::npos;
 }
 
 TEST(Summarize, AveragesOverRunsAndTakesLayoutsAsUnits) {
@@ -251,163 +225,6 @@ TEST(SummarySection, CopesWithAStudyWithoutARun) {
   EXPECT_FALSE(says(section, "ended well"));
   EXPECT_NO_THROW(accuracy_section(study, visibility(study)));
   EXPECT_NO_THROW(statuses_section(study));
-}
-
-TEST(StatusesSection, CountsMapsOfEachKindAndListsFailuresFirst) {
-  const Section section = statuses_section(synthetic_study(5, 2));
-  const auto& list = std::get<StatusList>(section.blocks.back());
-  EXPECT_EQ(list.items[0].code, "failed");
-  EXPECT_EQ(list.items[0].count, 4);
-  EXPECT_EQ(list.items[0].of, 40);
-  EXPECT_EQ(list.items[0].places[0].record_id, "layout-1-pose-1/visibility/isomap-K4/500");
-  for (const StatusList::Item& item : list.items) {
-    EXPECT_LE(item.places.size(), 5u);
-    EXPECT_FALSE(item.meaning.empty());
-  }
-}
-
-TEST(StatusesSection, CountsAMapOnceThatCarriesOneStatusTwice) {
-  Study study = synthetic_study(1, 1);
-  study.runs[0].records.resize(1);
-  study.runs[0].records[0].statuses = {{StatusCode::kBridged, "a"}, {StatusCode::kBridged, "b"}};
-  const Section section = statuses_section(study);
-  EXPECT_EQ(std::get<StatusList>(section.blocks.back()).items[0].count, 1);
-}
-
-TEST(ProvenanceSection, HoldsTheCommandTheSeedAndTheVersions) {
-  const Study study = synthetic_study();
-  const auto timings = test::synthetic_timings(study);
-  const auto sessions = test::synthetic_sessions();
-  const Section section = provenance_section(study, sessions, timings, "mapproof run x");
-  std::string facts;
-  for (const Block& block : section.blocks)
-    if (const auto* pairs = std::get_if<KeyValues>(&block))
-      for (const auto& item : pairs->items) facts += item.key + "=" + item.value.text + "\n";
-  for (const char* fact : {"Command=mapproof run x\n", "Seed=2007\n", "Built with=Eigen 3.4.0\n",
-                           "Commit=0123456789ab\n", "mapproof=0.1.0\n"})
-    EXPECT_NE(facts.find(fact), std::string::npos) << fact << facts;
-  const Table& durations = table_named(section, "durations");
-  EXPECT_EQ(std::get<NumberCell>(durations.rows[0].cells[2]).value, 40);
-  EXPECT_NEAR(std::get<NumberCell>(durations.rows[0].cells[3]).value, 1.0, 1e-9);
-}
-
-TEST(StudyReport, KeepsItsOwnRulesForAnyNumberOfRuns) {
-  for (const int layouts : {0, 1, 5}) {
-    const Study study = synthetic_study(layouts, 1);
-    const StudyFigures figures = test::synthetic_figures(study);
-    EXPECT_NO_THROW(check(study_report({study, {}, {}, figures, ""}))) << layouts;
-  }
-}
-
-/// The ids of a group's figures; empty if there is no such group.
-std::vector<std::string> ids_of(const StudyFigures& figures, const std::string& group) {
-  std::vector<std::string> ids;
-  for (const FigureGroup& candidate : figures.groups)
-    if (candidate.id == group)
-      for (const Figure& figure : candidate.figures) ids.push_back(figure.id);
-  return ids;
-}
-
-TEST(StudyFigures, AreTheCurvesOfBothFamiliesAndTheMedianMapOfEachMethod) {
-  const Study study = synthetic_study(5, 1);
-  const StudyFigures figures = test::synthetic_figures(study);
-  EXPECT_EQ(ids_of(figures, "curves"),
-            (std::vector<std::string>{"mpe-visibility-global", "mpe-visibility-graph",
-                                      "mpe-bearing-global", "mpe-bearing-graph",
-                                      "moe-visibility-global", "moe-visibility-graph",
-                                      "moe-bearing-global", "moe-bearing-graph"}));
-  EXPECT_EQ(ids_of(figures, "maps").back(), "map-bearing-isomap");
-  for (const Figure* figure : all_figures(figures))
-    if (figure->id == "map-bearing-isomap") {
-      EXPECT_EQ(figure->record_ids.front(), "layout-3-pose-1/bearing/isomap-K6/2000");
-    }
-}
-
-TEST(StudyFigures, DoWithoutMapsThatCannotBeRead) {
-  const Study study = synthetic_study(2, 1);
-  const StudyFigures figures =
-      study_figures(study, {},
-                    {.maps = [](const RunId&) { return std::vector<MapRecord>{}; },
-                     .details = [](const RunId&) { return std::nullopt; }});
-  EXPECT_TRUE(ids_of(figures, "maps").empty());
-  EXPECT_FALSE(ids_of(figures, "curves").empty());
-  EXPECT_TRUE(ids_of(figures, "cost").empty());
-}
-
-Experiment experiment_with_everything() {
-  Experiment experiment = test::small_experiment();
-  experiment.layouts = 2;
-  experiment.poses = 3;
-  for (SensorStudy& sensor : experiment.sensors)
-    sensor.methods = {{Method::kLpca, {}}, {Method::kIsomap, {5, 6}}};
-  const MethodSetting isomap{Method::kIsomap, 6.0};
-  const auto variation = [&](const char* id, Quantity quantity, std::vector<double> levels) {
-    return Variation{.id = id,
-                     .sensor = Sensor::kVisibility,
-                     .quantity = quantity,
-                     .levels = std::move(levels),
-                     .step = 200,
-                     .placement = std::nullopt,
-                     .settings = {{Method::kLpca, std::nullopt}, isomap}};
-  };
-  experiment.variations = {variation("noise", Quantity::kNoise, {0.0, 0.1}),
-                           variation("anchors", Quantity::kAnchors, {3, 4, 6}),
-                           variation("together", Quantity::kOnlySeenTogether, {0, 1})};
-  experiment.variations[2].settings = {{Method::kIsomap, 5.0}, isomap};
-  const auto figure = [](const char* id, FigureKind kind) {
-    return PaperFigure{.id = id, .kind = kind, .methods = {}, .example = {}};
-  };
-  experiment.figures = {
-      figure("fig-1", FigureKind::kIdea), figure("fig-2", FigureKind::kMeasurement),
-      figure("fig-4", FigureKind::kErrorCurve), figure("fig-7", FigureKind::kMap)};
-  experiment.figures[2].methods = {Method::kIsomap};
-  experiment.figures[3].methods = {Method::kIsomap};
-  experiment.figures[3].example = PublishedValue{.setting = isomap, .mpe_m = 0.1};
-  return experiment;
-}
-
-TEST(StudyFigures, AreOfEveryKindThatAStudyAllows) {
-  Study study{.experiment = experiment_with_everything(), .provenance = {}, .runs = {}};
-  std::map<RunId, RunResult> results;
-  std::vector<Timing> timings;
-  for (const RunId& id : runs_of(study.experiment)) {
-    results[id] = simulate_run(study.experiment, id);
-    study.runs.push_back(results[id].run);
-    timings.insert(timings.end(), results[id].timings.begin(), results[id].timings.end());
-  }
-  const StudyFigures figures =
-      study_figures(study, timings,
-                    {.maps = [&](const RunId& run) { return results.at(run).maps; },
-                     .details = [&](const RunId& run) { return results.at(run).details; }});
-  EXPECT_EQ(ids_of(figures, "observations"), (std::vector<std::string>{"fig-1", "fig-2"}));
-  EXPECT_EQ(ids_of(figures, "curves"),
-            (std::vector<std::string>{"fig-4", "mpe-visibility-others", "mpe-bearing-global",
-                                      "mpe-bearing-graph", "moe-visibility-global",
-                                      "moe-visibility-graph", "moe-bearing-global",
-                                      "moe-bearing-graph"}));
-  EXPECT_EQ(ids_of(figures, "maps"),
-            (std::vector<std::string>{"fig-7", "map-visibility-lpca", "map-visibility-isomap",
-                                      "map-bearing-lpca", "map-bearing-isomap"}));
-  EXPECT_EQ(ids_of(figures, "forming"),
-            (std::vector<std::string>{"forming-visibility", "scatter-visibility", "forming-bearing",
-                                      "scatter-bearing"}));
-  EXPECT_EQ(ids_of(figures, "parameters").size(), 4U);
-  EXPECT_EQ(ids_of(figures, "comparison").size(), 6U);
-  EXPECT_EQ(ids_of(figures, "conditions"),
-            (std::vector<std::string>{"anchors-visibility", "occlusion-visibility", "level-noise",
-                                      "level-together"}));
-  EXPECT_EQ(ids_of(figures, "cost"), (std::vector<std::string>{"cost-visibility", "cost-bearing"}));
-  for (const Figure* figure : all_figures(figures)) {
-    EXPECT_EQ(problem(*figure), "") << figure->id;
-    EXPECT_EQ(figure->varies, figure->id.starts_with("cost-")) << figure->id;
-    EXPECT_FALSE(figure->alt.empty()) << figure->id;
-  }
-  const Report report = study_report({study, {}, timings, figures, ""});
-  EXPECT_NO_THROW(check(report));
-  EXPECT_EQ(
-      std::ranges::count_if(tables(report),
-                            [](const Table* table) { return table->id.starts_with("variation-"); }),
-      3);
 }
 
 }  // namespace

@@ -1,0 +1,106 @@
+#include <algorithm>
+#include <cmath>
+
+#include <gtest/gtest.h>
+
+#include "core/base/errors.hpp"
+#include "core/embed/embedder.hpp"
+#include "core/simulate/sensors.hpp"
+
+namespace mapproof {
+namespace {
+
+bool has(const Embedding& embedding, StatusCode code) {
+  return std::ranges::any_of(embedding.statuses,
+                             [&](const Status& status) { return status.code == code; });
+}
+
+TEST(HistoryEmbedder, LeavesUnseenLandmarksOutAndNamesThem) {
+  Eigen::MatrixXd angles = Eigen::MatrixXd::NullaryExpr(10, 50, [](Eigen::Index i, Eigen::Index j) {
+    const auto row = static_cast<double>(i);
+    return std::sin(row) + 0.01 * static_cast<double>(j) * row;
+  });
+  angles.row(3).setConstant(NAN);
+  ObservationHistory history{
+      .sensor = Sensor::kBearing, .names = landmark_names(10), .values = angles};
+  const Embedding map = HistoryEmbedder(history, 50).embed({Method::kLpca, std::nullopt});
+  EXPECT_TRUE(map.coordinates.row(3).hasNaN());
+  EXPECT_TRUE(map.coordinates.row(2).allFinite());
+  ASSERT_TRUE(has(map, StatusCode::kLandmarkUnseen));
+  EXPECT_NE(map.statuses.back().detail.find("L4"), std::string::npos);
+}
+
+TEST(HistoryEmbedder, NamesTenUnseenLandmarksAndCountsTheRest) {
+  Eigen::MatrixXd seen = Eigen::MatrixXd::Zero(20, 6);
+  seen.topRows(5).setOnes();
+  const ObservationHistory history{
+      .sensor = Sensor::kVisibility, .names = landmark_names(20), .values = seen};
+  const Embedding map = HistoryEmbedder(history, 6).embed({Method::kLpca, std::nullopt});
+  const std::string detail = map.statuses.back().detail;
+  EXPECT_TRUE(detail.ends_with("L14, L15 and 5 more.")) << detail;
+}
+
+TEST(HistoryEmbedder, RefusesStepsThatTheHistoryDoesNotHave) {
+  const ObservationHistory history{.sensor = Sensor::kVisibility,
+                                   .names = landmark_names(5),
+                                   .values = Eigen::MatrixXd::Ones(5, 10)};
+  for (const Eigen::Index steps : {-1, 0, 11}) {
+    EXPECT_THROW(HistoryEmbedder(history, steps), InvalidInput) << steps;
+    EXPECT_THROW(unseen_landmarks(history, steps), InvalidInput) << steps;
+  }
+}
+
+TEST(HistoryEmbedder, FailsPolitelyWhenNothingWasSeen) {
+  ObservationHistory history{.sensor = Sensor::kVisibility,
+                             .names = landmark_names(5),
+                             .values = Eigen::MatrixXd::Zero(5, 10)};
+  const Embedding map = HistoryEmbedder(history, 10).embed({Method::kIsomap, 3.0});
+  EXPECT_TRUE(has(map, StatusCode::kFailed));
+  EXPECT_EQ(map.coordinates.rows(), 5);
+}
+
+/// Landmarks seen by twos and threes in two rooms, the door between them shut.
+ObservationHistory two_rooms(Eigen::Index landmarks_each) {
+  const Eigen::Index n = landmarks_each;
+  ObservationHistory history{.sensor = Sensor::kVisibility,
+                             .names = landmark_names(static_cast<int>(2 * n)),
+                             .values = Eigen::MatrixXd::Zero(2 * n, 2 * n)};
+  for (Eigen::Index i = 0; i < n; ++i)
+    for (Eigen::Index room = 0; room < 2; ++room) {
+      const Eigen::Index step = room * n + i;
+      for (Eigen::Index next = 0; next < 3; ++next)
+        history.values(room * n + (i + next) % n, step) = 1.0;
+    }
+  return history;
+}
+
+std::string detail_of(const Embedding& embedding, StatusCode code) {
+  for (const Status& status : embedding.statuses)
+    if (status.code == code) return status.detail;
+  return "";
+}
+
+TEST(HistoryEmbedder, SaysWhenNeighboursWereNeverSeenTogether) {
+  const ObservationHistory history = two_rooms(8);
+  HistoryEmbedder embedder(history, 16);
+  for (const MethodInfo& method : all_methods()) {
+    if (!on_graph(method.method)) continue;
+    // Each landmark was seen together with four others.
+    const std::string few =
+        detail_of(embedder.embed({method.method, 6.0}), StatusCode::kArbitraryNeighbours);
+    EXPECT_TRUE(few.starts_with("16 landmarks have fewer than K = 6 others")) << few;
+    EXPECT_NE(few.find("the graph is in 2 pieces"), std::string::npos) << method.name << few;
+    EXPECT_FALSE(has(embedder.embed({method.method, 4.0}), StatusCode::kArbitraryNeighbours))
+        << method.name;
+  }
+}
+
+TEST(HistoryEmbedder, LeavesNeighboursNeverSeenTogetherOutOnRequest) {
+  HistoryEmbedder embedder(two_rooms(8), 16, {.only_seen_together = true});
+  const Embedding map = embedder.embed({Method::kIsomap, 6.0});
+  EXPECT_FALSE(has(map, StatusCode::kArbitraryNeighbours));
+  EXPECT_TRUE(has(map, StatusCode::kBridged));
+}
+
+}  // namespace
+}  // namespace mapproof

@@ -1,0 +1,106 @@
+#include <limits>
+
+#include <gtest/gtest.h>
+
+#include "reports/sections/proofs.hpp"
+#include "reports/sections/study_report.hpp"
+#include "tests/reports/section_words.hpp"
+#include "tests/reports/synthetic_study.hpp"
+
+namespace mapproof {
+namespace {
+
+using test::says;
+using test::synthetic_study;
+using test::table_named;
+
+TEST(StatusesSection, CountsMapsOfEachKindAndListsFailuresFirst) {
+  const Section section = statuses_section(synthetic_study(5, 2));
+  const auto& list = std::get<StatusList>(section.blocks.back());
+  EXPECT_EQ(list.items[0].code, "failed");
+  EXPECT_EQ(list.items[0].count, 4);
+  EXPECT_EQ(list.items[0].of, 40);
+  EXPECT_EQ(list.items[0].places[0].record_id, "layout-1-pose-1/visibility/isomap-K4/500");
+  for (const StatusList::Item& item : list.items) {
+    EXPECT_LE(item.places.size(), 5u);
+    EXPECT_FALSE(item.meaning.empty());
+  }
+}
+
+TEST(StatusesSection, CountsAMapOnceThatCarriesOneStatusTwice) {
+  Study study = synthetic_study(1, 1);
+  study.runs[0].records.resize(1);
+  study.runs[0].records[0].statuses = {{StatusCode::kBridged, "a"}, {StatusCode::kBridged, "b"}};
+  const Section section = statuses_section(study);
+  EXPECT_EQ(std::get<StatusList>(section.blocks.back()).items[0].count, 1);
+}
+
+TEST(ProvenanceSection, HoldsTheCommandTheSeedAndTheVersions) {
+  const Study study = synthetic_study();
+  const auto timings = test::synthetic_timings(study);
+  const auto sessions = test::synthetic_sessions();
+  const Section section = provenance_section(study, sessions, timings, "mapproof run x");
+  std::string facts;
+  for (const Block& block : section.blocks)
+    if (const auto* pairs = std::get_if<KeyValues>(&block))
+      for (const auto& item : pairs->items) facts += item.key + "=" + item.value.text + "\n";
+  for (const char* fact : {"Command=mapproof run x\n", "Seed=2007\n", "Built with=Eigen 3.4.0\n",
+                           "Commit=0123456789ab\n", "mapproof=0.1.0\n"})
+    EXPECT_NE(facts.find(fact), std::string::npos) << fact << facts;
+  const Table& durations = table_named(section, "durations");
+  EXPECT_EQ(std::get<NumberCell>(durations.rows[0].cells[2]).value, 40);
+  EXPECT_NEAR(std::get<NumberCell>(durations.rows[0].cells[3]).value, 1.0, 1e-9);
+}
+
+TEST(StudyReport, KeepsItsOwnRulesForAnyNumberOfRuns) {
+  for (const int layouts : {0, 1, 5}) {
+    const Study study = synthetic_study(layouts, 1);
+    const StudyFigures figures = test::synthetic_figures(study);
+    EXPECT_NO_THROW(check(study_report({study, {}, {}, figures, ""}))) << layouts;
+  }
+}
+
+TEST(ProvenanceSection, SaysWhichMethodTakesMostOfTheTime) {
+  const Study study = synthetic_study();
+  std::vector<Timing> timings = test::synthetic_timings(study);
+  for (Timing& timing : timings)
+    timing.seconds = timing.setting.method == Method::kSmacof ? 3.0 : 1e-6;
+  const Section section = provenance_section(study, {}, timings, "");
+  EXPECT_TRUE(says(section, "SMACOF, equal weights takes most of the time: 100 %"))
+      << test::words(section);
+}
+
+TEST(ProofsSection, IsLeftOutWithoutASemidefiniteProgram) {
+  EXPECT_FALSE(proofs_section(synthetic_study()));
+}
+
+TEST(ProofsSection, CountsWhatIsProvedAndNamesTheWorstRecord) {
+  Study study = synthetic_study(2, 1);
+  const auto proved = [](double gap) {
+    return Certificate{SdpSolver::kInteriorPoint, 10.0, 10.0 * (1.0 + gap), gap, 1e-9};
+  };
+  auto& records = study.runs[1].records;
+  const MethodSetting sde{Method::kSde, 6.0};
+  for (std::size_t i = 0; i < 3; ++i) records[i].setting = sde;
+  for (std::size_t i = 0; i < 3; ++i) records[i].sensor = Sensor::kVisibility;
+  records[0].certificate = proved(1e-9);
+  records[1].certificate = proved(3e-4);
+  records[2].certificate =
+      Certificate{SdpSolver::kLowRank, 10.0, std::numeric_limits<double>::infinity(),
+                  std::numeric_limits<double>::infinity(), 0.0};
+  const auto section = proofs_section(study);
+  ASSERT_TRUE(section);
+  EXPECT_TRUE(says(*section,
+                   "3 programs solved, 2 by interior point (ours) and 1 by low rank "
+                   "(ours)"))
+      << test::words(*section);
+  EXPECT_TRUE(says(*section, "1 of them lie within 1e-6")) << test::words(*section);
+  const Table& table = table_named(*section, "proofs");
+  ASSERT_EQ(table.rows.size(), 2U);
+  EXPECT_EQ(std::get<TextCell>(table.rows[0].cells[5]).text, "3.0e-04");
+  EXPECT_EQ(table.rows[0].source, record_id({2, 1}, Sensor::kVisibility, sde, records[1].step));
+  EXPECT_EQ(std::get<TextCell>(table.rows[1].cells[5]).text, "no bound");
+}
+
+}  // namespace
+}  // namespace mapproof

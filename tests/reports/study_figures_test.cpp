@@ -1,0 +1,142 @@
+#include <algorithm>
+#include <map>
+#include <set>
+
+#include <gtest/gtest.h>
+
+#include "core/experiment/run.hpp"
+#include "render/figures/error_lines.hpp"
+#include "reports/sections/figures/builders.hpp"
+#include "reports/sections/study_report.hpp"
+#include "tests/reports/synthetic_study.hpp"
+#include "tests/support/worlds.hpp"
+
+namespace mapproof {
+namespace {
+
+using test::synthetic_study;
+
+/// The ids of a group's figures; empty if there is no such group.
+std::vector<std::string> ids_of(const StudyFigures& figures, const std::string& group) {
+  std::vector<std::string> ids;
+  for (const FigureGroup& candidate : figures.groups)
+    if (candidate.id == group)
+      for (const Figure& figure : candidate.figures) ids.push_back(figure.id);
+  return ids;
+}
+
+TEST(StudyFigures, AreTheCurvesOfBothFamiliesAndTheMedianMapOfEachMethod) {
+  const Study study = synthetic_study(5, 1);
+  const StudyFigures figures = test::synthetic_figures(study);
+  EXPECT_EQ(ids_of(figures, "curves"),
+            (std::vector<std::string>{"mpe-visibility-global", "mpe-visibility-graph",
+                                      "mpe-bearing-global", "mpe-bearing-graph",
+                                      "moe-visibility-global", "moe-visibility-graph",
+                                      "moe-bearing-global", "moe-bearing-graph"}));
+  EXPECT_EQ(ids_of(figures, "maps").back(), "map-bearing-isomap");
+  for (const Figure* figure : all_figures(figures))
+    if (figure->id == "map-bearing-isomap") {
+      EXPECT_EQ(figure->record_ids.front(), "layout-3-pose-1/bearing/isomap-K6/2000");
+    }
+}
+
+TEST(StudyFigures, DoWithoutMapsThatCannotBeRead) {
+  const Study study = synthetic_study(2, 1);
+  const StudyFigures figures =
+      study_figures(study, {},
+                    {.maps = [](const RunId&) { return std::vector<MapRecord>{}; },
+                     .details = [](const RunId&) { return std::nullopt; }});
+  EXPECT_TRUE(ids_of(figures, "maps").empty());
+  EXPECT_FALSE(ids_of(figures, "curves").empty());
+  EXPECT_TRUE(ids_of(figures, "cost").empty());
+}
+
+Experiment experiment_with_everything() {
+  Experiment experiment = test::small_experiment();
+  experiment.layouts = 2;
+  experiment.poses = 3;
+  for (SensorStudy& sensor : experiment.sensors)
+    sensor.methods = {{Method::kLpca, {}}, {Method::kIsomap, {5, 6}}};
+  const MethodSetting isomap{Method::kIsomap, 6.0};
+  const auto variation = [&](const char* id, Quantity quantity, std::vector<double> levels) {
+    return Variation{.id = id,
+                     .sensor = Sensor::kVisibility,
+                     .quantity = quantity,
+                     .levels = std::move(levels),
+                     .step = 200,
+                     .placement = std::nullopt,
+                     .settings = {{Method::kLpca, std::nullopt}, isomap}};
+  };
+  experiment.variations = {variation("noise", Quantity::kNoise, {0.0, 0.1}),
+                           variation("anchors", Quantity::kAnchors, {3, 4, 6}),
+                           variation("together", Quantity::kOnlySeenTogether, {0, 1})};
+  experiment.variations[2].settings = {{Method::kIsomap, 5.0}, isomap};
+  const auto figure = [](const char* id, FigureKind kind) {
+    return PaperFigure{.id = id, .kind = kind, .methods = {}, .example = {}};
+  };
+  experiment.figures = {
+      figure("fig-1", FigureKind::kIdea), figure("fig-2", FigureKind::kMeasurement),
+      figure("fig-4", FigureKind::kErrorCurve), figure("fig-7", FigureKind::kMap)};
+  experiment.figures[2].methods = {Method::kIsomap};
+  experiment.figures[3].methods = {Method::kIsomap};
+  experiment.figures[3].example = PublishedValue{.setting = isomap, .mpe_m = 0.1};
+  return experiment;
+}
+
+TEST(StudyFigures, AreOfEveryKindThatAStudyAllows) {
+  Study study{.experiment = experiment_with_everything(), .provenance = {}, .runs = {}};
+  std::map<RunId, RunResult> results;
+  std::vector<Timing> timings;
+  for (const RunId& id : runs_of(study.experiment)) {
+    results[id] = simulate_run(study.experiment, id);
+    study.runs.push_back(results[id].run);
+    timings.insert(timings.end(), results[id].timings.begin(), results[id].timings.end());
+  }
+  const StudyFigures figures =
+      study_figures(study, timings,
+                    {.maps = [&](const RunId& run) { return results.at(run).maps; },
+                     .details = [&](const RunId& run) { return results.at(run).details; }});
+  EXPECT_EQ(ids_of(figures, "observations"), (std::vector<std::string>{"fig-1", "fig-2"}));
+  EXPECT_EQ(ids_of(figures, "curves"),
+            (std::vector<std::string>{"fig-4", "mpe-visibility-others", "mpe-bearing-global",
+                                      "mpe-bearing-graph", "moe-visibility-global",
+                                      "moe-visibility-graph", "moe-bearing-global",
+                                      "moe-bearing-graph"}));
+  EXPECT_EQ(ids_of(figures, "maps"),
+            (std::vector<std::string>{"fig-7", "map-visibility-lpca", "map-visibility-isomap",
+                                      "map-bearing-lpca", "map-bearing-isomap"}));
+  EXPECT_EQ(ids_of(figures, "forming"),
+            (std::vector<std::string>{"forming-visibility", "scatter-visibility", "forming-bearing",
+                                      "scatter-bearing"}));
+  EXPECT_EQ(ids_of(figures, "parameters").size(), 4U);
+  EXPECT_EQ(ids_of(figures, "comparison").size(), 6U);
+  EXPECT_EQ(ids_of(figures, "conditions"),
+            (std::vector<std::string>{"anchors-visibility", "occlusion-visibility", "level-noise",
+                                      "level-together"}));
+  EXPECT_EQ(ids_of(figures, "cost"), (std::vector<std::string>{"cost-visibility", "cost-bearing"}));
+  for (const Figure* figure : all_figures(figures)) {
+    EXPECT_EQ(problem(*figure), "") << figure->id;
+    EXPECT_EQ(figure->varies, figure->id.starts_with("cost-")) << figure->id;
+    EXPECT_FALSE(figure->alt.empty()) << figure->id;
+  }
+  const Report report = study_report({study, {}, timings, figures, ""});
+  EXPECT_NO_THROW(check(report));
+  EXPECT_EQ(
+      std::ranges::count_if(tables(report),
+                            [](const Table* table) { return table->id.starts_with("variation-"); }),
+      3);
+}
+
+TEST(SeriesOfMethod, KeepsColoursOfOneFamilyApart) {
+  for (const bool graph : {false, true}) {
+    std::set<Ink> inks;
+    for (const MethodInfo& method : all_methods())
+      if (on_graph(method.method) == graph) {
+        const Ink ink = series_look(series_of_method(method.method)).ink;
+        EXPECT_TRUE(inks.insert(ink).second) << method.name;
+      }
+  }
+}
+
+}  // namespace
+}  // namespace mapproof
