@@ -77,6 +77,25 @@ struct EllipseLayers {
   }
 };
 
+/// The limits with all of the ellipses, as far as half the width beyond where they began.
+PanelLimits widened(const PanelLimits& limits, const Ellipses& ellipses) {
+  const auto reach = [&](bool along_x, std::size_t i) {
+    const double c = std::cos(ellipses.turn_rad[i]), s = std::sin(ellipses.turn_rad[i]);
+    const double a = ellipses.a[i] * (along_x ? c : s), b = ellipses.b[i] * (along_x ? s : c);
+    return std::hypot(a, b);
+  };
+  const auto widen = [&](Range range, const std::vector<double>& centres, bool along_x) {
+    const double most = 0.5 * (range.high - range.low);
+    const Range bound{range.low - most, range.high + most};
+    for (std::size_t i = 0; i < centres.size(); ++i) {
+      range.low = std::min(range.low, centres[i] - reach(along_x, i));
+      range.high = std::max(range.high, centres[i] + reach(along_x, i));
+    }
+    return Range{std::max(range.low, bound.low), std::min(range.high, bound.high)};
+  };
+  return {widen(limits.x, ellipses.x, true), widen(limits.y, ellipses.y, false)};
+}
+
 /// What the words say.
 struct EllipseSummary {
   std::size_t placed = 0;        ///< Landmarks with a mean.
@@ -156,14 +175,16 @@ ScatterEllipse scatter_ellipse(const std::vector<Points>& estimates_m, Eigen::In
 
 Figure ellipse_map_figure(const EllipseMapSpec& spec) {
   require_consistent(spec);
-  const PanelLimits limits = limits_of(spec.truth_m);
   EllipseLayers layers;
-  EllipseSummary summary;
+  std::vector<ScatterEllipse> ellipses;
   for (Eigen::Index i = 0; i < spec.truth_m.rows(); ++i) {
-    const ScatterEllipse ellipse = scatter_ellipse(spec.estimates_m, i);
-    layers.add(spec, i, ellipse);
-    summary.add(spec, i, ellipse, limits);
+    ellipses.push_back(scatter_ellipse(spec.estimates_m, i));
+    layers.add(spec, i, ellipses.back());
   }
+  const PanelLimits limits = widened(limits_of(spec.truth_m), layers.scatter);
+  EllipseSummary summary;
+  for (Eigen::Index i = 0; i < spec.truth_m.rows(); ++i)
+    summary.add(spec, i, ellipses[static_cast<std::size_t>(i)], limits);
   Figure figure;
   figure.id = spec.id;
   figure.title = spec.title;

@@ -4,6 +4,7 @@
 
 #include <fmt/format.h>
 
+#include "core/base/words.hpp"
 #include "reports/model/format.hpp"
 
 namespace mapproof {
@@ -12,7 +13,8 @@ namespace {
 using kainjow::mustache::data;
 using kainjow::mustache::list;
 
-constexpr std::size_t kLongCell = 80;  ///< Longer texts scroll in a box of their own.
+constexpr std::size_t kMostRowsOpen = 30;  ///< Longer tables are folded until asked for.
+constexpr std::size_t kLongCell = 80;      ///< Longer texts scroll in a box of their own.
 
 bool any_group(const Table& table) {
   for (const Column& column : table.columns)
@@ -120,6 +122,8 @@ data table_data(const Table& table, const HtmlOptions& options) {
   rows.reserve(table.rows.size());
   for (const Row& row : table.rows) rows.push_back(row_data(table, row));
   out.set("any_rows", !rows.empty());
+  out.set("folded", data(table.rows.size() > kMostRowsOpen));
+  out.set("row_count", counted(std::ssize(table.rows), "row"));
   out.set("table_rows", rows);
   list notes;
   for (const std::string& note : table.notes) notes.push_back(data("note", note));

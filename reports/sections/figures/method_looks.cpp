@@ -20,8 +20,19 @@ std::size_t series_of_method(Method method) {
   return static_cast<std::size_t>(std::ranges::find(kOrder, method) - kOrder.begin());
 }
 
+namespace {
+
+std::string with_hard_spaces(const std::string& text) {
+  std::string hard;
+  for (const char c : text) hard += c == ' ' ? "\u00A0" : std::string(1, c);
+  return hard;
+}
+
+}  // namespace
+
 std::string short_label(const MethodSetting& setting) {
-  const std::string parameter = parameter_text(setting);
+  // Not to be broken: what is above a small panel takes two lines.
+  const std::string parameter = with_hard_spaces(parameter_text(setting));
   const auto with = [&](std::string_view method) {
     return parameter.empty() ? std::string(method) : fmt::format("{}, {}", method, parameter);
   };
@@ -35,7 +46,7 @@ std::string short_label(const MethodSetting& setting) {
     case Method::kKpcaPolynomial:
       return with("KPCA poly");
     default:
-      return label(setting);
+      return with(info(setting.method).label);
   }
 }
 
