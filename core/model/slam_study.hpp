@@ -1,0 +1,108 @@
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include <Eigen/Core>
+
+#include "core/model/slam.hpp"
+#include "core/model/study.hpp"
+#include "core/statistics/intervals.hpp"
+
+namespace mapproof {
+
+/// The ways to a path and a map from odometry and ranges that are held against each other.
+enum class SlamMethod {
+  kDeadReckoning,        ///< Odometry alone; baseline.
+  kEkf,                  ///< Extended Kalman filter; baseline.
+  kSpectralKnown,        ///< Algorithm 1, rank 4, known landmarks [boots2013].
+  kSpectralKnown7,       ///< With heading, rank 7 [boots2013, eq. 4], known landmarks.
+  kSpectral,             ///< Rank 4, no landmark known: metric upgrade.
+  kSpectral7,            ///< Rank 7, no landmark known.
+  kBatchFixedScale,      ///< Nonlinear least squares, range scale held at 1; baseline.
+  kRefined,              ///< Nonlinear least squares, scale free, started from kSpectral.
+  kRefinedFromOdometry,  ///< The same, started from dead reckoning.
+  kRefinedFromRandom,    ///< The same, landmarks started at random places.
+};
+
+/// Everything about a method that needs no solver.
+struct SlamMethodInfo {
+  SlamMethod method;
+  std::string_view name;   ///< In files and on the command line: "spectral-known".
+  std::string_view label;  ///< In figures and tables.
+  std::string_view summary;
+  bool baseline = false;
+  bool knows_landmarks = false;             ///< Needs four or more landmarks' true places.
+  Alignment alignment = Alignment::kRigid;  ///< Under which its error is reported first.
+};
+
+/// All of them in the order of the tables.
+std::span<const SlamMethodInfo> all_slam_methods();
+const SlamMethodInfo& info(SlamMethod method);
+std::optional<SlamMethod> slam_method_named(std::string_view name);
+
+/// What one method made of one log.
+struct SlamRecord {
+  SlamMethod method = SlamMethod::kSpectral;
+  SlamEstimate estimate;  ///< In the frame of its first alignment, the truth's if there is one.
+  std::vector<TrajectoryError> errors;  ///< Under each alignment tried, the first the method's own.
+  std::vector<double> error_m;  ///< Under the first alignment, one a pose; empty without truth.
+};
+
+/// Window lengths tried and what each predicted of ranges it had not seen.
+struct WindowChoice {
+  std::vector<double> lengths_s;
+  std::vector<double> held_out_m;  ///< Typical error of the predicted ranges; NaN: failed outright.
+  double chosen_s = 0.0;
+};
+
+/// Everything made of one log: what figures and tables need.
+struct SlamRun {
+  std::string id;  ///< [a-z0-9-]+: "plaza-1".
+  RangeLog log;
+  std::optional<WindowChoice> windows;
+  std::vector<SlamRecord> records;
+};
+
+/// Means over random pairs of path and environment, after so many readings.
+struct ConvergencePoint {
+  int steps = 0;             ///< Columns of Y; readings are landmarks times as many.
+  MeanEstimate observation;  ///< Frobenius norm of C-hat - C [boots2013, Figure 1B].
+  MeanEstimate landmarks_m;  ///< Mean distance of landmarks from their places.
+  MeanEstimate positions_m;  ///< Mean distance of the robot's positions from theirs.
+  MeanEstimate sine;         ///< Largest sine of the canonical angles of the map's subspace.
+  double bound = 0.0;        ///< Eq. 5's, its constant fitted at the first point.
+};
+
+/// One noise model's convergence.
+struct ConvergenceCurve {
+  std::string id;     ///< [a-z0-9-]+: "white", "correlated".
+  std::string title;  ///< "white noise, 1 % of range".
+  std::vector<ConvergencePoint> points;
+  double slope = 0.0;  ///< Of log observation error over log steps, by least squares.
+};
+
+/// Seconds of the factorisation and upgrade; vary from run to run.
+struct FactorizationCost {
+  int landmarks = 0;
+  long steps = 0;
+  double seconds = 0.0;
+};
+
+/// A range-only study: a simulated example, convergence over many, and logs of real robots.
+struct SlamStudy {
+  std::string name;  ///< "boots2013".
+  std::string title;
+  std::uint64_t seed = 0;
+  Provenance provenance;
+  std::vector<SlamRun> runs;  ///< The simulated example first, if there is one.
+  std::vector<ConvergenceCurve> convergence;
+  std::vector<std::string> missing;  ///< Data asked for that are not there, with how to get them.
+};
+
+}  // namespace mapproof
