@@ -48,10 +48,11 @@ struct TrajectoryError {
   Alignment alignment = Alignment::kNone;
   double mean_m = 0.0;
   double rmse_m = 0.0;
-  double last_tenth_m = 0.0;          ///< Mean over the last 10 % of the path.
-  double best_tenth_m = 0.0;          ///< Least mean over 10 % of the path in one piece.
-  double worst_tenth_m = 0.0;         ///< Greatest mean over 10 % of the path in one piece.
+  double last_tenth_m = 0.0;          ///< Mean over the last 10 % of the time.
+  double best_tenth_m = 0.0;          ///< Least mean over 10 % of the time in one piece.
+  double worst_tenth_m = 0.0;         ///< Greatest mean over 10 % of the time in one piece.
   std::optional<double> landmarks_m;  ///< Mean over the landmarks that have a true place.
+  Eigen::Index poses = 0;             ///< True poses that were compared.
 };
 
 }  // namespace mapproof

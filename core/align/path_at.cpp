@@ -1,0 +1,32 @@
+#include "core/align/path_at.hpp"
+
+#include <algorithm>
+#include <limits>
+
+#include "core/base/errors.hpp"
+
+namespace mapproof {
+
+Points positions_at(const Trajectory& path, const Eigen::VectorXd& times_s) {
+  const Eigen::VectorXd& own = path.time_s;
+  if (path.positions_m.rows() != path.size())
+    throw InvalidInput("a path needs a position for each of its times");
+  for (Eigen::Index i = 1; i < own.size(); ++i)
+    if (!(own(i) > own(i - 1))) throw InvalidInput("the times of a path must ascend");
+
+  Points positions = Points::Constant(times_s.size(), 2, std::numeric_limits<double>::quiet_NaN());
+  for (Eigen::Index i = 0; i < times_s.size(); ++i) {
+    const auto after = std::lower_bound(own.begin(), own.end(), times_s(i)) - own.begin();
+    if (after == own.size()) continue;
+    if (own(after) == times_s(i)) {
+      positions.row(i) = path.positions_m.row(after);
+    } else if (after > 0) {
+      const double share = (times_s(i) - own(after - 1)) / (own(after) - own(after - 1));
+      positions.row(i) =
+          (1.0 - share) * path.positions_m.row(after - 1) + share * path.positions_m.row(after);
+    }
+  }
+  return positions;
+}
+
+}  // namespace mapproof

@@ -1,0 +1,13 @@
+#pragma once
+
+#include "core/model/range_log.hpp"
+
+namespace mapproof {
+
+/// Positions of a path at other times, on straight lines between its poses: n x 2, a row a time;
+/// NaN before its first and after its last pose.
+/// @throws InvalidInput if the times of the path do not ascend, or its sizes differ.
+/// @note O(n log T).
+Points positions_at(const Trajectory& path, const Eigen::VectorXd& times_s);
+
+}  // namespace mapproof

@@ -1,0 +1,53 @@
+#include "core/align/rigid.hpp"
+
+#include <complex>
+
+#include "core/base/errors.hpp"
+
+namespace mapproof {
+namespace {
+
+using Complex = std::complex<double>;
+
+Eigen::Matrix2d turn_of(Complex unit) {
+  Eigen::Matrix2d R;
+  R << unit.real(), -unit.imag(), unit.imag(), unit.real();
+  return R;
+}
+
+}  // namespace
+
+Similarity fit_similarity(const Points& from, const Points& to, Alignment alignment) {
+  if (from.rows() < 1 || from.rows() != to.rows())
+    throw InvalidInput("an alignment needs pairs of points");
+  if (!from.allFinite() || !to.allFinite()) throw InvalidInput("an alignment needs finite points");
+  if (alignment == Alignment::kNone) return {};
+
+  // Points as complex numbers about their centres: a turn is a factor, a mirror the conjugate. The
+  // best factor has the direction of sum conj(a) b; mirrored, of sum a b; the longer sum fits
+  // better.
+  const Eigen::RowVector2d from_center = from.colwise().mean();
+  const Eigen::RowVector2d to_center = to.colwise().mean();
+  Complex plain = 0.0;
+  Complex mirrored = 0.0;
+  double spread = 0.0;
+  for (Eigen::Index i = 0; i < from.rows(); ++i) {
+    const Complex a(from(i, 0) - from_center(0), from(i, 1) - from_center(1));
+    const Complex b(to(i, 0) - to_center(0), to(i, 1) - to_center(1));
+    plain += std::conj(a) * b;
+    mirrored += a * b;
+    spread += std::norm(a);
+  }
+  const bool is_mirrored = alignment == Alignment::kRigidWithReflection &&
+                           std::abs(mirrored) > std::abs(plain) * (1.0 + 1e-12);
+  const Complex sum = is_mirrored ? mirrored : plain;
+
+  Similarity map;
+  if (std::abs(sum) > 0.0) map.rotation = turn_of(sum / std::abs(sum));
+  if (is_mirrored) map.rotation.col(1) *= -1.0;
+  if (alignment == Alignment::kSimilarity && spread > 0.0) map.scale = std::abs(sum) / spread;
+  map.offset = to_center - map.scale * from_center * map.rotation.transpose();
+  return map;
+}
+
+}  // namespace mapproof

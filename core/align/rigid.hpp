@@ -1,0 +1,30 @@
+#pragma once
+
+#include <Eigen/Core>
+
+#include "core/model/points.hpp"
+#include "core/model/slam.hpp"
+
+namespace mapproof {
+
+/// z -> scale * rotation * z + offset, points as rows. A mirror is a rotation of determinant -1.
+struct Similarity {
+  double scale = 1.0;
+  Eigen::Matrix2d rotation = Eigen::Matrix2d::Identity();
+  Eigen::RowVector2d offset = Eigen::RowVector2d::Zero();
+
+  Points operator()(const Points& points) const {
+    return (scale * points * rotation.transpose()).rowwise() + offset;
+  }
+};
+
+/// The map of that kind that takes `from` closest to `to` in least squares [umeyama1991], in closed
+/// form. The identity for kNone.
+///
+/// Where the points fix no turn, because they of one side are all in one place, it does not turn
+/// (and does not scale, if that is the side of `from`).
+/// @param from, to  n x 2, finite, n >= 1.
+/// @throws InvalidInput if the bounds above are broken.
+Similarity fit_similarity(const Points& from, const Points& to, Alignment alignment);
+
+}  // namespace mapproof

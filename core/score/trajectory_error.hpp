@@ -1,0 +1,31 @@
+#pragma once
+
+#include <optional>
+
+#include "core/align/rigid.hpp"
+#include "core/model/slam.hpp"
+
+namespace mapproof {
+
+/// The map from the frame of `path` to that of `truth` which an error is taken after: fitted over
+/// the true poses within the time of `path`, at their times. Landmarks play no part in it.
+/// @return Empty if the two have fewer than 2 poses in common.
+/// @throws InvalidInput if the times of a path do not ascend, or its sizes differ.
+std::optional<Similarity> path_alignment(const Trajectory& path, const Trajectory& truth,
+                                         Alignment alignment);
+
+/// Position errors at the times of the true poses that lie within the time of the estimate, whose
+/// path is straight between its poses. A tenth is a tenth of that time; the best and the worst one
+/// are sought among all that begin at a true pose.
+///
+/// @param true_landmarks  N x 2, NaN rows: not surveyed; or empty.
+/// @return Empty if fewer than 2 poses can be compared. Landmarks without an estimated place do not
+///         count.
+/// @throws InvalidInput as above, or if the landmarks differ in number.
+/// @note O(T log T).
+std::optional<TrajectoryError> trajectory_error(const SlamEstimate& estimate,
+                                                const Trajectory& truth,
+                                                const std::optional<Points>& true_landmarks,
+                                                Alignment alignment);
+
+}  // namespace mapproof
