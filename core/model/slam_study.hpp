@@ -55,7 +55,7 @@ struct SlamRecord {
 };
 
 /// Window lengths tried and what each predicted of ranges it had not seen.
-struct WindowChoice {
+struct WindowCurve {
   std::vector<double> lengths_s;
   std::vector<double> held_out_m;  ///< Typical error of the predicted ranges; NaN: failed outright.
   double chosen_s = 0.0;
@@ -63,9 +63,11 @@ struct WindowChoice {
 
 /// Everything made of one log: what figures and tables need.
 struct SlamRun {
-  std::string id;  ///< [a-z0-9-]+: "plaza-1".
+  std::string id;      ///< [a-z0-9-]+: "plaza-1".
+  std::string figure;  ///< Id of the figure of its paths: "fig-2b".
   RangeLog log;
-  std::optional<WindowChoice> windows;
+  std::vector<Eigen::Index> known;  ///< Landmarks whose places some methods are given.
+  std::optional<WindowCurve> windows;
   std::vector<SlamRecord> records;
 };
 
@@ -87,11 +89,40 @@ struct ConvergenceCurve {
   double slope = 0.0;  ///< Of log observation error over log steps, by least squares.
 };
 
+/// What a mapping method [yairi2007], or the spectral map, made of one history of ranges.
+struct RangeHistoryMap {
+  std::optional<MethodSetting> setting;  ///< Empty: the spectral map, no landmark known.
+  bool squared = false;                  ///< Of squared ranges rather than ranges.
+  Points positions_m;                    ///< N x 2, by the affine map that fits all landmarks best.
+  std::vector<Status> statuses;
+  std::optional<Score> score;  ///< Empty if no map came out.
+};
+
+/// The mapping methods and the spectral map on the same ranges of one simulated world.
+struct RangeHistoryStudy {
+  Points landmarks_m;  ///< N x 2, the truth.
+  int steps = 0;
+  std::vector<RangeHistoryMap> maps;  ///< Ranges first, then squared ranges; the spectral map last.
+};
+
+/// Seconds that one method took on one run; vary from run to run.
+struct SlamTiming {
+  std::string run;  ///< Its id.
+  SlamMethod method = SlamMethod::kSpectral;
+  double seconds = 0.0;
+};
+
 /// Seconds of the factorisation and upgrade; vary from run to run.
 struct FactorizationCost {
   int landmarks = 0;
   long steps = 0;
   double seconds = 0.0;
+};
+
+/// What was timed of a study, its sessions apart.
+struct SlamTimings {
+  std::vector<SlamTiming> methods;
+  std::vector<FactorizationCost> factorization;
 };
 
 /// A range-only study: a simulated example, convergence over many, and logs of real robots.
@@ -102,6 +133,7 @@ struct SlamStudy {
   Provenance provenance;
   std::vector<SlamRun> runs;  ///< The simulated example first, if there is one.
   std::vector<ConvergenceCurve> convergence;
+  std::optional<RangeHistoryStudy> histories;
   std::vector<std::string> missing;  ///< Data asked for that are not there, with how to get them.
 };
 
