@@ -37,6 +37,7 @@ struct SlamEstimate {
   std::vector<Eigen::Matrix2d> position_cov_m2;  ///< At `position_cov_rows`; may be empty.
   std::vector<Eigen::Index> position_cov_rows;   ///< Rows of `path`.
   Eigen::VectorXd singular_values;               ///< Descending; empty if not spectral.
+  std::optional<double> noise_level;             ///< The singular value that noise alone reaches.
   std::optional<double> condition;               ///< Of the regression or upgrade.
   int iterations = 0;                            ///< Of an iterative method; 0 otherwise.
   std::optional<double> cost;                    ///< Final half sum of robust squared residuals.

@@ -49,7 +49,9 @@ std::optional<SlamMethod> slam_method_named(std::string_view name);
 /// What one method made of one log.
 struct SlamRecord {
   SlamMethod method = SlamMethod::kSpectral;
-  SlamEstimate estimate;  ///< In the frame of its first alignment, the truth's if there is one.
+  /// In the frame of its first alignment, the truth's if there is one; without a truth laid rigidly
+  /// on the run's first record, so that paths can be drawn over one another.
+  SlamEstimate estimate;
   std::vector<TrajectoryError> errors;  ///< Under each alignment tried, the first the method's own.
   std::vector<double> error_m;  ///< Under the first alignment, one a pose; empty without truth.
 };
@@ -61,19 +63,39 @@ struct WindowCurve {
   double chosen_s = 0.0;
 };
 
+/// What the refinement made of one start. All that were tried are kept, not the best alone.
+struct RefinementStart {
+  SlamMethod method = SlamMethod::kRefined;  ///< kRefined, …FromOdometry or …FromRandom.
+  int number = 1;                            ///< Of the starts of that kind, from 1.
+  double cost = 0.0;                         ///< Final; NaN: nothing came out.
+  std::optional<double> mean_m;  ///< Error of the path under the method's alignment, with truth.
+  int iterations = 0;
+  bool converged = true;
+};
+
+/// What a paper prints of the drive it used.
+struct PublishedDrive {
+  double length_km = 0.0;
+  long poses = 0;
+  long readings = 0;
+};
+
 /// Everything made of one log: what figures and tables need.
 struct SlamRun {
   std::string id;      ///< [a-z0-9-]+: "plaza-1".
-  std::string figure;  ///< Id of the figure of its paths: "fig-2b".
+  std::string figure;  ///< Id of the figure of its paths: "fig-2b"; empty: "path-" and `id`.
+  bool simulated = false;
   RangeLog log;
   std::vector<Eigen::Index> known;  ///< Landmarks whose places some methods are given.
   std::optional<WindowCurve> windows;
   std::vector<SlamRecord> records;
+  std::vector<RefinementStart> starts;  ///< Empty: none compared.
+  std::optional<PublishedDrive> published;
 };
 
 /// Means over random pairs of path and environment, after so many readings.
 struct ConvergencePoint {
-  int steps = 0;             ///< Columns of Y; readings are landmarks times as many.
+  int steps = 0;             ///< Columns of Y.
   MeanEstimate observation;  ///< Frobenius norm of C-hat - C [boots2013, Figure 1B].
   MeanEstimate landmarks_m;  ///< Mean distance of landmarks from their places.
   MeanEstimate positions_m;  ///< Mean distance of the robot's positions from theirs.
@@ -85,6 +107,7 @@ struct ConvergencePoint {
 struct ConvergenceCurve {
   std::string id;     ///< [a-z0-9-]+: "white", "correlated".
   std::string title;  ///< "white noise, 1 % of range".
+  int landmarks = 0;  ///< Readings are as many a step.
   std::vector<ConvergencePoint> points;
   double slope = 0.0;  ///< Of log observation error over log steps, by least squares.
 };
@@ -131,6 +154,8 @@ struct SlamStudy {
   std::string title;
   std::uint64_t seed = 0;
   Provenance provenance;
+  std::vector<std::pair<std::string, std::string>> facts;  ///< What was asked for, in words:
+                                                           ///< {"Area", "20 m x 20 m"}.
   std::vector<SlamRun> runs;  ///< The simulated example first, if there is one.
   std::vector<ConvergenceCurve> convergence;
   std::optional<RangeHistoryStudy> histories;
