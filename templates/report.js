@@ -1,5 +1,5 @@
 "use strict";
-// What the page gains from a script: sortable tables, a light/dark switch, open details on paper.
+// What the page gains from a script: sortable tables, a light/dark switch, whole tables on paper.
 // Without it everything is still there to be read.
 
 // A cell's sort key is the number behind its text; a missing value has an empty one and goes last.
@@ -82,5 +82,5 @@ for (const table of document.querySelectorAll("main table")) makeSortable(table)
 addThemeSwitch(document.querySelector(".masthead"));
 followReading();
 window.addEventListener("beforeprint", () => {
-  for (const details of document.querySelectorAll("details")) details.open = true;
+  for (const details of document.querySelectorAll(".folded > details")) details.open = true;
 });

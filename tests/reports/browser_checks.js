@@ -47,6 +47,16 @@ function checkSorting(page) {
   say("focusable", page.activeElement === button(0));
 }
 
+// A long table is folded on the screen and whole on paper.
+function checkFolding(page) {
+  const table = page.querySelector("#table-long details");
+  if (!table) return;
+  say("folded", !table.open);
+  say("fold-says", table.querySelector("summary").textContent);
+  page.defaultView.dispatchEvent(new Event("beforeprint"));
+  say("folded-on-paper", !table.open);
+}
+
 function luminance(colour) {
   const linear = (value) => value <= 0.04045 ? value / 12.92 : ((value + 0.055) / 1.055) ** 2.4;
   const [r, g, b] = colour.match(/[\d.]+/g).map((value) => linear(Number(value) / 255));
@@ -102,6 +112,7 @@ function check(frame, expected) {
   checkTexts(page, expected);
   checkTraps(page);
   checkSorting(page);
+  checkFolding(page);
   checkLooks(frame);
   say("done", true);
 }

@@ -62,6 +62,18 @@ TEST_F(Browser, SortsNumbersByTheirValueAndMissingOnesLast) {
   EXPECT_EQ(found["focusable"], "true");
 }
 
+TEST_F(Browser, FoldsALongTableOnTheScreenButNotOnPaper) {
+  Report report = numbers();
+  Table table{"long", "Long", {{"Name", "", "", ""}}, {}, {}};
+  for (int i = 0; i < 31; ++i) table.rows.push_back({{TextCell{std::to_string(i)}}, "", false});
+  report.sections[0].blocks.emplace_back(table);
+  Findings found = look_at(report);
+  EXPECT_EQ(found["folded"], "true");
+  EXPECT_EQ(found["fold-says"], "31 rows");
+  EXPECT_EQ(found["folded-on-paper"], "false");
+  expect_readable(found);
+}
+
 TEST_F(Browser, ShowsHostileTextsAsTextAndRunsNoneOfThem) {
   const auto hostile = test::hostile_report();
   Findings found = look_at(hostile.report, hostile.texts, hostile.attributes);
