@@ -24,7 +24,7 @@ const std::map<std::string, Modules>& allowed() {
     return more;
   };
   static const std::map<std::string, Modules> table = {
-      {"core/model", {"core/base"}},
+      {"core/model", {"core/base", "core/statistics"}},
       {"core/base", {}},
       {"core/statistics", {"core/base"}},
       {"core/linalg", with_leaves({})},
