@@ -6,6 +6,7 @@
 
 #include <fmt/format.h>
 #include <Eigen/LU>
+#include <Eigen/QR>
 #include <Eigen/SVD>
 
 #include "core/base/errors.hpp"
@@ -15,7 +16,8 @@ namespace mapproof {
 namespace {
 
 void check(const Factorization& factors, const KnownLandmarks& known) {
-  if (factors.U.cols() != 4) throw InvalidInput("a map needs a factorisation of rank 4");
+  if (factors.U.cols() < 4 || factors.V.rows() != factors.U.cols() || factors.V.cols() < 4)
+    throw InvalidInput("a map needs a factorisation of rank 4 or more");
   const std::set<Eigen::Index> rows(known.rows.begin(), known.rows.end());
   if (std::ssize(known.rows) != known.positions_m.rows() || rows.size() != known.rows.size())
     throw InvalidInput("known landmarks: as many positions as different rows are needed");
@@ -24,14 +26,14 @@ void check(const Factorization& factors, const KnownLandmarks& known) {
     throw InvalidInput("a known landmark is none of the map's");
 }
 
-/// Takes Y = C' M' V, with C' of landmarks moved by -center and divided by `unit`, to Y = C M V.
-Eigen::Matrix4d in_metres(const Eigen::Matrix4d& M, const Eigen::RowVector2d& center, double unit) {
+/// Takes X of points moved by -center and divided by `unit` to X of the points.
+Eigen::Matrix4d to_metres(const Eigen::RowVector2d& center, double unit) {
   Eigen::Matrix4d change;
   change << 1.0, 0.0, 0.0, 0.0,    //
       -center(0), unit, 0.0, 0.0,  //
       -center(1), 0.0, unit, 0.0,  //
       0.5 * center.squaredNorm(), -unit * center, unit * unit;
-  return change * M / (unit * unit);
+  return change;
 }
 
 }  // namespace
@@ -65,20 +67,22 @@ SpectralMap map_from_known_landmarks(const Factorization& factors, const KnownLa
   }
 
   // U = C S^-1 on the known rows, so X = S^-1 V; longer ranges lengthen all of X.
-  const Eigen::Matrix4d inverse_S =
-      in_metres(svd.solve(factors.U(known.rows, Eigen::all)), center, unit);
-  const Eigen::FullPivLU<Eigen::Matrix4d> lu(inverse_S);
-  const Eigen::MatrixXd X = inverse_S * factors.V;
-  const double squared_scale = X.row(0).mean();
-  if (!(squared_scale > 0.0) || !lu.isInvertible()) {
+  const Eigen::MatrixXd small_X =
+      svd.solve(factors.U(known.rows, Eigen::all)) / (unit * unit) * factors.V;
+  const Eigen::ColPivHouseholderQR<Eigen::MatrixXd> qr(small_X.transpose());
+  const Eigen::Matrix4d change = to_metres(center, unit);
+  const double squared_scale = small_X.row(0).mean();
+  if (!(squared_scale > 0.0) || qr.rank() < 4) {
     map.statuses.push_back({StatusCode::kFailed,
                             "The ranges do not tell positions from the known landmarks: their rank "
                             "is lower than that of a path in the plane."});
     return map;
   }
-  map.X = X / squared_scale;
+  map.X = change * small_X / squared_scale;
   map.range_scale = std::sqrt(squared_scale);
-  map.C = factors.U * lu.inverse();
+  // C = U S, by regression of U V on X.
+  const Eigen::MatrixXd S = qr.solve(factors.V.transpose()).transpose();
+  map.C = factors.U * S * change.inverse();
   return map;
 }
 

@@ -22,7 +22,7 @@ inline constexpr double kDegenerateCondition = 1e6;
 ///
 /// The mean of X's first row, which should be 1, tells the square of a common scale of the ranges;
 /// it is divided out and returned.
-/// @param factors  Of rank 4.
+/// @param factors  Of rank 4 or more.
 /// @param known    Finite.
 /// @return Empty with kTooFewObservations below four known landmarks, with kDegenerateGeometry
 /// where

@@ -14,10 +14,11 @@ Eigen::Matrix4d state_cone() {
 }
 
 Eigen::MatrixXd quadratic_monomials(const Eigen::MatrixXd& V) {
-  Eigen::MatrixXd products(V.cols(), 10);
+  const Eigen::Index q = V.rows();
+  Eigen::MatrixXd products(V.cols(), q * (q + 1) / 2);
   Eigen::Index column = 0;
-  for (Eigen::Index i = 0; i < 4; ++i)
-    for (Eigen::Index j = i; j < 4; ++j)
+  for (Eigen::Index i = 0; i < q; ++i)
+    for (Eigen::Index j = i; j < q; ++j)
       products.col(column++) =
           (i == j ? 1.0 : std::numbers::sqrt2) * V.row(i).cwiseProduct(V.row(j)).transpose();
   return products;

@@ -8,10 +8,10 @@ namespace mapproof {
 /// so that landmark states lie on it too.
 Eigen::Matrix4d state_cone();
 
-/// The 10 products v_i v_j, i <= j, of each column; unequal pairs times sqrt(2), so that a turn of
-/// the coordinates turns the products.
-/// @param V  4 x T.
-/// @return T x 10.
+/// The products v_i v_j, i <= j, of each column; unequal pairs times sqrt(2), so that a turn of the
+/// coordinates turns the products.
+/// @param V  q x T.
+/// @return T x q (q + 1) / 2: 10 of 4.
 Eigen::MatrixXd quadratic_monomials(const Eigen::MatrixXd& V);
 
 /// The symmetric Q of the v' Q v that has these coefficients on the monomials.

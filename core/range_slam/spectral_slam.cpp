@@ -1,0 +1,190 @@
+#include "core/range_slam/spectral_slam.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include <fmt/format.h>
+
+#include "core/base/errors.hpp"
+#include "core/linalg/planarity.hpp"
+#include "core/range_slam/heading.hpp"
+#include "core/range_slam/localise.hpp"
+#include "core/range_slam/odometry_fit.hpp"
+
+namespace mapproof {
+namespace {
+
+/// The poses of a path at some of its rows.
+Trajectory part_of(const Trajectory& path, const std::vector<Eigen::Index>& rows) {
+  Trajectory part{.time_s = path.time_s(rows),
+                  .positions_m = path.positions_m(rows, Eigen::all),
+                  .heading_rad = {}};
+  if (path.heading_rad.size() > 0) part.heading_rad = path.heading_rad(rows);
+  return part;
+}
+
+/// Rows of a path a stretch of travel apart.
+std::vector<Eigen::Index> rows_apart(const Trajectory& path, double step_m) {
+  std::vector<Eigen::Index> rows;
+  double travelled = step_m;
+  for (Eigen::Index t = 0; t < path.size(); ++t) {
+    if (t > 0) travelled += (path.positions_m.row(t) - path.positions_m.row(t - 1)).norm();
+    if (travelled < step_m) continue;
+    rows.push_back(t);
+    travelled = 0.0;
+  }
+  return rows;
+}
+
+/// Headings at all poses from those at some: odometry turns them on from the last one before.
+Eigen::VectorXd carried(const Eigen::VectorXd& heading_rad, const std::vector<Eigen::Index>& rows,
+                        const Eigen::VectorXd& odometry_rad) {
+  Eigen::VectorXd all(odometry_rad.size());
+  std::size_t k = 0;
+  for (Eigen::Index t = 0; t < all.size(); ++t) {
+    while (k + 1 < rows.size() && rows[k + 1] <= t) ++k;
+    const double turn = odometry_rad(t) - odometry_rad(rows[k]);
+    const double heading = heading_rad(static_cast<Eigen::Index>(k)) + turn;
+    all(t) = std::atan2(std::sin(heading), std::cos(heading));
+  }
+  return all;
+}
+
+/// The map and what goes with it, before positions are read off.
+struct Mapped {
+  SpectralMap map;
+  Eigen::VectorXd heading_rad;  ///< At `heading_rows` of the path; may be empty.
+  std::vector<Eigen::Index> heading_rows;
+  Eigen::VectorXd singular_values;
+};
+
+Mapped mapped_with_heading(const Eigen::MatrixXd& Y, const Trajectory& odometry,
+                           const SpectralSlamOptions& options) {
+  const std::vector<Eigen::Index> rows = rows_apart(odometry, options.heading_step_m);
+  if (rows.empty()) return {};
+  Eigen::VectorXd moved_m(std::ssize(rows) - 1);
+  for (Eigen::Index k = 0; k < moved_m.size(); ++k) {
+    const auto i = static_cast<std::size_t>(k);
+    moved_m(k) = (odometry.positions_m.row(rows[i + 1]) - odometry.positions_m.row(rows[i])).norm();
+  }
+  const HeadingColumns columns =
+      heading_columns(Y(Eigen::all, rows), moved_m, 0.5 * options.heading_step_m);
+  HeadingMap found = map_with_heading(columns, options.known);
+  Mapped mapped{.map = std::move(found.map),
+                .heading_rad = std::move(found.heading_rad),
+                .heading_rows = {},
+                .singular_values = std::move(found.singular_values)};
+  for (const Eigen::Index step : columns.steps)
+    mapped.heading_rows.push_back(rows[static_cast<std::size_t>(step)]);
+  return mapped;
+}
+
+Mapped mapped_without_heading(SpectralSlam& result, const SpectralSlamOptions& options) {
+  const Factorization factors = factorize(result.Y, 4);
+  Mapped mapped;
+  mapped.singular_values = factors.singular_values;
+  if (options.known) {
+    mapped.map = map_from_known_landmarks(factors, *options.known);
+  } else {
+    result.upgrade = metric_upgrade(factors);
+    mapped.map = result.upgrade.map;
+  }
+  return mapped;
+}
+
+/// Turns a map that may be mirrored and of a wrong scale into one that odometry agrees with.
+/// @param window  Poses in a window: long enough to tell a mirror image; a quarter tells scale.
+bool settle_by_odometry(SlamEstimate& estimate, const Points& odometry_m, Eigen::Index window) {
+  const Points& positions = estimate.path.positions_m;
+  const bool mirrored =
+      fit_to_odometry(positions, odometry_m, std::max<Eigen::Index>(window, 3)).mirrored;
+  const double scale =
+      fit_to_odometry(positions, odometry_m, std::max<Eigen::Index>(window / 4, 3)).scale;
+  const Eigen::RowVector2d factors(1.0 / scale, (mirrored ? -1.0 : 1.0) / scale);
+  estimate.path.positions_m *= factors.asDiagonal();
+  estimate.landmarks_m *= factors.asDiagonal();
+  return mirrored;
+}
+
+void check(const RangeLog& log, const Trajectory& odometry, const SpectralSlamOptions& options) {
+  if (odometry.size() < 2) throw InvalidInput("spectral SLAM needs an odometry path");
+  if (!(options.heading_step_m > 0.0)) throw InvalidInput("the heading step must be above 0");
+  if (options.with_heading && odometry.heading_rad.size() != odometry.size())
+    throw InvalidInput("headings need the odometry's headings");
+  if (log.landmarks.empty()) throw InvalidInput("spectral SLAM needs landmarks");
+}
+
+}  // namespace
+
+SpectralSlam spectral_slam(const RangeLog& log, const Trajectory& odometry,
+                           const SpectralSlamOptions& options) {
+  check(log, odometry, options);
+  const auto N = static_cast<Eigen::Index>(log.landmarks.size());
+  SpectralSlam result;
+  SlamEstimate& estimate = result.estimate;
+  estimate.landmarks_m = Points::Constant(N, 2, std::numeric_limits<double>::quiet_NaN());
+  estimate.path.positions_m.resize(0, 2);
+
+  // Ranges at common times.
+  const std::vector<LandmarkReadings> readings = readings_by_landmark(log.ranges, N, odometry);
+  if (options.window) {
+    result.window.options = *options.window;
+  } else {
+    result.window = choose_window(readings, odometry, odometry.time_s);
+  }
+  WindowedRanges ranges =
+      windowed_ranges(readings, odometry, odometry.time_s, result.window.options);
+  const Eigen::Index T = std::ssize(ranges.columns);
+  if (T < odometry.size())
+    estimate.statuses.push_back(
+        {StatusCode::kTooFewObservations,
+         fmt::format("{} of {} poses have no window with enough readings of every landmark; the "
+                     "path leaves them out.",
+                     odometry.size() - T, odometry.size())});
+  if (N < 4 || T < 8) {
+    estimate.statuses.push_back(
+        {StatusCode::kTooFewObservations,
+         fmt::format("{} landmarks at {} times; 4 at 8 are needed.", N, T)});
+    return result;
+  }
+  result.Y = std::move(ranges.Y);
+  const Trajectory told = part_of(odometry, ranges.columns);
+
+  // Map.
+  const Mapped mapped = options.with_heading ? mapped_with_heading(result.Y, told, options)
+                                             : mapped_without_heading(result, options);
+  estimate.statuses.insert(estimate.statuses.end(), mapped.map.statuses.begin(),
+                           mapped.map.statuses.end());
+  estimate.singular_values = mapped.singular_values;
+  estimate.condition = mapped.map.condition;
+  estimate.range_scale = result.window.options.range_scale * mapped.map.range_scale;
+  if (mapped.map.empty()) return result;
+
+  // Path.
+  result.Y /= mapped.map.range_scale * mapped.map.range_scale;
+  const Points landmarks_m = landmarks_of(mapped.map.C);
+  if (!(planarity(landmarks_m) > kFlatPlanarity)) {
+    estimate.statuses.push_back(
+        {StatusCode::kDegenerateGeometry, "The landmarks came out on one line: no positions."});
+    return result;
+  }
+  estimate.landmarks_m = landmarks_m;
+  estimate.path.positions_m = localise(estimate.landmarks_m, result.Y);
+  estimate.path.time_s = told.time_s;
+  bool mirrored = false;
+  if (!options.known) {
+    const double seconds = told.time_s(T - 1) - told.time_s(0);
+    const auto window = static_cast<Eigen::Index>(
+        std::min(1.0, result.window.options.length_s / seconds) * double(T - 1));
+    mirrored = settle_by_odometry(estimate, told.positions_m, window);
+  }
+  if (mapped.heading_rad.size() > 0) {
+    const double sign = mirrored ? -1.0 : 1.0;
+    estimate.path.heading_rad =
+        carried(sign * mapped.heading_rad, mapped.heading_rows, told.heading_rad);
+  }
+  return result;
+}
+
+}  // namespace mapproof

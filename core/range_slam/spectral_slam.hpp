@@ -1,0 +1,41 @@
+#pragma once
+
+#include <optional>
+
+#include "core/model/range_log.hpp"
+#include "core/model/slam.hpp"
+#include "core/range_slam/known_landmarks.hpp"
+#include "core/range_slam/metric_upgrade.hpp"
+#include "core/range_slam/window_choice.hpp"
+
+namespace mapproof {
+
+struct SpectralSlamOptions {
+  std::optional<KnownLandmarks> known{};  ///< Empty: no landmark is known.
+  bool with_heading = false;              ///< The 7-dimensional state [boots2013, eq. 4].
+  std::optional<WindowOptions> window{};  ///< Empty: chosen by choose_window().
+  double heading_step_m = 1.0;            ///< Travel from one column with heading to the next, > 0.
+};
+
+/// The estimate, and how it came about.
+struct SpectralSlam {
+  SlamEstimate estimate;
+  WindowChoice window;    ///< Without trials where the window was given.
+  MetricUpgrade upgrade;  ///< Where no landmark was known and heading not asked for.
+  Eigen::MatrixXd Y;      ///< Squared ranges at the times of the path: N x its size.
+};
+
+/// Spectral SLAM on a log of single readings [boots2013]: windowed ranges at the odometry's times,
+/// factorisation, map, and positions by localise().
+///
+/// No landmark known: odometry settles the mirror and the scale, and the map is free to move. No
+/// ground truth is looked at.
+/// @param odometry  The dead-reckoned path, with headings where `with_heading`.
+/// @return `path` at those times of odometry at which every landmark's range is told
+///         (kTooFewObservations tells of the others). Empty path, NaN landmarks and a status where
+///         no map came out.
+/// @throws InvalidInput if a bound is broken.
+SpectralSlam spectral_slam(const RangeLog& log, const Trajectory& odometry,
+                           const SpectralSlamOptions& options = {});
+
+}  // namespace mapproof

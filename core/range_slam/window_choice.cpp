@@ -1,0 +1,117 @@
+#include "core/range_slam/window_choice.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <optional>
+
+#include "core/base/errors.hpp"
+
+namespace mapproof {
+namespace {
+
+constexpr Eigen::Index kTurns = 5;
+/// Windows to a block of held-out readings.
+constexpr double kBlocks = 6.0;
+/// Lengths tried: down to 1/181 of all the time.
+constexpr int kLengths = 16;
+/// Coverage is judged on about this many of the times.
+constexpr Eigen::Index kCoverageTimes = 500;
+/// Held-out readings that no window tells beyond this share make a length unusable.
+constexpr double kUntold = 0.02;
+
+LandmarkReadings part_of(const LandmarkReadings& readings, const std::vector<Eigen::Index>& rows) {
+  return {.time_s = readings.time_s(rows),
+          .positions_m = readings.positions_m(rows, Eigen::all),
+          .range_m = readings.range_m(rows)};
+}
+
+/// Sum of absolute errors over the readings told, and how many were and were not.
+struct HeldOut {
+  double error_m = 0.0;
+  Eigen::Index told = 0;
+  Eigen::Index untold = 0;
+};
+
+/// @param phase  Shifts the blocks, so that landmarks are not held out at the same times.
+void hold_out(const LandmarkReadings& readings, Eigen::Index turn, Eigen::Index phase,
+              const WindowOptions& options, double first_s, HeldOut& result) {
+  std::vector<Eigen::Index> kept, out;
+  for (Eigen::Index i = 0; i < readings.size(); ++i) {
+    const double block = std::floor((readings.time_s(i) - first_s) * kBlocks / options.length_s);
+    const bool is_out = std::fmod(block + static_cast<double>(phase), kTurns) == double(turn);
+    (is_out ? out : kept).push_back(i);
+  }
+  const LandmarkReadings asked = part_of(readings, out);
+  // Asked at all readings, so that the windows lie as they do for the whole.
+  const Eigen::VectorXd half_squares = windowed_half_squares(
+      part_of(readings, kept), readings.time_s, readings.positions_m, options);
+  const double scale = options.range_scale;
+  for (std::size_t i = 0; i < out.size(); ++i) {
+    const double half_square = half_squares(out[i]);
+    if (!std::isfinite(half_square)) {
+      ++result.untold;
+      continue;
+    }
+    const double range_m = scale * std::sqrt(std::max(0.0, 2.0 * half_square));
+    result.error_m += std::abs(range_m - asked.range_m(static_cast<Eigen::Index>(i)));
+    ++result.told;
+  }
+}
+
+/// Some of the times, the first and last among them.
+Eigen::VectorXd thinned(const Eigen::VectorXd& time_s) {
+  const Eigen::Index n = std::min(time_s.size(), kCoverageTimes);
+  Eigen::VectorXd some(n);
+  for (Eigen::Index i = 0; i < n; ++i) some(i) = time_s(i * (time_s.size() - 1) / (n - 1));
+  return some;
+}
+
+std::optional<WindowTrial> tried(const std::vector<LandmarkReadings>& readings,
+                                 const Trajectory& path, const Eigen::VectorXd& some_s,
+                                 double length_s) {
+  const double first_s = some_s(0), last_s = some_s(some_s.size() - 1);
+  WindowOptions options{.length_s = length_s,
+                        .range_scale = range_scale_of(readings, first_s, last_s, length_s)};
+  HeldOut held_out;
+  for (Eigen::Index n = 0; n < std::ssize(readings); ++n)
+    for (Eigen::Index turn = 0; turn < kTurns; ++turn)
+      hold_out(readings[static_cast<std::size_t>(n)], turn, n, options, first_s, held_out);
+  if (held_out.told == 0 || double(held_out.untold) > kUntold * double(held_out.told))
+    return std::nullopt;
+  const auto covered = windowed_ranges(readings, path, some_s, options).columns.size();
+  return WindowTrial{.length_s = length_s,
+                     .range_scale = options.range_scale,
+                     .error_m = held_out.error_m / double(held_out.told),
+                     .covered = double(covered) / double(some_s.size())};
+}
+
+}  // namespace
+
+WindowChoice choose_window(const std::vector<LandmarkReadings>& readings, const Trajectory& path,
+                           const Eigen::VectorXd& time_s) {
+  if (time_s.size() < 2 || !(time_s(time_s.size() - 1) > time_s(0)))
+    throw InvalidInput("windows need two times or more");
+  const Eigen::VectorXd some_s = thinned(time_s);
+  const double all_s = some_s(some_s.size() - 1) - some_s(0);
+  WindowChoice choice;
+  choice.options.length_s = all_s;
+  const WindowTrial* best = nullptr;
+  for (int i = 0; i < kLengths; ++i) {
+    const double length_s = all_s * std::pow(std::numbers::sqrt2, -i);
+    if (const auto trial = tried(readings, path, some_s, length_s)) choice.trials.push_back(*trial);
+  }
+  for (const WindowTrial& trial : choice.trials)
+    if (best == nullptr || trial.covered > best->covered ||
+        (trial.covered == best->covered && trial.error_m < best->error_m))
+      best = &trial;
+  if (best == nullptr) {
+    choice.all_covered = false;
+    return choice;
+  }
+  choice.options = {.length_s = best->length_s, .range_scale = best->range_scale};
+  choice.all_covered = best->covered == 1.0;
+  return choice;
+}
+
+}  // namespace mapproof

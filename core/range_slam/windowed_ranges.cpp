@@ -1,0 +1,170 @@
+#include "core/range_slam/windowed_ranges.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "core/base/errors.hpp"
+
+namespace mapproof {
+namespace {
+
+/// Windows that lie over any one time.
+constexpr double kOverlap = 4.0;
+/// Readings that a window needs.
+constexpr Eigen::Index kLeastReadings = 6;
+
+/// Windows of one length, evenly over a stretch of time.
+struct WindowGrid {
+  double first_center_s;
+  double spacing_s;
+  Eigen::Index count;
+  double half_s;
+
+  WindowGrid(double first_s, double last_s, double length_s) : half_s(0.5 * length_s) {
+    const double room = last_s - first_s - length_s;
+    if (!(room > 0.0)) {
+      first_center_s = 0.5 * (first_s + last_s);
+      half_s = std::max(half_s, 0.5 * (last_s - first_s));
+      spacing_s = length_s;
+      count = 1;
+      return;
+    }
+    const double steps = std::ceil(room * kOverlap / length_s);
+    if (steps > 1e6) throw InvalidInput("windows are too short for the time they are to cover");
+    count = static_cast<Eigen::Index>(steps) + 1;
+    first_center_s = first_s + half_s;
+    spacing_s = room / steps;
+  }
+
+  double center_s(Eigen::Index i) const { return first_center_s + double(i) * spacing_s; }
+};
+
+/// First and number of ascending times within a window.
+struct Slice {
+  Eigen::Index first;
+  Eigen::Index count;
+
+  Slice(const Eigen::VectorXd& time_s, double from_s, double to_s) {
+    const auto begin = std::lower_bound(time_s.begin(), time_s.end(), from_s);
+    first = begin - time_s.begin();
+    count = std::upper_bound(begin, time_s.end(), to_s) - begin;
+  }
+};
+
+void check(const Eigen::VectorXd& time_s, const WindowOptions& options) {
+  if (!(options.length_s > 0.0) || !std::isfinite(options.length_s))
+    throw InvalidInput("a window's length must be above 0");
+  if (!(options.range_scale > 0.0) || !std::isfinite(options.range_scale))
+    throw InvalidInput("a range scale must be above 0");
+  if (!time_s.allFinite() || !std::is_sorted(time_s.begin(), time_s.end()))
+    throw InvalidInput("times must be finite and ascend");
+}
+
+}  // namespace
+
+Points positions_at(const Trajectory& path, const Eigen::VectorXd& time_s) {
+  if (path.size() < 1 || path.positions_m.rows() != path.size())
+    throw InvalidInput("a path needs a pose, and as many positions as times");
+  if (!path.time_s.allFinite() || !path.positions_m.allFinite() ||
+      !std::is_sorted(path.time_s.begin(), path.time_s.end()))
+    throw InvalidInput("a path must be finite and ascend in time");
+  Points positions(time_s.size(), 2);
+  for (Eigen::Index i = 0; i < time_s.size(); ++i) {
+    const auto after = std::upper_bound(path.time_s.begin(), path.time_s.end(), time_s(i));
+    const Eigen::Index next = std::min<Eigen::Index>(after - path.time_s.begin(), path.size() - 1);
+    const Eigen::Index last = std::max<Eigen::Index>(next - 1, 0);
+    const double gap = path.time_s(next) - path.time_s(last);
+    const double share =
+        gap > 0.0 ? std::clamp((time_s(i) - path.time_s(last)) / gap, 0.0, 1.0) : 1.0;
+    positions.row(i) =
+        (1.0 - share) * path.positions_m.row(last) + share * path.positions_m.row(next);
+  }
+  return positions;
+}
+
+std::vector<LandmarkReadings> readings_by_landmark(const std::vector<RangeReading>& ranges,
+                                                   Eigen::Index landmarks, const Trajectory& path) {
+  std::vector<std::vector<const RangeReading*>> sorted(static_cast<std::size_t>(landmarks));
+  double last_s = -std::numeric_limits<double>::infinity();
+  for (const RangeReading& reading : ranges) {
+    if (reading.landmark < 0 || reading.landmark >= landmarks)
+      throw InvalidInput("a range is to none of the landmarks");
+    if (!(reading.range_m >= 0.0 && reading.range_m < 1e150) || !(reading.time_s >= last_s))
+      throw InvalidInput("ranges must be finite, at least 0 and ascend in time");
+    last_s = reading.time_s;
+    sorted[static_cast<std::size_t>(reading.landmark)].push_back(&reading);
+  }
+  std::vector<LandmarkReadings> result;
+  for (const auto& rows : sorted) {
+    LandmarkReadings readings;
+    readings.time_s.resize(std::ssize(rows));
+    readings.range_m.resize(std::ssize(rows));
+    for (Eigen::Index i = 0; i < std::ssize(rows); ++i) {
+      readings.time_s(i) = rows[static_cast<std::size_t>(i)]->time_s;
+      readings.range_m(i) = rows[static_cast<std::size_t>(i)]->range_m;
+    }
+    readings.positions_m = positions_at(path, readings.time_s);
+    result.push_back(std::move(readings));
+  }
+  return result;
+}
+
+Eigen::VectorXd windowed_half_squares(const LandmarkReadings& readings,
+                                      const Eigen::VectorXd& time_s, const Points& path_m,
+                                      const WindowOptions& options) {
+  check(time_s, options);
+  if (path_m.rows() != time_s.size()) throw InvalidInput("a path needs a position for each time");
+  if (time_s.size() == 0) return {};
+  Eigen::ArrayXd sum = Eigen::ArrayXd::Zero(time_s.size());
+  Eigen::ArrayXd weight = Eigen::ArrayXd::Zero(time_s.size());
+  const WindowGrid grid(time_s(0), time_s(time_s.size() - 1), options.length_s);
+  for (Eigen::Index i = 0; i < grid.count; ++i) {
+    const double from_s = grid.center_s(i) - grid.half_s, to_s = grid.center_s(i) + grid.half_s;
+    const Slice inside(readings.time_s, from_s, to_s);
+    if (inside.count < kLeastReadings) continue;
+    const auto local = fit_local_range(readings, inside.first, inside.count, options.range_scale);
+    const Slice asked(time_s, from_s, to_s);
+    for (Eigen::Index t = asked.first; t < asked.first + asked.count; ++t) {
+      const double off_center = std::abs(time_s(t) - grid.center_s(i)) / grid.half_s;
+      const double w = std::max(1e-3, 1.0 - off_center) / local->variance(path_m.row(t));
+      sum(t) += w * local->squared_range(path_m.row(t));
+      weight(t) += w;
+    }
+  }
+  return 0.5 * (sum / weight) / (options.range_scale * options.range_scale);
+}
+
+WindowedRanges windowed_ranges(const std::vector<LandmarkReadings>& readings,
+                               const Trajectory& path, const Eigen::VectorXd& time_s,
+                               const WindowOptions& options) {
+  check(time_s, options);
+  const Points path_m = positions_at(path, time_s);
+  Eigen::MatrixXd Y(std::ssize(readings), time_s.size());
+  for (Eigen::Index n = 0; n < Y.rows(); ++n)
+    Y.row(n) =
+        windowed_half_squares(readings[static_cast<std::size_t>(n)], time_s, path_m, options);
+  WindowedRanges result;
+  for (Eigen::Index t = 0; t < Y.cols(); ++t)
+    if (Y.col(t).allFinite()) result.columns.push_back(t);
+  result.Y = Y(Eigen::all, result.columns);
+  return result;
+}
+
+double range_scale_of(const std::vector<LandmarkReadings>& readings, double first_s, double last_s,
+                      double length_s) {
+  const WindowGrid grid(first_s, last_s, length_s);
+  double sum = 0.0, weight = 0.0;
+  for (const LandmarkReadings& landmark : readings)
+    for (Eigen::Index i = 0; i < grid.count; ++i) {
+      const Slice inside(landmark.time_s, grid.center_s(i) - grid.half_s,
+                         grid.center_s(i) + grid.half_s);
+      const ScaleEvidence evidence = local_scale(landmark, inside.first, inside.count);
+      sum += evidence.weight * evidence.squared_scale;
+      weight += evidence.weight;
+    }
+  const double squared = weight > 0.0 ? sum / weight : 1.0;
+  return squared > 0.0 ? std::sqrt(squared) : 1.0;
+}
+
+}  // namespace mapproof

@@ -1,0 +1,125 @@
+#include "core/range_slam/windowed_ranges.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "core/base/errors.hpp"
+#include "core/range_slam/squared_ranges.hpp"
+#include "core/range_slam/window_choice.hpp"
+#include "tests/core/range_slam/drives.hpp"
+#include "tests/core/range_slam/range_worlds.hpp"
+
+namespace mapproof {
+namespace {
+
+using test::Drive;
+using test::drive;
+
+std::vector<LandmarkReadings> readings_of(const Drive& drive) {
+  return readings_by_landmark(drive.log.ranges, 6, drive.odometry);
+}
+
+Eigen::MatrixXd true_half_squares(const Drive& drive) {
+  return half_squared_ranges(
+      test::ranges_between(*drive.log.true_landmarks, drive.log.truth->positions_m));
+}
+
+TEST(WindowedRanges, AreExactWhereOdometryAndRangesAre) {
+  const Drive exact = drive({.range_scale = 1.07}, 1);
+  const Eigen::MatrixXd truth = true_half_squares(exact);
+  for (const double length_s : {15.0, 40.0, 500.0}) {
+    const WindowedRanges ranges =
+        windowed_ranges(readings_of(exact), exact.odometry, exact.odometry.time_s,
+                        {.length_s = length_s, .range_scale = 1.07});
+    ASSERT_EQ(ranges.columns.size(), 2001U) << length_s;
+    // The ridge of the regression is 1e-9.
+    EXPECT_LT((ranges.Y - truth).cwiseAbs().maxCoeff(), 1e-3 * truth.maxCoeff()) << length_s;
+  }
+}
+
+TEST(WindowedRanges, ShrugOffOneReadingInTenThatIsFarOff) {
+  Drive spoilt = drive({.range_sigma_m = 0.05}, 2);
+  for (std::size_t i = 0; i < spoilt.log.ranges.size(); i += 10)
+    spoilt.log.ranges[i].range_m += 8.0;
+  const auto worst = [](const Drive& d) {
+    const WindowedRanges ranges =
+        windowed_ranges(readings_of(d), d.odometry, d.odometry.time_s, {.length_s = 60.0});
+    return (ranges.Y - true_half_squares(d)).cwiseAbs().mean();
+  };
+  EXPECT_LT(worst(spoilt), 5.0 * worst(drive({.range_sigma_m = 0.05}, 2)));
+}
+
+TEST(WindowedRanges, LeaveOutTimesThatALandmarkIsNotToldAt) {
+  Drive gap = drive({}, 3);
+  std::erase_if(gap.log.ranges, [](const RangeReading& reading) {
+    return reading.landmark == 2 && reading.time_s > 80.0 && reading.time_s < 150.0;
+  });
+  const WindowedRanges ranges =
+      windowed_ranges(readings_of(gap), gap.odometry, gap.odometry.time_s, {.length_s = 10.0});
+  EXPECT_LT(ranges.columns.size(), 1500U);
+  EXPECT_GT(ranges.columns.size(), 1200U);
+  EXPECT_TRUE(ranges.Y.allFinite());
+}
+
+TEST(WindowedRanges, OfARobotThatStandsStillAreItsRanges) {
+  Drive still = drive({}, 4);
+  still.odometry.positions_m.setZero();
+  for (RangeReading& reading : still.log.ranges) reading.range_m = 3.0 + double(reading.landmark);
+  const WindowedRanges ranges = windowed_ranges(readings_of(still), still.odometry,
+                                                still.odometry.time_s, {.length_s = 30.0});
+  ASSERT_EQ(ranges.columns.size(), 2001U);
+  for (Eigen::Index n = 0; n < 6; ++n)
+    EXPECT_NEAR(ranges.Y(n, 1000), 0.5 * std::pow(3.0 + double(n), 2), 1e-6);
+}
+
+TEST(RangeScale, ComesFromOdometryAlone) {
+  const Drive scaled = drive({.range_sigma_m = 0.1, .range_scale = 1.07}, 5);
+  for (const double length_s : {20.0, 50.0, 200.0})
+    EXPECT_NEAR(range_scale_of(readings_of(scaled), 0.0, 200.0, length_s), 1.07, 0.01) << length_s;
+}
+
+TEST(WindowChoice, IsLongWhereOdometryIsGoodAndShortWhereItDrifts) {
+  const auto chosen_s = [](double gyro_drift) {
+    const Drive d = drive({.range_sigma_m = 0.3, .gyro_drift = gyro_drift}, 6);
+    return choose_window(readings_of(d), d.odometry, d.odometry.time_s).options.length_s;
+  };
+  EXPECT_GT(chosen_s(0.0), 90.0);
+  EXPECT_LT(chosen_s(0.03), 0.5 * chosen_s(0.0));
+}
+
+TEST(WindowChoice, OfHardlyAnyReadingsSaysThatItCoversTooLittle) {
+  Drive sparse = drive({}, 7);
+  sparse.log.ranges.resize(10);
+  EXPECT_FALSE(
+      choose_window(readings_of(sparse), sparse.odometry, sparse.odometry.time_s).all_covered);
+}
+
+TEST(ReadingsByLandmark, RefuseDisorderAndStrangers) {
+  const Drive d = drive({}, 8);
+  const auto refused = [&](const RangeReading& reading) {
+    std::vector<RangeReading> ranges = d.log.ranges;
+    ranges.push_back(reading);
+    EXPECT_THROW(readings_by_landmark(ranges, 6, d.odometry), InvalidInput);
+  };
+  refused({.time_s = 1.0, .landmark = 0, .range_m = 1.0});
+  refused({.time_s = 1e3, .landmark = 6, .range_m = 1.0});
+  refused({.time_s = 1e3, .landmark = 0, .range_m = -1.0});
+  refused({.time_s = 1e3, .landmark = 0, .range_m = std::nan("")});
+  refused({.time_s = std::nan(""), .landmark = 0, .range_m = 1.0});
+}
+
+TEST(PositionsAt, AreLinearBetweenPosesAndHeldOutside) {
+  Trajectory path;
+  path.time_s = Eigen::Vector3d(0.0, 1.0, 3.0);
+  path.positions_m.resize(3, 2);
+  path.positions_m << 0.0, 0.0, 2.0, 0.0, 2.0, 4.0;
+  Eigen::VectorXd asked(5);
+  asked << -1.0, 0.25, 1.0, 2.0, 9.0;
+  Points expected(5, 2);
+  expected << 0.0, 0.0, 0.5, 0.0, 2.0, 0.0, 2.0, 2.0, 2.0, 4.0;
+  EXPECT_LT((positions_at(path, asked) - expected).norm(), 1e-12);
+}
+
+}  // namespace
+}  // namespace mapproof
