@@ -3,6 +3,7 @@
 #include <limits>
 
 #include <fmt/format.h>
+#include <Eigen/Eigenvalues>
 #include <Eigen/QR>
 #include <Eigen/SVD>
 
@@ -25,6 +26,12 @@ Eigen::MatrixXd compressed(const Eigen::MatrixXd& Y) {
   return Eigen::MatrixXd(qr.matrixQR().topRows(N).triangularView<Eigen::Upper>()).transpose();
 }
 
+void check(const Eigen::MatrixXd& Y, Eigen::Index rank) {
+  if (rank < 1 || rank > std::min(Y.rows(), Y.cols()))
+    throw InvalidInput("a factorisation's rank must be 1 to the lesser side of the matrix");
+  if (!Y.allFinite()) throw InvalidInput("a factorisation needs finite entries");
+}
+
 void judge(Factorization& result, Eigen::Index rank) {
   const Eigen::VectorXd& s = result.singular_values;
   const double smallest = s(rank - 1);
@@ -43,16 +50,32 @@ void judge(Factorization& result, Eigen::Index rank) {
 }  // namespace
 
 Factorization factorize(const Eigen::MatrixXd& Y, Eigen::Index rank) {
-  if (rank < 1 || rank > std::min(Y.rows(), Y.cols()))
-    throw InvalidInput("a factorisation's rank must be 1 to the lesser side of the matrix");
-  if (!Y.allFinite()) throw InvalidInput("a factorisation needs finite entries");
-
+  check(Y, rank);
   const Eigen::BDCSVD<Eigen::MatrixXd> svd(compressed(Y), Eigen::ComputeThinU);
   Factorization result;
   result.U = svd.matrixU().leftCols(rank);
   fix_signs(result.U);
   result.V = result.U.transpose() * Y;
   result.singular_values = svd.singularValues();
+  judge(result, rank);
+  return result;
+}
+
+Factorization factorize_without_noise(const Eigen::MatrixXd& Y, const Eigen::VectorXd& variances,
+                                      Eigen::Index rank) {
+  check(Y, rank);
+  if (variances.size() != Y.rows() || !variances.allFinite() || variances.minCoeff() < 0.0)
+    throw InvalidInput("each row of a factorisation needs a finite noise variance of 0 or more");
+  if (Y.rows() == rank) return factorize(Y, rank);
+
+  Eigen::MatrixXd M = Y * Y.transpose();
+  M.diagonal() -= static_cast<double>(Y.cols()) * variances;
+  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver(M);
+  Factorization result;
+  result.U = solver.eigenvectors().rowwise().reverse().leftCols(rank);
+  fix_signs(result.U);
+  result.V = result.U.transpose() * Y;
+  result.singular_values = solver.eigenvalues().reverse().cwiseMax(0.0).cwiseSqrt();
   judge(result, rank);
   return result;
 }

@@ -28,4 +28,15 @@ struct Factorization {
 /// @note O(N^2 T + N^3) time, O(N T) memory.
 Factorization factorize(const Eigen::MatrixXd& Y, Eigen::Index rank);
 
+/// The same with U of Y Y' - T diag(variances), free of what noise adds to the Gram matrix.
+///
+/// Where rows differ in noise, as far landmarks do from near ones, their own shares turn the
+/// singular vectors of Y by an angle that more steps do not lessen; the paper assumes it away ("the
+/// noise in M-hat is zero-mean"). Without effect for N = rank.
+/// @param variances  N, of the noise of Y's rows, >= 0 (see half_square_variances()).
+/// @return Singular values are roots of the Gram matrix's eigenvalues, 0 where noise was overrated.
+/// @throws InvalidInput if a bound is broken.
+Factorization factorize_without_noise(const Eigen::MatrixXd& Y, const Eigen::VectorXd& variances,
+                                      Eigen::Index rank);
+
 }  // namespace mapproof

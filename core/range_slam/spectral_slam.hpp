@@ -20,7 +20,7 @@ struct SpectralSlamOptions {
 /// The estimate, and how it came about.
 struct SpectralSlam {
   SlamEstimate estimate;
-  WindowChoice window;    ///< Without trials where the window was given.
+  WindowSearch window;    ///< Without trials where the window was given.
   MetricUpgrade upgrade;  ///< Where no landmark was known and heading not asked for.
   Eigen::MatrixXd Y;      ///< Squared ranges at the times of the path: N x its size.
 };

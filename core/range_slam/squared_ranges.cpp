@@ -14,6 +14,13 @@ Eigen::MatrixXd half_squared_ranges(const Eigen::MatrixXd& ranges_m, const Range
   return Y;
 }
 
+Eigen::VectorXd half_square_variances(const Eigen::MatrixXd& Y, const RangeNoise& noise) {
+  const double growth = 1.0 + noise.share * noise.share;
+  const Eigen::ArrayXXd squares = 2.0 * Y.array().max(0.0);
+  const Eigen::ArrayXXd s2 = noise.sigma_m * noise.sigma_m + noise.share * noise.share * squares;
+  return ((squares * s2 + 0.5 * s2.square()) / (growth * growth)).rowwise().mean();
+}
+
 Eigen::MatrixXd landmark_states(const Points& landmarks_m) {
   Eigen::MatrixXd C(landmarks_m.rows(), 4);
   C << 0.5 * landmarks_m.rowwise().squaredNorm(), landmarks_m,

@@ -18,6 +18,12 @@ struct RangeNoise {
 /// @throws InvalidInput if a bound is broken, or a square overflows.
 Eigen::MatrixXd half_squared_ranges(const Eigen::MatrixXd& ranges_m, const RangeNoise& noise = {});
 
+/// What that noise has for a variance in each row of Y, on average over its columns: of 1/2 r^2 it
+/// is d^2 s^2 + s^4/2 for a normal error of standard deviation s.
+/// @param Y  From half_squared_ranges() with the same noise.
+/// @return N, m^4.
+Eigen::VectorXd half_square_variances(const Eigen::MatrixXd& Y, const RangeNoise& noise);
+
 /// C with the rows [|m|^2/2, m_x, m_y, 1] [boots2013, eq. 3].
 /// @param landmarks_m  N x 2.
 Eigen::MatrixXd landmark_states(const Points& landmarks_m);

@@ -2,8 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
-#include <optional>
 
 #include "core/base/errors.hpp"
 
@@ -67,9 +67,8 @@ Eigen::VectorXd thinned(const Eigen::VectorXd& time_s) {
   return some;
 }
 
-std::optional<WindowTrial> tried(const std::vector<LandmarkReadings>& readings,
-                                 const Trajectory& path, const Eigen::VectorXd& some_s,
-                                 double length_s) {
+WindowTrial tried(const std::vector<LandmarkReadings>& readings, const Trajectory& path,
+                  const Eigen::VectorXd& some_s, double length_s) {
   const double first_s = some_s(0), last_s = some_s(some_s.size() - 1);
   WindowOptions options{.length_s = length_s,
                         .range_scale = range_scale_of(readings, first_s, last_s, length_s)};
@@ -77,40 +76,52 @@ std::optional<WindowTrial> tried(const std::vector<LandmarkReadings>& readings,
   for (Eigen::Index n = 0; n < std::ssize(readings); ++n)
     for (Eigen::Index turn = 0; turn < kTurns; ++turn)
       hold_out(readings[static_cast<std::size_t>(n)], turn, n, options, first_s, held_out);
-  if (held_out.told == 0 || double(held_out.untold) > kUntold * double(held_out.told))
-    return std::nullopt;
   const auto covered = windowed_ranges(readings, path, some_s, options).columns.size();
-  return WindowTrial{.length_s = length_s,
-                     .range_scale = options.range_scale,
-                     .error_m = held_out.error_m / double(held_out.told),
-                     .covered = double(covered) / double(some_s.size())};
+  const bool usable =
+      held_out.told > 0 && double(held_out.untold) <= kUntold * double(held_out.told);
+  return {.length_s = length_s,
+          .range_scale = options.range_scale,
+          .error_m = usable ? held_out.error_m / double(held_out.told)
+                            : std::numeric_limits<double>::quiet_NaN(),
+          .covered = double(covered) / double(some_s.size())};
 }
 
 }  // namespace
 
-WindowChoice choose_window(const std::vector<LandmarkReadings>& readings, const Trajectory& path,
+WindowSearch choose_window(const std::vector<LandmarkReadings>& readings, const Trajectory& path,
                            const Eigen::VectorXd& time_s) {
   if (time_s.size() < 2 || !(time_s(time_s.size() - 1) > time_s(0)))
     throw InvalidInput("windows need two times or more");
   const Eigen::VectorXd some_s = thinned(time_s);
   const double all_s = some_s(some_s.size() - 1) - some_s(0);
-  WindowChoice choice;
+  WindowSearch choice;
   choice.options.length_s = all_s;
   const WindowTrial* best = nullptr;
-  for (int i = 0; i < kLengths; ++i) {
-    const double length_s = all_s * std::pow(std::numbers::sqrt2, -i);
-    if (const auto trial = tried(readings, path, some_s, length_s)) choice.trials.push_back(*trial);
-  }
-  for (const WindowTrial& trial : choice.trials)
+  for (int i = 0; i < kLengths; ++i)
+    choice.trials.push_back(
+        tried(readings, path, some_s, all_s * std::pow(std::numbers::sqrt2, -i)));
+  for (const WindowTrial& trial : choice.trials) {
+    if (std::isnan(trial.error_m)) continue;
     if (best == nullptr || trial.covered > best->covered ||
         (trial.covered == best->covered && trial.error_m < best->error_m))
       best = &trial;
+  }
   if (best == nullptr) {
     choice.all_covered = false;
     return choice;
   }
   choice.options = {.length_s = best->length_s, .range_scale = best->range_scale};
   choice.all_covered = best->covered == 1.0;
+  return choice;
+}
+
+WindowChoice summary(const WindowSearch& search) {
+  WindowChoice choice;
+  for (const WindowTrial& trial : search.trials) {
+    choice.lengths_s.push_back(trial.length_s);
+    choice.held_out_m.push_back(trial.error_m);
+  }
+  choice.chosen_s = search.options.length_s;
   return choice;
 }
 

@@ -2,6 +2,7 @@
 
 #include <vector>
 
+#include "core/model/slam_study.hpp"
 #include "core/range_slam/windowed_ranges.hpp"
 
 namespace mapproof {
@@ -10,12 +11,12 @@ namespace mapproof {
 struct WindowTrial {
   double length_s = 0.0;
   double range_scale = 1.0;  ///< Of range_scale_of().
-  double error_m = 0.0;      ///< Mean absolute error of ranges held out.
-  double covered = 0.0;      ///< Share of the times asked for that every landmark is told at.
+  double error_m = 0.0;  ///< Mean absolute error of ranges held out; NaN: too many are not told.
+  double covered = 0.0;  ///< Share of the times asked for that every landmark is told at.
 };
 
 /// A window length chosen by what it predicts, without ground truth.
-struct WindowChoice {
+struct WindowSearch {
   WindowOptions options;
   std::vector<WindowTrial> trials;  ///< By descending length.
   bool all_covered = true;          ///< False: no length tells all times; the best of those that
@@ -30,7 +31,10 @@ struct WindowChoice {
 /// @param time_s  Ascending, at least 2: the times that are to be covered.
 /// @throws InvalidInput if a bound is broken.
 /// @note O(R + N T) time a length, some 15 of them.
-WindowChoice choose_window(const std::vector<LandmarkReadings>& readings, const Trajectory& path,
+WindowSearch choose_window(const std::vector<LandmarkReadings>& readings, const Trajectory& path,
                            const Eigen::VectorXd& time_s);
+
+/// The lengths and errors of the trials, for records.
+WindowChoice summary(const WindowSearch& search);
 
 }  // namespace mapproof

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 
+#include "core/align/path_at.hpp"
 #include "core/base/errors.hpp"
 
 namespace mapproof {
@@ -63,29 +64,11 @@ void check(const Eigen::VectorXd& time_s, const WindowOptions& options) {
 
 }  // namespace
 
-Points positions_at(const Trajectory& path, const Eigen::VectorXd& time_s) {
-  if (path.size() < 1 || path.positions_m.rows() != path.size())
-    throw InvalidInput("a path needs a pose, and as many positions as times");
-  if (!path.time_s.allFinite() || !path.positions_m.allFinite() ||
-      !std::is_sorted(path.time_s.begin(), path.time_s.end()))
-    throw InvalidInput("a path must be finite and ascend in time");
-  Points positions(time_s.size(), 2);
-  for (Eigen::Index i = 0; i < time_s.size(); ++i) {
-    const auto after = std::upper_bound(path.time_s.begin(), path.time_s.end(), time_s(i));
-    const Eigen::Index next = std::min<Eigen::Index>(after - path.time_s.begin(), path.size() - 1);
-    const Eigen::Index last = std::max<Eigen::Index>(next - 1, 0);
-    const double gap = path.time_s(next) - path.time_s(last);
-    const double share =
-        gap > 0.0 ? std::clamp((time_s(i) - path.time_s(last)) / gap, 0.0, 1.0) : 1.0;
-    positions.row(i) =
-        (1.0 - share) * path.positions_m.row(last) + share * path.positions_m.row(next);
-  }
-  return positions;
-}
-
 std::vector<LandmarkReadings> readings_by_landmark(const std::vector<RangeReading>& ranges,
                                                    Eigen::Index landmarks, const Trajectory& path) {
-  std::vector<std::vector<const RangeReading*>> sorted(static_cast<std::size_t>(landmarks));
+  if (!path.time_s.allFinite() || !path.positions_m.allFinite())
+    throw InvalidInput("a path must be finite");
+  std::vector<std::vector<RangeReading>> sorted(static_cast<std::size_t>(landmarks));
   double last_s = -std::numeric_limits<double>::infinity();
   for (const RangeReading& reading : ranges) {
     if (reading.landmark < 0 || reading.landmark >= landmarks)
@@ -93,16 +76,17 @@ std::vector<LandmarkReadings> readings_by_landmark(const std::vector<RangeReadin
     if (!(reading.range_m >= 0.0 && reading.range_m < 1e150) || !(reading.time_s >= last_s))
       throw InvalidInput("ranges must be finite, at least 0 and ascend in time");
     last_s = reading.time_s;
-    sorted[static_cast<std::size_t>(reading.landmark)].push_back(&reading);
+    if (path.size() > 0 && last_s >= path.time_s(0) && last_s <= path.time_s(path.size() - 1))
+      sorted[static_cast<std::size_t>(reading.landmark)].push_back(reading);
   }
   std::vector<LandmarkReadings> result;
-  for (const auto& rows : sorted) {
+  for (const std::vector<RangeReading>& rows : sorted) {
     LandmarkReadings readings;
     readings.time_s.resize(std::ssize(rows));
     readings.range_m.resize(std::ssize(rows));
-    for (Eigen::Index i = 0; i < std::ssize(rows); ++i) {
-      readings.time_s(i) = rows[static_cast<std::size_t>(i)]->time_s;
-      readings.range_m(i) = rows[static_cast<std::size_t>(i)]->range_m;
+    for (std::size_t i = 0; i < rows.size(); ++i) {
+      readings.time_s(static_cast<Eigen::Index>(i)) = rows[i].time_s;
+      readings.range_m(static_cast<Eigen::Index>(i)) = rows[i].range_m;
     }
     readings.positions_m = positions_at(path, readings.time_s);
     result.push_back(std::move(readings));
@@ -140,6 +124,7 @@ WindowedRanges windowed_ranges(const std::vector<LandmarkReadings>& readings,
                                const WindowOptions& options) {
   check(time_s, options);
   const Points path_m = positions_at(path, time_s);
+  if (!path_m.allFinite()) throw InvalidInput("ranges are asked for beyond the path");
   Eigen::MatrixXd Y(std::ssize(readings), time_s.size());
   for (Eigen::Index n = 0; n < Y.rows(); ++n)
     Y.row(n) =

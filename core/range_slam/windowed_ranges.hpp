@@ -21,12 +21,10 @@ struct WindowedRanges {
   std::vector<Eigen::Index> columns;  ///< The times asked for that every landmark is told at.
 };
 
-/// Positions at any times along a path: linear between its poses, held before and after them.
-Points positions_at(const Trajectory& path, const Eigen::VectorXd& time_s);
-
-/// Readings by landmark, with positions on the path.
+/// Readings by landmark, with positions on the path; those before its first pose or after its last
+/// are left out.
 /// @throws InvalidInput unless ranges are finite, >= 0, ascending in time and of landmarks
-///         0 to `landmarks` - 1, and the path has a pose and ascends.
+///         0 to `landmarks` - 1, and the path is finite and ascends.
 std::vector<LandmarkReadings> readings_by_landmark(const std::vector<RangeReading>& ranges,
                                                    Eigen::Index landmarks, const Trajectory& path);
 
@@ -41,7 +39,7 @@ Eigen::VectorXd windowed_half_squares(const LandmarkReadings& readings,
 
 /// The same for all landmarks.
 /// @param path    Dead-reckoned.
-/// @param time_s  Ascending, T of them.
+/// @param time_s  Ascending, T of them, within the path's.
 /// @throws InvalidInput if a bound is broken.
 /// @note O(R + N T) time for R readings.
 WindowedRanges windowed_ranges(const std::vector<LandmarkReadings>& readings,

@@ -1,14 +1,15 @@
 #include "tests/core/range_slam/plaza.hpp"
 
-#include <Eigen/LU>
-#include <Eigen/SVD>
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
 #include <fstream>
+#include <limits>
 #include <sstream>
 #include <stdexcept>
 #include <vector>
+
+#include "core/score/trajectory_error.hpp"
 
 namespace mapproof::test {
 namespace {
@@ -90,29 +91,10 @@ std::optional<Plaza> plaza(const std::string& name) {
   return plaza;
 }
 
-double mean_error_m(const Plaza& plaza, const Trajectory& path, bool may_move) {
-  // Poses of the truth at the path's times: the same, but for the stamp of the first.
-  const Trajectory& truth = *plaza.log.truth;
-  Points expected(path.size(), 2);
-  for (Eigen::Index t = 0; t < path.size(); ++t) {
-    const auto at =
-        std::lower_bound(truth.time_s.begin(), truth.time_s.end(), path.time_s(t) - 0.03) -
-        truth.time_s.begin();
-    expected.row(t) = truth.positions_m.row(std::min(at, truth.size() - 1));
-  }
-  Points found = path.positions_m;
-  if (may_move) {
-    const Eigen::RowVector2d from = found.colwise().mean(), to = expected.colwise().mean();
-    const Eigen::Matrix2d product =
-        (found.rowwise() - from).transpose() * (expected.rowwise() - to);
-    const Eigen::JacobiSVD<Eigen::Matrix2d> svd(product, Eigen::ComputeFullU | Eigen::ComputeFullV);
-    Eigen::Matrix2d signs = Eigen::Matrix2d::Identity();
-    signs(1, 1) = (svd.matrixU() * svd.matrixV().transpose()).determinant() < 0.0 ? -1.0 : 1.0;
-    found =
-        ((found.rowwise() - from) * svd.matrixU() * signs * svd.matrixV().transpose()).rowwise() +
-        to;
-  }
-  return (found - expected).rowwise().norm().mean();
+double mean_error_m(const Plaza& plaza, const SlamEstimate& estimate, Alignment alignment) {
+  const auto error =
+      trajectory_error(estimate, *plaza.log.truth, plaza.log.true_landmarks, alignment);
+  return error ? error->mean_m : std::numeric_limits<double>::infinity();
 }
 
 }  // namespace mapproof::test

@@ -4,6 +4,7 @@
 #include <string>
 
 #include "core/model/range_log.hpp"
+#include "core/model/slam.hpp"
 
 namespace mapproof::test {
 
@@ -17,8 +18,7 @@ struct Plaza {
 /// @return Empty where MAPPROOF_PLAZA is not set.
 std::optional<Plaza> plaza(const std::string& name);
 
-/// Mean distance of the estimated path to the truth after the best motion.
-/// @param may_move  False: compared as it is.
-double mean_error_m(const Plaza& plaza, const Trajectory& path, bool may_move);
+/// Mean distance of the estimated path to the truth after that alignment.
+double mean_error_m(const Plaza& plaza, const SlamEstimate& estimate, Alignment alignment);
 
 }  // namespace mapproof::test

@@ -169,13 +169,13 @@ TEST_P(PlazaSlam, ReachesItsErrorsWithWindowsChosenWithoutTruth) {
   if (!plaza) GTEST_SKIP() << "MAPPROOF_PLAZA does not name the folder of the Plaza data";
   const SpectralSlam free = spectral_slam(plaza->log, plaza->odometry);
   EXPECT_EQ(free.estimate.path.size(), plaza->odometry.size());
-  EXPECT_LT(test::mean_error_m(*plaza, free.estimate.path, true), GetParam().free_m);
+  EXPECT_LT(test::mean_error_m(*plaza, free.estimate, Alignment::kRigid), GetParam().free_m);
   EXPECT_NEAR(free.estimate.range_scale, 1.07, 0.02);
   for (const bool with_heading : {false, true}) {
     const SpectralSlam known =
         spectral_slam(plaza->log, plaza->odometry,
                       {.known = all_known(plaza->log), .with_heading = with_heading});
-    EXPECT_LT(test::mean_error_m(*plaza, known.estimate.path, false), GetParam().known_m);
+    EXPECT_LT(test::mean_error_m(*plaza, known.estimate, Alignment::kNone), GetParam().known_m);
   }
 }
 

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "core/base/errors.hpp"
@@ -88,6 +89,15 @@ TEST(WindowChoice, IsLongWhereOdometryIsGoodAndShortWhereItDrifts) {
   EXPECT_LT(chosen_s(0.03), 0.5 * chosen_s(0.0));
 }
 
+TEST(WindowChoice, IsSummedUpForRecords) {
+  const Drive d = drive({.range_sigma_m = 0.3}, 6);
+  const WindowSearch search = choose_window(readings_of(d), d.odometry, d.odometry.time_s);
+  const WindowChoice choice = summary(search);
+  ASSERT_EQ(choice.lengths_s.size(), choice.held_out_m.size());
+  EXPECT_DOUBLE_EQ(choice.lengths_s[0], 200.0);
+  EXPECT_TRUE(std::ranges::find(choice.lengths_s, choice.chosen_s) != choice.lengths_s.end());
+}
+
 TEST(WindowChoice, OfHardlyAnyReadingsSaysThatItCoversTooLittle) {
   Drive sparse = drive({}, 7);
   sparse.log.ranges.resize(10);
@@ -109,16 +119,11 @@ TEST(ReadingsByLandmark, RefuseDisorderAndStrangers) {
   refused({.time_s = std::nan(""), .landmark = 0, .range_m = 1.0});
 }
 
-TEST(PositionsAt, AreLinearBetweenPosesAndHeldOutside) {
-  Trajectory path;
-  path.time_s = Eigen::Vector3d(0.0, 1.0, 3.0);
-  path.positions_m.resize(3, 2);
-  path.positions_m << 0.0, 0.0, 2.0, 0.0, 2.0, 4.0;
-  Eigen::VectorXd asked(5);
-  asked << -1.0, 0.25, 1.0, 2.0, 9.0;
-  Points expected(5, 2);
-  expected << 0.0, 0.0, 0.5, 0.0, 2.0, 0.0, 2.0, 2.0, 2.0, 4.0;
-  EXPECT_LT((positions_at(path, asked) - expected).norm(), 1e-12);
+TEST(ReadingsByLandmark, LeaveOutWhatIsBeyondTheOdometry) {
+  Drive d = drive({}, 9);
+  const Eigen::Index before = readings_of(d)[0].size();
+  d.log.ranges.push_back({.time_s = 1e3, .landmark = 0, .range_m = 1.0});
+  EXPECT_EQ(readings_of(d)[0].size(), before);
 }
 
 }  // namespace

@@ -1,0 +1,55 @@
+#pragma once
+
+#include <Eigen/Core>
+
+#include "core/range_slam/known_landmarks.hpp"
+#include "core/range_slam/metric_upgrade.hpp"
+#include "core/range_slam/spectral_map.hpp"
+
+namespace mapproof {
+
+/// Spectral SLAM that takes squared ranges a column at a time and forgets them.
+///
+/// Kept are the Gram matrix and the sum of all columns, and the fourth moments of min(N, 8) of
+/// their coordinates: those along the Gram's leading eigenvectors, each scaled to mean square 1.
+/// Known landmarks need the Gram alone; the metric upgrade needs fourth moments, of 4 coordinates
+/// that are not known before the end. Eight, re-expressed every few columns as the eigenvectors
+/// turn, lose nothing up to 8 landmarks, nor without noise, and beyond that only noise that moves
+/// in and out of the leading eight; moments of all N would take O(N^4) memory.
+class OnlineSpectralMap {
+ public:
+  /// @throws InvalidInput unless landmarks >= 1.
+  explicit OnlineSpectralMap(Eigen::Index landmarks);
+
+  /// Folds one step in.
+  /// @param half_squares  N, 1/2 d^2, finite.
+  /// @throws InvalidInput if a bound is broken.
+  /// @note O(N^2) time on average, O(N^2) memory whatever the number of steps.
+  void add(const Eigen::VectorXd& half_squares);
+
+  Eigen::Index steps() const { return steps_; }
+
+  /// What map_from_known_landmarks() would give for all steps so far; X is left empty. Positions
+  /// come from localise().
+  SpectralMap map(const KnownLandmarks& known) const;
+
+  /// What metric_upgrade() would give for all steps so far; X is left empty.
+  SpectralMap map() const;
+
+ private:
+  void fold();
+  /// Rank 4 factors with as few states as have the mean and mean square of all.
+  Factorization factors() const;
+
+  Eigen::Index steps_ = 0;
+  Eigen::MatrixXd gram_;     ///< N x N, of folded columns.
+  Eigen::VectorXd sum_;      ///< N, of folded columns.
+  Eigen::MatrixXd pending_;  ///< N x block; the first `pending_count_` columns wait.
+  Eigen::Index pending_count_ = 0;
+  Eigen::VectorXd eigenvalues_;  ///< N, of gram_ / steps_, descending.
+  Eigen::MatrixXd frame_;        ///< N x q: y = frame_ z for whitened coordinates z.
+  Eigen::MatrixXd to_frame_;     ///< q x N.
+  Eigen::MatrixXd moments_;      ///< Sum of outer products of the monomials of z.
+};
+
+}  // namespace mapproof
