@@ -63,7 +63,8 @@ OdometryFit fit_to_odometry(const Points& positions_m, const Points& odometry_m,
   OdometryFit fit;
   if (!(total > 0.0) || !(upright + turned > 0.0)) return fit;
   fit.mirrored = turned > upright;
-  fit.scale = weighted_median(fit.mirrored ? mirrored : straight, total);
+  const double scale = weighted_median(fit.mirrored ? mirrored : straight, total);
+  if (scale > 0.0) fit.scale = scale;
   fit.agreement = std::abs(upright - turned) / std::max(upright, turned);
   return fit;
 }

@@ -16,7 +16,7 @@ struct OdometryFit {
 /// least squares, as it is and mirrored.
 /// @param positions_m, odometry_m  T x 2, the same times.
 /// @param piece  Poses in a piece, >= 2.
-/// @return Scale 1 and agreement 0 where nothing moves.
+/// @return Scale 1 and agreement 0 where nothing moves; scale 1 where the map does not.
 /// @throws InvalidInput if a bound is broken.
 OdometryFit fit_to_odometry(const Points& positions_m, const Points& odometry_m,
                             Eigen::Index piece);

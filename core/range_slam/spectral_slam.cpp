@@ -37,15 +37,24 @@ std::vector<Eigen::Index> rows_apart(const Trajectory& path, double step_m) {
   return rows;
 }
 
-/// Headings at all poses from those at some: odometry turns them on from the last one before.
-Eigen::VectorXd carried(const Eigen::VectorXd& heading_rad, const std::vector<Eigen::Index>& rows,
-                        const Eigen::VectorXd& odometry_rad) {
+/// What a map says of the direction of motion at some poses, beside what odometry says of it.
+struct Directions {
+  std::vector<Eigen::Index> rows;  ///< Of the path, ascending.
+  Eigen::VectorXd map_rad;
+  Eigen::VectorXd odometry_rad;
+};
+
+/// Headings at all poses: odometry's, turned by what the last direction before differs by.
+Eigen::VectorXd carried(const Directions& directions, const Eigen::VectorXd& odometry_rad,
+                        bool mirrored) {
   Eigen::VectorXd all(odometry_rad.size());
-  std::size_t k = 0;
+  Eigen::Index k = 0;
   for (Eigen::Index t = 0; t < all.size(); ++t) {
-    while (k + 1 < rows.size() && rows[k + 1] <= t) ++k;
-    const double turn = odometry_rad(t) - odometry_rad(rows[k]);
-    const double heading = heading_rad(static_cast<Eigen::Index>(k)) + turn;
+    while (k + 1 < std::ssize(directions.rows) &&
+           directions.rows[static_cast<std::size_t>(k + 1)] <= t)
+      ++k;
+    const double on_map = (mirrored ? -1.0 : 1.0) * directions.map_rad(k);
+    const double heading = on_map + odometry_rad(t) - directions.odometry_rad(k);
     all(t) = std::atan2(std::sin(heading), std::cos(heading));
   }
   return all;
@@ -54,8 +63,7 @@ Eigen::VectorXd carried(const Eigen::VectorXd& heading_rad, const std::vector<Ei
 /// The map and what goes with it, before positions are read off.
 struct Mapped {
   SpectralMap map;
-  Eigen::VectorXd heading_rad;  ///< At `heading_rows` of the path; may be empty.
-  std::vector<Eigen::Index> heading_rows;
+  Directions directions;  ///< Empty without heading.
   Eigen::VectorXd singular_values;
 };
 
@@ -63,20 +71,21 @@ Mapped mapped_with_heading(const Eigen::MatrixXd& Y, const Trajectory& odometry,
                            const SpectralSlamOptions& options) {
   const std::vector<Eigen::Index> rows = rows_apart(odometry, options.heading_step_m);
   if (rows.empty()) return {};
-  Eigen::VectorXd moved_m(std::ssize(rows) - 1);
-  for (Eigen::Index k = 0; k < moved_m.size(); ++k) {
-    const auto i = static_cast<std::size_t>(k);
-    moved_m(k) = (odometry.positions_m.row(rows[i + 1]) - odometry.positions_m.row(rows[i])).norm();
-  }
+  const Points at = odometry.positions_m(rows, Eigen::all);
+  const Points legs = at.bottomRows(at.rows() - 1) - at.topRows(at.rows() - 1);
   const HeadingColumns columns =
-      heading_columns(Y(Eigen::all, rows), moved_m, 0.5 * options.heading_step_m);
+      heading_columns(Y(Eigen::all, rows), legs.rowwise().norm(), 0.5 * options.heading_step_m);
   HeadingMap found = map_with_heading(columns, options.known);
-  Mapped mapped{.map = std::move(found.map),
-                .heading_rad = std::move(found.heading_rad),
-                .heading_rows = {},
-                .singular_values = std::move(found.singular_values)};
-  for (const Eigen::Index step : columns.steps)
-    mapped.heading_rows.push_back(rows[static_cast<std::size_t>(step)]);
+  Mapped mapped;
+  mapped.map = std::move(found.map);
+  mapped.singular_values = std::move(found.singular_values);
+  mapped.directions.map_rad = std::move(found.heading_rad);
+  mapped.directions.odometry_rad.resize(std::ssize(columns.steps));
+  for (const Eigen::Index step : columns.steps) {
+    mapped.directions.odometry_rad(std::ssize(mapped.directions.rows)) =
+        std::atan2(legs(step, 1), legs(step, 0));
+    mapped.directions.rows.push_back(rows[static_cast<std::size_t>(step)]);
+  }
   return mapped;
 }
 
@@ -157,6 +166,8 @@ SpectralSlam spectral_slam(const RangeLog& log, const Trajectory& odometry,
   estimate.statuses.insert(estimate.statuses.end(), mapped.map.statuses.begin(),
                            mapped.map.statuses.end());
   estimate.singular_values = mapped.singular_values;
+  const Eigen::Index rank = options.with_heading ? 7 : 4;
+  if (mapped.singular_values.size() > rank) estimate.noise_level = mapped.singular_values(rank);
   estimate.condition = mapped.map.condition;
   estimate.range_scale = result.window.options.range_scale * mapped.map.range_scale;
   if (mapped.map.empty()) return result;
@@ -179,11 +190,8 @@ SpectralSlam spectral_slam(const RangeLog& log, const Trajectory& odometry,
         std::min(1.0, result.window.options.length_s / seconds) * double(T - 1));
     mirrored = settle_by_odometry(estimate, told.positions_m, window);
   }
-  if (mapped.heading_rad.size() > 0) {
-    const double sign = mirrored ? -1.0 : 1.0;
-    estimate.path.heading_rad =
-        carried(sign * mapped.heading_rad, mapped.heading_rows, told.heading_rad);
-  }
+  if (!mapped.directions.rows.empty())
+    estimate.path.heading_rad = carried(mapped.directions, told.heading_rad, mirrored);
   return result;
 }
 

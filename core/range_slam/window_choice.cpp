@@ -94,35 +94,35 @@ WindowSearch choose_window(const std::vector<LandmarkReadings>& readings, const 
     throw InvalidInput("windows need two times or more");
   const Eigen::VectorXd some_s = thinned(time_s);
   const double all_s = some_s(some_s.size() - 1) - some_s(0);
-  WindowSearch choice;
-  choice.options.length_s = all_s;
+  WindowSearch search;
+  search.options.length_s = all_s;
   const WindowTrial* best = nullptr;
   for (int i = 0; i < kLengths; ++i)
-    choice.trials.push_back(
+    search.trials.push_back(
         tried(readings, path, some_s, all_s * std::pow(std::numbers::sqrt2, -i)));
-  for (const WindowTrial& trial : choice.trials) {
+  for (const WindowTrial& trial : search.trials) {
     if (std::isnan(trial.error_m)) continue;
     if (best == nullptr || trial.covered > best->covered ||
         (trial.covered == best->covered && trial.error_m < best->error_m))
       best = &trial;
   }
   if (best == nullptr) {
-    choice.all_covered = false;
-    return choice;
+    search.all_covered = false;
+    return search;
   }
-  choice.options = {.length_s = best->length_s, .range_scale = best->range_scale};
-  choice.all_covered = best->covered == 1.0;
-  return choice;
+  search.options = {.length_s = best->length_s, .range_scale = best->range_scale};
+  search.all_covered = best->covered == 1.0;
+  return search;
 }
 
-WindowChoice summary(const WindowSearch& search) {
-  WindowChoice choice;
+WindowCurve summary(const WindowSearch& search) {
+  WindowCurve curve;
   for (const WindowTrial& trial : search.trials) {
-    choice.lengths_s.push_back(trial.length_s);
-    choice.held_out_m.push_back(trial.error_m);
+    curve.lengths_s.push_back(trial.length_s);
+    curve.held_out_m.push_back(trial.error_m);
   }
-  choice.chosen_s = search.options.length_s;
-  return choice;
+  curve.chosen_s = search.options.length_s;
+  return curve;
 }
 
 }  // namespace mapproof

@@ -35,6 +35,6 @@ WindowSearch choose_window(const std::vector<LandmarkReadings>& readings, const 
                            const Eigen::VectorXd& time_s);
 
 /// The lengths and errors of the trials, for records.
-WindowChoice summary(const WindowSearch& search);
+WindowCurve summary(const WindowSearch& search);
 
 }  // namespace mapproof

@@ -15,6 +15,9 @@ constexpr double kOverlap = 4.0;
 /// Readings that a window needs.
 constexpr Eigen::Index kLeastReadings = 6;
 
+/// Longer ranges are no ranges; their fourth powers must not overflow.
+constexpr double kFarthest_m = 1e9;
+
 /// Windows of one length, evenly over a stretch of time.
 struct WindowGrid {
   double first_center_s;
@@ -73,8 +76,8 @@ std::vector<LandmarkReadings> readings_by_landmark(const std::vector<RangeReadin
   for (const RangeReading& reading : ranges) {
     if (reading.landmark < 0 || reading.landmark >= landmarks)
       throw InvalidInput("a range is to none of the landmarks");
-    if (!(reading.range_m >= 0.0 && reading.range_m < 1e150) || !(reading.time_s >= last_s))
-      throw InvalidInput("ranges must be finite, at least 0 and ascend in time");
+    if (!(reading.range_m >= 0.0 && reading.range_m < kFarthest_m) || !(reading.time_s >= last_s))
+      throw InvalidInput("ranges must be at least 0, below 1e9 m and ascend in time");
     last_s = reading.time_s;
     if (path.size() > 0 && last_s >= path.time_s(0) && last_s <= path.time_s(path.size() - 1))
       sorted[static_cast<std::size_t>(reading.landmark)].push_back(reading);

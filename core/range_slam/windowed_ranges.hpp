@@ -23,7 +23,7 @@ struct WindowedRanges {
 
 /// Readings by landmark, with positions on the path; those before its first pose or after its last
 /// are left out.
-/// @throws InvalidInput unless ranges are finite, >= 0, ascending in time and of landmarks
+/// @throws InvalidInput unless ranges are >= 0, below 1e9 m, ascending in time and of landmarks
 ///         0 to `landmarks` - 1, and the path is finite and ascends.
 std::vector<LandmarkReadings> readings_by_landmark(const std::vector<RangeReading>& ranges,
                                                    Eigen::Index landmarks, const Trajectory& path);

@@ -92,10 +92,10 @@ TEST(WindowChoice, IsLongWhereOdometryIsGoodAndShortWhereItDrifts) {
 TEST(WindowChoice, IsSummedUpForRecords) {
   const Drive d = drive({.range_sigma_m = 0.3}, 6);
   const WindowSearch search = choose_window(readings_of(d), d.odometry, d.odometry.time_s);
-  const WindowChoice choice = summary(search);
-  ASSERT_EQ(choice.lengths_s.size(), choice.held_out_m.size());
-  EXPECT_DOUBLE_EQ(choice.lengths_s[0], 200.0);
-  EXPECT_TRUE(std::ranges::find(choice.lengths_s, choice.chosen_s) != choice.lengths_s.end());
+  const WindowCurve curve = summary(search);
+  ASSERT_EQ(curve.lengths_s.size(), curve.held_out_m.size());
+  EXPECT_DOUBLE_EQ(curve.lengths_s[0], 200.0);
+  EXPECT_TRUE(std::ranges::find(curve.lengths_s, curve.chosen_s) != curve.lengths_s.end());
 }
 
 TEST(WindowChoice, OfHardlyAnyReadingsSaysThatItCoversTooLittle) {
