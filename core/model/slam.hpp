@@ -42,6 +42,7 @@ struct SlamEstimate {
   int iterations = 0;                            ///< Of an iterative method; 0 otherwise.
   std::optional<double> cost;                    ///< Final half sum of robust squared residuals.
   std::vector<Status> statuses;                  ///< Empty if all went well.
+  Eigen::VectorXd range_offsets_m;  ///< N, added to all ranges of a landmark; or empty.
 };
 
 /// Position errors of a path after an alignment.

@@ -62,6 +62,8 @@ const std::map<std::string, Modules>& kept_in() {
       {"cairo", {"render/cairo"}},
       {"nlohmann/", {"core/json", "core/records", "render/plot"}},
       {"csdp/", {"core/embed"}},
+      {"ceres/", {"core/range_slam"}},
+      {"glog/", {"core/range_slam"}},
       {"matio", {"core/records"}},
       {"hb", {"render/theme", "render/cairo"}},
       {"ft2build", {"render/theme", "render/cairo"}},

@@ -1,0 +1,61 @@
+#pragma once
+
+#include <vector>
+
+#include <Eigen/Core>
+
+#include "core/model/range_log.hpp"
+
+namespace mapproof {
+
+/// Standard deviations of one motion.
+struct OdometryNoise {
+  double forward_m = 0.02;
+  double sideways_m = 0.02;
+  double turn_rad = 0.005;
+};
+
+/// The way from one key pose to the next, in the frame of the first: forward, left, turn.
+struct KeyMotion {
+  Eigen::Vector3d step = Eigen::Vector3d::Zero();
+  Eigen::Matrix3d root_information = Eigen::Matrix3d::Identity();  ///< W, W'W the information.
+};
+
+/// A place on the path as the two key poses around it give it: (1 - share) of the one reckoned
+/// ahead from the pose before, share of the one reckoned back from the pose after.
+struct BetweenPoses {
+  Eigen::Index before = 0;  ///< Key pose; the other is the next one.
+  double share = 0.0;
+  Eigen::Vector3d ahead = Eigen::Vector3d::Zero();   ///< Forward, left, turn from the pose before.
+  Eigen::Vector3d behind = Eigen::Vector3d::Zero();  ///< The same from the pose after.
+
+  /// x, y and heading. @param first, second  The two key poses, their headings not wrapped.
+  Eigen::Vector3d pose(const Eigen::Vector3d& first, const Eigen::Vector3d& second) const;
+};
+
+/// The poses of a dead-reckoned path that are estimated: all, or about one for each `spacing_m` of
+/// way. Motions between them are put together with their covariance; other poses follow from them.
+class KeyPoses {
+ public:
+  /// @param path  From dead_reckoned(), T >= 2.
+  /// @throws InvalidInput unless the noise is positive and the spacing is not negative.
+  KeyPoses(const Trajectory& path, const OdometryNoise& noise, double spacing_m);
+
+  Eigen::Index size() const { return static_cast<Eigen::Index>(rows_.size()); }
+  /// Rows in the path, the first and the last one among them.
+  const std::vector<Eigen::Index>& rows() const { return rows_; }
+  /// size() - 1 of them.
+  const std::vector<KeyMotion>& motions() const { return motions_; }
+  /// @param time_s  Within the time of the path. @note O(log T).
+  BetweenPoses at(double time_s) const;
+  const Trajectory& path() const { return path_; }
+
+ private:
+  KeyMotion motion_between(Eigen::Index first, Eigen::Index last, const OdometryNoise& noise) const;
+
+  Trajectory path_;
+  std::vector<Eigen::Index> rows_;
+  std::vector<KeyMotion> motions_;
+};
+
+}  // namespace mapproof
