@@ -11,17 +11,17 @@
 namespace mapproof {
 
 struct RefineOptions {
-  OdometryNoise odometry;               ///< Of one motion.
-  double range_sigma_m = 0.5;           ///< > 0.
-  double huber = 1.5;                   ///< Sigmas beyond which a range counts less; > 0.
-  bool estimate_scale = true;           ///< One factor for all ranges; else that of the start.
-  double offset_sigma_m = 0.0;          ///< Prior of a constant in a landmark's ranges; 0: none.
-  double spacing_m = 0.0;               ///< Way between the poses that are estimated; 0: all.
-  double coarse_spacing_m = 5.0;        ///< That of a first, cheaper solve; 0: none.
-  std::optional<KnownLandmarks> known;  ///< Held where they are; two or more.
-  int most_iterations = 200;            ///< >= 1.
-  Eigen::Index covariances = 0;         ///< Poses with a covariance, evenly spread; 0: no
-                                        ///< covariances at all.
+  OdometryNoise odometry = {};    ///< Of one motion.
+  double range_sigma_m = 0.5;     ///< > 0.
+  double huber = 1.5;             ///< Sigmas beyond which a range counts less; > 0.
+  bool estimate_scale = true;     ///< One factor for all ranges; else that of the start.
+  double offset_sigma_m = 0.0;    ///< Prior of a constant in a landmark's ranges; 0: none.
+  double spacing_m = 0.0;         ///< Way between the poses that are estimated; 0: all.
+  double coarse_spacing_m = 5.0;  ///< That of a first, cheaper solve; 0: none.
+  std::optional<KnownLandmarks> known = std::nullopt;  ///< Held where they are; two or more.
+  int most_iterations = 200;                           ///< >= 1.
+  Eigen::Index covariances = 0;  ///< Poses with a covariance, evenly spread; 0: no
+                                 ///< covariances at all.
 
   /// Names the first field that cannot be used with n landmarks; empty if none.
   std::string problem(Eigen::Index n) const;

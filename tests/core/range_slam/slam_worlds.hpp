@@ -1,0 +1,21 @@
+#pragma once
+
+#include "core/model/range_log.hpp"
+
+namespace mapproof::test {
+
+struct SlamWorldOptions {
+  Eigen::Index steps = 60;
+  Eigen::Index landmarks = 4;
+  double range_sigma_m = 0.0;
+  double distance_sigma_m = 0.0;
+  double turn_sigma_rad = 0.0;
+  double range_scale = 1.0;
+  bool is_straight = false;
+};
+
+/// A drive on a wavy round of half-metre steps, with a reading of one landmark in turn at each
+/// pose. Odometry errs by the sigmas given; the truth is kept.
+RangeLog slam_world(std::uint64_t seed, const SlamWorldOptions& options = {});
+
+}  // namespace mapproof::test
