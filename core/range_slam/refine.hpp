@@ -28,7 +28,7 @@ struct RefineOptions {
 };
 
 /// Path, landmarks and range scale that agree best with odometry and ranges: nonlinear least
-/// squares by Levenberg and Marquardt's steps [ceres], from a start.
+/// squares by Levenberg and Marquardt's steps [agarwal2022], from a start.
 ///
 /// Minimised is half the sum over motions of the whitened squared error, and over ranges of Huber's
 /// loss of (scale * distance + offset - range) / sigma. A range between two poses sees both.
