@@ -1,10 +1,13 @@
 #include "render/cairo/cairo_backend.hpp"
 
+#include <algorithm>
+#include <array>
 #include <cstdio>
 #include <cstdlib>
 #include <memory>
 #include <thread>
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include "core/base/errors.hpp"
@@ -82,26 +85,42 @@ TEST_F(Backends, PdfHasAFixedDateAndATitle) {
   EXPECT_NE(pdf.find("/Title"), std::string::npos);
 }
 
+/// A figure in each format.
+using Pictures = std::array<std::string, 3>;
+
+Pictures pictures_of(const Figure& figure) {
+  return {figure_png(figure, report_theme()), figure_svg(figure, report_theme()),
+          figure_pdf(figure, report_theme())};
+}
+
+/// Names the figure, its format and the first byte that differs; empty if none does.
+std::string difference(const Figure& figure, const Pictures& a, const Pictures& b) {
+  constexpr std::array kFormats = {"png", "svg", "pdf"};
+  for (std::size_t i = 0; i < kFormats.size(); ++i) {
+    if (a[i] == b[i]) continue;
+    const auto at = std::ranges::mismatch(a[i], b[i]).in1 - a[i].begin();
+    return fmt::format("{}.{}: {} and {} bytes, different from byte {}", figure.id, kFormats[i],
+                       a[i].size(), b[i].size(), at);
+  }
+  return "";
+}
+
 TEST_F(Backends, ThePictureIsTheSameForEveryThread) {
   const std::vector<Figure> figures = sample_figures();
-  std::vector<std::string> expected;
-  for (const Figure& figure : figures)
-    expected.push_back(figure_png(figure, report_theme()) + figure_svg(figure, report_theme()) +
-                       figure_pdf(figure, report_theme()));
-  std::vector<std::string> found(3 * figures.size());
+  std::vector<Pictures> expected;
+  for (const Figure& figure : figures) expected.push_back(pictures_of(figure));
+  std::vector<Pictures> found(3 * figures.size());
   std::vector<std::jthread> threads;
   for (std::size_t t = 0; t < 3; ++t)
     threads.emplace_back([&, t] {
       for (std::size_t k = 0; k < figures.size(); ++k) {
         const std::size_t i = (k + 7 * t) % figures.size();  // In another order in each thread.
-        found[t * figures.size() + i] = figure_png(figures[i], report_theme()) +
-                                        figure_svg(figures[i], report_theme()) +
-                                        figure_pdf(figures[i], report_theme());
+        found[t * figures.size() + i] = pictures_of(figures[i]);
       }
     });
   threads.clear();
   for (std::size_t i = 0; i < found.size(); ++i)
-    EXPECT_TRUE(found[i] == expected[i % figures.size()]) << figures[i % figures.size()].id;
+    EXPECT_EQ(difference(figures[i % figures.size()], expected[i % figures.size()], found[i]), "");
 }
 
 TEST_F(Backends, FilesAreNamedByTheFigureAndHoldWhatTheBytesFunctionsGive) {
