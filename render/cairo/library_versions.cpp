@@ -4,7 +4,7 @@
 #include <fmt/format.h>
 #include <ft2build.h>
 #include <hb.h>
-#include <isa-l.h>
+#include <libdeflate.h>
 #include FT_FREETYPE_H
 
 namespace mapproof {
@@ -27,8 +27,7 @@ std::vector<std::pair<std::string, std::string>> render_library_versions() {
   return {{"Cairo", cairo_version_string()},
           {"FreeType", freetype_version()},
           {"HarfBuzz", hb_version_string()},
-          {"ISA-L",
-           fmt::format("{}.{}.{}", ISAL_MAJOR_VERSION, ISAL_MINOR_VERSION, ISAL_PATCH_VERSION)}};
+          {"libdeflate", LIBDEFLATE_VERSION_STRING}};
 }
 
 }  // namespace mapproof

@@ -3,7 +3,7 @@
 #include <cstdint>
 
 #include <fmt/format.h>
-#include <isa-l/crc.h>
+#include <libdeflate.h>
 
 namespace mapproof {
 namespace {
@@ -17,7 +17,7 @@ std::uint32_t big_endian(std::string_view bytes) {
 }
 
 std::uint32_t checksum(std::string_view bytes) {
-  return crc32_gzip_refl(0, reinterpret_cast<const unsigned char*>(bytes.data()), bytes.size());
+  return libdeflate_crc32(0, bytes.data(), bytes.size());
 }
 
 }  // namespace
