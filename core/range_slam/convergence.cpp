@@ -53,6 +53,7 @@ std::vector<ModelError> model_errors(const TrueRanges& world, std::span<const Ei
                       .observation = (map.C - C).norm(),
                       .landmarks_m = mean_distance(landmarks_m, world.landmarks_m),
                       .positions_m = mean_distance(positions_m, world.positions_m.topRows(count)),
+                      .condition = map.condition.value(),
                       .sine = std::sin(canonical_angles(factors.U, C).maxCoeff())});
   }
   return errors;

@@ -30,7 +30,9 @@ struct ModelError {
   double observation = 0.0;  ///< Frobenius norm of C-hat - C.
   double landmarks_m = 0.0;  ///< Mean distance of landmarks from their places, known ones too.
   double positions_m = 0.0;  ///< Mean distance of positions, by localise(), from theirs.
-  double sine = 0.0;         ///< Of the largest canonical angle between U and C.
+  double condition = 1.0;  ///< Of the known landmarks (see map_from_known_landmarks()): where they
+                           ///< happen to lie near a circle errors are great, and so their mean.
+  double sine = 0.0;       ///< Of the largest canonical angle between U and C.
 };
 
 /// Maps the world from its first steps and the places of known landmarks, for each number of steps.

@@ -8,12 +8,17 @@
 
 #include "core/base/errors.hpp"
 #include "core/linalg/planarity.hpp"
+#include "core/range_slam/bootstrap.hpp"
 #include "core/range_slam/heading.hpp"
 #include "core/range_slam/localise.hpp"
 #include "core/range_slam/odometry_fit.hpp"
 
 namespace mapproof {
 namespace {
+
+/// What a metric upgrade needs.
+constexpr Eigen::Index kLeastLandmarks = 4;
+constexpr Eigen::Index kLeastSteps = 8;
 
 /// The poses of a path at some of its rows.
 Trajectory part_of(const Trajectory& path, const std::vector<Eigen::Index>& rows) {
@@ -121,22 +126,16 @@ void check(const RangeLog& log, const Trajectory& odometry, const SpectralSlamOp
   if (!(options.heading_step_m > 0.0)) throw InvalidInput("the heading step must be above 0");
   if (options.with_heading && odometry.heading_rad.size() != odometry.size())
     throw InvalidInput("headings need the odometry's headings");
+  if (options.replicates == 1 || options.replicates < 0)
+    throw InvalidInput("a bootstrap needs two replicates or more");
   if (log.landmarks.empty()) throw InvalidInput("spectral SLAM needs landmarks");
 }
 
-}  // namespace
-
-SpectralSlam spectral_slam(const RangeLog& log, const Trajectory& odometry,
-                           const SpectralSlamOptions& options) {
-  check(log, odometry, options);
-  const auto N = static_cast<Eigen::Index>(log.landmarks.size());
-  SpectralSlam result;
-  SlamEstimate& estimate = result.estimate;
-  estimate.landmarks_m = Points::Constant(N, 2, std::numeric_limits<double>::quiet_NaN());
-  estimate.path.positions_m.resize(0, 2);
-
-  // Ranges at common times.
-  const std::vector<LandmarkReadings> readings = readings_by_landmark(log.ranges, N, odometry);
+/// Ranges at the odometry's times into `result.Y`, and the poses at which all are told.
+Trajectory take_ranges(SpectralSlam& result, const RangeLog& log, const Trajectory& odometry,
+                       const SpectralSlamOptions& options) {
+  const std::vector<LandmarkReadings> readings =
+      readings_by_landmark(log.ranges, std::ssize(log.landmarks), odometry);
   if (options.window) {
     result.window.options = *options.window;
   } else {
@@ -144,54 +143,78 @@ SpectralSlam spectral_slam(const RangeLog& log, const Trajectory& odometry,
   }
   WindowedRanges ranges =
       windowed_ranges(readings, odometry, odometry.time_s, result.window.options);
-  const Eigen::Index T = std::ssize(ranges.columns);
-  if (T < odometry.size())
-    estimate.statuses.push_back(
+  result.Y = std::move(ranges.Y);
+  if (result.Y.cols() < odometry.size())
+    result.estimate.statuses.push_back(
         {StatusCode::kTooFewObservations,
          fmt::format("{} of {} poses have no window with enough readings of every landmark; the "
                      "path leaves them out.",
-                     odometry.size() - T, odometry.size())});
-  if (N < 4 || T < 8) {
-    estimate.statuses.push_back(
-        {StatusCode::kTooFewObservations,
-         fmt::format("{} landmarks at {} times; 4 at 8 are needed.", N, T)});
-    return result;
-  }
-  result.Y = std::move(ranges.Y);
-  const Trajectory told = part_of(odometry, ranges.columns);
+                     odometry.size() - result.Y.cols(), odometry.size())});
+  return part_of(odometry, ranges.columns);
+}
 
-  // Map.
-  const Mapped mapped = options.with_heading ? mapped_with_heading(result.Y, told, options)
-                                             : mapped_without_heading(result, options);
+/// Statuses, spectrum and condition of a map.
+void take_facts(SlamEstimate& estimate, const Mapped& mapped, const SpectralSlamOptions& options) {
   estimate.statuses.insert(estimate.statuses.end(), mapped.map.statuses.begin(),
                            mapped.map.statuses.end());
   estimate.singular_values = mapped.singular_values;
   const Eigen::Index rank = options.with_heading ? 7 : 4;
   if (mapped.singular_values.size() > rank) estimate.noise_level = mapped.singular_values(rank);
   estimate.condition = mapped.map.condition;
-  estimate.range_scale = result.window.options.range_scale * mapped.map.range_scale;
-  if (mapped.map.empty()) return result;
+}
 
-  // Path.
-  result.Y /= mapped.map.range_scale * mapped.map.range_scale;
+/// Poses in a window, 1 at least.
+Eigen::Index poses_in_window(const Trajectory& path, double length_s) {
+  const Eigen::Index last = path.size() - 1;
+  const double share = std::min(1.0, length_s / (path.time_s(last) - path.time_s(0)));
+  return std::max<Eigen::Index>(1, static_cast<Eigen::Index>(share * double(last)));
+}
+
+}  // namespace
+
+SpectralSlam spectral_slam(const RangeLog& log, const Trajectory& odometry,
+                           const SpectralSlamOptions& options) {
+  check(log, odometry, options);
+  SpectralSlam result;
+  SlamEstimate& estimate = result.estimate;
+  estimate.landmarks_m =
+      Points::Constant(std::ssize(log.landmarks), 2, std::numeric_limits<double>::quiet_NaN());
+  estimate.path.positions_m.resize(0, 2);
+  const Trajectory told = take_ranges(result, log, odometry, options);
+  if (result.Y.rows() < kLeastLandmarks || result.Y.cols() < kLeastSteps) {
+    estimate.statuses.push_back(
+        {StatusCode::kTooFewObservations,
+         fmt::format("{} landmarks at {} times; {} at {} are needed.", result.Y.rows(),
+                     result.Y.cols(), kLeastLandmarks, kLeastSteps)});
+    return result;
+  }
+
+  const Mapped mapped = options.with_heading ? mapped_with_heading(result.Y, told, options)
+                                             : mapped_without_heading(result, options);
+  take_facts(estimate, mapped, options);
+  if (mapped.map.empty()) return result;
   const Points landmarks_m = landmarks_of(mapped.map.C);
   if (!(planarity(landmarks_m) > kFlatPlanarity)) {
     estimate.statuses.push_back(
         {StatusCode::kDegenerateGeometry, "The landmarks came out on one line: no positions."});
     return result;
   }
+
+  estimate.range_scale = result.window.options.range_scale * mapped.map.range_scale;
+  result.Y /= mapped.map.range_scale * mapped.map.range_scale;
   estimate.landmarks_m = landmarks_m;
-  estimate.path.positions_m = localise(estimate.landmarks_m, result.Y);
+  estimate.path.positions_m = localise(landmarks_m, result.Y);
   estimate.path.time_s = told.time_s;
-  bool mirrored = false;
-  if (!options.known) {
-    const double seconds = told.time_s(T - 1) - told.time_s(0);
-    const auto window = static_cast<Eigen::Index>(
-        std::min(1.0, result.window.options.length_s / seconds) * double(T - 1));
-    mirrored = settle_by_odometry(estimate, told.positions_m, window);
-  }
+  const Eigen::Index window = poses_in_window(told, result.window.options.length_s);
+  const bool mirrored = !options.known && settle_by_odometry(estimate, told.positions_m, window);
   if (!mapped.directions.rows.empty())
     estimate.path.heading_rad = carried(mapped.directions, told.heading_rad, mirrored);
+  if (options.replicates > 0)
+    estimate.landmark_cov_m2 =
+        bootstrap_landmarks(
+            result.Y, estimate.landmarks_m, options.known,
+            {.replicates = options.replicates, .block = window, .seed = options.seed})
+            .covariances_m2;
   return result;
 }
 

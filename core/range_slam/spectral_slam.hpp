@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <optional>
 
 #include "core/model/range_log.hpp"
@@ -15,6 +16,8 @@ struct SpectralSlamOptions {
   bool with_heading = false;              ///< The 7-dimensional state [boots2013, eq. 4].
   std::optional<WindowOptions> window{};  ///< Empty: chosen by choose_window().
   double heading_step_m = 1.0;            ///< Travel from one column with heading to the next, > 0.
+  int replicates = 0;      ///< Of bootstrap_landmarks(), blocks a window long; 0: no covariances.
+  std::uint64_t seed = 1;  ///< Of the bootstrap.
 };
 
 /// The estimate, and how it came about.

@@ -11,7 +11,7 @@ namespace mapproof::test {
 /// One of the Plaza data sets, from the folder that MAPPROOF_PLAZA names.
 struct Plaza {
   RangeLog log;         ///< With the truth.
-  Trajectory odometry;  ///< Dead-reckoned from odometry_drp.csv.
+  Trajectory odometry;  ///< Dead-reckoned from the recovered odometry.
 };
 
 /// @param name  "plaza1" or "plaza2".

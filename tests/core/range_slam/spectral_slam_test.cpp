@@ -138,6 +138,20 @@ TEST(SpectralSlam, WithKnownLandmarksIsInTheirFrameWithHeadings) {
   }
 }
 
+TEST(SpectralSlam, GivesCovariancesThatCoverTheErrorsOfItsLandmarks) {
+  const test::Drive d = drive({.range_sigma_m = 0.2}, 7);
+  const KnownLandmarks four{{0, 1, 2, 3}, d.log.true_landmarks->topRows(4)};
+  const SlamEstimate estimate =
+      spectral_slam(d.log, d.odometry, {.known = four, .replicates = 100}).estimate;
+  ASSERT_EQ(estimate.landmark_cov_m2.size(), 6U);
+  for (const Eigen::Index n : {4, 5}) {
+    const double sigma_m = std::sqrt(estimate.landmark_cov_m2[std::size_t(n)].trace());
+    const double error_m = (estimate.landmarks_m.row(n) - d.log.true_landmarks->row(n)).norm();
+    EXPECT_GT(sigma_m, 0.0);
+    EXPECT_LT(error_m, 6.0 * sigma_m + 0.2);
+  }
+}
+
 TEST(SpectralSlam, OfTooLittleSaysSo) {
   test::Drive d = drive({}, 5);
   d.log.ranges.resize(12);
@@ -176,6 +190,11 @@ TEST_P(PlazaSlam, ReachesItsErrorsWithWindowsChosenWithoutTruth) {
         spectral_slam(plaza->log, plaza->odometry,
                       {.known = all_known(plaza->log), .with_heading = with_heading});
     EXPECT_LT(test::mean_error_m(*plaza, known.estimate, Alignment::kNone), GetParam().known_m);
+    if (with_heading) {
+      // Modulo pi: the true headings of Plaza 2 are turned about.
+      const Eigen::ArrayXd off = known.estimate.path.heading_rad - plaza->log.truth->heading_rad;
+      EXPECT_LT(off.sin().abs().mean(), 0.06);
+    }
   }
 }
 
