@@ -28,6 +28,8 @@ Trajectory dead_reckoned(const RangeLog& log) {
         path.positions_m(i - 1, 1) + motion.distance_m * sine + motion.sideways_m * cosine;
     path.heading_rad(i) = path.heading_rad(i - 1) + motion.turn_rad;
   }
+  if (!path.positions_m.allFinite() || !path.heading_rad.allFinite())
+    throw InvalidInput("dead reckoning needs finite odometry");
   return path;
 }
 

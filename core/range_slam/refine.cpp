@@ -11,6 +11,7 @@
 #include "core/base/errors.hpp"
 #include "core/base/words.hpp"
 #include "core/range_slam/dead_reckoning.hpp"
+#include "core/range_slam/log_checks.hpp"
 #include "core/range_slam/refine_problem.hpp"
 #include "core/range_slam/refine_starts.hpp"
 
@@ -18,16 +19,15 @@ namespace mapproof {
 namespace {
 
 constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
+constexpr std::size_t kMostWithCovariances = 500;  ///< Landmarks.
+constexpr double kMostBlocks = 1e7;                ///< Poses times landmarks.
 
 void check(const RangeLog& log, const SlamEstimate& start, const RefineOptions& options) {
   const auto landmarks = static_cast<Eigen::Index>(log.landmarks.size());
   if (const std::string problem = options.problem(landmarks); !problem.empty())
     throw InvalidInput(problem);
   if (log.ranges.empty()) throw InvalidInput("a refinement needs ranges");
-  for (const RangeReading& reading : log.ranges)
-    if (reading.landmark < 0 || reading.landmark >= landmarks || !std::isfinite(reading.range_m) ||
-        !std::isfinite(reading.time_s))
-      throw InvalidInput("a range must be finite and of a landmark of the log");
+  check_ranges(log);
   if (start.landmarks_m.rows() != landmarks)
     throw InvalidInput("a start needs a row for each landmark of the log");
   if (!(start.range_scale > 0.0) || !std::isfinite(start.range_scale))
@@ -114,6 +114,13 @@ Solution solve_at(double spacing_m, const RangeLog& log, const Trajectory& odome
   for (const Eigen::Index row : solution.keys.rows())
     solution.state.poses.emplace_back(path.positions_m(row, 0), path.positions_m(row, 1),
                                       path.heading_rad(row));
+  const double blocks = static_cast<double>(solution.keys.size() * std::ssize(log.landmarks));
+  if (options.covariances > 0 &&
+      (log.landmarks.size() > kMostWithCovariances || blocks > kMostBlocks))
+    throw InvalidInput(
+        fmt::format("covariances are for at most {} landmarks, and {:g} poses times "
+                    "landmarks: give a wider spacing",
+                    kMostWithCovariances, kMostBlocks));
   const RefineProblem problem(log, solution.keys, is_placed, options);
   solution.outcome = problem.solve(solution.state);
   if (options.covariances > 0 && solution.outcome.is_usable)
@@ -181,12 +188,7 @@ std::string RefineOptions::problem(Eigen::Index n) const {
   if (covariances < 0) return "the number of covariances cannot be negative";
   if (!known) return "";
   if (known->rows.size() < 2) return "known landmarks are two or more, or none";
-  if (known->positions_m.rows() != static_cast<Eigen::Index>(known->rows.size()) ||
-      !known->positions_m.allFinite())
-    return "known landmarks need a finite place each";
-  for (const Eigen::Index row : known->rows)
-    if (row < 0 || row >= n) return fmt::format("no landmark is number {}", row);
-  return "";
+  return known_problem(*known, n);
 }
 
 SlamEstimate refine(const RangeLog& log, const SlamEstimate& start, const RefineOptions& options) {

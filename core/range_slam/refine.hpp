@@ -41,7 +41,8 @@ struct RefineOptions {
 /// @return The path at all of odometry's times. Landmarks without a place: kLandmarkUnseen;
 ///         kNotConverged at the limit; kUndetermined and no covariances if some direction is not
 ///         determined; kFailed, with the start as it came, if no step could be taken.
-/// @throws InvalidInput if the log has no odometry or no ranges, or a bound is broken.
+/// @throws InvalidInput if the log has no odometry or no ranges, or a bound is broken; or if
+///         covariances are asked for with more than 500 landmarks or 1e7 poses times landmarks.
 /// @note One thread; the same bits every time. Time is linear in the poses; see docs/methods.md.
 SlamEstimate refine(const RangeLog& log, const SlamEstimate& start,
                     const RefineOptions& options = {});

@@ -312,6 +312,11 @@ TEST(Refine, BrokenBoundsAreRefused) {
   none = log;
   none.odometry.clear();
   EXPECT_THROW(refine(none, start), InvalidInput);
+  RangeLog crowded = log;
+  crowded.landmarks.resize(501);
+  SlamEstimate many = start;
+  many.landmarks_m = Points::Zero(501, 2);
+  EXPECT_THROW(refine(crowded, many, {.covariances = 1}), InvalidInput);
   RefineOptions options;
   options.known = KnownLandmarks{.rows = {0}, .positions_m = Points::Zero(1, 2)};
   EXPECT_THROW(refine(log, start, options), InvalidInput);
