@@ -160,7 +160,8 @@ void take_facts(SlamEstimate& estimate, const Mapped& mapped, const SpectralSlam
   estimate.singular_values = mapped.singular_values;
   const Eigen::Index rank = options.with_heading ? 7 : 4;
   if (mapped.singular_values.size() > rank) estimate.noise_level = mapped.singular_values(rank);
-  estimate.condition = mapped.map.condition;
+  if (mapped.map.condition && std::isfinite(*mapped.map.condition))
+    estimate.condition = mapped.map.condition;
 }
 
 /// Poses in a window, 1 at least.

@@ -168,6 +168,7 @@ TEST(SpectralSlam, OfARobotThatStandsStillSaysSo) {
   const SpectralSlam found = spectral_slam(d.log, d.odometry);
   EXPECT_FALSE(found.estimate.statuses.empty());
   EXPECT_TRUE(found.estimate.path.positions_m.allFinite());
+  EXPECT_TRUE(std::isfinite(found.estimate.condition.value_or(0.0)));
 }
 
 struct PlazaTarget {
