@@ -8,7 +8,6 @@
 
 #include "core/base/errors.hpp"
 #include "core/base/files.hpp"
-#include "core/base/random.hpp"
 #include "core/records/landmarks_csv.hpp"
 #include "core/records/range_log_files.hpp"
 #include "core/records/trajectory_files.hpp"
@@ -20,6 +19,7 @@ namespace mapproof {
 namespace {
 
 namespace fs = std::filesystem;
+using test::csv_folder;
 using test::sample_log;
 
 bool remarks_hold(const RangeLog& log, std::string_view words) {
@@ -40,14 +40,6 @@ std::string error_of(const fs::path& path) {
     return what.starts_with(start) ? what.substr(start.size()) : what;
   }
   return "no error";
-}
-
-fs::path csv_folder(const test::TemporaryFolder& folder, const RangeLog& log) {
-  folder.file("set/odometry.csv", test::odometry_csv_of(log));
-  folder.file("set/odometry_start.csv", test::start_csv_of(log));
-  folder.file("set/groundtruth.csv", test::truth_csv_of(log));
-  folder.file("set/landmarks.csv", test::landmarks_csv_of(log));
-  return folder.file("set/ranges.csv", test::ranges_csv_of(log)).parent_path();
 }
 
 void expect_same(const RangeLog& log, const RangeLog& expected, double tolerance) {
@@ -262,61 +254,6 @@ TEST(RangeLogFiles, OtherPathsAreNoRangeLogs) {
   EXPECT_EQ(error_of(folder.file("a.mat", "no")), "is no MATLAB file");
   EXPECT_TRUE(error_of(folder.file("a.csv", "x")).starts_with("holds no ranges"));
 }
-
-/// Whatever is damaged: a log, or an error of one line.
-void read_damaged(const fs::path& path) {
-  try {
-    const RangeLog log = read_range_log(path);
-    for (const RangeReading& reading : log.ranges) EXPECT_TRUE(std::isfinite(reading.range_m));
-  } catch (const IoError& error) {
-    EXPECT_EQ(std::string(error.what()).find('\n'), std::string::npos);
-  }
-}
-
-class DamagedMat : public ::testing::TestWithParam<bool> {};
-
-TEST_P(DamagedMat, CutOffAnywhereItIsALogOrAnError) {
-  const test::TemporaryFolder folder;
-  test::write_mat(sample_log(), folder / "a.mat", GetParam());
-  const std::string bytes = read_file(folder / "a.mat");
-  for (std::size_t size = 0; size < bytes.size(); size += 7) {
-    const fs::path path = folder.file("b.mat", std::string_view(bytes).substr(0, size));
-    const std::string error = error_of(path);
-    // Between two variables a file may end; the last one then is not there.
-    if (error == "no error") {
-      EXPECT_FALSE(read_range_log(path).true_landmarks) << size;
-    }
-  }
-}
-
-TEST_P(DamagedMat, WithAnyBitTurnedItIsALogOrAnError) {
-  const test::TemporaryFolder folder;
-  test::write_mat(sample_log(), folder / "a.mat", GetParam());
-  const std::string bytes = read_file(folder / "a.mat");
-  Random random(7);
-  for (std::size_t at = 0; at < bytes.size(); at += at < 256 ? 1 : 5) {
-    std::string damaged = bytes;
-    damaged[at] = static_cast<char>(damaged[at] ^ (1 << (random.next() % 8)));
-    read_damaged(folder.file("b.mat", damaged));
-  }
-}
-
-TEST_P(DamagedMat, WithSeveralBytesReplacedItIsALogOrAnError) {
-  const test::TemporaryFolder folder;
-  test::write_mat(sample_log(), folder / "a.mat", GetParam());
-  const std::string bytes = read_file(folder / "a.mat");
-  Random random(11);
-  for (int trial = 0; trial < 300; ++trial) {
-    std::string damaged = bytes;
-    for (int i = 0; i < 4; ++i)
-      damaged[128 + random.next() % (damaged.size() - 128)] = static_cast<char>(random.next());
-    read_damaged(folder.file("b.mat", damaged));
-  }
-}
-
-INSTANTIATE_TEST_SUITE_P(Both, DamagedMat, ::testing::Bool(), [](const auto& which) {
-  return std::string(which.param ? "compressed" : "plain");
-});
 
 TEST(TrajectoryFiles, APathReadsBackFromCsv) {
   const RangeLog log = sample_log();

@@ -141,6 +141,14 @@ std::string dr_text_of(const RangeLog& log) {
   return text;
 }
 
+std::filesystem::path csv_folder(const TemporaryFolder& folder, const RangeLog& log) {
+  folder.file("set/odometry.csv", odometry_csv_of(log));
+  folder.file("set/odometry_start.csv", start_csv_of(log));
+  folder.file("set/groundtruth.csv", truth_csv_of(log));
+  folder.file("set/landmarks.csv", landmarks_csv_of(log));
+  return folder.file("set/ranges.csv", ranges_csv_of(log)).parent_path();
+}
+
 void write_mat(const RangeLog& log, const std::filesystem::path& path, bool is_compressed) {
   mat_t* file = Mat_CreateVer(path.c_str(), "MATLAB 5.0 MAT-file, made by a test", MAT_FT_MAT5);
   if (file == nullptr) throw std::runtime_error("matio made no file");

@@ -4,6 +4,7 @@
 #include <string>
 
 #include "core/model/range_log.hpp"
+#include "tests/support/temporary_folder.hpp"
 
 namespace mapproof::test {
 
@@ -19,6 +20,9 @@ std::string landmarks_csv_of(const RangeLog& log);
 std::string pyfg_of(const RangeLog& log);
 std::string td_text_of(const RangeLog& log);
 std::string dr_text_of(const RangeLog& log);
+
+/// Writes the tables into the folder "set" there, and gives its path.
+std::filesystem::path csv_folder(const TemporaryFolder& folder, const RangeLog& log);
 
 /// Writes DR, DRp, GT, TD and TL by matio. DRp is the true path, as the odometry has no error.
 void write_mat(const RangeLog& log, const std::filesystem::path& path, bool is_compressed);
