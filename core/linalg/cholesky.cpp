@@ -35,7 +35,8 @@ bool factor_cholesky(Block A) {
   const Index n = A.rows();
   if (n <= kLeaf) {
     Eigen::LLT<Eigen::Ref<Eigen::MatrixXd>> leaf(A);
-    return leaf.info() == Eigen::Success;
+    // Eigen takes a NaN for a success.
+    return leaf.info() == Eigen::Success && (A.diagonal().array() > 0.0).all();
   }
   const Index k = half(n);
   if (!factor_cholesky(A.topLeftCorner(k, k))) return false;

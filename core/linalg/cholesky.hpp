@@ -10,7 +10,8 @@ namespace mapproof {
 ///
 /// Recursive, on add_gram() and add_product(): same bits on all processors.
 /// @param A  n x n, symmetric (the lower half is read).
-/// @return False if A is not positive definite to working precision: A is then spoilt.
+/// @return False if A is not positive definite to working precision or not finite: A is then
+///         spoilt.
 /// @note n^3 / 6 multiplications and additions.
 [[nodiscard]] bool factor_cholesky(Block A);
 

@@ -1,6 +1,5 @@
 // Processor seconds of semidefinite embeddings, ours beside CSDP's, on simulated observations.
 //   mapproof_sde_bench M...   a table row for each M, sensor and K; CSDP up to M = 200
-#include <algorithm>
 #include <cmath>
 #include <cstdlib>
 #include <ctime>
@@ -8,10 +7,7 @@
 #include <fmt/format.h>
 
 #include "core/embed/sde/sde.hpp"
-#include "core/observe/proximities.hpp"
-#include "core/simulate/robot_walk.hpp"
-#include "core/simulate/sensors.hpp"
-#include "core/simulate/world.hpp"
+#include "tests/support/observed.hpp"
 #include "tests/support/worlds.hpp"
 
 namespace mapproof {
@@ -19,22 +15,6 @@ namespace {
 
 constexpr int kSteps = 2000;
 constexpr int kMostLandmarksForCsdp = 200;
-
-/// Distances of the landmarks that were seen.
-Eigen::MatrixXd observed_distances(int landmarks, Sensor sensor) {
-  Random random(static_cast<std::uint64_t>(landmarks));
-  WorldOptions room;
-  room.landmarks = landmarks;
-  room.side_m = 2.5 * std::sqrt(landmarks / 50.0);
-  const World world = scatter_landmarks(room, random);
-  const Path path = random_walk(world, {}, kSteps, random);
-  const ObservationHistory history = observe(world, path, {.sensor = sensor}, random);
-  const std::vector<Eigen::Index> unseen = unseen_landmarks(history, kSteps);
-  std::vector<Eigen::Index> seen;
-  for (Eigen::Index i = 0; i < landmarks; ++i)
-    if (!std::ranges::binary_search(unseen, i)) seen.push_back(i);
-  return proximities(with_rows(history, seen), kSteps).squared_distances.cwiseSqrt();
-}
 
 struct Timed {
   Embedding map;
@@ -49,7 +29,8 @@ Timed timed(const Eigen::MatrixXd& distances, int neighbours, SdpSolver solver) 
 }
 
 void row(int landmarks, Sensor sensor, int neighbours) {
-  const Eigen::MatrixXd D = observed_distances(landmarks, sensor);
+  const Eigen::MatrixXd D =
+      test::observed_distances(landmarks, sensor, kSteps, static_cast<std::uint64_t>(landmarks));
   const Timed own = timed(D, neighbours, SdpSolver::kInteriorPoint);
   const Certificate& proof = own.map.certificate.value();
   fmt::print("{:5} {:10} {:3} {:14} {:9.4f} {:8.1e} {:8.1e}", landmarks, name(sensor), neighbours,

@@ -74,6 +74,14 @@ TEST_P(EverySolver, UnrollsAChainOntoALineOfKnownVariance) {
   EXPECT_TRUE(has(map, StatusCode::kRankDeficient));
 }
 
+TEST_P(EverySolver, KeepsLandmarksOfOneLineOnIt) {
+  Points line = Points::Zero(15, 2);
+  for (Eigen::Index i = 0; i < 15; ++i) line(i, 0) = 0.1 * static_cast<double>(i * i);
+  const Embedding map = unfolded(distances_of(line), 4);
+  EXPECT_LT(procrustes_gap(line, map.coordinates), 1e-4 * line.norm());
+  EXPECT_TRUE(has(map, StatusCode::kRankDeficient));
+}
+
 TEST_P(EverySolver, ProvesItsAnswer) {
   for (const int neighbours : {3, 5, 8}) {
     const Embedding map = unfolded(noisy_distances(30, 7), neighbours);

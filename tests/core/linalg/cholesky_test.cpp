@@ -1,0 +1,99 @@
+#include "core/linalg/cholesky.hpp"
+
+#include <gtest/gtest.h>
+#include <Eigen/Cholesky>
+
+#include "core/base/random.hpp"
+#include "core/linalg/gram.hpp"
+
+namespace mapproof {
+namespace {
+
+// Leaves, one over, several levels of the recursion, more columns than a block of the product has.
+constexpr Eigen::Index kSizes[] = {1, 2, 7, 48, 49, 96, 97, 150, 333};
+
+Eigen::MatrixXd noise(Eigen::Index rows, Eigen::Index columns, std::uint64_t seed) {
+  Random random(seed);
+  return Eigen::MatrixXd::NullaryExpr(
+      rows, columns, [&](Eigen::Index, Eigen::Index) { return random.uniform() - 0.5; });
+}
+
+Eigen::MatrixXd positive(Eigen::Index n) {
+  Eigen::MatrixXd A = gram(noise(n, n + 3, 8));
+  A.diagonal().array() += 0.1;
+  return A;
+}
+
+TEST(Cholesky, FactorsAsEigenDoesAndLeavesTheOtherHalfAlone) {
+  for (const Eigen::Index n : kSizes) {
+    const Eigen::MatrixXd A = positive(n);
+    Eigen::MatrixXd L = A;
+    ASSERT_TRUE(factor_cholesky(L)) << n;
+    const Eigen::MatrixXd expected = A.llt().matrixL();
+    const Eigen::MatrixXd lower = L.triangularView<Eigen::Lower>();
+    EXPECT_LT((lower - expected).norm(), 1e-12 * expected.norm()) << n;
+    const Eigen::MatrixXd upper = L.triangularView<Eigen::StrictlyUpper>();
+    const Eigen::MatrixXd untouched = A.triangularView<Eigen::StrictlyUpper>();
+    EXPECT_EQ(upper, untouched) << n;
+  }
+}
+
+TEST(Cholesky, FactorsABlockOfAMatrixAndNothingBeside) {
+  Eigen::MatrixXd whole = noise(140, 140, 3);
+  const Eigen::MatrixXd before = whole;
+  const Eigen::MatrixXd A = positive(110);
+  whole.block(20, 10, 110, 110) = A;
+  ASSERT_TRUE(factor_cholesky(whole.block(20, 10, 110, 110)));
+  const Eigen::MatrixXd L = whole.block(20, 10, 110, 110).triangularView<Eigen::Lower>();
+  EXPECT_LT((L * L.transpose() - A).norm(), 1e-13 * A.norm());
+  whole.block(20, 10, 110, 110) = before.block(20, 10, 110, 110);
+  EXPECT_EQ(whole, before);
+}
+
+TEST(Cholesky, SolvesAsEigenDoes) {
+  for (const Eigen::Index n : kSizes) {
+    const Eigen::MatrixXd A = positive(n);
+    const Eigen::VectorXd b = noise(n, 1, 4);
+    Eigen::MatrixXd L = A;
+    ASSERT_TRUE(factor_cholesky(L));
+    const Eigen::VectorXd x = solve_cholesky(L, b);
+    EXPECT_LT((A * x - b).norm(), 1e-11 * b.norm()) << n;
+    EXPECT_LT((x - A.llt().solve(b)).norm(), 1e-10 * x.norm()) << n;
+  }
+}
+
+TEST(Cholesky, RefusesAMatrixThatIsNotPositiveWhereverItFails) {
+  for (const Eigen::Index n : kSizes)
+    for (const Eigen::Index place : {Eigen::Index{0}, n / 2, n - 1}) {
+      Eigen::MatrixXd A = positive(n);
+      A(place, place) = -1.0;
+      EXPECT_FALSE(factor_cholesky(A)) << n << " " << place;
+      A = positive(n);
+      A(place, place) = std::numeric_limits<double>::quiet_NaN();
+      EXPECT_FALSE(factor_cholesky(A)) << n << " " << place;
+    }
+}
+
+TEST(PackedProduct, AddsWhatEigenAddsAndNothingAboveTheDiagonal) {
+  for (const Eigen::Index n : kSizes)
+    for (const double sign : {1.0, -1.0}) {
+      const Eigen::MatrixXd A = noise(n, 300, 1);
+      const Eigen::MatrixXd B = noise(n + 5, 300, 2);
+      Eigen::MatrixXd product = noise(n, n + 5, 6);
+      const Eigen::MatrixXd expected = product + sign * A * B.transpose();
+      add_product(A, B, sign, product);
+      EXPECT_LT((product - expected).norm(), 1e-13 * expected.norm()) << n;
+
+      Eigen::MatrixXd square = noise(n, n, 7);
+      const Eigen::MatrixXd before = square;
+      const Eigen::MatrixXd whole = before + sign * A * A.transpose();
+      add_gram(A, sign, square);
+      const Eigen::MatrixXd off = (square - whole).triangularView<Eigen::Lower>();
+      EXPECT_LT(off.norm(), 1e-13 * whole.norm()) << n;
+      const Eigen::MatrixXd above = (square - before).triangularView<Eigen::StrictlyUpper>();
+      EXPECT_TRUE(above.isZero(0.0)) << n;
+    }
+}
+
+}  // namespace
+}  // namespace mapproof

@@ -1,0 +1,97 @@
+// Our solver held against CSDP's, by fixed simulated observations of both sensors.
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+#include <string>
+#include <tuple>
+
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include "core/base/random.hpp"
+#include "core/embed/sde/sde.hpp"
+#include "core/model/sensor.hpp"
+#include "tests/support/observed.hpp"
+#include "tests/support/worlds.hpp"
+
+namespace mapproof {
+namespace {
+
+using test::procrustes_gap;
+
+using Setting = std::tuple<Sensor, int>;
+
+double size_of(const Embedding& map) { return map.coordinates.rowwise().norm().maxCoeff(); }
+
+/// Few neighbours leave parts of the graph that turn on hinges and lose no variance: the optimum is
+/// then a face, and where on it a solver ends moves the map by some 1e-3.
+class SdeAgainstCsdp : public ::testing::TestWithParam<Setting> {
+ protected:
+  static Eigen::MatrixXd distances() {
+    return test::observed_distances(40, std::get<Sensor>(GetParam()), 600, 11);
+  }
+  static double same_map() { return std::get<int>(GetParam()) == 4 ? 5e-3 : 1e-3; }
+  static Embedding unfolded(const Eigen::MatrixXd& D, SdpSolver solver) {
+    return sde(D, {.neighbours = {.neighbours = std::get<int>(GetParam())}, .solver = solver});
+  }
+};
+
+/// Bearings have no ties among neighbours, which the numbers of the landmarks would break.
+class SdeWithoutTies : public SdeAgainstCsdp {};
+
+TEST_P(SdeAgainstCsdp, BothProveOneOptimumAndGiveOneMap) {
+  const Eigen::MatrixXd D = distances();
+  const Embedding own = unfolded(D, SdpSolver::kInteriorPoint);
+  const Embedding other = unfolded(D, SdpSolver::kCsdp);
+  ASSERT_TRUE(own.certificate && other.certificate);
+  // Ours, and not the CSDP that is asked where ours fails.
+  EXPECT_EQ(own.certificate->solver, SdpSolver::kInteriorPoint);
+  EXPECT_EQ(other.certificate->solver, SdpSolver::kCsdp);
+  EXPECT_LE(own.certificate->relative_gap, 1e-7);
+  EXPECT_LE(own.certificate->constraint_residual, 1e-7);
+  const double objective = other.certificate->primal;
+  EXPECT_NEAR(own.certificate->primal, objective, 1e-6 * objective);
+  // Each one's bound holds for the other's answer.
+  EXPECT_LE(own.certificate->primal, other.certificate->dual * (1.0 + 1e-7));
+  EXPECT_LE(other.certificate->primal, own.certificate->dual * (1.0 + 1e-7));
+  EXPECT_LE(procrustes_gap(other.coordinates, own.coordinates), same_map() * size_of(own));
+}
+
+TEST_P(SdeWithoutTies, TheOrderOfTheLandmarksDoesNotMoveThem) {
+  const Eigen::MatrixXd D = distances();
+  std::vector<Eigen::Index> order(static_cast<std::size_t>(D.rows()));
+  std::iota(order.begin(), order.end(), 0);
+  Random random(3);
+  for (std::size_t i = order.size(); i-- > 1;)
+    std::swap(order[i], order[static_cast<std::size_t>(random.uniform() * static_cast<double>(i))]);
+  const Embedding map = unfolded(D, SdpSolver::kInteriorPoint);
+  const Embedding shuffled = unfolded(D(order, order), SdpSolver::kInteriorPoint);
+  EXPECT_NEAR(shuffled.certificate->primal, map.certificate->primal,
+              1e-7 * map.certificate->primal);
+  const Points reordered = map.coordinates(order, Eigen::all);
+  EXPECT_LE(procrustes_gap(reordered, shuffled.coordinates), same_map() * size_of(map));
+}
+
+TEST_P(SdeAgainstCsdp, TheUnitOfTheDistancesIsTheUnitOfTheMap) {
+  const Eigen::MatrixXd D = distances();
+  const Embedding map = unfolded(D, SdpSolver::kInteriorPoint);
+  const Embedding larger = unfolded(1024.0 * D, SdpSolver::kInteriorPoint);
+  EXPECT_EQ(larger.coordinates, Points(1024.0 * map.coordinates));
+}
+
+std::string setting_name(const ::testing::TestParamInfo<Setting>& setting) {
+  return fmt::format("{}{}", name(std::get<Sensor>(setting.param)), std::get<int>(setting.param));
+}
+
+INSTANTIATE_TEST_SUITE_P(Sde, SdeAgainstCsdp,
+                         ::testing::Combine(::testing::Values(Sensor::kVisibility,
+                                                              Sensor::kBearing),
+                                            ::testing::Values(4, 7, 10)),
+                         setting_name);
+INSTANTIATE_TEST_SUITE_P(Sde, SdeWithoutTies,
+                         ::testing::Combine(::testing::Values(Sensor::kBearing),
+                                            ::testing::Values(4, 7, 10)),
+                         setting_name);
+
+}  // namespace
+}  // namespace mapproof
