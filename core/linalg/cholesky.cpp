@@ -1,49 +1,105 @@
 #include "core/linalg/cholesky.hpp"
 
-#include <Eigen/Cholesky>
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+#include "core/base/vectorised.hpp"
 
 namespace mapproof {
 namespace {
 
 using Eigen::Index;
 
-constexpr Index kLeaf = 48;  // A multiple of the tiles of packed_product.
+constexpr Index kLeaf = 24;  // A multiple of both sides of a tile (tile_product.hpp).
+using Leaf = Eigen::Matrix<double, kLeaf, kLeaf>;
 
 /// About half of n, in whole leaves.
 Index half(Index n) { return (n / 2 + kLeaf - 1) / kLeaf * kLeaf; }
 
-/// B L'^-1, in place.
-void divide_by_transpose(const ConstBlock& L, Block B) {
-  const Index n = L.rows();
-  if (n <= kLeaf) {
-    Eigen::MatrixXd inverse = Eigen::MatrixXd::Identity(n, n);
-    L.triangularView<Eigen::Lower>().solveInPlace(inverse);
-    const Eigen::MatrixXd undivided = B;
-    B.setZero();
-    add_product(undivided, inverse, 1.0, B);
-    return;
+/// Where the eight entries with entry i begin: loops over whole vectors touch some that do not
+/// count.
+constexpr Index whole(Index i) { return i / 8 * 8; }
+
+/// Replaces the lower half of A by its factor, column by column; what comes to stand above
+/// the diagonal means nothing. False if there is no factor.
+MAPPROOF_VECTORISED_WIDE bool factor_leaf(double* A) {
+  for (Index j = 0; j < kLeaf; ++j) {
+    double* const column = A + j * kLeaf;
+    if (!(column[j] > 0.0)) return false;  // nor for NaN
+    const double root = std::sqrt(column[j]);
+    for (Index i = whole(j); i < kLeaf; ++i) column[i] /= root;
+    for (Index k = j + 1; k < kLeaf; ++k)
+      for (Index i = whole(k); i < kLeaf; ++i) A[k * kLeaf + i] -= column[i] * column[k];
   }
-  const Index k = half(n);
-  divide_by_transpose(L.topLeftCorner(k, k), B.leftCols(k));
-  add_product(B.leftCols(k), L.bottomLeftCorner(n - k, k), -1.0, B.rightCols(n - k));
-  divide_by_transpose(L.bottomRightCorner(n - k, n - k), B.rightCols(n - k));
+  return std::isfinite(A[kLeaf * kLeaf - 1]);
 }
+
+/// Columns of L^-1, by forward substitution in those of the identity.
+MAPPROOF_VECTORISED_WIDE void invert_leaf(const double* L, double* inverse) {
+  for (Index c = 0; c < kLeaf; ++c) {
+    double* const x = inverse + c * kLeaf;
+    for (Index j = c; j < kLeaf; ++j) {
+      const double entry = x[j] / L[j * kLeaf + j];
+      for (Index i = whole(j); i < kLeaf; ++i) x[i] -= entry * L[j * kLeaf + i];
+      x[j] = entry;
+    }
+  }
+}
+
+/// A factorisation of blocks on the diagonal, the inverses of whose leaves are kept: every block
+/// beside the diagonal is multiplied by some of them.
+class Factorisation {
+ public:
+  explicit Factorisation(Index n) : inverses_(static_cast<std::size_t>((n + kLeaf - 1) / kLeaf)) {}
+
+  /// @param at  Where in the whole matrix A begins: a multiple of a leaf.
+  bool factor(Block A, Index at) {
+    const Index n = A.rows();
+    if (n <= kLeaf) return factor_last(A, at);
+    const Index k = half(n);
+    if (!factor(A.topLeftCorner(k, k), at)) return false;
+    divide(A.topLeftCorner(k, k), A.bottomLeftCorner(n - k, k), at);
+    add_gram(A.bottomLeftCorner(n - k, k), -1.0, A.bottomRightCorner(n - k, n - k));
+    return factor(A.bottomRightCorner(n - k, n - k), at + k);
+  }
+
+ private:
+  Leaf& inverse(Index at) { return inverses_[static_cast<std::size_t>(at / kLeaf)]; }
+
+  bool factor_last(Block A, Index at) {
+    const Index n = A.rows();
+    Leaf L = Leaf::Identity();
+    L.topLeftCorner(n, n).triangularView<Eigen::Lower>() = A;
+    if (!factor_leaf(L.data())) return false;
+    L.triangularView<Eigen::StrictlyUpper>().setZero();
+    A.triangularView<Eigen::Lower>() = L.topLeftCorner(n, n);
+    inverse(at).setIdentity();
+    invert_leaf(L.data(), inverse(at).data());
+    return true;
+  }
+
+  /// B L'^-1, in place, of the factor L that begins at `at`.
+  void divide(const ConstBlock& L, Block B, Index at) {
+    const Index n = L.rows();
+    if (n <= kLeaf) {
+      const Eigen::MatrixXd undivided = B;
+      B.setZero();
+      add_product(undivided, inverse(at).topLeftCorner(n, n), 1.0, B);
+      return;
+    }
+    const Index k = half(n);
+    divide(L.topLeftCorner(k, k), B.leftCols(k), at);
+    add_product(B.leftCols(k), L.bottomLeftCorner(n - k, k), -1.0, B.rightCols(n - k));
+    divide(L.bottomRightCorner(n - k, n - k), B.rightCols(n - k), at + k);
+  }
+
+  std::vector<Leaf> inverses_;
+};
 
 }  // namespace
 
-bool factor_cholesky(Block A) {
-  const Index n = A.rows();
-  if (n <= kLeaf) {
-    Eigen::LLT<Eigen::Ref<Eigen::MatrixXd>> leaf(A);
-    // Eigen takes a NaN for a success.
-    return leaf.info() == Eigen::Success && (A.diagonal().array() > 0.0).all();
-  }
-  const Index k = half(n);
-  if (!factor_cholesky(A.topLeftCorner(k, k))) return false;
-  divide_by_transpose(A.topLeftCorner(k, k), A.bottomLeftCorner(n - k, k));
-  add_gram(A.bottomLeftCorner(n - k, k), -1.0, A.bottomRightCorner(n - k, n - k));
-  return factor_cholesky(A.bottomRightCorner(n - k, n - k));
-}
+bool factor_cholesky(Block A) { return Factorisation(A.rows()).factor(A, 0); }
 
 Eigen::VectorXd solve_cholesky(const Eigen::MatrixXd& L, const Eigen::VectorXd& b) {
   Eigen::VectorXd x = L.triangularView<Eigen::Lower>().solve(b);

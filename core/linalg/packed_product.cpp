@@ -3,36 +3,15 @@
 #include <algorithm>
 #include <vector>
 
-#include "core/base/vectorised.hpp"
+#include "core/linalg/tile_product.hpp"
 
 namespace mapproof {
 namespace {
 
 using Eigen::Index;
 
-// A tile of the product is as large as the registers; a block of columns as the caches.
-constexpr Index kTileRows = 8;
-constexpr Index kTileColumns = 6;
 constexpr Index kDepth = 256;     ///< Columns of A at a time.
 constexpr Index kBlockRows = 96;  ///< Rows of A that stay in the second cache.
-
-/// Eight entries at a time; on processors with narrower vectors the compiler splits them.
-using Lanes [[gnu::vector_size(64)]] = double;
-using LanesInMemory [[gnu::vector_size(64), gnu::aligned(8), gnu::may_alias]] = double;
-
-/// tile(r, c) = sum over k of rows(r, k) * columns(c, k), both packed k by k.
-MAPPROOF_VECTORISED_WIDE void multiply_tile(const double* rows, const double* columns, Index depth,
-                                            double* tile) {
-  Lanes sums[kTileColumns] = {};
-  for (Index k = 0; k < depth; ++k) {
-    const Lanes row = *reinterpret_cast<const LanesInMemory*>(rows);
-    for (Index c = 0; c < kTileColumns; ++c) sums[c] += row * columns[c];
-    rows += kTileRows;
-    columns += kTileColumns;
-  }
-  for (Index c = 0; c < kTileColumns; ++c)
-    *reinterpret_cast<LanesInMemory*>(tile + c * kTileRows) = sums[c];
-}
 
 /// Rows of some columns of A in panels of so many, each k by k, the last one filled with zeros.
 template <Index kHeight>

@@ -10,9 +10,9 @@ using ConstBlock = Eigen::Ref<const Eigen::MatrixXd, 0, Eigen::OuterStride<>>;
 
 /// out += sign A A', on and below the diagonal alone.
 ///
-/// Every entry is summed in the same order, over blocks of 256 columns, whatever the width of the
-/// processor's vectors, which only decide how many entries are summed at a time: same bits on all,
-/// as a BLAS would not give.
+/// Every entry is summed in the same order, over blocks of 256 columns, each product added with one
+/// rounding, whatever the width of the processor's vectors, which only decide how many entries are
+/// summed at a time: same bits on all, as a BLAS would not give.
 /// @param A     n x c, no part of `out`.
 /// @param sign  1 or -1.
 /// @param out   n x n.

@@ -1,5 +1,8 @@
 #include "core/linalg/gram.hpp"
 
+#include <algorithm>
+#include <cmath>
+
 #include <gtest/gtest.h>
 
 #include "core/base/random.hpp"
@@ -13,12 +16,13 @@ Eigen::MatrixXd noise(Eigen::Index rows, Eigen::Index columns) {
       rows, columns, [&](Eigen::Index, Eigen::Index) { return random.uniform() - 0.5; });
 }
 
-/// One entry, summed as the header says: in order, over blocks of 256 columns.
+/// One entry, summed as the header says: in order, over blocks of 256 columns, by fused additions.
 double plain(const Eigen::MatrixXd& X, Eigen::Index i, Eigen::Index j) {
   double total = 0.0;
   for (Eigen::Index first = 0; first < X.cols(); first += 256) {
     double sum = 0.0;
-    for (Eigen::Index k = first; k < std::min(first + 256, X.cols()); ++k) sum += X(i, k) * X(j, k);
+    for (Eigen::Index k = first; k < std::min(first + 256, X.cols()); ++k)
+      sum = std::fma(X(i, k), X(j, k), sum);
     total += sum;
   }
   return total;
