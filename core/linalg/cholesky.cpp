@@ -17,10 +17,6 @@ using Leaf = Eigen::Matrix<double, kLeaf, kLeaf>;
 /// About half of n, in whole leaves.
 Index half(Index n) { return (n / 2 + kLeaf - 1) / kLeaf * kLeaf; }
 
-/// Where the eight entries with entry i begin: loops over whole vectors touch some that do not
-/// count.
-constexpr Index whole(Index i) { return i / 8 * 8; }
-
 /// Replaces the lower half of A by its factor, column by column; what comes to stand above
 /// the diagonal means nothing. False if there is no factor.
 MAPPROOF_VECTORISED_WIDE bool factor_leaf(double* A) {
@@ -28,20 +24,22 @@ MAPPROOF_VECTORISED_WIDE bool factor_leaf(double* A) {
     double* const column = A + j * kLeaf;
     if (!(column[j] > 0.0)) return false;  // nor for NaN
     const double root = std::sqrt(column[j]);
-    for (Index i = whole(j); i < kLeaf; ++i) column[i] /= root;
+    for (Index i = 0; i < kLeaf; ++i) column[i] /= root;
     for (Index k = j + 1; k < kLeaf; ++k)
-      for (Index i = whole(k); i < kLeaf; ++i) A[k * kLeaf + i] -= column[i] * column[k];
+      for (Index i = 0; i < kLeaf; ++i) A[k * kLeaf + i] -= column[i] * column[k];
   }
   return std::isfinite(A[kLeaf * kLeaf - 1]);
 }
 
 /// Columns of L^-1, by forward substitution in those of the identity.
 MAPPROOF_VECTORISED_WIDE void invert_leaf(const double* L, double* inverse) {
-  for (Index c = 0; c < kLeaf; ++c) {
-    double* const x = inverse + c * kLeaf;
-    for (Index j = c; j < kLeaf; ++j) {
-      const double entry = x[j] / L[j * kLeaf + j];
-      for (Index i = whole(j); i < kLeaf; ++i) x[i] -= entry * L[j * kLeaf + i];
+  for (Index j = 0; j < kLeaf; ++j) {
+    const double* const column = L + j * kLeaf;
+    const double reciprocal = 1.0 / column[j];
+    for (Index c = 0; c <= j; ++c) {  // independent of each other, so none waits
+      double* const x = inverse + c * kLeaf;
+      const double entry = x[j] * reciprocal;
+      for (Index i = 0; i < kLeaf; ++i) x[i] -= entry * column[i];
       x[j] = entry;
     }
   }
@@ -51,12 +49,13 @@ MAPPROOF_VECTORISED_WIDE void invert_leaf(const double* L, double* inverse) {
 /// beside the diagonal is multiplied by some of them.
 class Factorisation {
  public:
-  explicit Factorisation(Index n) : inverses_(static_cast<std::size_t>((n + kLeaf - 1) / kLeaf)) {}
+  explicit Factorisation(Index n)
+      : n_(n), inverses_(static_cast<std::size_t>((n + kLeaf - 1) / kLeaf)) {}
 
   /// @param at  Where in the whole matrix A begins: a multiple of a leaf.
   bool factor(Block A, Index at) {
     const Index n = A.rows();
-    if (n <= kLeaf) return factor_last(A, at);
+    if (n <= kLeaf) return factor_one(A, at);
     const Index k = half(n);
     if (!factor(A.topLeftCorner(k, k), at)) return false;
     divide(A.topLeftCorner(k, k), A.bottomLeftCorner(n - k, k), at);
@@ -67,13 +66,14 @@ class Factorisation {
  private:
   Leaf& inverse(Index at) { return inverses_[static_cast<std::size_t>(at / kLeaf)]; }
 
-  bool factor_last(Block A, Index at) {
+  bool factor_one(Block A, Index at) {
     const Index n = A.rows();
     Leaf L = Leaf::Identity();
     L.topLeftCorner(n, n).triangularView<Eigen::Lower>() = A;
     if (!factor_leaf(L.data())) return false;
     L.triangularView<Eigen::StrictlyUpper>().setZero();
     A.triangularView<Eigen::Lower>() = L.topLeftCorner(n, n);
+    if (at + n == n_) return true;  // nothing is below
     inverse(at).setIdentity();
     invert_leaf(L.data(), inverse(at).data());
     return true;
@@ -94,6 +94,7 @@ class Factorisation {
     divide(L.bottomRightCorner(n - k, n - k), B.rightCols(n - k), at + k);
   }
 
+  Index n_;
   std::vector<Leaf> inverses_;
 };
 
