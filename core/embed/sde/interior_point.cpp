@@ -19,17 +19,15 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-constexpr double kOfTheWay = 0.97;  // To the boundary.
+constexpr double kOfTheWay = 0.95;  // To the boundary.
 constexpr double kGapToPolish = 1e-7;
 constexpr Index kMostPolishedRank = 3;
 constexpr int kMostPolishingSteps = 5;
 constexpr double kPolished = 1e-9;
-constexpr double kLeastPower = 3.0;  // Of what the guess leaves of the gap: how far to centre.
 constexpr Index kPairsToCorrectAgain = 6;  // A point.
 constexpr int kMostCorrections = 3;
 constexpr int kHalvings = 6;
-constexpr int kHalvingsToGuess = 3;  // The guess only decides how far to centre.
-constexpr double kLift = 0.1;        // Of a typical squared distance, into the interior.
+constexpr double kLift = 0.1;  // Of a typical squared distance, into the interior.
 
 bool is_positive(MatrixXd A) { return factor_cholesky(A); }
 
@@ -185,15 +183,16 @@ class InteriorPoint {
 
     const double mu = product_ / static_cast<double>(reduced_.size());
     const Step guess = step_to(0.0, nullptr);
-    const double ahead_X = longest_step(X_, guess.X, kHalvingsToGuess);
-    const double ahead_Z = longest_step(Z_, guess.Z, kHalvingsToGuess);
+    const double ahead_X = longest_step(X_, guess.X, kHalvings);
+    const double ahead_Z = longest_step(Z_, guess.Z, kHalvings);
     const double left = inner(X_ + ahead_X * guess.X, Z_ + ahead_Z * guess.Z) / product_;
-    const double shortest = std::min(ahead_X, ahead_Z);
-    const double power = std::max(kLeastPower, 3.0 * shortest * shortest);
+    // Where the last step was cut short the iterates are off the centre: then centre more.
+    const double power = std::max(1.0, 3.0 * last_length_ * last_length_);
     const double sigma = std::min(1.0, left > 0.0 ? std::pow(left, power) : 0.3);
 
     const auto move = corrected(sigma * mu, guess);
     if (!move) return false;
+    last_length_ = move->shortest();
     X_ += move->length_X * move->step.X;
     w_ += move->length_Z * move->step.w;
     set_slack();
@@ -208,6 +207,7 @@ class InteriorPoint {
   MatrixXd inverse_Z_;
   MatrixXd schur_;
   double product_ = 0.0;
+  double last_length_ = 0.5;
   int iterations_ = 0;
 };
 
