@@ -23,8 +23,8 @@ struct Certificate {
   SdpSolver solver = SdpSolver::kInteriorPoint;
   double primal = 0.0;        ///< The objective reached, in squared units of the data.
   double dual = 0.0;          ///< No feasible point's objective is above this; infinite: nothing
-                              ///< was proved.
-  double relative_gap = 0.0;  ///< |dual - primal| / dual; 0 if both are 0.
+                              ///< was proved; below 0: that there is no feasible point.
+  double relative_gap = 0.0;  ///< |dual - primal| / |dual|; 0 if both are 0.
   double constraint_residual = 0.0;  ///< Largest violation over the largest right-hand side.
 
   bool operator==(const Certificate&) const = default;

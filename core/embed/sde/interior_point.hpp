@@ -4,8 +4,9 @@
 
 namespace mapproof::unfolding {
 
-/// Up to here the interior point's matrix of pairs squared is made: 50 MB.
-inline constexpr Eigen::Index kMostInteriorPairs = 2500;
+/// Up to here the interior point's matrix of pairs squared is made: 200 MB. K = 7 keeps 9 pairs a
+/// landmark.
+inline constexpr Eigen::Index kMostInteriorPairs = 5000;
 
 /// When to stop.
 struct InteriorPointOptions {
@@ -18,7 +19,8 @@ struct InteriorPointOptions {
 ///
 /// The first point is held at the origin, which leaves the feasible set an interior. All iterates
 /// are dual feasible, so that each proves a bound. A constraint is b'K b with b = e_i - e_j, so the
-/// Schur complement's entries are (b_k'X b_l)(b_k'Z^-1 b_l): its Cholesky factor is the work.
+/// Schur complement's entries are (b_k'X b_l)(b_k'Z^-1 b_l): its Cholesky factor is the work, and
+/// is used for several corrections of a step.
 ///
 /// @param gram  points x points: inner products the pairs' distances nearly follow from.
 /// @return The last iterate, whether or not it meets the options.

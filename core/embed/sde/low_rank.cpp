@@ -6,18 +6,14 @@
 
 #include <Eigen/Eigenvalues>
 
-#include "core/embed/sde/kkt_newton.hpp"
 #include "core/embed/sde/lagrangian.hpp"
 
 namespace mapproof::unfolding {
 namespace {
 
-constexpr double kFitForNewton = 2e-3;  // Residual from which direct steps are tried.
-constexpr int kDirectSteps = 12;
-constexpr double kSolved = 1e-9;
-constexpr double kWayOff = 0.1;
-constexpr double kVanished =
-    1e-5;  // Of a typical squared distance: a column of less spread is dropped.
+constexpr int kRoundsToJudgement = 40;
+/// Of a typical squared distance: a column of less spread is dropped.
+constexpr double kVanished = 1e-5;
 
 /// Y turned to its principal axes, ascending, without those that vanish.
 Rows without_vanished(const Problem& problem, const Rows& Y) {
@@ -40,20 +36,11 @@ class Ascent {
   }
 
   ProvedSolution run() {
-    const bool direct = problem_.squared.size() <= kMostDirectPairs;
-    const int most = direct ? options_.max_rounds : options_.max_rounds_of_many_pairs;
-    for (int round = 0; round < most && !proved(); ++round) {
+    for (int round = 0; round < options_.max_rounds && !proved(); ++round) {
       lagrangian_.descend(Y_, w_, round < 3 || round % 5 == 0);
-      const double fit = residuals(problem_, Y_).cwiseAbs().maxCoeff();
-      if (direct) {
-        if (fit > fit_for_newton_) continue;
-        take_direct_steps();
-        judge();
-        adapt_rank();
-      } else if (round % 40 == 39) {
-        judge();
-        adapt_rank();
-      }
+      if ((round + 1) % kRoundsToJudgement != 0) continue;
+      judge();
+      adapt_rank();
     }
     if (best_.solution.Y.size() == 0) judge();
     best_.solution.iterations = lagrangian_.products();
@@ -64,24 +51,6 @@ class Ascent {
   bool proved() const {
     return best_.solution.Y.size() > 0 && best_.certificate.relative_gap <= options_.relative_gap &&
            best_.certificate.constraint_residual <= options_.constraint_residual;
-  }
-
-  /// Newton steps as long as they help. Far from the solution their quadratic terms win: such a
-  /// step is kept for its better w, and the Lagrangian mends Y before the next try.
-  void take_direct_steps() {
-    Y_ = without_vanished(problem_, Y_);
-    KktResiduals now = kkt_residuals(problem_, Y_, w_);
-    for (int step = 0; step < kDirectSteps && now.sum() > kSolved; ++step) {
-      const auto change = kkt_newton_step(problem_, Y_, w_, damping_);
-      if (!change) break;
-      const KktResiduals after = kkt_residuals(problem_, Y_ + change->Y, w_ + change->w);
-      if (after.pairs > kWayOff) break;
-      Y_ = without_vanished(problem_, Y_ + change->Y);
-      w_ += change->w;
-      if (after.pairs > 2.0 * now.pairs && after.pairs > 1e-8) break;
-      now = after;
-    }
-    fit_for_newton_ *= 0.7;
   }
 
   double worth(const Certificate& certificate) const {
@@ -120,8 +89,6 @@ class Ascent {
   AugmentedLagrangian lagrangian_;
   Rows Y_;
   Eigen::VectorXd w_;
-  double damping_ = 1.0;
-  double fit_for_newton_ = kFitForNewton;
   ProvedSolution best_;
 };
 

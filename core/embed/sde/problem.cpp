@@ -131,7 +131,7 @@ Certificate certify(const Problem& problem, const Solution& solution) {
   const double bound = solution.w.dot(problem.squared);
   result.dual = smallest > 0.0 ? bound / smallest : std::numeric_limits<double>::infinity();
   result.relative_gap = std::isfinite(result.dual)
-                            ? std::abs(result.dual - result.primal) / result.dual
+                            ? std::abs(result.dual - result.primal) / std::abs(result.dual)
                             : result.dual;
   result.primal *= problem.scale;
   result.dual *= problem.scale;

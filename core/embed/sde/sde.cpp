@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <string>
 #include <utility>
 
 #include <fmt/format.h>
@@ -21,6 +22,10 @@ namespace mapproof {
 namespace {
 
 constexpr Eigen::Index kMostPairsToAskAgain = 2000;
+/// The map has fewer digits than the variance: so much less gap than asked for, where that is
+/// cheap.
+constexpr double kMoreDigits = 0.01;
+constexpr Eigen::Index kMostPairsForMoreDigits = 2500;
 
 void check(const Eigen::MatrixXd& distances, const SdeOptions& options) {
   if (distances.rows() < 3 || distances.cols() != distances.rows())
@@ -71,13 +76,29 @@ unfolding::ProvedSolution solve(const unfolding::Problem& problem, const Eigen::
     return unfolding::solve_low_rank(
         problem, low_rank_start(problem, gram),
         {.relative_gap = options.relative_gap, .constraint_residual = options.constraint_residual});
+  const double part = problem.squared.size() <= kMostPairsForMoreDigits ? kMoreDigits : 0.5;
   unfolding::ProvedSolution own = unfolding::solve_by_interior_point(
       problem, gram,
-      {.relative_gap = 0.01 * options.relative_gap,
-       .constraint_residual = 0.01 * options.constraint_residual});
+      {.relative_gap = part * options.relative_gap,
+       .constraint_residual = part * options.constraint_residual});
   if (meets(own.certificate, options) || problem.squared.size() > kMostPairsToAskAgain) return own;
   unfolding::ProvedSolution other = proved(problem, unfolding::solve_with_csdp(problem).solution);
   return meets(other.certificate, options) ? other : own;
+}
+
+/// What was not proved, and by how much.
+std::string shortfall(const Certificate& certificate) {
+  const std::string kept =
+      fmt::format("the squared distances to be kept are off by up to {:.1e} of the largest",
+                  certificate.constraint_residual);
+  if (certificate.dual < 0.0)  // A variance is not.
+    return fmt::format("No points have the distances to be kept, as the bound proves; {}.", kept);
+  if (!std::isfinite(certificate.dual))
+    return fmt::format("Nothing was proved of the greatest variance, and {}.", kept);
+  return fmt::format(
+      "The solve was not proved: the greatest variance is bounded only to within {:.2g} % of this "
+      "map's, and {}.",
+      100.0 * certificate.relative_gap, kept);
 }
 
 /// Eigenvalues up to `floor` of the largest carry no direction.
@@ -126,12 +147,7 @@ Embedding sde(const Eigen::MatrixXd& distances, const SdeOptions& options) {
   put_coordinates(problem, answer.solution.Y, options.relative_gap + options.constraint_residual,
                   result);
   if (!meets(answer.certificate, options))
-    result.statuses.push_back(
-        {StatusCode::kNotConverged,
-         fmt::format("Variance {:.6g} against a bound of {:.6g}, distances kept to {:.1e} of the "
-                     "largest.",
-                     result.certificate->primal, result.certificate->dual,
-                     result.certificate->constraint_residual)});
+    result.statuses.push_back({StatusCode::kNotConverged, shortfall(answer.certificate)});
   return result;
 }
 
