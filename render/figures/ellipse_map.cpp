@@ -8,6 +8,7 @@
 #include "core/base/errors.hpp"
 #include "core/base/words.hpp"
 #include "render/base/span.hpp"
+#include "render/figures/covariance_ellipse.hpp"
 #include "render/figures/parts.hpp"
 #include "render/figures/words.hpp"
 #include "render/plot/axis_map.hpp"
@@ -15,8 +16,7 @@
 namespace mapproof {
 namespace {
 
-constexpr double kRoot_95 = 2.4477468306808166;  // Of -2 ln .05: chi-squared, 2 degrees.
-constexpr double kReach = 0.15;                  // Room sides about the room that are shown.
+constexpr double kReach = 0.15;  // Room sides about the room that are shown.
 
 void require_consistent(const EllipseMapSpec& spec) {
   const auto refuse = [&spec](const std::string& what) {
@@ -164,12 +164,8 @@ ScatterEllipse scatter_ellipse(const std::vector<Points>& estimates_m, Eigen::In
     C += off.transpose() * off;
   }
   C /= ellipse.runs - 1;
-  // The eigenvalues of a symmetric 2 x 2 matrix in closed form.
-  const double middle = (C(0, 0) + C(1, 1)) / 2.0;
-  const double half = std::hypot((C(0, 0) - C(1, 1)) / 2.0, C(0, 1));
-  ellipse.a_m = kRoot_95 * std::sqrt(middle + half);
-  ellipse.b_m = kRoot_95 * std::sqrt(std::max(middle - half, 0.0));
-  ellipse.turn_rad = 0.5 * std::atan2(2.0 * C(0, 1), C(0, 0) - C(1, 1));
+  const CovarianceEllipse axes = covariance_ellipse(C);
+  ellipse.a_m = axes.a, ellipse.b_m = axes.b, ellipse.turn_rad = axes.turn_rad;
   return ellipse;
 }
 

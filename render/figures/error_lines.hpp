@@ -21,10 +21,10 @@ SeriesLook series_look(std::size_t i);
 struct ErrorLine {
   std::string label;         ///< In the legend; lines of one label look alike in all panels.
   std::string key;           ///< [a-z0-9-]+, unique in its panel; ids of marks are made of it.
-  std::vector<double> x;     ///< Ascending.
-  std::vector<double> mean;  ///< Over runs.
-  std::vector<double> low;   ///< Of the 95 % interval; empty, with `high`: no band.
-  std::vector<double> high;
+  std::vector<double> x = {};     ///< Ascending.
+  std::vector<double> mean = {};  ///< Over runs.
+  std::vector<double> low = {};   ///< Of the 95 % interval; empty, with `high`: no band.
+  std::vector<double> high = {};
   /// Which look it takes (see series_look), so that a method looks alike in all figures; empty, or
   /// two labels of one figure with the same: by first appearance.
   std::optional<std::size_t> series = std::nullopt;

@@ -9,13 +9,13 @@
 #include "render/figures/map_view.hpp"
 #include "render/figures/parts.hpp"
 #include "render/figures/score_words.hpp"
+#include "render/figures/status_words.hpp"
 #include "render/figures/words.hpp"
 
 namespace mapproof {
 namespace {
 
 constexpr std::size_t kMostNamed = 5;            // Names in one sentence.
-constexpr std::size_t kMostStatuses = 4;         // Status lines on the figure.
 constexpr Eigen::Index kMostLabelsOfShape = 30;  // Without a truth all names are shown up to this.
 
 std::string subject(const MapRecord& record, std::string_view separator) {
@@ -75,19 +75,9 @@ class MapFigure {
     if (!view_.unmapped.empty())
       notes.push_back(
           {"Not on the map: " + names_of(record_, view_.unmapped) + ".", Ink::kWarning});
-    const std::size_t shown = std::min(record_.statuses.size(), kMostStatuses);
-    for (std::size_t i = 0; i < shown; ++i)
-      notes.push_back({"⚠ " + status_text(record_.statuses[i]), Ink::kWarning});
-    if (shown < record_.statuses.size())
-      notes.push_back({fmt::format("⚠ {} more, see the record.", record_.statuses.size() - shown),
-                       Ink::kWarning});
-  }
-
-  static std::string status_text(const Status& status) {
-    if (!status.detail.empty()) return status.detail;
-    std::string text(name(status.code));
-    std::ranges::replace(text, '_', ' ');
-    return text;
+    std::vector<std::string> statuses;
+    for (const Status& status : record_.statuses) statuses.push_back(status_words(status));
+    add_status_notes(statuses, notes);
   }
 
   std::string outside_text() const {
@@ -115,7 +105,7 @@ class MapFigure {
     if (!view_.outside.empty()) caption += " " + outside_text();
     if (!view_.unmapped.empty())
       caption += " Not on the map: " + names_of(record_, view_.unmapped) + ".";
-    for (const Status& status : record_.statuses) caption += " " + status_text(status);
+    for (const Status& status : record_.statuses) caption += " " + status_words(status);
 
     const std::size_t mapped = record_.names.size() - view_.unmapped.size();
     figure_.alt =

@@ -34,6 +34,12 @@ std::vector<const TitledMap*> thinned(const std::vector<TitledMap>& maps) {
   return chosen;
 }
 
+std::vector<const TitledMap*> all_of(const std::vector<TitledMap>& maps) {
+  std::vector<const TitledMap*> all;
+  for (const TitledMap& one : maps) all.push_back(&one);
+  return all;
+}
+
 /// The score, or the first error alone.
 std::string scored(const TitledMap& one, bool whole) {
   const std::string words = one.map.score ? score_words(*one.map.score) : "";
@@ -99,9 +105,14 @@ Figure film_strip_figure(const MapGridSpec& spec) {
 
 Figure map_pair_figure(const MapGridSpec& spec) {
   require_consistent(spec);
-  std::vector<const TitledMap*> maps;
-  for (const TitledMap& one : spec.maps) maps.push_back(&one);
-  return grid_of(spec, maps, true);
+  return grid_of(spec, all_of(spec.maps), true);
+}
+
+Figure map_wall_figure(const MapGridSpec& spec) {
+  require_consistent(spec);
+  Figure figure = grid_of(spec, all_of(spec.maps), false);
+  figure.columns = 4;
+  return figure;
 }
 
 }  // namespace mapproof

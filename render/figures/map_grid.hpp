@@ -29,4 +29,8 @@ Figure film_strip_figure(const MapGridSpec& spec);
 /// @throws InvalidInput as film_strip_figure.
 Figure map_pair_figure(const MapGridSpec& spec);
 
+/// Any number of maps with the same limits, such as those of all methods, without names.
+/// @throws InvalidInput as film_strip_figure.
+Figure map_wall_figure(const MapGridSpec& spec);
+
 }  // namespace mapproof

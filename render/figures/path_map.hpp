@@ -1,0 +1,26 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "core/model/slam_study.hpp"
+#include "render/plot/figure.hpp"
+
+namespace mapproof {
+
+struct PathMapSpec {
+  std::string id;  ///< [a-z][a-z0-9-]*.
+  std::string title;
+  const SlamRun& run;
+  std::vector<SlamMethod> methods;  ///< Shown in this order, the first lowest.
+};
+
+/// Paths and landmarks of a run, true and recovered: the map above and, where there is a truth, the
+/// error of each position over time below. Paths are thinned to what the eye can see. Landmarks
+/// that carry a covariance have the ellipse of 95 %, enlarged by a stated factor where it would be
+/// too small to be seen. A path that leaves the picture, and a method without a path, is named.
+/// @throws InvalidInput if parts of a record disagree in size.
+/// @note Pure. O(T log T) a method.
+Figure path_map_figure(const PathMapSpec& spec);
+
+}  // namespace mapproof

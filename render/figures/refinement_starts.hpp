@@ -1,0 +1,30 @@
+#pragma once
+
+#include <span>
+#include <string>
+
+#include "core/model/slam_study.hpp"
+#include "render/plot/figure.hpp"
+
+namespace mapproof {
+
+struct RefinementStartsSpec {
+  std::string id;  ///< [a-z][a-z0-9-]*.
+  std::string title;
+  std::span<const RefinementStart> starts;
+  std::string record_id;
+};
+
+/// Final cost and error of every start of the refinement, whatever came of it: those from the
+/// spectral answer, from odometry and from random landmarks. Without a truth the iterations stand
+/// for the error. Starts without a result are counted in a note.
+Figure refinement_starts_figure(const RefinementStartsSpec& spec);
+
+/// How many starts of one kind end within 1 % of the least cost of all, and how many there are.
+struct StartCount {
+  int reached = 0;
+  int of = 0;
+};
+StartCount starts_at_optimum(std::span<const RefinementStart> starts, SlamMethod method);
+
+}  // namespace mapproof
