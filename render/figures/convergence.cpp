@@ -14,7 +14,7 @@ namespace mapproof {
 namespace {
 
 constexpr const char* kReadings = "range readings";
-constexpr const char* kObservation = "error of \u0108 (Frobenius norm)";
+constexpr const char* kObservation = "error of \u0108";
 const SlopeGuide kRootLaw{"slope \u22121/2", -0.5};
 
 /// A mean of each point over the number of readings.
@@ -95,10 +95,12 @@ Figure convergence_figure(const std::string& id, const ConvergenceCurve& curve) 
       line_of(curve, &ConvergencePoint::observation, "measured", "observation");
   const ErrorLine landmarks =
       line_of(curve, &ConvergencePoint::landmarks_m, "measured", "landmarks");
-  spec.caption = fmt::format("{} Slopes by least squares: {} and {}; theory: \u22121/2.",
-                             means_of(curve), slope_words(observation), slope_words(landmarks));
+  spec.caption = fmt::format(
+      "{} Error of \u0108: Frobenius norm. Slopes by least squares: {} and {}; "
+      "theory: \u22121/2.",
+      means_of(curve), slope_words(observation), slope_words(landmarks));
   spec.panels = {{"Observation model", kReadings, kObservation, {observation}, kRootLaw, {}},
-                 {"Landmarks", kReadings, "mean error [m]", {landmarks}, kRootLaw, {}}};
+                 {"Landmarks", kReadings, "error [m]", {landmarks}, kRootLaw, {}}};
   return log_log_figure(spec);
 }
 
@@ -129,7 +131,7 @@ Figure positions_figure(const std::string& id, const ConvergenceCurve& curve) {
       "allow. Slopes: {} and {}.",
       means_of(curve), counted(curve.landmarks, "reading"), slope_words(landmarks),
       slope_words(positions));
-  spec.panels = {{"", kReadings, "mean error [m]", {landmarks, positions}, kRootLaw, {}}};
+  spec.panels = {{"", kReadings, "error [m]", {landmarks, positions}, kRootLaw, {}}};
   return log_log_figure(spec);
 }
 
@@ -137,8 +139,9 @@ Figure noise_models_figure(const std::string& id, std::span<const ConvergenceCur
   LogLogSpec spec;
   spec.id = id;
   spec.title = "Convergence under other noise";
+  spec.columns = 1;  // The noise is described in the legend.
   LogLogPanel observation{"Observation model", kReadings, kObservation, {}, kRootLaw, {}};
-  LogLogPanel landmarks{"Landmarks", kReadings, "mean error [m]", {}, kRootLaw, {}};
+  LogLogPanel landmarks{"Landmarks", kReadings, "error [m]", {}, kRootLaw, {}};
   std::string slopes;
   for (const ConvergenceCurve& curve : curves) {
     observation.lines.push_back(

@@ -19,8 +19,8 @@ SeriesLook series_look(std::size_t i);
 
 /// An error over something. All vectors are as long as `x`; NaN: nothing known.
 struct ErrorLine {
-  std::string label;         ///< In the legend; lines of one label look alike in all panels.
-  std::string key;           ///< [a-z0-9-]+, unique in its panel; ids of marks are made of it.
+  std::string label;              ///< In the legend; lines of one label look alike in all panels.
+  std::string key;                ///< [a-z0-9-]+, unique in its panel; ids of marks are made of it.
   std::vector<double> x = {};     ///< Ascending.
   std::vector<double> mean = {};  ///< Over runs.
   std::vector<double> low = {};   ///< Of the 95 % interval; empty, with `high`: no band.

@@ -101,7 +101,7 @@ class PanelBuilder {
   /// Over the whole span, above all of the lines at their first point.
   Polyline guide() const {
     Polyline guide{.label = "", .ink = Ink::kMuted, .dash = Dash::kLongDash};
-    if (!from_.guide || !x_.known()) return guide;
+    if (!from_.guide || !(x_.low < x_.high)) return guide;
     double above = 0.0;
     for (const ErrorLine& line : from_.lines)
       for (std::size_t i = 0; i < line.x.size(); ++i)
@@ -171,6 +171,7 @@ Figure log_log_figure(const LogLogSpec& spec) {
   figure.record_ids = spec.record_ids;
   figure.varies = spec.varies;
   figure.notes = spec.notes;
+  figure.columns = spec.columns;
   bool any = false;
   for (const LogLogPanel& panel : spec.panels) {
     figure.panels.push_back(PanelBuilder(panel).build());

@@ -33,6 +33,7 @@ struct LogLogSpec {
   std::vector<std::string> record_ids;
   std::vector<Note> notes;
   bool varies = false;
+  std::size_t columns = 0;  ///< As Figure::columns.
 };
 
 /// Slope of log y over log x by least squares over the points where both are positive; NaN below

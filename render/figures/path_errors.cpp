@@ -51,13 +51,14 @@ std::string label_of(const SlamRecord& record) {
   const std::string label(info(record.method).label);
   if (record.errors.empty()) return label;
   const TrajectoryError& error = record.errors.front();
-  return fmt::format("{}: mean {} m, {}", label, significant(error.mean_m),
+  return fmt::format("{}: {} m, {}", label, significant(error.mean_m, 2),
                      alignment_words(error.alignment));
 }
 
 Polyline error_line(const SlamRecord& record, const ErrorAxis& axis, double start_s) {
   ThinLine thin = thin_curve(record.estimate.path.time_s, record.error_m, kBins);
   for (double& time : thin.x) time -= start_s;
+  const Marker marker = thin.x.size() == 1 ? Marker::kCircle : Marker::kNone;
   const SlamLook look = slam_look(record.method);
   return {.label = label_of(record),
           .x = std::move(thin.x),
@@ -65,6 +66,7 @@ Polyline error_line(const SlamRecord& record, const ErrorAxis& axis, double star
           .ink = look.ink,
           .dash = look.dash,
           .width = 0.8,
+          .marker = marker,
           .mark = {fmt::format("error-{}", info(record.method).name),
                    {{"path", std::string(info(record.method).label)}}}};
 }
@@ -72,7 +74,7 @@ Polyline error_line(const SlamRecord& record, const ErrorAxis& axis, double star
 /// The root of the trace of a position's covariance: the RMS error that it makes one expect.
 Polyline expected_line(const SlamRecord& record, const ErrorAxis& axis, double start_s) {
   const SlamLook look = slam_look(record.method);
-  Polyline line{.label = "",
+  Polyline line{.label = "expected by the covariance",
                 .ink = look.ink,
                 .dash = Dash::kDotted,
                 .width = 0.9,
@@ -84,8 +86,6 @@ Polyline expected_line(const SlamRecord& record, const ErrorAxis& axis, double s
     line.y.push_back(variance_m2 >= 0.0 && std::isfinite(variance_m2) ? std::sqrt(variance_m2)
                                                                       : NAN);
   }
-  if (!line.x.empty())
-    line.label = fmt::format("{}: expected by its covariance", info(record.method).label);
   line.y = axis.raised(std::move(line.y));
   return line;
 }

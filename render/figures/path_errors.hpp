@@ -8,7 +8,7 @@
 
 namespace mapproof {
 
-/// Error of each position over time, a line a record, with its alignment and mean in the legend; as
+/// Error of each position over time, a line a record, with its mean and alignment in the legend; as
 /// dots what the record's own covariances make one expect. The y axis is logarithmic if the errors
 /// span much.
 /// @return Empty if no record has errors.

@@ -72,11 +72,13 @@ class PathMap {
   Polyline path(const Trajectory& path, const std::string& label, const std::string& key, Ink ink,
                 double width) const {
     ThinLine thin = thin_path(path, view_.tolerance_m);
+    const Marker marker = thin.x.size() == 1 ? Marker::kCircle : Marker::kNone;
     return {.label = label,
             .x = std::move(thin.x),
             .y = std::move(thin.y),
             .ink = ink,
             .width = width,
+            .marker = marker,
             .mark = {"path-" + key, {{"path", label}}}};
   }
 
@@ -211,7 +213,7 @@ class PathMap {
     if (spec_.run.log.true_landmarks) text += " Open marks: true landmarks; crosses: recovered.";
     if (any_ellipse()) text += fmt::format(" {}.", capitalised(ellipse_words()));
     if (with_errors)
-      text += " Below: distance to the true position over time, each under the alignment named.";
+      text += " Below: distance to the true position over time, mean and alignment in the legend.";
     text += fmt::format(" Paths are thinned for drawing, by {} m at most.",
                         significant(view_.tolerance_m, 1));
     return text;

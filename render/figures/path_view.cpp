@@ -17,7 +17,7 @@ using Eigen::Index;
 
 constexpr double kReach = 0.5;     // Sides about the core that paths may take up.
 constexpr double kMargin = 0.05;   // Of the picture's side.
-constexpr double kVisible = 0.03;  // Half axis of the largest ellipse, of the side, at most.
+constexpr double kVisible = 0.06;  // Half axis of the largest ellipse, of the side, at most.
 constexpr double kTolerance = 1.0 / 3600.0;  // Of the side.
 
 void require_consistent(const PathMapSpec& spec) {

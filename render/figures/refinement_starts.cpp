@@ -16,9 +16,10 @@ namespace {
 
 constexpr double kSame = 1.01;  // Costs up to this factor of the least are the same optimum.
 
-/// Random ones lowest, for they are many.
-constexpr std::array kKinds = {SlamMethod::kRefinedFromRandom, SlamMethod::kRefinedFromOdometry,
-                               SlamMethod::kRefined};
+/// Each with a smaller mark than the one before: they often lie on one point.
+constexpr std::array kKinds = {SlamMethod::kRefined, SlamMethod::kRefinedFromOdometry,
+                               SlamMethod::kRefinedFromRandom};
+constexpr std::array kSizes = {2.2, 1.3, 0.7};
 
 std::string label_of(SlamMethod method) {
   return method == SlamMethod::kRefined ? "from spectral"
@@ -36,7 +37,7 @@ double least_cost(std::span<const RefinementStart> starts) {
 
 std::string count_words(std::span<const RefinementStart> starts) {
   std::vector<std::string> parts;
-  for (const SlamMethod kind : {kKinds[2], kKinds[1], kKinds[0]})
+  for (const SlamMethod kind : kKinds)
     if (const StartCount count = starts_at_optimum(starts, kind); count.of > 0)
       parts.push_back(fmt::format("{} {} of {}", label_of(kind), count.reached, count.of));
   return parts.empty() ? "no start" : listed(parts, 3);
@@ -68,13 +69,14 @@ Figure refinement_starts_figure(const RefinementStartsSpec& spec) {
   panel.y = judged ? Axis{.label = "mean position error [m]", .scale = Scale::kLog}
                    : Axis{.label = "iterations", .whole = true};
   int without = 0;
-  for (const SlamMethod kind : kKinds) {
+  for (std::size_t i = 0; i < kKinds.size(); ++i) {
+    const SlamMethod kind = kKinds[i];
     const SlamLook look = slam_look(kind);
     Scatter points{.label = label_of(kind),
                    .ink = look.ink,
                    .marker = kind == SlamMethod::kRefined ? Marker::kCircle : look.marker,
                    .filled = kind == SlamMethod::kRefinedFromRandom,
-                   .size = kind == SlamMethod::kRefined ? 2.0 : 1.2};
+                   .size = kSizes[i]};
     for (const RefinementStart& start : spec.starts) {
       if (start.method != kind) continue;
       const double y = judged ? start.mean_m.value_or(NAN) : start.iterations;

@@ -70,8 +70,8 @@ Panel panel_of(const SingularValues& one, std::size_t index, const Range& y, dou
                             {{"value", data_number(one.values[i])}}});
   }
   Segments floor{.label = one.noise_level ? "noise floor" : "greatest dropped",
-                 .ink = Ink::kSeries2,
-                 .dash = Dash::kDashed};
+                 .ink = one.noise_level ? Ink::kSeries2 : Ink::kMuted,
+                 .dash = one.noise_level ? Dash::kDashed : Dash::kDotted};
   if (const auto level = floor_of(one))
     add_line(floor, {0.4, std::max(*level, y.low)}, {last + 0.6, std::max(*level, y.low)});
   panel.layers = {stems, floor, kept, dropped};
@@ -112,8 +112,8 @@ Figure singular_values_figure(const SingularValuesSpec& spec) {
     figure.notes.push_back({"There are no singular values.", Ink::kWarning});
   }
   for (Panel& panel : figure.panels) {
-    panel.x = {.label = "number", .limits = Range{0.4, last + 0.6}, .whole = true};
-    panel.y = {.label = "singular value [m\u00B2]", .scale = Scale::kLog, .limits = y};
+    panel.x = {.label = "singular value", .limits = Range{0.4, last + 0.6}, .whole = true};
+    panel.y = {.label = "value [m\u00B2]", .scale = Scale::kLog, .limits = y};
   }
   require_valid(figure);
   return figure;

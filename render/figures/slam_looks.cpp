@@ -31,7 +31,7 @@ SlamLook slam_look(SlamMethod method) {
 }
 
 std::string alignment_words(Alignment alignment) {
-  if (alignment == Alignment::kNone) return "no alignment";
+  if (alignment == Alignment::kNone) return "unaligned";
   std::string text(name(alignment));
   std::ranges::replace(text, '-', ' ');
   return text;

@@ -16,10 +16,10 @@ struct SlamLook {
 };
 SlamLook slam_look(SlamMethod method);
 
-/// The truth's ink: light, as the paper has it.
-inline constexpr Ink kTrueInk = Ink::kSeries7;
+/// The truth's ink: wide and grey, so that what lies on it is seen.
+inline constexpr Ink kTrueInk = Ink::kMuted;
 
-/// "no alignment", "rigid", "rigid with reflection", "similarity": how an error was taken, in
+/// "unaligned", "rigid", "rigid with reflection", "similarity": how an error was taken, in
 /// words.
 std::string alignment_words(Alignment alignment);
 

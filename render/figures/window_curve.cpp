@@ -31,6 +31,14 @@ std::vector<std::size_t> by_length(const WindowCurve& windows) {
   return order;
 }
 
+/// Where a mark stands wholly inside the frame, above all errors.
+double near_top(const ErrorAxis& axis) {
+  const auto& [low, high] = axis.limits;
+  constexpr double kShare = 0.97;
+  return axis.scale == Scale::kLog ? low * std::pow(high / low, kShare)
+                                   : std::lerp(low, high, kShare);
+}
+
 }  // namespace
 
 Figure window_curve_figure(const WindowCurveSpec& spec) {
@@ -40,6 +48,7 @@ Figure window_curve_figure(const WindowCurveSpec& spec) {
   Polyline curve{.label = "held-out ranges", .marker = Marker::kCircle, .mark = {"held-out", {}}};
   Scatter failed{.label = "predicts nothing", .ink = Ink::kWarning, .marker = Marker::kCross};
   Scatter chosen{.label = "chosen", .ink = Ink::kSeries2, .filled = false, .size = 2.0};
+  const double top = near_top(axis);
   Figure figure;
   figure.alt = "Typical error of held-out ranges by window length:";
   for (const std::size_t i : by_length(windows)) {
@@ -47,7 +56,7 @@ Figure window_curve_figure(const WindowCurveSpec& spec) {
     const bool predicts = std::isfinite(error);
     figure.alt += fmt::format(" {:g} s {};", length,
                               predicts ? significant(error) + " m" : "predicts nothing");
-    const Point at{length, predicts ? axis.raised({error}).front() : axis.limits.high};
+    const Point at{length, predicts ? axis.raised({error}).front() : top};
     if (!predicts)
       add_point(failed, at);
     else

@@ -34,7 +34,7 @@ class CellGrid {
     double top = room_.y0;
     for (std::size_t p = 0; p < count; ++p) {
       const double left = room_.x0 + static_cast<double>(p % columns_) * (width + gap);
-      const double height = cell_height(width);
+      const double height = cell_height(figure_.panels[p], width);
       lay_out_panel(figure_.panels[p], p, {left, top, left + width, top + height}, theme_,
                     drawing_);
       if ((p + 1) % columns_ == 0 || p + 1 == count)
@@ -56,8 +56,10 @@ class CellGrid {
     return figure_.arrows.empty() ? 2.0 * theme_.space_pt : kArrowGap * theme_.font_pt;
   }
 
-  double cell_height(double width) const {
-    const double most = columns_ == 1 ? kLowInColumn : 1.1;
+  double cell_height(const Panel& panel, double width) const {
+    // A map above other panels is what the figure is about.
+    const bool low = columns_ == 1 && !(figure_.columns == 1 && panel.equal_aspect);
+    const double most = low ? kLowInColumn : 1.1;
     return std::min(width * 0.86 + 4.0 * theme_.font_pt, most * theme_.height_pt);
   }
 

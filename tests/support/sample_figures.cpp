@@ -8,6 +8,7 @@
 #include "core/base/random.hpp"
 #include "render/figures/map.hpp"
 #include "tests/support/sample_comparisons.hpp"
+#include "tests/support/sample_slam.hpp"
 #include "tests/support/sample_studies.hpp"
 
 namespace mapproof::test {
@@ -223,6 +224,7 @@ std::vector<Figure> sample_figures() {
   add_curves(figures);
   for (Figure& figure : sample_study_figures()) figures.push_back(std::move(figure));
   for (Figure& figure : sample_comparison_figures()) figures.push_back(std::move(figure));
+  for (Figure& figure : sample_slam_figures()) figures.push_back(std::move(figure));
   return figures;
 }
 

@@ -44,7 +44,10 @@ TrajectoryError error_of(const std::vector<double>& error_m, Alignment alignment
   double sum = 0.0, squares = 0.0;
   for (const double e : error_m) sum += e, squares += e * e;
   const auto n = static_cast<double>(error_m.size());
-  TrajectoryError error{.alignment = alignment, .mean_m = sum / n, .rmse_m = std::sqrt(squares / n)};
+  TrajectoryError error;
+  error.alignment = alignment;
+  error.mean_m = sum / n;
+  error.rmse_m = std::sqrt(squares / n);
   error.last_tenth_m = 1.1 * error.mean_m;
   error.best_tenth_m = 0.5 * error.mean_m;
   error.worst_tenth_m = 2.0 * error.mean_m;
@@ -61,8 +64,8 @@ SlamRecord record_of(const RangeLog& log, SlamMethod method, double wave_m, doub
   const Index size = estimate.path.size();
   for (Index i = 0; i < size; ++i) {
     const double share = static_cast<double>(i) / static_cast<double>(size);
-    const Eigen::RowVector2d off = wave_m * wave(share, drift_m) +
-                                   drift_m * share * Eigen::RowVector2d(share, -0.7);
+    const Eigen::RowVector2d off =
+        wave_m * wave(share, drift_m) + drift_m * share * Eigen::RowVector2d(share, -0.7);
     estimate.path.positions_m.row(i) += off;
     record.error_m.push_back(off.norm());
   }
@@ -81,7 +84,8 @@ void add_covariances(SlamRecord& record, double sigma_m) {
     C << 1.0, 0.6, 0.6, 0.7 + 0.3 * static_cast<double>(i);
     estimate.landmark_cov_m2.push_back(sigma_m * sigma_m * C);
   }
-  for (Index row = 0; row < estimate.path.size(); row += std::max<Index>(estimate.path.size() / 60, 1)) {
+  for (Index row = 0; row < estimate.path.size();
+       row += std::max<Index>(estimate.path.size() / 60, 1)) {
     estimate.position_cov_rows.push_back(row);
     estimate.position_cov_m2.push_back(4.0 * sigma_m * sigma_m * Eigen::Matrix2d::Identity());
   }
@@ -112,8 +116,9 @@ SlamRun sample_drive(const std::string& id, int poses, std::uint64_t seed) {
   run.log.truth = lanes(poses);
   for (int i = 0; i < 4 * poses / 10; ++i)
     run.log.ranges.push_back({i * 1.0, i % 4, 20.0 + random.uniform(0.0, 40.0)});
-  run.log.remarks = {"Heading increments of the table DR are the truth\u2019s: odometry was recovered "
-                     "from DRp."};
+  run.log.remarks = {
+      "Heading increments of the table DR are the truth\u2019s: odometry was recovered "
+      "from DRp."};
   run.known = {0, 1, 2, 3};
   run.windows = WindowCurve{{240.0, 170.0, 120.0, 85.0, 60.0, 42.0, 30.0},
                             {0.66, 0.61, 0.58, 0.63, 0.9, 2.4, NAN},
@@ -165,7 +170,8 @@ SlamRun sample_walk() {
   for (Index i = 0; i < 500; ++i) {
     path.positions_m.row(i) = at;
     heading += 0.5 * random.normal();
-    const Eigen::RowVector2d next = at + 1.0 * Eigen::RowVector2d(std::cos(heading), std::sin(heading));
+    const Eigen::RowVector2d next =
+        at + 1.0 * Eigen::RowVector2d(std::cos(heading), std::sin(heading));
     if (next.cwiseAbs().maxCoeff() > 10.0)
       heading += std::numbers::pi / 2.0;
     else
@@ -216,7 +222,11 @@ RangeHistoryStudy sample_histories() {
   for (Index i = 0; i < 30; ++i)
     study.landmarks_m.row(i) << random.uniform(-10.0, 10.0), random.uniform(-10.0, 10.0);
   const auto add = [&](std::optional<MethodSetting> setting, bool squared, double error_m) {
-    RangeHistoryMap map{.setting = setting, .squared = squared, .positions_m = study.landmarks_m};
+    RangeHistoryMap map{.setting = setting,
+                        .squared = squared,
+                        .positions_m = study.landmarks_m,
+                        .statuses = {},
+                        .score = {}};
     for (Index i = 0; i < 30; ++i)
       map.positions_m.row(i) += error_m * Eigen::RowVector2d(random.normal(), random.normal());
     map.score = Score{1.25 * error_m, 4.0 * error_m, 1.25 * error_m, 4.0 * error_m};
@@ -224,8 +234,8 @@ RangeHistoryStudy sample_histories() {
   };
   for (const bool squared : {false, true})
     for (const MethodInfo& method : all_methods())
-      add(MethodSetting{method.method, method.parameter ? std::optional(6.0) : std::nullopt}, squared,
-          (squared ? 0.2 : 0.5) + 0.1 * static_cast<double>(method.method));
+      add(MethodSetting{method.method, method.parameter ? std::optional(6.0) : std::nullopt},
+          squared, (squared ? 0.2 : 0.5) + 0.1 * static_cast<double>(method.method));
   study.maps[8].positions_m.setConstant(NAN);
   study.maps[8].score.reset();
   study.maps[8].statuses = {{StatusCode::kFailed, "No map: the graph has no edges."}};
