@@ -28,7 +28,9 @@ std::vector<Figure> chosen() {
           "measurement-bearing", "parameter-usual", "ranks-10",         "ellipses-usual",
           "shepard-usual",       "spectrum-usual",  "film-four",        "pair-usual",
           "idea-visibility",     "anchors-usual",   "levels-usual",     "occlusion-usual",
-          "pareto-usual"})
+          "pareto-usual",        "path-usual",      "path-walk",        "convergence-usual",
+          "cost-usual",          "singular-usual",  "windows-usual",    "starts-usual",
+          "wall-eleven"})
       if (figure.id == id) return false;
     return true;
   });

@@ -1,0 +1,142 @@
+#include "render/figures/path_map.hpp"
+
+#include <cmath>
+
+#include <gtest/gtest.h>
+
+#include "core/base/errors.hpp"
+#include "render/figures/covariance_ellipse.hpp"
+#include "render/figures/slam_looks.hpp"
+#include "tests/support/figure_parts.hpp"
+#include "tests/support/sample_slam.hpp"
+
+namespace mapproof::test {
+namespace {
+
+const std::vector<SlamMethod> kShown = {SlamMethod::kDeadReckoning, SlamMethod::kSpectral,
+                                        SlamMethod::kRefined};
+
+Figure figure_of(const SlamRun& run) { return path_map_figure({"fig-2b", "Plaza 1", run, kShown}); }
+
+TEST(PathMap, HasTheMapAboveAndTheErrorsBelow) {
+  const Figure figure = figure_of(sample_drive("plaza-1", 2000, 1));
+  ASSERT_EQ(figure.panels.size(), 2u);
+  EXPECT_EQ(figure.columns, 1u);
+  EXPECT_TRUE(figure.panels[0].equal_aspect);
+  EXPECT_EQ(figure.panels[0].x.label, "x [m]");
+  EXPECT_EQ(figure.panels[1].x.label, "time [s]");
+  EXPECT_EQ(figure.panels[1].y.scale, Scale::kLog);
+}
+
+TEST(PathMap, DrawsTheTruthBelowAndEachMethodInItsOwnInk) {
+  const Panel map = figure_of(sample_drive("plaza-1", 2000, 1)).panels[0];
+  const auto paths = layers_of<Polyline>(map);
+  ASSERT_EQ(paths.size(), 4u);
+  EXPECT_EQ(paths[0].label, "true path");
+  EXPECT_GT(paths[0].width, 2.0 * paths[2].width);
+  for (std::size_t i = 0; i < kShown.size(); ++i) {
+    EXPECT_EQ(paths[i + 1].label, info(kShown[i]).label);
+    EXPECT_EQ(paths[i + 1].ink, slam_look(kShown[i]).ink);
+  }
+}
+
+TEST(PathMap, ThinsTenThousandPosesToWhatTheEyeCanSee) {
+  const SlamRun run = sample_drive("plaza-1", 10000, 1);
+  const Figure figure = figure_of(run);
+  const auto truth = labelled<Polyline>(figure.panels[0], "true path").value();
+  EXPECT_LT(truth.x.size(), 80u);  // Eleven lanes and their ends.
+  EXPECT_EQ(truth.x.front(), run.log.truth->positions_m(0, 0));
+  EXPECT_EQ(truth.y.back(), run.log.truth->positions_m(9999, 1));
+  for (const auto& line : layers_of<Polyline>(figure.panels[1])) EXPECT_LE(line.x.size(), 1200u);
+}
+
+TEST(PathMap, ShowsTheErrorsOfEachMethodWithMeanAndAlignment) {
+  const SlamRun run = sample_drive("plaza-1", 2000, 1);
+  const Panel errors = figure_of(run).panels[1];
+  const auto line = labelled<Polyline>(errors, "dead reckoning: 9.8 m, unaligned");
+  ASSERT_TRUE(line);
+  EXPECT_EQ(line->x.front(), 0.0);
+  EXPECT_NEAR(line->y.back(), run.records[0].error_m.back(), 1e-12);
+  EXPECT_EQ(*std::ranges::max_element(line->y), *std::ranges::max_element(run.records[0].error_m));
+  EXPECT_TRUE(labelled<Polyline>(errors, "refined, scale free: 0.12 m, rigid"));
+  const auto expected = labelled<Polyline>(errors, "expected by the covariance").value();
+  EXPECT_NEAR(expected.y[0], 2.0 * 0.15 * std::sqrt(2.0), 1e-12);
+}
+
+TEST(PathMap, EnlargesEllipsesByAFactorThatItTells) {
+  const SlamRun run = sample_drive("plaza-1", 2000, 1);
+  const Figure figure = figure_of(run);
+  const auto ellipses = labelled<Ellipses>(figure.panels[0], "refined, scale free").value();
+  const CovarianceEllipse own = covariance_ellipse(run.records[5].estimate.landmark_cov_m2[2]);
+  EXPECT_NEAR(ellipses.a[2], 5.0 * own.a, 1e-12);
+  EXPECT_NEAR(ellipses.b[2], 5.0 * own.b, 1e-12);
+  EXPECT_TRUE(notes_contain(figure, "enlarged 5 times"));
+  EXPECT_TRUE(contains(figure.caption, "enlarged 5 times"));
+}
+
+TEST(PathMap, MarksLandmarksAsKnownOnlyWhereAMethodWasGivenThem) {
+  const SlamRun walk = sample_walk();
+  const Panel with =
+      path_map_figure({"fig-1a", "", walk, {SlamMethod::kSpectralKnown, SlamMethod::kSpectral}})
+          .panels[0];
+  EXPECT_EQ(labelled<Scatter>(with, "landmark, known")->x.size(), 4u);
+  EXPECT_EQ(labelled<Scatter>(with, "landmark, true")->x.size(), 2u);
+  const Panel without = path_map_figure({"fig-1a", "", walk, {SlamMethod::kSpectral}}).panels[0];
+  EXPECT_FALSE(labelled<Scatter>(without, "landmark, known"));
+  EXPECT_EQ(labelled<Scatter>(without, "landmark, true")->x.size(), 6u);
+}
+
+TEST(PathMap, ClaimsNoErrorWithoutATruth) {
+  SlamRun run = sample_drive("plaza-1", 2000, 1);
+  run.log.truth.reset();
+  run.log.true_landmarks.reset();
+  for (SlamRecord& record : run.records) record.errors.clear(), record.error_m.clear();
+  const Figure figure = figure_of(run);
+  EXPECT_EQ(figure.panels.size(), 1u);
+  EXPECT_FALSE(contains(figure.alt, "error"));
+  EXPECT_FALSE(contains(figure.caption, "true"));
+}
+
+TEST(PathMap, NamesAPathThatLeavesThePictureAndKeepsThePicture) {
+  SlamRun run = sample_drive("plaza-1", 2000, 1);
+  run.records[0].estimate.path.positions_m *= 100.0;
+  const Figure figure = figure_of(run);
+  EXPECT_TRUE(notes_contain(figure, "Beyond the picture: dead reckoning."));
+  EXPECT_LT(figure.panels[0].x.limits->high, 150.0);
+}
+
+TEST(PathMap, NamesMethodsWithoutAPathAndWhy) {
+  SlamRun run = sample_drive("plaza-1", 200, 1);
+  run.records[3].estimate = {};
+  run.records[3].error_m.clear();
+  run.records[3].estimate.statuses = {{StatusCode::kDegenerateGeometry, "The path is a line."}};
+  const Figure figure = figure_of(run);
+  EXPECT_TRUE(notes_contain(figure, "spectral, 4-D: The path is a line."));
+  EXPECT_FALSE(labelled<Polyline>(figure.panels[0], "spectral, 4-D"));
+}
+
+TEST(PathMap, RefusesPartsThatDisagree) {
+  const auto refused = [](auto change) {
+    SlamRun run = sample_drive("plaza-1", 100, 1);
+    change(run);
+    EXPECT_THROW(figure_of(run), InvalidInput);
+  };
+  refused([](SlamRun& run) { run.records[0].error_m.pop_back(); });
+  refused([](SlamRun& run) { run.log.landmarks.pop_back(); });
+  refused([](SlamRun& run) { run.known = {4}; });
+  refused([](SlamRun& run) { run.records[3].estimate.position_cov_rows[0] = 100; });
+  refused([](SlamRun& run) { run.records[3].estimate.landmark_cov_m2.pop_back(); });
+}
+
+TEST(CovarianceEllipse, HasTheEigenvaluesAsHalfAxes) {
+  Eigen::Matrix2d C;
+  C << 2.5, 1.5, 1.5, 2.5;  // 4 along the diagonal, 1 across.
+  const CovarianceEllipse ellipse = covariance_ellipse(C);
+  EXPECT_NEAR(ellipse.a / ellipse.b, 2.0, 1e-12);
+  EXPECT_NEAR(ellipse.b, std::sqrt(-2.0 * std::log(0.05)), 1e-12);
+  EXPECT_NEAR(ellipse.turn_rad, std::atan(1.0), 1e-12);
+  EXPECT_EQ(covariance_ellipse(-C).a, 0.0);
+}
+
+}  // namespace
+}  // namespace mapproof::test
