@@ -7,6 +7,7 @@
 #include "core/base/words.hpp"
 #include "reports/model/format.hpp"
 #include "reports/sections/method_summary.hpp"
+#include "reports/sections/sessions_table.hpp"
 #include "reports/sections/study_report.hpp"
 #include "reports/sections/wording.hpp"
 
@@ -58,28 +59,6 @@ KeyValues experiment_items(const Experiment& experiment) {
                                                sensor.sensor.noise, sensor.sensor.dropout_share))});
   }
   return items;
-}
-
-Table sessions_table(std::span<const Session> sessions) {
-  Table table;
-  table.id = "sessions";
-  table.caption = "Starts of the program on this study";
-  table.columns = {{"Started (UTC)", "", "", ""},
-                   {"Command", "", "", ""},
-                   {"Host", "", "", ""},
-                   {"Jobs", "", "", ""},
-                   {"Duration", "s", "", "Wall clock; the records alone, without figures."},
-                   {"Peak memory", "MiB", "", "Of the process."}};
-  for (const Session& session : sessions)
-    table.rows.push_back(
-        {{TextCell{session.started_utc, Emphasis::kData},
-          TextCell{session.command, Emphasis::kCode}, TextCell{session.host, Emphasis::kData},
-          NumberCell{static_cast<double>(session.jobs), 0}, NumberCell{session.seconds, 1},
-          session.peak_memory_mib ? Cell{NumberCell{*session.peak_memory_mib, 0}}
-                                  : Cell{MissingCell{}}},
-         "",
-         false});
-  return table;
 }
 
 struct Duration {
@@ -147,7 +126,7 @@ Section provenance_section(const Study& study, std::span<const Session> sessions
   section.blocks.emplace_back(KeyValues{{{"Command", {command, Emphasis::kCode}}}});
   section.blocks.emplace_back(experiment_items(study.experiment));
   section.blocks.emplace_back(provenance_items(study.provenance));
-  if (!sessions.empty()) section.blocks.emplace_back(sessions_table(sessions));
+  if (!sessions.empty()) section.blocks.emplace_back(sessions_table("sessions", sessions));
   if (timings.empty()) return section;
   const Durations durations = durations_of(timings);
   section.blocks.emplace_back(dominance(durations));

@@ -1,0 +1,177 @@
+#include "reports/sections/slam/slam_figures.hpp"
+
+#include <algorithm>
+#include <cctype>
+#include <iterator>
+
+#include <fmt/format.h>
+
+#include "render/figures/convergence.hpp"
+#include "render/figures/map_grid.hpp"
+#include "render/figures/path_map.hpp"
+#include "render/figures/refinement_starts.hpp"
+#include "render/figures/singular_values.hpp"
+#include "render/figures/window_curve.hpp"
+#include "reports/sections/figures/builders.hpp"
+#include "reports/sections/slam/slam_words.hpp"
+#include "reports/sections/wording.hpp"
+
+namespace mapproof {
+namespace {
+
+/// The paths that one figure can show side by side: the paper's, and the refined one.
+std::vector<SlamMethod> shown_methods(const SlamRun& run) {
+  if (run.simulated) return {SlamMethod::kSpectralKnown, SlamMethod::kSpectral};
+  const bool unknown = record_of(run, SlamMethod::kSpectral) != nullptr;
+  return {SlamMethod::kDeadReckoning, unknown ? SlamMethod::kSpectral : SlamMethod::kSpectralKnown,
+          SlamMethod::kRefined};
+}
+
+/// "Fig. 1A. " for "fig-1a"; empty for ids that are not the paper's.
+std::string numbered(const std::string& id) {
+  std::string number = paper_number(id);
+  if (number.empty()) return "";
+  number.back() = static_cast<char>(std::toupper(static_cast<unsigned char>(number.back())));
+  return number + ". ";
+}
+
+Figure path_figure(const SlamRun& run) {
+  const std::string id = path_figure_id(run);
+  const std::string title = run.simulated ? "Landmarks and path, true and recovered"
+                                          : "Paths and landmarks, " + title_of(run);
+  return path_map_figure({id, numbered(id) + title, run, shown_methods(run)});
+}
+
+/// One panel a rank: known landmarks change nothing about the factorised matrix.
+std::optional<Figure> spectrum_figure_of(const SlamRun& run) {
+  SingularValuesSpec spec;
+  spec.id = "spectrum-" + run.id;
+  spec.title = "Singular values of the squared ranges, " + title_of(run);
+  const auto add = [&](std::size_t rank, std::initializer_list<SlamMethod> methods) {
+    for (const SlamMethod method : methods) {
+      const SlamRecord* record = record_of(run, method);
+      if (record == nullptr || record->estimate.singular_values.size() == 0) continue;
+      const Eigen::VectorXd& values = record->estimate.singular_values;
+      spec.panels.push_back({fmt::format("{}-D", rank),
+                             {values.data(), values.data() + values.size()},
+                             rank,
+                             record->estimate.noise_level});
+      spec.record_ids.push_back(record_id(run, *record));
+      return;
+    }
+  };
+  add(4, {SlamMethod::kSpectral, SlamMethod::kSpectralKnown});
+  add(7, {SlamMethod::kSpectral7, SlamMethod::kSpectralKnown7});
+  if (spec.panels.empty()) return std::nullopt;
+  return singular_values_figure(spec);
+}
+
+/// What is known of one run.
+std::vector<Figure> run_figures(const SlamRun& run) {
+  std::vector<Figure> figures;
+  if (!run.records.empty()) figures.push_back(path_figure(run));
+  if (auto spectrum = spectrum_figure_of(run)) figures.push_back(*std::move(spectrum));
+  if (run.windows && !run.windows->lengths_s.empty())
+    figures.push_back(window_curve_figure(
+        {"windows-" + run.id, "Window lengths, " + title_of(run), *run.windows, run.id}));
+  if (!run.starts.empty())
+    figures.push_back(refinement_starts_figure(
+        {"starts-" + run.id, "Starts of the refinement, " + title_of(run), run.starts, run.id}));
+  return figures;
+}
+
+std::vector<Figure> convergence_figures(const SlamStudy& study) {
+  std::vector<Figure> figures;
+  if (study.convergence.empty()) return figures;
+  const ConvergenceCurve& first = study.convergence.front();
+  const auto any = [&](MeanEstimate ConvergencePoint::*what) {
+    return std::ranges::any_of(first.points,
+                               [&](const ConvergencePoint& p) { return (p.*what).values > 0; });
+  };
+  const std::string id = is_of_paper(study) ? "fig-1b" : "convergence-simulation";
+  figures.push_back(convergence_figure(id, first));
+  figures.back().title = numbered(id) + figures.back().title;
+  if (any(&ConvergencePoint::sine))
+    figures.push_back(subspace_angle_figure("angle-simulation", first));
+  if (any(&ConvergencePoint::positions_m))
+    figures.push_back(positions_figure("positions-simulation", first));
+  if (study.convergence.size() > 1)
+    figures.push_back(noise_models_figure("noise-simulation", study.convergence));
+  return figures;
+}
+
+TitledMap titled_map(const RangeHistoryStudy& study, const RangeHistoryMap& map) {
+  TitledMap titled;
+  titled.title = map.setting ? short_label(*map.setting) : "Spectral";
+  MapRecord& record = titled.map;
+  record.id = fmt::format("histories/{}/{}", map.squared ? "squared" : "range",
+                          map.setting ? info(map.setting->method).name : "spectral");
+  record.sensor = Sensor::kRange;
+  record.setting = map.setting.value_or(MethodSetting{});
+  record.step = study.steps;
+  const Eigen::Index rows = study.landmarks_m.rows();
+  for (Eigen::Index i = 0; i < rows; ++i) record.names.push_back(fmt::format("{}", i + 1));
+  record.estimate =
+      map.positions_m.rows() == rows ? map.positions_m : Points::Constant(rows, 2, NAN);
+  record.truth_m = study.landmarks_m;
+  record.score = map.score;
+  return titled;
+}
+
+/// The maps of ranges, or of squared ranges, with the spectral map last.
+std::vector<Figure> history_figures(const RangeHistoryStudy& study) {
+  std::vector<Figure> figures;
+  for (const bool squared : {false, true}) {
+    MapGridSpec spec;
+    spec.id = squared ? "lfmdr-squared-range" : "lfmdr-range";
+    spec.title = fmt::format("Mapping methods on {} histories, and the spectral map",
+                             squared ? "squared-range" : "range");
+    bool any = false;
+    for (const RangeHistoryMap& map : study.maps) {
+      if (map.setting && map.squared != squared) continue;
+      any = any || map.setting;
+      spec.maps.push_back(titled_map(study, map));
+    }
+    if (any) figures.push_back(map_wall_figure(spec));
+  }
+  return figures;
+}
+
+}  // namespace
+
+std::string slam_run_group(const SlamRun& run) { return "slam-run-" + run.id; }
+
+StudyFigures slam_figures(const SlamStudy& study, const SlamTimings& timings) {
+  StudyFigures figures;
+  const auto add = [&](std::string id, std::string title, std::string words,
+                       std::vector<Figure> group) {
+    if (!group.empty())
+      figures.groups.push_back(
+          {std::move(id), std::move(title), std::move(words), std::move(group)});
+  };
+  std::vector<Figure> simulation;
+  for (const SlamRun& run : study.runs)
+    if (run.simulated) std::ranges::move(run_figures(run), std::back_inserter(simulation));
+  std::ranges::move(convergence_figures(study), std::back_inserter(simulation));
+  add(kSlamSimulation, "Range-only SLAM: simulation",
+      "A simulated robot among landmarks; every step hears all of them. Squared ranges factor into "
+      "a map and a path of rank 4.",
+      std::move(simulation));
+  for (const SlamRun& run : study.runs)
+    if (!run.simulated)
+      add(slam_run_group(run), "Range-only SLAM: " + title_of(run),
+          "Paths and landmarks as the methods recovered them, and what they rest on.",
+          run_figures(run));
+  if (study.histories)
+    add(kSlamHistories, "Range-only SLAM: mapping without a path",
+        "The mapping methods on the ranges and the squared ranges of one simulated world, each by "
+        "the affine map that fits all landmarks best, beside the spectral map of the same data.",
+        history_figures(*study.histories));
+  if (!timings.factorization.empty())
+    add(kSlamCost, "Range-only SLAM: cost",
+        "Seconds differ from one run of the program to the next.",
+        {factorization_cost_figure("factorization-cost", timings.factorization)});
+  return figures;
+}
+
+}  // namespace mapproof

@@ -1,0 +1,104 @@
+#include "reports/sections/slam/slam_report.hpp"
+
+#include <algorithm>
+
+#include <fmt/format.h>
+
+#include "core/base/words.hpp"
+#include "reports/sections/sessions_table.hpp"
+#include "reports/sections/slam/slam_tables.hpp"
+#include "reports/sections/slam/slam_words.hpp"
+#include "reports/sections/study_report.hpp"
+#include "reports/sections/wording.hpp"
+
+namespace mapproof {
+namespace {
+
+const FigureGroup* group_of(const StudyFigures& figures, const std::string& id) {
+  const auto found = std::ranges::find(figures.groups, id, &FigureGroup::id);
+  return found == figures.groups.end() ? nullptr : &*found;
+}
+
+std::optional<Section> histories_section(const SlamReportInput& input) {
+  if (!input.study.histories) return std::nullopt;
+  const FigureGroup* figures = group_of(input.figures, kSlamHistories);
+  Section section = figures != nullptr
+                        ? figures_section(*figures)
+                        : Section{kSlamHistories, "Range-only SLAM: mapping without a path", {}};
+  section.blocks.emplace_back(slam_history_table(*input.study.histories));
+  return section;
+}
+
+std::optional<Section> cost_section(const SlamReportInput& input) {
+  const FigureGroup* figures = group_of(input.figures, kSlamCost);
+  auto seconds = slam_seconds_table(input.study, input.timings.methods);
+  if (figures == nullptr && !seconds) return std::nullopt;
+  Section section =
+      figures != nullptr
+          ? figures_section(*figures)
+          : Section{kSlamCost,
+                    "Range-only SLAM: cost",
+                    {plain("Seconds differ from one run of the program to the next.")}};
+  if (is_of_paper(input.study))
+    section.blocks.emplace_back(plain(
+        "The paper tells O((2N)\u00B2 T) for its factorisation, and \u201Cusually taking less "
+        "than a second to run\u201D, in Matlab on a 2.66 GHz Core i7."));
+  if (seconds) section.blocks.emplace_back(*std::move(seconds));
+  return section;
+}
+
+std::string subtitle(const SlamStudy& study) {
+  const auto real = std::ranges::count(study.runs, false, &SlamRun::simulated);
+  std::string text = fmt::format("{}, {}", study.name, counted(real, "recorded drive"));
+  if (std::ssize(study.runs) > real || !study.convergence.empty())
+    text += fmt::format(", simulation with seed {}", study.seed);
+  return text;
+}
+
+}  // namespace
+
+std::vector<Section> slam_sections(const SlamReportInput& input) {
+  const SlamStudy& study = input.study;
+  std::vector<Section> sections{slam_summary_section(study)};
+  if (auto accuracy = slam_accuracy_section(study)) sections.push_back(*std::move(accuracy));
+  for (const SlamRun& run : study.runs)
+    if (!run.simulated)
+      sections.push_back(slam_run_section(run, group_of(input.figures, slam_run_group(run))));
+  if (auto simulation = slam_simulation_section(study, group_of(input.figures, kSlamSimulation)))
+    sections.push_back(*std::move(simulation));
+  if (auto histories = histories_section(input)) sections.push_back(*std::move(histories));
+  if (auto cost = cost_section(input)) sections.push_back(*std::move(cost));
+  sections.push_back(slam_statuses_section(study));
+  sections.push_back(slam_provenance_section(input));
+  return sections;
+}
+
+Section slam_provenance_section(const SlamReportInput& input) {
+  Section section{"slam-provenance", "Range-only SLAM: provenance", {}};
+  section.blocks.emplace_back(
+      plain("Every number here comes from the study\u2019s records; this command makes them and "
+            "this report again, to the byte (seconds aside):"));
+  section.blocks.emplace_back(KeyValues{{{"Command", {input.command, Emphasis::kCode}}}});
+  KeyValues facts;
+  facts.items.push_back({"Study", {input.study.name, Emphasis::kData}});
+  facts.items.push_back({"Seed", {fmt::format("{}", input.study.seed), Emphasis::kData}});
+  for (const auto& [key, value] : input.study.facts)
+    facts.items.push_back({key, {value, Emphasis::kData}});
+  section.blocks.emplace_back(std::move(facts));
+  section.blocks.emplace_back(provenance_items(input.study.provenance));
+  if (!input.sessions.empty())
+    section.blocks.emplace_back(sessions_table("slam-sessions", input.sessions));
+  return section;
+}
+
+Report slam_report(const SlamReportInput& input) {
+  Report report;
+  report.title = input.study.title.empty() ? input.study.name : input.study.title;
+  report.subtitle = subtitle(input.study);
+  report.sections = slam_sections(input);
+  report.footer = fmt::format("Made by mapproof {} ({}).", input.study.provenance.version,
+                              input.study.provenance.commit);
+  return report;
+}
+
+}  // namespace mapproof

@@ -1,0 +1,221 @@
+#include "reports/sections/slam/slam_tables.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include "core/base/words.hpp"
+#include "render/figures/slam_looks.hpp"
+#include "reports/sections/cells.hpp"
+#include "reports/sections/slam/slam_words.hpp"
+
+namespace mapproof {
+namespace {
+
+using Eigen::Index;
+
+Cell optional_cell(const std::optional<double>& value, int decimals) {
+  if (!value) return MissingCell{};
+  return NumberCell{*value, decimals};
+}
+
+Cell count_cell(double count) { return NumberCell{count, 0}; }
+
+std::string method_label(SlamMethod method) {
+  return fmt::format("{}{}", info(method).label, info(method).baseline ? " (baseline)" : "");
+}
+
+/// Ranges over distances, where the method told it from the data.
+Cell scale_cell(const SlamRecord& record) {
+  if (record.estimate.range_scale == 1.0) return MissingCell{};
+  return NumberCell{record.estimate.range_scale, 4};
+}
+
+void add_error_cells(const TrajectoryError& error, Row& row) {
+  for (const double value :
+       {error.mean_m, error.rmse_m, error.last_tenth_m, error.best_tenth_m, error.worst_tenth_m})
+    row.cells.emplace_back(NumberCell{value, 3});
+  row.cells.push_back(optional_cell(error.landmarks_m, 3));
+}
+
+Row error_row(const SlamRun& run, const SlamRecord& record) {
+  Row row;
+  row.source = record_id(run, record);
+  row.cells = {
+      TextCell{title_of(run), Emphasis::kData}, TextCell{method_label(record.method)},
+      TextCell{info(record.method).knows_landmarks ? counted(std::ssize(run.known), "landmark")
+                                                   : "none"}};
+  if (record.errors.empty()) {
+    for (int i = 0; i < 7; ++i) row.cells.emplace_back(MissingCell{});
+  } else {
+    row.cells.emplace_back(TextCell{alignment_words(record.errors.front().alignment)});
+    add_error_cells(record.errors.front(), row);
+  }
+  row.cells.push_back(scale_cell(record));
+  return row;
+}
+
+/// The run's record of least mean error among those that are aligned rigidly; null if there is
+/// none.
+const SlamRecord* best_rigid(const SlamRun& run) {
+  const SlamRecord* best = nullptr;
+  for (const SlamRecord& record : run.records) {
+    if (record.errors.empty() || record.errors.front().alignment != Alignment::kRigid ||
+        !std::isfinite(record.errors.front().mean_m))
+      continue;
+    if (best == nullptr || record.errors.front().mean_m < best->errors.front().mean_m)
+      best = &record;
+  }
+  return best;
+}
+
+}  // namespace
+
+Table slam_error_table(std::string id, std::string caption, std::span<const SlamRun* const> runs) {
+  const std::string group = "Position error";
+  Table table{std::move(id), std::move(caption), {}, {}, {}};
+  table.columns = {
+      {"Data set", "", "", ""},
+      {"Method", "", "", ""},
+      {"Given", "", "", "Landmarks whose true places the method was given."},
+      {"Alignment", "", "", "Of the path to the truth, before its error was taken."},
+      {"Mean", "m", group, "Over the full path."},
+      {"RMSE", "m", group, "Over the full path."},
+      {"Last 10 %", "m", group, "Mean over the last tenth of the path."},
+      {"Best 10 %", "m", group, "Least mean over a tenth of the path in one piece."},
+      {"Worst 10 %", "m", group, "Greatest mean over a tenth of the path in one piece."},
+      {"Landmarks", "m", "", "Mean error of the landmarks, under the same alignment."},
+      {"Range scale", "", "", "Measured ranges over distances, as estimated."}};
+  for (const SlamRun* run : runs) {
+    const SlamRecord* best = best_rigid(*run);
+    for (const SlamRecord& record : run->records) {
+      table.rows.push_back(error_row(*run, record));
+      table.rows.back().marked = &record == best;
+    }
+  }
+  table.notes = {
+      "An error means nothing without its alignment. Unaligned: compared as it came, tied to the "
+      "truth by known landmarks or by the start. Rigid: after the best rotation and translation, "
+      "no "
+      "scale.",
+      "Marked: the least mean of a data set among rigidly aligned paths."};
+  return table;
+}
+
+std::optional<Table> slam_alignment_table(std::span<const SlamRun* const> runs) {
+  Table table;
+  table.id = "slam-alignments";
+  table.caption = "The same paths under other alignments";
+  table.columns = {{"Data set", "", "", ""}, {"Method", "", "", ""}, {"Alignment", "", "", ""},
+                   {"Mean", "m", "", ""},    {"RMSE", "m", "", ""},  {"Landmarks", "m", "", ""}};
+  for (const SlamRun* run : runs)
+    for (const SlamRecord& record : run->records)
+      for (std::size_t i = 1; i < record.errors.size(); ++i) {
+        const TrajectoryError& error = record.errors[i];
+        table.rows.push_back(
+            {{TextCell{title_of(*run), Emphasis::kData}, TextCell{method_label(record.method)},
+              TextCell{alignment_words(error.alignment)}, NumberCell{error.mean_m, 3},
+              NumberCell{error.rmse_m, 3}, optional_cell(error.landmarks_m, 3)},
+             record_id(*run, record),
+             false});
+      }
+  if (table.rows.empty()) return std::nullopt;
+  return table;
+}
+
+Table slam_drive_table(std::span<const SlamRun* const> runs) {
+  const bool published =
+      std::ranges::any_of(runs, [](const SlamRun* run) { return run->published.has_value(); });
+  Table table;
+  table.id = "slam-drives";
+  table.caption = "What was recorded";
+  table.columns = {{"Data set", "", "", ""},
+                   {"Landmarks", "", "", ""},
+                   {"Length", "km", "", "Of the true path, or of the odometry without one."},
+                   {"Poses", "", "", "Of the true path, or of the odometry without one."},
+                   {"Range readings", "", "", ""}};
+  if (published)
+    for (const char* title : {"Length", "Poses", "Range readings"})
+      table.columns.push_back({title, title[0] == 'L' ? "km" : "", "Paper", ""});
+  for (const SlamRun* run : runs) {
+    const RangeLog& log = run->log;
+    const auto length = length_m(log);
+    const auto poses = log.truth ? log.truth->size() : std::ssize(log.odometry) + 1;
+    Row row;
+    row.source = run->id;
+    row.cells = {TextCell{title_of(*run), Emphasis::kData},
+                 count_cell(static_cast<double>(log.landmarks.size())),
+                 length ? Cell{NumberCell{*length / 1e3, 2}} : Cell{MissingCell{}},
+                 count_cell(static_cast<double>(poses)),
+                 count_cell(static_cast<double>(log.ranges.size()))};
+    if (published && run->published) {
+      row.cells.emplace_back(NumberCell{run->published->length_km, 1});
+      row.cells.push_back(count_cell(static_cast<double>(run->published->poses)));
+      row.cells.push_back(count_cell(static_cast<double>(run->published->readings)));
+    } else if (published) {
+      row.cells.insert(row.cells.end(), 3, MissingCell{});
+    }
+    table.rows.push_back(std::move(row));
+  }
+  return table;
+}
+
+std::optional<Table> slam_landmark_table(const SlamRun& run) {
+  const SlamRecord* record = mapped_record(run);
+  if (record == nullptr) return std::nullopt;
+  const SlamEstimate& estimate = record->estimate;
+  const auto& truth = run.log.true_landmarks;
+  const bool sure = std::ssize(estimate.landmark_cov_m2) == estimate.landmarks_m.rows();
+  Table table;
+  table.id = "slam-landmarks-" + run.id;
+  table.caption = fmt::format("Landmarks, {}", info(record->method).label);
+  table.columns = {{"Landmark", "", "", ""}, {"x", "m", "Map", ""}, {"y", "m", "Map", ""}};
+  if (sure) {
+    table.columns.push_back({"x", "m", "Standard deviation", ""});
+    table.columns.push_back({"y", "m", "Standard deviation", ""});
+  }
+  if (truth) {
+    table.columns.push_back({"x", "m", "Truth", ""});
+    table.columns.push_back({"y", "m", "Truth", ""});
+    table.columns.push_back({"Error", "m", "", "Distance from the true place."});
+  }
+  for (Index i = 0; i < estimate.landmarks_m.rows(); ++i) {
+    Row row;
+    row.source = record_id(run, *record);
+    row.cells = {TextCell{run.log.landmarks[i], Emphasis::kData},
+                 NumberCell{estimate.landmarks_m(i, 0), 3},
+                 NumberCell{estimate.landmarks_m(i, 1), 3}};
+    if (sure)
+      for (Index axis = 0; axis < 2; ++axis)
+        row.cells.emplace_back(NumberCell{std::sqrt(estimate.landmark_cov_m2[i](axis, axis)), 3});
+    if (truth) {
+      for (Index axis = 0; axis < 2; ++axis)
+        row.cells.emplace_back(NumberCell{(*truth)(i, axis), 3});
+      row.cells.emplace_back(NumberCell{(estimate.landmarks_m.row(i) - truth->row(i)).norm(), 3});
+    }
+    table.rows.push_back(std::move(row));
+  }
+  return table;
+}
+
+std::optional<Table> slam_seconds_table(const SlamStudy& study,
+                                        std::span<const SlamTiming> timings) {
+  if (timings.empty()) return std::nullopt;
+  Table table;
+  table.id = "slam-seconds";
+  table.caption = "How long the methods took (varies)";
+  table.columns = {{"Data set", "", "", ""}, {"Method", "", "", ""}, {"Seconds", "s", "", ""}};
+  for (const SlamTiming& timing : timings) {
+    const auto run = std::ranges::find(study.runs, timing.run, &SlamRun::id);
+    table.rows.push_back(
+        {{TextCell{run == study.runs.end() ? timing.run : title_of(*run), Emphasis::kData},
+          TextCell{method_label(timing.method)}, NumberCell{timing.seconds, 3}},
+         "",
+         false});
+  }
+  table.notes = {"Seconds vary from run to run and are no part of any comparison."};
+  return table;
+}
+
+}  // namespace mapproof

@@ -1,0 +1,36 @@
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include "core/model/slam_study.hpp"
+#include "reports/model/report.hpp"
+
+namespace mapproof {
+
+/// "plaza-1/refined": which record of a study a number comes from.
+std::string record_id(const SlamRun& run, const SlamRecord& record);
+
+/// The method's record in that run; null if it has none.
+const SlamRecord* record_of(const SlamRun& run, SlamMethod method);
+
+/// The method's error under its own alignment; null if it has none.
+const TrajectoryError* error_of(const SlamRun& run, SlamMethod method);
+
+/// The record whose landmarks are shown: the refined one, or else the first that has any; null if
+/// none has.
+const SlamRecord* mapped_record(const SlamRun& run);
+
+/// Whether the study is the paper's, so that there is something to say about the paper.
+bool is_of_paper(const SlamStudy& study);
+
+/// "Plaza 1", or the id where the log has no name.
+std::string title_of(const SlamRun& run);
+
+/// Id of the figure of the run's paths.
+std::string path_figure_id(const SlamRun& run);
+
+/// Length of the true path, or else of the odometry, m; empty with neither.
+std::optional<double> length_m(const RangeLog& log);
+
+}  // namespace mapproof

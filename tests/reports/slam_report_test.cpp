@@ -1,0 +1,251 @@
+#include "reports/sections/slam/slam_report.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <set>
+
+#include <gtest/gtest.h>
+
+#include "reports/sections/slam/slam_tables.hpp"
+#include "reports/sections/study_report.hpp"
+#include "tests/reports/section_words.hpp"
+#include "tests/reports/synthetic_study.hpp"
+#include "tests/support/sample_slam.hpp"
+
+namespace mapproof {
+namespace {
+
+using test::sample_slam_study;
+using test::says;
+using test::table_named;
+using test::words;
+
+/// Sections of a study with its figures and seconds.
+std::vector<Section> sections_of(const SlamStudy& study, const SlamTimings& timings = {}) {
+  const StudyFigures figures = slam_figures(study, timings);
+  return slam_sections({study, {}, timings, figures, "mapproof reproduce boots2013"});
+}
+
+std::vector<std::string> ids_of(const std::vector<Section>& sections) {
+  std::vector<std::string> ids;
+  for (const Section& section : sections) ids.push_back(section.id);
+  return ids;
+}
+
+std::vector<std::string> figure_ids(const StudyFigures& figures) {
+  std::vector<std::string> ids;
+  for (const Figure* figure : all_figures(figures)) ids.push_back(figure->id);
+  return ids;
+}
+
+const SlamRun& plaza(const SlamStudy& study) { return study.runs[1]; }
+
+TEST(SlamFigures, AreThePapersAndThoseBeyondItUnderTheirIds) {
+  const SlamStudy study = sample_slam_study();
+  EXPECT_EQ(
+      figure_ids(slam_figures(study, test::sample_slam_timings())),
+      (std::vector<std::string>{"fig-1a", "spectrum-simulation", "fig-1b", "angle-simulation",
+                                "positions-simulation", "noise-simulation", "fig-2b",
+                                "spectrum-plaza-1", "windows-plaza-1", "starts-plaza-1", "fig-2c",
+                                "spectrum-plaza-2", "windows-plaza-2", "starts-plaza-2",
+                                "lfmdr-range", "lfmdr-squared-range", "factorization-cost"}));
+  const StudyFigures figures = slam_figures(study, {});
+  EXPECT_TRUE(all_figures(figures)[0]->title.starts_with("Fig. 1A. "));
+  EXPECT_TRUE(all_figures(figures)[2]->title.starts_with("Fig. 1B. "));
+}
+
+TEST(SlamFigures, HaveTheTenMethodsAndTheSpectralMapOnOneWall) {
+  const StudyFigures figures = slam_figures(sample_slam_study(), {});
+  for (const Figure* figure : all_figures(figures))
+    if (figure->id.starts_with("lfmdr-")) {
+      EXPECT_EQ(figure->panels.size(), 11u);
+      EXPECT_TRUE(figure->panels.back().title.starts_with("Spectral\n"));
+    }
+}
+
+TEST(SlamFigures, LeaveOutWhatTheStudyDoesNotHold) {
+  SlamStudy study = sample_slam_study();
+  study.runs.erase(study.runs.begin());
+  study.runs.pop_back();
+  study.runs[0].windows.reset();
+  study.runs[0].starts.clear();
+  study.runs[0].figure.clear();
+  study.convergence.clear();
+  study.histories.reset();
+  EXPECT_EQ(figure_ids(slam_figures(study, {})),
+            (std::vector<std::string>{"path-plaza-1", "spectrum-plaza-1"}));
+}
+
+TEST(SlamSections, StandInOrderAndBesideThoseOfTheOtherPaper) {
+  const SlamStudy study = sample_slam_study();
+  const SlamTimings timings = test::sample_slam_timings();
+  const StudyFigures figures = slam_figures(study, timings);
+  const auto sessions = test::synthetic_sessions();
+  Report report = slam_report({study, sessions, timings, figures, "mapproof reproduce all"});
+  EXPECT_EQ(ids_of(report.sections),
+            (std::vector<std::string>{"slam-summary", "slam-accuracy", "slam-run-plaza-1",
+                                      "slam-run-plaza-2", "slam-simulation", "slam-histories",
+                                      "slam-cost", "slam-statuses", "slam-provenance"}));
+  EXPECT_NO_THROW(check(report));
+  const Study other = test::synthetic_study(2, 1);
+  const StudyFigures other_figures = test::synthetic_figures(other);
+  const auto other_timings = test::synthetic_timings(other);
+  const Report first = study_report({other, sessions, other_timings, other_figures, "x"});
+  report.sections.insert(report.sections.begin(), first.sections.begin(), first.sections.end());
+  EXPECT_NO_THROW(check(report));
+}
+
+TEST(SlamSummary, BeginsWithWhatIsMissingAndHowToGetIt) {
+  SlamStudy study = sample_slam_study();
+  study.missing = {"The Plaza data sets: give their folder with --plaza."};
+  const Section section = slam_summary_section(study);
+  const auto* callout = std::get_if<Callout>(&section.blocks.front());
+  ASSERT_NE(callout, nullptr);
+  EXPECT_EQ(callout->tone, Callout::Tone::kWarning);
+  EXPECT_TRUE(says(section, "give their folder with --plaza"));
+  EXPECT_EQ(std::get_if<Callout>(&slam_summary_section(sample_slam_study()).blocks.front()),
+            nullptr);
+}
+
+TEST(SlamSummary, FindsErrorsWithTheirAlignmentScaleAndStarts) {
+  const Section section = slam_summary_section(sample_slam_study());
+  EXPECT_TRUE(says(section,
+                   "Plaza 1: mean position error 0.12 m for refined, scale free (rigid), "
+                   "0.41 m for spectral, 4-D (rigid)"))
+      << words(section);
+  EXPECT_TRUE(says(section, "dead reckoning (unaligned)"));
+  EXPECT_TRUE(says(section, "Its ranges are 6.6 % too long"));
+  EXPECT_TRUE(says(section,
+                   "1 of 1 from the spectral answer, 1 of 1 from dead reckoning and 11 of "
+                   "12 from random landmarks"));
+  EXPECT_TRUE(says(section, "to the power \u22120.50"));
+  EXPECT_TRUE(says(section, "Fig. 2A is a photograph"));
+}
+
+TEST(SlamSummary, ClaimsNoErrorWithoutATruthAndNothingOfAPaperThatIsNot) {
+  SlamStudy study;
+  study.name = "slam";
+  study.runs = {test::sample_drive("mine", 100, 1)};
+  SlamRun& run = study.runs[0];
+  run.log.truth.reset();
+  run.log.true_landmarks.reset();
+  run.starts.clear();
+  for (SlamRecord& record : run.records) record.errors.clear(), record.error_m.clear();
+  std::string all;
+  for (const Section& section : sections_of(study)) all += words(section);
+  EXPECT_NE(all.find("no error claimed"), std::string::npos) << all;
+  EXPECT_EQ(all.find("mean position error"), std::string::npos) << all;
+  EXPECT_EQ(all.find("paper"), std::string::npos) << all;
+}
+
+TEST(SlamErrorTable, HasARowAMethodWithItsAlignmentAndMarksTheBestRigidOne) {
+  const SlamStudy study = sample_slam_study();
+  const auto section = slam_accuracy_section(study).value();
+  const Table& table = table_named(section, "table-plaza");
+  ASSERT_EQ(table.rows.size(), plaza(study).records.size() + study.runs[2].records.size());
+  EXPECT_EQ(table.columns[3].title, "Alignment");
+  const Row& dead = table.rows[0];
+  EXPECT_EQ(std::get<TextCell>(dead.cells[1]).text, "dead reckoning (baseline)");
+  EXPECT_EQ(std::get<TextCell>(dead.cells[2]).text, "none");
+  EXPECT_EQ(std::get<TextCell>(dead.cells[3]).text, "unaligned");
+  EXPECT_EQ(std::get<NumberCell>(dead.cells[4]).value, plaza(study).records[0].errors[0].mean_m);
+  EXPECT_EQ(std::get<TextCell>(table.rows[2].cells[2]).text, "4 landmarks");
+  EXPECT_EQ(std::get<NumberCell>(table.rows[5].cells.back()).value, 1.066);
+  EXPECT_TRUE(table.rows[5].marked);
+  EXPECT_EQ(std::ranges::count(table.rows, true, &Row::marked), 2);
+  EXPECT_EQ(table.rows[5].source, "plaza-1/refined");
+}
+
+TEST(SlamErrorTable, KeepsARowForAMethodThatGaveNothing) {
+  SlamStudy study = sample_slam_study();
+  study.runs[1].records[5].errors.clear();
+  const auto section = slam_accuracy_section(study).value();
+  const Table& table = table_named(section, "table-plaza");
+  for (std::size_t i = 3; i < 10; ++i)
+    EXPECT_TRUE(std::holds_alternative<MissingCell>(table.rows[5].cells[i])) << i;
+  EXPECT_FALSE(table.rows[5].marked);
+  EXPECT_TRUE(table.rows[3].marked);  // Now the spectral one is the best.
+}
+
+TEST(SlamAlignmentTable, ShowsTheOtherAlignmentsAlone) {
+  const SlamStudy study = sample_slam_study();
+  const std::vector<const SlamRun*> runs = {&study.runs[1]};
+  const Table table = slam_alignment_table(runs).value();
+  ASSERT_EQ(table.rows.size(), 1u);
+  EXPECT_EQ(std::get<TextCell>(table.rows[0].cells[2]).text, "similarity");
+  const std::vector<const SlamRun*> walk = {&study.runs[0]};
+  EXPECT_FALSE(slam_alignment_table(walk));
+}
+
+TEST(SlamDriveTable, HasThePapersNumbersOnlyWhereItPrintsThem) {
+  SlamStudy study = sample_slam_study();
+  study.runs[2].published.reset();
+  const std::vector<const SlamRun*> both = {&study.runs[1], &study.runs[2]};
+  const Table table = slam_drive_table(both);
+  ASSERT_EQ(table.columns.size(), 8u);
+  EXPECT_EQ(std::get<NumberCell>(table.rows[0].cells[6]).value, 9658.0);
+  EXPECT_TRUE(std::holds_alternative<MissingCell>(table.rows[1].cells[6]));
+  EXPECT_EQ(std::get<NumberCell>(table.rows[0].cells[3]).value, 2000.0);
+  const std::vector<const SlamRun*> last = {&study.runs[2]};
+  EXPECT_EQ(slam_drive_table(last).columns.size(), 5u);
+}
+
+TEST(SlamLandmarkTable, ShowsTheRefinedMapWithItsDeviationsAndErrors) {
+  const SlamStudy study = sample_slam_study();
+  const Table table = slam_landmark_table(plaza(study)).value();
+  EXPECT_EQ(table.caption, "Landmarks, refined, scale free");
+  ASSERT_EQ(table.columns.size(), 8u);
+  EXPECT_NEAR(std::get<NumberCell>(table.rows[0].cells[3]).value, 0.05, 1e-12);
+  EXPECT_NEAR(std::get<NumberCell>(table.rows[0].cells[7]).value, 0.4 * 0.12 * std::sqrt(2.0),
+              1e-9);
+}
+
+TEST(SlamSimulationSection, TellsTheMisprintOfEquationFive) {
+  const SlamStudy study = sample_slam_study();
+  const StudyFigures figures = slam_figures(study, {});
+  const Section section = slam_simulation_section(study, &figures.groups[0]).value();
+  EXPECT_TRUE(says(section, "\u00D5(1/\u03B6\u00B2)")) << words(section);
+  const Table& table = table_named(section, "slam-convergence");
+  EXPECT_EQ(table.rows.size(), 14u);
+  EXPECT_EQ(std::get<NumberCell>(table.rows[0].cells[1]).value, 300.0);
+}
+
+TEST(SlamHistoryTable, HoldsRangesBesideSquaredRangesAndTheSpectralMapLast) {
+  const Table table = slam_history_table(test::sample_histories());
+  ASSERT_EQ(table.rows.size(), 11u);
+  EXPECT_TRUE(std::holds_alternative<MissingCell>(table.rows[8].cells[1]));  // Failed on ranges.
+  EXPECT_TRUE(std::holds_alternative<NumberCell>(table.rows[8].cells[3]));
+  EXPECT_EQ(std::get<TextCell>(table.rows[10].cells[0]).text, "Spectral, no landmark known");
+  EXPECT_TRUE(std::holds_alternative<MissingCell>(table.rows[10].cells[1]));
+}
+
+TEST(SlamStatuses, ListEachWithItsPlaceFailuresFirst) {
+  const Section section = slam_statuses_section(sample_slam_study());
+  const auto& list = std::get<StatusList>(section.blocks.front());
+  ASSERT_EQ(list.items.size(), 3u);
+  EXPECT_TRUE(list.items[0].failed);
+  EXPECT_EQ(list.items[1].where, "Plaza 1, extended Kalman filter");
+  EXPECT_EQ(list.items[1].places[0].record_id, "plaza-1/ekf");
+}
+
+TEST(SlamReport, ShowsRemarksOfReadersAndMarksSecondsAsVarying) {
+  const SlamStudy study = sample_slam_study();
+  const auto sections = sections_of(study, test::sample_slam_timings());
+  EXPECT_TRUE(says(sections[2], "Heading increments of the table DR are the truth\u2019s"));
+  const Table& seconds = table_named(sections[6], "slam-seconds");
+  EXPECT_EQ(seconds.rows.size(), 3u);
+  EXPECT_TRUE(seconds.caption.ends_with("(varies)"));
+}
+
+TEST(SlamReport, OfNothingIsAReport) {
+  const SlamStudy study;
+  const SlamTimings timings;
+  const StudyFigures figures = slam_figures(study, timings);
+  const Report report = slam_report({study, {}, timings, figures, ""});
+  EXPECT_NO_THROW(check(report));
+  EXPECT_EQ(ids_of(report.sections),
+            (std::vector<std::string>{"slam-summary", "slam-statuses", "slam-provenance"}));
+}
+
+}  // namespace
+}  // namespace mapproof
