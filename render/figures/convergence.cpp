@@ -46,9 +46,8 @@ std::string means_of(const ConvergenceCurve& curve) {
                      curve.title);
 }
 
-std::string slope_words(const ErrorLine& line) {
-  const double slope = log_log_slope(line.x, line.mean);
-  return std::isfinite(slope) ? fmt::format("{:.2f}", slope) : "unknown";
+std::string slope_of(const ErrorLine& line) {
+  return slope_words(log_log_slope(line.x, line.mean));
 }
 
 LogLogSpec spec_of(const std::string& id, const char* title, const ConvergenceCurve& curve) {
@@ -98,7 +97,7 @@ Figure convergence_figure(const std::string& id, const ConvergenceCurve& curve) 
   spec.caption = fmt::format(
       "{} Error of \u0108: Frobenius norm. Slopes by least squares: {} and {}; "
       "theory: \u22121/2.",
-      means_of(curve), slope_words(observation), slope_words(landmarks));
+      means_of(curve), slope_of(observation), slope_of(landmarks));
   spec.panels = {{"Observation model", kReadings, kObservation, {observation}, kRootLaw, {}},
                  {"Landmarks", kReadings, "error [m]", {landmarks}, kRootLaw, {}}};
   return log_log_figure(spec);
@@ -114,7 +113,7 @@ Figure subspace_angle_figure(const std::string& id, const ConvergenceCurve& curv
       "{} Dashed: N c \u221A(2 log T / T) / \u03B3, its constant fitted at the first point. Slope "
       "of "
       "the measured sine: {}.",
-      means_of(curve), slope_words(sine));
+      means_of(curve), slope_of(sine));
   spec.panels = {
       {"", kReadings, "sine of the largest canonical angle", {sine}, std::nullopt, {bound}}};
   return log_log_figure(spec);
@@ -129,8 +128,8 @@ Figure positions_figure(const std::string& id, const ConvergenceCurve& curve) {
   spec.caption = fmt::format(
       "{} A landmark is seen again and again, a position by {} alone: its error ends at what these "
       "allow. Slopes: {} and {}.",
-      means_of(curve), counted(curve.landmarks, "reading"), slope_words(landmarks),
-      slope_words(positions));
+      means_of(curve), counted(curve.landmarks, "reading"), slope_of(landmarks),
+      slope_of(positions));
   spec.panels = {{"", kReadings, "error [m]", {landmarks, positions}, kRootLaw, {}}};
   return log_log_figure(spec);
 }
@@ -149,7 +148,7 @@ Figure noise_models_figure(const std::string& id, std::span<const ConvergenceCur
     landmarks.lines.push_back(
         line_of(curve, &ConvergencePoint::landmarks_m, curve.title, "landmarks-" + curve.id));
     slopes += fmt::format("{}{} {}", slopes.empty() ? "" : "; ", curve.title,
-                          slope_words(observation.lines.back()));
+                          slope_of(observation.lines.back()));
     spec.record_ids.push_back("convergence/" + curve.id);
   }
   spec.caption = fmt::format("Means and 95 % intervals. Slopes of the observation model: {}.",

@@ -131,7 +131,7 @@ std::string words_of(const ErrorLine& line) {
   if (last == first) return text + ".";
   text += fmt::format(", {} at {}", significant(line.mean[last]), data_number(line.x[last]));
   if (const double slope = log_log_slope(line.x, line.mean); std::isfinite(slope))
-    text += fmt::format(", slope {:.2f}", slope);
+    text += ", slope " + slope_words(slope);
   return text + ".";
 }
 
@@ -159,6 +159,11 @@ double log_log_slope(const std::vector<double>& x, const std::vector<double>& y)
   const double spread = count * sum_xx - sum_x * sum_x;
   if (count < 2.0 || !(spread > 1e-12 * count * sum_xx)) return NAN;
   return (count * sum_xy - sum_x * sum_y) / spread;
+}
+
+std::string slope_words(double slope) {
+  if (!std::isfinite(slope)) return "unknown";
+  return fmt::format("{}{:.2f}", slope < 0.0 ? "\u2212" : "", std::abs(slope));
 }
 
 Figure log_log_figure(const LogLogSpec& spec) {

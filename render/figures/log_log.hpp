@@ -40,6 +40,9 @@ struct LogLogSpec {
 /// two different x.
 double log_log_slope(const std::vector<double>& x, const std::vector<double>& y);
 
+/// A slope in words: "−0.49" with a true minus; "unknown" if it is none.
+std::string slope_words(double slope);
+
 /// Panels with two logarithmic axes each; values that are not positive are left out, and bars that
 /// reach down to zero end at the frame. The alt text tells each line's ends and its slope.
 /// @throws InvalidInput if a line's vectors disagree in length.

@@ -42,7 +42,7 @@ TEST(ConvergenceFigure, StandsOverReadingsWithTheLandmarksBeside) {
     EXPECT_NEAR(drawn_slope(labelled<Polyline>(panel, "slope \u22121/2").value()), -0.5, 1e-12);
   }
   EXPECT_TRUE(contains(figure.caption, "1000 random pairs")) << figure.caption;
-  EXPECT_TRUE(contains(figure.caption, "-0.50 and -0.50")) << figure.caption;
+  EXPECT_TRUE(contains(figure.caption, "\u22120.50 and \u22120.50")) << figure.caption;
 }
 
 TEST(ConvergenceFigure, DrawsThe95PercentBars) {

@@ -55,6 +55,16 @@ std::string subtitle(const SlamStudy& study) {
   return text;
 }
 
+/// A section's title where no other paper stands beside it: without the words that tell them apart.
+std::string alone(std::string title) {
+  constexpr std::string_view kPrefix = "Range-only SLAM: ";
+  if (!title.starts_with(kPrefix)) return title;
+  title.erase(0, kPrefix.size());
+  if (!title.empty() && title[0] >= 'a' && title[0] <= 'z')
+    title[0] = static_cast<char>(title[0] - 'a' + 'A');
+  return title;
+}
+
 }  // namespace
 
 std::vector<Section> slam_sections(const SlamReportInput& input) {
@@ -96,6 +106,7 @@ Report slam_report(const SlamReportInput& input) {
   report.title = input.study.title.empty() ? input.study.name : input.study.title;
   report.subtitle = subtitle(input.study);
   report.sections = slam_sections(input);
+  for (Section& section : report.sections) section.title = alone(section.title);
   report.footer = fmt::format("Made by mapproof {} ({}).", input.study.provenance.version,
                               input.study.provenance.commit);
   return report;

@@ -1,8 +1,10 @@
 #include <algorithm>
+#include <cmath>
 
 #include <fmt/format.h>
 
 #include "core/base/words.hpp"
+#include "render/figures/log_log.hpp"
 #include "render/figures/words.hpp"
 #include "reports/sections/slam/slam_report.hpp"
 #include "reports/sections/slam/slam_tables.hpp"
@@ -32,20 +34,33 @@ void add_remarks(const SlamRun& run, Section& section) {
   section.blocks.emplace_back(std::move(remarks));
 }
 
+/// The first figure in full width, the others beside each other.
 Section section_of(const FigureGroup* figures, std::string id, std::string title) {
-  if (figures != nullptr) return figures_section(*figures);
-  return {std::move(id), std::move(title), {}};
+  if (figures == nullptr) return {std::move(id), std::move(title), {}};
+  Section section{figures->id, figures->title, {plain(figures->words)}};
+  section.blocks.emplace_back(figure_block(figures->figures.front()));
+  Gallery others;
+  for (std::size_t i = 1; i < figures->figures.size(); ++i)
+    others.figures.push_back(figure_block(figures->figures[i]));
+  if (!others.figures.empty()) section.blocks.emplace_back(std::move(others));
+  return section;
 }
 
 /// Eq. 5 and what the paper's text reads off it.
-Paragraph bound_words() {
-  return plain(
+Paragraph bound_words(const ConvergenceCurve& curve) {
+  std::vector<double> steps, sines;
+  for (const ConvergencePoint& point : curve.points) {
+    steps.push_back(point.steps);
+    sines.push_back(point.sine.values > 0 ? point.sine.mean : NAN);
+  }
+  return plain(fmt::format(
       "Eq. 5 bounds the sine of the largest canonical angle between the learned subspace and the "
       "true one by N c \u221A(2 log T / T) / \u03B3. The text of the paper concludes a sample "
       "complexity of \u00D5(\u03B6\u00B2) for an error \u03B6, which would ask for fewer readings "
-      "the smaller the error: a misprint. Solved for T, the bound gives \u00D5(1/\u03B6\u00B2), "
-      "and "
-      "the measured slope agrees with that.");
+      "the smaller the error: a misprint. Solved for T, the bound gives \u00D5(1/\u03B6\u00B2). "
+      "The "
+      "measured sine changes as the readings to the power {}.",
+      slope_words(log_log_slope(steps, sines))));
 }
 
 }  // namespace
@@ -88,7 +103,7 @@ std::optional<Section> slam_simulation_section(const SlamStudy& study, const Fig
     section.blocks.emplace_back(plain(
         "The paper gives neither the noise nor the size of the area of its Fig. 1: those used "
         "here are choices of the experiment, listed under provenance."));
-    section.blocks.emplace_back(bound_words());
+    section.blocks.emplace_back(bound_words(study.convergence.front()));
   }
   if (!runs.empty())
     section.blocks.emplace_back(

@@ -31,9 +31,8 @@ std::string error_words_of(const SlamRun& run, SlamMethod method) {
 /// The mean errors that a reader wants first.
 std::string errors_of(const SlamRun& run) {
   std::vector<std::string> parts;
-  for (const SlamMethod method :
-       {SlamMethod::kRefined, SlamMethod::kSpectral, SlamMethod::kSpectralKnown,
-        SlamMethod::kBatchFixedScale, SlamMethod::kEkf, SlamMethod::kDeadReckoning})
+  for (const SlamMethod method : {SlamMethod::kRefined, SlamMethod::kSpectral,
+                                  SlamMethod::kSpectralKnown, SlamMethod::kDeadReckoning})
     if (std::string text = error_words_of(run, method); !text.empty())
       parts.push_back(std::move(text));
   return parts.empty() ? "" : listed(parts, 6);
@@ -80,6 +79,20 @@ void add_run(const SlamRun& run, BulletList& findings, Highlights& highlights) {
   }
 }
 
+/// Where landmarks and positions end, with the most readings.
+std::string end_words(const ConvergenceCurve& curve) {
+  const ConvergencePoint& last = curve.points.back();
+  if (last.landmarks_m.values == 0) return "";
+  std::string text = fmt::format(" After {} steps landmarks are {} off on average", last.steps,
+                                 metres_of(last.landmarks_m.mean));
+  if (last.positions_m.values > 0)
+    text += fmt::format(
+        ", single positions of the robot, which have no more readings than at the "
+        "start, {}",
+        metres_of(last.positions_m.mean));
+  return text + ".";
+}
+
 void add_convergence(const SlamStudy& study, BulletList& findings, Highlights& highlights) {
   if (study.convergence.empty()) return;
   const ConvergenceCurve& curve = study.convergence.front();
@@ -90,15 +103,14 @@ void add_convergence(const SlamStudy& study, BulletList& findings, Highlights& h
   }
   const double slope = log_log_slope(steps, errors);
   if (!std::isfinite(slope)) return;
-  const std::string text = fmt::format("{}{:.2f}", slope < 0.0 ? "\u2212" : "", std::abs(slope));
+  const std::string text = slope_words(slope);
   highlights.items.push_back(
       {"Convergence of \u0108, slope", text, "theory: \u22121/2 in the logarithms"});
   findings.items.push_back(
       {{strong("Convergence"),
-        words(fmt::format(": the error of the observation model falls with the readings to the "
-                          "power {} ({}); theory tells \u22121/2. A single position of the robot "
-                          "does not converge: its readings stay as few as they are.",
-                          text, curve.title))}});
+        words(fmt::format(": the error of the observation model changes as the readings to the "
+                          "power {} ({}); theory tells \u22121/2.{}",
+                          text, curve.title, end_words(curve)))}});
 }
 
 void add_remarks_on_paper(BulletList& findings) {
