@@ -58,8 +58,7 @@ Paragraph bound_words(const ConvergenceCurve& curve) {
       "true one by N c \u221A(2 log T / T) / \u03B3. The text of the paper concludes a sample "
       "complexity of \u00D5(\u03B6\u00B2) for an error \u03B6, which would ask for fewer readings "
       "the smaller the error: a misprint. Solved for T, the bound gives \u00D5(1/\u03B6\u00B2). "
-      "The "
-      "measured sine changes as the readings to the power {}.",
+      "The measured sine changes as the readings to the power {}.",
       slope_words(log_log_slope(steps, sines))));
 }
 
