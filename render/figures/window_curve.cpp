@@ -54,7 +54,7 @@ Figure window_curve_figure(const WindowCurveSpec& spec) {
   for (const std::size_t i : by_length(windows)) {
     const double length = windows.lengths_s[i], error = windows.held_out_m[i];
     const bool predicts = std::isfinite(error);
-    figure.alt += fmt::format(" {:g} s {};", length,
+    figure.alt += fmt::format(" {} s {};", significant(length),
                               predicts ? significant(error) + " m" : "predicts nothing");
     const Point at{length, predicts ? axis.raised({error}).front() : top};
     if (!predicts)
@@ -69,12 +69,12 @@ Figure window_curve_figure(const WindowCurveSpec& spec) {
   figure.id = spec.id;
   figure.title = spec.title;
   figure.record_ids = {spec.record_id};
+  const std::string length = significant(windows.chosen_s);
   figure.caption = fmt::format(
-      "Typical error of ranges that were held out, by window length; chosen: {:g} s. No ground "
-      "truth "
-      "enters the choice.",
-      windows.chosen_s);
-  figure.alt += fmt::format(" Chosen: {:g} s.", windows.chosen_s);
+      "Typical error of ranges that were held out, by window length; chosen: {} s, the least error "
+      "among the lengths that tell ranges at the most times. No ground truth enters the choice.",
+      length);
+  figure.alt += fmt::format(" Chosen: {} s.", length);
   Panel& panel = figure.panels.emplace_back();
   panel.x = {.label = "window length [s]", .scale = Scale::kLog};
   panel.y = {.label = "held-out range error [m]", .scale = axis.scale, .limits = axis.limits};
