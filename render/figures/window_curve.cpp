@@ -54,7 +54,7 @@ Figure window_curve_figure(const WindowCurveSpec& spec) {
   for (const std::size_t i : by_length(windows)) {
     const double length = windows.lengths_s[i], error = windows.held_out_m[i];
     const bool predicts = std::isfinite(error);
-    figure.alt += fmt::format(" {} s {};", significant(length),
+    figure.alt += fmt::format(" {:.3g} s {};", length,
                               predicts ? significant(error) + " m" : "predicts nothing");
     const Point at{length, predicts ? axis.raised({error}).front() : top};
     if (!predicts)
@@ -69,7 +69,7 @@ Figure window_curve_figure(const WindowCurveSpec& spec) {
   figure.id = spec.id;
   figure.title = spec.title;
   figure.record_ids = {spec.record_id};
-  const std::string length = significant(windows.chosen_s);
+  const std::string length = fmt::format("{:.3g}", windows.chosen_s);
   figure.caption = fmt::format(
       "Typical error of ranges that were held out, by window length; chosen: {} s, the least error "
       "among the lengths that tell ranges at the most times. No ground truth enters the choice.",

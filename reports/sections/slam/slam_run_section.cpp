@@ -5,7 +5,6 @@
 
 #include "core/base/words.hpp"
 #include "render/figures/log_log.hpp"
-#include "render/figures/words.hpp"
 #include "reports/sections/slam/slam_report.hpp"
 #include "reports/sections/slam/slam_tables.hpp"
 #include "reports/sections/slam/slam_words.hpp"
@@ -86,11 +85,11 @@ Section slam_run_section(const SlamRun& run, const FigureGroup* figures) {
   Section section = section_of(figures, slam_run_group(run), "Range-only SLAM: " + title_of(run));
   if (run.windows)
     section.blocks.emplace_back(plain(fmt::format(
-        "Ranges come one at a time: windows of {} s bring them to common times. Of the lengths "
+        "Ranges come one at a time: windows of {:.3g} s bring them to common times. Of the lengths "
         "that "
         "tell ranges at the most times it is the one that best predicts ranges held out, without a "
         "look at the truth.",
-        significant(run.windows->chosen_s))));
+        run.windows->chosen_s)));
   if (auto landmarks = slam_landmark_table(run)) section.blocks.emplace_back(*std::move(landmarks));
   add_remarks(run, section);
   return section;
