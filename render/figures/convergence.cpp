@@ -8,7 +8,6 @@
 
 #include "core/base/words.hpp"
 #include "render/figures/log_log.hpp"
-#include "render/figures/words.hpp"
 
 namespace mapproof {
 namespace {

@@ -1,7 +1,6 @@
 #include "render/figures/path_map.hpp"
 
 #include <algorithm>
-#include <cmath>
 
 #include <fmt/format.h>
 

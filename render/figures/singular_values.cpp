@@ -6,7 +6,6 @@
 #include <fmt/format.h>
 
 #include "core/base/errors.hpp"
-#include "core/base/words.hpp"
 #include "render/figures/parts.hpp"
 #include "render/figures/words.hpp"
 

@@ -1,9 +1,7 @@
-#include <algorithm>
 #include <cmath>
 
 #include <fmt/format.h>
 
-#include "core/base/words.hpp"
 #include "render/figures/log_log.hpp"
 #include "reports/sections/slam/slam_report.hpp"
 #include "reports/sections/slam/slam_tables.hpp"
