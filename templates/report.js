@@ -78,9 +78,21 @@ function followReading() {
   for (const section of document.querySelectorAll("main > section")) observer.observe(section);
 }
 
+// Long tables are folded on the screen and whole on paper; so are the places of a few statuses.
+function foldOnScreen() {
+  const tables = document.querySelectorAll(".folded > details");
+  const places = document.querySelectorAll(".statuses details");
+  const mostPlaces = 12;
+  const open = (all, value) => { for (const details of all) details.open = value; };
+  open(tables, false);
+  window.addEventListener("beforeprint", () => {
+    open(tables, true);
+    if (places.length <= mostPlaces) open(places, true);
+  });
+  window.addEventListener("afterprint", () => open(tables, false));
+}
+
 for (const table of document.querySelectorAll("main table")) makeSortable(table);
 addThemeSwitch(document.querySelector(".masthead"));
 followReading();
-window.addEventListener("beforeprint", () => {
-  for (const details of document.querySelectorAll(".folded > details")) details.open = true;
-});
+foldOnScreen();

@@ -82,6 +82,7 @@ Embedder::Embedder(Proximities proximities, EmbedderOptions options)
     seen_apart_ = infinite(completed_distances_) > 0;
   }
   apart_ = std::sqrt(proximities_.apart_squared) * (1.0 - 1e-12);
+  groups_ = groups_seen_together(proximities_.squared_distances, proximities_.apart_squared);
   cutoff_ = options_.only_seen_together ? apart_ : std::numeric_limits<double>::infinity();
 }
 
@@ -110,12 +111,26 @@ Embedding Embedder::embed(const MethodSetting& setting) {
     return with_all_distances(point);
   }
   Embedding result = solve(setting);
-  if (on_graph(setting.method)) {
-    const int neighbours = static_cast<int>(setting.parameter.value_or(0.0));
-    if (auto status = arbitrary_neighbours(nearest(neighbours), neighbours, apart_))
-      result.statuses.push_back(std::move(*status));
-  }
+  for (Status& status : caveats(result, setting)) result.statuses.push_back(std::move(status));
   return result;
+}
+
+/// What the observations leave open whatever the method.
+std::vector<Status> Embedder::caveats(const Embedding& map, const MethodSetting& setting) {
+  std::vector<Status> statuses;
+  if (std::ranges::find(map.statuses, StatusCode::kFailed, &Status::code) != map.statuses.end())
+    return statuses;
+  if (groups_ > 1)
+    statuses.push_back(
+        {StatusCode::kUndetermined,
+         fmt::format("The landmarks are in {} groups never seen together: how these lie to each "
+                     "other is arbitrary.",
+                     groups_)});
+  if (!on_graph(setting.method)) return statuses;
+  const int neighbours = static_cast<int>(setting.parameter.value_or(0.0));
+  if (auto status = arbitrary_neighbours(nearest(neighbours), neighbours, apart_))
+    statuses.push_back(std::move(*status));
+  return statuses;
 }
 
 MethodSetting Embedder::usual_setting(Method method) const {
@@ -260,6 +275,13 @@ const Embedding& Embedder::equal_weights() {
   return *equal_weights_;
 }
 
+namespace {
+
+/// One look puts all bearings on a circle, two on a torus: no map is told by so few.
+constexpr Eigen::Index kFewestSteps = 3;
+
+}  // namespace
+
 HistoryEmbedder::HistoryEmbedder(const ObservationHistory& history, Eigen::Index steps,
                                  EmbedderOptions options)
     : landmarks_(history.landmarks()) {
@@ -271,6 +293,10 @@ HistoryEmbedder::HistoryEmbedder(const ObservationHistory& history, Eigen::Index
         {StatusCode::kLandmarkUnseen,
          fmt::format("{} of {} landmarks were never observed and are not on the map: {}.",
                      unseen.size(), landmarks_, names_of(history.names, unseen))});
+  if (steps < kFewestSteps)
+    statuses_.push_back({StatusCode::kTooFewObservations,
+                         fmt::format("{} used, a map needs {} at least to mean anything.",
+                                     counted(steps, "observation"), kFewestSteps)});
   if (seen_.empty()) {
     embedder_.emplace(Proximities{}, options);
   } else {

@@ -41,6 +41,7 @@ class Embedder {
   MethodSetting usual_setting(Method method) const;
 
  private:
+  std::vector<Status> caveats(const Embedding& map, const MethodSetting& setting);
   std::optional<std::string> obstacle(const MethodSetting& setting) const;
   Embedding solve(const MethodSetting& setting);
   Embedding with_all_distances(Embedding embedding) const;
@@ -68,6 +69,7 @@ class Embedder {
   bool seen_apart_ = false;  ///< Some landmarks share no step even over others.
   double apart_ = 0.0;       ///< Landmarks as far as this were never seen together.
   double cutoff_ = 0.0;      ///< Landmarks as far as this are nobody's neighbours.
+  int groups_ = 1;           ///< Of landmarks of which no two were seen together with another's.
   std::optional<Embedding> linear_;
   std::optional<Embedding> equal_weights_;
 };

@@ -19,8 +19,9 @@ void check(const Eigen::MatrixXd& matrix) {
   if (!matrix.allFinite()) throw InvalidInput("kernel PCA needs finite values");
 }
 
-/// A second eigenvalue below this many times the mean one is no axis of a map.
-constexpr double kLeastOfMean = 2.0;
+/// A second eigenvalue within these many times the mean one is no axis of a map: all are alike.
+constexpr double kLeastOfMean = 0.5;
+constexpr double kMostOfMean = 2.0;
 
 Embedding of_kernel(Eigen::MatrixXd K) {
   const double size = K.cwiseAbs().maxCoeff();
@@ -32,7 +33,7 @@ Embedding of_kernel(Eigen::MatrixXd K) {
   });
   // Three landmarks or four have too few eigenvalues to tell.
   if (!is_said && B.rows() > 4 && result.spectrum.size() > 1 &&
-      result.spectrum(1) < kLeastOfMean * mean)
+      result.spectrum(1) > kLeastOfMean * mean && result.spectrum(1) < kMostOfMean * mean)
     result.statuses.push_back(
         {StatusCode::kUndetermined,
          fmt::format(

@@ -32,8 +32,9 @@ Embedding principal_coordinates(const Eigen::MatrixXd& B, double size) {
   if (rank < 2) {
     result.statuses.push_back(
         {StatusCode::kRankDeficient,
-         fmt::format("The observations spread in {} direction{}, a map needs two.", rank,
-                     rank == 1 ? "" : "s")});
+         fmt::format("The distances that the map is made of spread in {} direction{}, a map needs "
+                     "two.",
+                     rank, rank == 1 ? "" : "s")});
   } else if (pairs.values(1) - pairs.values(2) <= kSame * pairs.values(0)) {
     result.statuses.push_back(
         {StatusCode::kUndetermined,

@@ -13,7 +13,8 @@ namespace mapproof {
 
 std::optional<Status> arbitrary_neighbours(const NeighbourLists& nearest, int neighbours,
                                            double apart) {
-  if (!std::isfinite(apart)) return std::nullopt;
+  // Where all others are neighbours there is no choice.
+  if (!std::isfinite(apart) || neighbours >= std::ssize(nearest) - 1) return std::nullopt;
   const auto is_apart = [&](const Edge& edge) { return edge.length >= apart; };
   NeighbourLists together = nearest;
   long long landmarks = 0;
@@ -33,6 +34,17 @@ std::optional<Status> arbitrary_neighbours(const NeighbourLists& nearest, int ne
         " Without those the graph is in {} pieces: how they lie to each other is arbitrary too.",
         pieces);
   return Status{StatusCode::kArbitraryNeighbours, std::move(text)};
+}
+
+int groups_seen_together(const Eigen::MatrixXd& squared_distances, double apart_squared) {
+  if (!std::isfinite(apart_squared) || squared_distances.rows() == 0) return 1;
+  const double apart = apart_squared * (1.0 - 1e-12);
+  Graph together(static_cast<std::size_t>(squared_distances.rows()));
+  for (Eigen::Index j = 0; j < squared_distances.cols(); ++j)
+    for (Eigen::Index i = 0; i < squared_distances.rows(); ++i)
+      if (i != j && squared_distances(i, j) < apart)
+        together[static_cast<std::size_t>(j)].push_back({i, 0.0});
+  return std::ranges::max(components(together)) + 1;
 }
 
 }  // namespace mapproof

@@ -22,7 +22,7 @@ Index half(Index n) { return (n / 2 + kLeaf - 1) / kLeaf * kLeaf; }
 MAPPROOF_VECTORISED_WIDE bool factor_leaf(double* A) {
   for (Index j = 0; j < kLeaf; ++j) {
     double* const column = A + j * kLeaf;
-    if (!(column[j] > 0.0)) return false;  // nor for NaN
+    if (!(column[j] > 0.0 && std::isfinite(column[j]))) return false;  // nor for NaN
     const double root = std::sqrt(column[j]);
     for (Index i = 0; i < kLeaf; ++i) column[i] /= root;
     for (Index k = j + 1; k < kLeaf; ++k)

@@ -57,21 +57,22 @@ void multiply_with_fma(const double* rows, const double* columns, Index depth, d
 
 #endif
 
-using Multiply = void (*)(const double*, const double*, Index, double*);
-
-Multiply best_of_processor() {
-#if defined(__x86_64__)
-  if (__builtin_cpu_supports("avx512f")) return multiply_with_avx512;
-  if (__builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma")) return multiply_with_avx2;
-#endif
-  return multiply_with_fma;
-}
-
 }  // namespace
 
+std::vector<TileKernel> tile_kernels() {
+  std::vector<TileKernel> kernels;
+#if defined(__x86_64__)
+  if (__builtin_cpu_supports("avx512f")) kernels.push_back({"avx512", multiply_with_avx512});
+  if (__builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma"))
+    kernels.push_back({"avx2", multiply_with_avx2});
+#endif
+  kernels.push_back({"fma", multiply_with_fma});
+  return kernels;
+}
+
 void multiply_tile(const double* rows, const double* columns, Index depth, double* tile) {
-  static const Multiply multiply = best_of_processor();
-  multiply(rows, columns, depth, tile);
+  static const TileKernel best = tile_kernels().front();
+  best.multiply(rows, columns, depth, tile);
 }
 
 }  // namespace mapproof

@@ -1,5 +1,8 @@
 #pragma once
 
+#include <string_view>
+#include <vector>
+
 #include <Eigen/Core>
 
 namespace mapproof {
@@ -15,5 +18,14 @@ inline constexpr Eigen::Index kTileColumns = 6;
 /// @param tile     8 x 6, column by column.
 /// @note A processor of x86-64 without FMA (from before 2013) takes a hundred times as long.
 void multiply_tile(const double* rows, const double* columns, Eigen::Index depth, double* tile);
+
+/// One way to do the same.
+struct TileKernel {
+  std::string_view name;
+  void (*multiply)(const double* rows, const double* columns, Eigen::Index depth, double* tile);
+};
+
+/// Those that this processor can run, fastest first: multiply_tile() takes the first.
+std::vector<TileKernel> tile_kernels();
 
 }  // namespace mapproof

@@ -20,4 +20,9 @@ std::optional<SdpSolver> sdp_solver_named(std::string_view name_in_files) {
   return std::nullopt;
 }
 
+bool is_proved(const Certificate& certificate) {
+  return certificate.relative_gap <= kProvedGap &&
+         certificate.constraint_residual <= kProvedResidual;
+}
+
 }  // namespace mapproof

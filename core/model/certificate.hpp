@@ -18,16 +18,23 @@ std::string_view name(SdpSolver solver);
 /// The solver of that name; empty if there is none.
 std::optional<SdpSolver> sdp_solver_named(std::string_view name);
 
+/// Up to here a relative gap and a constraint residual count as none.
+inline constexpr double kProvedGap = 1e-6;
+inline constexpr double kProvedResidual = 1e-6;
+
 /// How near the optimum a maximisation by semidefinite programming came, proved by its dual.
 struct Certificate {
   SdpSolver solver = SdpSolver::kInteriorPoint;
-  double primal = 0.0;        ///< The objective reached, in squared units of the data.
-  double dual = 0.0;          ///< No feasible point's objective is above this; infinite: nothing
-                              ///< was proved; below 0: that there is no feasible point.
-  double relative_gap = 0.0;  ///< |dual - primal| / |dual|; 0 if both are 0.
+  double primal = 0.0;  ///< The objective reached, in squared units of the data.
+  double dual = 0.0;    ///< No feasible point's objective is above this; below 0: there is no
+                      ///< feasible point; infinite: nothing was proved.
+  double relative_gap = 0.0;         ///< |dual - primal| / |dual|; infinite: nothing was proved.
   double constraint_residual = 0.0;  ///< Largest violation over the largest right-hand side.
 
   bool operator==(const Certificate&) const = default;
 };
+
+/// Whether the answer is feasible and optimal within the bounds above.
+bool is_proved(const Certificate& certificate);
 
 }  // namespace mapproof

@@ -12,8 +12,8 @@ struct Score {
   /// Free of the anchors' choice: the affine map fitted to all landmarks, the error over all. NaN
   /// if the map is flat.
   double mpe_all_fitted_m = 0.0;
-  /// Free of reflection: the less of the MOE of the map and of its mirror image, above 50 only where
-  /// the map flattens triples; NaN as moe_percent.
+  /// Free of reflection: the less of the MOE of the map and of its mirror image, above 50 only
+  /// where the map flattens triples; NaN as moe_percent.
   double moe_unmirrored_percent = 0.0;
 };
 

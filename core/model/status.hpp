@@ -11,6 +11,7 @@ namespace mapproof {
 enum class StatusCode {
   kBridged,              ///< The neighbour graph was in pieces; joined by the shortest bridges.
   kNotConverged,         ///< The iteration limit came before the stop rule.
+  kUnproved,             ///< The answer of a semidefinite program was not proved to be the best.
   kRankDeficient,        ///< Fewer than two dimensions in the data: the map is flat or a point.
   kUndetermined,         ///< Other maps fit equally well; which of them came out is arbitrary.
   kArbitraryNeighbours,  ///< Landmarks with fewer than K others ever seen together with them.

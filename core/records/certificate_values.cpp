@@ -13,8 +13,8 @@ constexpr double kInfinity = std::numeric_limits<double>::infinity();
 /// null for infinity: no bound was proved.
 Json finite_value(double number) { return std::isfinite(number) ? Json(number) : Json(nullptr); }
 
-double read_finite(const JsonCursor& value) {
-  return value.is_null() ? kInfinity : value.number(0.0, kInfinity);
+double read_finite(const JsonCursor& value, double least) {
+  return value.is_null() ? kInfinity : value.number(least, kInfinity);
 }
 
 }  // namespace
@@ -33,8 +33,8 @@ Certificate read_certificate(const JsonCursor& value) {
   if (!solver) value.at("solver").fail("expected interior_point, low_rank or csdp");
   return {.solver = *solver,
           .primal = value.at("primal").number(0.0, kInfinity),
-          .dual = read_finite(value.at("dual")),
-          .relative_gap = read_finite(value.at("relative_gap")),
+          .dual = read_finite(value.at("dual"), -kInfinity),
+          .relative_gap = read_finite(value.at("relative_gap"), 0.0),
           .constraint_residual = value.at("constraint_residual").number(0.0, kInfinity)};
 }
 

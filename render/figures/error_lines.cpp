@@ -72,15 +72,17 @@ Labels labels_of(const ErrorLinesSpec& spec) {
   return all;
 }
 
-/// Says how many means lie above the frame.
-void note_ceiling(const ErrorLinesSpec& spec, Figure& figure) {
+/// Says how many means and points lie above the frame.
+void note_ceiling(const ErrorLinesSpec& spec, const ErrorAxis& axis, Figure& figure) {
+  const auto is_above = [&](double value) { return value > axis.limits.high; };
   long long above = 0;
-  for (const ErrorPanel& panel : spec.panels)
-    for (const ErrorLine& line : panel.lines)
-      above += std::ranges::count_if(line.mean, [&](double mean) { return mean > spec.ceiling; });
+  for (const ErrorPanel& panel : spec.panels) {
+    for (const ErrorLine& line : panel.lines) above += std::ranges::count_if(line.mean, is_above);
+    above += std::ranges::count_if(panel.points, is_above, &ErrorPoint::y);
+  }
   if (above > 0)
-    figure.notes.push_back({fmt::format("{} above {} {} off the frame.", counted(above, "mean"),
-                                        significant(spec.ceiling), above == 1 ? "is" : "are"),
+    figure.notes.push_back({fmt::format("{} {} above the frame.", counted(above, "value"),
+                                        above == 1 ? "lies" : "lie"),
                             Ink::kMuted});
 }
 
@@ -219,7 +221,7 @@ Figure error_lines_figure(const ErrorLinesSpec& spec) {
                                         : spec.caption;
   figure.alt = spec.alt.empty() ? alt_of(spec, axis) : spec.alt;
   figure.notes = spec.notes;
-  note_ceiling(spec, figure);
+  note_ceiling(spec, axis, figure);
   const Builder builder(spec, axis);
   for (std::size_t i = 0; i < spec.panels.size(); ++i) figure.panels.push_back(builder.panel(i));
   if (labels_of(spec).labels.empty())

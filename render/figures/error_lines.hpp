@@ -56,8 +56,8 @@ struct ErrorLinesSpec {
   std::string alt;  ///< Empty: one is made of the panels' numbers.
   std::vector<std::string> record_ids;
   std::vector<Note> notes;
-  double ceiling = std::numeric_limits<double>::infinity();  ///< Means above are off the frame,
-                                                             ///< and a note says so.
+  double ceiling = std::numeric_limits<double>::infinity();  ///< Means above do not widen the
+                                                             ///< frame; a note counts them.
   double log_from = 20.0;  ///< Greatest over least mean from which the y axis is logarithmic.
 };
 

@@ -137,7 +137,7 @@ Paragraph agreement_finding(Sensor sensor, std::span<const SettingSummary> metho
   if (compared > 0)
     text += fmt::format("{} of {} printed MPE lie within our 95 % intervals; ", within, compared);
   if (noted > 0)
-    text += fmt::format("{} cannot be matched, for reasons under the table; ",
+    text += fmt::format("{} left out of this, for reasons under the table; ",
                         counted(noted, "printed value"));
   if (farthest != nullptr)
     text += fmt::format("the largest difference{} is {} for {} ({}, printed {}).",

@@ -171,7 +171,6 @@ Section input_section(const MapReportInput& input) {
 
 Section statuses(const MapRecord& record) {
   Section section{"statuses", "What went other than well", {}};
-  if (record.certificate) section.blocks.emplace_back(certificate_items(*record.certificate));
   if (record.statuses.empty()) {
     section.blocks.emplace_back(plain("Nothing: the solve ended well."));
     return section;
@@ -223,6 +222,8 @@ Report map_report(const MapReportInput& input) {
   landmarks.blocks.emplace_back(landmarks_table(input.record));
   report.sections.push_back(std::move(landmarks));
   report.sections.push_back(input_section(input));
+  if (input.record.certificate)
+    report.sections.push_back(certificate_section(*input.record.certificate));
   report.sections.push_back(statuses(input.record));
   report.sections.push_back(provenance(input));
   report.footer =

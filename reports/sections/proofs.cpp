@@ -2,8 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <compare>
 #include <map>
-#include <tuple>
 
 #include <fmt/format.h>
 
@@ -14,11 +14,15 @@
 namespace mapproof {
 namespace {
 
-/// A larger gap is not what these solvers stop at.
-constexpr double kProved = 1e-6;
+/// What the rows of the table are made for.
+struct Kind {
+  Sensor sensor;
+  Method method;
+  double parameter;
+  SdpSolver solver;
 
-/// Sensor, method, parameter, solver.
-using Kind = std::tuple<Sensor, Method, double, SdpSolver>;
+  auto operator<=>(const Kind&) const = default;
+};
 
 struct Proofs {
   MethodSetting setting;
@@ -49,7 +53,7 @@ void add(ProofsByKind& all, const RunId& run, const RunRecord& record) {
                         record.setting.parameter.value_or(0.0), certificate.solver}];
   proofs.setting = record.setting;
   ++proofs.solves;
-  if (certificate.relative_gap <= kProved) ++proofs.proved;
+  if (is_proved(certificate)) ++proofs.proved;
   proofs.residual = std::max(proofs.residual, certificate.constraint_residual);
   if (!proofs.worst.empty() && certificate.relative_gap <= proofs.gap) return;
   proofs.gap = certificate.relative_gap;
@@ -64,9 +68,11 @@ ProofsByKind proofs_of(const Study& study) {
   return all;
 }
 
-std::string power(double value) {
-  return std::isfinite(value) ? fmt::format("{:.1e}", value) : "no bound";
+std::string gap_text(double gap) {
+  return std::isfinite(gap) ? fmt::format("{:.1e}", gap) : "no bound";
 }
+
+std::string residual_text(double residual) { return fmt::format("{:.1e}", residual); }
 
 Table proofs_table(const ProofsByKind& all) {
   Table table{"proofs",
@@ -75,19 +81,20 @@ Table proofs_table(const ProofsByKind& all) {
                {"Method", "", "", ""},
                {"Solver", "", "", "What gave the answer."},
                {"Solves", "", "", ""},
-               {"Proved", "", "", "With a relative gap of at most 1e-6."},
-               {"Largest gap", "", "", "|dual - primal| / dual."},
+               {"Proved", "", "",
+                fmt::format("With a relative gap and a residual of at most {:g}.", kProvedGap)},
+               {"Largest gap", "", "", "|dual - primal| / |dual|."},
                {"Largest residual", "", "", "Violation of a constraint over the largest one."},
                {"Worst record", "", "", "That of the largest gap."}},
               {},
               {}};
   for (const auto& [kind, proofs] : all)
     table.rows.push_back(
-        {{TextCell{title_of(std::get<0>(kind))}, TextCell{label(proofs.setting)},
-          TextCell{std::string(title_of_solver(std::get<3>(kind)))},
+        {{TextCell{title_of(kind.sensor)}, TextCell{label(proofs.setting)},
+          TextCell{std::string(title_of_solver(kind.solver))},
           NumberCell{static_cast<double>(proofs.solves), 0},
-          NumberCell{static_cast<double>(proofs.proved), 0}, TextCell{power(proofs.gap)},
-          TextCell{power(proofs.residual)}, TextCell{proofs.worst, Emphasis::kData}},
+          NumberCell{static_cast<double>(proofs.proved), 0}, TextCell{gap_text(proofs.gap)},
+          TextCell{residual_text(proofs.residual)}, TextCell{proofs.worst, Emphasis::kData}},
          proofs.worst,
          false});
   return table;
@@ -102,34 +109,50 @@ std::optional<Section> proofs_section(const Study& study) {
   int solves = 0;
   int proved = 0;
   double gap = 0.0;
+  double residual = 0.0;
   for (const auto& [kind, proofs] : all) {
-    solved[std::get<3>(kind)] += proofs.solves;
+    solved[kind.solver] += proofs.solves;
     solves += proofs.solves;
     proved += proofs.proved;
     gap = std::max(gap, proofs.gap);
+    residual = std::max(residual, proofs.residual);
   }
   std::vector<std::string> by;
   for (const auto& [solver, count] : solved)
     by.push_back(fmt::format("{} by {}", count, title_of_solver(solver)));
   Section section{"proofs", "How the semidefinite programs are proved", {}};
   section.blocks.emplace_back(plain(fmt::format(
-      "{} solved, {}. Each answer comes with an upper bound from its dual: {} of them lie within "
-      "1e-6 of theirs, the largest relative gap is {}. Those of the variations are not counted.",
-      counted(solves, "program"), listed(by, 3), proved, power(gap))));
+      "{} solved, {}. Each answer comes with an upper bound from its dual. Feasible and optimal to "
+      "within {:g}: {} of them; the largest relative gap is {}, the largest residual {}. Those of "
+      "the variations are not counted.",
+      counted(solves, "program"), listed(by, 3), kProvedGap, proved, gap_text(gap),
+      residual_text(residual))));
   section.blocks.emplace_back(proofs_table(all));
   return section;
 }
 
-KeyValues certificate_items(const Certificate& certificate) {
+Section certificate_section(const Certificate& certificate) {
   const auto item = [](std::string key, std::string value) {
     return KeyValues::Item{std::move(key), {std::move(value), Emphasis::kPlain}};
   };
-  const std::string bound =
-      std::isfinite(certificate.dual) ? fmt::format("{:.9g}", certificate.dual) : "none proved";
-  return {{item("Solver", std::string(title_of_solver(certificate.solver))),
-           item("Variance reached", fmt::format("{:.9g}", certificate.primal)),
-           item("Upper bound proved", bound), item("Relative gap", power(certificate.relative_gap)),
-           item("Largest violation of a constraint", power(certificate.constraint_residual))}};
+  std::string bound = fmt::format("{:.9g}", certificate.dual);
+  if (!std::isfinite(certificate.dual)) bound = "none proved";
+  if (certificate.dual < 0.0) bound = "below 0: no points have the distances to be kept";
+  Section section{"proof", "How the map is proved", {}};
+  section.blocks.emplace_back(plain(
+      is_proved(certificate)
+          ? "No other map that keeps the distances in neighbourhoods spreads more, as the bound of "
+            "the semidefinite program\u2019s dual proves. Variances are in squared units of the "
+            "observation distances."
+          : "The answer of the semidefinite program is not proved. Variances are in squared units "
+            "of the observation distances."));
+  section.blocks.emplace_back(KeyValues{
+      {item("Solver", std::string(title_of_solver(certificate.solver))),
+       item("Variance reached", fmt::format("{:.9g}", certificate.primal)),
+       item("Upper bound", std::move(bound)),
+       item("Relative gap", gap_text(certificate.relative_gap)),
+       item("Largest violation of a constraint", residual_text(certificate.constraint_residual))}});
+  return section;
 }
 
 }  // namespace mapproof

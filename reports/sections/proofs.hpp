@@ -12,7 +12,7 @@ namespace mapproof {
 /// and solver, with the worst of its records. Empty if the study has none.
 std::optional<Section> proofs_section(const Study& study);
 
-/// The certificate of one map, item by item.
-KeyValues certificate_items(const Certificate& certificate);
+/// What proves one map, or what is missing.
+Section certificate_section(const Certificate& certificate);
 
 }  // namespace mapproof

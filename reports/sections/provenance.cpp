@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <map>
+#include <optional>
 #include <tuple>
 
 #include <fmt/format.h>
@@ -80,20 +81,23 @@ Durations durations_of(std::span<const Timing> timings) {
   return durations;
 }
 
-/// Which method took most of the seconds.
-Paragraph dominance(const Durations& durations) {
+constexpr double kLeastToTell_s = 1.0;
+
+/// Which method took most of the seconds; empty where there are hardly any.
+std::optional<Paragraph> dominance(const Durations& durations) {
   std::map<Method, double> seconds;
   double sum = 0.0;
   for (const auto& [key, duration] : durations) {
     seconds[std::get<1>(key)] += duration.seconds;
     sum += duration.seconds;
   }
+  if (sum < kLeastToTell_s) return std::nullopt;
   const auto most = std::ranges::max_element(seconds, {}, [](const auto& s) { return s.second; });
-  return plain(fmt::format(
-      "{} takes most of the time: {} % of the {} s that the maps took over all "
-      "threads, those of the variations aside.",
-      info(most->first).label, format_number(100.0 * most->second / std::max(sum, 1e-12), 0),
-      format_number(sum, 1)));
+  return plain(
+      fmt::format("{} takes the largest share of the time: {} % of the {} s that the maps "
+                  "took over all threads, those of the variations aside.",
+                  info(most->first).label, format_number(100.0 * most->second / sum, 0),
+                  format_number(sum, 1)));
 }
 
 Table durations_table(const Durations& durations) {
@@ -129,7 +133,7 @@ Section provenance_section(const Study& study, std::span<const Session> sessions
   if (!sessions.empty()) section.blocks.emplace_back(sessions_table("sessions", sessions));
   if (timings.empty()) return section;
   const Durations durations = durations_of(timings);
-  section.blocks.emplace_back(dominance(durations));
+  if (auto most = dominance(durations)) section.blocks.emplace_back(*std::move(most));
   section.blocks.emplace_back(durations_table(durations));
   return section;
 }

@@ -13,7 +13,7 @@ Table sessions_table(std::string id, std::span<const Session> sessions) {
                    {"Host", "", "", ""},
                    {"Jobs", "", "", ""},
                    {"Duration", "s", "", "Wall clock; the records alone, without figures."},
-                   {"Peak memory", "MiB", "", "Of the process."}};
+                   {"Peak memory", "MiB", "", "Of the process, until its records were made."}};
   for (const Session& session : sessions)
     table.rows.push_back(
         {{TextCell{session.started_utc, Emphasis::kData},

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <map>
 #include <numbers>
+#include <set>
 
 #include <fmt/format.h>
 
@@ -39,6 +40,20 @@ Shown shown(const Variation& variation) {
   return {};
 }
 
+/// "SDE, K = 7: unproved in 11 of 25 runs at 10, in 25 of 25 at 20.", a sentence a status.
+std::vector<std::string> status_notes(const Variation& variation, const VariedSetting& setting) {
+  std::map<StatusCode, std::string> places;
+  for (std::size_t level = 0; level < variation.levels.size(); ++level)
+    for (const auto& [code, count] : setting.statuses[level])
+      places[code] +=
+          fmt::format("{}in {} of {} at {:.6g}", places[code].empty() ? "" : ", ", count,
+                      setting.runs[level], shown_level(variation, variation.levels[level]));
+  std::vector<std::string> notes;
+  for (const auto& [code, where] : places)
+    notes.push_back(fmt::format("{}: {} {}.", label(setting.setting), name(code), where));
+  return notes;
+}
+
 }  // namespace
 
 std::vector<VariedSetting> summarize(const Study& study, const Variation& variation) {
@@ -48,6 +63,7 @@ std::vector<VariedSetting> summarize(const Study& study, const Variation& variat
     settings.push_back({.setting = setting,
                         .runs = std::vector<int>(levels),
                         .scored = std::vector<int>(levels),
+                        .statuses = std::vector<std::map<StatusCode, int>>(levels),
                         .mpe_m = {},
                         .moe_percent = {}});
   std::vector<std::vector<RunValues>> mpe(settings.size(), std::vector<RunValues>(levels));
@@ -61,6 +77,9 @@ std::vector<VariedSetting> summarize(const Study& study, const Variation& variat
       const auto i = static_cast<std::size_t>(of - variation.settings.begin());
       const auto level = static_cast<std::size_t>(at - variation.levels.begin());
       ++settings[i].runs[level];
+      std::set<StatusCode> codes;
+      for (const Status& status : record.statuses) codes.insert(status.code);
+      for (const StatusCode code : codes) ++settings[i].statuses[level][code];
       if (!record.score || !usable(*record.score)) continue;
       ++settings[i].scored[level];
       mpe[i][level].add(run.id, record.score->mpe_m);
@@ -106,6 +125,9 @@ Table variation_table(const Study& study, const Variation& variation) {
                                           label(settings[i].setting),
                                           shown_level(variation, variation.levels[level]),
                                           settings[i].scored[level], settings[i].runs[level]));
+  for (const VariedSetting& setting : settings)
+    for (std::string& note : status_notes(variation, setting))
+      table.notes.push_back(std::move(note));
   return table;
 }
 

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <map>
 #include <string>
 #include <vector>
 
@@ -12,8 +13,10 @@ namespace mapproof {
 /// One setting over the levels of a variation. All vectors are as long as the levels.
 struct VariedSetting {
   MethodSetting setting;
-  std::vector<int> runs;                           ///< Records found.
-  std::vector<int> scored;                         ///< Of them with a score.
+  std::vector<int> runs;    ///< Records found.
+  std::vector<int> scored;  ///< Of them with a score.
+  /// How many of them carry each status.
+  std::vector<std::map<StatusCode, int>> statuses;
   std::vector<std::optional<MeanEstimate>> mpe_m;  ///< Over the scored.
   std::vector<std::optional<MeanEstimate>> moe_percent;
 };

@@ -16,6 +16,8 @@ std::string_view meaning(StatusCode code) {
       return "The neighbour graph was in pieces; the shortest bridges joined them.";
     case StatusCode::kNotConverged:
       return "The limit of iterations came before the stop rule.";
+    case StatusCode::kUnproved:
+      return "The answer of a semidefinite program was not proved to be the best.";
     case StatusCode::kRankDeficient:
       return "The data have fewer than two dimensions: the map is flat or a point.";
     case StatusCode::kUndetermined:

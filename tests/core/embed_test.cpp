@@ -9,12 +9,14 @@
 #include "core/embed/lpca.hpp"
 #include "core/embed/smacof.hpp"
 #include "core/linalg/planarity.hpp"
+#include "tests/support/statuses.hpp"
 #include "tests/support/worlds.hpp"
 
 namespace mapproof {
 namespace {
 
 using test::distances_of;
+using test::has;
 using test::procrustes_gap;
 using test::scattered;
 
@@ -29,11 +31,6 @@ MethodSetting setting(const MethodInfo& method, double side = 1.0) {
   if (method.method == Method::kKpcaGaussian) return {method.method, 0.5 * side * side};
   if (method.method == Method::kKpcaPolynomial) return {method.method, 2.0};
   return {method.method, 6.0};
-}
-
-bool has(const Embedding& embedding, StatusCode code) {
-  return std::ranges::any_of(embedding.statuses,
-                             [&](const Status& status) { return status.code == code; });
 }
 
 TEST(Lpca, RecoversPointsFromTheirDistances) {

@@ -200,6 +200,27 @@ TEST(MapPairFigure, TitlesNameTheRunAndBothErrors) {
   EXPECT_EQ(figure.record_ids.size(), 2u);
 }
 
+TEST(EllipseMapFigure, HoldsItsEllipsesUnlessTheyAreFarTooLarge) {
+  EllipseMapSpec spec;
+  spec.id = "ellipses";
+  spec.names = {"a", "b"};
+  spec.truth_m = Points(2, 2);
+  spec.truth_m << 0, 0, 10, 10;
+  const auto scattered_by = [&](double reach) {
+    spec.estimates_m.clear();
+    for (const double off : {-reach, 0.0, reach}) {
+      Points run = spec.truth_m;
+      run(1, 0) += off;
+      spec.estimates_m.push_back(run);
+    }
+    return *ellipse_map_figure(spec).panels[0].x.limits;
+  };
+  const double before = scattered_by(0.01).high;
+  // Half the axis of the ellipse is 2.45 times the scatter of 2 m.
+  EXPECT_NEAR(scattered_by(2.0).high, 10.0 + 2.0 * std::sqrt(-2.0 * std::log(0.05)), 1e-9);
+  EXPECT_LT(scattered_by(1000.0).high, 2.0 * before);
+}
+
 TEST(AnchorCountFigure, HasAPanelASensorAndALineAPlacement) {
   const Figure figure = anchor_count_figure(sample_anchor_counts());
   ASSERT_EQ(figure.panels.size(), 2u);

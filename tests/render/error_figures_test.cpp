@@ -31,6 +31,34 @@ TEST(ErrorAxis, IsLogarithmicOnlyWhereTheMeansSpanMuch) {
   EXPECT_EQ(error_axis({NAN}, {}).limits, (Range{0.0, 1.0}));
 }
 
+TEST(SeriesOf, TakesWhatIsAskedForUnlessTwoWouldLookAlike) {
+  using Asked = std::vector<std::optional<std::size_t>>;
+  using Series = std::vector<std::size_t>;
+  EXPECT_EQ(series_of(Asked{7, 2, 5}), (Series{7, 2, 5}));
+  EXPECT_EQ(series_of(Asked{7, 2, 7}), (Series{0, 1, 2}));
+  EXPECT_EQ(series_of(Asked{7, std::nullopt}), (Series{0, 1}));
+}
+
+TEST(ErrorLinesFigure, EndsItsAxisAtTheCeilingAndCountsWhatLiesAbove) {
+  ErrorLinesSpec spec;
+  spec.id = "lines";
+  ErrorPanel& panel = spec.panels.emplace_back();
+  panel.lines.push_back({.label = "one",
+                         .key = "one",
+                         .x = {1, 2, 3},
+                         .mean = {1e11, 30.0, 0.2},
+                         .low = {},
+                         .high = {}});
+  panel.points.push_back({"printed", "one", 2.0, 1e6, Marker::kSquare});
+  spec.ceiling = 50.0;
+  const Figure figure = error_lines_figure(spec);
+  EXPECT_LT(figure.panels[0].y.limits->high, 100.0);
+  ASSERT_EQ(figure.notes.size(), 1U);
+  EXPECT_EQ(figure.notes[0].text, "2 values lie above the frame.");
+  spec.ceiling = 1e12;
+  EXPECT_TRUE(error_lines_figure(spec).notes.empty());
+}
+
 TEST(ErrorByParameterFigure, HasAPanelForEachKindOfParameter) {
   const Figure figure = error_by_parameter_figure(sample_parameters());
   ASSERT_EQ(figure.panels.size(), 3u);

@@ -71,6 +71,17 @@ std::map<std::string, std::string> findings(const std::string& dom) {
   return found;
 }
 
+/// What Chromium prints when it opens a file of the folder.
+std::string output_of_chromium(const TemporaryFolder& folder, const std::string& options,
+                               const std::string& file) {
+  return output_of(fmt::format(
+      "timeout 60 '{}' --headless --no-sandbox --disable-gpu --disable-quic --no-first-run "
+      "--disable-background-networking --disable-component-update --disable-sync "
+      "--user-data-dir='{}' {} 'file://{}' 2>/dev/null",
+      chromium().value_or(""), (folder.path() / "profile").string(), options,
+      (folder.path() / file).string()));
+}
+
 }  // namespace
 
 std::optional<std::string> chromium() {
@@ -90,14 +101,18 @@ std::map<std::string, std::string> browse(const std::string& page,
   write_file(folder.path() / "report.html", page);
   write_file(folder.path() / "harness.html", harness(texts, attributes));
   // The harness reads into the frame, which two local files may not do by default.
-  const std::string command = fmt::format(
-      "timeout 60 '{}' --headless --no-sandbox --disable-gpu --disable-quic --no-first-run "
-      "--disable-background-networking --disable-component-update --disable-sync "
-      "--allow-file-access-from-files --user-data-dir='{}' --virtual-time-budget=10000 --dump-dom "
-      "'file://{}' 2>/dev/null",
-      chromium().value_or(""), (folder.path() / "profile").string(),
-      (folder.path() / "harness.html").string());
-  return findings(output_of(command));
+  return findings(output_of_chromium(
+      folder, "--allow-file-access-from-files --virtual-time-budget=10000 --dump-dom",
+      "harness.html"));
+}
+
+std::string printed_text(const std::string& page) {
+  const TemporaryFolder folder;
+  write_file(folder.path() / "report.html", page);
+  const std::string pdf = folder / "report.pdf";
+  output_of_chromium(folder, fmt::format("--no-pdf-header-footer --print-to-pdf='{}'", pdf),
+                     "report.html");
+  return output_of(fmt::format("pdftotext -layout '{}' - 2>/dev/null", pdf));
 }
 
 }  // namespace mapproof::test

@@ -18,4 +18,7 @@ std::map<std::string, std::string> browse(const std::string& page,
                                           const std::vector<std::string>& texts,
                                           const std::vector<std::string>& attributes);
 
+/// The words of the page on paper, by pdftotext.
+std::string printed_text(const std::string& page);
+
 }  // namespace mapproof::test

@@ -62,16 +62,41 @@ TEST_F(Browser, SortsNumbersByTheirValueAndMissingOnesLast) {
   EXPECT_EQ(found["focusable"], "true");
 }
 
-TEST_F(Browser, FoldsALongTableOnTheScreenButNotOnPaper) {
+/// A table of `rows` named rows, and one status with its place.
+Report long_report(int rows) {
   Report report = numbers();
   Table table{"long", "Long", {{"Name", "", "", ""}}, {}, {}};
-  for (int i = 0; i < 31; ++i) table.rows.push_back({{TextCell{std::to_string(i)}}, "", false});
+  for (int i = 0; i < rows; ++i)
+    table.rows.push_back({{TextCell{"row" + std::to_string(i)}}, "", false});
   report.sections[0].blocks.emplace_back(table);
-  Findings found = look_at(report);
+  StatusList list;
+  list.items.push_back(
+      {"bridged", "Meaning.", "bearing", 1, 1, false, {{"record-7", "detail seven"}}});
+  report.sections[0].blocks.emplace_back(list);
+  return report;
+}
+
+TEST_F(Browser, FoldsALongTableOnTheScreenButNotOnPaper) {
+  Findings found = look_at(long_report(31));
   EXPECT_EQ(found["folded"], "true");
   EXPECT_EQ(found["fold-says"], "31 rows");
   EXPECT_EQ(found["folded-on-paper"], "false");
   expect_readable(found);
+}
+
+TEST_F(Browser, PrintsEveryRowOfATableWithItsScriptAndWithout) {
+  if (std::system("command -v pdftotext >/dev/null 2>&1") != 0)
+    GTEST_SKIP() << "no pdftotext on this machine: apt-get install poppler-utils";
+  std::string page = report_html(long_report(40), load_templates(), {});
+  for (const bool with_script : {true, false}) {
+    if (!with_script)
+      page.erase(page.find("<script"), page.find("</script>") - page.find("<script"));
+    const std::string text = test::printed_text(page);
+    for (const char* row : {"row0", "row39"})
+      EXPECT_NE(text.find(row), std::string::npos) << row << " script: " << with_script;
+    // A closed list of places is opened by the script.
+    EXPECT_EQ(text.find("detail seven") != std::string::npos, with_script);
+  }
 }
 
 TEST_F(Browser, ShowsHostileTextsAsTextAndRunsNoneOfThem) {

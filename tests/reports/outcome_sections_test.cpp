@@ -66,8 +66,10 @@ TEST(ProvenanceSection, SaysWhichMethodTakesMostOfTheTime) {
   for (Timing& timing : timings)
     timing.seconds = timing.setting.method == Method::kSmacof ? 3.0 : 1e-6;
   const Section section = provenance_section(study, {}, timings, "");
-  EXPECT_TRUE(says(section, "SMACOF, equal weights takes most of the time: 100 %"))
+  EXPECT_TRUE(says(section, "SMACOF, equal weights takes the largest share of the time: 100 %"))
       << test::words(section);
+  for (Timing& timing : timings) timing.seconds = 1e-6;
+  EXPECT_FALSE(says(provenance_section(study, {}, timings, ""), "largest share"));
 }
 
 TEST(ProofsSection, IsLeftOutWithoutASemidefiniteProgram) {
@@ -81,25 +83,44 @@ TEST(ProofsSection, CountsWhatIsProvedAndNamesTheWorstRecord) {
   };
   auto& records = study.runs[1].records;
   const MethodSetting sde{Method::kSde, 6.0};
-  for (std::size_t i = 0; i < 3; ++i) records[i].setting = sde;
-  for (std::size_t i = 0; i < 3; ++i) records[i].sensor = Sensor::kVisibility;
+  for (std::size_t i = 0; i < 4; ++i) {
+    records[i].setting = sde;
+    records[i].sensor = Sensor::kVisibility;
+  }
   records[0].certificate = proved(1e-9);
   records[1].certificate = proved(3e-4);
   records[2].certificate =
       Certificate{SdpSolver::kLowRank, 10.0, std::numeric_limits<double>::infinity(),
                   std::numeric_limits<double>::infinity(), 0.0};
+  // At the bound, but by distances that are not kept.
+  records[3].certificate = proved(1e-9);
+  records[3].certificate->constraint_residual = 0.78;
   const auto section = proofs_section(study);
   ASSERT_TRUE(section);
   EXPECT_TRUE(says(*section,
-                   "3 programs solved, 2 by interior point (ours) and 1 by low rank "
+                   "4 programs solved, 3 by interior point (ours) and 1 by low rank "
                    "(ours)"))
       << test::words(*section);
-  EXPECT_TRUE(says(*section, "1 of them lie within 1e-6")) << test::words(*section);
+  EXPECT_TRUE(says(*section, "within 1e-06: 1 of them")) << test::words(*section);
   const Table& table = table_named(*section, "proofs");
   ASSERT_EQ(table.rows.size(), 2U);
   EXPECT_EQ(std::get<TextCell>(table.rows[0].cells[5]).text, "3.0e-04");
   EXPECT_EQ(table.rows[0].source, record_id({2, 1}, Sensor::kVisibility, sde, records[1].step));
   EXPECT_EQ(std::get<TextCell>(table.rows[1].cells[5]).text, "no bound");
+}
+
+TEST(CertificateSection, SaysWhetherTheMapIsProvedAndWhenNoPointsHaveTheDistances) {
+  const Certificate proved{SdpSolver::kInteriorPoint, 10.0, 10.0, 0.0, 0.0};
+  EXPECT_TRUE(says(certificate_section(proved), "No other map"));
+  Certificate bad = proved;
+  bad.constraint_residual = 0.1;
+  EXPECT_TRUE(says(certificate_section(bad), "not proved"));
+  bad.dual = -5e16;
+  bool said = false;
+  for (const Block& block : certificate_section(bad).blocks)
+    if (const auto* facts = std::get_if<KeyValues>(&block))
+      for (const auto& item : facts->items) said |= item.value.text.starts_with("below 0");
+  EXPECT_TRUE(said);
 }
 
 }  // namespace

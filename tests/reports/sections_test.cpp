@@ -138,7 +138,7 @@ TEST(AccuracySection, SaysWhyAPrintedValueCannotBeMatched) {
   ASSERT_EQ(notes.size(), 5U);
   EXPECT_EQ(notes[3], "LPCA: The reason.");
   EXPECT_EQ(notes[4], "On all of them.");
-  EXPECT_TRUE(says(summary_section(study), "1 printed value cannot be matched, for reasons under "))
+  EXPECT_TRUE(says(summary_section(study), "1 printed value left out of this, for reasons under "))
       << words(summary_section(study));
 }
 

@@ -127,6 +127,33 @@ TEST(StudyFigures, AreOfEveryKindThatAStudyAllows) {
       3);
 }
 
+TEST(ShortLabel, KeepsAParameterInOnePiece) {
+  EXPECT_EQ(short_label({Method::kSmacofKnn, 7.0}), "SMACOF kNN, K\u00A0=\u00A07");
+  EXPECT_EQ(short_label({Method::kLpca, std::nullopt}), "LPCA");
+}
+
+/// The settings on the cost figure of a sensor.
+std::size_t costed(const StudyFigures& figures, const std::string& id) {
+  std::size_t count = 0;
+  for (const Figure* figure : all_figures(figures))
+    if (figure->id == id)
+      for (const Layer& layer : figure->panels[0].layers)
+        if (const auto* points = std::get_if<Scatter>(&layer)) count += points->x.size();
+  return count;
+}
+
+TEST(StudyFigures, LeaveASettingWhoseStartWasNotTimedOutOfTheCosts) {
+  const Study study = synthetic_study(2, 1);
+  std::vector<Timing> timings = test::synthetic_timings(study);
+  const StudyReader none{.maps = [](const RunId&) { return std::vector<MapRecord>{}; },
+                         .details = [](const RunId&) { return std::nullopt; }};
+  EXPECT_EQ(costed(study_figures(study, timings, none), "cost-bearing"), 4U);
+  std::erase_if(timings,
+                [](const Timing& timing) { return timing.setting.method == Method::kSmacof; });
+  // Without its start, kNN-weighted SMACOF goes too.
+  EXPECT_EQ(costed(study_figures(study, timings, none), "cost-bearing"), 2U);
+}
+
 TEST(SeriesOfMethod, KeepsColoursOfOneFamilyApart) {
   for (const bool graph : {false, true}) {
     std::set<Ink> inks;
@@ -136,6 +163,9 @@ TEST(SeriesOfMethod, KeepsColoursOfOneFamilyApart) {
         EXPECT_TRUE(inks.insert(ink).second) << method.name;
       }
   }
+  std::set<std::size_t> series;
+  for (const MethodInfo& method : all_methods()) series.insert(series_of_method(method.method));
+  EXPECT_EQ(*series.rbegin(), all_methods().size() - 1);
 }
 
 }  // namespace

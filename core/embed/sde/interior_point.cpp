@@ -27,20 +27,27 @@ constexpr double kPolished = 1e-9;
 constexpr Index kPairsToCorrectAgain = 6;  // A point.
 constexpr int kMostCorrections = 3;
 constexpr int kHalvings = 6;
-constexpr double kLift = 0.1;  // Of a typical squared distance, into the interior.
+constexpr int kMostHalvings = 30;       // While no part of a step is feasible: a billionth.
+constexpr double kSharp = 0.01;         // Of the boundary; the rest would not shorten the way.
+constexpr double kTieBreak = 1e-14;     // Lifts a Schur complement that is singular by rounding.
+constexpr double kUsualCentring = 0.3;  // Where the guess tells nothing.
+constexpr double kStuck = 1e-7;         // A step as short as this leads nowhere.
+constexpr double kFirstLength = 0.5;    // As if a step of that length had come before.
+constexpr double kLift = 0.1;           // Of a typical squared distance, into the interior.
 
 bool is_positive(MatrixXd A) { return factor_cholesky(A); }
 
 /// The part of the step D that may be taken from the positive definite A, at most 1: some less than
 /// the way to the boundary, which is found by so many halvings (or more, if it is near).
-double longest_step(const MatrixXd& A, const MatrixXd& D, int most_halvings) {
+double longest_step(const MatrixXd& A, const MatrixXd& D) {
   if (is_positive(A + D / kOfTheWay)) return 1.0;
   double inside = 0.0;
   double outside = 1.0 / kOfTheWay;
-  for (int halvings = 0; halvings < most_halvings || (inside == 0.0 && halvings < 30); ++halvings) {
+  for (int halvings = 0; halvings < kHalvings || (inside == 0.0 && halvings < kMostHalvings);
+       ++halvings) {
     const double middle = 0.5 * (inside + outside);
     (is_positive(A + middle * D) ? inside : outside) = middle;
-    if (outside - inside < 0.01 * inside) break;
+    if (outside - inside < kSharp * inside) break;
   }
   return kOfTheWay * inside;
 }
@@ -83,6 +90,9 @@ class InteriorPoint {
       : reduced_(problem), options_(options) {
     start(gram);
   }
+
+  /// Gives its memory back; the next step makes it again.
+  void forget_schur() { schur_.resize(0, 0); }
 
   /// Until the gap is at most `relative_gap` and the pairs fit.
   void run(double relative_gap) {
@@ -155,8 +165,8 @@ class InteriorPoint {
         times_symmetric(reduced_.times_laplacian(guess.X, guess.w), inverse_Z_);
     Move move{.step = step_to(mu, &correction)};
     if (!move.step.X.allFinite() || !move.step.w.allFinite()) return std::nullopt;
-    move.length_X = longest_step(X_, move.step.X, kHalvings);
-    move.length_Z = longest_step(Z_, move.step.Z, kHalvings);
+    move.length_X = longest_step(X_, move.step.X);
+    move.length_Z = longest_step(Z_, move.step.Z);
     return move;
   }
 
@@ -178,17 +188,17 @@ class InteriorPoint {
     if (!inverse) return false;
     inverse_Z_ = *inverse;
     reduced_.schur(X_, inverse_Z_, schur_);
-    schur_.diagonal() *= 1.0 + 1e-14;
+    schur_.diagonal() *= 1.0 + kTieBreak;
     if (!factor_cholesky(schur_)) return false;
 
     const double mu = product_ / static_cast<double>(reduced_.size());
     const Step guess = step_to(0.0, nullptr);
-    const double ahead_X = longest_step(X_, guess.X, kHalvings);
-    const double ahead_Z = longest_step(Z_, guess.Z, kHalvings);
+    const double ahead_X = longest_step(X_, guess.X);
+    const double ahead_Z = longest_step(Z_, guess.Z);
     const double left = inner(X_ + ahead_X * guess.X, Z_ + ahead_Z * guess.Z) / product_;
     // Where the last step was cut short the iterates are off the centre: then centre more.
-    const double power = std::max(1.0, 3.0 * last_length_ * last_length_);
-    const double sigma = std::min(1.0, left > 0.0 ? std::pow(left, power) : 0.3);
+    const double power = std::max(1.0, 3.0 * last_length_ * last_length_);  // Mehrotra's 3 at most.
+    const double sigma = std::min(1.0, left > 0.0 ? std::pow(left, power) : kUsualCentring);
 
     const auto move = corrected(sigma * mu, guess);
     if (!move) return false;
@@ -196,7 +206,7 @@ class InteriorPoint {
     X_ += move->length_X * move->step.X;
     w_ += move->length_Z * move->step.w;
     set_slack();
-    return std::max(move->length_X, move->length_Z) > 1e-7;
+    return std::max(move->length_X, move->length_Z) > kStuck;
   }
 
   Reduced reduced_;
@@ -207,7 +217,7 @@ class InteriorPoint {
   MatrixXd inverse_Z_;
   MatrixXd schur_;
   double product_ = 0.0;
-  double last_length_ = 0.5;
+  double last_length_ = kFirstLength;
   int iterations_ = 0;
 };
 
@@ -220,7 +230,7 @@ std::optional<Solution> polished(const Problem& problem, Solution solution) {
   centre(problem, Y);
   double before = kkt_residuals(problem, Y, solution.w).sum();
   for (int steps = 0; steps < kMostPolishingSteps && before > kPolished; ++steps) {
-    const auto step = kkt_newton_step(problem, Y, solution.w, 1.0);
+    const auto step = kkt_newton_step(problem, Y, solution.w);
     if (!step) return std::nullopt;
     Y += step->Y;
     solution.w += step->w;
@@ -240,6 +250,7 @@ ProvedSolution solve_by_interior_point(const Problem& problem, const MatrixXd& g
                                        const InteriorPointOptions& options) {
   InteriorPoint method(problem, gram, options);
   method.run(kGapToPolish);
+  method.forget_schur();  // Polishing makes a matrix of that size.
   const auto candidate = polished(problem, method.solution(method.dividing_eigenvalue()));
   if (candidate) {
     const Certificate proof = certify(problem, *candidate);

@@ -4,7 +4,8 @@
 
 namespace mapproof::unfolding {
 
-/// Up to here the interior point's matrix of pairs squared is made: 200 MB. K = 7 keeps 9 pairs a
+/// Up to here the interior point's matrix of pairs squared is made: 200 MB for each thread that
+/// solves. K = 7 keeps 9 pairs a
 /// landmark.
 inline constexpr Eigen::Index kMostInteriorPairs = 5000;
 

@@ -51,13 +51,12 @@ KktResiduals kkt_residuals(const Problem& problem, const Rows& Y, const Eigen::V
 }
 
 std::optional<KktStep> kkt_newton_step(const Problem& problem, const Rows& Y,
-                                       const Eigen::VectorXd& w, double damping) {
+                                       const Eigen::VectorXd& w) {
   const Rows gradient = slack_times(problem, w, Y);
   const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> slack(slack_matrix(problem, w));
   if (slack.info() != Eigen::Success) return std::nullopt;
   const double lowest = slack.eigenvalues()(0);
-  const double shift =
-      std::max({kLeastShift, -2.0 * lowest, 2.0 * gradient.norm() / Y.norm()}) * damping;
+  const double shift = std::max({kLeastShift, -2.0 * lowest, 2.0 * gradient.norm() / Y.norm()});
   const Eigen::MatrixXd& Q = slack.eigenvectors();
   const Eigen::MatrixXd G =
       Q * (slack.eigenvalues().array() + shift).inverse().matrix().asDiagonal() * Q.transpose();

@@ -23,12 +23,11 @@ struct KktStep {
 };
 
 /// The Newton step on (slack(w) Y, residuals(Y)) = 0, the slack shifted just far enough to be
-/// positive definite, times `damping`. Eliminating Y leaves a dense system in w. Undamped steps
+/// positive definite. Eliminating Y leaves a dense system in w. Steps
 /// converge quadratically once the rank of Y is that of the solution.
-/// @param damping  >= 1; more makes shorter steps in Y.
 /// @return Empty if the system could not be solved.
 /// @note O(m^3 / 3) time and O(m^2) memory for m pairs.
 std::optional<KktStep> kkt_newton_step(const Problem& problem, const Rows& Y,
-                                       const Eigen::VectorXd& w, double damping);
+                                       const Eigen::VectorXd& w);
 
 }  // namespace mapproof::unfolding

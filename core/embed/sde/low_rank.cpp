@@ -38,9 +38,10 @@ class Ascent {
   ProvedSolution run() {
     for (int round = 0; round < options_.max_rounds && !proved(); ++round) {
       lagrangian_.descend(Y_, w_, round < 3 || round % 5 == 0);
-      if ((round + 1) % kRoundsToJudgement != 0) continue;
+      const bool last = round + 1 == options_.max_rounds;
+      if ((round + 1) % kRoundsToJudgement != 0 && !last) continue;
       judge();
-      adapt_rank();
+      if (!last) adapt_rank();
     }
     if (best_.solution.Y.size() == 0) judge();
     best_.solution.iterations = lagrangian_.products();

@@ -26,6 +26,8 @@ constexpr Eigen::Index kMostPairsToAskAgain = 2000;
 /// cheap.
 constexpr double kMoreDigits = 0.01;
 constexpr Eigen::Index kMostPairsForMoreDigits = 2500;
+/// Elsewhere enough that the certificate, computed apart, still meets what was asked for.
+constexpr double kSomeDigits = 0.5;
 
 void check(const Eigen::MatrixXd& distances, const SdeOptions& options) {
   if (distances.rows() < 3 || distances.cols() != distances.rows())
@@ -76,7 +78,7 @@ unfolding::ProvedSolution solve(const unfolding::Problem& problem, const Eigen::
     return unfolding::solve_low_rank(
         problem, low_rank_start(problem, gram),
         {.relative_gap = options.relative_gap, .constraint_residual = options.constraint_residual});
-  const double part = problem.squared.size() <= kMostPairsForMoreDigits ? kMoreDigits : 0.5;
+  const double part = problem.squared.size() <= kMostPairsForMoreDigits ? kMoreDigits : kSomeDigits;
   unfolding::ProvedSolution own = unfolding::solve_by_interior_point(
       problem, gram,
       {.relative_gap = part * options.relative_gap,
@@ -87,18 +89,27 @@ unfolding::ProvedSolution solve(const unfolding::Problem& problem, const Eigen::
 }
 
 /// What was not proved, and by how much.
-std::string shortfall(const Certificate& certificate) {
-  const std::string kept =
+Status shortfall(const Certificate& certificate, const SdeOptions& options) {
+  const std::string off =
       fmt::format("the squared distances to be kept are off by up to {:.1e} of the largest",
                   certificate.constraint_residual);
   if (certificate.dual < 0.0)  // A variance is not.
-    return fmt::format("No points have the distances to be kept, as the bound proves; {}.", kept);
+    return {StatusCode::kNotEuclidean,
+            fmt::format("No points have the distances to be kept, as the bound proves; {}.", off)};
+  std::string text;
   if (!std::isfinite(certificate.dual))
-    return fmt::format("Nothing was proved of the greatest variance, and {}.", kept);
-  return fmt::format(
-      "The solve was not proved: the greatest variance is bounded only to within {:.2g} % of this "
-      "map's, and {}.",
-      100.0 * certificate.relative_gap, kept);
+    text = "Nothing was proved of the greatest variance.";
+  else if (certificate.relative_gap > options.relative_gap && certificate.dual < certificate.primal)
+    text = fmt::format(
+        "The map spreads more than points that keep the distances can: their variance is at most "
+        "{:.2g} % of its own.",
+        100.0 * certificate.dual / certificate.primal);
+  else if (certificate.relative_gap > options.relative_gap)
+    text = fmt::format("The greatest variance is bounded only to within {:.2g} %.",
+                       100.0 * certificate.relative_gap);
+  if (certificate.constraint_residual > options.constraint_residual)
+    text += fmt::format("{}T{}.", text.empty() ? "" : " ", off.substr(1));
+  return {StatusCode::kUnproved, text};
 }
 
 /// Eigenvalues up to `floor` of the largest carry no direction.
@@ -147,7 +158,7 @@ Embedding sde(const Eigen::MatrixXd& distances, const SdeOptions& options) {
   put_coordinates(problem, answer.solution.Y, options.relative_gap + options.constraint_residual,
                   result);
   if (!meets(answer.certificate, options))
-    result.statuses.push_back({StatusCode::kNotConverged, shortfall(answer.certificate)});
+    result.statuses.push_back(shortfall(answer.certificate, options));
   return result;
 }
 

@@ -99,13 +99,16 @@ class SecondsOfMaps {
   }
 
   /// The median over runs, with that of the maps that the method starts from: they are made once
-  /// for all that start from them. Empty if nothing was timed.
+  /// for all that start from them. Empty if it, or what it starts from, was not timed.
   std::optional<double> of(Sensor sensor, int step, const MethodSetting& setting) const {
     const auto found = seconds_.find(key(sensor, step, setting));
     if (found == seconds_.end()) return std::nullopt;
     double sum = median(found->second);
-    if (const auto start = info(setting.method).starts_from)
-      sum += of(sensor, step, {*start, std::nullopt}).value_or(0.0);
+    if (const auto start = info(setting.method).starts_from) {
+      const auto before = of(sensor, step, {*start, std::nullopt});
+      if (!before) return std::nullopt;  // Then it is in the seconds of one setting alone.
+      sum += *before;
+    }
     return sum;
   }
 

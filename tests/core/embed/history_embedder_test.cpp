@@ -6,14 +6,13 @@
 #include "core/base/errors.hpp"
 #include "core/embed/embedder.hpp"
 #include "core/simulate/sensors.hpp"
+#include "tests/support/statuses.hpp"
 
 namespace mapproof {
 namespace {
 
-bool has(const Embedding& embedding, StatusCode code) {
-  return std::ranges::any_of(embedding.statuses,
-                             [&](const Status& status) { return status.code == code; });
-}
+using test::detail_of;
+using test::has;
 
 TEST(HistoryEmbedder, LeavesUnseenLandmarksOutAndNamesThem) {
   Eigen::MatrixXd angles = Eigen::MatrixXd::NullaryExpr(10, 50, [](Eigen::Index i, Eigen::Index j) {
@@ -74,12 +73,6 @@ ObservationHistory two_rooms(Eigen::Index landmarks_each) {
   return history;
 }
 
-std::string detail_of(const Embedding& embedding, StatusCode code) {
-  for (const Status& status : embedding.statuses)
-    if (status.code == code) return status.detail;
-  return "";
-}
-
 TEST(HistoryEmbedder, SaysWhenNeighboursWereNeverSeenTogether) {
   const ObservationHistory history = two_rooms(8);
   HistoryEmbedder embedder(history, 16);
@@ -93,6 +86,43 @@ TEST(HistoryEmbedder, SaysWhenNeighboursWereNeverSeenTogether) {
     EXPECT_FALSE(has(embedder.embed({method.method, 4.0}), StatusCode::kArbitraryNeighbours))
         << method.name;
   }
+}
+
+TEST(HistoryEmbedder, SaysOfEveryMethodThatRoomsWereNeverSeenTogether) {
+  for (const bool only : {false, true}) {
+    HistoryEmbedder embedder(two_rooms(8), 16, {.only_seen_together = only});
+    for (const MethodInfo& method : all_methods()) {
+      const Embedding map = embedder.embed(embedder.usual_setting(method.method));
+      // Beside it, such even rooms leave other things undetermined.
+      const bool said = std::ranges::any_of(map.statuses, [](const Status& status) {
+        return status.code == StatusCode::kUndetermined &&
+               status.detail.find("in 2 groups") != std::string::npos;
+      });
+      EXPECT_TRUE(said || has(map, StatusCode::kFailed)) << method.name;
+    }
+  }
+}
+
+TEST(HistoryEmbedder, SaysThatOneLookOrTwoTellNoMap) {
+  ObservationHistory history{.sensor = Sensor::kBearing,
+                             .names = landmark_names(8),
+                             .values = Eigen::MatrixXd::Zero(8, 3)};
+  for (Eigen::Index i = 0; i < 8; ++i)
+    for (Eigen::Index t = 0; t < 3; ++t)
+      history.values(i, t) = std::sin(static_cast<double>(3 * i + 5 * t * i));
+  for (const Eigen::Index steps : {1, 2, 3})
+    EXPECT_EQ(has(HistoryEmbedder(history, steps).embed({Method::kLpca, std::nullopt}),
+                  StatusCode::kTooFewObservations),
+              steps < 3);
+}
+
+TEST(HistoryEmbedder, IsSilentWhereAllOthersAreNeighboursOrThereIsNoMap) {
+  HistoryEmbedder embedder(two_rooms(8), 16);
+  EXPECT_FALSE(has(embedder.embed({Method::kIsomap, 15.0}), StatusCode::kArbitraryNeighbours));
+  // Hessian LLE needs six.
+  const Embedding none = embedder.embed({Method::kHessianLle, 5.0});
+  EXPECT_TRUE(has(none, StatusCode::kFailed));
+  EXPECT_FALSE(has(none, StatusCode::kArbitraryNeighbours));
 }
 
 TEST(HistoryEmbedder, LeavesNeighboursNeverSeenTogetherOutOnRequest) {

@@ -98,8 +98,8 @@ RunResult made_up_result(const RunId& id) {
                   .stress = 0.1 * x,
                   .certificate = Certificate{.solver = SdpSolver::kCsdp,
                                              .primal = 3.0 - 1e-7,
-                                             .dual = 3.0,
-                                             .relative_gap = 1e-7 / 3.0,
+                                             .dual = -3.0,
+                                             .relative_gap = 2.0,
                                              .constraint_residual = 1e-9}}};
   run.occlusion = {.within_reach = 90, .hidden = 20};
   run.variations = {{.variation = "noise",

@@ -182,7 +182,7 @@ INSTANTIATE_TEST_SUITE_P(
         Damage{"run", "/records/0/K", 4}, Damage{"run", "/records/1/K", nullptr},
         Damage{"run", "/records/1/statuses/0/code", "tired"},
         Damage{"run", "/records/1/certificate/solver", "magic"},
-        Damage{"run", "/records/1/certificate/dual", -1},
+        Damage{"run", "/records/1/certificate/relative_gap", -1},
         Damage{"run", "/records/0/score/moe_percent", 101}, Damage{"run", "/anchors", {1, 1}},
         Damage{"run", "/occlusion/hidden", -1}, Damage{"run", "/variations/0/K", nullptr},
         Damage{"run", "/variations/1/level", "high"},
