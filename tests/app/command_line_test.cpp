@@ -75,7 +75,9 @@ TEST(CommandLine, JsonIsOneObjectOnStandardOutputForEveryVerb) {
     const auto object = nlohmann::json::parse(outcome.out, nullptr, false);
     EXPECT_TRUE(object.is_object()) << call[0] << outcome.out;
     call.back() = "--quiet";
-    EXPECT_EQ(mapproof(call).error, "") << call[0];
+    // What is wrong with a map is said there, too.
+    const std::string said = mapproof(call).error;
+    EXPECT_TRUE(said.empty() || said.starts_with("warning: ")) << call.front() << said;
   }
 }
 
