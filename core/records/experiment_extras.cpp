@@ -12,15 +12,6 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-/// A name that is safe in ids of figures and files.
-std::string read_id(const JsonCursor& value) {
-  const std::string text = value.text(64);
-  if (!is_plain_id(text) || text[0] < 'a' || text[0] > 'z')
-    value.fail("expected lower-case letters, digits and '-', a letter first, got " +
-               in_quotes(text));
-  return text;
-}
-
 /// The sensor that a value names, which the experiment must have.
 const SensorStudy& read_sensor_of(const Experiment& experiment, const JsonCursor& value) {
   const Sensor sensor = read_sensor(value);

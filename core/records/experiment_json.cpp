@@ -1,22 +1,18 @@
 #include "core/records/experiment_json.hpp"
 
-#include <algorithm>
-#include <optional>
 #include <utility>
 
-#include <fmt/format.h>
-
-#include "core/base/errors.hpp"
-#include "core/base/spelling.hpp"
 #include "core/json/json_text.hpp"
-#include "core/json/text_input.hpp"
 #include "core/records/experiment_values.hpp"
 #include "core/records/json_values.hpp"
+#include "core/records/profiles.hpp"
 
 namespace mapproof {
 namespace {
 
 using Json = nlohmann::ordered_json;
+
+constexpr std::string_view kSchema = "mapproof.experiment";
 
 Json sensor_value(const SensorStudy& study) {
   Json value = Json::object();
@@ -32,30 +28,6 @@ Json sensor_value(const SensorStudy& study) {
   return value;
 }
 
-/// "it has "a", "b" and 3 more": at most five of them.
-std::string known_profiles(const std::vector<std::pair<std::string, JsonCursor>>& profiles) {
-  constexpr std::size_t kShown = 5;
-  if (profiles.empty()) return "it has none";
-  std::vector<std::string> shown;
-  for (std::size_t i = 0; i < std::min(profiles.size(), kShown); ++i)
-    shown.push_back(in_quotes(profiles[i].first));
-  const std::string rest =
-      profiles.size() > kShown ? fmt::format(" and {} more", profiles.size() - kShown) : "";
-  return fmt::format("it has {}{}", fmt::join(shown, ", "), rest);
-}
-
-/// The document's profiles; an object of patches, empty if it has none.
-std::vector<std::pair<std::string, JsonCursor>> profile_members(const JsonCursor& document) {
-  const std::optional<JsonCursor> profiles = document.find("profiles");
-  if (!profiles) return {};
-  for (const auto& [key, patch] : profiles->members()) {
-    if (!patch.is_object()) patch.fail("expected an object: a merge patch of the experiment");
-    for (const char* fixed : {"schema", "profiles"})
-      if (const auto found = patch.find(fixed)) found->fail("a profile cannot change this");
-  }
-  return profiles->members();
-}
-
 }  // namespace
 
 Json experiment_value(const Experiment& experiment) {
@@ -64,7 +36,7 @@ Json experiment_value(const Experiment& experiment) {
   Json sensors = Json::object();
   for (const SensorStudy& study : experiment.sensors)
     sensors[std::string(name(study.sensor.sensor))] = sensor_value(study);
-  Json value = {{"schema", schema_value("mapproof.experiment")},
+  Json value = {{"schema", schema_value(kSchema)},
                 {"name", experiment.name},
                 {"title", experiment.title},
                 {"seed", experiment.seed},
@@ -100,28 +72,12 @@ std::string experiment_json(const Experiment& experiment) {
 
 Experiment parse_experiment(std::string_view text, const std::string& source,
                             const std::string& profile) {
-  JsonDocument document = parse_json(text, source);
-  expect_schema(document.cursor(), "mapproof.experiment");
-  nlohmann::json patch;
-  const auto members = profile_members(document.cursor());
-  if (!profile.empty()) {
-    if (!document.root.contains("profiles") || !document.root["profiles"].contains(profile))
-      throw IoError(source, "/profiles",
-                    "no profile " + in_quotes(profile) + ": " + known_profiles(members));
-    patch = document.root["profiles"][profile];
-    document.source = fmt::format("{} with profile {}", source, printable(profile, 40));
-  }
-  document.root.erase("profiles");
-  if (!profile.empty()) document.root.merge_patch(patch);
+  const JsonDocument document = parse_with_profile(text, source, kSchema, profile);
   return read_experiment(document.cursor());
 }
 
 std::vector<std::string> profiles(std::string_view text, const std::string& source) {
-  const JsonDocument document = parse_json(text, source);
-  expect_schema(document.cursor(), "mapproof.experiment");
-  std::vector<std::string> names;
-  for (const auto& [key, patch] : profile_members(document.cursor())) names.push_back(key);
-  return names;
+  return profile_names(text, source, kSchema);
 }
 
 }  // namespace mapproof

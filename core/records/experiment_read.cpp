@@ -13,41 +13,32 @@ namespace {
 
 constexpr double kLongest_m = 1000.0;
 
-/// Reads an object's optional keys into values that hold their defaults.
-void read(const JsonCursor& object, const char* key, double least, double most, double& value) {
-  if (const auto found = object.find(key)) value = found->number(least, most);
-}
-
-void read(const JsonCursor& object, const char* key, int least, int most, int& value) {
-  if (const auto found = object.find(key)) value = found->integer32(least, most);
-}
-
 void read_world(const JsonCursor& object, WorldOptions& world) {
   object.allow_only({"side_m", "landmarks", "landmark_diameter_m", "gap_m", "wall_margin_m"});
-  read(object, "side_m", 0.01, kLongest_m, world.side_m);
-  read(object, "landmarks", 4, kMostLandmarks, world.landmarks);
-  read(object, "landmark_diameter_m", 1e-6, kLongest_m, world.landmark_diameter_m);
-  read(object, "gap_m", 0.0, kLongest_m, world.gap_m);
-  read(object, "wall_margin_m", 0.0, kLongest_m, world.wall_margin_m);
+  read_if_there(object, "side_m", 0.01, kLongest_m, world.side_m);
+  read_if_there(object, "landmarks", 4, kMostLandmarks, world.landmarks);
+  read_if_there(object, "landmark_diameter_m", 1e-6, kLongest_m, world.landmark_diameter_m);
+  read_if_there(object, "gap_m", 0.0, kLongest_m, world.gap_m);
+  read_if_there(object, "wall_margin_m", 0.0, kLongest_m, world.wall_margin_m);
 }
 
 void read_walk(const JsonCursor& object, WalkOptions& walk) {
   object.allow_only({"step_m", "turn_rad", "substep_m", "clearance_m", "wall_margin_m"});
-  read(object, "step_m", 1e-4, kLongest_m, walk.step_m);
-  read(object, "turn_rad", 0.0, std::numbers::pi, walk.turn_rad);
-  read(object, "substep_m", 1e-4, kLongest_m, walk.substep_m);
-  read(object, "clearance_m", 0.0, kLongest_m, walk.clearance_m);
-  read(object, "wall_margin_m", 0.0, kLongest_m, walk.wall_margin_m);
+  read_if_there(object, "step_m", 1e-4, kLongest_m, walk.step_m);
+  read_if_there(object, "turn_rad", 0.0, std::numbers::pi, walk.turn_rad);
+  read_if_there(object, "substep_m", 1e-4, kLongest_m, walk.substep_m);
+  read_if_there(object, "clearance_m", 0.0, kLongest_m, walk.clearance_m);
+  read_if_there(object, "wall_margin_m", 0.0, kLongest_m, walk.wall_margin_m);
 }
 
 void read_sensor_options(const JsonCursor& object, SensorOptions& options) {
   const bool is_visibility = options.sensor == Sensor::kVisibility;
   if (is_visibility) {
-    read(object, "visual_angle_rad", 1e-6, std::numbers::pi, options.visual_angle_rad);
+    read_if_there(object, "visual_angle_rad", 1e-6, std::numbers::pi, options.visual_angle_rad);
     if (const auto occlusion = object.find("occlusion")) options.occlusion = occlusion->boolean();
   }
-  read(object, "noise", 0.0, is_visibility ? 0.5 : kLongest_m, options.noise);
-  read(object, "dropout_share", 0.0, 0.99, options.dropout_share);
+  read_if_there(object, "noise", 0.0, is_visibility ? 0.5 : kLongest_m, options.noise);
+  read_if_there(object, "dropout_share", 0.0, 0.99, options.dropout_share);
 }
 
 SensorStudy read_sensor_study(Sensor sensor, const JsonCursor& object) {
@@ -76,17 +67,6 @@ std::vector<SensorStudy> read_sensors(const JsonCursor& object) {
   return studies;
 }
 
-std::string read_name(const JsonCursor& value) {
-  const std::string text = value.text(64);
-  const auto is_allowed = [](char c) {
-    return (c >= '0' && c <= '9') || (c >= 'A' && c <= 'Z') || (c >= 'a' && c <= 'z') || c == '-' ||
-           c == '_';
-  };
-  if (text.empty() || !std::ranges::all_of(text, is_allowed))
-    value.fail("expected letters, digits, '-' and '_', got " + in_quotes(text));
-  return text;
-}
-
 AffineFit read_affine_fit(const JsonCursor& value) {
   const std::string text = value.text();
   if (const std::optional<AffineFit> fit = affine_fit_named(text)) return *fit;
@@ -95,8 +75,8 @@ AffineFit read_affine_fit(const JsonCursor& value) {
 
 void read_solver(const JsonCursor& object, SolverOptions& solver) {
   object.allow_only({"smacof_relative_fall", "smacof_knn_relative_fall", "only_seen_together"});
-  read(object, "smacof_relative_fall", 0.0, 1.0, solver.smacof_relative_fall);
-  read(object, "smacof_knn_relative_fall", 0.0, 1.0, solver.smacof_knn_relative_fall);
+  read_if_there(object, "smacof_relative_fall", 0.0, 1.0, solver.smacof_relative_fall);
+  read_if_there(object, "smacof_knn_relative_fall", 0.0, 1.0, solver.smacof_knn_relative_fall);
   if (const auto only = object.find("only_seen_together"))
     solver.only_seen_together = only->boolean();
 }
@@ -109,15 +89,15 @@ Experiment read_experiment(const JsonCursor& document) {
                        "anchors", "anchor_placement", "affine_fit", "solver", "sensors",
                        "variations", "figures"});
   Experiment experiment;
-  experiment.name = read_name(document.at("name"));
+  experiment.name = read_study_name(document.at("name"));
   experiment.title = experiment.name;
   if (const auto title = document.find("title")) experiment.title = title->text(200);
   if (const auto seed = document.find("seed")) experiment.seed = seed->unsigned_integer();
-  read(document, "layouts", 1, kMostLayouts, experiment.layouts);
-  read(document, "poses", 1, kMostPoses, experiment.poses);
+  read_if_there(document, "layouts", 1, kMostLayouts, experiment.layouts);
+  read_if_there(document, "poses", 1, kMostPoses, experiment.poses);
   if (const auto world = document.find("world")) read_world(*world, experiment.world);
   if (const auto walk = document.find("walk")) read_walk(*walk, experiment.walk);
-  read(document, "anchors", 3, 1000, experiment.anchors);
+  read_if_there(document, "anchors", 3, 1000, experiment.anchors);
   if (const auto fit = document.find("affine_fit")) experiment.affine_fit = read_affine_fit(*fit);
   if (const auto placement = document.find("anchor_placement"))
     experiment.anchor_placement = read_anchor_placement(*placement);

@@ -1,5 +1,6 @@
 #include "core/records/json_values.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <map>
@@ -161,6 +162,34 @@ Score read_score(const JsonCursor& value) {
 bool is_plain_id(std::string_view text) {
   constexpr std::string_view kAllowed = "abcdefghijklmnopqrstuvwxyz0123456789-";
   return !text.empty() && text.find_first_not_of(kAllowed) == std::string_view::npos;
+}
+
+std::string read_id(const JsonCursor& value) {
+  const std::string text = value.text(64);
+  if (!is_plain_id(text) || text[0] < 'a' || text[0] > 'z')
+    value.fail("expected lower-case letters, digits and '-', a letter first, got " +
+               in_quotes(text));
+  return text;
+}
+
+std::string read_study_name(const JsonCursor& value) {
+  const std::string text = value.text(64);
+  const auto is_allowed = [](char c) {
+    return (c >= '0' && c <= '9') || (c >= 'A' && c <= 'Z') || (c >= 'a' && c <= 'z') || c == '-' ||
+           c == '_';
+  };
+  if (text.empty() || !std::ranges::all_of(text, is_allowed))
+    value.fail("expected letters, digits, '-' and '_', got " + in_quotes(text));
+  return text;
+}
+
+void read_if_there(const JsonCursor& object, const char* key, double least, double most,
+                   double& value) {
+  if (const auto found = object.find(key)) value = found->number(least, most);
+}
+
+void read_if_there(const JsonCursor& object, const char* key, int least, int most, int& value) {
+  if (const auto found = object.find(key)) value = found->integer32(least, most);
 }
 
 std::vector<std::string> read_names(const JsonCursor& value) {

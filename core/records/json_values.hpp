@@ -58,6 +58,17 @@ Score read_score(const JsonCursor& value);
 /// Whether a text is [a-z0-9-]+, which is safe in ids and names of files.
 bool is_plain_id(std::string_view text);
 
+/// A plain id that begins with a letter. @throws IoError.
+std::string read_id(const JsonCursor& value);
+
+/// A name of an experiment: letters, digits, '-' and '_', at most 64. @throws IoError.
+std::string read_study_name(const JsonCursor& value);
+
+/// Reads an object's optional key into a value that holds its default.
+void read_if_there(const JsonCursor& object, const char* key, double least, double most,
+                   double& value);
+void read_if_there(const JsonCursor& object, const char* key, int least, int most, int& value);
+
 /// Different, not empty names of at most kLongestName bytes.
 std::vector<std::string> read_names(const JsonCursor& value);
 

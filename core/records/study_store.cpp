@@ -2,17 +2,16 @@
 
 #include <algorithm>
 #include <mutex>
-#include <system_error>
 
 #include <fmt/format.h>
 
 #include "core/base/errors.hpp"
 #include "core/base/files.hpp"
-#include "core/records/experiment_json.hpp"
 #include "core/records/experiment_values.hpp"
 #include "core/records/folder_lock.hpp"
 #include "core/records/run_json.hpp"
 #include "core/records/study_files.hpp"
+#include "core/records/study_folder.hpp"
 #include "core/records/timings_jsonl.hpp"
 
 namespace mapproof {
@@ -20,40 +19,10 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// "/seed is 2007 there and 2008 here": the first of the differences.
-std::string difference(const Experiment& there, const Experiment& here) {
-  const nlohmann::json old_value = experiment_value(there);
-  const nlohmann::json new_value = experiment_value(here);
-  const nlohmann::json patch = nlohmann::json::diff(old_value, new_value);
-  const nlohmann::json::json_pointer place(patch.at(0).at("path").get<std::string>());
-  const auto shown = [&](const nlohmann::json& value) {
-    return value.contains(place) ? printable(value[place].dump(), 60) : "missing";
-  };
-  return fmt::format("{} is {} there and {} here", place.to_string(), shown(old_value),
-                     shown(new_value));
-}
-
-void remove_tree(const fs::path& path) {
-  std::error_code error;
-  fs::remove_all(path, error);
-  if (error) throw IoError(path.string(), "cannot be removed: " + error.message());
-}
-
-/// The runs first: until study.json is replaced, a kill in between leaves the old study's start.
-void remove_runs(const StudyFiles& files) {
-  remove_tree(files.runs());
-  remove_tree(files.maps());
-  remove_tree(files.details());
-  remove_tree(files.timings());
-}
-
-void check_is_new(const fs::path& folder) {
-  std::error_code error;
-  for (fs::directory_iterator entry(folder, error), end; !error && entry != end;
-       entry.increment(error))
-    if (!is_leftover(entry->path()))
-      throw IoError(folder.string(), "is not empty and holds no study; choose another folder");
-  if (error) throw IoError(folder.string(), "cannot be listed: " + error.message());
+StudyHead read_head(const std::string& text, const std::string& source) {
+  const Study study = parse_study(text, source);
+  return {.experiment = experiment_value(study.experiment),
+          .solver_digest = study.provenance.solver_digest};
 }
 
 /// Whether the run's files are all there, whole, and of that run.
@@ -92,28 +61,9 @@ StudyStore StudyStore::open(const fs::path& folder, const Experiment& experiment
   make_folder(folder);
   auto state = std::make_unique<State>(folder, experiment);
   const StudyFiles& files = state->files;
-  const std::string text = study_json(experiment, provenance);
-  if (!is_study(folder)) {
-    check_is_new(folder);
-    remove_leftovers(folder);
-    write_file(files.study(), text);
-    start_lines(files.timings());
-    return StudyStore(std::move(state));
-  }
-  remove_leftovers(folder);
-  const std::string old_text = read_file(files.study());
-  const Study old = parse_study(old_text, files.study().string());
-  if (experiment_json(old.experiment) != experiment_json(experiment))
-    throw IoError(folder.string(),
-                  fmt::format("holds another experiment ({}); choose another folder or remove it",
-                              difference(old.experiment, experiment)));
-  if (old.provenance.solver_digest != provenance.solver_digest) {
-    remove_runs(files);
-    state->is_redone = true;
-  }
-  if (old_text != text) write_file(files.study(), text);
-  mend_lines(files.timings());
-  start_lines(files.timings());
+  state->is_redone =
+      take_up_study(folder, study_json(experiment, provenance), read_head,
+                    {files.runs(), files.maps(), files.details(), files.timings()});
   return StudyStore(std::move(state));
 }
 

@@ -10,6 +10,7 @@
 #include "core/json/json_text.hpp"
 #include "core/json/text_input.hpp"
 #include "core/records/json_values.hpp"
+#include "core/records/slam_values.hpp"
 
 namespace mapproof {
 namespace {
@@ -28,6 +29,20 @@ Timing read_timing(const JsonCursor& value) {
   timing.step = value.at("step").integer32(0, kMostSteps);
   timing.seconds = value.at("seconds").number(0.0, kLongest_s);
   return timing;
+}
+
+SlamTiming read_slam_timing(const JsonCursor& value) {
+  value.allow_only({"kind", "run", "method", "seconds"});
+  return {.run = read_id(value.at("run")),
+          .method = read_slam_method(value.at("method")),
+          .seconds = value.at("seconds").number(0.0, kLongest_s)};
+}
+
+FactorizationCost read_factorization(const JsonCursor& value) {
+  value.allow_only({"kind", "landmarks", "steps", "seconds"});
+  return {.landmarks = value.at("landmarks").integer32(1, kMostLandmarks),
+          .steps = value.at("steps").integer(1, kMostSteps),
+          .seconds = value.at("seconds").number(0.0, kLongest_s)};
 }
 
 Session read_session(const JsonCursor& value) {
@@ -54,10 +69,14 @@ void read_line(std::string_view line, const std::string& source, Timings& timing
   const std::string kind = root.at("kind").text();
   if (kind == "map")
     timings.maps.push_back(read_timing(root));
+  else if (kind == "slam")
+    timings.slam.methods.push_back(read_slam_timing(root));
+  else if (kind == "factorization")
+    timings.slam.factorization.push_back(read_factorization(root));
   else if (kind == "session")
     timings.sessions.push_back(read_session(root));
   else
-    root.at("kind").fail("expected map or session, got " + in_quotes(kind));
+    root.at("kind").fail("expected map, slam, factorization or session, got " + in_quotes(kind));
 }
 
 }  // namespace
@@ -73,6 +92,20 @@ std::string timing_line(const Timing& timing) {
   value["step"] = timing.step;
   value["seconds"] = timing.seconds;
   return json_line(value);
+}
+
+std::string timing_line(const SlamTiming& timing) {
+  return json_line({{"kind", "slam"},
+                    {"run", timing.run},
+                    {"method", info(timing.method).name},
+                    {"seconds", timing.seconds}});
+}
+
+std::string timing_line(const FactorizationCost& cost) {
+  return json_line({{"kind", "factorization"},
+                    {"landmarks", cost.landmarks},
+                    {"steps", cost.steps},
+                    {"seconds", cost.seconds}});
 }
 
 std::string session_line(const Session& session) {

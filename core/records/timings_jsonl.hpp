@@ -5,18 +5,20 @@
 #include <string_view>
 #include <vector>
 
+#include "core/model/slam_study.hpp"
 #include "core/model/study.hpp"
 
 namespace mapproof {
 
-/// timings.jsonl: one JSON object a line: the schema, then {"kind": "map", ...} or
-/// {"kind": "session", ...}.
+/// timings.jsonl: one JSON object a line: the schema, then {"kind": "map", ...},
+/// {"kind": "slam", ...}, {"kind": "factorization", ...} or {"kind": "session", ...}.
 ///
 /// Lines are appended, a batch at a time, by append_file(): to rewrite the whole file for every run
 /// would cost the square of their number, and a kill can only tear the last line, which readers
 /// leave out and mend_lines() removes.
 struct Timings {
   std::vector<Timing> maps;
+  SlamTimings slam;
   std::vector<Session> sessions;
 };
 
@@ -24,6 +26,8 @@ struct Timings {
 std::string timings_header();
 
 std::string timing_line(const Timing& timing);
+std::string timing_line(const SlamTiming& timing);
+std::string timing_line(const FactorizationCost& cost);
 std::string session_line(const Session& session);
 
 /// All whole lines in their order. @throws IoError naming the line.

@@ -1,0 +1,23 @@
+#pragma once
+
+#include <filesystem>
+#include <string>
+
+namespace mapproof {
+
+/// Where things stand in the folder of a range-only study.
+struct SlamFiles {
+  std::filesystem::path folder;
+
+  std::filesystem::path study() const { return folder / "study.json"; }
+  std::filesystem::path timings() const { return folder / "timings.jsonl"; }
+  std::filesystem::path runs() const { return folder / "runs"; }
+  std::filesystem::path run(const std::string& id) const { return runs() / (id + ".json"); }
+  std::filesystem::path paths() const { return folder / "paths"; }
+  std::filesystem::path paths(const std::string& id) const { return paths() / id; }
+  std::filesystem::path curves() const { return folder / "convergence"; }
+  std::filesystem::path curve(const std::string& id) const { return curves() / (id + ".json"); }
+  std::filesystem::path histories() const { return folder / "histories.json"; }
+};
+
+}  // namespace mapproof
