@@ -10,7 +10,12 @@ enum Purpose : std::uint64_t {
   kWalk = 2,
   kNoise = 3,
   kVariationNoise = 4,
-  kPlacement = 5
+  kPlacement = 5,
+  kSlamExample = 6,
+  kSlamPair = 7,
+  kSlamHistories = 8,
+  kSlamCost = 9,
+  kSlamStart = 10
 };
 
 }  // namespace mapproof

@@ -1,9 +1,33 @@
 #include "core/model/slam_experiment.hpp"
 
+#include <fmt/format.h>
+
 namespace mapproof {
 
 std::string missing_sentence(const SlamDataSet& data) {
   return data.title + " is missing. " + data.source;
+}
+
+std::vector<std::pair<std::string, std::string>> facts_of(const SlamExperiment& experiment) {
+  const SlamWorldOptions& world = experiment.world;
+  std::vector<std::pair<std::string, std::string>> facts = {
+      {"Simulated area", fmt::format("{0:g} m \u00D7 {0:g} m", 2.0 * world.half_width_m)},
+      {"Simulated landmarks", fmt::format("{}, {} of them known", world.landmarks, world.known)},
+      {"Simulated walk",
+       fmt::format("steps of {:g} m, the heading turns by {:g} rad (1 \u03C3) a step", world.step_m,
+                   world.turn_sigma_rad)}};
+  if (const auto& example = experiment.example)
+    facts.emplace_back("Example",
+                       fmt::format("{} steps, {}", example->steps, example->noise.title));
+  if (const auto& convergence = experiment.convergence)
+    facts.emplace_back("Convergence", fmt::format("{} pairs of world and path, up to {} steps",
+                                                  convergence->pairs, convergence->steps.back()));
+  if (const auto& histories = experiment.histories)
+    facts.emplace_back(
+        "Mapping methods on ranges",
+        fmt::format("{} landmarks, {} steps, {}, K = {}", histories->landmarks, histories->steps,
+                    histories->noise.title, histories->neighbours));
+  return facts;
 }
 
 }  // namespace mapproof

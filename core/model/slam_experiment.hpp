@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "core/model/method.hpp"
@@ -12,10 +13,10 @@ namespace mapproof {
 
 /// What is wrong with simulated ranges.
 struct RangeNoiseModel {
-  std::string id;      ///< [a-z][a-z0-9-]*: "white".
-  std::string title;   ///< For readers: "white noise, 1 % of range".
-  double noise_m = 0;  ///< Standard deviation, m.
-  double share = 0;    ///< The same as a share of the range; both add as variances.
+  std::string id;          ///< [a-z][a-z0-9-]*: "white".
+  std::string title;       ///< For readers: "white noise, 1 % of range".
+  double noise_m = 0;      ///< Standard deviation, m.
+  double share = 0;        ///< The same as a share of the range; both add as variances.
   double correlation = 0;  ///< Of errors to one landmark one step apart, in [0, 1).
 };
 
@@ -50,6 +51,7 @@ struct SlamDataSet {
   std::string figure;              ///< Id of the figure of its paths: "fig-2b".
   std::vector<std::string> files;  ///< Where it may be in the folder of the data; the first counts.
   std::string source;              ///< How to get it, a sentence.
+  std::optional<PublishedDrive> published;
 };
 
 /// The mapping methods [yairi2007] on ranges of one world.
@@ -77,11 +79,15 @@ struct SlamExperiment {
   std::optional<ConvergenceOptions> convergence;
   std::vector<SlamDataSet> data;
   std::vector<SlamMethod> methods;  ///< Tried on each data set, in the order of the tables.
+  int random_starts = 12;           ///< Of the refinement on each data set.
   std::optional<RangeHistoryOptions> histories;
   FactorizationGrid factorization;
 };
 
 /// What is said of a data set that is not there: its name and how to get it.
 std::string missing_sentence(const SlamDataSet& data);
+
+/// What an experiment asks for, in words: {"Area", "20 m x 20 m"}.
+std::vector<std::pair<std::string, std::string>> facts_of(const SlamExperiment& experiment);
 
 }  // namespace mapproof

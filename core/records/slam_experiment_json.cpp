@@ -2,6 +2,7 @@
 
 #include "core/json/json_text.hpp"
 #include "core/records/profiles.hpp"
+#include "core/records/slam_values.hpp"
 
 namespace mapproof {
 namespace {
@@ -31,7 +32,8 @@ Json data_value(const std::vector<SlamDataSet>& sets) {
                      {"title", set.title},
                      {"figure", set.figure},
                      {"files", set.files},
-                     {"source", set.source}});
+                     {"source", set.source},
+                     {"published", published_drive_value(set.published)}});
   return value;
 }
 
@@ -68,10 +70,11 @@ Json slam_experiment_value(const SlamExperiment& experiment) {
   if (experiment.convergence) value["convergence"] = convergence_value(*experiment.convergence);
   value["data"] = data_value(experiment.data);
   value["methods"] = std::move(methods);
+  value["random_starts"] = experiment.random_starts;
   if (experiment.histories) value["histories"] = histories_value(*experiment.histories);
   if (!experiment.factorization.steps.empty())
     value["factorization"] = {{"landmarks", experiment.factorization.landmarks},
-                            {"steps", experiment.factorization.steps}};
+                              {"steps", experiment.factorization.steps}};
   return value;
 }
 

@@ -17,8 +17,8 @@ constexpr double kLargest_m = 1e6;
 constexpr double kMostEntriesOfAWorld = 1e8;  ///< Landmarks times steps.
 
 std::vector<int> read_sizes(const JsonCursor& array, int least, int most) {
-  return read_ascending<int>(
-      array, [&](const JsonCursor& item) { return item.integer32(least, most); });
+  return read_ascending<int>(array,
+                             [&](const JsonCursor& item) { return item.integer32(least, most); });
 }
 
 RangeNoiseModel read_noise(const JsonCursor& object) {
@@ -67,7 +67,7 @@ ConvergenceOptions read_convergence(const JsonCursor& object) {
 }
 
 SlamDataSet read_data_set(const JsonCursor& object) {
-  object.allow_only({"id", "title", "figure", "files", "source"});
+  object.allow_only({"id", "title", "figure", "files", "source", "published"});
   SlamDataSet set;
   set.id = read_id(object.at("id"));
   set.title = object.at("title").text(200);
@@ -79,6 +79,8 @@ SlamDataSet read_data_set(const JsonCursor& object) {
     set.files.push_back(name);
   }
   set.source = object.at("source").text(1000);
+  if (const auto published = object.find("published"))
+    set.published = read_published_drive(*published);
   return set;
 }
 
@@ -111,9 +113,8 @@ RangeHistoryOptions read_histories(const JsonCursor& object) {
   histories.noise = read_noise(object.at("noise"));
   read_if_there(object, "neighbours", 1, histories.landmarks - 1, histories.neighbours);
   histories.neighbours = std::min(histories.neighbours, histories.landmarks - 1);
-  histories.methods = read_kinds<Method>(object.at("methods"), [](const JsonCursor& item) {
-    return read_method(item.text(), item);
-  });
+  histories.methods = read_kinds<Method>(
+      object.at("methods"), [](const JsonCursor& item) { return read_method(item.text(), item); });
   return histories;
 }
 
@@ -137,7 +138,7 @@ void check_sizes(const SlamExperiment& experiment, const JsonCursor& document) {
 SlamExperiment read_slam_experiment(const JsonCursor& document) {
   expect_schema(document, "mapproof.slam_experiment");
   document.allow_only({"schema", "name", "title", "seed", "world", "example", "convergence", "data",
-                       "methods", "histories", "factorization"});
+                       "methods", "random_starts", "histories", "factorization"});
   SlamExperiment experiment;
   experiment.name = read_study_name(document.at("name"));
   experiment.title = experiment.name;
@@ -151,6 +152,7 @@ SlamExperiment read_slam_experiment(const JsonCursor& document) {
     experiment.data =
         read_data(*data, experiment.example ? experiment.example->noise.id : std::string());
   experiment.methods = read_kinds<SlamMethod>(document.at("methods"), read_slam_method);
+  read_if_there(document, "random_starts", 1, 1000, experiment.random_starts);
   if (const auto histories = document.find("histories"))
     experiment.histories = read_histories(*histories);
   if (const auto grid = document.find("factorization")) {

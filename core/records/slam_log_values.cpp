@@ -70,21 +70,22 @@ StartPose read_start(const JsonCursor& value) {
 
 Json range_log_value(const RangeLog& log) {
   const StartPose& start = log.start;
-  return {{"name", log.name},
-          {"landmarks", log.landmarks},
-          {"true_landmarks_m",
-           log.true_landmarks ? points_value(*log.true_landmarks) : Json(nullptr)},
-          {"remarks", log.remarks},
-          {"start", {number_value(start.time_s), number_value(start.x_m), number_value(start.y_m),
-                     number_value(start.heading_rad)}},
-          {"ranges", ranges_value(log.ranges)},
-          {"odometry", odometry_value(log.odometry)},
-          {"truth", log.truth ? path_value(*log.truth) : Json(nullptr)}};
+  return {
+      {"name", log.name},
+      {"landmarks", log.landmarks},
+      {"true_landmarks_m", log.true_landmarks ? points_value(*log.true_landmarks) : Json(nullptr)},
+      {"remarks", log.remarks},
+      {"start",
+       {number_value(start.time_s), number_value(start.x_m), number_value(start.y_m),
+        number_value(start.heading_rad)}},
+      {"ranges", ranges_value(log.ranges)},
+      {"odometry", odometry_value(log.odometry)},
+      {"truth", log.truth ? path_value(*log.truth) : Json(nullptr)}};
 }
 
 RangeLog read_range_log_value(const JsonCursor& value) {
-  value.allow_only({"name", "landmarks", "true_landmarks_m", "remarks", "start", "ranges",
-                    "odometry", "truth"});
+  value.allow_only(
+      {"name", "landmarks", "true_landmarks_m", "remarks", "start", "ranges", "odometry", "truth"});
   RangeLog log;
   log.name = value.at("name").text(kLongestName);
   log.landmarks = read_names(value.at("landmarks"));

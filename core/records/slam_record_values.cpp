@@ -40,7 +40,8 @@ std::vector<Eigen::Index> read_rows(const JsonCursor& value, Eigen::Index size) 
   std::vector<Eigen::Index> rows;
   for (const JsonCursor& item : value.elements()) {
     rows.push_back(item.integer(0, size - 1));
-    if (rows.size() > 1 && rows.back() <= rows[rows.size() - 2]) item.fail("expected ascending rows");
+    if (rows.size() > 1 && rows.back() <= rows[rows.size() - 2])
+      item.fail("expected ascending rows");
   }
   return rows;
 }
@@ -77,6 +78,7 @@ void put_estimate(Json& value, const SlamEstimate& estimate) {
   value["iterations"] = estimate.iterations;
   value["cost"] = optional_value(estimate.cost);
   value["singular_values"] = numbers_value(estimate.singular_values);
+  value["noise_level"] = optional_value(estimate.noise_level);
   value["landmarks_m"] = points_value(estimate.landmarks_m);
   value["landmark_cov_m2"] = covariances_value(estimate.landmark_cov_m2);
   value["path"] = path_value(estimate.path);
@@ -88,10 +90,10 @@ SlamEstimate read_estimate(const JsonCursor& value, Eigen::Index landmarks) {
   SlamEstimate estimate;
   estimate.range_scale = value.at("range_scale").number(-kInfinity, kInfinity);
   estimate.condition = read_optional(value.at("condition"));
-  estimate.iterations =
-      value.at("iterations").integer32(0, std::numeric_limits<int>::max());
+  estimate.iterations = value.at("iterations").integer32(0, std::numeric_limits<int>::max());
   estimate.cost = read_optional(value.at("cost"));
   estimate.singular_values = read_finite(value.at("singular_values"));
+  estimate.noise_level = read_optional(value.at("noise_level"));
   estimate.landmarks_m = read_points(value.at("landmarks_m"));
   if (estimate.landmarks_m.rows() != landmarks)
     value.at("landmarks_m").fail("expected a place, or null, for each landmark");
@@ -121,8 +123,8 @@ Json slam_record_value(const SlamRecord& record) {
 
 SlamRecord read_slam_record(const JsonCursor& value, Eigen::Index landmarks) {
   value.allow_only({"method", "statuses", "errors", "range_scale", "condition", "iterations",
-                    "cost", "singular_values", "landmarks_m", "landmark_cov_m2", "path",
-                    "position_cov_rows", "position_cov_m2", "error_m"});
+                    "cost", "singular_values", "noise_level", "landmarks_m", "landmark_cov_m2",
+                    "path", "position_cov_rows", "position_cov_m2", "error_m"});
   SlamRecord record;
   record.method = read_slam_method(value.at("method"));
   record.estimate = read_estimate(value, landmarks);

@@ -37,6 +37,34 @@ std::optional<WindowCurve> read_windows(const JsonCursor& value) {
   return windows;
 }
 
+Json starts_value(const std::vector<RefinementStart>& starts) {
+  Json values = Json::array();
+  for (const RefinementStart& start : starts)
+    values.push_back({{"method", info(start.method).name},
+                      {"number", start.number},
+                      {"cost", optional_value(start.cost)},
+                      {"mean_m", optional_value(start.mean_m)},
+                      {"iterations", start.iterations},
+                      {"converged", start.converged}});
+  return values;
+}
+
+RefinementStart read_start(const JsonCursor& value) {
+  constexpr int kMost = std::numeric_limits<int>::max();
+  value.allow_only({"method", "number", "cost", "mean_m", "iterations", "converged"});
+  return {.method = read_slam_method(value.at("method")),
+          .number = value.at("number").integer32(1, kMost),
+          .cost = value.at("cost").number_or_null(-kInfinity, kInfinity),
+          .mean_m = read_optional(value.at("mean_m")),
+          .iterations = value.at("iterations").integer32(0, kMost),
+          .converged = value.at("converged").boolean()};
+}
+
+/// Empty: the figure has a usual id.
+std::string read_figure(const JsonCursor& value) {
+  return value.text().empty() ? std::string() : read_id(value);
+}
+
 Json point_value(const ConvergencePoint& point) {
   return {{"steps", point.steps},
           {"observation", mean_value(point.observation)},
@@ -88,26 +116,34 @@ std::string slam_run_json(const SlamRun& run) {
   return json_text({{"schema", schema_value("mapproof.slam_run")},
                     {"id", run.id},
                     {"figure", run.figure},
+                    {"simulated", run.simulated},
                     {"log", range_log_value(run.log)},
                     {"known", indices_value(run.known)},
                     {"windows", windows_value(run.windows)},
-                    {"records", std::move(records)}});
+                    {"records", std::move(records)},
+                    {"starts", starts_value(run.starts)},
+                    {"published", published_drive_value(run.published)}});
 }
 
 SlamRun parse_slam_run(std::string_view text, const std::string& source) {
   const JsonDocument document = parse_json(text, source);
   const JsonCursor root = document.cursor();
   expect_schema(root, "mapproof.slam_run");
-  root.allow_only({"schema", "id", "figure", "log", "known", "windows", "records"});
+  root.allow_only({"schema", "id", "figure", "simulated", "log", "known", "windows", "records",
+                   "starts", "published"});
   SlamRun run;
   run.id = read_id(root.at("id"));
-  run.figure = read_id(root.at("figure"));
+  run.figure = read_figure(root.at("figure"));
+  run.simulated = root.at("simulated").boolean();
   run.log = read_range_log_value(root.at("log"));
   const auto landmarks = static_cast<Eigen::Index>(run.log.landmarks.size());
   run.known = read_indices(root.at("known"), landmarks);
   run.windows = read_windows(root.at("windows"));
   for (const JsonCursor& record : root.at("records").elements(0, all_slam_methods().size()))
     run.records.push_back(read_slam_record(record, landmarks));
+  for (const JsonCursor& start : root.at("starts").elements(0, 1000))
+    run.starts.push_back(read_start(start));
+  run.published = read_published_drive(root.at("published"));
   return run;
 }
 
@@ -117,6 +153,7 @@ std::string convergence_json(const ConvergenceCurve& curve) {
   return json_text({{"schema", schema_value("mapproof.slam_convergence")},
                     {"id", curve.id},
                     {"title", curve.title},
+                    {"landmarks", curve.landmarks},
                     {"slope", optional_value(curve.slope)},
                     {"points", std::move(points)}});
 }
@@ -125,9 +162,10 @@ ConvergenceCurve parse_convergence(std::string_view text, const std::string& sou
   const JsonDocument document = parse_json(text, source);
   const JsonCursor root = document.cursor();
   expect_schema(root, "mapproof.slam_convergence");
-  root.allow_only({"schema", "id", "title", "slope", "points"});
+  root.allow_only({"schema", "id", "title", "landmarks", "slope", "points"});
   ConvergenceCurve curve{.id = read_id(root.at("id")),
                          .title = root.at("title").text(200),
+                         .landmarks = root.at("landmarks").integer32(1, kMostLandmarks),
                          .points = {},
                          .slope = root.at("slope").number_or_null(-kInfinity, kInfinity)};
   for (const JsonCursor& point : root.at("points").elements(0, 1000))

@@ -81,11 +81,16 @@ SlamStore SlamStore::open(const fs::path& folder, const SlamExperiment& experime
 
 bool SlamStore::redone() const { return state_->is_redone; }
 
-bool SlamStore::has_run(const std::string& id, const std::string& figure,
-                        const RangeLog& log) const {
+bool SlamStore::has_run(const std::string& id, const RangeLog& log) const {
   return is_whole(state_->files.run(id), [&](const std::string& text, const std::string& source) {
     const SlamRun run = parse_slam_run(text, source);
-    return run.id == id && run.figure == figure && range_log_value(run.log) == range_log_value(log);
+    return run.id == id && range_log_value(run.log) == range_log_value(log);
+  });
+}
+
+bool SlamStore::has_run(const std::string& id) const {
+  return is_whole(state_->files.run(id), [&](const std::string& text, const std::string& source) {
+    return parse_slam_run(text, source).id == id;
   });
 }
 
@@ -117,9 +122,7 @@ void SlamStore::write(const RangeHistoryStudy& histories) {
   write_file(state_->files.histories(), range_histories_json(histories));
 }
 
-void SlamStore::write(std::span<const FactorizationCost> costs) {
-  state_->append(lines_of(costs));
-}
+void SlamStore::write(std::span<const FactorizationCost> costs) { state_->append(lines_of(costs)); }
 
 void SlamStore::write(const Session& session) { state_->append(session_line(session)); }
 

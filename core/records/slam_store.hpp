@@ -30,9 +30,10 @@ class SlamStore {
   /// Whether records of an older solver were removed when the folder was opened.
   bool redone() const;
 
-  /// Whether a part need not be made again; damaged files count as not made. A run counts if it
-  /// was made of the same log under the same figure's id.
-  bool has_run(const std::string& id, const std::string& figure, const RangeLog& log) const;
+  /// Whether a part need not be made again; damaged files count as not made. A run with a
+  /// log counts if it was made of that log.
+  bool has_run(const std::string& id, const RangeLog& log) const;
+  bool has_run(const std::string& id) const;
   bool has_convergence(const std::string& id) const;
   bool has_histories() const;
 

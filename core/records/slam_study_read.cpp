@@ -71,12 +71,14 @@ SlamStudy read_slam_study(const fs::path& folder) {
   SlamStudy study;
   study.name = order.experiment.name;
   study.title = order.experiment.title;
+  study.facts = facts_of(order.experiment);
   study.seed = order.experiment.seed;
   study.provenance = std::move(order.provenance);
   read_runs(files, order.experiment, study);
   read_convergence(files, order.experiment, study);
   if (order.experiment.histories && is_there(files.histories()))
-    study.histories = parse_range_histories(read_file(files.histories()), files.histories().string());
+    study.histories =
+        parse_range_histories(read_file(files.histories()), files.histories().string());
   return study;
 }
 

@@ -18,7 +18,6 @@ using Json = nlohmann::ordered_json;
 namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
-constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 
 }  // namespace
 
@@ -61,6 +60,19 @@ Trajectory read_path(const JsonCursor& value) {
     if (!(path.time_s(i) > path.time_s(i - 1)))
       value.at("time_s").element(static_cast<std::size_t>(i)).fail("expected ascending times");
   return path;
+}
+
+Json published_drive_value(const std::optional<PublishedDrive>& drive) {
+  if (!drive) return nullptr;
+  return {{"length_km", drive->length_km}, {"poses", drive->poses}, {"readings", drive->readings}};
+}
+
+std::optional<PublishedDrive> read_published_drive(const JsonCursor& value) {
+  if (value.is_null()) return std::nullopt;
+  value.allow_only({"length_km", "poses", "readings"});
+  return PublishedDrive{.length_km = value.at("length_km").number(0.0, kInfinity),
+                        .poses = value.at("poses").integer(0, 1'000'000'000),
+                        .readings = value.at("readings").integer(0, 1'000'000'000)};
 }
 
 Json mean_value(const MeanEstimate& mean) {

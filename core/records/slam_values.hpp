@@ -26,6 +26,10 @@ RangeLog read_range_log_value(const JsonCursor& value);
 nlohmann::ordered_json slam_record_value(const SlamRecord& record);
 SlamRecord read_slam_record(const JsonCursor& value, Eigen::Index landmarks);
 
+/// What a paper prints of a drive; null: nothing.
+nlohmann::ordered_json published_drive_value(const std::optional<PublishedDrive>& drive);
+std::optional<PublishedDrive> read_published_drive(const JsonCursor& value);
+
 /// A mean with its interval's half width, null where it has none.
 nlohmann::ordered_json mean_value(const MeanEstimate& mean);
 MeanEstimate read_mean(const JsonCursor& value);

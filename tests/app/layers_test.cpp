@@ -38,7 +38,7 @@ const std::map<std::string, Modules>& allowed() {
       {"core/json", {"core/base"}},
       {"core/records", {"core/model", "core/base", "core/json"}},
       {"core/experiment", with_leaves({"core/simulate", "core/observe", "core/embed", "core/align",
-                                       "core/score", "core/records"})},
+                                       "core/range_slam", "core/score", "core/records"})},
       {"render/base", with_leaves({})},
       {"render/image", with_leaves({"render/base"})},
       {"render/theme", with_leaves({"render/base"})},

@@ -1,0 +1,148 @@
+#include "core/experiment/slam_estimates.hpp"
+
+#include <limits>
+#include <string>
+
+#include "core/base/errors.hpp"
+#include "core/base/random.hpp"
+#include "core/experiment/seeds.hpp"
+#include "core/range_slam/dead_reckoning.hpp"
+#include "core/range_slam/ekf.hpp"
+#include "core/range_slam/refine.hpp"
+#include "core/range_slam/refine_starts.hpp"
+#include "core/range_slam/spectral_slam.hpp"
+#include "core/range_slam/synchronous_slam.hpp"
+
+namespace mapproof {
+namespace {
+
+constexpr Eigen::Index kPosesWithCovariance = 60;  ///< As many ellipses as a figure can show.
+
+SlamEstimate failed(const RangeLog& log, const std::string& why) {
+  SlamEstimate estimate;
+  estimate.path.positions_m.resize(0, 2);
+  estimate.landmarks_m = Points::Constant(static_cast<Eigen::Index>(log.landmarks.size()), 2,
+                                          std::numeric_limits<double>::quiet_NaN());
+  estimate.statuses.push_back({StatusCode::kFailed, why});
+  return estimate;
+}
+
+bool is_spectral(SlamMethod method) {
+  return method == SlamMethod::kSpectral || method == SlamMethod::kSpectral7 ||
+         method == SlamMethod::kSpectralKnown || method == SlamMethod::kSpectralKnown7;
+}
+
+}  // namespace
+
+SlamEstimates::SlamEstimates(const RangeLog& log, const SlamRunOptions& options)
+    : log_(log), options_(options) {}
+
+SlamEstimate SlamEstimates::estimate(SlamMethod method) {
+  try {
+    return solve(method);
+  } catch (const InvalidInput& error) {
+    // Only the data of a log can break what its reader does not check.
+    return failed(log_, error.what());
+  }
+}
+
+SlamEstimate SlamEstimates::refined_from_random(int number) {
+  const std::uint64_t seed =
+      derive_seed(options_.seed, {kSlamStart, static_cast<std::uint64_t>(number)});
+  return refined(random_start(log_, seed), true);
+}
+
+void SlamEstimates::prepare(SlamMethod method) {
+  if (log_.odometry.empty()) return;
+  try {
+    if (is_spectral(method)) window();
+    if (method == SlamMethod::kRefined || method == SlamMethod::kBatchFixedScale) spectral_start();
+    if (method == SlamMethod::kRefinedFromOdometry) odometry_start();
+  } catch (const InvalidInput&) {
+    // Comes again, and is told, when the method itself runs.
+  }
+}
+
+std::optional<WindowCurve> SlamEstimates::windows() const {
+  return window_ ? std::optional(curve_) : std::nullopt;
+}
+
+SlamEstimate SlamEstimates::solve(SlamMethod method) {
+  if (info(method).knows_landmarks && !options_.known)
+    return failed(log_, "No landmark's place is known.");
+  if (log_.odometry.empty() && !is_spectral(method))
+    return failed(log_, "The log has no odometry.");
+  switch (method) {
+    case SlamMethod::kDeadReckoning:
+      return odometry_start();
+    case SlamMethod::kEkf:
+      return ekf(log_);
+    case SlamMethod::kSpectralKnown:
+    case SlamMethod::kSpectralKnown7:
+      return spectral(true, method == SlamMethod::kSpectralKnown7);
+    case SlamMethod::kSpectral:
+    case SlamMethod::kSpectral7:
+      return spectral(false, method == SlamMethod::kSpectral7);
+    case SlamMethod::kBatchFixedScale: {
+      SlamEstimate start = spectral_start();
+      if (start.path.size() == 0) start = odometry_start();
+      start.range_scale = 1.0;
+      return refined(start, false);
+    }
+    case SlamMethod::kRefined:
+      if (spectral_start().path.size() == 0)
+        return failed(log_, "The spectral method gave nothing to start from.");
+      return refined(spectral_start(), true);
+    case SlamMethod::kRefinedFromOdometry:
+      return refined(odometry_start(), true);
+    case SlamMethod::kRefinedFromRandom:
+      return refined_from_random(1);
+  }
+  return failed(log_, "There is no such method.");
+}
+
+SlamEstimate SlamEstimates::spectral(bool with_known, bool with_heading) {
+  const std::optional<KnownLandmarks> known = with_known ? options_.known : std::nullopt;
+  if (!log_.odometry.empty())
+    return spectral_slam(log_, reckoned(),
+                         {.known = known, .with_heading = with_heading, .window = window()})
+        .estimate;
+  if (with_heading) return failed(log_, "The log has no odometry, which headings need.");
+  const auto landmarks = static_cast<Eigen::Index>(log_.landmarks.size());
+  return synchronous_slam(synchronous_ranges(log_.ranges, landmarks), known, options_.noise);
+}
+
+SlamEstimate SlamEstimates::refined(const SlamEstimate& start, bool estimate_scale) const {
+  RefineOptions options;
+  options.estimate_scale = estimate_scale;
+  options.covariances = kPosesWithCovariance;
+  if (options_.ties_refinement) options.known = options_.known;
+  return refine(log_, start, options);
+}
+
+const Trajectory& SlamEstimates::reckoned() {
+  if (!reckoned_) reckoned_ = dead_reckoned(log_);
+  return *reckoned_;
+}
+
+const WindowOptions& SlamEstimates::window() {
+  if (window_) return *window_;
+  const auto landmarks = static_cast<Eigen::Index>(log_.landmarks.size());
+  const WindowSearch search = choose_window(
+      readings_by_landmark(log_.ranges, landmarks, reckoned()), reckoned(), reckoned().time_s);
+  curve_ = summary(search);
+  window_ = search.options;
+  return *window_;
+}
+
+const SlamEstimate& SlamEstimates::spectral_start() {
+  if (!spectral_start_) spectral_start_ = spectral(false, false);
+  return *spectral_start_;
+}
+
+const SlamEstimate& SlamEstimates::odometry_start() {
+  if (!odometry_start_) odometry_start_ = dead_reckoning_start(log_);
+  return *odometry_start_;
+}
+
+}  // namespace mapproof

@@ -1,0 +1,46 @@
+#pragma once
+
+#include <optional>
+
+#include "core/experiment/slam_run.hpp"
+#include "core/range_slam/windowed_ranges.hpp"
+
+namespace mapproof {
+
+/// The methods on one log; what several of them start from is computed once.
+class SlamEstimates {
+ public:
+  /// Both must outlive it.
+  SlamEstimates(const RangeLog& log, const SlamRunOptions& options);
+
+  /// What a method makes of the log, in whatever frame; kFailed where it cannot.
+  SlamEstimate estimate(SlamMethod method);
+
+  /// The refinement from random landmarks, of that number from 1.
+  SlamEstimate refined_from_random(int number);
+
+  /// Makes what a method starts from, so that it is not timed with it.
+  void prepare(SlamMethod method);
+
+  /// The window lengths tried; empty without odometry.
+  std::optional<WindowCurve> windows() const;
+
+ private:
+  SlamEstimate solve(SlamMethod method);
+  SlamEstimate spectral(bool with_known, bool with_heading);
+  SlamEstimate refined(const SlamEstimate& start, bool estimate_scale) const;
+  const Trajectory& reckoned();
+  const WindowOptions& window();
+  const SlamEstimate& spectral_start();
+  const SlamEstimate& odometry_start();
+
+  const RangeLog& log_;
+  const SlamRunOptions& options_;
+  std::optional<Trajectory> reckoned_;
+  std::optional<WindowOptions> window_;
+  WindowCurve curve_;
+  std::optional<SlamEstimate> spectral_start_;
+  std::optional<SlamEstimate> odometry_start_;
+};
+
+}  // namespace mapproof

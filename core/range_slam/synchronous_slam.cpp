@@ -1,0 +1,86 @@
+#include "core/range_slam/synchronous_slam.hpp"
+
+#include <limits>
+
+#include <fmt/format.h>
+
+#include "core/base/errors.hpp"
+#include "core/linalg/planarity.hpp"
+#include "core/range_slam/localise.hpp"
+#include "core/range_slam/metric_upgrade.hpp"
+
+namespace mapproof {
+namespace {
+
+constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
+
+SpectralMap map_of(const Factorization& factors, const std::optional<KnownLandmarks>& known) {
+  return known ? map_from_known_landmarks(factors, *known) : metric_upgrade(factors).map;
+}
+
+}  // namespace
+
+SynchronousRanges synchronous_ranges(const std::vector<RangeReading>& ranges,
+                                     Eigen::Index landmarks) {
+  SynchronousRanges common;
+  std::vector<double> times;
+  std::vector<Eigen::VectorXd> columns;
+  for (std::size_t i = 0; i < ranges.size();) {
+    const double time_s = ranges[i].time_s;
+    Eigen::VectorXd column = Eigen::VectorXd::Constant(landmarks, kNaN);
+    for (; i < ranges.size() && ranges[i].time_s == time_s; ++i) {
+      if (ranges[i].landmark < 0 || ranges[i].landmark >= landmarks)
+        throw InvalidInput("a reading of no landmark");
+      column(ranges[i].landmark) = ranges[i].range_m;
+    }
+    if (column.allFinite()) {
+      times.push_back(time_s);
+      columns.push_back(std::move(column));
+    } else {
+      ++common.incomplete;
+    }
+  }
+  const auto T = static_cast<Eigen::Index>(times.size());
+  common.time_s = Eigen::Map<const Eigen::VectorXd>(times.data(), T);
+  common.ranges_m.resize(landmarks, T);
+  for (Eigen::Index t = 0; t < T; ++t)
+    common.ranges_m.col(t) = columns[static_cast<std::size_t>(t)];
+  return common;
+}
+
+SlamEstimate synchronous_slam(const SynchronousRanges& ranges,
+                              const std::optional<KnownLandmarks>& known, const RangeNoise& noise) {
+  const Eigen::Index N = ranges.ranges_m.rows();
+  const Eigen::Index T = ranges.ranges_m.cols();
+  SlamEstimate estimate;
+  estimate.path.positions_m.resize(0, 2);
+  estimate.landmarks_m = Points::Constant(N, 2, kNaN);
+  if (N < 4 || T < 8) {
+    estimate.statuses.push_back(
+        {StatusCode::kTooFewObservations,
+         fmt::format("{} landmarks, ranged to together at {} times; 4 at 8 are needed.", N, T)});
+    return estimate;
+  }
+  Eigen::MatrixXd Y = half_squared_ranges(ranges.ranges_m, noise);
+  const Factorization factors = factorize(Y, 4);
+  const SpectralMap map = map_of(factors, known);
+  estimate.singular_values = factors.singular_values;
+  estimate.condition = map.condition;
+  estimate.range_scale = map.range_scale;
+  estimate.statuses = factors.statuses;
+  estimate.statuses.insert(estimate.statuses.end(), map.statuses.begin(), map.statuses.end());
+  if (map.empty()) return estimate;
+  const Points landmarks_m = landmarks_of(map.C);
+  if (!(planarity(landmarks_m) > kFlatPlanarity)) {
+    estimate.statuses.push_back(
+        {StatusCode::kDegenerateGeometry, "The landmarks came out on one line: no positions."});
+    return estimate;
+  }
+  Y /= map.range_scale * map.range_scale;
+  estimate.landmarks_m = landmarks_m;
+  estimate.path = {
+      .time_s = ranges.time_s, .positions_m = localise(landmarks_m, Y), .heading_rad = {}};
+  return estimate;
+}
+
+}  // namespace mapproof
