@@ -63,11 +63,24 @@ void apply(const ExperimentChanges& changes, Experiment& experiment) {
                                fmt::format("more than {} runs, with all poses", kMostRuns));
 }
 
+void apply(const ExperimentChanges& changes, SlamExperiment& experiment) {
+  experiment.seed = changes.seed.value_or(experiment.seed);
+  for (const auto& [option, given] :
+       {std::pair("--layouts", changes.layouts), std::pair("--poses", changes.poses)})
+    if (given)
+      throw InvalidInput(std::string(option) + ": the experiment " + experiment.name + " has none");
+}
+
 std::vector<std::string> words_of(const ExperimentChanges& changes, const Experiment& experiment) {
   std::vector<std::string> words = {"--seed", std::to_string(experiment.seed)};
   if (changes.layouts) words.insert(words.end(), {"--layouts", std::to_string(experiment.layouts)});
   if (changes.poses) words.insert(words.end(), {"--poses", std::to_string(experiment.poses)});
   return words;
+}
+
+void add_plaza_option(CLI::App& app, std::optional<std::string>& plaza) {
+  app.add_option("--plaza", plaza, "Folder of the Plaza data, for experiments on them")
+      ->check(CLI::ExistingDirectory);
 }
 
 CLI::Option* add_out_option(CLI::App& app, std::string& out, const std::string& what) {

@@ -10,6 +10,7 @@
 
 #include "app/console.hpp"
 #include "core/model/experiment.hpp"
+#include "core/model/slam_experiment.hpp"
 
 namespace mapproof {
 
@@ -45,8 +46,14 @@ void add_experiment_options(CLI::App& app, ExperimentChanges& changes);
 /// @throws CLI::ValidationError if the experiment becomes too large.
 void apply(const ExperimentChanges& changes, Experiment& experiment);
 
+/// The same of a range-only experiment, which has no layouts and poses.
+void apply(const ExperimentChanges& changes, SlamExperiment& experiment);
+
 /// The options that give the same experiment again.
 std::vector<std::string> words_of(const ExperimentChanges& changes, const Experiment& experiment);
+
+/// Adds --plaza to a verb: the folder of logs that are no part of the program.
+void add_plaza_option(CLI::App& app, std::optional<std::string>& plaza);
 
 /// Adds --out to a verb: a folder, with a name.
 CLI::Option* add_out_option(CLI::App& app, std::string& out, const std::string& what);

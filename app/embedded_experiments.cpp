@@ -1,5 +1,7 @@
 #include "app/embedded_experiments.hpp"
 
+#include <algorithm>
+
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
@@ -12,6 +14,11 @@ std::vector<std::string> experiment_names() {
   std::vector<std::string> names;
   for (const Resource& resource : embedded_experiments())
     names.push_back(std::filesystem::path(resource.name).stem().string());
+  // Names end in the year of their paper.
+  constexpr std::size_t kYear = 4;
+  std::ranges::stable_sort(names, {}, [](const std::string& name) {
+    return name.size() < kYear ? name : name.substr(name.size() - kYear);
+  });
   return names;
 }
 

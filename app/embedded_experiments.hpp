@@ -19,7 +19,7 @@ struct ExperimentText {
   std::string source;
 };
 
-/// The names of the experiments that `reproduce` knows.
+/// The names of the experiments that `reproduce` knows, by the year of their papers.
 std::vector<std::string> experiment_names();
 
 /// The experiment of that name: from DIR/experiments/NAME.json if `templates` holds it, else the

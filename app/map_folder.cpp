@@ -55,17 +55,21 @@ std::string difference(const MapRecord& there, const MapRecord& here) {
 
 }  // namespace
 
-void check_map_folder(const fs::path& folder) {
+void check_result_folder(const fs::path& folder, const char* file, const char* kind) {
   std::error_code error;
   const fs::file_status status = fs::status(folder, error);
   if (status.type() == fs::file_type::not_found) return;
   if (error) throw IoError(folder.string(), error.message());
   if (status.type() != fs::file_type::directory) throw IoError(folder.string(), "is not a folder");
   if (is_study(folder))
-    throw IoError(folder.string(), "holds a study; choose another --out for the map");
-  if (!fs::exists(folder / kMapFile, error) && holds_files(folder))
-    throw IoError(folder.string(), "holds files that are no map; choose another --out");
+    throw IoError(folder.string(),
+                  fmt::format("holds a study; choose another --out for the {}", kind));
+  if (!fs::exists(folder / file, error) && holds_files(folder))
+    throw IoError(folder.string(),
+                  fmt::format("holds files that are no {}; choose another --out", kind));
 }
+
+void check_map_folder(const fs::path& folder) { check_result_folder(folder, kMapFile, "map"); }
 
 void check_same_map(const fs::path& folder, const MapRecord& map) {
   const fs::path file = folder / kMapFile;

@@ -10,6 +10,10 @@ namespace mapproof {
 /// The file that marks a folder as that of a map.
 inline constexpr const char* kMapFile = "map.json";
 
+/// Throws unless the folder is new, empty, or marked by `file` as that of an earlier `kind`.
+/// @throws IoError saying what is in the way.
+void check_result_folder(const std::filesystem::path& folder, const char* file, const char* kind);
+
 /// Throws unless a map may be written there: the folder is new, empty, or holds a map.
 /// @throws IoError saying what is in the way.
 void check_map_folder(const std::filesystem::path& folder);

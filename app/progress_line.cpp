@@ -28,11 +28,11 @@ void ProgressLine::operator()(const Progress& progress) {
 }
 
 std::string progress_text(const Progress& progress, double seconds) {
-  std::string text = fmt::format("{} of {} runs", progress.finished, progress.total);
+  std::string text = fmt::format("{} of {} {}", progress.finished, progress.total, progress.noun);
   const int made = progress.finished - progress.reused;
   if (made < 1 || seconds <= 0.0) return text;
   const double rate = made / seconds;
-  return text + fmt::format(", {:.3g} runs/s, {:.0f} s left", rate,
+  return text + fmt::format(", {:.3g} {}/s, {:.0f} s left", rate, progress.noun,
                             (progress.total - progress.finished) / rate);
 }
 

@@ -11,8 +11,10 @@
 #include "app/build_facts.hpp"
 #include "app/progress_line.hpp"
 #include "app/result_json.hpp"
+#include "app/slam_result.hpp"
 #include "core/base/version.hpp"
 #include "core/experiment/run_experiment.hpp"
+#include "core/records/slam_store.hpp"
 #include "core/records/study_store.hpp"
 #include "reports/sections/method_summary.hpp"
 #include "reports/sections/study_counts.hpp"
@@ -29,6 +31,43 @@ std::optional<double> peak_memory_mib() {
   rusage usage{};
   if (::getrusage(RUSAGE_SELF, &usage) != 0) return std::nullopt;
   return static_cast<double>(usage.ru_maxrss) / 1024.0;  // Linux counts in KiB.
+}
+
+/// When a session began.
+struct Stopwatch {
+  using Clock = std::chrono::steady_clock;
+  Clock::time_point start = Clock::now();
+  std::string started_utc = fmt::format("{:%Y-%m-%dT%H:%M:%SZ}", fmt::gmtime(std::time(nullptr)));
+
+  double seconds() const { return std::chrono::duration<double>(Clock::now() - start).count(); }
+};
+
+/// Makes what a study lacks, with a progress line, and notes the session.
+/// @param run  Takes the function that is told of progress.
+template <typename Store, typename Run>
+void finish(Store& store, const std::filesystem::path& folder, int jobs, const std::string& command,
+            const Console& console, const Stopwatch& watch, Run run) {
+  if (store.redone())
+    console.warning(fmt::format("{}: its records were made by another solver; they are made again",
+                                folder.string()));
+  ProgressLine line(console.shows_progress());
+  Progress last;
+  run([&](const Progress& progress) {
+    last = progress;
+    line(progress);
+  });
+  if (last.reused < last.total)
+    store.write_session({.command = command,
+                         .started_utc = watch.started_utc,
+                         .host = host_name(),
+                         .jobs = jobs,
+                         .seconds = watch.seconds(),
+                         .peak_memory_mib = peak_memory_mib()});
+  console.detail(fmt::format("{}: solver {}, commit {}, {} jobs, {:.2f} s", folder.string(),
+                             solver_digest().substr(0, 12), source_commit(), jobs,
+                             watch.seconds()));
+  console.info(fmt::format("{}: {} {}, {} of them reused", folder.string(), last.total, last.noun,
+                           last.reused));
 }
 
 /// Calls `use` with the best setting of each method and sensor at its last checkpoint.
@@ -53,32 +92,23 @@ nlohmann::ordered_json number(const std::optional<MeanEstimate>& estimate) {
 
 void make_records(const Experiment& experiment, const std::filesystem::path& folder, int jobs,
                   const std::string& command, const Console& console) {
-  using Clock = std::chrono::steady_clock;
-  const Clock::time_point start = Clock::now();
-  const std::string started = fmt::format("{:%Y-%m-%dT%H:%M:%SZ}", fmt::gmtime(std::time(nullptr)));
-
+  const Stopwatch watch;
   StudyStore store = StudyStore::open(folder, experiment, build_provenance());
-  if (store.redone())
-    console.warning(fmt::format("{}: its records were made by another solver; they are made again",
-                                folder.string()));
-  ProgressLine line(console.shows_progress());
-  Progress last;
-  run_experiment(experiment, store, jobs, [&](const Progress& progress) {
-    last = progress;
-    line(progress);
+  finish(store, folder, jobs, command, console, watch,
+         [&](const auto& progress) { run_experiment(experiment, store, jobs, progress); });
+}
+
+void make_slam_records(const SlamExperiment& experiment, const SlamData& data,
+                       const std::filesystem::path& folder, int jobs, const std::string& command,
+                       const Console& console) {
+  const Stopwatch watch;
+  for (const SlamData::Item& item : data.logs)
+    for (const std::string& remark : item.log.remarks)
+      console.detail(item.set.title + ": " + remark);
+  SlamStore store = SlamStore::open(folder, experiment, build_provenance());
+  finish(store, folder, jobs, command, console, watch, [&](const auto& progress) {
+    run_slam_experiment(experiment, data, store, jobs, progress);
   });
-  if (last.reused < last.total)
-    store.write_session({.command = command,
-                         .started_utc = started,
-                         .host = host_name(),
-                         .jobs = jobs,
-                         .seconds = std::chrono::duration<double>(Clock::now() - start).count(),
-                         .peak_memory_mib = peak_memory_mib()});
-  console.detail(fmt::format("{}: solver {}, commit {}, {} jobs, {:.2f} s", folder.string(),
-                             solver_digest().substr(0, 12), source_commit(), jobs,
-                             std::chrono::duration<double>(Clock::now() - start).count()));
-  console.info(
-      fmt::format("{}: {} runs, {} of them reused", folder.string(), last.total, last.reused));
 }
 
 nlohmann::ordered_json study_result(const Study& study) {
@@ -109,6 +139,29 @@ std::string study_text(const Study& study) {
                               result.moe_percent->mean)
                 : std::string("  no map\n");
   });
+  return text;
+}
+
+nlohmann::ordered_json slam_study_result(const SlamStudy& study) {
+  nlohmann::ordered_json object{{"experiment", study.name},
+                                {"seed", study.seed},
+                                {"runs", study.runs.size()},
+                                {"missing", study.missing},
+                                {"results", nlohmann::ordered_json::array()}};
+  for (const SlamRun& run : study.runs)
+    for (const SlamRecord& record : run.records) {
+      nlohmann::ordered_json result{{"run", run.id}, {"method", info(record.method).name}};
+      put_slam_errors(result, record);
+      object["results"].push_back(std::move(result));
+    }
+  return object;
+}
+
+std::string slam_study_text(const SlamStudy& study) {
+  std::string text;
+  for (const SlamRun& run : study.runs)
+    for (const SlamRecord& record : run.records)
+      text += fmt::format("{:<10}  {}\n", run.id, slam_record_text(record));
   return text;
 }
 

@@ -5,7 +5,7 @@
 #include <fmt/ranges.h>
 
 #include "app/commands/verbs.hpp"
-#include "app/study_outputs.hpp"
+#include "app/folder_report.hpp"
 #include "core/base/errors.hpp"
 
 namespace mapproof {
@@ -20,8 +20,9 @@ struct Arguments {
   int jobs = 1;
 };
 
-std::vector<const Figure*> chosen_figures(const Arguments& arguments, const StudyView& view) {
-  std::vector<const Figure*> figures = all_figures(view.figures);
+std::vector<const Figure*> chosen_figures(const Arguments& arguments, const FolderReport& view) {
+  std::vector<const Figure*> figures;
+  for (const Figure& figure : view.figures) figures.push_back(&figure);
   if (arguments.ids.empty()) return figures;
   std::vector<const Figure*> chosen;
   for (const std::string& id : arguments.ids) {
@@ -38,7 +39,7 @@ std::vector<const Figure*> chosen_figures(const Arguments& arguments, const Stud
 }
 
 int render(const Arguments& arguments, const Invocation& invocation) {
-  const StudyView view = view_study(arguments.study);
+  const FolderReport view = read_folder_report(arguments.study, std::nullopt, "");
   const std::vector<const Figure*> figures = chosen_figures(arguments, view);
   const bool paper = arguments.theme == "paper";
   const std::filesystem::path folder = arguments.out.empty()

@@ -3,8 +3,7 @@
 #include <fmt/format.h>
 
 #include "app/commands/verbs.hpp"
-#include "app/study_outputs.hpp"
-#include "core/records/study_store.hpp"
+#include "app/folder_report.hpp"
 
 namespace mapproof {
 namespace {
@@ -15,22 +14,15 @@ struct Arguments {
   int jobs = 1;
 };
 
-/// The command of the session that made the records; its own where none is noted.
-std::string making_command(const Arguments& arguments, const Invocation& invocation) {
-  const std::vector<Session> sessions = read_sessions(arguments.study);
-  return sessions.empty() ? invocation.command : sessions.back().command;
-}
-
 int report(const Arguments& arguments, const Invocation& invocation) {
   const Templates page = load_templates(arguments.templates);
-  const StudyView view = view_study(arguments.study);
-  const std::filesystem::path path =
-      write_report(view, making_command(arguments, invocation), page, arguments.jobs);
-  invocation.console.detail(fmt::format("{}: {} runs, {} figures", arguments.study,
-                                        view.study.runs.size(), all_figures(view.figures).size()));
-  invocation.console.result(path.string() + "\n", {{"study", arguments.study},
-                                                   {"report", path.string()},
-                                                   {"figures", all_figures(view.figures).size()}});
+  const FolderReport view = read_folder_report(arguments.study, std::nullopt, invocation.command);
+  const std::filesystem::path path = write_report(view, page, arguments.jobs);
+  invocation.console.detail(
+      fmt::format("{}: {} runs, {} figures", arguments.study, view.runs, view.figures.size()));
+  invocation.console.result(
+      path.string() + "\n",
+      {{"study", arguments.study}, {"report", path.string()}, {"figures", view.figures.size()}});
   return kDone;
 }
 
@@ -43,7 +35,8 @@ Action report_verb(CLI::App& app) {
       "Examples:\n"
       "  mapproof report out\n"
       "  mapproof report out --templates my-templates\n");
-  app.add_option("DIR", arguments->study, "The study's folder")->required();
+  app.add_option("DIR", arguments->study, "The study's folder, or that of several studies")
+      ->required();
   app.add_option("--templates", arguments->templates,
                  "Folder whose templates replace the embedded ones");
   add_jobs_option(app, arguments->jobs);

@@ -10,6 +10,7 @@ Action run_verb(CLI::App& app);
 Action render_verb(CLI::App& app);
 Action report_verb(CLI::App& app);
 Action map_verb(CLI::App& app);
+Action slam_verb(CLI::App& app);
 Action methods_verb(CLI::App& app);
 Action validate_verb(CLI::App& app);
 

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <functional>
+#include <string_view>
 
 #include "core/model/experiment.hpp"
 #include "core/records/study_store.hpp"
@@ -9,9 +10,10 @@ namespace mapproof {
 
 /// How far an experiment has come.
 struct Progress {
-  int finished = 0;  ///< Runs whose records are on disk, those of earlier sessions among them.
+  int finished = 0;  ///< Those whose records are on disk, those of earlier sessions among them.
   int reused = 0;    ///< Of these, the ones that were there at the start.
   int total = 0;
+  std::string_view noun = "runs";  ///< What is counted.
 };
 
 /// Runs whatever of the experiment the store does not hold yet, `jobs` runs at a time.

@@ -109,7 +109,7 @@ void run_slam_experiment(const SlamExperiment& experiment, const SlamData& data,
                          int jobs, const std::function<void(const Progress&)>& progress) {
   if (jobs < 1) throw InvalidInput("at least one job is needed");
   const Parts parts = parts_of(experiment, data, store);
-  Progress state{.finished = parts.reused, .reused = parts.reused, .total = parts.total};
+  Progress state{.finished = parts.reused, .reused = parts.reused, .total = parts.total, .noun = "parts"};
   progress(state);
 
   std::mutex reporting;

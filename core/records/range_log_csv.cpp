@@ -41,12 +41,25 @@ StartPose read_start(const fs::path& path) {
           .heading_rad = pose.heading_rad(0)};
 }
 
+std::vector<Motion> read_motions(const fs::path& path) {
+  return motions_in(read_columns(path, {kTime, kDistance, kTurn, kSideways}));
+}
+
 /// NAME.csv, and NAME_start.csv if it is there.
 void take_odometry(const fs::path& folder, const std::string& name, RangeLogParts& parts) {
-  parts.odometry =
-      motions_in(read_columns(folder / (name + ".csv"), {kTime, kDistance, kTurn, kSideways}));
+  parts.odometry = read_motions(folder / (name + ".csv"));
   const fs::path start = folder / (name + "_start.csv");
   if (is_there(start)) parts.start = read_start(start);
+}
+
+Trajectory read_truth(const fs::path& path) {
+  CsvColumn heading = kHeading;
+  heading.is_needed = false;
+  return trajectory_in(read_columns(path, {kTime, kX, kY, heading}));
+}
+
+NamedPoints read_true_landmarks(const fs::path& path) {
+  return landmarks_in(read_columns(path, {kX, kY}, &kLandmark));
 }
 
 }  // namespace
@@ -75,14 +88,21 @@ RangeLog read_range_log_csv(const fs::path& folder, const RangeLogOptions& optio
   } else if (has_given) {
     take_odometry(folder, "odometry", parts);
   }
-  if (const fs::path truth = folder / "groundtruth.csv"; is_there(truth)) {
-    CsvColumn heading = kHeading;
-    heading.is_needed = false;
-    parts.truth = trajectory_in(read_columns(truth, {kTime, kX, kY, heading}));
-  }
+  if (const fs::path truth = folder / "groundtruth.csv"; is_there(truth))
+    parts.truth = read_truth(truth);
   if (const fs::path landmarks = folder / "landmarks.csv"; is_there(landmarks))
-    parts.true_landmarks = landmarks_in(read_columns(landmarks, {kX, kY}, &kLandmark));
-  return assemble(std::move(parts));
+    parts.true_landmarks = read_true_landmarks(landmarks);
+  return assemble(std::move(parts), options);
+}
+
+void take_named_files(const RangeLogOptions& options, RangeLogParts& parts) {
+  if (!options.odometry_file.empty()) {
+    parts.odometry = read_motions(options.odometry_file);
+    parts.start.reset();
+  }
+  if (!options.truth_file.empty()) parts.truth = read_truth(options.truth_file);
+  if (!options.landmarks_file.empty())
+    parts.true_landmarks = read_true_landmarks(options.landmarks_file);
 }
 
 }  // namespace mapproof

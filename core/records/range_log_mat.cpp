@@ -79,7 +79,7 @@ RangeLog read_range_log_mat(const std::filesystem::path& path, const RangeLogOpt
   if (const NumberTable* truth = table_of(tables, "GT", 4)) parts.truth = trajectory_in(*truth);
   if (const NumberTable* landmarks = table_of(tables, "TL", 3))
     parts.true_landmarks = landmarks_in(selected(*landmarks, {1, 2}, 0));
-  return assemble(std::move(parts));
+  return assemble(std::move(parts), options);
 }
 
 }  // namespace mapproof

@@ -162,7 +162,8 @@ bool turns_are_the_truths(const std::vector<Motion>& motions, const Trajectory& 
   return largest < 1e-9 && most_turn > 1e-3;
 }
 
-RangeLog assemble(RangeLogParts parts) {
+RangeLog assemble(RangeLogParts parts, const RangeLogOptions& options) {
+  take_named_files(options, parts);
   if (parts.readings.empty()) throw IoError(parts.source, "holds no ranges");
   RangeLog log{.name = parts.name,
                .landmarks = names_of(parts),

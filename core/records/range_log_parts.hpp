@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "core/model/range_log.hpp"
+#include "core/records/range_log_files.hpp"
 #include "core/records/range_tables.hpp"
 
 namespace mapproof {
@@ -24,8 +25,12 @@ struct RangeLogParts {
 /// Puts the landmarks in order (of their numbers if all names end in one, else as they first come),
 /// sorts the readings by time, turns true headings that are off by half a turn, and remarks on all
 /// of it and on what is missing or not to be trusted.
+/// @param options  Whose files stand in for what was gathered.
 /// @throws IoError if there is no reading, or the start is not before the first motion.
-RangeLog assemble(RangeLogParts parts);
+RangeLog assemble(RangeLogParts parts, const RangeLogOptions& options);
+
+/// Reads the files that the options name in place of what was gathered. @throws IoError.
+void take_named_files(const RangeLogOptions& options, RangeLogParts& parts);
 
 /// Whether the turns are the increments of the true heading to the last digit, and turn at all.
 bool turns_are_the_truths(const std::vector<Motion>& motions, const Trajectory& truth);

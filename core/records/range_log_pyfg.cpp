@@ -199,7 +199,7 @@ RangeLog read_range_log_pyfg(const std::filesystem::path& path, const RangeLogOp
                  .x_m = parts.truth->positions_m(0, 0),
                  .y_m = parts.truth->positions_m(0, 1),
                  .heading_rad = parts.truth->heading_rad(0)};
-  return assemble(std::move(parts));
+  return assemble(std::move(parts), options);
 }
 
 }  // namespace mapproof

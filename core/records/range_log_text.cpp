@@ -44,7 +44,7 @@ RangeLog read_range_log_text(const fs::path& stem, const RangeLogOptions& option
         "The odometry is DR as it stands; whether its turns are the robot's own cannot be told "
         "without the truth.");
   }
-  return assemble(std::move(parts));
+  return assemble(std::move(parts), options);
 }
 
 }  // namespace mapproof

@@ -124,7 +124,7 @@ void SlamStore::write(const RangeHistoryStudy& histories) {
 
 void SlamStore::write(std::span<const FactorizationCost> costs) { state_->append(lines_of(costs)); }
 
-void SlamStore::write(const Session& session) { state_->append(session_line(session)); }
+void SlamStore::write_session(const Session& session) { state_->append(session_line(session)); }
 
 void write_paths(const SlamRun& run, const fs::path& folder) {
   if (run.log.truth) write_path(*run.log.truth, folder, "truth");

@@ -44,7 +44,7 @@ class SlamStore {
   void write(const RangeHistoryStudy& histories);
   /// Appends to timings.jsonl. Thread-safe. @throws IoError.
   void write(std::span<const FactorizationCost> costs);
-  void write(const Session& session);
+  void write_session(const Session& session);
 
  private:
   struct State;

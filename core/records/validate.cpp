@@ -17,6 +17,9 @@
 #include "core/records/observation_values.hpp"
 #include "core/records/range_log_files.hpp"
 #include "core/records/run_json.hpp"
+#include "core/records/slam_experiment_json.hpp"
+#include "core/records/slam_run_json.hpp"
+#include "core/records/slam_store.hpp"
 #include "core/records/study_files.hpp"
 #include "core/records/study_store.hpp"
 #include "core/records/timings_jsonl.hpp"
@@ -32,6 +35,12 @@ void check_experiment_file(std::string_view text, const std::string& source) {
   for (const std::string& profile : profiles(text, source)) parse_experiment(text, source, profile);
 }
 
+void check_slam_experiment_file(std::string_view text, const std::string& source) {
+  parse_slam_experiment(text, source);
+  for (const std::string& profile : slam_profiles(text, source))
+    parse_slam_experiment(text, source, profile);
+}
+
 struct KnownSchema {
   std::string_view name;
   void (*check)(std::string_view text, const std::string& source);
@@ -44,7 +53,15 @@ constexpr std::array kSchemas = {
     KnownSchema{"mapproof.maps", [](auto text, auto& source) { parse_maps(text, source); }},
     KnownSchema{"mapproof.observations",
                 [](auto text, auto& source) { parse_observations(text, source, std::nullopt); }},
+    KnownSchema{"mapproof.range_histories",
+                [](auto text, auto& source) { parse_range_histories(text, source); }},
     KnownSchema{"mapproof.run", [](auto text, auto& source) { parse_run(text, source); }},
+    KnownSchema{"mapproof.slam_convergence",
+                [](auto text, auto& source) { parse_convergence(text, source); }},
+    KnownSchema{"mapproof.slam_experiment", check_slam_experiment_file},
+    KnownSchema{"mapproof.slam_run", [](auto text, auto& source) { parse_slam_run(text, source); }},
+    KnownSchema{"mapproof.slam_study",
+                [](auto text, auto& source) { parse_slam_study(text, source); }},
     KnownSchema{"mapproof.study", [](auto text, auto& source) { parse_study(text, source); }},
 };
 
@@ -120,6 +137,10 @@ std::vector<fs::path> our_files(const fs::path& folder) {
 Finding check_study(const fs::path& folder) {
   Finding finding{.path = folder.string(), .kind = "study", .problem = {}};
   try {
+    if (is_slam_study(folder)) {
+      read_slam_study(folder);
+      return finding;
+    }
     for (const Run& run : read_study(folder).runs) {
       const std::size_t maps = read_maps(folder, run.id).size();
       if (maps > run.records.size())
@@ -133,11 +154,26 @@ Finding check_study(const fs::path& folder) {
   return finding;
 }
 
+/// The studies right below a folder that holds none itself.
+std::vector<fs::path> studies_below(const fs::path& folder) {
+  std::vector<fs::path> studies;
+  std::error_code error;
+  if (is_study(folder)) return studies;
+  for (fs::directory_iterator entry(folder, error), end; !error && entry != end;
+       entry.increment(error))
+    if (is_study(entry->path())) studies.push_back(entry->path());
+  std::ranges::sort(studies);
+  return studies;
+}
+
 std::vector<Finding> check_folder(const fs::path& folder, const ForeignReader& foreign) {
   std::vector<Finding> findings;
   std::error_code error;
   if (is_study(folder)) findings.push_back(check_study(folder));
-  if (is_study(folder) || fs::is_regular_file(folder / "map.json", error)) {
+  const std::vector<fs::path> studies = studies_below(folder);
+  for (const fs::path& study : studies) findings.push_back(check_study(study));
+  if (is_study(folder) || !studies.empty() || fs::is_regular_file(folder / "map.json", error) ||
+      fs::is_regular_file(folder / "slam.json", error)) {
     for (const fs::path& path : our_files(folder)) {
       findings.push_back(check(path, foreign));
       if (is_leftover(path))

@@ -1,0 +1,114 @@
+#include "app/folder_report.hpp"
+
+#include <iterator>
+#include <system_error>
+#include <utility>
+
+#include <tbb/global_control.h>
+#include <tbb/parallel_for_each.h>
+
+#include "app/embedded_experiments.hpp"
+#include "app/slam_outputs.hpp"
+#include "app/study_outputs.hpp"
+#include "core/base/errors.hpp"
+#include "core/base/files.hpp"
+#include "core/records/slam_store.hpp"
+#include "core/records/study_store.hpp"
+#include "render/output/write_figure.hpp"
+#include "reports/html/report_html.hpp"
+#include "reports/tables/write_tables.hpp"
+
+namespace mapproof {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// What the reader of several papers' results sees first.
+Section contents_section(const std::vector<FolderReport>& parts) {
+  Section section{"papers", "Papers", {}};
+  BulletList papers;
+  for (const FolderReport& part : parts) {
+    for (const std::string& missing : part.missing)
+      section.blocks.emplace_back(
+          Callout{Callout::Tone::kWarning, "Data are missing", {{{missing, Emphasis::kPlain}}}});
+    papers.items.push_back({{{part.report.title, Emphasis::kStrong},
+                             {". " + part.report.subtitle + ".", Emphasis::kPlain}}});
+  }
+  section.blocks.emplace_back(std::move(papers));
+  return section;
+}
+
+}  // namespace
+
+std::vector<fs::path> study_folders(const fs::path& folder) {
+  std::vector<fs::path> found;
+  for (const std::string& name : experiment_names())
+    if (is_study(folder / name)) found.push_back(folder / name);
+  return found;
+}
+
+FolderReport read_folder_report(const fs::path& folder, const std::optional<std::string>& command,
+                                const std::string& fallback) {
+  if (!is_study(folder)) {
+    const std::vector<fs::path> studies = study_folders(folder);
+    if (!studies.empty()) {
+      std::vector<FolderReport> parts;
+      for (const fs::path& study : studies)
+        parts.push_back(read_folder_report(study, command, fallback));
+      return joined(folder, std::move(parts));
+    }
+  }
+  std::string made_by = command.value_or("");
+  if (made_by.empty()) {
+    const std::vector<Session> sessions = read_sessions(folder);
+    made_by = sessions.empty() ? fallback : sessions.back().command;
+  }
+  return is_slam_study(folder) ? slam_folder_report(folder, made_by)
+                               : study_folder_report(view_study(folder), made_by);
+}
+
+FolderReport joined(const fs::path& folder, std::vector<FolderReport> parts) {
+  FolderReport all{.folder = folder, .report = {}, .figures = {}, .runs = 0, .missing = {}};
+  all.report.title = "Maps from what a robot observed";
+  all.report.subtitle = "Two papers, made again";
+  all.report.sections.push_back(contents_section(parts));
+  for (FolderReport& part : parts) {
+    all.runs += part.runs;
+    std::ranges::move(part.figures, std::back_inserter(all.figures));
+    std::ranges::move(part.missing, std::back_inserter(all.missing));
+    std::ranges::move(part.report.sections, std::back_inserter(all.report.sections));
+    all.report.footer = part.report.footer;
+  }
+  check(all.report);
+  return all;
+}
+
+std::map<std::string, std::string> write_figures(const std::vector<const Figure*>& figures,
+                                                 const Theme& theme, const fs::path& folder,
+                                                 int jobs) {
+  const tbb::global_control limit(tbb::global_control::max_allowed_parallelism,
+                                  static_cast<std::size_t>(jobs));
+  std::map<std::string, std::string> drawings;
+  for (const Figure* figure : figures) drawings[figure->id];  // None is inserted in parallel.
+  tbb::parallel_for_each(figures, [&](const Figure* figure) {
+    drawings.at(figure->id) = write_figure(*figure, theme, folder);
+  });
+  return drawings;
+}
+
+fs::path write_report(const FolderReport& report, const Templates& page, int jobs) {
+  std::vector<const Figure*> figures;
+  for (const Figure& figure : report.figures) figures.push_back(&figure);
+  const std::map<std::string, std::string> drawings =
+      write_figures(figures, report_theme(), report.folder / "figures", jobs);
+  write_tables(report.report, report.folder / "tables");
+  const auto drawing = [&](const std::string& id) {
+    const auto found = drawings.find(id);
+    return found == drawings.end() ? std::string() : found->second;
+  };
+  const fs::path path = report.folder / "report.html";
+  write_file(path, report_html(report.report, page, drawing));
+  return path;
+}
+
+}  // namespace mapproof

@@ -1,0 +1,20 @@
+#pragma once
+
+#include <filesystem>
+#include <string>
+
+#include "app/folder_report.hpp"
+#include "core/model/slam_study.hpp"
+
+namespace mapproof {
+
+/// A range-only study's report with its figures.
+/// @param command  The one that makes the study again. @throws IoError.
+FolderReport slam_folder_report(const std::filesystem::path& folder, const std::string& command);
+
+/// The same of a study that is at hand.
+FolderReport slam_folder_report(const std::filesystem::path& folder, const SlamStudy& study,
+                                const SlamTimings& timings, std::span<const Session> sessions,
+                                const std::string& command);
+
+}  // namespace mapproof

@@ -1,0 +1,37 @@
+#include "app/slam_result.hpp"
+
+#include <fmt/format.h>
+
+#include "app/result_json.hpp"
+
+namespace mapproof {
+
+void put_slam_errors(nlohmann::ordered_json& result, const SlamRecord& record) {
+  result["range_scale"] = number_or_null(record.estimate.range_scale);
+  result["errors"] = nlohmann::ordered_json::array();
+  for (const TrajectoryError& error : record.errors)
+    result["errors"].push_back(
+        {{"alignment", name(error.alignment)},
+         {"mean_m", number_or_null(error.mean_m)},
+         {"rmse_m", number_or_null(error.rmse_m)},
+         {"landmarks_m", error.landmarks_m ? number_or_null(*error.landmarks_m)
+                                           : nlohmann::ordered_json(nullptr)}});
+  result["statuses"] = nlohmann::ordered_json::array();
+  for (const Status& status : record.estimate.statuses)
+    result["statuses"].push_back({{"code", name(status.code)}, {"detail", status.detail}});
+}
+
+std::string slam_record_text(const SlamRecord& record) {
+  const std::string method = fmt::format("{:<30}", info(record.method).label);
+  if (record.estimate.path.size() == 0)
+    return method + "  no path" +
+           (record.estimate.statuses.empty() ? "" : ": " + record.estimate.statuses.back().detail);
+  if (record.errors.empty())
+    return method +
+           fmt::format("  {} poses, no truth to hold them against", record.estimate.path.size());
+  const TrajectoryError& error = record.errors.front();
+  return method +
+         fmt::format("  mean error {:.3f} m, alignment {}", error.mean_m, name(error.alignment));
+}
+
+}  // namespace mapproof
