@@ -96,7 +96,9 @@ SlamData read_slam_data(const SlamExperiment& experiment, const std::optional<fs
         tried.push_back(file);
         continue;
       }
-      data.logs.push_back({.set = set, .log = read_range_log(*folder / file, {.name = set.title})});
+      RangeLogOptions options;
+      options.name = set.title;
+      data.logs.push_back({.set = set, .log = read_range_log(*folder / file, options)});
       break;
     }
   if (data.logs.empty())
@@ -109,7 +111,8 @@ void run_slam_experiment(const SlamExperiment& experiment, const SlamData& data,
                          int jobs, const std::function<void(const Progress&)>& progress) {
   if (jobs < 1) throw InvalidInput("at least one job is needed");
   const Parts parts = parts_of(experiment, data, store);
-  Progress state{.finished = parts.reused, .reused = parts.reused, .total = parts.total, .noun = "parts"};
+  Progress state{
+      .finished = parts.reused, .reused = parts.reused, .total = parts.total, .noun = "parts"};
   progress(state);
 
   std::mutex reporting;

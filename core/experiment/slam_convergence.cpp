@@ -63,11 +63,12 @@ ConvergenceCurve make_convergence(const SlamExperiment& experiment, const RangeN
   tbb::parallel_for(std::size_t{0}, pairs.size(), [&](std::size_t pair) {
     RangeWorld world =
         simulate_range_world(options, derive_seed(experiment.seed, {kSlamPair, pair}));
-    pairs[pair] = model_errors({.landmarks_m = std::move(world.landmarks_m),
-                                .positions_m = std::move(world.positions_m),
-                                .ranges_m = std::move(world.ranges_m),
-                                .noise = range_noise(noise)},
-                               experiment.world.known, steps);
+    pairs[pair] = model_errors(
+        {.landmarks_m = std::move(world.landmarks_m),
+         .positions_m = std::move(world.positions_m),
+         .ranges_m = std::move(world.ranges_m),
+         .noise = range_noise(noise)},
+        steps, {.known = experiment.world.known, .subtract_variances = !noise.plain_svd});
   });
 
   ConvergenceCurve curve{.id = noise.id,

@@ -76,7 +76,7 @@ SlamEstimate SlamEstimates::solve(SlamMethod method) {
     case SlamMethod::kDeadReckoning:
       return odometry_start();
     case SlamMethod::kEkf:
-      return ekf(log_);
+      return filtered();
     case SlamMethod::kSpectralKnown:
     case SlamMethod::kSpectralKnown7:
       return spectral(true, method == SlamMethod::kSpectralKnown7);
@@ -110,6 +110,13 @@ SlamEstimate SlamEstimates::spectral(bool with_known, bool with_heading) {
   if (with_heading) return failed(log_, "The log has no odometry, which headings need.");
   const auto landmarks = static_cast<Eigen::Index>(log_.landmarks.size());
   return synchronous_slam(synchronous_ranges(log_.ranges, landmarks), known, options_.noise);
+}
+
+SlamEstimate SlamEstimates::filtered() const {
+  EkfOptions options;
+  options.covariances = kPosesWithCovariance;
+  if (options_.ties_refinement) options.known = options_.known;
+  return ekf_slam(log_, options);
 }
 
 SlamEstimate SlamEstimates::refined(const SlamEstimate& start, bool estimate_scale) const {

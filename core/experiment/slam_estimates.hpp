@@ -28,6 +28,7 @@ class SlamEstimates {
  private:
   SlamEstimate solve(SlamMethod method);
   SlamEstimate spectral(bool with_known, bool with_heading);
+  SlamEstimate filtered() const;
   SlamEstimate refined(const SlamEstimate& start, bool estimate_scale) const;
   const Trajectory& reckoned();
   const WindowOptions& window();

@@ -54,7 +54,7 @@ SlamRun make_example(const SlamExperiment& experiment, std::vector<SlamTiming>& 
                                                experiment.world.landmarks, example.steps),
                            derive_seed(experiment.seed, {kSlamExample}));
   SlamRunOptions options{.methods = {SlamMethod::kSpectralKnown, SlamMethod::kSpectral},
-                         .known = KnownLandmarks{},
+                         .known = KnownLandmarks{.rows = {}, .positions_m = {}},
                          .noise = range_noise(example.noise)};
   for (Eigen::Index n = 0; n < experiment.world.known; ++n) options.known->rows.push_back(n);
   options.known->positions_m = world.landmarks_m.topRows(experiment.world.known);
@@ -68,11 +68,13 @@ SlamRun make_example(const SlamExperiment& experiment, std::vector<SlamTiming>& 
 std::vector<FactorizationCost> time_factorization(const SlamExperiment& experiment) {
   using Clock = std::chrono::steady_clock;
   std::vector<FactorizationCost> costs;
+  RangeNoiseModel noise;
+  noise.share = 0.01;
   for (const int landmarks : experiment.factorization.landmarks)
     for (const int steps : experiment.factorization.steps) {
-      const RangeWorld world = simulate_range_world(
-          range_world_options(experiment.world, {.share = 0.01}, landmarks, steps),
-          derive_seed(experiment.seed, {kSlamCost}));
+      const RangeWorld world =
+          simulate_range_world(range_world_options(experiment.world, noise, landmarks, steps),
+                               derive_seed(experiment.seed, {kSlamCost}));
       const Eigen::MatrixXd Y = half_squared_ranges(world.ranges_m);
       const Clock::time_point start = Clock::now();
       metric_upgrade(factorize(Y, 4));

@@ -18,6 +18,7 @@ struct RangeNoiseModel {
   double noise_m = 0;      ///< Standard deviation, m.
   double share = 0;        ///< The same as a share of the range; both add as variances.
   double correlation = 0;  ///< Of errors to one landmark one step apart, in [0, 1).
+  bool plain_svd = false;  ///< What noise adds to the Gram matrix is left in, as the paper has it.
 };
 
 /// Random worlds of points that are ranged to at every step [boots2013, Figure 1]. What the paper

@@ -62,9 +62,12 @@ SlamEstimate synchronous_slam(const SynchronousRanges& ranges,
     return estimate;
   }
   Eigen::MatrixXd Y = half_squared_ranges(ranges.ranges_m, noise);
-  const Factorization factors = factorize(Y, 4);
+  const Factorization factors = noise.sigma_m > 0.0 || noise.share > 0.0
+                                    ? factorize_without_noise(Y, half_square_variances(Y, noise), 4)
+                                    : factorize(Y, 4);
   const SpectralMap map = map_of(factors, known);
   estimate.singular_values = factors.singular_values;
+  if (N > 4) estimate.noise_level = factors.noise_floor;
   estimate.condition = map.condition;
   estimate.range_scale = map.range_scale;
   estimate.statuses = factors.statuses;

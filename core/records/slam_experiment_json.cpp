@@ -16,7 +16,8 @@ Json noise_value(const RangeNoiseModel& noise) {
           {"title", noise.title},
           {"noise_m", noise.noise_m},
           {"share", noise.share},
-          {"correlation", noise.correlation}};
+          {"correlation", noise.correlation},
+          {"plain_svd", noise.plain_svd}};
 }
 
 Json convergence_value(const ConvergenceOptions& convergence) {

@@ -22,7 +22,7 @@ std::vector<int> read_sizes(const JsonCursor& array, int least, int most) {
 }
 
 RangeNoiseModel read_noise(const JsonCursor& object) {
-  object.allow_only({"id", "title", "noise_m", "share", "correlation"});
+  object.allow_only({"id", "title", "noise_m", "share", "correlation", "plain_svd"});
   RangeNoiseModel noise;
   noise.id = read_id(object.at("id"));
   noise.title = noise.id;
@@ -30,6 +30,7 @@ RangeNoiseModel read_noise(const JsonCursor& object) {
   read_if_there(object, "noise_m", 0.0, kLargest_m, noise.noise_m);
   read_if_there(object, "share", 0.0, 1.0, noise.share);
   read_if_there(object, "correlation", 0.0, 0.999, noise.correlation);
+  if (const auto plain = object.find("plain_svd")) noise.plain_svd = plain->boolean();
   return noise;
 }
 
