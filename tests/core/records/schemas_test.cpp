@@ -15,8 +15,12 @@
 #include "core/records/experiment_json.hpp"
 #include "core/records/map_files.hpp"
 #include "core/records/observations.hpp"
+#include "core/records/slam_experiment_json.hpp"
+#include "core/records/slam_run_json.hpp"
+#include "core/records/timings_jsonl.hpp"
 #include "core/records/validate.hpp"
 #include "tests/core/records/samples.hpp"
+#include "tests/core/records/slam_samples.hpp"
 
 namespace mapproof {
 namespace {
@@ -92,6 +96,7 @@ TEST(Schemas, HoldForEveryExperimentInTheTemplatesAndTheirProfiles) {
        {fs::path(MAPPROOF_SOURCE_DIR) / "templates/experiments", test::data_file("experiments")})
     for (const auto& entry : fs::directory_iterator(folder)) {
       const std::string text = read_file(entry.path());
+      if (is_slam_experiment(text, entry.path().string())) continue;
       EXPECT_EQ(schema_problem("experiment", json::parse(text)), "") << entry.path();
       for (const std::string& profile : profiles(text, entry.path().string())) {
         const Experiment experiment = parse_experiment(text, entry.path().string(), profile);
@@ -103,11 +108,41 @@ TEST(Schemas, HoldForEveryExperimentInTheTemplatesAndTheirProfiles) {
   EXPECT_GE(count, 2);
 }
 
+TEST(Schemas, HoldForTheRangeOnlyExperimentAndItsProfiles) {
+  const fs::path path = fs::path(MAPPROOF_SOURCE_DIR) / "templates/experiments/boots2013.json";
+  const std::string text = read_file(path);
+  EXPECT_EQ(schema_problem("slam_experiment", json::parse(text)), "");
+  for (const std::string& profile : slam_profiles(text, path.string())) {
+    const std::string whole =
+        slam_experiment_json(parse_slam_experiment(text, path.string(), profile));
+    EXPECT_EQ(schema_problem("slam_experiment", json::parse(whole)), "") << profile;
+  }
+}
+
+TEST(Schemas, HoldForEveryFileOfARangeOnlyStudy) {
+  const SlamExperiment experiment = test::small_slam_experiment();
+  for (const std::string& text :
+       {slam_run_json(test::made_up_slam_run("drive")),
+        convergence_json(test::made_up_convergence("white")),
+        range_histories_json(test::made_up_histories()), slam_experiment_json(experiment),
+        slam_study_json(experiment, test::made_up_provenance())}) {
+    const json value = json::parse(text);
+    EXPECT_EQ(schema_problem(kind_of(value), value), "") << kind_of(value);
+  }
+  const SlamTiming timing{.run = "drive", .method = SlamMethod::kRefined, .seconds = 0.5};
+  EXPECT_EQ(schema_problem("timing", json::parse(timing_line(timing))), "");
+  const FactorizationCost cost{.landmarks = 4, .steps = 20, .seconds = 0.001};
+  EXPECT_EQ(schema_problem("timing", json::parse(timing_line(cost))), "");
+}
+
 TEST(Schemas, KnowEveryMethodAndStatus) {
   const json definitions = schema_file("values.schema.json").at("definitions");
   std::vector<std::string> methods;
   for (const MethodInfo& method : all_methods()) methods.emplace_back(method.name);
   EXPECT_EQ(definitions.at("method").at("enum"), methods);
+  std::vector<std::string> slam_methods;
+  for (const SlamMethodInfo& method : all_slam_methods()) slam_methods.emplace_back(method.name);
+  EXPECT_EQ(definitions.at("slam_method").at("enum"), slam_methods);
   const json experiment = schema_file("experiment.schema.json");
   const json& grids = experiment.at("definitions").at("methods").at("properties");
   EXPECT_EQ(grids.size(), methods.size());
@@ -133,6 +168,13 @@ class Damaged : public ::testing::TestWithParam<Damage> {
   json sound(const std::string& kind) const {
     if (kind == "experiment") return read("experiments/small.json");
     if (kind == "map") return read("maps/map.json");
+    if (kind == "slam_experiment")
+      return json::parse(slam_experiment_json(test::small_slam_experiment()));
+    if (kind == "slam_run") return json::parse(slam_run_json(test::made_up_slam_run("drive")));
+    if (kind == "slam_convergence")
+      return json::parse(convergence_json(test::made_up_convergence("white")));
+    if (kind == "range_histories")
+      return json::parse(range_histories_json(test::made_up_histories()));
     if (kind == "observations") return read("observations/observations.json");
     StudyStore::open(folder_.path(), test::small_experiment(), test::made_up_provenance())
         .write(test::made_up_result({1, 1}));
@@ -201,7 +243,24 @@ INSTANTIATE_TEST_SUITE_P(
         Damage{"maps", "/maps/0/estimate", nullptr}, Damage{"maps", "/maps/0/frame", "lies"},
         Damage{"map", "/names", {"a", "a"}}, Damage{"map", "/truth_m", nullptr},
         Damage{"map", "/step", -1}, Damage{"map", "/estimate/0", {1, 2, 3}},
-        Damage{"observations", "/sensor", "sonar"},
+        Damage{"slam_experiment", "/colour", "red"}, Damage{"slam_experiment", "/methods", nullptr},
+        Damage{"slam_experiment", "/methods/0", "magic"},
+        Damage{"slam_experiment", "/world/landmarks", 3},
+        Damage{"slam_experiment", "/convergence/noises/0/correlation", 1},
+        Damage{"slam_experiment", "/data/0/id", "A b"},
+        Damage{"slam_experiment", "/histories/methods/0", "magic"},
+        Damage{"slam_run", "/log/truth/x_m", nullptr}, Damage{"slam_run", "/log/start", {1}},
+        Damage{"slam_run", "/log/ranges/landmark/0", -1},
+        Damage{"slam_run", "/records/0/method", "magic"},
+        Damage{"slam_run", "/records/0/errors/0/alignment", "some"},
+        Damage{"slam_run", "/records/0/errors/0/mean_m", -1},
+        Damage{"slam_run", "/records/0/landmark_cov_m2/0", {1, 2}},
+        Damage{"slam_run", "/records/0/statuses/0/code", "tired"},
+        Damage{"slam_run", "/windows/chosen_s", "long"}, Damage{"slam_run", "/starts/0/number", 0},
+        Damage{"slam_convergence", "/points/0/steps", 0},
+        Damage{"slam_convergence", "/points/0/sine/mean", "x"},
+        Damage{"range_histories", "/maps/0/K", nullptr},
+        Damage{"range_histories", "/maps/1/squared", 1}, Damage{"observations", "/sensor", "sonar"},
         Damage{"observations", "/landmarks", json::array()},
         Damage{"observations", "/values/0/0", "1"},
         Damage{"observations", "/values/0", json::array()}));

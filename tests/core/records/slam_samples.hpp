@@ -1,0 +1,18 @@
+#pragma once
+
+#include "core/model/slam_experiment.hpp"
+#include "core/model/slam_study.hpp"
+
+namespace mapproof::test {
+
+/// A run with something in every field; what is not known is missing in one place or another.
+SlamRun made_up_slam_run(const std::string& id);
+
+ConvergenceCurve made_up_convergence(const std::string& id);
+
+RangeHistoryStudy made_up_histories();
+
+/// One example, one noise model, one data set "drive".
+SlamExperiment small_slam_experiment();
+
+}  // namespace mapproof::test

@@ -1,0 +1,152 @@
+#include "core/records/slam_store.hpp"
+
+#include <cmath>
+
+#include <gtest/gtest.h>
+
+#include "core/base/errors.hpp"
+#include "core/base/files.hpp"
+#include "core/records/slam_experiment_json.hpp"
+#include "core/records/slam_run_json.hpp"
+#include "core/records/study_store.hpp"
+#include "core/records/validate.hpp"
+#include "tests/core/records/samples.hpp"
+#include "tests/core/records/slam_samples.hpp"
+
+namespace mapproof {
+namespace {
+
+namespace fs = std::filesystem;
+
+SlamStore filled(const fs::path& folder, const Provenance& provenance) {
+  SlamStore store = SlamStore::open(folder, test::small_slam_experiment(), provenance);
+  const std::vector<SlamTiming> timings = {
+      {.run = "drive", .method = SlamMethod::kRefined, .seconds = 1.0},
+      {.run = "drive", .method = SlamMethod::kRefined, .seconds = 0.5}};
+  store.write(test::made_up_slam_run("drive"), timings);
+  store.write(test::made_up_convergence("white"));
+  store.write(test::made_up_histories());
+  const std::vector<FactorizationCost> costs = {{.landmarks = 4, .steps = 20, .seconds = 0.001}};
+  store.write(costs);
+  return store;
+}
+
+TEST(SlamStudy, IsReadBackAsItWasWritten) {
+  const test::TemporaryFolder folder;
+  { filled(folder.path(), test::made_up_provenance()); }
+  const SlamStudy study = read_slam_study(folder.path());
+  EXPECT_EQ(study.name, "small");
+  ASSERT_EQ(study.runs.size(), 1U);
+  EXPECT_EQ(slam_run_json(study.runs[0]), slam_run_json(test::made_up_slam_run("drive")));
+  EXPECT_EQ(study.runs[0].records[0].error_m[1], 0.2);
+  EXPECT_TRUE(std::isnan(study.runs[0].records[0].error_m[2]));
+  EXPECT_EQ(study.runs[0].records[0].estimate.landmark_cov_m2[2](0, 1), 0.5);
+  EXPECT_FALSE(study.runs[0].log.true_landmarks->row(1).allFinite());
+  ASSERT_EQ(study.convergence.size(), 1U);
+  EXPECT_EQ(convergence_json(study.convergence[0]),
+            convergence_json(test::made_up_convergence("white")));
+  ASSERT_TRUE(study.histories);
+  EXPECT_EQ(range_histories_json(*study.histories),
+            range_histories_json(test::made_up_histories()));
+  EXPECT_TRUE(study.missing.empty());
+  EXPECT_TRUE(is_slam_study(folder.path()));
+}
+
+TEST(SlamStudy, TakesTheLaterOfTwoTimings) {
+  const test::TemporaryFolder folder;
+  { filled(folder.path(), test::made_up_provenance()); }
+  const SlamTimings timings = read_slam_timings(folder.path());
+  ASSERT_EQ(timings.methods.size(), 1U);
+  EXPECT_EQ(timings.methods[0].seconds, 0.5);
+  ASSERT_EQ(timings.factorization.size(), 1U);
+  EXPECT_EQ(timings.factorization[0].steps, 20);
+}
+
+TEST(SlamStudy, NamesTheDataThatAreMissingAndHowToGetThem) {
+  const test::TemporaryFolder folder;
+  { SlamStore::open(folder.path(), test::small_slam_experiment(), test::made_up_provenance()); }
+  EXPECT_EQ(read_slam_study(folder.path()).missing,
+            std::vector<std::string>{"A drive is missing. Ask for it."});
+}
+
+TEST(SlamStudy, KnowsWhatItHoldsAndWhatIsDamagedOrOfAnotherLog) {
+  const test::TemporaryFolder folder;
+  const SlamStore store = filled(folder.path(), test::made_up_provenance());
+  const SlamRun run = test::made_up_slam_run("drive");
+  EXPECT_TRUE(store.has_run("drive", run.log));
+  EXPECT_TRUE(store.has_convergence("white"));
+  EXPECT_TRUE(store.has_histories());
+  EXPECT_FALSE(store.has_run("simulation"));
+  EXPECT_FALSE(store.has_convergence("correlated"));
+  RangeLog other = run.log;
+  other.ranges[0].range_m += 1e-9;
+  EXPECT_FALSE(store.has_run("drive", other));
+  fs::resize_file(folder / "runs/drive.json", 1000);
+  EXPECT_FALSE(store.has_run("drive", run.log));
+}
+
+TEST(SlamStudy, WritesEachPathAsTumAndCsv) {
+  const test::TemporaryFolder folder;
+  { filled(folder.path(), test::made_up_provenance()); }
+  for (const char* file : {"truth.tum", "truth.csv", "refined.tum", "refined.csv"})
+    EXPECT_TRUE(fs::exists(folder / "paths/drive" / file)) << file;
+  EXPECT_FALSE(fs::exists(folder / "paths/drive/ekf.csv"));
+  EXPECT_TRUE(
+      read_file(folder / "paths/drive/refined.csv").starts_with("time_s,x_m,y_m,heading_rad"));
+}
+
+TEST(SlamStudy, OfAnotherExperimentOrAnotherKindIsRefusedAndKept) {
+  const test::TemporaryFolder folder;
+  { filled(folder.path(), test::made_up_provenance()); }
+  SlamExperiment other = test::small_slam_experiment();
+  other.seed = 8;
+  EXPECT_THROW(SlamStore::open(folder.path(), other, test::made_up_provenance()), IoError);
+  EXPECT_THROW(
+      StudyStore::open(folder.path(), test::small_experiment(), test::made_up_provenance()),
+      IoError);
+  EXPECT_TRUE(fs::exists(folder / "runs/drive.json"));
+  const test::TemporaryFolder mapping;
+  { StudyStore::open(mapping.path(), test::small_experiment(), test::made_up_provenance()); }
+  EXPECT_THROW(SlamStore::open(mapping.path(), other, test::made_up_provenance()), IoError);
+  EXPECT_FALSE(is_slam_study(mapping.path()));
+}
+
+TEST(SlamStudy, OfAnotherSolverIsMadeAgain) {
+  const test::TemporaryFolder folder;
+  { filled(folder.path(), test::made_up_provenance()); }
+  Provenance newer = test::made_up_provenance();
+  newer.solver_digest = "another";
+  const SlamStore store = SlamStore::open(folder.path(), test::small_slam_experiment(), newer);
+  EXPECT_TRUE(store.redone());
+  EXPECT_FALSE(fs::exists(folder / "runs/drive.json"));
+  EXPECT_FALSE(fs::exists(folder / "histories.json"));
+}
+
+TEST(SlamStudy, IsValidAndEachDamagedFileOfItIsNamed) {
+  const test::TemporaryFolder folder;
+  { filled(folder.path(), test::made_up_provenance()); }
+  for (const Finding& finding : validate(folder.path())) EXPECT_EQ(finding.problem, "");
+  for (const char* file : {"runs/drive.json", "convergence/white.json", "histories.json"}) {
+    const std::string whole = read_file(folder / file);
+    write_file(folder / file, whole.substr(0, whole.size() / 2));
+    const Finding study = validate(folder.path()).at(0);
+    EXPECT_NE(study.problem.find(file), std::string::npos) << study.problem;
+    write_file(folder / file, whole);
+  }
+}
+
+TEST(SlamExperiment, IsReadBackAsItWasWritten) {
+  const std::string text = slam_experiment_json(test::small_slam_experiment());
+  EXPECT_EQ(slam_experiment_json(parse_slam_experiment(text, "e.json")), text);
+}
+
+TEST(SlamExperiment, ProfilesReplaceWhatTheyName) {
+  const std::string text = R"({"schema": {"name": "mapproof.slam_experiment", "version": 1},
+    "name": "x", "methods": ["ekf"], "seed": 1, "profiles": {"quick": {"seed": 2}}})";
+  EXPECT_EQ(parse_slam_experiment(text, "e.json").seed, 1U);
+  EXPECT_EQ(parse_slam_experiment(text, "e.json", "quick").seed, 2U);
+  EXPECT_THROW(parse_slam_experiment(text, "e.json", "slow"), IoError);
+}
+
+}  // namespace
+}  // namespace mapproof
