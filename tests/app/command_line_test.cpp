@@ -7,8 +7,8 @@
 namespace mapproof::test {
 namespace {
 
-const std::vector<std::string> kVerbs = {"reproduce", "run",     "render",  "report",
-                                         "map",       "methods", "validate"};
+const std::vector<std::string> kVerbs = {"reproduce", "run",  "render",  "report",
+                                         "map",       "slam", "methods", "validate"};
 
 TEST(CommandLine, HelpShowsEveryVerbAndItsExamplesAndExitCodes) {
   const Outcome help = mapproof({"--help"});
