@@ -15,7 +15,8 @@ enum Purpose : std::uint64_t {
   kSlamPair = 7,
   kSlamHistories = 8,
   kSlamCost = 9,
-  kSlamStart = 10
+  kSlamStart = 10,
+  kSlamBootstrap = 11
 };
 
 }  // namespace mapproof

@@ -1,11 +1,14 @@
 #include "core/experiment/slam_estimates.hpp"
 
+#include <algorithm>
+#include <cmath>
 #include <limits>
 #include <string>
 
 #include "core/base/errors.hpp"
 #include "core/base/random.hpp"
 #include "core/experiment/seeds.hpp"
+#include "core/range_slam/bootstrap.hpp"
 #include "core/range_slam/dead_reckoning.hpp"
 #include "core/range_slam/ekf.hpp"
 #include "core/range_slam/refine.hpp"
@@ -50,6 +53,21 @@ SlamEstimate SlamEstimates::refined_from_random(int number) {
   const std::uint64_t seed =
       derive_seed(options_.seed, {kSlamStart, static_cast<std::uint64_t>(number)});
   return refined(random_start(log_, seed), true);
+}
+
+std::vector<Eigen::Matrix2d> SlamEstimates::landmark_covariances(
+    SlamMethod method, const SlamEstimate& estimate) const {
+  const bool is_flat = method == SlamMethod::kSpectral || method == SlamMethod::kSpectralKnown;
+  const Trajectory& path = estimate.path;
+  if (!is_flat || !window_ || path.size() < 2 || Y_.cols() != path.size()) return {};
+  const double step_s = (path.time_s(path.size() - 1) - path.time_s(0)) / double(path.size() - 1);
+  BootstrapOptions options;
+  options.block = std::clamp<Eigen::Index>(std::lround(window_->length_s / step_s), 1, path.size());
+  options.seed = derive_seed(options_.seed, {kSlamBootstrap});
+  return bootstrap_landmarks(Y_, estimate.landmarks_m,
+                             method == SlamMethod::kSpectralKnown ? options_.known : std::nullopt,
+                             options)
+      .covariances_m2;
 }
 
 void SlamEstimates::prepare(SlamMethod method) {
@@ -103,10 +121,12 @@ SlamEstimate SlamEstimates::solve(SlamMethod method) {
 
 SlamEstimate SlamEstimates::spectral(bool with_known, bool with_heading) {
   const std::optional<KnownLandmarks> known = with_known ? options_.known : std::nullopt;
-  if (!log_.odometry.empty())
-    return spectral_slam(log_, reckoned(),
-                         {.known = known, .with_heading = with_heading, .window = window()})
-        .estimate;
+  if (!log_.odometry.empty()) {
+    SpectralSlam found = spectral_slam(
+        log_, reckoned(), {.known = known, .with_heading = with_heading, .window = window()});
+    Y_ = std::move(found.Y);
+    return std::move(found.estimate);
+  }
   if (with_heading) return failed(log_, "The log has no odometry, which headings need.");
   const auto landmarks = static_cast<Eigen::Index>(log_.landmarks.size());
   return synchronous_slam(synchronous_ranges(log_.ranges, landmarks), known, options_.noise);

@@ -19,6 +19,11 @@ class SlamEstimates {
   /// The refinement from random landmarks, of that number from 1.
   SlamEstimate refined_from_random(int number);
 
+  /// Covariances of the landmarks of the spectral map that estimate() made last, by a bootstrap
+  /// over windows; none where there is no such map.
+  std::vector<Eigen::Matrix2d> landmark_covariances(SlamMethod method,
+                                                    const SlamEstimate& estimate) const;
+
   /// Makes what a method starts from, so that it is not timed with it.
   void prepare(SlamMethod method);
 
@@ -40,6 +45,7 @@ class SlamEstimates {
   std::optional<Trajectory> reckoned_;
   std::optional<WindowOptions> window_;
   WindowCurve curve_;
+  Eigen::MatrixXd Y_;  ///< Squared ranges of the spectral map made last.
   std::optional<SlamEstimate> spectral_start_;
   std::optional<SlamEstimate> odometry_start_;
 };

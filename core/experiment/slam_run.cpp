@@ -97,6 +97,8 @@ SlamRunResult make_slam_run(const std::string& id, RangeLog log, const SlamRunOp
         .method = method, .estimate = estimates.estimate(method), .errors = {}, .error_m = {}};
     const double seconds = std::chrono::duration<double>(Clock::now() - start).count();
     result.timings.push_back({.run = id, .method = method, .seconds = seconds});
+    if (record.estimate.landmark_cov_m2.empty())
+      record.estimate.landmark_cov_m2 = estimates.landmark_covariances(method, record.estimate);
     score_against_truth(record, run.log, first_alignment(method, run.log, options));
     if (is_refinement(method) && options.random_starts > 0)
       run.starts.push_back(start_of(record, 1));

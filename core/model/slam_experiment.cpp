@@ -20,8 +20,11 @@ std::vector<std::pair<std::string, std::string>> facts_of(const SlamExperiment& 
     facts.emplace_back("Example",
                        fmt::format("{} steps, {}", example->steps, example->noise.title));
   if (const auto& convergence = experiment.convergence)
-    facts.emplace_back("Convergence", fmt::format("{} pairs of world and path, up to {} steps",
-                                                  convergence->pairs, convergence->steps.back()));
+    facts.emplace_back(
+        "Convergence",
+        fmt::format("{} pairs of world and path, up to {} steps; worlds whose known landmarks lie "
+                    "nearly on a line or circle (condition number above {:g}) are drawn again",
+                    convergence->pairs, convergence->steps.back(), convergence->most_condition));
   if (const auto& histories = experiment.histories)
     facts.emplace_back(
         "Mapping methods on ranges",

@@ -41,6 +41,9 @@ struct SlamExample {
 /// Errors over many random pairs of path and world, as readings come in.
 struct ConvergenceOptions {
   int pairs = 1000;
+  /// Worlds whose known landmarks lie nearer a line or circle than this condition number tells are
+  /// drawn again: a few of them would rule the means.
+  double most_condition = 1e6;
   std::vector<int> steps;  ///< Ascending.
   std::vector<RangeNoiseModel> noises;
 };

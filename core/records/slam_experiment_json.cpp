@@ -23,7 +23,10 @@ Json noise_value(const RangeNoiseModel& noise) {
 Json convergence_value(const ConvergenceOptions& convergence) {
   Json noises = Json::array();
   for (const RangeNoiseModel& noise : convergence.noises) noises.push_back(noise_value(noise));
-  return {{"pairs", convergence.pairs}, {"steps", convergence.steps}, {"noises", noises}};
+  return {{"pairs", convergence.pairs},
+          {"most_condition", convergence.most_condition},
+          {"steps", convergence.steps},
+          {"noises", noises}};
 }
 
 Json data_value(const std::vector<SlamDataSet>& sets) {

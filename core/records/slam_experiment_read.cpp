@@ -55,9 +55,10 @@ SlamExample read_example(const JsonCursor& object) {
 }
 
 ConvergenceOptions read_convergence(const JsonCursor& object) {
-  object.allow_only({"pairs", "steps", "noises"});
+  object.allow_only({"pairs", "most_condition", "steps", "noises"});
   ConvergenceOptions convergence;
   read_if_there(object, "pairs", 2, 100'000, convergence.pairs);
+  read_if_there(object, "most_condition", 10.0, 1e6, convergence.most_condition);
   convergence.steps = read_sizes(object.at("steps"), 8, kMostSteps);
   std::set<std::string> ids;
   for (const JsonCursor& item : object.at("noises").elements(1, 20)) {
