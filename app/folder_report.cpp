@@ -68,7 +68,8 @@ FolderReport read_folder_report(const fs::path& folder, const std::optional<std:
 }
 
 FolderReport joined(const fs::path& folder, std::vector<FolderReport> parts) {
-  FolderReport all{.folder = folder, .report = {}, .figures = {}, .runs = 0, .missing = {}};
+  FolderReport all{
+      .folder = folder, .report = {}, .in_company = {}, .figures = {}, .runs = 0, .missing = {}};
   all.report.title = "Maps from what a robot observed";
   all.report.subtitle = "Two papers, made again";
   all.report.sections.push_back(contents_section(parts));
@@ -76,7 +77,7 @@ FolderReport joined(const fs::path& folder, std::vector<FolderReport> parts) {
     all.runs += part.runs;
     std::ranges::move(part.figures, std::back_inserter(all.figures));
     std::ranges::move(part.missing, std::back_inserter(all.missing));
-    std::ranges::move(part.report.sections, std::back_inserter(all.report.sections));
+    std::ranges::move(part.in_company, std::back_inserter(all.report.sections));
     all.report.footer = part.report.footer;
   }
   check(all.report);

@@ -17,7 +17,8 @@ namespace mapproof {
 struct FolderReport {
   std::filesystem::path folder;
   Report report;
-  std::vector<Figure> figures;  ///< In the order of the report.
+  std::vector<Section> in_company;  ///< Its sections as they stand beside those of other studies.
+  std::vector<Figure> figures;      ///< In the order of the report.
   std::size_t runs = 0;
   std::vector<std::string> missing;  ///< Data asked for that are not there.
 };

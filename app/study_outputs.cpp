@@ -4,6 +4,16 @@
 #include "reports/sections/study_report.hpp"
 
 namespace mapproof {
+namespace {
+
+/// As it stands within a sentence; names in capitals stay.
+std::string lower_first(std::string text) {
+  const bool is_word = text.size() > 1 && text[1] >= 'a' && text[1] <= 'z';
+  if (is_word && text[0] >= 'A' && text[0] <= 'Z') text[0] = static_cast<char>(text[0] - 'A' + 'a');
+  return text;
+}
+
+}  // namespace
 
 StudyView view_study(const std::filesystem::path& folder) {
   StudyView view{.folder = folder,
@@ -25,10 +35,14 @@ FolderReport study_folder_report(const StudyView& view, const std::string& comma
                                               .timings = view.timings,
                                               .figures = view.figures,
                                               .command = command}),
+                      .in_company = {},
                       .figures = {},
                       .runs = view.study.runs.size(),
                       .missing = {}};
   for (const Figure* figure : all_figures(view.figures)) report.figures.push_back(*figure);
+  report.in_company = report.report.sections;
+  for (Section& section : report.in_company)
+    section.title = "Map building: " + lower_first(section.title);
   return report;
 }
 
