@@ -1,6 +1,7 @@
 #include "core/records/slam_store.hpp"
 
 #include <mutex>
+#include <system_error>
 
 #include "core/base/errors.hpp"
 #include "core/base/files.hpp"
@@ -127,6 +128,10 @@ void SlamStore::write(std::span<const FactorizationCost> costs) { state_->append
 void SlamStore::write_session(const Session& session) { state_->append(session_line(session)); }
 
 void write_paths(const SlamRun& run, const fs::path& folder) {
+  // A method that gives no path now may have given one before.
+  std::error_code error;
+  fs::remove_all(folder, error);
+  if (error) throw IoError(folder.string(), "cannot be removed: " + error.message());
   if (run.log.truth) write_path(*run.log.truth, folder, "truth");
   for (const SlamRecord& record : run.records)
     if (record.estimate.path.size() > 0)

@@ -52,7 +52,8 @@ class SlamStore {
   std::unique_ptr<State> state_;
 };
 
-/// Writes each path of a run, the true one among them, as NAME.tum and NAME.csv into a folder.
+/// Writes each path of a run, the true one among them, as NAME.tum and NAME.csv into a folder of
+/// its own, whose earlier files are removed.
 /// @throws IoError.
 void write_paths(const SlamRun& run, const std::filesystem::path& folder);
 
