@@ -135,7 +135,6 @@ SlamEstimate SlamEstimates::spectral(bool with_known, bool with_heading) {
 SlamEstimate SlamEstimates::filtered() const {
   EkfOptions options;
   options.covariances = kPosesWithCovariance;
-  if (options_.ties_refinement) options.known = options_.known;
   return ekf_slam(log_, options);
 }
 
