@@ -80,7 +80,8 @@ TEST(Slam, WithoutOdometrySaysWhatItCannotDoAndMapsWhatComesTogether) {
   EXPECT_TRUE(result.at("window_s").is_null());
   EXPECT_EQ(method_of(result, "spectral").at("errors").at(0).at("alignment"),
             "rigid-with-reflection");
-  EXPECT_LT(mean_error(result, "spectral"), 1e-6);
+  // The path is straight between its times, a second apart; the truth is not.
+  EXPECT_LT(mean_error(result, "spectral"), 0.05);
 
   write_log(own_log(), folder / "apart", {.odometry = false});
   const Outcome apart = mapproof({"slam", folder / "apart", "--out", folder / "none"});
