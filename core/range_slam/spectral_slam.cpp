@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 #include <fmt/format.h>
 
@@ -10,6 +11,7 @@
 #include "core/linalg/planarity.hpp"
 #include "core/range_slam/bootstrap.hpp"
 #include "core/range_slam/heading.hpp"
+#include "core/range_slam/landmarks_on_path.hpp"
 #include "core/range_slam/localise.hpp"
 #include "core/range_slam/odometry_fit.hpp"
 
@@ -121,6 +123,17 @@ bool settle_by_odometry(SlamEstimate& estimate, const Points& odometry_m, Eigen:
   return mirrored;
 }
 
+/// Landmarks and scale of the ranges as a path of the odometry's scale tells them. Of those of the
+/// upgrade the ratio to the path is the least sure.
+void refer_to_path(SpectralSlam& result) {
+  SlamEstimate& estimate = result.estimate;
+  if (!(planarity(estimate.path.positions_m) > kFlatPlanarity)) return;
+  LandmarksOnPath told = landmarks_on_path(estimate.path.positions_m, result.Y);
+  estimate.landmarks_m = std::move(told.landmarks_m);
+  estimate.range_scale *= told.range_scale;
+  result.Y /= told.range_scale * told.range_scale;
+}
+
 void check(const RangeLog& log, const Trajectory& odometry, const SpectralSlamOptions& options) {
   if (odometry.size() < 2) throw InvalidInput("spectral SLAM needs an odometry path");
   if (!(options.heading_step_m > 0.0)) throw InvalidInput("the heading step must be above 0");
@@ -210,6 +223,7 @@ SpectralSlam spectral_slam(const RangeLog& log, const Trajectory& odometry,
   const bool mirrored = !options.known && settle_by_odometry(estimate, told.positions_m, window);
   if (!mapped.directions.rows.empty())
     estimate.path.heading_rad = carried(mapped.directions, told.heading_rad, mirrored);
+  if (!options.known) refer_to_path(result);
   if (options.replicates > 0)
     estimate.landmark_cov_m2 =
         bootstrap_landmarks(
