@@ -9,11 +9,8 @@ namespace mapproof {
 
 Points positions_at(const Trajectory& path, const Eigen::VectorXd& times_s) {
   const Eigen::VectorXd& own = path.time_s;
-  if (path.positions_m.rows() != path.size())
-    throw InvalidInput("a path needs a position for each of its times");
-  for (Eigen::Index i = 1; i < own.size(); ++i)
-    if (!(own(i) > own(i - 1))) throw InvalidInput("the times of a path must ascend");
-
+  if (const std::string problem = times_problem(path); !problem.empty())
+    throw InvalidInput(problem);
   Points positions = Points::Constant(times_s.size(), 2, std::numeric_limits<double>::quiet_NaN());
   for (Eigen::Index i = 0; i < times_s.size(); ++i) {
     const auto after = std::lower_bound(own.begin(), own.end(), times_s(i)) - own.begin();

@@ -6,8 +6,8 @@ namespace mapproof {
 
 /// Positions of a path at other times, on straight lines between its poses: n x 2, a row a time;
 /// NaN before its first and after its last pose.
-/// @throws InvalidInput if the times of the path do not ascend, or its sizes differ.
-/// @note O(n log T).
+/// @throws InvalidInput for a times_problem() of the path.
+/// @note O(T + n log T).
 Points positions_at(const Trajectory& path, const Eigen::VectorXd& times_s);
 
 }  // namespace mapproof

@@ -35,6 +35,13 @@ struct Trajectory {
   Eigen::Index size() const { return time_s.size(); }
 };
 
+/// What keeps a path from being one: sizes that differ, or times that are not finite or do not
+/// ascend; empty if nothing. Positions and headings may be NaN: not known.
+std::string times_problem(const Trajectory& path);
+
+/// The same, or a position or heading that is not finite.
+std::string path_problem(const Trajectory& path);
+
 /// Where integrated odometry begins.
 struct StartPose {
   double time_s = 0.0;

@@ -10,16 +10,22 @@
 #include <Eigen/LU>
 
 #include "core/base/errors.hpp"
-#include "core/base/words.hpp"
 #include "core/range_slam/dead_reckoning.hpp"
 #include "core/range_slam/log_checks.hpp"
-#include "core/range_slam/refine_starts.hpp"
+#include "core/range_slam/spread_rows.hpp"
+#include "core/range_slam/trilateration.hpp"
 
 namespace mapproof {
 namespace {
 
 constexpr Eigen::Index kMostFiltered = 500;
 constexpr Eigen::Index kScale = 3;  ///< In the state: x, y, heading, range scale, landmarks.
+/// Nearer than this a landmark has no direction.
+constexpr double kLeastDistance_m = 1e-9;
+/// Readings that a first place needs.
+constexpr std::size_t kLeastReadings = 5;
+/// Share of the initial way after which a landmark that found no place is tried again.
+constexpr double kNextTry = 0.5;
 
 /// A landmark that waits for its first place.
 struct Waiting {
@@ -92,22 +98,18 @@ class Filter {
     estimate.path = path_;
     estimate.landmarks_m.resize(static_cast<Eigen::Index>(is_placed_.size()), 2);
     const double nan = std::numeric_limits<double>::quiet_NaN();
-    std::vector<std::string> names;
     for (std::size_t n = 0; n < is_placed_.size(); ++n) {
       const auto row = static_cast<Eigen::Index>(n);
       const Eigen::Index at = 4 + 2 * row;
       estimate.landmarks_m.row(row) =
           is_placed_[n] ? Eigen::RowVector2d(x_.segment<2>(at)) : Eigen::RowVector2d(nan, nan);
+      if (options_.covariances == 0) continue;
       estimate.landmark_cov_m2.emplace_back(is_placed_[n]
                                                 ? Eigen::Matrix2d(P_.block<2, 2>(at, at))
                                                 : Eigen::Matrix2d(Eigen::Matrix2d::Constant(nan)));
-      if (!is_placed_[n]) names.push_back(log_.landmarks[n]);
     }
     estimate.range_scale = x_(kScale);
-    if (!names.empty())
-      estimate.statuses.push_back(
-          {StatusCode::kLandmarkUnseen,
-           "Too few ranges for a first place of " + listed(names, 10) + "."});
+    tell_unplaced(log_, is_placed_, estimate.statuses);
     if (2 * gated_ > updates_)
       estimate.statuses.push_back(
           {StatusCode::kNotConverged,
@@ -121,7 +123,7 @@ class Filter {
     const Eigen::Vector2d gap = x_.head<2>() - x_.segment<2>(at);
     const double distance = gap.norm();
     ++updates_;
-    if (!(distance > 1e-9)) return;
+    if (!(distance > kLeastDistance_m)) return;
     const Eigen::Vector2d slope = x_(kScale) * gap / distance;
     const Eigen::VectorXd PHt =
         P_.leftCols<2>() * slope - P_.middleCols<2>(at) * slope + P_.col(kScale) * distance;
@@ -139,8 +141,8 @@ class Filter {
   /// The first place of a landmark, from its readings along the path up to `row`.
   void place(std::size_t landmark, Eigen::Index row) {
     Waiting& waiting = waiting_[landmark];
-    waiting.next_try_m = way_m_ + 0.5 * options_.initial_way_m;
-    if (waiting.readings.size() < 5) return;
+    waiting.next_try_m = way_m_ + kNextTry * options_.initial_way_m;
+    if (waiting.readings.size() < kLeastReadings) return;
     RangeLog part;
     part.landmarks = {log_.landmarks[landmark]};
     for (const RangeReading& reading : waiting.readings)
@@ -171,7 +173,7 @@ class Filter {
       const Eigen::Vector2d gap =
           (place - path.positions_m.row(std::min<Eigen::Index>(after, path.size() - 1)))
               .transpose();
-      if (gap.norm() > 1e-9)
+      if (gap.norm() > kLeastDistance_m)
         information += gap * gap.transpose() / gap.squaredNorm() /
                        (options_.range_sigma_m * options_.range_sigma_m);
     }
@@ -194,8 +196,7 @@ class Filter {
 
 std::string EkfOptions::problem(Eigen::Index n) const {
   if (n > kMostFiltered) return fmt::format("the filter takes at most {} landmarks", kMostFiltered);
-  if (!(odometry.forward_m > 0.0 && odometry.sideways_m > 0.0 && odometry.turn_rad > 0.0))
-    return "the noise of odometry must be positive";
+  if (std::string problem = odometry.problem(); !problem.empty()) return problem;
   if (!(range_sigma_m > 0.0)) return "the standard deviation of ranges must be positive";
   if (!(gate > 0.0)) return "the gate must be positive";
   if (!(range_scale > 0.0 && scale_sigma >= 0.0)) return "the range scale must be positive";
@@ -209,12 +210,11 @@ SlamEstimate ekf_slam(const RangeLog& log, const EkfOptions& options) {
   const auto landmarks = static_cast<Eigen::Index>(log.landmarks.size());
   if (const std::string problem = options.problem(landmarks); !problem.empty())
     throw InvalidInput(problem);
-  check_ranges(log);
+  check_ranges(log.ranges, landmarks);
   const Trajectory odometry = dead_reckoned(log);
   Filter filter(log, odometry, options);
   const Eigen::Index poses = odometry.size();
-  const Eigen::Index shown = std::min(options.covariances, poses);
-  std::vector<Eigen::Index> rows;
+  const std::vector<Eigen::Index> rows = spread_rows(poses, options.covariances);
   std::vector<Eigen::Matrix2d> covariances;
   std::size_t next = 0;
   while (next < log.ranges.size() && log.ranges[next].time_s < odometry.time_s(0)) ++next;
@@ -231,11 +231,8 @@ SlamEstimate ekf_slam(const RangeLog& log, const EkfOptions& options) {
     }
     if (row > 0) filter.predict(log.odometry[static_cast<std::size_t>(row - 1)], 1.0 - done);
     filter.record(row);
-    if (shown > 0 && std::ssize(rows) < shown &&
-        row == (shown > 1 ? std::ssize(rows) * (poses - 1) / (shown - 1) : 0)) {
-      rows.push_back(row);
+    if (covariances.size() < rows.size() && row == rows[covariances.size()])
       covariances.push_back(filter.position_covariance());
-    }
   }
   SlamEstimate estimate = filter.estimate();
   estimate.position_cov_rows = rows;

@@ -14,24 +14,25 @@ struct EkfOptions {
   OdometryNoise odometry = {};   ///< Of one motion.
   double range_sigma_m = 0.5;    ///< > 0.
   double gate = 9.0;             ///< Squared sigmas beyond which a range is left out; > 0.
-  double range_scale = 1.0;      ///< Measured range over distance, > 0; the first guess of it if
-  double scale_sigma = 0.0;      ///< this, its standard deviation, is not 0.
+  double range_scale = 1.0;      ///< Measured range over distance, > 0: at first, or throughout.
+  double scale_sigma = 0.0;      ///< Of that first guess, >= 0; 0: it is held.
   double initial_way_m = 50.0;   ///< Driven before a landmark is given its first place; > 0.
   double initial_sigma_m = 3.0;  ///< Worst standard deviation of a first place; > 0.
   std::optional<KnownLandmarks> known = std::nullopt;
-  Eigen::Index covariances = 0;  ///< Poses with a covariance, evenly spread.
+  Eigen::Index covariances = 0;  ///< Poses with one, evenly spread; 0: no covariances at all.
 
   /// Names the first field that cannot be used with n landmarks; empty if none.
   std::string problem(Eigen::Index n) const;
 };
 
-/// A baseline: the extended Kalman filter over the robot's pose and the landmarks [djugash2009],
+/// A baseline: the extended Kalman filter over the robot's pose and the landmarks [thrun2005],
 /// each motion of the odometry a prediction, each range an update at its time unless it is gated
 /// out.
 ///
 /// A landmark that is not known takes its first place from its readings so far, trilaterated along
 /// the filter's own path, once that way is driven and the place is certain enough; these readings
-/// are then used up. Poses are what the filter said at their time: nothing is smoothed.
+/// are then used up. It starts with the covariance of the pose beside that of the readings, and
+/// uncorrelated with both. Poses are what the filter said at their time: nothing is smoothed.
 /// @return The path at all of odometry's times; statuses: landmarks that never got a place
 ///         (kLandmarkUnseen); most of the updates gated out, so that the filter is lost
 ///         (kNotConverged).

@@ -4,11 +4,11 @@
 
 #include <fmt/format.h>
 #include <Eigen/Eigenvalues>
-#include <Eigen/QR>
 #include <Eigen/SVD>
 
 #include "core/base/errors.hpp"
 #include "core/linalg/sign.hpp"
+#include "core/range_slam/quadric.hpp"
 
 namespace mapproof {
 namespace {
@@ -18,21 +18,15 @@ constexpr double kRounding = 1e-13;
 /// A kept singular value is signal only if it stands out by this from the largest left out.
 constexpr double kAboveFloor = 1.5;
 
-/// A matrix with the left singular vectors and singular values of Y, at most N x N.
-Eigen::MatrixXd compressed(const Eigen::MatrixXd& Y) {
-  const Eigen::Index N = Y.rows();
-  if (Y.cols() <= N) return Y;
-  const Eigen::HouseholderQR<Eigen::MatrixXd> qr(Y.transpose());
-  return Eigen::MatrixXd(qr.matrixQR().topRows(N).triangularView<Eigen::Upper>()).transpose();
-}
-
 void check(const Eigen::MatrixXd& Y, Eigen::Index rank) {
   if (rank < 1 || rank > std::min(Y.rows(), Y.cols()))
     throw InvalidInput("a factorisation's rank must be 1 to the lesser side of the matrix");
   if (!Y.allFinite()) throw InvalidInput("a factorisation needs finite entries");
 }
 
-void judge(Factorization& result, Eigen::Index rank) {
+}  // namespace
+
+void judge_rank(Factorization& result, Eigen::Index rank) {
   const Eigen::VectorXd& s = result.singular_values;
   const double smallest = s(rank - 1);
   result.noise_floor = s.size() > rank ? s(rank) : 0.0;
@@ -47,17 +41,17 @@ void judge(Factorization& result, Eigen::Index rank) {
                    signals, rank, result.condition)});
 }
 
-}  // namespace
-
 Factorization factorize(const Eigen::MatrixXd& Y, Eigen::Index rank) {
   check(Y, rank);
-  const Eigen::BDCSVD<Eigen::MatrixXd> svd(compressed(Y), Eigen::ComputeThinU);
+  // A matrix with the left singular vectors and singular values of Y, at most N x N.
+  const Eigen::BDCSVD<Eigen::MatrixXd> svd(triangle_of(Y.transpose()).transpose(),
+                                           Eigen::ComputeThinU);
   Factorization result;
   result.U = svd.matrixU().leftCols(rank);
   fix_signs(result.U);
   result.V = result.U.transpose() * Y;
   result.singular_values = svd.singularValues();
-  judge(result, rank);
+  judge_rank(result, rank);
   return result;
 }
 
@@ -76,7 +70,7 @@ Factorization factorize_without_noise(const Eigen::MatrixXd& Y, const Eigen::Vec
   fix_signs(result.U);
   result.V = result.U.transpose() * Y;
   result.singular_values = solver.eigenvalues().reverse().cwiseMax(0.0).cwiseSqrt();
-  judge(result, rank);
+  judge_rank(result, rank);
   return result;
 }
 

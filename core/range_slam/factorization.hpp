@@ -18,6 +18,10 @@ struct Factorization {
   std::vector<Status> statuses;     ///< kRankDeficient: some of `rank` are no more than noise.
 };
 
+/// Sets condition, noise floor and the status of a factorisation from its singular values.
+/// @param rank  How many of them are kept, 1 to all of them.
+void judge_rank(Factorization& result, Eigen::Index rank);
+
 /// The thin SVD cut at `rank` [boots2013, algorithm 1, line 2].
 ///
 /// A wide Y is brought to a triangle first, by Householder reflections: as fast as its Gram matrix

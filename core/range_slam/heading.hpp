@@ -33,8 +33,9 @@ struct HeadingMap {
   Eigen::VectorXd singular_values;  ///< Of the 2N x K matrix, descending.
 };
 
-/// Range-only SLAM with the 7-dimensional state [1, -x, -y, (x^2 + y^2)/2, -cos, -sin,
-/// (|p_t+1|^2 - |p_t|^2) / (2 v)] [boots2013, eq. 4].
+/// Range-only SLAM with the robot's headings, by the SVD of rank 7 [boots2013, eq. 4] of the
+/// columns above: the state is [1, -x, -y, (x^2 + y^2)/2, -cos, -sin, (|p_t+1|^2 - |p_t|^2) / (2
+/// v)].
 ///
 /// The top block of U has rank 4: what is left after its null space is rotated away is upgraded as
 /// without heading, or fixed by known landmarks; the last three states follow by regression on the

@@ -33,6 +33,11 @@ Eigen::Vector3d reached_from(const Eigen::Vector3d& origin, const Eigen::Vector3
 
 }  // namespace
 
+std::string OdometryNoise::problem() const {
+  const bool is_positive = forward_m > 0.0 && sideways_m > 0.0 && turn_rad > 0.0;
+  return is_positive ? "" : "the noise of odometry must be positive";
+}
+
 Eigen::Vector3d BetweenPoses::pose(const Eigen::Vector3d& first,
                                    const Eigen::Vector3d& second) const {
   return (1.0 - share) * reached_from(first, ahead) + share * reached_from(second, behind);
@@ -42,8 +47,7 @@ KeyPoses::KeyPoses(const Trajectory& path, const OdometryNoise& noise, double sp
     : path_(path) {
   if (path.size() < 2 || path.heading_rad.size() != path.size())
     throw InvalidInput("key poses need a path of 2 poses or more, with headings");
-  if (!(noise.forward_m > 0.0 && noise.sideways_m > 0.0 && noise.turn_rad > 0.0))
-    throw InvalidInput("the noise of odometry must be positive");
+  if (const std::string problem = noise.problem(); !problem.empty()) throw InvalidInput(problem);
   if (!(spacing_m >= 0.0)) throw InvalidInput("the spacing of poses cannot be negative");
   rows_.push_back(0);
   double way_m = 0.0;

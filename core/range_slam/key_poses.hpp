@@ -1,5 +1,6 @@
 #pragma once
 
+#include <string>
 #include <vector>
 
 #include <Eigen/Core>
@@ -13,6 +14,9 @@ struct OdometryNoise {
   double forward_m = 0.02;
   double sideways_m = 0.02;
   double turn_rad = 0.005;
+
+  /// Says that they must be positive unless they are; else empty.
+  std::string problem() const;
 };
 
 /// The way from one key pose to the next, in the frame of the first: forward, left, turn.

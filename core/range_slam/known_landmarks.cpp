@@ -2,7 +2,6 @@
 
 #include <cmath>
 #include <limits>
-#include <set>
 
 #include <fmt/format.h>
 #include <Eigen/LU>
@@ -10,6 +9,7 @@
 #include <Eigen/SVD>
 
 #include "core/base/errors.hpp"
+#include "core/range_slam/log_checks.hpp"
 #include "core/range_slam/squared_ranges.hpp"
 
 namespace mapproof {
@@ -18,12 +18,8 @@ namespace {
 void check(const Factorization& factors, const KnownLandmarks& known) {
   if (factors.U.cols() < 4 || factors.V.rows() != factors.U.cols() || factors.V.cols() < 4)
     throw InvalidInput("a map needs a factorisation of rank 4 or more");
-  const std::set<Eigen::Index> rows(known.rows.begin(), known.rows.end());
-  if (std::ssize(known.rows) != known.positions_m.rows() || rows.size() != known.rows.size())
-    throw InvalidInput("known landmarks: as many positions as different rows are needed");
-  if (!known.positions_m.allFinite()) throw InvalidInput("known landmarks must be finite");
-  if (!rows.empty() && (*rows.begin() < 0 || *rows.rbegin() >= factors.U.rows()))
-    throw InvalidInput("a known landmark is none of the map's");
+  if (const std::string problem = known_problem(known, factors.U.rows()); !problem.empty())
+    throw InvalidInput(problem);
 }
 
 /// Takes X of points moved by -center and divided by `unit` to X of the points.

@@ -25,9 +25,8 @@ inline constexpr double kDegenerateCondition = 1e6;
 /// @param factors  Of rank 4 or more.
 /// @param known    Finite.
 /// @return Empty with kTooFewObservations below four known landmarks, with kDegenerateGeometry
-/// where
-///         they lie on one line or circle; `condition` is that of their C about their centre, in
-///         units of their spread.
+///         where they lie on one line or circle, with kFailed where the ranges do not tell
+///         positions; `condition` is that of their C about their centre, in units of their spread.
 /// @throws InvalidInput if a bound is broken.
 /// @note O(T) time.
 SpectralMap map_from_known_landmarks(const Factorization& factors, const KnownLandmarks& known);

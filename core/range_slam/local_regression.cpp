@@ -7,6 +7,8 @@
 #include <Eigen/Cholesky>
 #include <Eigen/QR>
 
+#include "core/base/errors.hpp"
+
 namespace mapproof {
 namespace {
 
@@ -17,11 +19,16 @@ constexpr double kMedianToSigma = 1.4826;
 /// Of the trace, added to normal equations: a straight stretch has a spread in one direction alone.
 constexpr double kRidge = 1e-9;
 
+/// Share of the typical range that is added to each before it is inverted.
+constexpr double kNear = 0.05;
+/// Share of the squared distances that the others must leave unexplained if they are to tell scale.
+constexpr double kLeastBend = 1e-6;
+
 /// Weights of r^2: the inverse of its error, but not without bound where the robot passes a
 /// landmark.
 Eigen::ArrayXd range_weights(const Eigen::ArrayXd& range_m) {
   const double typical = std::sqrt(range_m.square().mean());
-  return typical > 0.0 ? Eigen::ArrayXd((range_m + 0.05 * typical).inverse())
+  return typical > 0.0 ? Eigen::ArrayXd((range_m + kNear * typical).inverse())
                        : Eigen::ArrayXd::Ones(range_m.size());
 }
 
@@ -70,6 +77,12 @@ struct Frame {
 
 }  // namespace
 
+LandmarkReadings LandmarkReadings::at(const std::vector<Eigen::Index>& rows) const {
+  return {.time_s = time_s(rows),
+          .positions_m = positions_m(rows, Eigen::all),
+          .range_m = range_m(rows)};
+}
+
 double LocalRange::squared_range(const Eigen::RowVector2d& position) const {
   const Eigen::RowVector2d offset = position - center_m;
   return squared_scale * offset.squaredNorm() + coefficients(0) +
@@ -82,9 +95,9 @@ double LocalRange::variance(const Eigen::RowVector2d& position) const {
   return row.dot(covariance * row);
 }
 
-std::optional<LocalRange> fit_local_range(const LandmarkReadings& readings, Eigen::Index first,
-                                          Eigen::Index count, double range_scale) {
-  if (count < 4) return std::nullopt;
+LocalRange fit_local_range(const LandmarkReadings& readings, Eigen::Index first, Eigen::Index count,
+                           double range_scale) {
+  if (count < 4) throw InvalidInput("a regression of ranges needs 4 readings");
   const Frame frame(readings.positions_m.middleRows(first, count));
   const Eigen::ArrayXd range_m = readings.range_m.segment(first, count).array();
   LocalRange local{.center_m = frame.center_m,
@@ -115,7 +128,7 @@ ScaleEvidence local_scale(const LandmarkReadings& readings, Eigen::Index first,
   const Eigen::Matrix3d others = fit.normal.bottomRightCorner<3, 3>();
   const Eigen::Vector3d shared = fit.normal.topRightCorner<1, 3>().transpose();
   const double left = fit.normal(0, 0) - shared.dot(others.ldlt().solve(shared));
-  if (!(left > 1e-6 * fit.normal(0, 0))) return {};
+  if (!(left > kLeastBend * fit.normal(0, 0))) return {};
   const double unit_square = frame.unit_m * frame.unit_m;
   return {.squared_scale = fit.solution(0) / unit_square,
           .weight = left * unit_square * unit_square};

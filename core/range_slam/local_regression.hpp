@@ -1,6 +1,6 @@
 #pragma once
 
-#include <optional>
+#include <vector>
 
 #include <Eigen/Core>
 
@@ -15,6 +15,8 @@ struct LandmarkReadings {
   Eigen::VectorXd range_m;  ///< R, >= 0.
 
   Eigen::Index size() const { return time_s.size(); }
+  /// Those in some rows.
+  LandmarkReadings at(const std::vector<Eigen::Index>& rows) const;
 };
 
 /// Squared range to one landmark around one stretch of a path, r^2 = a^2 |p - c|^2 + an affine
@@ -35,10 +37,11 @@ struct LocalRange {
 /// Robust fit to readings `first` to `first + count`: iterated Huber weights, 1.5 scaled medians of
 /// the residuals, over 1 / r, since the error of r^2 grows with r.
 /// @param range_scale  a: measured range over distance, > 0.
-/// @return Empty if there are fewer than 4 readings.
+/// @param count  4 or more.
+/// @throws InvalidInput if there are fewer.
 /// @note O(count) time a round.
-std::optional<LocalRange> fit_local_range(const LandmarkReadings& readings, Eigen::Index first,
-                                          Eigen::Index count, double range_scale);
+LocalRange fit_local_range(const LandmarkReadings& readings, Eigen::Index first, Eigen::Index count,
+                           double range_scale);
 
 /// What readings say about a^2 on their own: a weighted mean adds up.
 struct ScaleEvidence {

@@ -1,32 +1,62 @@
 #include "core/range_slam/log_checks.hpp"
 
 #include <cmath>
+#include <set>
 
 #include <fmt/format.h>
 
 #include "core/base/errors.hpp"
+#include "core/base/words.hpp"
 
 namespace mapproof {
+namespace {
 
-void check_ranges(const RangeLog& log) {
-  const auto landmarks = static_cast<Eigen::Index>(log.landmarks.size());
+/// Longer ranges are no ranges; their fourth powers must not overflow.
+constexpr double kLongest_m = 1e9;
+/// Landmarks that a status lists.
+constexpr std::size_t kMostNamed = 10;
+
+}  // namespace
+
+void check_ranges(const std::vector<RangeReading>& ranges, Eigen::Index landmarks) {
   double last_s = -HUGE_VAL;
-  for (const RangeReading& reading : log.ranges) {
-    if (reading.landmark < 0 || reading.landmark >= landmarks || !std::isfinite(reading.range_m) ||
-        !std::isfinite(reading.time_s))
-      throw InvalidInput("a range must be finite and of a landmark of the log");
-    if (reading.time_s < last_s) throw InvalidInput("the ranges of a log must ascend in time");
+  for (const RangeReading& reading : ranges) {
+    if (reading.landmark < 0 || reading.landmark >= landmarks)
+      throw InvalidInput("a range is to none of the landmarks");
+    if (!(reading.range_m >= 0.0 && reading.range_m < kLongest_m))
+      throw InvalidInput(fmt::format("ranges must be at least 0 and below {:g} m", kLongest_m));
+    if (!std::isfinite(reading.time_s) || reading.time_s < last_s)
+      throw InvalidInput("the times of ranges must be finite and ascend");
     last_s = reading.time_s;
   }
 }
 
 std::string known_problem(const KnownLandmarks& known, Eigen::Index n) {
-  if (known.positions_m.rows() != static_cast<Eigen::Index>(known.rows.size()) ||
-      !known.positions_m.allFinite())
+  if (known.positions_m.rows() != std::ssize(known.rows) || !known.positions_m.allFinite())
     return "known landmarks need a finite place each";
   for (const Eigen::Index row : known.rows)
     if (row < 0 || row >= n) return fmt::format("no landmark is number {}", row);
+  if (std::set(known.rows.begin(), known.rows.end()).size() != known.rows.size())
+    return "a known landmark is there twice";
   return "";
+}
+
+std::vector<bool> heard_between(const RangeLog& log, double first_s, double last_s) {
+  std::vector<bool> is_heard(log.landmarks.size(), false);
+  for (const RangeReading& reading : log.ranges)
+    if (reading.time_s >= first_s && reading.time_s <= last_s)
+      is_heard[static_cast<std::size_t>(reading.landmark)] = true;
+  return is_heard;
+}
+
+void tell_unplaced(const RangeLog& log, const std::vector<bool>& is_placed,
+                   std::vector<Status>& statuses) {
+  std::vector<std::string> names;
+  for (std::size_t n = 0; n < is_placed.size(); ++n)
+    if (!is_placed[n]) names.push_back(log.landmarks[n]);
+  if (!names.empty())
+    statuses.push_back({StatusCode::kLandmarkUnseen,
+                        "Too few ranges for a place of " + listed(names, kMostNamed) + "."});
 }
 
 }  // namespace mapproof

@@ -9,6 +9,7 @@
 
 #include "core/base/errors.hpp"
 #include "core/range_slam/quadric.hpp"
+#include "core/range_slam/upgrade_transform.hpp"
 
 namespace mapproof {
 namespace {

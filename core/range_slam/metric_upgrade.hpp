@@ -45,21 +45,4 @@ struct MetricUpgrade {
 /// @note O(T) time.
 MetricUpgrade metric_upgrade(const Factorization& factors, UpgradeSide side = UpgradeSide::kPoses);
 
-/// The upgrade's transform alone, from moments of whitened states (mean square I): what a stream of
-/// steps can keep.
-struct UpgradeTransform {
-  Eigen::Matrix4d S = Eigen::Matrix4d::Zero();  ///< Whitened states = S X; zero if there is none.
-  Eigen::Matrix4d Q = Eigen::Matrix4d::Zero();  ///< The quadric, scaled so that S' Q S is the cone.
-  Eigen::VectorXd monomial_values;
-  double condition = 1.0;
-  std::vector<Status> statuses;
-};
-
-/// @param U          N x 4, the other side's factor, against whitened states.
-/// @param mean       Mean of the whitened states.
-/// @param monomials  R with R'R = sum of outer products of the states' quadratic_monomials() (or
-///                   these rows themselves); 10 columns.
-UpgradeTransform upgrade_transform(const Eigen::MatrixXd& U, const Eigen::Vector4d& mean,
-                                   const Eigen::MatrixXd& monomials);
-
 }  // namespace mapproof

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <numbers>
 #include <utility>
 #include <vector>
@@ -13,14 +12,20 @@
 #include "core/base/errors.hpp"
 #include "core/linalg/sign.hpp"
 #include "core/range_slam/quadric.hpp"
+#include "core/range_slam/upgrade_transform.hpp"
 
 namespace mapproof {
 namespace {
 
+constexpr Eigen::Index kRank = 4;
+/// Steps that settle a quadric.
+constexpr Eigen::Index kLeastSteps = 8;
+/// Coordinates whose fourth moments are kept.
 constexpr Eigen::Index kFrame = 8;
+/// Steps that wait, at least, before they are folded in.
 constexpr Eigen::Index kLeastBlock = 32;
 /// Eigenvalues of the Gram matrix below this share of the largest are rounding.
-constexpr double kRounding = 1e-15;
+constexpr double kRounding = 1e-14;
 
 /// The matrix that takes quadratic_monomials() of z to those of A z.
 Eigen::MatrixXd on_monomials(const Eigen::MatrixXd& A) {
@@ -48,13 +53,13 @@ Eigen::MatrixXd root_of(const Eigen::MatrixXd& M) {
          solver.eigenvectors().transpose();
 }
 
-/// Moments of the monomials of the first four of q coordinates.
+/// Moments of the monomials of the first kRank of q coordinates.
 Eigen::MatrixXd of_first_four(const Eigen::MatrixXd& moments, Eigen::Index q) {
   std::vector<Eigen::Index> kept;
   Eigen::Index row = 0;
   for (Eigen::Index i = 0; i < q; ++i)
     for (Eigen::Index j = i; j < q; ++j, ++row)
-      if (j < 4) kept.push_back(row);
+      if (j < kRank) kept.push_back(row);
   return moments(kept, kept);
 }
 
@@ -103,32 +108,52 @@ void OnlineSpectralMap::fold() {
   pending_count_ = 0;
 }
 
+Factorization OnlineSpectralMap::spectrum() const {
+  Factorization result;
+  const double least = kRounding * eigenvalues_(0);
+  result.singular_values =
+      (eigenvalues_.array() > least).select(double(steps_) * eigenvalues_.array(), 0.0).sqrt();
+  judge_rank(result, kRank);
+  return result;
+}
+
 Factorization OnlineSpectralMap::factors() const {
   // Four whitened coordinates; eight states m + d, m - d have their mean and mean square I.
-  Factorization result;
-  result.U = frame_.leftCols(4);
-  const Eigen::Vector4d mean = to_frame_.topRows(4) * sum_ / double(steps_);
+  Factorization result = spectrum();
+  result.U = frame_.leftCols(kRank);
+  const Eigen::Vector4d mean = mean_state();
   const Eigen::MatrixXd D =
       2.0 * root_of(Eigen::Matrix4d::Identity() - mean * mean.transpose()).transpose();
-  result.V.resize(4, 8);
+  result.V.resize(kRank, 2 * kRank);
   result.V << D.colwise() + mean, (-D).colwise() + mean;
-  result.singular_values = (double(steps_) * eigenvalues_.cwiseMax(0.0)).cwiseSqrt();
-  result.condition = result.singular_values(0) / result.singular_values(3);
-  result.noise_floor = eigenvalues_.size() > 4 ? result.singular_values(4) : 0.0;
   return result;
+}
+
+Eigen::Vector4d OnlineSpectralMap::mean_state() const {
+  return to_frame_.topRows(kRank) * sum_ / double(steps_);
+}
+
+std::optional<SpectralMap> OnlineSpectralMap::without_map(Eigen::Index least_steps,
+                                                          StatusCode flat) const {
+  SpectralMap none;
+  if (sum_.size() < kRank || steps_ < least_steps) {
+    none.statuses.push_back({StatusCode::kTooFewObservations,
+                             fmt::format("{} landmarks at {} steps; {} at {} are needed.",
+                                         sum_.size(), steps_, kRank, least_steps)});
+    return none;
+  }
+  if (frame_.cols() >= kRank) return std::nullopt;
+  none.statuses = spectrum().statuses;
+  none.statuses.push_back(
+      {flat, fmt::format("The steps span {} dimensions; {} are needed.", frame_.cols(), kRank)});
+  return none;
 }
 
 SpectralMap OnlineSpectralMap::map(const KnownLandmarks& known) const {
   OnlineSpectralMap all = *this;
   all.fold();
-  SpectralMap map;
-  if (all.frame_.cols() < 4 || steps_ < 4) {
-    map.statuses.push_back(
-        {StatusCode::kTooFewObservations,
-         fmt::format("{} steps span {} dimensions; 4 are needed.", steps_, all.frame_.cols())});
-    return map;
-  }
-  map = map_from_known_landmarks(all.factors(), known);
+  if (const auto none = all.without_map(kRank, StatusCode::kFailed)) return *none;
+  SpectralMap map = map_from_known_landmarks(all.factors(), known);
   map.X.resize(4, 0);
   return map;
 }
@@ -136,19 +161,15 @@ SpectralMap OnlineSpectralMap::map(const KnownLandmarks& known) const {
 SpectralMap OnlineSpectralMap::map() const {
   OnlineSpectralMap all = *this;
   all.fold();
-  SpectralMap map;
-  if (all.frame_.cols() < 4 || steps_ < 9) {
-    map.statuses.push_back({StatusCode::kTooFewObservations,
-                            fmt::format("{} steps span {} dimensions; 9 in 4 are needed.", steps_,
-                                        all.frame_.cols())});
-    return map;
-  }
-  const Eigen::Vector4d mean = all.to_frame_.topRows(4) * all.sum_ / double(steps_);
-  const Eigen::MatrixXd U = all.frame_.leftCols(4);
+  if (const auto none = all.without_map(kLeastSteps, StatusCode::kDegenerateGeometry)) return *none;
+  const Eigen::MatrixXd U = all.frame_.leftCols(kRank);
   const UpgradeTransform transform =
-      upgrade_transform(U, mean, root_of(of_first_four(all.moments_, all.frame_.cols())));
+      upgrade_transform(U, all.mean_state(),
+                        root_of(of_first_four(all.moments_, all.frame_.cols())), kMomentRounding);
+  SpectralMap map;
   map.condition = transform.condition;
-  map.statuses = transform.statuses;
+  map.statuses = all.spectrum().statuses;
+  map.statuses.insert(map.statuses.end(), transform.statuses.begin(), transform.statuses.end());
   if (!transform.S.isZero()) map.C = U * transform.S;
   return map;
 }

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <optional>
+
 #include <Eigen/Core>
 
 #include "core/range_slam/known_landmarks.hpp"
@@ -29,17 +31,28 @@ class OnlineSpectralMap {
 
   Eigen::Index steps() const { return steps_; }
 
-  /// What map_from_known_landmarks() would give for all steps so far; X is left empty. Positions
-  /// come from localise().
+  /// What map_from_known_landmarks() of factorize() would give for all steps so far, with its
+  /// statuses, but that X is left empty. Positions come from localise(). kTooFewObservations below
+  /// 4 landmarks or steps, which factorize() refuses.
+  /// @throws InvalidInput for a known_problem().
+  /// @note O(N^3) time and O(N^2) memory: steps that wait are folded into a copy.
   SpectralMap map(const KnownLandmarks& known) const;
 
-  /// What metric_upgrade() would give for all steps so far; X is left empty.
+  /// What metric_upgrade() of factorize() would give for all steps so far, with its statuses, but
+  /// that X is left empty. Singular values are roots of moments and so known to 1e-7 of the largest
+  /// alone: what is smaller is rounding here, when it need not be there.
+  /// @note As above.
   SpectralMap map() const;
 
  private:
   void fold();
+  /// Singular values of all steps, with condition and statuses, without factors.
+  Factorization spectrum() const;
   /// Rank 4 factors with as few states as have the mean and mean square of all.
   Factorization factors() const;
+  Eigen::Vector4d mean_state() const;
+  /// An empty map and its statuses, if there are too few steps or they span too little.
+  std::optional<SpectralMap> without_map(Eigen::Index least_steps, StatusCode flat) const;
 
   Eigen::Index steps_ = 0;
   Eigen::MatrixXd gram_;     ///< N x N, of folded columns.

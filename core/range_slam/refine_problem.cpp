@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <limits>
+#include <mutex>
 
 #include <ceres/loss_function.h>
 #include <ceres/problem.h>
@@ -14,8 +15,12 @@ namespace {
 
 using RowMajor = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
 
-/// What Ceres logs goes to stderr however quiet its options are.
-void silence_log() { FLAGS_minloglevel = google::GLOG_FATAL; }
+/// What Ceres logs goes to stderr however quiet its options are. Once: threads of a sweep solve
+/// side by side, and the level is one plain number for all.
+void silence_log() {
+  static std::once_flag once;
+  std::call_once(once, [] { FLAGS_minloglevel = google::GLOG_FATAL; });
+}
 
 ceres::Solver::Options solver_options(int most_iterations) {
   ceres::Solver::Options options;
@@ -176,9 +181,9 @@ std::optional<RefineProblem::Covariances> RefineProblem::covariances(
     inverse->poses.insert(inverse->poses.begin(), Eigen::Matrix3d::Zero());
     inverse->shared_pose.insert(inverse->shared_pose.begin(),
                                 Eigen::MatrixXd::Zero(places.count, 3));
-    free_of_frame(state, places, *inverse);
   }
   Covariances covariances;
+  covariances.are_of_first_pose = held == 1 && !free_of_frame(state, places, *inverse);
   for (std::size_t n = 0; n < is_placed_.size(); ++n) {
     const Eigen::Index column = places.landmarks[n];
     covariances.landmarks.emplace_back(
@@ -190,7 +195,7 @@ std::optional<RefineProblem::Covariances> RefineProblem::covariances(
   return covariances;
 }
 
-void RefineProblem::free_of_frame(const RefineState& state, const Shared& shared,
+bool RefineProblem::free_of_frame(const RefineState& state, const Shared& shared,
                                   ChainInformation::Covariance& covariance) const {
   // How a landmark moves with the three rigid motions, about the middle of all of them.
   Eigen::Vector2d middle = Eigen::Vector2d::Zero();
@@ -200,7 +205,7 @@ void RefineProblem::free_of_frame(const RefineState& state, const Shared& shared
     middle += state.landmarks[n];
     count += 1.0;
   }
-  if (count < 2.0) return;
+  if (count < 2.0) return false;
   middle /= count;
   const auto motions_at = [&](const Eigen::Vector2d& place) {
     Eigen::Matrix<double, 2, 3> moves;
@@ -213,7 +218,7 @@ void RefineProblem::free_of_frame(const RefineState& state, const Shared& shared
       G.middleRows<2>(column) = motions_at(state.landmarks[n]);
   const Eigen::Matrix3d M = G.transpose() * G;
   const Eigen::LDLT<Eigen::Matrix3d> factor(M);
-  if (!(M(2, 2) > 0.0)) return;
+  if (!(M(2, 2) > 0.0)) return false;
   // The motion that a rigid fit of the landmarks takes back: F times their errors.
   const Eigen::MatrixXd F = factor.solve(G.transpose());
   const Eigen::Matrix3d motion = F * covariance.shared * F.transpose();
@@ -225,6 +230,7 @@ void RefineProblem::free_of_frame(const RefineState& state, const Shared& shared
   }
   const Eigen::MatrixXd P = Eigen::MatrixXd::Identity(shared.count, shared.count) - G * F;
   covariance.shared = (P * covariance.shared * P.transpose()).eval();
+  return true;
 }
 
 }  // namespace mapproof

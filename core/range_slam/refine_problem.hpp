@@ -23,7 +23,8 @@ struct RefineState {
 /// The residuals of a log about a state, and which parts of it are free.
 class RefineProblem {
  public:
-  /// @param keys    Must outlive the problem. @param is_placed  Landmarks that take part.
+  /// @param keys       Read here alone.
+  /// @param is_placed  Landmarks that take part.
   RefineProblem(const RangeLog& log, const KeyPoses& keys, const std::vector<bool>& is_placed,
                 const RefineOptions& options);
 
@@ -33,12 +34,15 @@ class RefineProblem {
     double cost = 0.0;
     int iterations = 0;
   };
+  /// @note The first call silences glog, through which Ceres speaks, below fatal errors for the
+  ///       whole process: its level has no other place. Calls from several threads are safe.
   Outcome solve(RefineState& state) const;
 
   /// Covariances about a solution, from its J'J with Huber's weights.
   struct Covariances {
     std::vector<Eigen::Matrix2d> landmarks;  ///< N; zero where held, NaN where not placed.
     std::vector<Eigen::Matrix2d> positions;  ///< Of the key poses.
+    bool are_of_first_pose = false;          ///< Not freed of the frame.
   };
   /// @return Empty if a direction is not determined.
   std::optional<Covariances> covariances(const RefineState& state) const;
@@ -50,8 +54,7 @@ class RefineProblem {
     std::size_t landmark;
   };
 
-  /// Where each landmark, then the scale, then each offset stands among the shared numbers; -1:
-  /// held.
+  /// Where landmarks, then the scale, then offsets stand among the shared numbers; -1: held.
   struct Shared {
     std::vector<Eigen::Index> landmarks, offsets;
     Eigen::Index scale = -1;
@@ -64,7 +67,8 @@ class RefineProblem {
 
   /// Where landmarks and poses are free to move together: the share of the first pose's whims in
   /// the covariance is taken out.
-  void free_of_frame(const RefineState& state, const Shared& shared,
+  /// @return False if fewer than two places of landmarks are free: nothing is taken out.
+  bool free_of_frame(const RefineState& state, const Shared& shared,
                      ChainInformation::Covariance& covariance) const;
 
   bool is_held(std::size_t landmark) const { return is_known_[landmark] || !is_placed_[landmark]; }

@@ -7,12 +7,14 @@
 
 #include <fmt/format.h>
 
+#include "core/base/angle.hpp"
 #include "core/base/errors.hpp"
 #include "core/linalg/planarity.hpp"
 #include "core/range_slam/bootstrap.hpp"
 #include "core/range_slam/heading.hpp"
 #include "core/range_slam/landmarks_on_path.hpp"
 #include "core/range_slam/localise.hpp"
+#include "core/range_slam/log_checks.hpp"
 #include "core/range_slam/odometry_fit.hpp"
 
 namespace mapproof {
@@ -21,6 +23,8 @@ namespace {
 /// What a metric upgrade needs.
 constexpr Eigen::Index kLeastLandmarks = 4;
 constexpr Eigen::Index kLeastSteps = 8;
+/// OdometryFit::agreement below which a mirror is arbitrary.
+constexpr double kLeastAgreement = 0.02;
 
 /// The poses of a path at some of its rows.
 Trajectory part_of(const Trajectory& path, const std::vector<Eigen::Index>& rows) {
@@ -61,8 +65,7 @@ Eigen::VectorXd carried(const Directions& directions, const Eigen::VectorXd& odo
            directions.rows[static_cast<std::size_t>(k + 1)] <= t)
       ++k;
     const double on_map = (mirrored ? -1.0 : 1.0) * directions.map_rad(k);
-    const double heading = on_map + odometry_rad(t) - directions.odometry_rad(k);
-    all(t) = std::atan2(std::sin(heading), std::cos(heading));
+    all(t) = wrapped(on_map + odometry_rad(t) - directions.odometry_rad(k));
   }
   return all;
 }
@@ -109,18 +112,26 @@ Mapped mapped_without_heading(SpectralSlam& result, const SpectralSlamOptions& o
   return mapped;
 }
 
-/// Turns a map that may be mirrored and of a wrong scale into one that odometry agrees with.
+/// Turns a map that may be mirrored and of a wrong scale into one that odometry agrees with; the
+/// ranges are left to refer_to_path().
 /// @param window  Poses in a window: long enough to tell a mirror image; a quarter tells scale.
+/// @return Whether it was mirrored.
 bool settle_by_odometry(SlamEstimate& estimate, const Points& odometry_m, Eigen::Index window) {
   const Points& positions = estimate.path.positions_m;
-  const bool mirrored =
-      fit_to_odometry(positions, odometry_m, std::max<Eigen::Index>(window, 3)).mirrored;
+  const OdometryFit turns =
+      fit_to_odometry(positions, odometry_m, std::max<Eigen::Index>(window, 3));
   const double scale =
       fit_to_odometry(positions, odometry_m, std::max<Eigen::Index>(window / 4, 3)).scale;
-  const Eigen::RowVector2d factors(1.0 / scale, (mirrored ? -1.0 : 1.0) / scale);
+  const Eigen::RowVector2d factors(1.0 / scale, (turns.mirrored ? -1.0 : 1.0) / scale);
   estimate.path.positions_m *= factors.asDiagonal();
   estimate.landmarks_m *= factors.asDiagonal();
-  return mirrored;
+  if (turns.agreement < kLeastAgreement)
+    estimate.statuses.push_back(
+        {StatusCode::kUndetermined,
+         fmt::format("Odometry does not tell the map from its mirror image: it fits them alike but "
+                     "for {:.2g} %.",
+                     100.0 * turns.agreement)});
+  return turns.mirrored;
 }
 
 /// Landmarks and scale of the ranges as a path of the odometry's scale tells them. Of those of the
@@ -142,9 +153,24 @@ void check(const RangeLog& log, const Trajectory& odometry, const SpectralSlamOp
   if (options.replicates == 1 || options.replicates < 0)
     throw InvalidInput("a bootstrap needs two replicates or more");
   if (log.landmarks.empty()) throw InvalidInput("spectral SLAM needs landmarks");
+  if (const std::string problem = windowed_size_problem(std::ssize(log.landmarks), odometry.size());
+      !problem.empty())
+    throw InvalidInput(problem);
+  if (!options.known) return;
+  if (const std::string problem = known_problem(*options.known, std::ssize(log.landmarks));
+      !problem.empty())
+    throw InvalidInput(problem);
 }
 
-/// Ranges at the odometry's times into `result.Y`, and the poses at which all are told.
+/// "Landmark a is told at the fewest: 3." of the odometry's times.
+std::string worst_landmark(const RangeLog& log, const WindowedRanges& ranges) {
+  const auto least = std::ranges::min_element(ranges.told);
+  return fmt::format("Landmark {} is told at the fewest: {}.",
+                     log.landmarks[static_cast<std::size_t>(least - ranges.told.begin())], *least);
+}
+
+/// Ranges at the odometry's times, those into `result.Y` at which all are told.
+/// @return The poses at these times; none, with a status, if they are too few for a map.
 Trajectory take_ranges(SpectralSlam& result, const RangeLog& log, const Trajectory& odometry,
                        const SpectralSlamOptions& options) {
   const std::vector<LandmarkReadings> readings =
@@ -157,12 +183,21 @@ Trajectory take_ranges(SpectralSlam& result, const RangeLog& log, const Trajecto
   WindowedRanges ranges =
       windowed_ranges(readings, odometry, odometry.time_s, result.window.options);
   result.Y = std::move(ranges.Y);
-  if (result.Y.cols() < odometry.size())
+  if (result.Y.rows() < kLeastLandmarks || result.Y.cols() < kLeastSteps) {
     result.estimate.statuses.push_back(
         {StatusCode::kTooFewObservations,
+         fmt::format("All of {} landmarks are told at {} of {} poses; {} at {} are needed. {}",
+                     result.Y.rows(), result.Y.cols(), odometry.size(), kLeastLandmarks,
+                     kLeastSteps, worst_landmark(log, ranges))});
+    return {};
+  }
+  if (result.Y.cols() < odometry.size())
+    result.estimate.statuses.push_back(
+        {StatusCode::kUndetermined,
          fmt::format("{} of {} poses have no window with enough readings of every landmark; the "
-                     "path leaves them out.",
-                     odometry.size() - result.Y.cols(), odometry.size())});
+                     "path leaves them out. {}",
+                     odometry.size() - result.Y.cols(), odometry.size(),
+                     worst_landmark(log, ranges))});
   return part_of(odometry, ranges.columns);
 }
 
@@ -195,13 +230,7 @@ SpectralSlam spectral_slam(const RangeLog& log, const Trajectory& odometry,
       Points::Constant(std::ssize(log.landmarks), 2, std::numeric_limits<double>::quiet_NaN());
   estimate.path.positions_m.resize(0, 2);
   const Trajectory told = take_ranges(result, log, odometry, options);
-  if (result.Y.rows() < kLeastLandmarks || result.Y.cols() < kLeastSteps) {
-    estimate.statuses.push_back(
-        {StatusCode::kTooFewObservations,
-         fmt::format("{} landmarks at {} times; {} at {} are needed.", result.Y.rows(),
-                     result.Y.cols(), kLeastLandmarks, kLeastSteps)});
-    return result;
-  }
+  if (told.size() == 0) return result;
 
   const Mapped mapped = options.with_heading ? mapped_with_heading(result.Y, told, options)
                                              : mapped_without_heading(result, options);

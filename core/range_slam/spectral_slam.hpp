@@ -13,7 +13,7 @@ namespace mapproof {
 
 struct SpectralSlamOptions {
   std::optional<KnownLandmarks> known{};  ///< Empty: no landmark is known.
-  bool with_heading = false;              ///< The 7-dimensional state [boots2013, eq. 4].
+  bool with_heading = false;              ///< By map_with_heading(): a factorisation of rank 7.
   std::optional<WindowOptions> window{};  ///< Empty: chosen by choose_window().
   double heading_step_m = 1.0;            ///< Travel from one column with heading to the next, > 0.
   int replicates = 0;      ///< Of bootstrap_landmarks(), blocks a window long; 0: no covariances.
@@ -25,7 +25,7 @@ struct SpectralSlam {
   SlamEstimate estimate;
   WindowSearch window;    ///< Without trials where the window was given.
   MetricUpgrade upgrade;  ///< Where no landmark was known and heading not asked for.
-  Eigen::MatrixXd Y;      ///< Squared ranges at the times of the path: N x its size.
+  Eigen::MatrixXd Y;      ///< 1/2 d^2 at the times of the path, m^2: N x its size.
 };
 
 /// Spectral SLAM on a log of single readings [boots2013]: windowed ranges at the odometry's times,
@@ -34,10 +34,16 @@ struct SpectralSlam {
 /// No landmark known: odometry settles the mirror and the scale, and the map is free to move. No
 /// ground truth is looked at.
 /// @param odometry  The dead-reckoned path, with headings where `with_heading`.
-/// @return `path` at those times of odometry at which every landmark's range is told
-///         (kTooFewObservations tells of the others). Empty path, NaN landmarks and a status where
-///         no map came out.
-/// @throws InvalidInput if a bound is broken.
+/// @return `path` at those times of odometry at which every landmark's range is told (kUndetermined
+///         tells of the others). With known landmarks positions are localise() of the map and Y;
+///         without, odometry gives them their scale, and they the landmarks and the ranges theirs.
+///         `range_scale` is that of the window times this correction, and Y is free of it; the
+///         factors in `upgrade` are as before. kUndetermined
+///         also where odometry does not tell the map from its mirror image. Empty path, NaN
+///         landmarks and a status where no map came out: kTooFewObservations if too few poses are
+///         told.
+/// @throws InvalidInput if a bound is broken: for ranges that check_ranges() refuses, a
+///         path_problem(), a known_problem(), a windowed_size_problem().
 SpectralSlam spectral_slam(const RangeLog& log, const Trajectory& odometry,
                            const SpectralSlamOptions& options = {});
 

@@ -1,21 +1,28 @@
+#include "core/range_slam/upgrade_transform.hpp"
+
+#include <algorithm>
 #include <array>
 #include <cmath>
+#include <complex>
 #include <limits>
 #include <optional>
+#include <vector>
 
 #include <fmt/format.h>
 #include <Eigen/Eigenvalues>
 #include <Eigen/LU>
 #include <Eigen/SVD>
 
-#include "core/range_slam/metric_upgrade.hpp"
+#include "core/base/errors.hpp"
 #include "core/range_slam/quadric.hpp"
 
 namespace mapproof {
 namespace {
 
-/// At or below this share of the largest a singular value of the monomials is rounding.
-constexpr double kRounding = 1e-10;
+/// An eigenvalue of a quadric at or below this share of the largest has no sign.
+constexpr double kSignless = 1e-10;
+/// A root with an imaginary part at or below this share is real.
+constexpr double kRealRoot = 1e-6;
 /// Another quadric must fit worse than the best by this.
 constexpr double kClear = 2.0;
 
@@ -29,7 +36,7 @@ struct Candidate {
 std::optional<Eigen::Matrix4d> with_cone_signature(const Eigen::Matrix4d& Q) {
   const Eigen::Vector4d values =
       Eigen::SelfAdjointEigenSolver<Eigen::Matrix4d>(Q, Eigen::EigenvaluesOnly).eigenvalues();
-  const double rounding = kRounding * values.cwiseAbs().maxCoeff();
+  const double rounding = kSignless * values.cwiseAbs().maxCoeff();
   if (values(0) < -rounding && values(1) > rounding) return Q;
   if (values(3) > rounding && values(2) < -rounding) return Eigen::Matrix4d(-Q);
   return std::nullopt;
@@ -114,7 +121,7 @@ std::vector<Eigen::Vector2d> pencil_roots(const Eigen::Matrix4d& A, const Eigen:
       0.0, 1.0, -c[2] / c[3];
   std::vector<Eigen::Vector2d> roots;
   for (const std::complex<double>& x : Eigen::EigenSolver<Eigen::Matrix3d>(companion).eigenvalues())
-    if (std::abs(x.imag()) <= 1e-6 * (1.0 + std::abs(x)))
+    if (std::abs(x.imag()) <= kRealRoot * (1.0 + std::abs(x)))
       roots.push_back(in_b ? Eigen::Vector2d(1.0, x.real()) : Eigen::Vector2d(x.real(), 1.0));
   return roots;
 }
@@ -138,24 +145,40 @@ std::optional<Candidate> best_of_pencil(const Eigen::MatrixXd& V, const Eigen::V
   return best;
 }
 
+/// The quadric of the last right singular vector, or where a pencil of the last two fits the best
+/// of it.
+/// @param rounding  Singular values at or below it are 0.
+std::optional<Candidate> best_quadric(const Eigen::JacobiSVD<Eigen::MatrixXd>& svd, double rounding,
+                                      const Eigen::Vector4d& w, const Eigen::MatrixXd& U) {
+  const Eigen::VectorXd& s = svd.singularValues();
+  if (s(7) <= rounding) return std::nullopt;
+  if (s(8) <= rounding) return best_of_pencil(svd.matrixV(), w, U);
+  return upgraded(quadric_of(svd.matrixV().col(9)), w, U);
+}
+
+void check(const Eigen::MatrixXd& U, const Eigen::Vector4d& mean,
+           const Eigen::MatrixXd& monomials) {
+  if (U.rows() < 1 || U.cols() != 4 || monomials.cols() != 10)
+    throw InvalidInput("an upgrade needs 4 states of the other side, and 10 monomials");
+  if (!U.allFinite() || !mean.allFinite() || !monomials.allFinite())
+    throw InvalidInput("an upgrade needs finite states");
+}
+
 }  // namespace
 
 UpgradeTransform upgrade_transform(const Eigen::MatrixXd& U, const Eigen::Vector4d& mean,
-                                   const Eigen::MatrixXd& monomials) {
+                                   const Eigen::MatrixXd& monomials, double rounding) {
+  check(U, mean, monomials);
   UpgradeTransform result;
   Eigen::MatrixXd rows = Eigen::MatrixXd::Zero(std::max<Eigen::Index>(monomials.rows(), 10), 10);
   rows.topRows(monomials.rows()) = monomials;
   const Eigen::JacobiSVD<Eigen::MatrixXd> svd(rows, Eigen::ComputeFullV);
   const Eigen::VectorXd& s = result.monomial_values = svd.singularValues();
 
-  const bool pencil = s(8) <= kRounding * s(0);
-  const double vital = s(pencil ? 7 : 8);
+  const bool is_pencil = s(8) <= rounding * s(0);
+  const double vital = s(is_pencil ? 7 : 8);
   result.condition = vital > 0.0 ? s(0) / vital : std::numeric_limits<double>::infinity();
-  const Eigen::Vector4d& w = mean;
-  const std::optional<Candidate> found = vital <= kRounding * s(0) ? std::nullopt
-                                         : pencil
-                                             ? best_of_pencil(svd.matrixV(), w, U)
-                                             : upgraded(quadric_of(svd.matrixV().col(9)), w, U);
+  const std::optional<Candidate> found = best_quadric(svd, rounding * s(0), mean, U);
   if (!found) {
     result.statuses.push_back(
         {StatusCode::kDegenerateGeometry,
@@ -165,7 +188,7 @@ UpgradeTransform upgrade_transform(const Eigen::MatrixXd& U, const Eigen::Vector
   }
   result.S = found->S;
   result.Q = found->Q;
-  if (!pencil && s(8) < kClear * s(9))
+  if (!is_pencil && s(8) < kClear * s(9))
     result.statuses.push_back(
         {StatusCode::kUndetermined,
          fmt::format("Another quadric fits the states nearly as well as the one taken: {:.3g} "

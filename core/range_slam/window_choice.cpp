@@ -6,12 +6,13 @@
 #include <numbers>
 
 #include "core/base/errors.hpp"
+#include "core/range_slam/spread_rows.hpp"
 
 namespace mapproof {
 namespace {
 
 constexpr Eigen::Index kTurns = 5;
-/// Windows to a block of held-out readings.
+/// Blocks of held-out readings to a window.
 constexpr double kBlocks = 6.0;
 /// Lengths tried: down to 1/181 of all the time.
 constexpr int kLengths = 16;
@@ -19,12 +20,6 @@ constexpr int kLengths = 16;
 constexpr Eigen::Index kCoverageTimes = 500;
 /// Held-out readings that no window tells beyond this share make a length unusable.
 constexpr double kUntold = 0.02;
-
-LandmarkReadings part_of(const LandmarkReadings& readings, const std::vector<Eigen::Index>& rows) {
-  return {.time_s = readings.time_s(rows),
-          .positions_m = readings.positions_m(rows, Eigen::all),
-          .range_m = readings.range_m(rows)};
-}
 
 /// Sum of absolute errors over the readings told, and how many were and were not.
 struct HeldOut {
@@ -42,10 +37,10 @@ void hold_out(const LandmarkReadings& readings, Eigen::Index turn, Eigen::Index 
     const bool is_out = std::fmod(block + static_cast<double>(phase), kTurns) == double(turn);
     (is_out ? out : kept).push_back(i);
   }
-  const LandmarkReadings asked = part_of(readings, out);
+  const LandmarkReadings asked = readings.at(out);
   // Asked at all readings, so that the windows lie as they do for the whole.
-  const Eigen::VectorXd half_squares = windowed_half_squares(
-      part_of(readings, kept), readings.time_s, readings.positions_m, options);
+  const Eigen::VectorXd half_squares =
+      windowed_half_squares(readings.at(kept), readings.time_s, readings.positions_m, options);
   const double scale = options.range_scale;
   for (std::size_t i = 0; i < out.size(); ++i) {
     const double half_square = half_squares(out[i]);
@@ -57,14 +52,6 @@ void hold_out(const LandmarkReadings& readings, Eigen::Index turn, Eigen::Index 
     result.error_m += std::abs(range_m - asked.range_m(static_cast<Eigen::Index>(i)));
     ++result.told;
   }
-}
-
-/// Some of the times, the first and last among them.
-Eigen::VectorXd thinned(const Eigen::VectorXd& time_s) {
-  const Eigen::Index n = std::min(time_s.size(), kCoverageTimes);
-  Eigen::VectorXd some(n);
-  for (Eigen::Index i = 0; i < n; ++i) some(i) = time_s(i * (time_s.size() - 1) / (n - 1));
-  return some;
 }
 
 WindowTrial tried(const std::vector<LandmarkReadings>& readings, const Trajectory& path,
@@ -92,7 +79,7 @@ WindowSearch choose_window(const std::vector<LandmarkReadings>& readings, const 
                            const Eigen::VectorXd& time_s) {
   if (time_s.size() < 2 || !(time_s(time_s.size() - 1) > time_s(0)))
     throw InvalidInput("windows need two times or more");
-  const Eigen::VectorXd some_s = thinned(time_s);
+  const Eigen::VectorXd some_s = time_s(spread_rows(time_s.size(), kCoverageTimes));
   const double all_s = some_s(some_s.size() - 1) - some_s(0);
   WindowSearch search;
   search.options.length_s = all_s;

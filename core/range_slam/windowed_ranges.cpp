@@ -2,10 +2,13 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
+#include <utility>
+
+#include <fmt/format.h>
 
 #include "core/align/path_at.hpp"
 #include "core/base/errors.hpp"
+#include "core/range_slam/log_checks.hpp"
 
 namespace mapproof {
 namespace {
@@ -15,8 +18,10 @@ constexpr double kOverlap = 4.0;
 /// Readings that a window needs.
 constexpr Eigen::Index kLeastReadings = 6;
 
-/// Longer ranges are no ranges; their fourth powers must not overflow.
-constexpr double kFarthest_m = 1e9;
+/// Windows to a landmark.
+constexpr double kMostWindows = 1e6;
+/// A window's least say in a mean, at its ends.
+constexpr double kLeastSay = 1e-3;
 
 /// Windows of one length, evenly over a stretch of time.
 struct WindowGrid {
@@ -35,7 +40,8 @@ struct WindowGrid {
       return;
     }
     const double steps = std::ceil(room * kOverlap / length_s);
-    if (steps > 1e6) throw InvalidInput("windows are too short for the time they are to cover");
+    if (steps > kMostWindows)
+      throw InvalidInput("windows are too short for the time they are to cover");
     count = static_cast<Eigen::Index>(steps) + 1;
     first_center_s = first_s + half_s;
     spacing_s = room / steps;
@@ -56,9 +62,13 @@ struct Slice {
   }
 };
 
-void check(const Eigen::VectorXd& time_s, const WindowOptions& options) {
-  if (!(options.length_s > 0.0) || !std::isfinite(options.length_s))
+void check_length(double length_s) {
+  if (!(length_s > 0.0) || !std::isfinite(length_s))
     throw InvalidInput("a window's length must be above 0");
+}
+
+void check(const Eigen::VectorXd& time_s, const WindowOptions& options) {
+  check_length(options.length_s);
   if (!(options.range_scale > 0.0) || !std::isfinite(options.range_scale))
     throw InvalidInput("a range scale must be above 0");
   if (!time_s.allFinite() || !std::is_sorted(time_s.begin(), time_s.end()))
@@ -67,33 +77,35 @@ void check(const Eigen::VectorXd& time_s, const WindowOptions& options) {
 
 }  // namespace
 
+std::string windowed_size_problem(Eigen::Index landmarks, Eigen::Index times) {
+  if (static_cast<double>(landmarks) * static_cast<double>(times) <= kMostWindowedRanges) return "";
+  return fmt::format(
+      "ranges to {} landmarks at {} times are more than {:g}: give fewer poses or landmarks",
+      landmarks, times, kMostWindowedRanges);
+}
+
 std::vector<LandmarkReadings> readings_by_landmark(const std::vector<RangeReading>& ranges,
                                                    Eigen::Index landmarks, const Trajectory& path) {
-  if (!path.time_s.allFinite() || !path.positions_m.allFinite())
-    throw InvalidInput("a path must be finite");
-  std::vector<std::vector<RangeReading>> sorted(static_cast<std::size_t>(landmarks));
-  double last_s = -std::numeric_limits<double>::infinity();
+  if (const std::string problem = path_problem(path); !problem.empty()) throw InvalidInput(problem);
+  check_ranges(ranges, landmarks);
+  std::vector<std::vector<Eigen::Index>> rows(static_cast<std::size_t>(landmarks));
+  std::vector<double> time_s, range_m;
   for (const RangeReading& reading : ranges) {
-    if (reading.landmark < 0 || reading.landmark >= landmarks)
-      throw InvalidInput("a range is to none of the landmarks");
-    if (!(reading.range_m >= 0.0 && reading.range_m < kFarthest_m) || !(reading.time_s >= last_s))
-      throw InvalidInput("ranges must be at least 0, below 1e9 m and ascend in time");
-    last_s = reading.time_s;
-    if (path.size() > 0 && last_s >= path.time_s(0) && last_s <= path.time_s(path.size() - 1))
-      sorted[static_cast<std::size_t>(reading.landmark)].push_back(reading);
+    if (path.size() == 0 || reading.time_s < path.time_s(0) ||
+        reading.time_s > path.time_s(path.size() - 1))
+      continue;
+    rows[static_cast<std::size_t>(reading.landmark)].push_back(std::ssize(time_s));
+    time_s.push_back(reading.time_s);
+    range_m.push_back(reading.range_m);
   }
+  const LandmarkReadings all{
+      .time_s = Eigen::Map<Eigen::VectorXd>(time_s.data(), std::ssize(time_s)),
+      .positions_m =
+          positions_at(path, Eigen::Map<Eigen::VectorXd>(time_s.data(), std::ssize(time_s))),
+      .range_m = Eigen::Map<Eigen::VectorXd>(range_m.data(), std::ssize(range_m))};
   std::vector<LandmarkReadings> result;
-  for (const std::vector<RangeReading>& rows : sorted) {
-    LandmarkReadings readings;
-    readings.time_s.resize(std::ssize(rows));
-    readings.range_m.resize(std::ssize(rows));
-    for (std::size_t i = 0; i < rows.size(); ++i) {
-      readings.time_s(static_cast<Eigen::Index>(i)) = rows[i].time_s;
-      readings.range_m(static_cast<Eigen::Index>(i)) = rows[i].range_m;
-    }
-    readings.positions_m = positions_at(path, readings.time_s);
-    result.push_back(std::move(readings));
-  }
+  result.reserve(rows.size());
+  for (const std::vector<Eigen::Index>& own : rows) result.push_back(all.at(own));
   return result;
 }
 
@@ -110,12 +122,13 @@ Eigen::VectorXd windowed_half_squares(const LandmarkReadings& readings,
     const double from_s = grid.center_s(i) - grid.half_s, to_s = grid.center_s(i) + grid.half_s;
     const Slice inside(readings.time_s, from_s, to_s);
     if (inside.count < kLeastReadings) continue;
-    const auto local = fit_local_range(readings, inside.first, inside.count, options.range_scale);
+    const LocalRange local =
+        fit_local_range(readings, inside.first, inside.count, options.range_scale);
     const Slice asked(time_s, from_s, to_s);
     for (Eigen::Index t = asked.first; t < asked.first + asked.count; ++t) {
       const double off_center = std::abs(time_s(t) - grid.center_s(i)) / grid.half_s;
-      const double w = std::max(1e-3, 1.0 - off_center) / local->variance(path_m.row(t));
-      sum(t) += w * local->squared_range(path_m.row(t));
+      const double w = std::max(kLeastSay, 1.0 - off_center) / local.variance(path_m.row(t));
+      sum(t) += w * local.squared_range(path_m.row(t));
       weight(t) += w;
     }
   }
@@ -126,6 +139,9 @@ WindowedRanges windowed_ranges(const std::vector<LandmarkReadings>& readings,
                                const Trajectory& path, const Eigen::VectorXd& time_s,
                                const WindowOptions& options) {
   check(time_s, options);
+  if (const std::string problem = windowed_size_problem(std::ssize(readings), time_s.size());
+      !problem.empty())
+    throw InvalidInput(problem);
   const Points path_m = positions_at(path, time_s);
   if (!path_m.allFinite()) throw InvalidInput("ranges are asked for beyond the path");
   Eigen::MatrixXd Y(std::ssize(readings), time_s.size());
@@ -133,14 +149,22 @@ WindowedRanges windowed_ranges(const std::vector<LandmarkReadings>& readings,
     Y.row(n) =
         windowed_half_squares(readings[static_cast<std::size_t>(n)], time_s, path_m, options);
   WindowedRanges result;
+  for (Eigen::Index n = 0; n < Y.rows(); ++n)
+    result.told.push_back(Y.row(n).array().isFinite().count());
   for (Eigen::Index t = 0; t < Y.cols(); ++t)
     if (Y.col(t).allFinite()) result.columns.push_back(t);
-  result.Y = Y(Eigen::all, result.columns);
+  if (std::ssize(result.columns) == Y.cols())
+    result.Y = std::move(Y);
+  else
+    result.Y = Y(Eigen::all, result.columns);
   return result;
 }
 
 double range_scale_of(const std::vector<LandmarkReadings>& readings, double first_s, double last_s,
                       double length_s) {
+  check_length(length_s);
+  if (!std::isfinite(first_s) || !std::isfinite(last_s) || first_s > last_s)
+    throw InvalidInput("times must be finite and ascend");
   const WindowGrid grid(first_s, last_s, length_s);
   double sum = 0.0, weight = 0.0;
   for (const LandmarkReadings& landmark : readings)

@@ -19,8 +19,8 @@ bool is_called(const CsvColumn& column, std::string_view cell) {
   return std::ranges::find(column.words, lower_case(cell)) != column.words.end();
 }
 
-/// Which cell of the rows holds the column. @throws IoError if it is needed but not there, or
-/// twice.
+/// Which cell of the rows holds the column.
+/// @throws IoError if it is needed but not there, or there twice.
 std::optional<std::size_t> cell_of(const CsvColumn& column, const TableRow& header,
                                    const std::string& source) {
   std::optional<std::size_t> found;
@@ -79,10 +79,7 @@ NumberTable read_columns(const std::filesystem::path& path, const std::vector<Cs
     for (const std::size_t cell : cells) values.push_back(number_at(row, cell, source));
     if (name_cell) table.names.push_back(name_at(row, *name_cell, source));
   }
-  using RowMajor = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
-  table.values =
-      Eigen::Map<const RowMajor>(values.data(), static_cast<Eigen::Index>(table.rows.size()),
-                                 static_cast<Eigen::Index>(cells.size()));
+  table.set_values(values, std::ssize(cells));
   return table;
 }
 

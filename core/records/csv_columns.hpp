@@ -20,8 +20,7 @@ struct CsvColumn {
 ///
 /// @param names  A column of landmarks' names to read as well; nullptr: none.
 /// @throws IoError naming the line if there is no such header, a needed column is not there or
-/// twice,
-///         or a cell of one is no finite number or an empty name.
+///         twice, or a cell of one is no finite number or an empty name.
 NumberTable read_columns(const std::filesystem::path& path, const std::vector<CsvColumn>& numbers,
                          const CsvColumn* names = nullptr);
 

@@ -1,18 +1,14 @@
 #include "core/records/path_motions.hpp"
 
 #include <cmath>
-#include <numbers>
 
+#include "core/base/angle.hpp"
 #include "core/base/errors.hpp"
 
 namespace mapproof {
 namespace {
 
 constexpr double kShortest_m = 1e-9;
-
-double without_full_turns(double angle_rad) {
-  return std::remainder(angle_rad, 2.0 * std::numbers::pi);
-}
 
 /// The heading at which each step is driven; a step of no length has that of the one before.
 Eigen::VectorXd step_headings(const Points& steps_m, const Eigen::VectorXd& signs) {
@@ -53,7 +49,7 @@ RecoveredOdometry motions_along(const Trajectory& path, const std::vector<double
     odometry.motions.push_back(
         {.time_s = path.time_s(i + 1),
          .distance_m = signs(i) * steps_m.row(i).norm(),
-         .turn_rad = i + 1 < steps ? without_full_turns(headings(i + 1) - headings(i)) : 0.0});
+         .turn_rad = i + 1 < steps ? wrapped(headings(i + 1) - headings(i)) : 0.0});
   return odometry;
 }
 

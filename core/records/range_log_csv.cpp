@@ -1,8 +1,8 @@
 #include <filesystem>
+#include <fstream>
 #include <system_error>
 
 #include "core/base/errors.hpp"
-#include "core/base/files.hpp"
 #include "core/json/text_input.hpp"
 #include "core/records/csv_columns.hpp"
 #include "core/records/range_log_parts.hpp"
@@ -25,6 +25,9 @@ const CsvColumn kLandmark{.label = "landmarks",
                           .words = {"beacon", "landmark", "id", "name", "object"}};
 const CsvColumn kRange{.label = "ranges", .words = {"range", "range_m"}};
 const CsvColumn kRobot{.label = "robots", .words = {"robot", "sender"}, .is_needed = false};
+
+/// Bytes within which a header ends.
+constexpr std::size_t kLongestHeader = 65'536;
 
 bool is_there(const fs::path& path) {
   std::error_code error;
@@ -65,11 +68,15 @@ NamedPoints read_true_landmarks(const fs::path& path) {
 }  // namespace
 
 bool has_range_columns(const fs::path& path) {
+  std::ifstream file(path, std::ios::binary);
+  std::string start(kLongestHeader, '\0');
+  file.read(start.data(), std::ssize(start));
+  start.resize(static_cast<std::size_t>(file.gcount()));
+  if (start.size() == kLongestHeader) start.resize(start.rfind('\n') + 1);
   try {
-    const std::string bytes = read_file(path);
-    return has_columns(checked_text(bytes, path.string()), {kTime, kLandmark, kRange});
+    return has_columns(checked_text(start, path.string()), {kTime, kLandmark, kRange});
   } catch (const IoError&) {
-    return false;
+    return false;  // No text: whoever reads it says what is wrong.
   }
 }
 

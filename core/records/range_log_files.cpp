@@ -28,7 +28,7 @@ Form form_of(const fs::path& path) {
   std::error_code error;
   if (fs::is_directory(path, error))
     return fs::exists(path / "ranges.csv", error) ? Form::kCsv : Form::kNone;
-  if (path.filename() == "ranges.csv") return has_range_columns(path) ? Form::kCsv : Form::kNone;
+  if (path.filename() == "ranges.csv") return Form::kCsv;
   if (path.extension() == ".mat") return Form::kMat;
   if (path.extension() == ".pyfg") return Form::kPyfg;
   return text_stem(path).empty() ? Form::kNone : Form::kText;
@@ -72,6 +72,10 @@ RangeLog read_range_log(const fs::path& path, const RangeLogOptions& options) {
                 "NAME_DR.txt with NAME_TD.txt");
 }
 
-bool is_range_log(const fs::path& path) { return form_of(path) != Form::kNone; }
+bool is_range_log(const fs::path& path) {
+  // Other tables may be called ranges.csv too.
+  if (path.filename() == "ranges.csv" && !has_range_columns(path)) return false;
+  return form_of(path) != Form::kNone;
+}
 
 }  // namespace mapproof

@@ -24,8 +24,7 @@ struct RangeLogOptions {
 /// Odometry and ranges of one robot [djugash2009], with the truth if it is there, from
 ///
 /// - a folder, or the file ranges.csv in it: ranges.csv and, if they are there, odometry_drp.csv
-/// with
-///   odometry_drp_start.csv or else odometry.csv with odometry_start.csv, groundtruth.csv,
+///   with odometry_drp_start.csv or else odometry.csv with odometry_start.csv, groundtruth.csv,
 ///   landmarks.csv;
 /// - NAME.mat of MATLAB 5 to 7.2: TD (time, sender, landmark, range) and, if they are there, DR
 ///   (time, distance, turn), DRp and GT (time, x, y, heading), TL (landmark, x, y);
@@ -38,8 +37,8 @@ struct RangeLogOptions {
 /// @note Linear in the size of the files, but for sorting.
 RangeLog read_range_log(const std::filesystem::path& path, const RangeLogOptions& options = {});
 
-/// Whether the path is one that read_range_log() takes, by its name and, for ranges.csv, its
-/// header.
+/// Whether the path is one that read_range_log() takes, by its name and, for ranges.csv, the header
+/// on its first line.
 bool is_range_log(const std::filesystem::path& path);
 
 }  // namespace mapproof

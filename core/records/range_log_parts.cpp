@@ -6,15 +6,24 @@
 #include <limits>
 #include <map>
 #include <numbers>
+#include <set>
 
 #include <fmt/format.h>
 
+#include "core/base/angle.hpp"
 #include "core/base/errors.hpp"
 #include "core/base/words.hpp"
 #include "core/records/limits.hpp"
 
 namespace mapproof {
 namespace {
+
+/// Mean cosine of heading and travel below which headings are off by half a turn.
+constexpr double kTurnedAbout = -0.5;
+/// Turns that differ by less are the same to the last digit.
+constexpr double kSameTurn_rad = 1e-9;
+/// A log without a turn above this does not turn.
+constexpr double kSomeTurn_rad = 1e-3;
 
 /// A name as letters and the number behind them; empty if it is none such.
 std::optional<std::pair<std::string_view, long long>> numbered(std::string_view name) {
@@ -28,14 +37,20 @@ std::optional<std::pair<std::string_view, long long>> numbered(std::string_view 
 
 std::vector<std::string> names_of(const RangeLogParts& parts) {
   std::vector<std::string> names;
-  std::map<std::string_view, bool> known;
+  std::set<std::string_view> known;
   for (const NamedReading& reading : parts.readings)
-    if (known.emplace(reading.landmark, true).second) names.push_back(reading.landmark);
+    if (known.insert(reading.landmark).second) names.push_back(reading.landmark);
   if (names.size() > kMostLandmarks)
     throw IoError(parts.source, fmt::format("ranges to more than {} landmarks", kMostLandmarks));
   if (std::ranges::all_of(names, [](const auto& name) { return numbered(name).has_value(); }))
     std::ranges::stable_sort(names, {}, [](const auto& name) { return *numbered(name); });
   return names;
+}
+
+std::map<std::string_view, Eigen::Index> rows_by_name(const std::vector<std::string>& names) {
+  std::map<std::string_view, Eigen::Index> rows;
+  for (const std::string& name : names) rows.emplace(name, std::ssize(rows));
+  return rows;
 }
 
 void take_readings(RangeLogParts& parts, RangeLog& log) {
@@ -51,9 +66,7 @@ void take_readings(RangeLogParts& parts, RangeLog& log) {
         "The stamps of the ranges jump back {}, by up to {:.1f} s: the ranges are sorted by time.",
         counted(static_cast<long long>(jumps), "time"), farthest_s));
   std::ranges::stable_sort(parts.readings, {}, &NamedReading::time_s);
-  std::map<std::string_view, Eigen::Index> rows;
-  for (const std::string& name : log.landmarks)
-    rows.emplace(name, static_cast<Eigen::Index>(rows.size()));
+  const std::map<std::string_view, Eigen::Index> rows = rows_by_name(log.landmarks);
   log.ranges.reserve(parts.readings.size());
   for (const NamedReading& reading : parts.readings)
     log.ranges.push_back({.time_s = reading.time_s,
@@ -61,18 +74,22 @@ void take_readings(RangeLogParts& parts, RangeLog& log) {
                           .range_m = reading.range_m});
 }
 
-void take_true_landmarks(const NamedPoints& truth, RangeLog& log) {
+void take_true_landmarks(const RangeLogParts& parts, RangeLog& log) {
+  const NamedPoints& truth = parts.true_landmarks;
   if (truth.names.empty()) return;
+  if (truth.names.size() > kMostLandmarks)
+    throw IoError(parts.source,
+                  fmt::format("true places of more than {} landmarks", kMostLandmarks));
+  const std::map<std::string_view, Eigen::Index> rows = rows_by_name(log.landmarks);
   log.true_landmarks = Points::Constant(static_cast<Eigen::Index>(log.landmarks.size()), 2,
                                         std::numeric_limits<double>::quiet_NaN());
   std::vector<std::string> unheard;
   for (std::size_t i = 0; i < truth.names.size(); ++i) {
-    const auto found = std::ranges::find(log.landmarks, truth.names[i]);
-    if (found == log.landmarks.end())
+    const auto found = rows.find(truth.names[i]);
+    if (found == rows.end())
       unheard.push_back(truth.names[i]);
     else
-      log.true_landmarks->row(found - log.landmarks.begin()) =
-          truth.positions_m.row(static_cast<Eigen::Index>(i));
+      log.true_landmarks->row(found->second) = truth.positions_m.row(static_cast<Eigen::Index>(i));
   }
   if (!unheard.empty())
     log.remarks.push_back("Left out, since there is no range to them: landmarks " +
@@ -104,7 +121,7 @@ void check_true_heading(RangeLog& log) {
   double forward_m = 0.0;
   for (const Motion& motion : log.odometry) forward_m += motion.distance_m;
   const double cosine = agreement(*log.truth) * (forward_m < 0.0 ? -1.0 : 1.0);
-  if (cosine >= -0.5) return;
+  if (cosine >= kTurnedAbout) return;
   log.truth->heading_rad.array() += std::numbers::pi;
   log.remarks.push_back(
       "The true heading is off by half a turn from the direction of travel: it is turned.");
@@ -124,13 +141,13 @@ void take_start(const RangeLogParts& parts, RangeLog& log) {
                                               log.start.time_s, first_s));
     return;
   }
-  const double step_s = log.odometry.size() > 1 ? log.odometry[1].time_s - first_s : 1.0;
+  const bool has_second = log.odometry.size() > 1;
+  const double step_s = has_second ? log.odometry[1].time_s - first_s : 1.0;
   log.start.time_s = first_s - step_s;
   log.remarks.push_back(
       fmt::format("No start is given: the frame is the log's own, and the first motion is taken to "
-                  "last {:g} s, "
-                  "as the second.",
-                  step_s));
+                  "last {:g} s{}.",
+                  step_s, has_second ? ", as the second" : ""));
 }
 
 void count_outside(RangeLog& log) {
@@ -142,7 +159,8 @@ void count_outside(RangeLog& log) {
   });
   if (outside > 0)
     log.remarks.push_back(
-        fmt::format("{} before or after the odometry.", counted(outside, "range")));
+        fmt::format("Outside the time of the odometry, where no method takes them: {}.",
+                    counted(outside, "range")));
 }
 
 }  // namespace
@@ -155,11 +173,10 @@ bool turns_are_the_truths(const std::vector<Motion>& motions, const Trajectory& 
   for (Eigen::Index i = 0; i < steps; ++i) {
     const double turn = motions[static_cast<std::size_t>(i)].turn_rad;
     const double true_turn = truth.heading_rad(i + 1) - truth.heading_rad(i);
-    const double gap = std::remainder(turn - true_turn, 2.0 * std::numbers::pi);
-    largest = std::max(largest, std::abs(gap));
+    largest = std::max(largest, std::abs(wrapped(turn - true_turn)));
     most_turn = std::max(most_turn, std::abs(turn));
   }
-  return largest < 1e-9 && most_turn > 1e-3;
+  return largest < kSameTurn_rad && most_turn > kSomeTurn_rad;
 }
 
 RangeLog assemble(RangeLogParts parts, const RangeLogOptions& options) {
@@ -174,7 +191,7 @@ RangeLog assemble(RangeLogParts parts, const RangeLogOptions& options) {
                .true_landmarks = std::nullopt,
                .remarks = parts.remarks};
   take_readings(parts, log);
-  take_true_landmarks(parts.true_landmarks, log);
+  take_true_landmarks(parts, log);
   take_start(parts, log);
   count_outside(log);
   if (log.truth && turns_are_the_truths(log.odometry, *log.truth))

@@ -22,11 +22,13 @@ struct RangeLogParts {
   std::vector<std::string> remarks = {};
 };
 
-/// Puts the landmarks in order (of their numbers if all names end in one, else as they first come),
-/// sorts the readings by time, turns true headings that are off by half a turn, and remarks on all
-/// of it and on what is missing or not to be trusted.
+/// Puts the landmarks in order (of the letters of their names and then of the number behind them if
+/// all names end in a number, else as they first come), sorts the readings by time, turns true
+/// headings that are off by half a turn, and remarks on all of it and on what is missing or not to
+/// be trusted.
 /// @param options  Whose files stand in for what was gathered.
-/// @throws IoError if there is no reading, or the start is not before the first motion.
+/// @throws IoError if there is no reading, there are more than 5000 landmarks with readings or with
+///         true places, or the start is not before the first motion.
 RangeLog assemble(RangeLogParts parts, const RangeLogOptions& options);
 
 /// Reads the files that the options name in place of what was gathered. @throws IoError.

@@ -1,7 +1,9 @@
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <map>
 #include <optional>
+#include <set>
 
 #include <fmt/format.h>
 
@@ -16,6 +18,9 @@
 
 namespace mapproof {
 namespace {
+
+/// Stamps nearer to each other than this are the same.
+constexpr double kSameTime_s = 1e-6;
 
 /// The letters before the number in a pose's name: one robot has one.
 std::string_view prefix_of(std::string_view name) {
@@ -49,7 +54,7 @@ class PyfgLines {
     std::vector<double> values;
     for (const auto& [pose, motion] : motions_by_pose_) {
       table.rows.push_back(motion.line);
-      values.push_back(pose_values_[4 * static_cast<std::size_t>(pose)]);
+      values.push_back(time_s(pose));
       values.insert(values.end(), motion.step.begin(), motion.step.end());
     }
     return motions_in(filled(table, values, 4));
@@ -58,6 +63,11 @@ class PyfgLines {
   std::vector<std::string> remarks() const {
     std::vector<std::string> remarks = {"The start is the first vertex."};
     if (!ranges_.rows.empty()) remarks.push_back("The variances of the file's edges are not used.");
+    if (other_stamps_ > 0)
+      remarks.push_back(
+          fmt::format("{} stamped otherwise than the poses, by up to {:.3g} s: the times are those "
+                      "of the poses.",
+                      counted(other_stamps_, "edge"), farthest_s_));
     if (passed_over_ > 0)
       remarks.push_back(
           fmt::format("{} passed over: priors and edges to landmarks other than ranges.",
@@ -73,9 +83,7 @@ class PyfgLines {
 
   static NumberTable filled(NumberTable table, const std::vector<double>& values,
                             Eigen::Index width) {
-    using RowMajor = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
-    table.values = Eigen::Map<const RowMajor>(values.data(),
-                                              static_cast<Eigen::Index>(table.rows.size()), width);
+    table.set_values(values, width);
     return table;
   }
 
@@ -113,8 +121,21 @@ class PyfgLines {
     return *value;
   }
 
-  void check_count(const NumberTable& table) const {
-    if (table.rows.size() == kMostSteps) fail(fmt::format("more than {} of them", kMostSteps));
+  void check_count(const NumberTable& table, std::string_view what) const {
+    if (table.rows.size() == kMostSteps) fail(fmt::format("more than {} {}", kMostSteps, what));
+  }
+
+  /// The stamp of an edge is no more than noticed: times are those of the poses.
+  void compare_stamp(Eigen::Index from, Eigen::Index to) {
+    const double stamp_s = number(1);
+    const double gap_s = std::min(std::abs(stamp_s - time_s(from)), std::abs(stamp_s - time_s(to)));
+    if (!(gap_s > kSameTime_s)) return;
+    ++other_stamps_;
+    farthest_s_ = std::max(farthest_s_, gap_s);
+  }
+
+  double time_s(Eigen::Index pose) const {
+    return pose_values_[4 * static_cast<std::size_t>(pose)];
   }
 
   void add_pose() {
@@ -125,7 +146,7 @@ class PyfgLines {
     else if (prefix_of(name) != prefix_of(first_pose_))
       fail(fmt::format("pose {} is of another robot than {}: give the lines of one robot",
                        in_quotes(name), in_quotes(first_pose_)));
-    check_count(poses_);
+    check_count(poses_, "poses");
     if (!pose_rows_.emplace(name, static_cast<Eigen::Index>(pose_rows_.size())).second)
       fail("pose " + in_quotes(name) + " is there twice");
     poses_.rows.push_back(row_.line);
@@ -134,8 +155,8 @@ class PyfgLines {
 
   void add_landmark() {
     expect_cells(4);
-    check_count(landmarks_);
-    landmark_names_.emplace(row_.cells[1], true);
+    check_count(landmarks_, "landmarks");
+    landmark_names_.emplace(row_.cells[1]);
     landmarks_.names.emplace_back(row_.cells[1]);
     landmarks_.rows.push_back(row_.line);
     for (const std::size_t cell : {2U, 3U}) landmark_values_.push_back(number(cell));
@@ -152,6 +173,7 @@ class PyfgLines {
     const Eigen::Index from = pose_named(row_.cells[2]);
     const Eigen::Index to = pose_named(row_.cells[3]);
     if (to != from + 1) fail("an edge between poses that do not follow each other");
+    compare_stamp(from, to);
     const Step step{.line = row_.line, .step = {number(4), number(6), number(5)}};
     for (std::size_t cell = 7; cell < 13; ++cell) number(cell);
     if (!motions_by_pose_.emplace(to, step).second) fail("a second edge between the same poses");
@@ -159,15 +181,16 @@ class PyfgLines {
 
   void add_range() {
     expect_cells(6);
-    const auto pose = static_cast<std::size_t>(pose_named(row_.cells[2]));
+    const Eigen::Index pose = pose_named(row_.cells[2]);
     if (pose_rows_.contains(row_.cells[3])) fail("a range between two poses");
     if (!landmark_names_.contains(row_.cells[3]))
       fail("no vertex before it is the landmark " + in_quotes(row_.cells[3]));
-    check_count(ranges_);
+    check_count(ranges_, "ranges");
+    compare_stamp(pose, pose);
     number(5);
     ranges_.rows.push_back(row_.line);
     ranges_.names.emplace_back(row_.cells[3]);
-    range_values_.push_back(pose_values_[4 * pose]);
+    range_values_.push_back(time_s(pose));
     range_values_.push_back(number(4));
   }
 
@@ -176,11 +199,13 @@ class PyfgLines {
   TableRow row_;
   std::string first_pose_;
   std::map<std::string, Eigen::Index, std::less<>> pose_rows_;
-  std::map<std::string, bool, std::less<>> landmark_names_;
+  std::set<std::string, std::less<>> landmark_names_;
   std::map<Eigen::Index, Step> motions_by_pose_;  ///< By the pose that they lead to.
   NumberTable poses_, motions_, ranges_, landmarks_;
   std::vector<double> pose_values_, range_values_, landmark_values_;
   long long passed_over_ = 0;
+  long long other_stamps_ = 0;
+  double farthest_s_ = 0.0;
 };
 
 }  // namespace

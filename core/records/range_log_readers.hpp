@@ -13,7 +13,9 @@ RangeLog read_range_log_pyfg(const std::filesystem::path& path, const RangeLogOp
 /// @param stem  The path without _DR.txt or _TD.txt.
 RangeLog read_range_log_text(const std::filesystem::path& stem, const RangeLogOptions& options);
 
-/// Whether a CSV file names the columns of ranges: time, landmark, range.
+/// Whether a CSV file names the columns of ranges: time, landmark, range. False if it cannot be
+/// read.
+/// @note Reads the start of the file alone.
 bool has_range_columns(const std::filesystem::path& path);
 
 }  // namespace mapproof

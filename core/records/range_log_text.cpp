@@ -21,10 +21,7 @@ NumberTable read_numbers(const fs::path& path, std::size_t width) {
     table.rows.push_back(rows.line());
     values.insert(values.end(), rows.values().begin(), rows.values().end());
   }
-  using RowMajor = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
-  table.values =
-      Eigen::Map<const RowMajor>(values.data(), static_cast<Eigen::Index>(table.rows.size()),
-                                 static_cast<Eigen::Index>(width));
+  table.set_values(values, static_cast<Eigen::Index>(width));
   return table;
 }
 

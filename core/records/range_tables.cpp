@@ -44,6 +44,11 @@ std::string numbered_name(const NumberTable& table, Eigen::Index row, double num
 
 }  // namespace
 
+void NumberTable::set_values(const std::vector<double>& by_row, Eigen::Index columns) {
+  using RowMajor = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
+  values = Eigen::Map<const RowMajor>(by_row.data(), std::ssize(rows), columns);
+}
+
 std::string NumberTable::place(Eigen::Index row) const {
   return fmt::format("{} {}", row_word, rows[static_cast<std::size_t>(row)]);
 }

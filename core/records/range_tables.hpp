@@ -18,6 +18,9 @@ struct NumberTable {
   std::vector<std::string> names = {};  ///< n, of landmarks; or empty.
   Eigen::MatrixXd values = {};          ///< n x k, finite.
 
+  /// Takes `values` row by row, as many rows as `rows`.
+  void set_values(const std::vector<double>& by_row, Eigen::Index columns);
+
   std::string place(Eigen::Index row) const;
   /// @throws IoError at that row.
   [[noreturn]] void fail(Eigen::Index row, const std::string& what) const;

@@ -13,11 +13,7 @@ namespace {
 bool has_heading(const Trajectory& path) { return path.heading_rad.size() > 0; }
 
 void check(const Trajectory& path) {
-  if (path.positions_m.rows() != path.size() ||
-      (has_heading(path) && path.heading_rad.size() != path.size()))
-    throw InvalidInput("a path needs a position, and a heading or none, for each of its times");
-  if (!path.time_s.allFinite() || !path.positions_m.allFinite() || !path.heading_rad.allFinite())
-    throw InvalidInput("a path that is written needs finite numbers");
+  if (const std::string problem = path_problem(path); !problem.empty()) throw InvalidInput(problem);
 }
 
 }  // namespace

@@ -9,7 +9,7 @@ namespace mapproof {
 
 /// A path as TUM's text [sturm2012]: a line `t x y z qx qy qz qw` a pose, z = 0, the quaternion
 /// that of the heading, or of none where headings are not known. Numbers read back as they were.
-/// @throws InvalidInput if the sizes of `path` differ or a number is not finite.
+/// @throws InvalidInput for a path_problem().
 std::string trajectory_tum(const Trajectory& path);
 
 /// A path as CSV with the columns time_s, x_m, y_m and, if it is known, heading_rad; lines end in

@@ -18,8 +18,8 @@ struct CommonPoses {
 };
 
 CommonPoses common_poses(const Trajectory& path, const Trajectory& truth) {
-  if (truth.positions_m.rows() != truth.size())
-    throw InvalidInput("a path needs a position for each of its times");
+  if (const std::string problem = times_problem(truth); !problem.empty())
+    throw InvalidInput(problem);
   const Points estimate_m = positions_at(path, truth.time_s);
   std::vector<Eigen::Index> rows;
   for (Eigen::Index i = 0; i < truth.size(); ++i)

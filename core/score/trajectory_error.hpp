@@ -10,7 +10,7 @@ namespace mapproof {
 /// The map from the frame of `path` to that of `truth` which an error is taken after: fitted over
 /// the true poses within the time of `path`, at their times. Landmarks play no part in it.
 /// @return Empty if the two have fewer than 2 poses in common.
-/// @throws InvalidInput if the times of a path do not ascend, or its sizes differ.
+/// @throws InvalidInput for a times_problem() of either path.
 std::optional<Similarity> path_alignment(const Trajectory& path, const Trajectory& truth,
                                          Alignment alignment);
 

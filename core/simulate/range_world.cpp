@@ -6,7 +6,7 @@
 
 #include "core/base/errors.hpp"
 #include "core/base/random.hpp"
-#include "core/simulate/angle.hpp"
+#include "core/base/angle.hpp"
 
 namespace mapproof {
 namespace {

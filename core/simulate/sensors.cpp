@@ -7,7 +7,7 @@
 
 #include <fmt/format.h>
 
-#include "core/simulate/angle.hpp"
+#include "core/base/angle.hpp"
 
 namespace mapproof {
 namespace {

@@ -4,29 +4,20 @@
 
 #include <Eigen/LU>
 #include <cmath>
-#include <cstdlib>
-#include <filesystem>
+#include <numbers>
 
 #include "core/base/errors.hpp"
 #include "core/range_slam/dead_reckoning.hpp"
-#include "core/records/range_log_files.hpp"
-#include "core/score/trajectory_error.hpp"
 #include "tests/core/range_slam/slam_worlds.hpp"
+#include "tests/support/plaza.hpp"
+#include "tests/support/slam_checks.hpp"
 
 namespace mapproof {
 namespace {
 
+using test::all_known;
+using test::mean_error_m;
 using test::slam_world;
-
-KnownLandmarks all_known(const RangeLog& log) {
-  KnownLandmarks known{.rows = {}, .positions_m = *log.true_landmarks};
-  for (Eigen::Index n = 0; n < known.positions_m.rows(); ++n) known.rows.push_back(n);
-  return known;
-}
-
-double error_of(const RangeLog& log, const SlamEstimate& estimate, Alignment alignment) {
-  return trajectory_error(estimate, *log.truth, log.true_landmarks, alignment)->mean_m;
-}
 
 /// One step of 2 m straight at a landmark 10 m ahead, then a reading of 7.5 m instead of 8.
 RangeLog one_step() {
@@ -78,7 +69,7 @@ TEST(Ekf, FindsTheWorldAndTheScaleWithoutNoise) {
         ekf_slam(log, {.range_sigma_m = 0.05, .range_scale = 1.02, .scale_sigma = 0.1});
     EXPECT_TRUE(estimate.statuses.empty());
     EXPECT_NEAR(estimate.range_scale, 1.05, 0.01);
-    EXPECT_LT(error_of(log, estimate, Alignment::kRigid), 0.1);
+    EXPECT_LT(mean_error_m(log, estimate, Alignment::kRigid), 0.1);
     EXPECT_LT((estimate.landmarks_m - *log.true_landmarks).rowwise().norm().maxCoeff(), 0.3);
   }
 }
@@ -91,8 +82,8 @@ TEST(Ekf, IsBetterThanDeadReckoning) {
   SlamEstimate reckoned;
   reckoned.path = dead_reckoned(log);
   reckoned.landmarks_m = *log.true_landmarks;
-  EXPECT_LT(error_of(log, ekf_slam(log, options), Alignment::kNone),
-            0.2 * error_of(log, reckoned, Alignment::kNone));
+  EXPECT_LT(mean_error_m(log, ekf_slam(log, options), Alignment::kNone),
+            0.2 * mean_error_m(log, reckoned, Alignment::kNone));
 }
 
 /// The squared error in sigmas of two numbers is 2 on average.
@@ -113,6 +104,33 @@ TEST(Ekf, ErrorsAreAsLargeAsItsCovariancesSay) {
     squared += error.dot(estimate.position_cov_m2.back().inverse() * error);
   }
   EXPECT_NEAR(squared / kDraws, 2.0, 0.4);
+}
+
+TEST(Ekf, GivesCovariancesOnlyIfAskedFor) {
+  const RangeLog log = slam_world(1, {.range_sigma_m = 0.1});
+  EkfOptions options{.known = all_known(log)};
+  EXPECT_TRUE(ekf_slam(log, options).landmark_cov_m2.empty());
+  EXPECT_TRUE(ekf_slam(log, options).position_cov_m2.empty());
+  options.covariances = 3;
+  EXPECT_EQ(ekf_slam(log, options).landmark_cov_m2.size(), 4U);
+  EXPECT_EQ(ekf_slam(log, options).position_cov_rows, (std::vector<Eigen::Index>{0, 30, 60}));
+}
+
+/// A robot that slides sideways, or drives backwards, along what is otherwise the same path.
+TEST(Ekf, TakesMotionsSidewaysAndBackwards) {
+  for (const double direction : {-std::numbers::pi / 2.0, std::numbers::pi}) {
+    RangeLog log = slam_world(2);
+    log.start.heading_rad += direction;
+    log.truth->heading_rad.array() += direction;
+    for (Motion& motion : log.odometry) {
+      const double forward_m = motion.distance_m;
+      motion.distance_m = forward_m * std::cos(direction);
+      motion.sideways_m = -forward_m * std::sin(direction);
+    }
+    const SlamEstimate found = ekf_slam(log, {.known = all_known(log)});
+    EXPECT_LT(mean_error_m(log, found, Alignment::kNone), 1e-6) << direction;
+    EXPECT_LT((found.path.heading_rad - log.truth->heading_rad).cwiseAbs().maxCoeff(), 1e-6);
+  }
 }
 
 TEST(Ekf, HardDataEndInAStatus) {
@@ -149,15 +167,15 @@ TEST(Ekf, BrokenBoundsAreRefused) {
 class PlazaFilter : public ::testing::TestWithParam<const char*> {};
 
 TEST_P(PlazaFilter, IsWithinAMetreWithTheScaleAndLostWithoutIt) {
-  const char* folder = std::getenv("MAPPROOF_PLAZA");
-  if (folder == nullptr) GTEST_SKIP() << "MAPPROOF_PLAZA does not name the folder of the sets";
-  const RangeLog log = read_range_log(std::filesystem::path(folder) / GetParam());
+  const std::optional<RangeLog> found = test::plaza(GetParam());
+  if (!found) GTEST_SKIP() << test::kNoPlaza;
+  const RangeLog& log = *found;
   EkfOptions options{.scale_sigma = 0.1};
-  EXPECT_LT(error_of(log, ekf_slam(log, options), Alignment::kRigid), 0.6);
+  EXPECT_LT(mean_error_m(log, ekf_slam(log, options), Alignment::kRigid), 0.6);
   options.known = all_known(log);
-  EXPECT_LT(error_of(log, ekf_slam(log, options), Alignment::kNone), 0.4);
+  EXPECT_LT(mean_error_m(log, ekf_slam(log, options), Alignment::kNone), 0.4);
   options.scale_sigma = 0.0;
-  EXPECT_GT(error_of(log, ekf_slam(log, options), Alignment::kNone), 5.0);
+  EXPECT_GT(mean_error_m(log, ekf_slam(log, options), Alignment::kNone), 5.0);
 }
 
 INSTANTIATE_TEST_SUITE_P(Both, PlazaFilter, ::testing::Values("plaza1", "plaza2"));

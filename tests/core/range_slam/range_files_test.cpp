@@ -2,15 +2,12 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdlib>
 #include <filesystem>
 #include <numbers>
 
 #include "core/base/errors.hpp"
 #include "core/base/files.hpp"
-#include "core/records/landmarks_csv.hpp"
 #include "core/records/range_log_files.hpp"
-#include "core/records/trajectory_files.hpp"
 #include "core/records/validate.hpp"
 #include "tests/core/range_slam/sample_log.hpp"
 #include "tests/support/temporary_folder.hpp"
@@ -20,13 +17,9 @@ namespace {
 
 namespace fs = std::filesystem;
 using test::csv_folder;
+using test::expect_same;
+using test::remarks_hold;
 using test::sample_log;
-
-bool remarks_hold(const RangeLog& log, std::string_view words) {
-  for (const std::string& remark : log.remarks)
-    if (remark.find(words) != std::string::npos) return true;
-  return false;
-}
 
 /// What reading `path` says is wrong, behind the path.
 std::string error_of(const fs::path& path) {
@@ -40,24 +33,6 @@ std::string error_of(const fs::path& path) {
     return what.starts_with(start) ? what.substr(start.size()) : what;
   }
   return "no error";
-}
-
-void expect_same(const RangeLog& log, const RangeLog& expected, double tolerance) {
-  ASSERT_EQ(log.ranges.size(), expected.ranges.size());
-  for (std::size_t i = 0; i < log.ranges.size(); ++i) {
-    EXPECT_EQ(log.ranges[i].time_s, expected.ranges[i].time_s);
-    EXPECT_EQ(log.ranges[i].landmark, expected.ranges[i].landmark);
-    EXPECT_EQ(log.ranges[i].range_m, expected.ranges[i].range_m);
-  }
-  ASSERT_EQ(log.odometry.size(), expected.odometry.size());
-  for (std::size_t i = 0; i < log.odometry.size(); ++i) {
-    EXPECT_EQ(log.odometry[i].time_s, expected.odometry[i].time_s);
-    EXPECT_NEAR(log.odometry[i].distance_m, expected.odometry[i].distance_m, tolerance);
-    if (i + 1 < log.odometry.size() || tolerance == 0.0) {
-      EXPECT_NEAR(log.odometry[i].turn_rad, expected.odometry[i].turn_rad, tolerance);
-    }
-    EXPECT_EQ(log.odometry[i].sideways_m, 0.0);
-  }
 }
 
 void expect_same_truth(const RangeLog& log, const RangeLog& expected) {
@@ -223,6 +198,47 @@ TEST(RangeLogFiles, WhatIsWrongInAPyfgFileIsNamedWithItsLine) {
   EXPECT_EQ(with(""), "is empty");
 }
 
+TEST(RangeLogFiles, StampsOfPyfgEdgesAreNumbersAndSaidToDiffer) {
+  const test::TemporaryFolder folder;
+  const auto with = [&](const std::string& motion_s, const std::string& range_s) {
+    return folder.file("a.pyfg",
+                       "VERTEX_SE2 0 A0 0 0 0\nVERTEX_SE2 1 A1 1 0 0\nVERTEX_XY L0 3 3\n"
+                       "EDGE_SE2 " +
+                           motion_s +
+                           " A0 A1 1 0 0 1 0 0 1 0 1\n"
+                           "EDGE_RANGE " +
+                           range_s + " A1 L0 2 1\n");
+  };
+  EXPECT_FALSE(remarks_hold(read_range_log(with("0", "1")), "stamped otherwise"));
+  EXPECT_FALSE(remarks_hold(read_range_log(with("1", "1")), "stamped otherwise"));
+  const RangeLog other = read_range_log(with("1", "1.25"));
+  EXPECT_TRUE(remarks_hold(other, "1 edge stamped otherwise than the poses, by up to 0.25 s"));
+  EXPECT_EQ(other.ranges[0].time_s, 1.0);
+  EXPECT_EQ(error_of(with("x", "1")), "line 4: \"x\" is not a number");
+  EXPECT_EQ(error_of(with("1", "x")), "line 5: \"x\" is not a number");
+}
+
+TEST(RangeLogFiles, AStartThatIsMissingIsMadeUpAndSaidToBe) {
+  const test::TemporaryFolder folder;
+  folder.file("ranges.csv", "t,beacon,range\n5,a,2\n9,a,3\n");
+  folder.file("odometry.csv", "t,ddist,dheading\n5,1,0\n");
+  const RangeLog one = read_range_log(folder.path());
+  EXPECT_TRUE(remarks_hold(one, "the first motion is taken to last 1 s."));
+  EXPECT_TRUE(remarks_hold(one, "where no method takes them: 1 range."));
+  folder.file("odometry.csv", "t,ddist,dheading\n5,1,0\n7,1,0\n");
+  EXPECT_TRUE(remarks_hold(read_range_log(folder.path()), "to last 2 s, as the second."));
+}
+
+TEST(RangeLogFiles, TrueLandmarksBeyondAnyMapAreRefused) {
+  const test::TemporaryFolder folder;
+  folder.file("ranges.csv", "t,beacon,range\n5,1,2\n");
+  std::string landmarks = "id,x,y\n";
+  for (int i = 0; i <= 5000; ++i) landmarks += std::to_string(i) + ",0,0\n";
+  folder.file("landmarks.csv", landmarks);
+  EXPECT_NE(error_of(folder.path()).find("true places of more than 5000 landmarks"),
+            std::string::npos);
+}
+
 TEST(RangeLogFiles, SeveralSendersAreRefused) {
   const test::TemporaryFolder folder;
   const fs::path path = folder.file("a_TD.txt", "1 2 0 5\n2 3 0 5\n");
@@ -250,78 +266,12 @@ TEST(RangeLogFiles, OtherPathsAreNoRangeLogs) {
   EXPECT_FALSE(is_range_log(folder.file("ranges.csv", "name,1,2\na,1,1\n")));
   EXPECT_TRUE(is_range_log(folder.file("ranges.csv", "t,beacon,range\n1,1,1\n")));
   EXPECT_TRUE(is_range_log(folder.path()));
+  // A path that was named is read as what it is called, and the error is the reader's.
+  EXPECT_EQ(error_of(folder.file("ranges.csv", "t,beacon\n1,1\n")),
+            "line 1: no column of ranges: expected range, range_m in the header");
   EXPECT_EQ(error_of(folder / "nothing"), "is not there");
   EXPECT_EQ(error_of(folder.file("a.mat", "no")), "is no MATLAB file");
   EXPECT_TRUE(error_of(folder.file("a.csv", "x")).starts_with("holds no ranges"));
-}
-
-TEST(TrajectoryFiles, APathReadsBackFromCsv) {
-  const RangeLog log = sample_log();
-  const test::TemporaryFolder folder;
-  const fs::path set = csv_folder(folder, log);
-  folder.file("set/groundtruth.csv", trajectory_csv(*log.truth));
-  EXPECT_EQ(read_range_log(set).truth->positions_m, log.truth->positions_m);
-}
-
-TEST(TrajectoryFiles, TumHoldsTheHeadingAsAQuaternion) {
-  const Trajectory path{.time_s = Eigen::VectorXd::Constant(1, 2.5),
-                        .positions_m = Points::Constant(1, 2, -1.0),
-                        .heading_rad = Eigen::VectorXd::Constant(1, std::numbers::pi)};
-  EXPECT_EQ(trajectory_tum(path), "2.5 -1 -1 0 0 0 1 6.123233995736766e-17\n");
-  EXPECT_THROW(trajectory_tum({.time_s = Eigen::VectorXd::Zero(2),
-                               .positions_m = Points::Zero(1, 2),
-                               .heading_rad = {}}),
-               InvalidInput);
-}
-
-TEST(TrajectoryFiles, LandmarksReadBack) {
-  Points positions(3, 2);
-  positions << 1.5, 2.0, std::nan(""), 0.0, -3.0, 0.1;
-  const test::TemporaryFolder folder;
-  const NamedPoints read =
-      read_landmarks(folder.file("l.csv", landmarks_csv({"a,b", "lost", "c"}, positions)));
-  EXPECT_EQ(read.names, (std::vector<std::string>{"a,b", "c"}));
-  EXPECT_EQ(read.positions_m(1, 1), 0.1);
-}
-
-/// Facts of the published sets, where the variable says that they can be had.
-class PlazaFiles : public ::testing::Test {
- protected:
-  void SetUp() override {
-    const char* folder = std::getenv("MAPPROOF_PLAZA");
-    if (folder == nullptr) GTEST_SKIP() << "MAPPROOF_PLAZA does not name the folder of the sets";
-    folder_ = folder;
-  }
-  fs::path folder_;
-};
-
-TEST_F(PlazaFiles, TheMatlabFileIsTheTables) {
-  for (const std::string number : {"1", "2"}) {
-    const RangeLog mat = read_range_log(folder_ / ("raw_gtsam/Plaza" + number + "_.mat"));
-    const RangeLog csv = read_range_log(folder_ / ("plaza" + number));
-    EXPECT_EQ(mat.name, "Plaza" + number);
-    EXPECT_EQ(mat.landmarks, (std::vector<std::string>{"0", "1", "5", "6"}));
-    expect_same(mat, csv, 1e-9);
-    EXPECT_EQ(mat.truth->positions_m, csv.truth->positions_m);
-    EXPECT_EQ(*mat.true_landmarks, *csv.true_landmarks);
-    EXPECT_NEAR(mat.start.heading_rad, csv.start.heading_rad, 1e-12);
-    const RangeLog text = read_range_log(folder_ / ("raw_gtsam/Plaza" + number + "_DR.txt"));
-    EXPECT_EQ(text.ranges.size(), mat.ranges.size());
-  }
-}
-
-TEST_F(PlazaFiles, TheTrapsOfTheSetsAreRemarked) {
-  const RangeLog first = read_range_log(folder_ / "raw_gtsam/Plaza1_.mat");
-  EXPECT_EQ(first.odometry.size(), 9657U);
-  EXPECT_EQ(first.ranges.size(), 3529U);
-  EXPECT_TRUE(remarks_hold(first, "increments of DR are those of the true heading"));
-  EXPECT_TRUE(remarks_hold(first, "jump back 2 times, by up to 64.4 s"));
-  EXPECT_FALSE(remarks_hold(first, "no honest result"));
-  EXPECT_FALSE(remarks_hold(first, "half a turn"));
-  const RangeLog second = read_range_log(folder_ / "raw_gtsam/Plaza2_.mat");
-  EXPECT_EQ(second.odometry.size(), 4090U);
-  EXPECT_TRUE(remarks_hold(second, "off by half a turn"));
-  EXPECT_FALSE(remarks_hold(second, "jump back"));
 }
 
 }  // namespace

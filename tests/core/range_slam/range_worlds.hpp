@@ -1,11 +1,11 @@
 #pragma once
 
-#include <algorithm>
-#include <vector>
+#include <cmath>
+
+#include <Eigen/SVD>
 
 #include "core/base/random.hpp"
 #include "core/model/points.hpp"
-#include "core/model/status.hpp"
 
 namespace mapproof::test {
 
@@ -33,8 +33,36 @@ inline Points stacked(const Points& above, const Points& below) {
   return both;
 }
 
-inline bool has(const std::vector<Status>& statuses, StatusCode code) {
-  return std::ranges::any_of(statuses, [&](const Status& status) { return status.code == code; });
+/// Largest over least singular value of the columns, 1 for orthogonal ones of one length.
+inline double condition_of(const Eigen::MatrixXd& columns) {
+  const Eigen::VectorXd values =
+      Eigen::JacobiSVD<Eigen::MatrixXd>(columns.colwise().normalized()).singularValues();
+  return values(0) / values(values.size() - 1);
+}
+
+/// Points about their centre in units of their spread.
+inline Points as_shape(const Points& points) {
+  const Points offsets = points.rowwise() - points.colwise().mean();
+  return offsets * std::sqrt(double(offsets.rows()) / offsets.squaredNorm());
+}
+
+/// How near points are to a line or circle: the condition of [1, x, y, x^2 + y^2].
+inline double spread_of(const Points& points) {
+  const Points p = as_shape(points);
+  Eigen::MatrixXd columns(p.rows(), 4);
+  columns << Eigen::VectorXd::Ones(p.rows()), p, p.rowwise().squaredNorm();
+  return condition_of(columns);
+}
+
+/// How near points are to a curve of order four of which there are more than one on the states'
+/// paraboloid: the condition of the products of [1, x, y, x^2 + y^2], less the one that is
+/// dependent.
+inline double conic_condition(const Points& points) {
+  const Points p = as_shape(points);
+  const Eigen::ArrayXd x = p.col(0), y = p.col(1), r = x.square() + y.square();
+  Eigen::MatrixXd columns(p.rows(), 9);
+  columns << Eigen::VectorXd::Ones(p.rows()), x, y, x * x, x * y, y * y, x * r, y * r, r * r;
+  return condition_of(columns);
 }
 
 }  // namespace mapproof::test

@@ -6,6 +6,7 @@
 #include <stdexcept>
 
 #include <fmt/format.h>
+#include <gtest/gtest.h>
 
 namespace mapproof::test {
 namespace {
@@ -173,6 +174,30 @@ void write_mat(const RangeLog& log, const std::filesystem::path& path, bool is_c
   add_table(file, "TD", ranges, is_compressed);
   add_table(file, "TL", landmarks, is_compressed);
   Mat_Close(file);
+}
+
+bool remarks_hold(const RangeLog& log, std::string_view words) {
+  for (const std::string& remark : log.remarks)
+    if (remark.find(words) != std::string::npos) return true;
+  return false;
+}
+
+void expect_same(const RangeLog& log, const RangeLog& expected, double tolerance) {
+  ASSERT_EQ(log.ranges.size(), expected.ranges.size());
+  for (std::size_t i = 0; i < log.ranges.size(); ++i) {
+    EXPECT_EQ(log.ranges[i].time_s, expected.ranges[i].time_s);
+    EXPECT_EQ(log.ranges[i].landmark, expected.ranges[i].landmark);
+    EXPECT_EQ(log.ranges[i].range_m, expected.ranges[i].range_m);
+  }
+  ASSERT_EQ(log.odometry.size(), expected.odometry.size());
+  for (std::size_t i = 0; i < log.odometry.size(); ++i) {
+    EXPECT_EQ(log.odometry[i].time_s, expected.odometry[i].time_s);
+    EXPECT_NEAR(log.odometry[i].distance_m, expected.odometry[i].distance_m, tolerance);
+    if (i + 1 < log.odometry.size() || tolerance == 0.0) {
+      EXPECT_NEAR(log.odometry[i].turn_rad, expected.odometry[i].turn_rad, tolerance);
+    }
+    EXPECT_EQ(log.odometry[i].sideways_m, 0.0);
+  }
 }
 
 }  // namespace mapproof::test

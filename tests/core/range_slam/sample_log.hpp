@@ -27,4 +27,9 @@ std::filesystem::path csv_folder(const TemporaryFolder& folder, const RangeLog& 
 /// Writes DR, DRp, GT, TD and TL by matio. DRp is the true path, as the odometry has no error.
 void write_mat(const RangeLog& log, const std::filesystem::path& path, bool is_compressed);
 
+bool remarks_hold(const RangeLog& log, std::string_view words);
+
+/// Expects the same ranges, and motions within the tolerance.
+void expect_same(const RangeLog& log, const RangeLog& expected, double tolerance);
+
 }  // namespace mapproof::test

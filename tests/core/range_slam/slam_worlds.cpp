@@ -55,4 +55,19 @@ RangeLog slam_world(std::uint64_t seed, const SlamWorldOptions& options) {
   return log;
 }
 
+RangeLog noisy_world(std::uint64_t seed, Eigen::Index steps) {
+  return slam_world(seed, {.steps = steps,
+                           .range_sigma_m = 0.2,
+                           .distance_sigma_m = 0.02,
+                           .turn_sigma_rad = 0.01,
+                           .range_scale = 1.05});
+}
+
+SlamEstimate truth_as_start(const RangeLog& log) {
+  SlamEstimate start;
+  start.path = *log.truth;
+  start.landmarks_m = *log.true_landmarks;
+  return start;
+}
+
 }  // namespace mapproof::test

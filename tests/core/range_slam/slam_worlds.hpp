@@ -1,6 +1,7 @@
 #pragma once
 
 #include "core/model/range_log.hpp"
+#include "core/model/slam.hpp"
 
 namespace mapproof::test {
 
@@ -17,5 +18,10 @@ struct SlamWorldOptions {
 /// A drive on a wavy round of half-metre steps, with a reading of one landmark in turn at each
 /// pose. Odometry errs by the sigmas given; the truth is kept.
 RangeLog slam_world(std::uint64_t seed, const SlamWorldOptions& options = {});
+
+/// One with noise, and ranges 5 % long.
+RangeLog noisy_world(std::uint64_t seed, Eigen::Index steps = 60);
+
+SlamEstimate truth_as_start(const RangeLog& log);
 
 }  // namespace mapproof::test

@@ -163,5 +163,17 @@ TEST(TrajectoryError, LandmarksAreCarriedAlongWithThePath) {
   EXPECT_THROW(trajectory_error(estimate, truth, Points(2, 2), Alignment::kRigid), InvalidInput);
 }
 
+TEST(TrajectoryError, TimesThatDoNotAscendAreRefusedOfEitherPath) {
+  const Trajectory path = straight_path(5);
+  Trajectory doubled = path;
+  doubled.time_s(2) = doubled.time_s(1);
+  Trajectory standing = path;
+  standing.time_s.setConstant(1.0);
+  for (const Trajectory& broken : {doubled, standing}) {
+    EXPECT_THROW(trajectory_error(estimate_of(path), broken, {}, Alignment::kNone), InvalidInput);
+    EXPECT_THROW(trajectory_error(estimate_of(broken), path, {}, Alignment::kNone), InvalidInput);
+  }
+}
+
 }  // namespace
 }  // namespace mapproof

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "core/base/errors.hpp"
+#include "core/range_slam/spread_rows.hpp"
 #include "core/range_slam/squared_ranges.hpp"
 #include "core/range_slam/window_choice.hpp"
 #include "tests/core/range_slam/drives.hpp"
@@ -78,6 +79,29 @@ TEST(RangeScale, ComesFromOdometryAlone) {
   const Drive scaled = drive({.range_sigma_m = 0.1, .range_scale = 1.07}, 5);
   for (const double length_s : {20.0, 50.0, 200.0})
     EXPECT_NEAR(range_scale_of(readings_of(scaled), 0.0, 200.0, length_s), 1.07, 0.01) << length_s;
+}
+
+TEST(RangeScale, RefusesWindowsWithoutALength) {
+  const std::vector<LandmarkReadings> readings = readings_of(drive({}, 5));
+  for (const double length_s : {0.0, -1.0, std::nan(""), HUGE_VAL, 1e-9})
+    EXPECT_THROW(range_scale_of(readings, 0.0, 200.0, length_s), InvalidInput) << length_s;
+  EXPECT_THROW(range_scale_of(readings, std::nan(""), 200.0, 10.0), InvalidInput);
+}
+
+TEST(WindowedRanges, RefuseMoreThanMemoryHolds) {
+  EXPECT_EQ(windowed_size_problem(50, 1'000'000), "");
+  EXPECT_EQ(windowed_size_problem(5000, 1'000'000),
+            "ranges to 5000 landmarks at 1000000 times are more than 5e+07: give fewer poses or "
+            "landmarks");
+}
+
+TEST(SpreadRows, AreEvenAndHoldBothEnds) {
+  EXPECT_EQ(spread_rows(11, 3), (std::vector<Eigen::Index>{0, 5, 10}));
+  EXPECT_EQ(spread_rows(2, 5), (std::vector<Eigen::Index>{0, 1}));
+  EXPECT_EQ(spread_rows(7, 1), (std::vector<Eigen::Index>{0}));
+  EXPECT_TRUE(spread_rows(7, 0).empty());
+  EXPECT_TRUE(spread_rows(0, 7).empty());
+  EXPECT_THROW(spread_rows(7, -1), InvalidInput);
 }
 
 TEST(WindowChoice, IsLongWhereOdometryIsGoodAndShortWhereItDrifts) {

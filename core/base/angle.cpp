@@ -1,4 +1,4 @@
-#include "core/simulate/angle.hpp"
+#include "core/base/angle.hpp"
 
 #include <cmath>
 #include <numbers>

@@ -1,0 +1,29 @@
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "core/model/range_log.hpp"
+#include "core/model/slam.hpp"
+#include "core/range_slam/known_landmarks.hpp"
+
+namespace mapproof {
+
+/// A start as refine() begins from it.
+struct PlacedStart {
+  Trajectory path;     ///< At all of odometry's times.
+  Points landmarks_m;  ///< N x 2; NaN rows: no place, or never heard within that time.
+  std::optional<KnownLandmarks> known;  ///< What ties the frame; empty: the first pose does.
+  std::vector<Status> statuses;         ///< kUndetermined if known landmarks cannot tie it.
+};
+
+/// Carries a start along the odometry, finds the landmarks that it does not place, and moves all
+/// into the frame of the known landmarks where the start places two of them. Known landmarks tie
+/// the frame if two are heard that are in different places; else none of them is held.
+/// @param odometry  From dead_reckoned().
+/// @param known     Without a known_problem().
+/// @throws InvalidInput for what carried_along() or trilaterated() refuse.
+PlacedStart placed_start(const RangeLog& log, const Trajectory& odometry, const SlamEstimate& start,
+                         const std::optional<KnownLandmarks>& known);
+
+}  // namespace mapproof

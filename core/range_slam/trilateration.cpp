@@ -1,0 +1,117 @@
+#include "core/range_slam/trilateration.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include <Eigen/LU>
+
+#include "core/base/errors.hpp"
+#include "core/range_slam/windowed_ranges.hpp"
+
+namespace mapproof {
+namespace {
+
+constexpr Eigen::Index kLeastReadings = 3;
+constexpr Eigen::Index kMostReadings = 200;  ///< Of a landmark, for the grid.
+constexpr int kGridSide = 40;
+/// Errors of this size are drift and count less than by their square.
+constexpr double kBend_m = 3.0;
+
+constexpr int kMostRounds = 50;
+constexpr double kDamping = 1e-3;  ///< At first, as a share of the curvature.
+constexpr double kMostDamping = 1e6;
+constexpr double kConverged = 1e-12;       ///< A fall of the misfit by less, as a share of it.
+constexpr double kLeastCurvature = 1e-12;  ///< Keeps the step finite along a straight path.
+constexpr double kLeastDistance_m = 1e-9;  ///< Nearer a landmark has no direction.
+
+/// At most kMostReadings of them.
+LandmarkReadings thinned(const LandmarkReadings& readings) {
+  const Eigen::Index step = (readings.size() + kMostReadings - 1) / kMostReadings;
+  std::vector<Eigen::Index> rows;
+  for (Eigen::Index i = 0; i < readings.size(); i += step) rows.push_back(i);
+  return readings.at(rows);
+}
+
+/// Sum of e^2 / (e^2 + bend^2) over the readings.
+double misfit(const LandmarkReadings& readings, const Eigen::RowVector2d& place) {
+  double sum = 0.0;
+  for (Eigen::Index i = 0; i < readings.range_m.size(); ++i) {
+    const double error = (readings.positions_m.row(i) - place).norm() - readings.range_m(i);
+    sum += error * error / (error * error + kBend_m * kBend_m);
+  }
+  return sum;
+}
+
+Eigen::RowVector2d best_of_grid(const LandmarkReadings& readings) {
+  const double reach = readings.range_m.maxCoeff();
+  const Eigen::RowVector2d low = readings.positions_m.colwise().minCoeff().array() - reach;
+  const Eigen::RowVector2d high = readings.positions_m.colwise().maxCoeff().array() + reach;
+  Eigen::RowVector2d best = low;
+  double least = std::numeric_limits<double>::infinity();
+  for (int i = 0; i <= kGridSide; ++i) {
+    for (int j = 0; j <= kGridSide; ++j) {
+      const Eigen::RowVector2d share(i / double{kGridSide}, j / double{kGridSide});
+      const Eigen::RowVector2d place = low + share.cwiseProduct(high - low);
+      const double value = misfit(readings, place);
+      if (value < least) {
+        least = value;
+        best = place;
+      }
+    }
+  }
+  return best;
+}
+
+/// Damped Gauss-Newton steps on the same misfit by weights, kept while they lower it.
+Eigen::RowVector2d polished(const LandmarkReadings& readings, Eigen::RowVector2d place) {
+  double damping = kDamping;
+  double value = misfit(readings, place);
+  for (int round = 0; round < kMostRounds; ++round) {
+    Eigen::Matrix2d H = Eigen::Matrix2d::Zero();
+    Eigen::Vector2d g = Eigen::Vector2d::Zero();
+    for (Eigen::Index i = 0; i < readings.range_m.size(); ++i) {
+      const Eigen::Vector2d gap = (place - readings.positions_m.row(i)).transpose();
+      const double distance = std::max(gap.norm(), kLeastDistance_m);
+      const double error = distance - readings.range_m(i);
+      const double root = kBend_m * kBend_m / (error * error + kBend_m * kBend_m);
+      const Eigen::Vector2d direction = gap / distance;
+      H += root * root * direction * direction.transpose();
+      g += root * root * error * direction;
+    }
+    H.diagonal() *= 1.0 + damping;
+    H.diagonal().array() += kLeastCurvature;
+    const Eigen::RowVector2d next = place - (H.inverse() * g).transpose();
+    const double next_value = next.allFinite() ? misfit(readings, next) : value;
+    if (next_value < value) {
+      const bool is_done = value - next_value < kConverged * value;
+      place = next;
+      value = next_value;
+      damping *= 0.3;
+      if (is_done) break;
+    } else if ((damping *= 10.0) > kMostDamping) {
+      break;
+    }
+  }
+  return place;
+}
+
+}  // namespace
+
+Points trilaterated(const RangeLog& log, const Trajectory& path, double range_scale) {
+  if (!(range_scale > 0.0) || !std::isfinite(range_scale))
+    throw InvalidInput("a range scale must be positive");
+  const Eigen::Index landmarks = std::ssize(log.landmarks);
+  std::vector<LandmarkReadings> all = readings_by_landmark(log.ranges, landmarks, path);
+  Points places = Points::Constant(landmarks, 2, std::numeric_limits<double>::quiet_NaN());
+  for (Eigen::Index n = 0; n < landmarks; ++n) {
+    LandmarkReadings& readings = all[static_cast<std::size_t>(n)];
+    if (readings.size() < kLeastReadings) continue;
+    readings.range_m /= range_scale;
+    const LandmarkReadings few = thinned(readings);
+    places.row(n) = polished(readings, polished(few, best_of_grid(few)));
+  }
+  return places;
+}
+
+}  // namespace mapproof
