@@ -10,6 +10,8 @@
 #include <Eigen/Eigenvalues>
 
 #include "core/base/errors.hpp"
+#include "core/linalg/gram.hpp"
+#include "core/linalg/packed_product.hpp"
 #include "core/linalg/sign.hpp"
 #include "core/range_slam/quadric.hpp"
 #include "core/range_slam/upgrade_transform.hpp"
@@ -22,7 +24,9 @@ constexpr Eigen::Index kRank = 4;
 constexpr Eigen::Index kLeastSteps = 8;
 /// Coordinates whose fourth moments are kept.
 constexpr Eigen::Index kFrame = 8;
-/// Steps that wait, at least, before they are folded in.
+/// Steps that wait before they are folded in: of each landmark, so that the eigenvectors, O(N^3),
+/// take less time than the products; and at least.
+constexpr Eigen::Index kBlockALandmark = 4;
 constexpr Eigen::Index kLeastBlock = 32;
 /// Eigenvalues of the Gram matrix below this share of the largest are rounding.
 constexpr double kRounding = 1e-14;
@@ -69,7 +73,7 @@ OnlineSpectralMap::OnlineSpectralMap(Eigen::Index landmarks) {
   if (landmarks < 1) throw InvalidInput("an online map needs landmarks");
   gram_ = Eigen::MatrixXd::Zero(landmarks, landmarks);
   sum_ = Eigen::VectorXd::Zero(landmarks);
-  pending_.resize(landmarks, std::max(landmarks, kLeastBlock));
+  pending_.resize(landmarks, std::max(kBlockALandmark * landmarks, kLeastBlock));
   frame_.resize(landmarks, 0);
   to_frame_.resize(0, landmarks);
 }
@@ -85,7 +89,8 @@ void OnlineSpectralMap::add(const Eigen::VectorXd& half_squares) {
 void OnlineSpectralMap::fold() {
   if (pending_count_ == 0) return;
   const auto pending = pending_.leftCols(pending_count_);
-  gram_.noalias() += pending * pending.transpose();
+  add_gram(pending, 1.0, gram_);
+  mirror_lower(gram_);
   sum_ += pending.rowwise().sum();
 
   // The frame of the new Gram matrix, and the moments of old columns in it.
