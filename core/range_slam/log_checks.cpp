@@ -2,11 +2,13 @@
 
 #include <cmath>
 #include <set>
+#include <string_view>
 
 #include <fmt/format.h>
 
 #include "core/base/errors.hpp"
 #include "core/base/words.hpp"
+#include "core/linalg/planarity.hpp"
 
 namespace mapproof {
 namespace {
@@ -15,6 +17,16 @@ namespace {
 constexpr double kLongest_m = 1e9;
 /// Landmarks that a status lists.
 constexpr std::size_t kMostNamed = 10;
+
+std::optional<Status> on_a_line(const Points& points, StatusCode code, std::string_view what,
+                                std::string_view of_what) {
+  const double flatness = points.allFinite() ? planarity(points) : 1.0;
+  if (flatness > kNearlyFlat) return std::nullopt;
+  return Status{code,
+                fmt::format("{} nearly on one line, condition number {:.3g}: on which side of "
+                            "it {} is hardly told.",
+                            what, 1.0 / flatness, of_what)};
+}
 
 }  // namespace
 
@@ -57,6 +69,15 @@ void tell_unplaced(const RangeLog& log, const std::vector<bool>& is_placed,
   if (!names.empty())
     statuses.push_back({StatusCode::kLandmarkUnseen,
                         "Too few ranges for a place of " + listed(names, kMostNamed) + "."});
+}
+
+std::optional<Status> landmarks_on_a_line(const Points& landmarks_m) {
+  return on_a_line(landmarks_m, StatusCode::kDegenerateGeometry, "The landmarks lie",
+                   "the robot was");
+}
+
+std::optional<Status> path_on_a_line(const Points& positions_m) {
+  return on_a_line(positions_m, StatusCode::kUndetermined, "The path lies", "a landmark stands");
 }
 
 }  // namespace mapproof

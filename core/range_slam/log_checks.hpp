@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -12,6 +13,16 @@ namespace mapproof {
 /// @throws InvalidInput unless the ranges are from 0 to below 1e9 m, of landmarks 0 to
 ///         `landmarks` - 1, and ascend in time.
 void check_ranges(const std::vector<RangeReading>& ranges, Eigen::Index landmarks);
+
+/// Points of a planarity up to this are so near one line that ranges to or from them hardly tell
+/// the sides of it apart.
+inline constexpr double kNearlyFlat = 0.03;
+
+/// kDegenerateGeometry for landmarks nearly on one line, kUndetermined for a path that is, with the
+/// condition number (the greater extent over the less); empty if they are not. For points that are
+/// all finite.
+std::optional<Status> landmarks_on_a_line(const Points& landmarks_m);
+std::optional<Status> path_on_a_line(const Points& positions_m);
 
 /// What keeps known landmarks from being used with n landmarks: a place for each of some different
 /// rows is needed; empty if nothing.

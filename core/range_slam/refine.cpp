@@ -187,6 +187,10 @@ SlamEstimate refine(const RangeLog& log, const SlamEstimate& start, const Refine
     estimate.statuses.push_back({StatusCode::kFailed,
                                  "No step lowered the cost: this is the start, laid along the "
                                  "odometry."});
+  const std::size_t known = options.known ? options.known->rows.size() : 0;
+  if (known < log.landmarks.size())
+    if (auto status = path_on_a_line(estimate.path.positions_m))
+      estimate.statuses.push_back(*std::move(status));
   return estimate;
 }
 

@@ -253,6 +253,8 @@ SpectralSlam spectral_slam(const RangeLog& log, const Trajectory& odometry,
   if (!mapped.directions.rows.empty())
     estimate.path.heading_rad = carried(mapped.directions, told.heading_rad, mirrored);
   if (!options.known) refer_to_path(result);
+  if (auto status = landmarks_on_a_line(estimate.landmarks_m))
+    estimate.statuses.push_back(*std::move(status));
   if (options.replicates > 0)
     estimate.landmark_cov_m2 =
         bootstrap_landmarks(

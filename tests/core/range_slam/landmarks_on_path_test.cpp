@@ -6,6 +6,7 @@
 
 #include "core/base/errors.hpp"
 #include "core/base/random.hpp"
+#include "core/range_slam/log_checks.hpp"
 
 namespace mapproof {
 namespace {
@@ -41,6 +42,20 @@ TEST(LandmarksOnPath, TakeTheRangesAsTheyAreWhereThePathIsACircle) {
   const LandmarksOnPath told = landmarks_on_path(circle, half_squares(landmarks, circle, 1.0));
   EXPECT_EQ(told.range_scale, 1.0);
   EXPECT_LT((told.landmarks_m - landmarks).norm(), 1e-9 * landmarks.norm());
+}
+
+TEST(NearlyALine, IsSaidWithItsConditionNumber) {
+  Points points(3, 2);
+  points << 0, 0, 10, 0.1, 20, 0;
+  const auto landmarks = landmarks_on_a_line(points);
+  ASSERT_TRUE(landmarks);
+  EXPECT_EQ(landmarks->code, StatusCode::kDegenerateGeometry);
+  EXPECT_NE(landmarks->detail.find("condition number 173"), std::string::npos) << landmarks->detail;
+  EXPECT_EQ(path_on_a_line(points)->code, StatusCode::kUndetermined);
+  points(1, 1) = 5.0;
+  EXPECT_FALSE(landmarks_on_a_line(points));
+  points(1, 1) = NAN;
+  EXPECT_FALSE(path_on_a_line(points));
 }
 
 TEST(LandmarksOnPath, RefuseALineAndOtherSizes) {
