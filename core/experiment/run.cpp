@@ -51,6 +51,7 @@ void map_at(const Experiment& experiment, const ObservationHistory& history,
                            .truth_m = run.world.landmarks_m,
                            .anchors = run.anchors,
                            .statuses = std::move(map.statuses),
+                           .certificate = std::nullopt,
                            .score = map.score});
   }
 }

@@ -37,7 +37,7 @@ Proximities proximities(const ObservationHistory& history, Eigen::Index steps) {
 }
 
 Proximities proximities(const Features& rows, Sensor sensor) {
-  Proximities result{.inner_products = gram(rows.values)};
+  Proximities result{.inner_products = gram(rows.values), .squared_distances = {}};
   const bool complete = rows.observed.size() == 0;
   if (sensor == Sensor::kVisibility) {
     normalise(result, common_squares(rows, result.inner_products));

@@ -37,11 +37,11 @@ struct SpectralSlam {
 /// @return `path` at those times of odometry at which every landmark's range is told (kUndetermined
 ///         tells of the others). With known landmarks positions are localise() of the map and Y;
 ///         without, odometry gives them their scale, and they the landmarks and the ranges theirs.
-///         `range_scale` is that of the window times this correction, and Y is free of it; the
-///         factors in `upgrade` are as before. kUndetermined
-///         also where odometry does not tell the map from its mirror image. Empty path, NaN
-///         landmarks and a status where no map came out: kTooFewObservations if too few poses are
-///         told.
+///         `range_scale` is that of the window times this correction, and Y is free of it;
+///         `upgrade` is as it came. kUndetermined also where odometry does not tell the map from
+///         its mirror image. Empty path, NaN landmarks and a status where no map came out:
+///         kTooFewObservations if too few poses are told; kDegenerateGeometry beside a map whose
+///         landmarks lie nearly on one line.
 /// @throws InvalidInput if a bound is broken: for ranges that check_ranges() refuses, a
 ///         path_problem(), a known_problem(), a windowed_size_problem().
 SpectralSlam spectral_slam(const RangeLog& log, const Trajectory& odometry,
