@@ -1,13 +1,9 @@
 #include "core/experiment/run_experiment.hpp"
 
 #include <algorithm>
-#include <mutex>
-
-#include <tbb/global_control.h>
-#include <tbb/parallel_for_each.h>
-#include <tbb/task_arena.h>
 
 #include "core/base/errors.hpp"
+#include "core/experiment/parallel.hpp"
 #include "core/experiment/run.hpp"
 
 namespace mapproof {
@@ -23,19 +19,8 @@ void run_experiment(const Experiment& experiment, StudyStore& store, int jobs,
   state.reused = state.finished = state.total - static_cast<int>(open.size());
   progress(state);
 
-  std::mutex reporting;
-  // More threads than cores are granted too: the answer must not depend on them.
-  const tbb::global_control limit(tbb::global_control::max_allowed_parallelism,
-                                  static_cast<std::size_t>(jobs));
-  tbb::task_arena arena(jobs);
-  arena.execute([&] {
-    tbb::parallel_for_each(open, [&](const RunId& id) {
-      store.write(simulate_run(experiment, id));
-      const std::lock_guard lock(reporting);
-      ++state.finished;
-      progress(state);
-    });
-  });
+  for_each_in_parallel(open, jobs, state, progress,
+                       [&](const RunId& id) { store.write(simulate_run(experiment, id)); });
 }
 
 }  // namespace mapproof

@@ -1,16 +1,13 @@
 #include "core/experiment/run_slam_experiment.hpp"
 
 #include <cmath>
-#include <mutex>
 #include <system_error>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
-#include <tbb/global_control.h>
-#include <tbb/parallel_for_each.h>
-#include <tbb/task_arena.h>
 
 #include "core/base/errors.hpp"
+#include "core/experiment/parallel.hpp"
 #include "core/experiment/slam_run.hpp"
 #include "core/experiment/slam_worlds.hpp"
 #include "core/records/range_log_files.hpp"
@@ -115,18 +112,7 @@ void run_slam_experiment(const SlamExperiment& experiment, const SlamData& data,
       .finished = parts.reused, .reused = parts.reused, .total = parts.total, .noun = "parts"};
   progress(state);
 
-  std::mutex reporting;
-  const tbb::global_control limit(tbb::global_control::max_allowed_parallelism,
-                                  static_cast<std::size_t>(jobs));
-  tbb::task_arena arena(jobs);
-  arena.execute([&] {
-    tbb::parallel_for_each(parts.open, [&](const Part& part) {
-      part();
-      const std::lock_guard lock(reporting);
-      ++state.finished;
-      progress(state);
-    });
-  });
+  for_each_in_parallel(parts.open, jobs, state, progress, [](const Part& part) { part(); });
   // Alone, so that nothing disturbs the seconds.
   if (!parts.open.empty()) store.write(time_factorization(experiment));
 }

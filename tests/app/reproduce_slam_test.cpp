@@ -10,6 +10,7 @@
 
 #include "core/base/files.hpp"
 #include "tests/app/own_logs.hpp"
+#include "tests/support/plaza.hpp"
 #include "tests/support/program.hpp"
 
 namespace mapproof::test {
@@ -19,7 +20,7 @@ namespace fs = std::filesystem;
 using nlohmann::json;
 
 /// What must repeat: everything but seconds and what shows them.
-std::vector<std::pair<std::string, std::string>> lasting(const fs::path& folder) {
+Contents lasting(const fs::path& folder) {
   auto files = contents(folder);
   std::erase_if(files, [](const auto& file) {
     const std::string& name = file.first;
@@ -32,14 +33,8 @@ std::vector<std::pair<std::string, std::string>> lasting(const fs::path& folder)
   return files;
 }
 
-void expect_same(const fs::path& a, const fs::path& b) {
-  const auto first = lasting(a);
-  const auto second = lasting(b);
-  ASSERT_EQ(first.size(), second.size());
-  for (std::size_t i = 0; i < first.size(); ++i) {
-    EXPECT_EQ(first[i].first, second[i].first);
-    EXPECT_TRUE(first[i].second == second[i].second) << first[i].first << " differs";
-  }
+void expect_lasting_same(const fs::path& a, const fs::path& b) {
+  expect_same(lasting(a), lasting(b));
 }
 
 std::vector<std::string> quick(const fs::path& out, const std::string& jobs) {
@@ -64,7 +59,7 @@ TEST(ReproduceBoots2013, TheSameBytesForOneJobAndTwo) {
   ASSERT_EQ(mapproof(quick(folder / "one", "1")).exit_code, 0);
   ASSERT_EQ(mapproof(quick(folder / "two", "2")).exit_code, 0);
   ASSERT_GT(lasting(folder / "one").size(), 8U);
-  expect_same(folder / "one", folder / "two");
+  expect_lasting_same(folder / "one", folder / "two");
 }
 
 TEST(ReproduceBoots2013, AKilledStudyResumesAndEndsInTheSameBytes) {
@@ -82,7 +77,7 @@ TEST(ReproduceBoots2013, AKilledStudyResumesAndEndsInTheSameBytes) {
   EXPECT_GE(killed, 2);  // else the machine was too fast for the test to mean anything
   const Outcome resumed = mapproof(quick(folder / "torn", "1"));
   ASSERT_EQ(resumed.exit_code, 0) << resumed.error;
-  expect_same(folder / "whole", folder / "torn");
+  expect_lasting_same(folder / "whole", folder / "torn");
 }
 
 TEST(ReproduceBoots2013, ReportAndRenderNeedNoSolver) {
@@ -132,11 +127,11 @@ TEST(ReproduceAll, PutsBothPapersIntoOneReport) {
 }
 
 TEST(ReproduceBoots2013, RunsOnThePlazaDataAndMeetsTheBounds) {
-  const char* plaza = std::getenv("MAPPROOF_PLAZA");
-  if (plaza == nullptr) GTEST_SKIP() << "MAPPROOF_PLAZA names no folder of the Plaza data";
+  const auto plaza = plaza_folder();
+  if (!plaza) GTEST_SKIP() << kNoPlaza;
   const TemporaryFolder folder;
   std::vector<std::string> arguments = quick(folder / "out", "2");
-  arguments.insert(arguments.end(), {"--plaza", plaza, "--json"});
+  arguments.insert(arguments.end(), {"--plaza", plaza->string(), "--json"});
   const Outcome outcome = mapproof(arguments);
   ASSERT_EQ(outcome.exit_code, 0) << outcome.error;
   const json result = json::parse(outcome.out);

@@ -6,6 +6,7 @@
 
 #include "core/base/files.hpp"
 #include "tests/app/own_logs.hpp"
+#include "tests/support/plaza.hpp"
 #include "tests/support/program.hpp"
 
 namespace mapproof::test {
@@ -163,8 +164,8 @@ INSTANTIATE_TEST_SUITE_P(
 
 /// The bounds on the published data, windows chosen without truth, no landmark known.
 TEST(SlamOnPlaza, MeetsTheBoundsOfSpectralAndRefinedErrors) {
-  const char* plaza = std::getenv("MAPPROOF_PLAZA");
-  if (plaza == nullptr) GTEST_SKIP() << "MAPPROOF_PLAZA names no folder of the Plaza data";
+  const auto plaza = plaza_folder();
+  if (!plaza) GTEST_SKIP() << kNoPlaza;
   struct Bound {
     const char* set;
     double spectral_m;
@@ -173,7 +174,7 @@ TEST(SlamOnPlaza, MeetsTheBoundsOfSpectralAndRefinedErrors) {
   for (const Bound& bound : {Bound{"plaza1", 0.70, 0.20}, Bound{"plaza2", 0.30, 0.19}}) {
     const TemporaryFolder folder;
     const Outcome outcome =
-        mapproof({"slam", fs::path(plaza) / bound.set, "--out", folder / "out", "--json"});
+        mapproof({"slam", *plaza / bound.set, "--out", folder / "out", "--json"});
     ASSERT_EQ(outcome.exit_code, 0) << outcome.error;
     const json result = json::parse(outcome.out);
     for (const auto& [method, most_m] :

@@ -11,6 +11,8 @@
 #include <cstdlib>
 #include <stdexcept>
 
+#include <gtest/gtest.h>
+
 #include "core/base/files.hpp"
 
 namespace mapproof::test {
@@ -86,6 +88,14 @@ std::vector<std::pair<std::string, std::string>> contents(const fs::path& folder
       files.emplace_back(fs::relative(entry.path(), folder).string(), read_file(entry.path()));
   std::ranges::sort(files);
   return files;
+}
+
+void expect_same(const Contents& first, const Contents& second) {
+  ASSERT_EQ(first.size(), second.size());
+  for (std::size_t i = 0; i < first.size(); ++i) {
+    EXPECT_EQ(first[i].first, second[i].first);
+    EXPECT_TRUE(first[i].second == second[i].second) << first[i].first << " differs";
+  }
 }
 
 }  // namespace mapproof::test

@@ -30,6 +30,10 @@ Outcome mapproof(const std::vector<std::string>& arguments, const Limits& limits
 pid_t start_mapproof(const std::vector<std::string>& arguments);
 
 /// Every file below a folder: its relative path and its bytes, sorted.
-std::vector<std::pair<std::string, std::string>> contents(const std::filesystem::path& folder);
+using Contents = std::vector<std::pair<std::string, std::string>>;
+Contents contents(const std::filesystem::path& folder);
+
+/// Expects the same files with the same bytes; says which differ, rather than printing them.
+void expect_same(const Contents& first, const Contents& second);
 
 }  // namespace mapproof::test

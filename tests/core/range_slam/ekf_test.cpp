@@ -18,6 +18,7 @@ namespace {
 using test::all_known;
 using test::mean_error_m;
 using test::slam_world;
+using test::turned_world;
 
 /// One step of 2 m straight at a landmark 10 m ahead, then a reading of 7.5 m instead of 8.
 RangeLog one_step() {
@@ -119,14 +120,7 @@ TEST(Ekf, GivesCovariancesOnlyIfAskedFor) {
 /// A robot that slides sideways, or drives backwards, along what is otherwise the same path.
 TEST(Ekf, TakesMotionsSidewaysAndBackwards) {
   for (const double direction : {-std::numbers::pi / 2.0, std::numbers::pi}) {
-    RangeLog log = slam_world(2);
-    log.start.heading_rad += direction;
-    log.truth->heading_rad.array() += direction;
-    for (Motion& motion : log.odometry) {
-      const double forward_m = motion.distance_m;
-      motion.distance_m = forward_m * std::cos(direction);
-      motion.sideways_m = -forward_m * std::sin(direction);
-    }
+    const RangeLog log = turned_world(direction);
     const SlamEstimate found = ekf_slam(log, {.known = all_known(log)});
     EXPECT_LT(mean_error_m(log, found, Alignment::kNone), 1e-6) << direction;
     EXPECT_LT((found.path.heading_rad - log.truth->heading_rad).cwiseAbs().maxCoeff(), 1e-6);

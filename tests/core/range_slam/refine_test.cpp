@@ -20,6 +20,7 @@ using test::mean_error_m;
 using test::noisy_world;
 using test::slam_world;
 using test::truth_as_start;
+using test::turned_world;
 
 /// Errors over many draws of the noise are as large as the covariances say.
 TEST(Refine, CovariancesAreThoseOfManyDraws) {
@@ -133,14 +134,7 @@ TEST(Refine, CovariancesRelativeToTheFirstPoseAreSaidToBe) {
 
 TEST(Refine, TakesMotionsSidewaysAndBackwards) {
   for (const double direction : {-std::numbers::pi / 2.0, std::numbers::pi}) {
-    RangeLog log = slam_world(2);
-    log.start.heading_rad += direction;
-    log.truth->heading_rad.array() += direction;
-    for (Motion& motion : log.odometry) {
-      const double forward_m = motion.distance_m;
-      motion.distance_m = forward_m * std::cos(direction);
-      motion.sideways_m = -forward_m * std::sin(direction);
-    }
+    const RangeLog log = turned_world(direction);
     const SlamEstimate refined = refine(log, dead_reckoning_start(log));
     EXPECT_LT(mean_error_m(log, refined, Alignment::kNone), 1e-6) << direction;
   }

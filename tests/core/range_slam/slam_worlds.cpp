@@ -63,6 +63,18 @@ RangeLog noisy_world(std::uint64_t seed, Eigen::Index steps) {
                            .range_scale = 1.05});
 }
 
+RangeLog turned_world(double direction_rad) {
+  RangeLog log = slam_world(2);
+  log.start.heading_rad += direction_rad;
+  log.truth->heading_rad.array() += direction_rad;
+  for (Motion& motion : log.odometry) {
+    const double forward_m = motion.distance_m;
+    motion.distance_m = forward_m * std::cos(direction_rad);
+    motion.sideways_m = -forward_m * std::sin(direction_rad);
+  }
+  return log;
+}
+
 SlamEstimate truth_as_start(const RangeLog& log) {
   SlamEstimate start;
   start.path = *log.truth;

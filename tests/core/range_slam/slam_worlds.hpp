@@ -22,6 +22,10 @@ RangeLog slam_world(std::uint64_t seed, const SlamWorldOptions& options = {});
 /// One with noise, and ranges 5 % long.
 RangeLog noisy_world(std::uint64_t seed, Eigen::Index steps = 60);
 
+/// slam_world(2) of a robot that heads `direction` away from where it drives: it slides sideways,
+/// or drives backwards, along the same path.
+RangeLog turned_world(double direction_rad);
+
 SlamEstimate truth_as_start(const RangeLog& log);
 
 }  // namespace mapproof::test
