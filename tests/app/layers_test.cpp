@@ -50,6 +50,8 @@ const std::map<std::string, Modules>& allowed() {
                                      "render/svg", "render/cairo"})},
       {"reports/model", with_leaves({})},
       {"reports/sections", with_leaves({"reports/model", "render/figures", "render/plot"})},
+      {"reports/diff", with_leaves({"reports/model", "core/json", "core/records", "render/base",
+                                    "render/image", "render/plot", "render/theme"})},
       {"reports/html", with_leaves({"reports/model"})},
       {"reports/tables", with_leaves({"reports/model"})},
   };
@@ -64,6 +66,8 @@ const std::map<std::string, Modules>& kept_in() {
       {"csdp/", {"core/embed"}},
       {"ceres/", {"core/range_slam"}},
       {"glog/", {"core/range_slam"}},
+      {"expat", {"reports/diff"}},
+      {"png.h", {"render/image"}},
       {"matio", {"core/records"}},
       {"hb", {"render/theme", "render/cairo"}},
       {"ft2build", {"render/theme", "render/cairo"}},

@@ -13,10 +13,10 @@
 #include "core/base/errors.hpp"
 #include "core/base/files.hpp"
 #include "render/figures/map.hpp"
+#include "render/image/png_read.hpp"
 #include "render/output/write_figure.hpp"
 #include "render/plot/figure_json.hpp"
 #include "render/plot/layout.hpp"
-#include "tests/support/png_reader.hpp"
 #include "tests/support/sample_figures.hpp"
 #include "tests/support/temporary_folder.hpp"
 

@@ -8,9 +8,9 @@
 #include "render/figures/map.hpp"
 #include "render/image/palette_image.hpp"
 #include "render/image/png.hpp"
+#include "render/image/png_read.hpp"
 #include "render/plot/layout.hpp"
 #include "tests/support/baselines.hpp"
-#include "tests/support/png_reader.hpp"
 #include "tests/support/sample_figures.hpp"
 
 namespace mapproof::test {

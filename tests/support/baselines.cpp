@@ -7,7 +7,7 @@
 #include "core/base/files.hpp"
 #include "render/image/compare.hpp"
 #include "render/image/png.hpp"
-#include "tests/support/png_reader.hpp"
+#include "render/image/png_read.hpp"
 
 namespace mapproof::test {
 

@@ -1,0 +1,211 @@
+#include "render/image/png_read.hpp"
+
+#include <algorithm>
+#include <csetjmp>
+#include <cstring>
+
+#include <fmt/format.h>
+#include <png.h>
+
+#include "core/base/errors.hpp"
+#include "render/image/png_check.hpp"
+#include "render/image/png_chunks.hpp"
+#include "render/image/png_rows.hpp"
+
+namespace mapproof {
+namespace {
+
+/// What libpng is given: signature, header, palette, tRNS and rows, so that no profile and no text
+/// is ever inflated.
+struct Source {
+  std::string_view signature;
+  const std::vector<PngChunk>* chunks;
+  std::size_t next = 0;
+  std::string_view rest = signature;
+  std::string reason = {};
+};
+
+bool is_needed(std::string_view type) {
+  return type == "IHDR" || type == "PLTE" || type == "tRNS" || type == "IDAT" || type == "IEND";
+}
+
+void take(png_structp png, png_bytep out, std::size_t count) {
+  auto& source = *static_cast<Source*>(png_get_io_ptr(png));
+  while (count > 0) {
+    while (source.rest.empty()) {
+      if (source.next == source.chunks->size()) png_error(png, "its rows end early");
+      const PngChunk& chunk = (*source.chunks)[source.next++];
+      if (is_needed(chunk.type)) source.rest = chunk.whole;
+    }
+    const std::size_t part = std::min(count, source.rest.size());
+    std::memcpy(out, source.rest.data(), part);
+    source.rest.remove_prefix(part);
+    out += part;
+    count -= part;
+  }
+}
+
+void leave(png_structp png, png_const_charp why) {
+  static_cast<Source*>(png_get_error_ptr(png))->reason = why;
+  png_longjmp(png, 1);
+}
+
+void no_warning(png_structp, png_const_charp) {}
+
+/// Rows of red, green, blue and alpha, of 8 or 16 bits each, the same for every kind of PNG.
+struct Samples {
+  std::size_t bytes_a_row = 0;
+  bool is_deep = false;
+  std::vector<unsigned char> bytes = {};
+  std::vector<png_bytep> rows = {};
+};
+
+/// Nothing with a destructor may live here: libpng leaves by longjmp.
+bool decode(png_structp png, png_infop info, Samples& samples) {
+  if (setjmp(png_jmpbuf(png))) return false;
+  png_set_benign_errors(png, 0);
+  png_set_crc_action(png, PNG_CRC_QUIET_USE, PNG_CRC_QUIET_USE);
+  png_set_user_limits(png, 0x7FFFFFFF, 0x7FFFFFFF);
+  png_read_info(png, info);
+  png_set_expand(png);
+  png_set_gray_to_rgb(png);
+  png_set_add_alpha(png, 0xFFFF, PNG_FILLER_AFTER);
+  png_set_interlace_handling(png);
+  png_read_update_info(png, info);
+  samples.bytes_a_row = png_get_rowbytes(png, info);
+  samples.is_deep = png_get_bit_depth(png, info) == 16;
+  const std::size_t height = png_get_image_height(png, info);
+  samples.bytes.resize(samples.bytes_a_row * height);
+  samples.rows.resize(height);
+  for (std::size_t y = 0; y < height; ++y)
+    samples.rows[y] = samples.bytes.data() + y * samples.bytes_a_row;
+  png_read_image(png, samples.rows.data());
+  png_read_end(png, nullptr);
+  return true;
+}
+
+Samples all_samples(std::string_view bytes, const std::vector<PngChunk>& chunks) {
+  Source source{bytes.substr(0, 8), &chunks};
+  png_structp png = png_create_read_struct(PNG_LIBPNG_VER_STRING, &source, leave, no_warning);
+  png_infop info = png ? png_create_info_struct(png) : nullptr;
+  if (!info) throw std::bad_alloc();
+  png_set_read_fn(png, &source, take);
+  Samples samples;
+  bool is_done = false;
+  try {
+    is_done = decode(png, info, samples);
+  } catch (...) {
+    png_destroy_read_struct(&png, &info, nullptr);
+    throw;
+  }
+  png_destroy_read_struct(&png, &info, nullptr);
+  if (!is_done) throw InvalidInput("its pixels cannot be decoded: " + source.reason);
+  return samples;
+}
+
+/// Lays `colour` of `most` over white, as 0 to 255.
+std::uint32_t over_white(std::uint32_t colour, std::uint32_t alpha, std::uint32_t most) {
+  const std::uint64_t sum = std::uint64_t{colour} * alpha + std::uint64_t{most} * (most - alpha);
+  const std::uint64_t square = std::uint64_t{most} * most;
+  return static_cast<std::uint32_t>((sum * 255 + square / 2) / square);
+}
+
+void mix(std::uint64_t& digest, std::uint64_t value) {
+  digest = (digest ^ value) * 0x9E3779B97F4A7C15u;
+  digest ^= digest >> 29;
+}
+
+/// Fills image and digest. Samples of 16 bits that repeat a byte are those of 8 bits.
+void flatten(const Samples& samples, PngFile& file) {
+  const std::size_t step = samples.is_deep ? 8 : 4;
+  const std::uint32_t most = samples.is_deep ? 0xFFFF : 0xFF;
+  for (int y = 0; y < file.image.height; ++y) {
+    const unsigned char* p = samples.rows[y];
+    for (int x = 0; x < file.image.width; ++x, p += step) {
+      std::uint32_t value[4];
+      std::uint64_t exact = 0;
+      for (int c = 0; c < 4; ++c) {
+        value[c] = samples.is_deep ? p[2 * c] << 8u | p[2 * c + 1] : p[c];
+        exact = exact << 16 | (samples.is_deep ? value[c] : value[c] * 0x101u);
+      }
+      std::uint32_t pixel = 0;
+      for (int c = 0; c < 3; ++c) pixel = pixel << 8 | over_white(value[c], value[3], most);
+      file.image.row(y)[x] = pixel;
+      std::uint64_t told = 0xFFFF;
+      for (const int shift : {0, 8, 16})
+        told |= std::uint64_t{((pixel >> shift) & 0xFF) * 0x101u} << (16 + 2 * shift);
+      if (exact != told) {
+        mix(file.finer_digest, static_cast<std::uint64_t>(y) << 32 | static_cast<unsigned>(x));
+        mix(file.finer_digest, exact);
+      }
+    }
+  }
+}
+
+void read_words(const PngChunk& chunk, PngFile& file) {
+  const std::size_t key_end = chunk.data.find('\0');
+  if (key_end == std::string_view::npos || chunk.data.size() > 65536) return;
+  std::string_view text = chunk.data.substr(key_end + 1);
+  if (chunk.type == "iTXt") {
+    // Compressed or not, how, language, its end, translated keyword, its end.
+    if (text.size() < 2 || text[0] != 0) return;
+    text.remove_prefix(2);
+    for (int field = 0; field < 2; ++field) {
+      const std::size_t end = text.find('\0');
+      if (end == std::string_view::npos) return;
+      text.remove_prefix(end + 1);
+    }
+  }
+  file.texts[std::string(chunk.data.substr(0, key_end))] = text;
+}
+
+void check_size(const PngHeader& header, std::size_t compressed) {
+  const std::uint64_t pixels = std::uint64_t{header.width} * header.height;
+  if (pixels > static_cast<std::uint64_t>(kMostPngPixels))
+    throw InvalidInput(fmt::format("{} x {} pixels are more than the {} that are read",
+                                   header.width, header.height, kMostPngPixels));
+  // Deflate makes at most 1032 bytes of one.
+  const std::uint64_t bits = std::uint64_t{header.width} * header.channels() * header.depth;
+  if (header.height * (bits / 8) > 1032 * static_cast<std::uint64_t>(compressed))
+    throw InvalidInput(fmt::format("{} x {} pixels cannot be in {} bytes", header.width,
+                                   header.height, compressed));
+}
+
+}  // namespace
+
+PngFile read_png(std::string_view bytes) {
+  if (const std::string problem = png_problem(bytes); !problem.empty()) throw InvalidInput(problem);
+  const std::vector<PngChunk> chunks = png_chunks(bytes);
+  const PngHeader header = png_header(chunks.front());
+  PngFile file;
+  std::string gathered;
+  std::string_view rows, palette;
+  bool has_transparency = false;
+  for (const PngChunk& chunk : chunks) {
+    if (chunk.type == "PLTE") palette = chunk.data;
+    if (chunk.type == "tRNS") has_transparency = true;
+    if (chunk.type == "tIME") file.has_time = true;
+    if (chunk.type == "tEXt" || chunk.type == "iTXt") read_words(chunk, file);
+    if (chunk.type == "pHYs" && chunk.data.size() == 9)
+      file.pixels_per_metre = big_endian(chunk.data);
+    if (chunk.type != "IDAT") continue;
+    // One chunk is read where it is, several as one.
+    if (!rows.empty() && gathered.empty()) gathered = rows;
+    if (!gathered.empty()) gathered += chunk.data;
+    rows = gathered.empty() ? chunk.data : gathered;
+  }
+  check_size(header, rows.size());
+  if (header.colour == 3 && palette.empty()) throw InvalidInput("its palette is missing");
+  if (!has_transparency && has_quick_rows(header))
+    if (std::optional<Image> image = quick_rows(header, rows, palette)) {
+      file.image = std::move(*image);
+      return file;
+    }
+  file.image = {static_cast<int>(header.width), static_cast<int>(header.height), {}};
+  const Samples samples = all_samples(bytes, chunks);
+  file.image.pixels.resize(static_cast<std::size_t>(header.width) * header.height);
+  flatten(samples, file);
+  return file;
+}
+
+}  // namespace mapproof
