@@ -51,6 +51,7 @@ std::string to_png(const Drawing& drawing) {
                    {"Software", "mapproof"},
                    {"mapproof:figure", drawing.id},
                    {"mapproof:records", joined(drawing.record_ids)}};
+  if (!drawing.renderer.empty()) options.texts.emplace_back("mapproof:renderer", drawing.renderer);
   return encode_png(to_image(drawing), options);
 }
 
@@ -67,7 +68,8 @@ std::string to_pdf(const Drawing& drawing) {
   };
   set(CAIRO_PDF_METADATA_TITLE, visible_lines(drawing.title));
   set(CAIRO_PDF_METADATA_SUBJECT, visible_lines(drawing.alt));
-  set(CAIRO_PDF_METADATA_KEYWORDS, drawing.id + " " + joined(drawing.record_ids));
+  set(CAIRO_PDF_METADATA_KEYWORDS, drawing.id + " " + joined(drawing.record_ids) +
+                                     (drawing.renderer.empty() ? "" : " " + drawing.renderer));
   set(CAIRO_PDF_METADATA_CREATOR, "mapproof");
   set(CAIRO_PDF_METADATA_CREATE_DATE, kFixedDate);
   {

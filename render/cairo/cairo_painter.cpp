@@ -108,6 +108,23 @@ class Painter {
     cairo_fill(context_);
   }
 
+  void draw(const Raster& raster) {
+    if (raster.image == nullptr) return;
+    const Image& image = *raster.image;
+    // Cairo only reads it; pixels without alpha are Image's own form.
+    auto* pixels = reinterpret_cast<unsigned char*>(const_cast<std::uint32_t*>(image.row(0)));
+    const SurfaceHandle surface(cairo_image_surface_create_for_data(
+        pixels, CAIRO_FORMAT_RGB24, image.width, image.height, 4 * image.width));
+    check(cairo_surface_status(surface.get()));
+    cairo_save(context_);
+    cairo_translate(context_, raster.place.x0, raster.place.y0);
+    cairo_scale(context_, raster.place.width() / image.width, raster.place.height() / image.height);
+    cairo_set_source_surface(context_, surface.get(), 0.0, 0.0);
+    cairo_pattern_set_filter(cairo_get_source(context_), CAIRO_FILTER_NEAREST);
+    cairo_paint(context_);
+    cairo_restore(context_);
+  }
+
   void draw(const TextLine& line) {
     set_colour(line.colour, 1.0);
     cairo_save(context_);

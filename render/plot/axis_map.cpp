@@ -48,6 +48,10 @@ struct Spans {
     see(cells.x.low, cells.y.low);
     see(cells.x.high, cells.y.high);
   }
+  void operator()(const Picture& picture) {
+    see(picture.x.low, picture.y.low);
+    see(picture.x.high, picture.y.high);
+  }
   void operator()(const Texts& texts) {
     for (std::size_t i = 0; i < texts.x.size(); ++i) see(texts.x[i], texts.y[i]);
   }

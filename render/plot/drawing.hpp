@@ -1,11 +1,13 @@
 #pragma once
 
+#include <memory>
 #include <optional>
 #include <string>
 #include <variant>
 #include <vector>
 
 #include "render/base/geometry.hpp"
+#include "render/image/image.hpp"
 #include "render/plot/figure.hpp"
 #include "render/theme/colour.hpp"
 #include "render/theme/font.hpp"
@@ -29,6 +31,7 @@ enum class Role {
   kLine,  ///< Joins or shows data.
   kMarker,
   kMarkLabel,
+  kPicture,
   kLeader,  ///< From a mark's label to its mark.
   kLegendBox,
   kLegendText,
@@ -69,6 +72,13 @@ struct TextLine {
   Colour colour = {};
 };
 
+/// A picture of pixels; without them it is not drawn.
+struct Raster {
+  Box place;
+  std::size_t source = 0;  ///< See Picture.
+  std::shared_ptr<const Image> image;
+};
+
 /// The part of the drawing that a line's ink takes.
 Box ink_box(const TextLine& line);
 
@@ -77,7 +87,7 @@ struct Item {
   bool clipped = false;  ///< To the frame of its panel.
   std::size_t panel = 0;
   std::optional<std::size_t> mark;  ///< Place in Drawing::marks.
-  std::variant<Shape, Stamp, TextLine> what;
+  std::variant<Shape, Stamp, TextLine, Raster> what;
 };
 
 /// A figure laid out: all that a back end needs, in points, the first item lowest.
@@ -85,6 +95,7 @@ struct Drawing {
   std::string id, title, caption, alt;
   std::vector<std::string> record_ids;
   bool varies = false;
+  std::string renderer;  ///< What made its rasters; empty if it has none.
   double width = 0.0;
   double height = 0.0;
   double dpi = 72.0;

@@ -33,7 +33,7 @@ bool same_size(std::size_t size, std::initializer_list<std::size_t> others) {
 class Inspector {
  public:
   std::string figure(const Figure& figure) {
-    if (!is_slug(figure.id) || figure.id[0] < 'a' || figure.id.size() > 120)
+    if (!is_figure_id(figure.id))
       return "id: '" + printable(figure.id) + "' is not [a-z][a-z0-9-]* of at most 120 characters";
     if (figure.panels.empty()) return "panels: there is none";
     for (std::size_t p = 0; p < figure.panels.size(); ++p)
@@ -168,6 +168,20 @@ class Inspector {
     return values(texts.y, panel.y, "y");
   }
 
+  std::string layer(const Picture& picture, const Panel& panel) {
+    if (!is_linear(panel)) return "needs linear axes";
+    if (!is_range(picture.x) || !is_range(picture.y)) return "x, y: not finite and ascending";
+    if (!same_size(picture.clear_x.size(), {picture.clear_y.size(), picture.clear_by.size()}))
+      return "clear_y, clear_by: not as long as clear_x";
+    for (const auto& [name, part] : {std::pair{"clear_x", &picture.clear_x},
+                                     std::pair{"clear_y", &picture.clear_y},
+                                     std::pair{"clear_by", &picture.clear_by}})
+      if (std::string what = values(*part, panel.x, name); !what.empty()) return what;
+    return std::ranges::any_of(picture.clear_by, [](double by) { return by < 0.0; })
+               ? "clear_by: negative"
+               : "";
+  }
+
   static bool is_linear(const Panel& panel) {
     return panel.x.scale == Scale::kLinear && panel.y.scale == Scale::kLinear;
   }
@@ -218,10 +232,16 @@ Ink series_ink(std::size_t i) {
   return static_cast<Ink>(static_cast<std::size_t>(Ink::kSeries1) + i % 7);
 }
 
+bool is_figure_id(std::string_view id) {
+  return is_slug(id) && id[0] >= 'a' && id.size() <= 120;
+}
+
 bool is_empty(const Layer& layer) {
   return std::visit(
       [](const auto& one) {
-        if constexpr (requires { one.x0; })
+        if constexpr (requires { one.source; })
+          return false;
+        else if constexpr (requires { one.x0; })
           return one.x0.empty();
         else if constexpr (requires { one.values; })
           return one.values.empty();

@@ -2,6 +2,7 @@
 
 #include <optional>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <variant>
 #include <vector>
@@ -174,8 +175,20 @@ struct Texts {
   bool operator==(const Texts&) const = default;
 };
 
-using Layer =
-    std::variant<Band, Segments, Polyline, Scatter, PointLabels, Area, Ellipses, Cells, Texts>;
+/// A place for a raster picture, and what in it labels must not cover.
+struct Picture {
+  Range x = {};
+  Range y = {};
+  std::size_t source = 0;             ///< Which picture: for those who paint it.
+  std::vector<double> clear_x = {};   ///< Middles of squares that stay free of labels.
+  std::vector<double> clear_y = {};   ///< As many.
+  std::vector<double> clear_by = {};  ///< As many: half their sides, >= 0.
+
+  bool operator==(const Picture&) const = default;
+};
+
+using Layer = std::variant<Band, Segments, Polyline, Scatter, PointLabels, Area, Ellipses, Cells,
+                           Texts, Picture>;
 
 enum class Scale { kLinear, kLog };
 
@@ -232,6 +245,9 @@ struct Figure {
 
   bool operator==(const Figure&) const = default;
 };
+
+/// Whether a figure may have that id.
+bool is_figure_id(std::string_view id);
 
 /// Whether the layer has nothing to draw.
 bool is_empty(const Layer& layer);

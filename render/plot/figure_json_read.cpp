@@ -153,6 +153,12 @@ Texts read_texts(const JsonCursor& json) {
           named<Align>(json.at("align"), kAligns), named<Ink>(json.at("ink"), kInks)};
 }
 
+Picture read_picture(const JsonCursor& json) {
+  return {read_range(json.at("x")),      read_range(json.at("y")),
+          count(json.at("source")),      numbers(json.at("clear_x")),
+          numbers(json.at("clear_y")),   numbers(json.at("clear_by"))};
+}
+
 Layer read_layer(const JsonCursor& json) {
   const std::string kind = text(json.at("kind"));
   if (kind == "polyline") return read_polyline(json);
@@ -164,6 +170,7 @@ Layer read_layer(const JsonCursor& json) {
   if (kind == "ellipses") return read_ellipses(json);
   if (kind == "cells") return read_cells(json);
   if (kind == "texts") return read_texts(json);
+  if (kind == "picture") return read_picture(json);
   json.at("kind").fail("the kind " + in_quotes(kind) + " is unknown");
 }
 

@@ -144,6 +144,16 @@ Json layer_json(const Texts& texts) {
           {"ink", enum_json(texts.ink, kInks)}};
 }
 
+Json layer_json(const Picture& picture) {
+  return {{"kind", "picture"},
+          {"x", range_json(picture.x)},
+          {"y", range_json(picture.y)},
+          {"source", picture.source},
+          {"clear_x", numbers_json(picture.clear_x)},
+          {"clear_y", numbers_json(picture.clear_y)},
+          {"clear_by", numbers_json(picture.clear_by)}};
+}
+
 Json axis_json(const Axis& axis) {
   return {{"label", axis.label},
           {"scale", enum_json(axis.scale, kScales)},

@@ -97,6 +97,14 @@ class Painter {
     for (Shape& shape : cell_shapes(cells, map_, theme_)) add(Role::kCells, std::move(shape), mark);
   }
 
+  void operator()(const Picture& picture) {
+    drawing_.add(Role::kPicture, panel_,
+                 Raster{{map_.x(picture.x.low), map_.y(picture.y.high), map_.x(picture.x.high),
+                         map_.y(picture.y.low)},
+                        picture.source,
+                        nullptr});
+  }
+
   void operator()(const Texts& texts) {
     for (std::size_t i = 0; i < texts.x.size(); ++i)
       if (auto line = placed_text(texts, i, map_, theme_))

@@ -51,6 +51,7 @@ class SamplePainter {
   }
   void operator()(const PointLabels&) {}
   void operator()(const Texts&) {}
+  void operator()(const Picture&) {}
   void operator()(const Area& area) {
     Shape shape = filled_shape(area.fill, area.ink, theme_);
     if (area.outlined) shape.stroke = stroke_of(area.ink, area.dash, area.width, theme_);

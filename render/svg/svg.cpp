@@ -5,6 +5,8 @@
 
 #include <fmt/format.h>
 
+#include "render/image/png.hpp"
+#include "render/svg/base64.hpp"
 #include "render/svg/xml_text.hpp"
 
 namespace mapproof {
@@ -93,6 +95,7 @@ class SvgWriter {
     for (const std::string& id : drawing_.record_ids) (records += records.empty() ? "" : " ") += id;
     if (!records.empty()) attribute("data-records", records);
     if (drawing_.varies) attribute("data-varies", "true");
+    if (!drawing_.renderer.empty()) attribute("data-renderer", drawing_.renderer);
     out_ += ">\n<title id=\"" + drawing_.id + "-title\">";
     append_xml(out_, drawing_.title);
     out_ += "</title>\n<desc id=\"" + drawing_.id + "-desc\">";
@@ -232,6 +235,18 @@ class SvgWriter {
     attribute("x", stamp.at.x);
     attribute("y", stamp.at.y);
     out_ += "/>\n";
+  }
+
+  void write(const Raster& raster, const Item& item, const std::string& own) {
+    if (raster.image == nullptr) return;
+    out_ += "<image" + own;
+    if (item.mark && !open_mark_) mark_attributes(*item.mark);
+    box_attributes(raster.place);
+    const double dpi = 72.0 * raster.image->width / raster.place.width();
+    attribute("data-dpi", std::round(dpi));
+    out_ += " preserveAspectRatio=\"none\" href=\"data:image/png;base64,";
+    append_base64(out_, encode_png(*raster.image, {.dpi = dpi, .texts = {}}));
+    out_ += "\"/>\n";
   }
 
   void write(const TextLine& line, const Item&, const std::string&) {

@@ -1,0 +1,60 @@
+#include "render/output/write_scene.hpp"
+
+#include <cmath>
+
+#include "core/base/files.hpp"
+#include "render/cairo/cairo_backend.hpp"
+#include "render/image/halve.hpp"
+#include "render/plot/layout.hpp"
+#include "render/scene/scene_figure.hpp"
+#include "render/scene/scene_json.hpp"
+#include "render/svg/svg.hpp"
+
+namespace mapproof {
+namespace {
+
+constexpr int kPosterScale = 2;
+constexpr int kSamples = 4;  // All that llvmpipe has.
+
+/// The place moved to whole pixels, so that none is drawn twice.
+Box on_pixels(const Box& place, double per_point) {
+  const auto whole = [per_point](double at) { return std::round(at * per_point) / per_point; };
+  return {whole(place.x0), whole(place.y0), whole(place.x1), whole(place.y1)};
+}
+
+}  // namespace
+
+SceneDrawing draw_scene(const Scene& scene, const Theme& theme, SceneClient& client) {
+  SceneDrawing drawn;
+  drawn.screen = lay_out(scene_figure(scene, theme), theme);
+  drawn.poster = drawn.screen;
+  drawn.poster.dpi = kPosterScale * theme.dpi;
+  const double per_point = theme.dpi / 72.0;
+  for (std::size_t i = 0; i < drawn.screen.items.size(); ++i) {
+    auto* screen = std::get_if<Raster>(&drawn.screen.items[i].what);
+    if (screen == nullptr) continue;
+    auto* poster = std::get_if<Raster>(&drawn.poster.items[i].what);
+    screen->place = poster->place = on_pixels(screen->place, per_point);
+    const auto width = static_cast<int>(std::lround(screen->place.width() * per_point));
+    const auto height = static_cast<int>(std::lround(screen->place.height() * per_point));
+    auto fine = std::make_shared<Image>(client.draw(
+        scene, screen->source, kPosterScale * width, kPosterScale * height, kSamples, theme));
+    screen->image = std::make_shared<Image>(halved(*fine));
+    poster->image = std::move(fine);
+  }
+  drawn.screen.renderer = drawn.poster.renderer = client.renderer();
+  return drawn;
+}
+
+std::string write_scene(const Scene& scene, const Theme& theme,
+                        const std::filesystem::path& folder, SceneClient& client) {
+  const SceneDrawing drawn = draw_scene(scene, theme, client);
+  std::string svg = to_svg(drawn.screen);
+  write_file(folder / (scene.id + ".svg"), svg);
+  write_file(folder / (scene.id + ".png"), to_png(drawn.poster));
+  write_file(folder / (scene.id + ".pdf"), to_pdf(drawn.poster));
+  write_file(folder / (scene.id + ".scene.json"), scene_to_json(scene));
+  return svg;
+}
+
+}  // namespace mapproof

@@ -1,0 +1,29 @@
+#pragma once
+
+#include <filesystem>
+#include <string>
+
+#include "render/plot/drawing.hpp"
+#include "render/scene/scene.hpp"
+#include "render/scene_client/scene_client.hpp"
+#include "render/theme/theme.hpp"
+
+namespace mapproof {
+
+/// A scene laid out, its pictures drawn: at the theme's dpi, and at twice that.
+struct SceneDrawing {
+  Drawing screen;
+  Drawing poster;
+};
+
+/// @throws InvalidInput if the scene cannot be drawn (see `problem`); SceneError.
+SceneDrawing draw_scene(const Scene& scene, const Theme& theme, SceneClient& client);
+
+/// Writes ID.svg with pictures at the theme's dpi, ID.png and ID.pdf at twice that, and
+/// ID.scene.json, each at once or not at all.
+/// @return The text of the SVG file.
+/// @throws IoError; otherwise as draw_scene.
+std::string write_scene(const Scene& scene, const Theme& theme,
+                        const std::filesystem::path& folder, SceneClient& client);
+
+}  // namespace mapproof

@@ -1,0 +1,74 @@
+#include "render/scene/cloud_box.hpp"
+
+#include "core/base/errors.hpp"
+#include "render/scene/projection.hpp"
+
+namespace mapproof {
+namespace {
+
+constexpr double kPadding = 0.06;    // Of each side.
+constexpr double kLeastSide = 0.05;  // Of the diagonal.
+constexpr double kLabelRoom = 0.1;   // Of the diagonal.
+
+}  // namespace
+
+CloudBox::CloudBox(std::span<const Point3> points) {
+  if (points.empty()) throw InvalidInput("a scene of no points");
+  low = high = points[0];
+  for (const Point3& p : points) low = low.cwiseMin(p), high = high.cwiseMax(p);
+  const double least = std::max(kLeastSide * (high - low).norm(), 1e-9);
+  const Point3 missing = (Point3::Constant(least) - (high - low)).cwiseMax(0.0) / 2.0;
+  const Point3 padding = missing + kPadding * (high - low);
+  low -= padding;
+  high += padding;
+}
+
+std::array<Point3, 8> CloudBox::corners() const {
+  std::array<Point3, 8> found;
+  for (std::size_t i = 0; i < found.size(); ++i)
+    found[i] = {i & 1 ? high.x() : low.x(), i & 2 ? high.y() : low.y(), i & 4 ? high.z() : low.z()};
+  return found;
+}
+
+Rods CloudBox::edges() const {
+  Rods rods{.radius = 0.0012 * size(), .look = {.ink = Ink::kMuted, .share = 0.6, .lit = false}};
+  const std::array<Point3, 8> at = corners();
+  for (std::size_t i = 0; i < at.size(); ++i)
+    for (const std::size_t bit : {1U, 2U, 4U})
+      if ((i & bit) == 0) {
+        rods.from.push_back(at[i]);
+        rods.to.push_back(at[i | bit]);
+      }
+  return rods;
+}
+
+std::vector<Rule> CloudBox::rules(const std::array<std::string, 3>& labels) const {
+  const Point3 right_front{high.x(), low.y(), low.z()};
+  return {{.from = low,
+           .to = right_front,
+           .range = {low.x(), high.x()},
+           .label = labels[0],
+           .away = -Point3::UnitY()},
+          {.from = right_front,
+           .to = {high.x(), high.y(), low.z()},
+           .range = {low.y(), high.y()},
+           .label = labels[1],
+           .away = Point3::UnitX()},
+          {.from = low,
+           .to = {low.x(), low.y(), high.z()},
+           .range = {low.z(), high.z()},
+           .label = labels[2],
+           .away = -Point3::UnitX()}};
+}
+
+Camera CloudBox::camera() const {
+  const double room = kLabelRoom * size();
+  std::vector<Point3> shown;
+  for (const Point3& corner : corners()) shown.push_back(corner);
+  shown.emplace_back(low.x() - room, low.y() - room, low.z() - 0.5 * room);
+  shown.emplace_back(high.x() + room, low.y() - room, low.z() - 0.5 * room);
+  shown.emplace_back(high.x() + room, high.y(), low.z());
+  return fitted_camera(shown, {0.55, -1.0, 0.62}, false);
+}
+
+}  // namespace mapproof

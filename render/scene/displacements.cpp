@@ -1,0 +1,53 @@
+#include "render/scene/displacements.hpp"
+
+#include <fmt/format.h>
+
+#include "core/base/words.hpp"
+#include "render/scene/room.hpp"
+
+namespace mapproof {
+namespace {
+
+constexpr double kFarShare = 0.75;    // Of the room's side, as figures of maps have it.
+constexpr double kLiftShare = 0.004;  // Above the floor, so that it does not shine through.
+constexpr double kRadiusShare = 0.0035;
+
+}  // namespace
+
+Displacements displacements(const Points& truth_m, const Points& estimate_m, double side_m) {
+  Displacements found;
+  found.arrows.radius = kRadiusShare * side_m;
+  found.arrows.arrow = true;
+  const double lift = kLiftShare * side_m;
+  for (Eigen::Index i = 0; i < truth_m.rows(); ++i) {
+    if (!truth_m.row(i).allFinite()) continue;
+    if (!estimate_m.row(i).allFinite()) {
+      ++found.missing;
+      continue;
+    }
+    const Eigen::Array2d offset = (estimate_m.row(i).array() - side_m / 2.0).abs();
+    if (offset.maxCoeff() > (0.5 + kFarShare) * side_m) {
+      ++found.far;
+      continue;
+    }
+    found.arrows.from.push_back(on_floor(truth_m.row(i), lift));
+    found.arrows.to.push_back(on_floor(estimate_m.row(i), lift));
+    found.drawn.push_back(i);
+    found.errors_m.push_back((estimate_m.row(i) - truth_m.row(i)).norm());
+  }
+  return found;
+}
+
+std::string words_of_missing(const Displacements& found) {
+  std::string text;
+  if (found.far > 0)
+    text = fmt::format("{} far outside the room",
+                       found.far == 1 ? "1 estimate is" : fmt::format("{} estimates are", found.far));
+  if (found.missing > 0)
+    text += fmt::format("{}{} no place", text.empty() ? "" : " and ",
+                        found.missing == 1 ? "1 landmark has"
+                                           : fmt::format("{} landmarks have", found.missing));
+  return text.empty() ? text : text + ".";
+}
+
+}  // namespace mapproof

@@ -1,0 +1,32 @@
+#pragma once
+
+#include <string>
+#include <utility>
+#include <vector>
+
+#include <Eigen/Core>
+
+#include "core/model/points.hpp"
+#include "render/scene/scene.hpp"
+
+namespace mapproof {
+
+struct ManifoldSceneSpec {
+  std::string id;
+  std::string title;
+  std::string caption;
+  Eigen::Matrix<double, Eigen::Dynamic, 3> coordinates;  ///< M x 3; NaN rows are left out.
+  std::vector<std::pair<Eigen::Index, Eigen::Index>> edges;  ///< Of the neighbour graph.
+  Points truth_m;                                            ///< M x 2.
+  double side_m = 0.0;                                       ///< Of the room.
+  std::vector<std::string> record_ids;
+};
+
+/// Landmarks at the first three principal coordinates of their observations, with the neighbour
+/// graph, coloured by true x and, beside it, by true y: where both run along the surface without
+/// folds, a map of two dimensions can come out.
+/// @throws InvalidInput if sizes disagree, an edge has no landmark, or fewer than two landmarks
+///         have coordinates.
+Scene manifold_scene(const ManifoldSceneSpec& spec);
+
+}  // namespace mapproof

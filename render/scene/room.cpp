@@ -1,0 +1,99 @@
+#include "render/scene/room.hpp"
+
+#include "render/scene/projection.hpp"
+
+namespace mapproof {
+namespace {
+
+constexpr double kWallShare = 0.045;    // Of the room's side: low, since the front ones stand too.
+constexpr double kHeightShare = 0.09;   // Landmarks', of the room's side.
+constexpr double kLabelRoom = 0.11;     // Around the floor, for the labels of the axes.
+
+std::vector<Rule> floor_rules(double side_m) {
+  const Range range{0.0, side_m};
+  return {{.from = {0.0, 0.0, 0.0},
+           .to = {side_m, 0.0, 0.0},
+           .range = range,
+           .label = "x [m]",
+           .away = -Point3::UnitY()},
+          {.from = {side_m, 0.0, 0.0},
+           .to = {side_m, side_m, 0.0},
+           .range = range,
+           .label = "y [m]",
+           .away = Point3::UnitX()}};
+}
+
+/// Corners of the room and of the strip that the axes' labels need.
+std::vector<Point3> corners(double side_m) {
+  const double low = -kLabelRoom * side_m, high = (1.0 + kLabelRoom) * side_m;
+  const double top = landmark_height(side_m);
+  std::vector<Point3> points;
+  for (const double x : {0.0, high})
+    for (const double y : {low, side_m}) points.emplace_back(x, y, 0.0);
+  for (const double x : {0.0, side_m})
+    for (const double y : {0.0, side_m}) points.emplace_back(x, y, top);
+  return points;
+}
+
+}  // namespace
+
+std::vector<Light> usual_lights() {
+  return {{{-0.35, -0.6, 1.0}, 0.85}, {{0.9, -0.25, 0.5}, 0.35}};
+}
+
+void add_rectangle(Surface& surface, const Point3& a, const Point3& b, const Point3& c,
+                   const Point3& d) {
+  const auto first = static_cast<std::uint32_t>(surface.points.size());
+  surface.points.insert(surface.points.end(), {a, b, c, d});
+  surface.triangles.push_back({first, first + 1, first + 2});
+  surface.triangles.push_back({first, first + 2, first + 3});
+}
+
+Surface floor_of(double side_m) {
+  Surface floor{.look = {.ink = Ink::kMuted, .share = 0.12, .lit = false}};
+  add_rectangle(floor, {0.0, 0.0, 0.0}, {side_m, 0.0, 0.0}, {side_m, side_m, 0.0},
+                {0.0, side_m, 0.0});
+  return floor;
+}
+
+Surface walls_of(double side_m) {
+  Surface walls{.look = {.ink = Ink::kMuted, .share = 0.55}};
+  const double top = kWallShare * side_m, s = side_m;
+  const std::array<Point3, 5> foot = {
+      {{0.0, 0.0, 0.0}, {s, 0.0, 0.0}, {s, s, 0.0}, {0.0, s, 0.0}, {0.0, 0.0, 0.0}}};
+  const Point3 up = top * Point3::UnitZ();
+  for (std::size_t i = 0; i + 1 < foot.size(); ++i)
+    add_rectangle(walls, foot[i], foot[i + 1], foot[i + 1] + up, foot[i] + up);
+  return walls;
+}
+
+double landmark_height(double side_m) { return kHeightShare * side_m; }
+
+Rods pillars(const Points& points_m, const std::vector<Eigen::Index>& rows, double radius,
+             double height) {
+  Rods rods{.radius = radius};
+  for (const Eigen::Index row : rows) {
+    if (!points_m.row(row).allFinite()) continue;
+    rods.from.push_back(on_floor(points_m.row(row)));
+    rods.to.push_back(on_floor(points_m.row(row), height));
+  }
+  return rods;
+}
+
+Point3 on_floor(const Eigen::RowVector2d& at, double height) { return {at.x(), at.y(), height}; }
+
+View room_view(double side_m) {
+  View view;
+  view.camera = fitted_camera(corners(side_m), {0.42, -1.0, 0.95}, false);
+  view.rules = floor_rules(side_m);
+  return view;
+}
+
+View room_plan(double side_m) {
+  View view;
+  view.camera = fitted_camera(corners(side_m), Point3::UnitZ(), true);
+  view.rules = floor_rules(side_m);
+  return view;
+}
+
+}  // namespace mapproof

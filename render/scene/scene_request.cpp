@@ -1,0 +1,81 @@
+#include "render/scene/scene_request.hpp"
+
+#include <charconv>
+
+#include <nlohmann/json.hpp>
+
+#include "core/json/json_cursor.hpp"
+#include "core/json/json_text.hpp"
+#include "core/json/text_input.hpp"
+
+namespace mapproof {
+namespace {
+
+constexpr int kLargestSide = 8192;
+constexpr int kMostSamples = 16;
+
+/// "#rrggbb".
+Colour read_colour(const JsonCursor& json) {
+  const std::string given = json.text();
+  std::uint32_t rgb = 0;
+  const char* end = given.data() + given.size();
+  if (given.size() != 7 || given[0] != '#' ||
+      std::from_chars(given.data() + 1, end, rgb, 16).ptr != end)
+    json.fail(in_quotes(given) + " is no colour #rrggbb");
+  return colour(rgb);
+}
+
+}  // namespace
+
+SceneRequest scene_request(std::size_t view, int width, int height, int samples,
+                           const Theme& theme) {
+  SceneRequest request{view, width, height, samples, theme.background, {}};
+  for (std::size_t i = 0; i < request.inks.size(); ++i)
+    request.inks[i] = theme.of(static_cast<Ink>(i));
+  return request;
+}
+
+std::string request_to_line(const SceneRequest& request) {
+  nlohmann::ordered_json inks = nlohmann::ordered_json::array();
+  for (const Colour ink : request.inks) inks.push_back(hex(ink));
+  return json_line({{"schema", schema_value("mapproof.scene-request")},
+                    {"view", request.view},
+                    {"width", request.width},
+                    {"height", request.height},
+                    {"samples", request.samples},
+                    {"background", hex(request.background)},
+                    {"inks", std::move(inks)}});
+}
+
+SceneRequest request_from_line(std::string_view text, const std::string& path) {
+  const JsonDocument document = parse_json(text, path);
+  const JsonCursor json = document.cursor();
+  expect_schema(json, "mapproof.scene-request");
+  SceneRequest request;
+  request.view = static_cast<std::size_t>(json.at("view").integer(0, 1'000'000));
+  request.width = json.at("width").integer32(1, kLargestSide);
+  request.height = json.at("height").integer32(1, kLargestSide);
+  request.samples = json.at("samples").integer32(0, kMostSamples);
+  request.background = read_colour(json.at("background"));
+  const std::vector<JsonCursor> inks = json.at("inks").elements(10, 10);
+  for (std::size_t i = 0; i < inks.size(); ++i) request.inks[i] = read_colour(inks[i]);
+  return request;
+}
+
+std::string reply_to_line(const SceneReply& reply) {
+  return json_line({{"schema", schema_value("mapproof.scene-reply")},
+                    {"error", reply.error},
+                    {"width", reply.width},
+                    {"height", reply.height},
+                    {"renderer", reply.renderer}});
+}
+
+SceneReply reply_from_line(std::string_view text, const std::string& path) {
+  const JsonDocument document = parse_json(text, path);
+  const JsonCursor json = document.cursor();
+  expect_schema(json, "mapproof.scene-reply");
+  return {json.at("error").text(), json.at("width").integer32(0, kLargestSide),
+          json.at("height").integer32(0, kLargestSide), json.at("renderer").text()};
+}
+
+}  // namespace mapproof

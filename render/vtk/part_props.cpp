@@ -1,0 +1,251 @@
+#include "render/vtk/part_props.hpp"
+
+#include <cmath>
+
+#include <vtkActor.h>
+#include <vtkCellArray.h>
+#include <vtkContourFilter.h>
+#include <vtkDelaunay2D.h>
+#include <vtkDoubleArray.h>
+#include <vtkFloatArray.h>
+#include <vtkLookupTable.h>
+#include <vtkNew.h>
+#include <vtkPointData.h>
+#include <vtkPoints.h>
+#include <vtkPolyData.h>
+#include <vtkPolyDataMapper.h>
+#include <vtkPolyDataNormals.h>
+#include <vtkProperty.h>
+#include <vtkStripper.h>
+#include <vtkTubeFilter.h>
+#include <vtkUnsignedCharArray.h>
+
+#include "render/scene/solids.hpp"
+#include "render/theme/palette.hpp"
+
+namespace mapproof {
+namespace {
+
+using Props = std::vector<vtkSmartPointer<vtkProp>>;
+
+constexpr int kSides = 24;
+constexpr int kTubeSides = 12;
+constexpr double kAmbient = 0.42;  // White stays near white where no light falls.
+constexpr double kDiffuse = 0.58;
+
+Colour plain_colour(const Look& look, const SceneRequest& request) {
+  return mix(request.inks[static_cast<std::size_t>(look.ink)], request.background, look.share);
+}
+
+/// Of the i-th value; the look's where there is none.
+Colour toned_colour(const Look& look, const Tones& tones, std::size_t i,
+                    const SceneRequest& request) {
+  if (tones.values.empty() || std::isnan(tones.values[i])) return plain_colour(look, request);
+  return viridis((tones.values[i] - tones.limits.low) / (tones.limits.high - tones.limits.low));
+}
+
+vtkNew<vtkPoints> points_of(const std::vector<Point3>& places) {
+  vtkNew<vtkPoints> points;
+  points->SetDataTypeToDouble();
+  points->SetNumberOfPoints(static_cast<vtkIdType>(places.size()));
+  for (std::size_t i = 0; i < places.size(); ++i)
+    points->SetPoint(static_cast<vtkIdType>(i), places[i].data());
+  return points;
+}
+
+vtkNew<vtkCellArray> cells_of(const std::vector<std::array<std::uint32_t, 3>>& triangles) {
+  vtkNew<vtkCellArray> cells;
+  for (const auto& [a, b, c] : triangles) {
+    const std::array<vtkIdType, 3> corners = {a, b, c};
+    cells->InsertNextCell(3, corners.data());
+  }
+  return cells;
+}
+
+class ColourList {
+ public:
+  ColourList() { list_->SetNumberOfComponents(3); }
+  void add(Colour colour, std::size_t times = 1) {
+    for (; times > 0; --times) list_->InsertNextTuple3(colour.red, colour.green, colour.blue);
+  }
+  vtkUnsignedCharArray* get() { return list_; }
+
+ private:
+  vtkNew<vtkUnsignedCharArray> list_;
+};
+
+vtkSmartPointer<vtkActor> actor_of(vtkPolyDataMapper* mapper, const Look& look,
+                                   const SceneRequest& request) {
+  auto actor = vtkSmartPointer<vtkActor>::New();
+  actor->SetMapper(mapper);
+  const Colour colour = plain_colour(look, request);
+  vtkProperty* property = actor->GetProperty();
+  property->SetColor(colour.red / 255.0, colour.green / 255.0, colour.blue / 255.0);
+  property->SetOpacity(look.opacity);
+  property->SetLighting(look.lit);
+  property->SetAmbient(kAmbient);
+  property->SetDiffuse(kDiffuse);
+  property->SetSpecular(0.0);
+  return actor;
+}
+
+/// Points' colours are the data's own, if it has some.
+vtkSmartPointer<vtkActor> actor_of(vtkPolyData* data, const Look& look,
+                                   const SceneRequest& request) {
+  vtkNew<vtkPolyDataMapper> mapper;
+  mapper->SetInputData(data);
+  mapper->SetScalarVisibility(data->GetPointData()->GetScalars() != nullptr);
+  return actor_of(mapper, look, request);
+}
+
+Props mesh_props(const TriangleMesh& mesh, ColourList* colours, const Look& look,
+                 const SceneRequest& request) {
+  if (mesh.triangles.empty()) return {};
+  vtkNew<vtkPolyData> data;
+  data->SetPoints(points_of(mesh.points));
+  data->SetPolys(cells_of(mesh.triangles));
+  vtkNew<vtkFloatArray> normals;
+  normals->SetNumberOfComponents(3);
+  for (const Point3& n : mesh.normals) normals->InsertNextTuple3(n.x(), n.y(), n.z());
+  data->GetPointData()->SetNormals(normals);
+  if (colours != nullptr) data->GetPointData()->SetScalars(colours->get());
+  return {actor_of(data, look, request)};
+}
+
+/// Solids made one by one, each in the colour of its value.
+template <typename AddOne>
+Props solid_props(std::size_t count, const Look& look, const Tones& tones,
+                  const SceneRequest& request, AddOne add_one) {
+  TriangleMesh mesh;
+  ColourList colours;
+  for (std::size_t i = 0; i < count; ++i) {
+    const std::size_t before = mesh.points.size();
+    add_one(mesh, i);
+    colours.add(toned_colour(look, tones, i, request), mesh.points.size() - before);
+  }
+  return mesh_props(mesh, tones.values.empty() ? nullptr : &colours, look, request);
+}
+
+Props part_props(const Surface& surface, const SceneRequest& request) {
+  if (surface.triangles.empty()) return {};
+  vtkNew<vtkPolyData> data;
+  data->SetPoints(points_of(surface.points));
+  data->SetPolys(cells_of(surface.triangles));
+  ColourList colours;
+  for (std::size_t i = 0; i < surface.points.size(); ++i)
+    colours.add(toned_colour(surface.look, surface.tones, i, request));
+  if (!surface.tones.values.empty()) data->GetPointData()->SetScalars(colours.get());
+  if (!surface.smooth) {
+    const auto actor = actor_of(data, surface.look, request);
+    actor->GetProperty()->SetInterpolationToFlat();
+    return {actor};
+  }
+  vtkNew<vtkPolyDataNormals> normals;
+  normals->SetInputData(data);
+  normals->SplittingOff();
+  normals->Update();
+  return {actor_of(normals->GetOutput(), surface.look, request)};
+}
+
+Props part_props(const Tube& tube, const SceneRequest& request) {
+  std::vector<Point3> places;
+  ColourList colours;
+  for (std::size_t i = 0; i < tube.points.size(); ++i) {
+    if (!places.empty() && (tube.points[i] - places.back()).norm() < 1e-9 * tube.radius) continue;
+    places.push_back(tube.points[i]);
+    colours.add(toned_colour(tube.look, tube.tones, i, request));
+  }
+  if (places.size() < 2) return {};
+  vtkNew<vtkPolyData> data;
+  data->SetPoints(points_of(places));
+  vtkNew<vtkCellArray> lines;
+  lines->InsertNextCell(static_cast<int>(places.size()));
+  for (std::size_t i = 0; i < places.size(); ++i) lines->InsertCellPoint(static_cast<vtkIdType>(i));
+  data->SetLines(lines);
+  if (!tube.tones.values.empty()) data->GetPointData()->SetScalars(colours.get());
+  vtkNew<vtkTubeFilter> filter;
+  filter->SetInputData(data);
+  filter->SetRadius(tube.radius);
+  filter->SetNumberOfSides(kTubeSides);
+  filter->CappingOn();
+  filter->Update();
+  return {actor_of(filter->GetOutput(), tube.look, request)};
+}
+
+Props part_props(const Rods& rods, const SceneRequest& request) {
+  return solid_props(rods.from.size(), rods.look, rods.tones, request,
+                     [&rods](TriangleMesh& mesh, std::size_t i) {
+                       const auto add = rods.arrow ? add_arrow : add_rod;
+                       add(mesh, rods.from[i], rods.to[i], rods.radius, kSides);
+                     });
+}
+
+Props part_props(const Spheres& spheres, const SceneRequest& request) {
+  return solid_props(spheres.at.size(), spheres.look, spheres.tones, request,
+                     [&spheres](TriangleMesh& mesh, std::size_t i) {
+                       add_sphere(mesh, spheres.at[i], spheres.radius, kSides);
+                     });
+}
+
+vtkNew<vtkLookupTable> viridis_table(const Range& limits) {
+  constexpr int kColours = 256;
+  vtkNew<vtkLookupTable> table;
+  table->SetNumberOfTableValues(kColours);
+  table->SetRange(limits.low, limits.high);
+  for (int i = 0; i < kColours; ++i) {
+    const Colour c = viridis(static_cast<double>(i) / (kColours - 1));
+    table->SetTableValue(i, c.red / 255.0, c.green / 255.0, c.blue / 255.0);
+  }
+  return table;
+}
+
+vtkSmartPointer<vtkProp> contour_prop(const Field& field, vtkPolyData* surface,
+                                      const SceneRequest& request) {
+  vtkNew<vtkContourFilter> contours;
+  contours->SetInputData(surface);
+  for (std::size_t i = 0; i < field.levels.size(); ++i)
+    contours->SetValue(static_cast<int>(i), field.levels[i]);
+  vtkNew<vtkStripper> joined;
+  joined->SetInputConnection(contours->GetOutputPort());
+  vtkNew<vtkTubeFilter> tubes;
+  tubes->SetInputConnection(joined->GetOutputPort());
+  tubes->SetRadius(field.contour_radius);
+  tubes->SetNumberOfSides(kTubeSides);
+  tubes->CappingOn();
+  tubes->Update();
+  vtkNew<vtkPolyDataMapper> mapper;
+  mapper->SetInputData(tubes->GetOutput());
+  mapper->ScalarVisibilityOff();
+  return actor_of(mapper, {.ink = Ink::kText, .lit = false}, request);
+}
+
+/// Interpolated before it is coloured, so that a triangle shows the ramp and not a mixture of the
+/// colours at its corners.
+Props part_props(const Field& field, const SceneRequest& request) {
+  vtkNew<vtkPolyData> data;
+  data->SetPoints(points_of(field.points));
+  vtkNew<vtkDoubleArray> values;
+  for (const double value : field.tones.values) values->InsertNextValue(value);
+  data->GetPointData()->SetScalars(values);
+  vtkNew<vtkDelaunay2D> plan;
+  plan->SetInputData(data);
+  plan->Update();
+  vtkPolyData* surface = plan->GetOutput();
+  if (surface->GetNumberOfPolys() == 0) return {};
+  vtkNew<vtkPolyDataMapper> mapper;
+  mapper->SetInputData(surface);
+  mapper->SetLookupTable(viridis_table(field.tones.limits));
+  mapper->UseLookupTableScalarRangeOn();
+  mapper->InterpolateScalarsBeforeMappingOn();
+  Props props = {actor_of(mapper, field.look, request)};
+  if (!field.levels.empty()) props.push_back(contour_prop(field, surface, request));
+  return props;
+}
+
+}  // namespace
+
+Props props_of(const Part& part, const SceneRequest& request) {
+  return std::visit([&request](const auto& one) { return part_props(one, request); }, part);
+}
+
+}  // namespace mapproof

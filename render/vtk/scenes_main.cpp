@@ -1,0 +1,65 @@
+#include <cstdio>
+#include <exception>
+#include <iostream>
+#include <memory>
+#include <string>
+
+#include "render/scene/scene_json.hpp"
+#include "render/scene/scene_request.hpp"
+#include "render/vtk/scene_renderer.hpp"
+
+namespace mapproof {
+namespace {
+
+constexpr int kUsage = 2;
+constexpr int kNoContext = 3;
+
+void answer(const SceneReply& reply, const Image* image) {
+  const std::string line = reply_to_line(reply);
+  std::fwrite(line.data(), 1, line.size(), stdout);
+  if (image != nullptr)
+    std::fwrite(image->pixels.data(), sizeof(image->pixels[0]), image->pixels.size(), stdout);
+  std::fflush(stdout);
+}
+
+/// One request and its scene; a scene that cannot be drawn is answered, and the next one is read.
+void serve(SceneRenderer& renderer, const std::string& request_line, const std::string& scene_line) {
+  try {
+    const SceneRequest request = request_from_line(request_line, "request");
+    const Image image = renderer.draw(scene_from_json(scene_line, "scene"), request);
+    answer({"", image.width, image.height, renderer.name()}, &image);
+  } catch (const std::exception& error) {
+    answer({.error = error.what()}, nullptr);
+  }
+}
+
+int run() {
+  std::string request, scene;
+  std::unique_ptr<SceneRenderer> renderer;
+  while (std::getline(std::cin, request)) {
+    if (!std::getline(std::cin, scene)) {
+      std::fputs("mapproof-scenes: a request without its scene\n", stderr);
+      return kUsage;
+    }
+    try {
+      if (!renderer) renderer = std::make_unique<SceneRenderer>();
+    } catch (const std::exception& error) {
+      answer({.error = error.what()}, nullptr);
+      std::fprintf(stderr, "mapproof-scenes: %s\n", error.what());
+      return kNoContext;
+    }
+    serve(*renderer, request, scene);
+  }
+  return 0;
+}
+
+}  // namespace
+}  // namespace mapproof
+
+/// Reads requests, each a line (see SceneRequest) and a scene on a line, and answers each with a
+/// line (see SceneReply) and raw pixels. Started by mapproof; of no use to a person.
+int main() {
+  mapproof::pin_driver();
+  std::ios::sync_with_stdio(false);
+  return mapproof::run();
+}
