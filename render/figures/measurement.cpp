@@ -3,59 +3,19 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <numbers>
 
 #include <fmt/format.h>
 
-#include "core/base/errors.hpp"
 #include "core/base/words.hpp"
+#include "render/figures/measurement_geometry.hpp"
 #include "render/figures/parts.hpp"
 #include "render/figures/words.hpp"
-#include "render/theme/ticks.hpp"
 
 namespace mapproof {
 namespace {
 
-constexpr double kDegree = std::numbers::pi / 180.0;
-constexpr double kArcStep_rad = 3.0 * kDegree;  // Between the corners of an arc.
 constexpr double kViewOfReach = 1.3;            // Half the side of the picture of a disc.
 constexpr Eigen::Index kTrail = 40;             // Steps of the path that are drawn.
-
-void require_consistent(const Measurement& m) {
-  const auto refuse = [](const std::string& what) { throw InvalidInput("measurement: " + what); };
-  const auto count = static_cast<std::size_t>(m.world.landmarks_m.rows());
-  const auto positive = [](double value) { return value > 0.0 && std::isfinite(value); };
-  if (m.sensor == Sensor::kRange) refuse("ranges have no figure");
-  if (!positive(m.world.side_m) || !positive(m.world.landmark_diameter_m))
-    refuse("the room's side or the landmarks' diameter is not positive");
-  if (!m.world.landmarks_m.allFinite() || !m.path_m.allFinite() || !m.robot_m.allFinite() ||
-      !std::isfinite(m.heading_rad))
-    refuse("a place or the heading is not finite");
-  if (m.sensor == Sensor::kVisibility) {
-    if (m.views.size() != count)
-      refuse(fmt::format("{} views of {} landmarks", m.views.size(), count));
-    if (!positive(m.reach_m)) refuse("the reach is not positive");
-  } else {
-    if (static_cast<std::size_t>(m.bearings_rad.size()) != count)
-      refuse(fmt::format("{} bearings of {} landmarks", m.bearings_rad.size(), count));
-    if (m.bearings_rad.array().isInf().any()) refuse("an infinite bearing");
-  }
-}
-
-Point from(Point at, double distance, double angle_rad) {
-  return {at.x + distance * std::cos(angle_rad), at.y + distance * std::sin(angle_rad)};
-}
-
-/// Calls `add` with points of an arc, both ends among them.
-template <typename Add>
-void trace_arc(Point centre, double radius, double begin_rad, double end_rad, Add add) {
-  const double turn = end_rad - begin_rad;
-  const int pieces = std::max(1, static_cast<int>(std::ceil(std::abs(turn) / kArcStep_rad)));
-  for (int i = 0; i <= pieces; ++i) add(from(centre, radius, begin_rad + turn * i / pieces));
-}
-
-/// "−63°".
-std::string degrees(double angle_rad) { return number_text(angle_rad / kDegree, 0) + "°"; }
 
 class MeasurementFigure {
  public:
@@ -111,7 +71,7 @@ class MeasurementFigure {
   void show_bearings() {
     const double margin = 0.04 * m_.world.side_m;
     panel_.x.limits = panel_.y.limits = Range{-margin, m_.world.side_m + margin};
-    const std::vector<Eigen::Index> named = named_bearings();
+    const std::vector<Eigen::Index> named = named_bearings(m_);
     panel_.layers = {walls(), trail(), rays(named), landmarks(std::nullopt)};
     PointLabels labels;
     std::vector<std::string> words;
@@ -143,22 +103,10 @@ class MeasurementFigure {
     return room;
   }
 
-  /// What each landmark within reach hides: between the tangents from the robot, from where they
-  /// touch it to the edge of the disc.
   Area shadows() const {
     Area area{.label = "shadow", .ink = Ink::kText, .fill = Fill::kTint};
-    for (Eigen::Index i = 0; i < rows(); ++i) {
-      const Eigen::RowVector2d offset = m_.world.landmarks_m.row(i) - m_.robot_m;
-      const double distance = offset.norm();
-      if (m_.views[i] == View::kOutOfReach || distance <= radius_) continue;
-      const double tangent = std::sqrt(distance * distance - radius_ * radius_);
-      if (tangent >= m_.reach_m) continue;
-      const double middle = std::atan2(offset.y(), offset.x());
-      const double half = std::asin(radius_ / distance);
-      add_corner(area, from(robot_, tangent, middle + half));
-      add_corner(area, from(robot_, tangent, middle - half));
-      trace_arc(robot_, m_.reach_m, middle - half, middle + half,
-                [&area](Point p) { add_corner(area, p); });
+    for (const std::vector<Point>& shadow : shadow_outlines(m_)) {
+      for (const Point corner : shadow) add_corner(area, corner);
       end_outline(area);
     }
     return area;
@@ -198,24 +146,6 @@ class MeasurementFigure {
     return lines;
   }
 
-  /// Well apart, neither close by nor far away: those nearest to 45, -75 and 150 degrees.
-  std::vector<Eigen::Index> named_bearings() const {
-    std::vector<Eigen::Index> chosen;
-    for (const double target : {45.0 * kDegree, -75.0 * kDegree, 150.0 * kDegree}) {
-      double least = 30.0 * kDegree;
-      std::optional<Eigen::Index> best;
-      for (Eigen::Index i = 0; i < rows(); ++i) {
-        const double distance = (m_.world.landmarks_m.row(i) - m_.robot_m).norm();
-        const double off = std::abs(m_.bearings_rad(i) - target);
-        if (!(off < least) || distance < 0.16 * m_.world.side_m) continue;
-        least = off;
-        best = i;
-      }
-      if (best) chosen.push_back(*best);
-    }
-    return chosen;
-  }
-
   /// The ray to a landmark and the arc from the heading to it, the n-th farther out.
   void add_angle(Eigen::Index row, std::size_t n) {
     const Ink ink = series_ink(n);
@@ -225,8 +155,9 @@ class MeasurementFigure {
     add_point(ray, place(row));
     Polyline arc{.ink = ink, .dash = dash};
     const double radius = (0.05 + 0.03 * static_cast<double>(n)) * m_.world.side_m;
-    trace_arc(robot_, radius, m_.heading_rad, m_.heading_rad + m_.bearings_rad(row),
-              [&arc](Point p) { add_point(arc, p); });
+    for (const Point p : arc_points(robot_, radius, m_.heading_rad,
+                                    m_.heading_rad + m_.bearings_rad(row)))
+      add_point(arc, p);
     panel_.layers.push_back(ray);
     panel_.layers.push_back(arc);
   }
@@ -241,7 +172,7 @@ class MeasurementFigure {
 
   Segments heading(double length) const {
     Segments arrow{.label = "heading", .ink = Ink::kText, .arrow = true};
-    add_line(arrow, robot_, from(robot_, length, m_.heading_rad));
+    add_line(arrow, robot_, beside(robot_, length, m_.heading_rad));
     return arrow;
   }
 

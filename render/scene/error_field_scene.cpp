@@ -104,7 +104,7 @@ Scene error_field_scene(const ErrorFieldSpec& spec) {
               .columns = spec.columns};
   scene.parts = {floor_of(spec.side_m), walls_of(spec.side_m)};
   for (std::size_t i = 0; i < spec.maps.size(); ++i) {
-    View view = room_view(spec.side_m);
+    Shot view = room_view(spec.side_m);
     view.title = spec.maps[i].title;
     view.parts = {0, 1, scene.parts.size()};
     scene.parts.emplace_back(field_of(samples[i], scale, spec.side_m));

@@ -73,7 +73,7 @@ Scene manifold_scene(const ManifoldSceneSpec& spec) {
               .lights = usual_lights()};
   scene.parts = {box.edges(), graph(spec, 0.0022 * box.size()), by_x,
                  landmarks(spec, 1, by_x.radius)};
-  const View view{.camera = box.camera(), .rules = box.rules({"1st", "2nd", "3rd coordinate"})};
+  const Shot view{.camera = box.camera(), .rules = box.rules({"1st", "2nd", "3rd coordinate"})};
   scene.views = {view, view};
   scene.views[0].title = "By true x";
   scene.views[0].parts = {0, 1, 2};

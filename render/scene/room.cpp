@@ -82,15 +82,15 @@ Rods pillars(const Points& points_m, const std::vector<Eigen::Index>& rows, doub
 
 Point3 on_floor(const Eigen::RowVector2d& at, double height) { return {at.x(), at.y(), height}; }
 
-View room_view(double side_m) {
-  View view;
+Shot room_view(double side_m) {
+  Shot view;
   view.camera = fitted_camera(corners(side_m), {0.42, -1.0, 0.95}, false);
   view.rules = floor_rules(side_m);
   return view;
 }
 
-View room_plan(double side_m) {
-  View view;
+Shot room_plan(double side_m) {
+  Shot view;
   view.camera = fitted_camera(corners(side_m), Point3::UnitZ(), true);
   view.rules = floor_rules(side_m);
   return view;

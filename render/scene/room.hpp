@@ -30,9 +30,9 @@ Rods pillars(const Points& points_m, const std::vector<Eigen::Index>& rows, doub
 Point3 on_floor(const Eigen::RowVector2d& at, double height = 0.0);
 
 /// Sees the whole room, with axes along its front edges, from the south in perspective.
-View room_view(double side_m);
+Shot room_view(double side_m);
 
 /// The same from straight above, x to the right, y upward.
-View room_plan(double side_m);
+Shot room_plan(double side_m);
 
 }  // namespace mapproof

@@ -119,7 +119,7 @@ std::string rule_problem(const Rule& rule) {
   return is_range(rule.range) ? "" : "range: not finite and ascending";
 }
 
-std::string view_problem(const View& view, std::size_t parts) {
+std::string view_problem(const Shot& view, std::size_t parts) {
   if (std::string what = problem_of(view.camera); !what.empty()) return "camera/" + what;
   if (!std::ranges::is_sorted(view.parts, std::less_equal<>())) return "parts: not ascending";
   if (!view.parts.empty() && view.parts.back() >= parts) return "parts: there is no such part";
@@ -148,7 +148,7 @@ std::string lights_problem(const std::vector<Light>& lights) {
 
 }  // namespace
 
-bool shows(const View& view, std::size_t part) {
+bool shows(const Shot& view, std::size_t part) {
   return view.parts.empty() || std::ranges::binary_search(view.parts, part);
 }
 

@@ -138,14 +138,14 @@ struct Rule {
 };
 
 /// One picture of the scene.
-struct View {
+struct Shot {
   std::string title = {};
   Camera camera = {};
   std::vector<std::size_t> parts = {};  ///< Those that are shown, ascending; empty: all.
   std::vector<SceneLabels> labels = {};
   std::vector<Rule> rules = {};
 
-  bool operator==(const View&) const = default;
+  bool operator==(const Shot&) const = default;
 };
 
 /// A three-dimensional scene as a value: the same for every size and theme, with or without VTK.
@@ -159,7 +159,7 @@ struct Scene {
   std::vector<Note> notes = {};
   std::vector<Part> parts = {};
   std::vector<Light> lights = {};
-  std::vector<View> views = {};  ///< At least one; their cameras have one aspect.
+  std::vector<Shot> views = {};  ///< At least one; their cameras have one aspect.
   std::size_t columns = 0;       ///< As a figure's.
 
   bool operator==(const Scene&) const = default;
@@ -173,6 +173,6 @@ std::string problem(const Scene& scene);
 void require_valid(const Scene& scene);
 
 /// Whether a view shows a part.
-bool shows(const View& view, std::size_t part);
+bool shows(const Shot& view, std::size_t part);
 
 }  // namespace mapproof

@@ -186,7 +186,7 @@ class ViewPanel {
   }
 
   const Scene& scene_;
-  const View& view_;
+  const Shot& view_;
   Projection project_;
   double em_;
   Picture picture_;

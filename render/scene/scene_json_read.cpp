@@ -99,7 +99,7 @@ Rule rule(const JsonCursor& json) {
           text(json.at("label")), place(json.at("away"))};
 }
 
-View view(const JsonCursor& json) {
+Shot view(const JsonCursor& json) {
   return {text(json.at("title")), camera(json.at("camera")), list(json.at("parts"), count),
           list(json.at("labels"), labels), list(json.at("rules"), rule)};
 }

@@ -102,7 +102,7 @@ Json camera_json(const Camera& camera) {
           {"aspect", camera.aspect}};
 }
 
-Json view_json(const View& view) {
+Json view_json(const Shot& view) {
   Json labels = Json::array();
   for (const SceneLabels& one : view.labels)
     labels.push_back({{"at", places_json(one.at)}, {"text", one.text}, {"ink", ink_json(one.ink)}});
@@ -131,7 +131,7 @@ Json scene_json(const Scene& scene) {
   for (const Light& light : scene.lights)
     lights.push_back({{"from", place_json(light.from)}, {"strength", light.strength}});
   Json views = Json::array();
-  for (const View& view : scene.views) views.push_back(view_json(view));
+  for (const Shot& view : scene.views) views.push_back(view_json(view));
   return {{"schema", schema_value("mapproof.scene")},
           {"id", scene.id},
           {"title", scene.title},

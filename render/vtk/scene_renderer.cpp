@@ -116,7 +116,7 @@ std::string SceneRenderer::name() const {
 
 Image SceneRenderer::draw(const Scene& scene, const SceneRequest& request) {
   if (request.view >= scene.views.size()) throw InvalidInput("there is no such view");
-  const View& view = scene.views[request.view];
+  const Shot& view = scene.views[request.view];
   vtkNew<vtkRenderer> renderer;
   const Colour paper = request.background;
   renderer->SetBackground(paper.red / 255.0, paper.green / 255.0, paper.blue / 255.0);

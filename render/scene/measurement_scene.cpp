@@ -1,0 +1,207 @@
+#include "render/scene/measurement_scene.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include <fmt/format.h>
+
+#include "core/base/words.hpp"
+#include "render/figures/measurement_geometry.hpp"
+#include "render/figures/words.hpp"
+#include "render/scene/projection.hpp"
+#include "render/scene/room.hpp"
+
+namespace mapproof {
+namespace {
+
+constexpr Eigen::Index kTrail = 40;  // Steps of the path that are drawn.
+constexpr double kAround = 1.15;     // Half the side of what is seen, in reaches.
+
+Point3 lifted(Point p, double height) { return {p.x, p.y, height}; }
+
+/// A flat convex outline as triangles about its first point.
+void add_fan(Surface& surface, const std::vector<Point>& outline, double height) {
+  const auto first = static_cast<std::uint32_t>(surface.points.size());
+  for (const Point p : outline) surface.points.push_back(lifted(p, height));
+  for (std::uint32_t i = 1; i + 1 < outline.size(); ++i)
+    surface.triangles.push_back({first, first + i, first + i + 1});
+}
+
+class MeasurementScene {
+ public:
+  MeasurementScene(const Measurement& m, const std::string& id)
+      : m_(m), robot_{m.robot_m.x(), m.robot_m.y()}, side_(m.world.side_m) {
+    scene_.id = id;
+    scene_.lights = usual_lights();
+    scene_.parts = {floor_of(side_), walls_of(side_)};
+    scene_.views = {room_view(side_)};
+    scene_.record_ids = {};
+  }
+
+  Scene make() {
+    m_.sensor == Sensor::kVisibility ? show_visibility() : show_bearings();
+    scene_.parts.emplace_back(trail());
+    add_robot();
+    return std::move(scene_);
+  }
+
+ private:
+  void show_visibility() {
+    std::vector<Point3> seen;
+    for (const double x : {-kAround, kAround})
+      for (const double y : {-kAround, kAround})
+        for (const double z : {0.0, landmark_height(side_)})
+          seen.emplace_back(robot_.x + x * m_.reach_m, robot_.y + y * m_.reach_m, z);
+    scene_.views[0].camera = fitted_camera(seen, {0.3, -1.0, 1.25}, false);
+    scene_.views[0].rules.clear();  // The room's edges are mostly outside.
+    scene_.parts.emplace_back(disc());
+    scene_.parts.emplace_back(shadows());
+    scene_.parts.emplace_back(landmarks(View::kVisible));
+    scene_.parts.emplace_back(landmarks(View::kHidden));
+    scene_.parts.emplace_back(landmarks(View::kOutOfReach));
+    const std::size_t visible = count(View::kVisible), hidden = count(View::kHidden);
+    scene_.title = "Visibility-only measurement in space";
+    scene_.caption = fmt::format(
+        "Visibility at step {} of layout {}, pose {}: within {} mm the robot sees {}, {} hidden in "
+        "the shadows of others.",
+        m_.step, m_.run.layout, m_.run.pose, std::lround(1000.0 * m_.reach_m),
+        counted(static_cast<long long>(visible), "landmark"),
+        hidden == 1 ? "1 is" : fmt::format("{} are", hidden));
+    scene_.alt = fmt::format("The floor around the robot at ({}, {}) m; within {} m {} visible, {} "
+                             "hidden.",
+                             significant(robot_.x), significant(robot_.y), significant(m_.reach_m),
+                             counted(static_cast<long long>(visible), "landmark"), hidden);
+  }
+
+  void show_bearings() {
+    const std::vector<Eigen::Index> named = named_bearings(m_);
+    scene_.parts.emplace_back(landmarks(std::nullopt));
+    scene_.parts.emplace_back(rays(named));
+    SceneLabels labels;
+    for (std::size_t i = 0; i < named.size(); ++i) {
+      add_angle(named[i], i);
+      labels.at.push_back(place(named[i], landmark_height(side_)));
+      labels.text.push_back(
+          fmt::format("L{}: {}", named[i] + 1, degrees(m_.bearings_rad(named[i]))));
+    }
+    const auto known = m_.bearings_rad.array().isFinite().count();
+    scene_.title = "Bearing-only measurement in space";
+    scene_.caption = fmt::format(
+        "Bearings at step {} of layout {}, pose {}: the angle from the heading (arrow) to each of "
+        "{}.",
+        m_.step, m_.run.layout, m_.run.pose, counted(known, "landmark"));
+    scene_.alt = fmt::format("The room with the robot at ({}, {}) m and a ray to each of {}.",
+                             significant(robot_.x), significant(robot_.y),
+                             counted(known, "landmark"));
+    if (!labels.text.empty())
+      scene_.alt += " Angles to the heading: " + listed(labels.text, 3) + ".";
+    scene_.views[0].labels.push_back(std::move(labels));
+  }
+
+  Surface disc() const {
+    Surface surface{.label = fmt::format("reach, {} mm", std::lround(1000.0 * m_.reach_m)),
+                    .look = {.ink = Ink::kSeries7, .share = 0.35, .lit = false}};
+    add_fan(surface, arc_points(robot_, m_.reach_m, 0.0, 2.0 * std::numbers::pi), lift(1));
+    return surface;
+  }
+
+  Surface shadows() const {
+    Surface surface{.look = {.ink = Ink::kText, .share = 0.45, .lit = false}};
+    for (const std::vector<Point>& outline : shadow_outlines(m_))
+      add_fan(surface, outline, lift(2));
+    if (!surface.triangles.empty()) surface.label = "shadow";
+    return surface;
+  }
+
+  Rods landmarks(std::optional<View> view) const {
+    std::vector<Eigen::Index> rows;
+    for (Eigen::Index i = 0; i < m_.world.landmarks_m.rows(); ++i)
+      if (!view || m_.views[static_cast<std::size_t>(i)] == *view) rows.push_back(i);
+    Rods rods = pillars(m_.world.landmarks_m, rows, m_.world.landmark_diameter_m / 2.0,
+                        landmark_height(side_));
+    rods.label = "landmark";
+    rods.look.ink = Ink::kSeries1;
+    if (view == View::kVisible) rods.label = "visible";
+    if (view == View::kHidden) rods.label = "hidden", rods.look.ink = Ink::kSeries2;
+    if (view == View::kOutOfReach)
+      rods.label = "out of reach", rods.look = {.ink = Ink::kMuted, .share = 0.5};
+    if (rows.empty()) rods.label.clear();
+    return rods;
+  }
+
+  Rods rays(const std::vector<Eigen::Index>& named) const {
+    Rods rods{.label = "ray", .radius = 0.0012 * side_, .look = {.ink = Ink::kMuted, .share = 0.7}};
+    for (Eigen::Index i = 0; i < m_.world.landmarks_m.rows(); ++i) {
+      if (!std::isfinite(m_.bearings_rad(i)) || std::ranges::find(named, i) != named.end()) continue;
+      rods.from.push_back(lifted(robot_, eye()));
+      rods.to.push_back(place(i, eye()));
+    }
+    if (rods.from.empty()) rods.label.clear();
+    return rods;
+  }
+
+  /// The ray to a landmark and the arc from the heading to it, the n-th farther out.
+  void add_angle(Eigen::Index row, std::size_t n) {
+    const Look look{.ink = series_ink(n + 1)};
+    const double radius = (0.05 + 0.03 * static_cast<double>(n)) * side_;
+    Tube arc{.radius = 0.003 * side_, .look = look};
+    for (const Point p :
+         arc_points(robot_, radius, m_.heading_rad, m_.heading_rad + m_.bearings_rad(row)))
+      arc.points.push_back(lifted(p, eye()));
+    scene_.parts.emplace_back(std::move(arc));
+    scene_.parts.emplace_back(Rods{.from = {lifted(robot_, eye())},
+                                   .to = {place(row, eye())},
+                                   .radius = 0.003 * side_,
+                                   .look = look});
+  }
+
+  Tube trail() const {
+    Tube tube{.label = "path so far", .radius = 0.002 * side_, .look = {.ink = Ink::kText}};
+    const Eigen::Index first = std::max<Eigen::Index>(0, m_.path_m.rows() - kTrail);
+    for (Eigen::Index i = first; i < m_.path_m.rows(); ++i)
+      tube.points.push_back(on_floor(m_.path_m.row(i), tube.radius));
+    if (tube.points.size() < 2) tube.label.clear();
+    return tube;
+  }
+
+  void add_robot() {
+    scene_.parts.emplace_back(Spheres{.label = "robot",
+                                      .at = {lifted(robot_, eye())},
+                                      .radius = 0.014 * side_,
+                                      .look = {.ink = Ink::kText}});
+    scene_.parts.emplace_back(Rods{.label = "heading",
+                                   .from = {lifted(robot_, eye())},
+                                   .to = {lifted(beside(robot_, 0.1 * side_, m_.heading_rad), eye())},
+                                   .radius = 0.005 * side_,
+                                   .arrow = true,
+                                   .look = {.ink = Ink::kText}});
+  }
+
+  /// Layers on the floor, one above the other.
+  double lift(int layer) const { return 0.0012 * side_ * layer; }
+  /// Where the robot looks from.
+  double eye() const { return 0.5 * landmark_height(side_); }
+  Point3 place(Eigen::Index row, double height) const {
+    return on_floor(m_.world.landmarks_m.row(row), height);
+  }
+  std::size_t count(View view) const {
+    return static_cast<std::size_t>(std::ranges::count(m_.views, view));
+  }
+
+  const Measurement& m_;
+  Point robot_;
+  double side_;
+  Scene scene_;
+};
+
+}  // namespace
+
+Scene measurement_scene(const Measurement& measurement, const std::string& id) {
+  require_consistent(measurement);
+  Scene scene = MeasurementScene(measurement, id).make();
+  require_valid(scene);
+  return scene;
+}
+
+}  // namespace mapproof

@@ -1,0 +1,136 @@
+#include <cstdlib>
+
+#include <gtest/gtest.h>
+
+#include "core/base/errors.hpp"
+#include "render/cairo/cairo_backend.hpp"
+#include "render/output/write_scene.hpp"
+#include "render/scene/projection.hpp"
+#include "tests/support/baselines.hpp"
+#include "tests/support/sample_scenes.hpp"
+
+namespace mapproof::test {
+namespace {
+
+/// Sets a variable of the environment while it lives.
+class Environment {
+ public:
+  Environment(const char* name, const char* value) : name_(name) { ::setenv(name, value, 1); }
+  ~Environment() { ::unsetenv(name_); }
+
+ private:
+  const char* name_;
+};
+
+Image drawn(SceneClient& client, const Scene& scene, int samples = 4) {
+  return client.draw(scene, 0, 320, 240, samples, report_theme());
+}
+
+SceneClient client() { return SceneClient(MAPPROOF_SCENES_PROGRAM); }
+
+TEST(ScenePixels, AreTheSameInEveryProcessForAnyThreadsAndAnyDisplay) {
+  const Scene scene = small_scene();  // Translucent parts too.
+  std::vector<std::uint32_t> first;
+  for (const int samples : {0, 4})
+    for (const char* threads : {"0", "1", "2"}) {
+      const Environment number("LP_NUM_THREADS", threads);
+      const Environment width("LP_NATIVE_VECTOR_WIDTH", "256");  // Overruled.
+      const Environment display("DISPLAY", ":99.7");
+      SceneClient one = client();
+      const Image image = drawn(one, scene, samples);
+      if (std::string(threads) == "0") first = image.pixels;
+      EXPECT_EQ(image.pixels, first) << samples << " samples, " << threads << " threads";
+    }
+}
+
+TEST(ScenePixels, DoNotDependOnWhatWasDrawnBefore) {
+  SceneClient one = client(), other = client();
+  const Image alone = drawn(one, small_scene());
+  for (const Scene& scene : sample_scenes()) other.draw(scene, 0, 200, 300, 0, report_theme());
+  EXPECT_EQ(drawn(other, small_scene()).pixels, alone.pixels);
+}
+
+/// The middle of all pixels that are not white.
+Point ink_middle(const Image& image) {
+  double x = 0.0, y = 0.0, count = 0.0;
+  for (int row = 0; row < image.height; ++row)
+    for (int column = 0; column < image.width; ++column)
+      if ((image.row(row)[column] & 0xFFFFFF) != 0xFFFFFF)
+        x += column + 0.5, y += row + 0.5, count += 1.0;
+  return {x / count, y / count};
+}
+
+TEST(ScenePixels, StandWhereTheProjectionSays) {
+  SceneClient one = client();
+  for (const bool parallel : {false, true})
+    for (const Point3& at : {Point3{0.9, 0.2, 0.4}, Point3{-0.8, 0.5, -0.3}, Point3{0.0, -0.9, 0.6}}) {
+      Scene scene = small_scene();
+      scene.parts = {Spheres{.at = {at}, .radius = 0.03, .look = {.ink = Ink::kText, .lit = false}}};
+      const std::vector<Point3> corners = {{-1, -1, -1}, {1, 1, 1}, {-1, 1, 1}, {1, -1, -1}};
+      scene.views[0].camera = fitted_camera(corners, {0.7, -1.0, 0.5}, parallel);
+      const Point p = Projection(scene.views[0].camera)(at);
+      const Image image = one.draw(scene, 0, 800, 600, 0, report_theme());
+      const Point middle = ink_middle(image);
+      EXPECT_NEAR(middle.x, 300.0 * (4.0 / 3.0 + p.x), 0.6);
+      EXPECT_NEAR(middle.y, 300.0 * (1.0 - p.y), 0.6);
+    }
+}
+
+TEST(ScenePixels, NameWhatDrewThem) {
+  SceneClient one = client();
+  EXPECT_EQ(one.renderer(), "");
+  drawn(one, small_scene());
+  EXPECT_NE(one.renderer().find("llvmpipe"), std::string::npos);
+  EXPECT_NE(one.renderer().find("128 bits"), std::string::npos);
+  EXPECT_NE(one.renderer().find("VTK 9"), std::string::npos);
+}
+
+TEST(SceneClient, SaysInOneLineThatTheProgramIsMissing) {
+  SceneClient none("/nowhere/mapproof-scenes");
+  try {
+    drawn(none, small_scene());
+    FAIL();
+  } catch (const SceneError& error) {
+    EXPECT_STREQ(error.what(),
+                 "scenes cannot be drawn: /nowhere/mapproof-scenes is no program: No such file or "
+                 "directory");
+  }
+}
+
+TEST(SceneClient, SaysInOneLineThatThereIsNoContext) {
+  const Environment stub("LD_PRELOAD", MAPPROOF_NO_OSMESA);  // Makes no context, ever.
+  SceneClient one = client();
+  for (int attempt = 0; attempt < 2; ++attempt) try {
+      drawn(one, small_scene());
+      FAIL();
+    } catch (const SceneError& error) {
+      EXPECT_STREQ(error.what(),
+                   "scenes cannot be drawn: OSMesa makes no context of OpenGL 3.2");
+    }
+}
+
+TEST(SceneClient, SaysThatTheProgramEndedWithoutAnAnswer) {
+  SceneClient one("/bin/false");
+  EXPECT_THROW(drawn(one, small_scene()), SceneError);
+}
+
+TEST(SceneClient, RefusesWhatCannotBeDrawnAndGoesOn) {
+  SceneClient one = client();
+  Scene bad = small_scene();
+  bad.views.clear();
+  EXPECT_THROW(drawn(one, bad), InvalidInput);
+  EXPECT_THROW(one.draw(small_scene(), 0, 0, 10, 0, report_theme()), InvalidInput);
+  EXPECT_THROW(one.draw(small_scene(), 5, 10, 10, 0, report_theme()), InvalidInput);
+  EXPECT_EQ(drawn(one, small_scene()).width, 320);
+}
+
+TEST(SceneBaseline, IsMatched) {
+  SceneClient one = client();
+  for (const Scene& scene : sample_scenes()) {
+    const SceneDrawing drawing = draw_scene(scene, baseline_theme(), one);
+    EXPECT_EQ(difference_from_baseline("scene-" + scene.id, to_image(drawing.screen)), "");
+  }
+}
+
+}  // namespace
+}  // namespace mapproof::test
