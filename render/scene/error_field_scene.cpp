@@ -49,11 +49,11 @@ bool spans_area(const std::vector<Sample>& samples, double side_m) {
 }
 
 /// Ends of the ramp, and where its contours are.
-struct Scale {
+struct ErrorRamp {
   double most_m = 0.0;
   std::vector<double> levels;
 
-  explicit Scale(std::vector<double> errors_m) {
+  explicit ErrorRamp(std::vector<double> errors_m) {
     std::ranges::sort(errors_m);
     const auto rank = static_cast<std::size_t>(
         std::lround(kPercentile * static_cast<double>(errors_m.size() - 1)));
@@ -63,7 +63,7 @@ struct Scale {
   }
 };
 
-Field field_of(const std::vector<Sample>& samples, const Scale& scale, double side_m) {
+Field field_of(const std::vector<Sample>& samples, const ErrorRamp& scale, double side_m) {
   Field field{.label = fmt::format("position error, 0 to {} m; a line every {} m",
                                    significant(scale.most_m),
                                    significant(scale.levels.empty() ? scale.most_m
@@ -93,7 +93,7 @@ Scene error_field_scene(const ErrorFieldSpec& spec) {
       throw InvalidInput("error_field_scene: no three landmarks of a map span an area");
     for (const Sample& sample : samples.back()) errors_m.push_back(sample.error_m);
   }
-  const Scale scale(errors_m);
+  const ErrorRamp scale(errors_m);
   Scene scene{.id = spec.id,
               .title = spec.title,
               .caption = fmt::format("Position error over the floor, interpolated between the "
