@@ -14,8 +14,8 @@
 namespace mapproof {
 namespace {
 
-constexpr double kViewOfReach = 1.3;            // Half the side of the picture of a disc.
-constexpr Eigen::Index kTrail = 40;             // Steps of the path that are drawn.
+constexpr double kViewOfReach = 1.3;  // Half the side of the picture of a disc.
+constexpr Eigen::Index kTrail = 40;   // Steps of the path that are drawn.
 
 class MeasurementFigure {
  public:
@@ -155,8 +155,8 @@ class MeasurementFigure {
     add_point(ray, place(row));
     Polyline arc{.ink = ink, .dash = dash};
     const double radius = (0.05 + 0.03 * static_cast<double>(n)) * m_.world.side_m;
-    for (const Point p : arc_points(robot_, radius, m_.heading_rad,
-                                    m_.heading_rad + m_.bearings_rad(row)))
+    for (const Point p :
+         arc_points(robot_, radius, m_.heading_rad, m_.heading_rad + m_.bearings_rad(row)))
       add_point(arc, p);
     panel_.layers.push_back(ray);
     panel_.layers.push_back(arc);

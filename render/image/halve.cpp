@@ -12,7 +12,8 @@ Image halved(const Image& image) {
       std::uint32_t pixel = 0;
       for (const int shift : {0, 8, 16}) {
         std::uint32_t sum = 2;
-        for (const std::uint32_t p : {above[2 * x], above[2 * x + 1], below[2 * x], below[2 * x + 1]})
+        for (const std::uint32_t p :
+             {above[2 * x], above[2 * x + 1], below[2 * x], below[2 * x + 1]})
           sum += p >> shift & 0xFF;
         pixel |= sum / 4 << shift;
       }

@@ -37,8 +37,8 @@ SceneDrawing draw_scene(const Scene& scene, const Theme& theme, SceneClient& cli
     screen->place = poster->place = on_pixels(screen->place, per_point);
     const auto width = static_cast<int>(std::lround(screen->place.width() * per_point));
     const auto height = static_cast<int>(std::lround(screen->place.height() * per_point));
-    auto fine = std::make_shared<Image>(client.draw(
-        scene, screen->source, kPosterScale * width, kPosterScale * height, kSamples, theme));
+    auto fine = std::make_shared<Image>(client.draw(scene, screen->source, kPosterScale * width,
+                                                    kPosterScale * height, kSamples, theme));
     screen->image = std::make_shared<Image>(halved(*fine));
     poster->image = std::move(fine);
   }
@@ -46,8 +46,8 @@ SceneDrawing draw_scene(const Scene& scene, const Theme& theme, SceneClient& cli
   return drawn;
 }
 
-std::string write_scene(const Scene& scene, const Theme& theme,
-                        const std::filesystem::path& folder, SceneClient& client) {
+std::string write_scene(const Scene& scene, const Theme& theme, const std::filesystem::path& folder,
+                        SceneClient& client) {
   const SceneDrawing drawn = draw_scene(scene, theme, client);
   std::string svg = to_svg(drawn.screen);
   write_file(folder / (scene.id + ".svg"), svg);

@@ -23,7 +23,7 @@ SceneDrawing draw_scene(const Scene& scene, const Theme& theme, SceneClient& cli
 /// ID.scene.json, each at once or not at all.
 /// @return The text of the SVG file.
 /// @throws IoError; otherwise as draw_scene.
-std::string write_scene(const Scene& scene, const Theme& theme,
-                        const std::filesystem::path& folder, SceneClient& client);
+std::string write_scene(const Scene& scene, const Theme& theme, const std::filesystem::path& folder,
+                        SceneClient& client);
 
 }  // namespace mapproof

@@ -173,9 +173,9 @@ class Inspector {
     if (!is_range(picture.x) || !is_range(picture.y)) return "x, y: not finite and ascending";
     if (!same_size(picture.clear_x.size(), {picture.clear_y.size(), picture.clear_by.size()}))
       return "clear_y, clear_by: not as long as clear_x";
-    for (const auto& [name, part] : {std::pair{"clear_x", &picture.clear_x},
-                                     std::pair{"clear_y", &picture.clear_y},
-                                     std::pair{"clear_by", &picture.clear_by}})
+    for (const auto& [name, part] :
+         {std::pair{"clear_x", &picture.clear_x}, std::pair{"clear_y", &picture.clear_y},
+          std::pair{"clear_by", &picture.clear_by}})
       if (std::string what = values(*part, panel.x, name); !what.empty()) return what;
     return std::ranges::any_of(picture.clear_by, [](double by) { return by < 0.0; })
                ? "clear_by: negative"
@@ -232,9 +232,7 @@ Ink series_ink(std::size_t i) {
   return static_cast<Ink>(static_cast<std::size_t>(Ink::kSeries1) + i % 7);
 }
 
-bool is_figure_id(std::string_view id) {
-  return is_slug(id) && id[0] >= 'a' && id.size() <= 120;
-}
+bool is_figure_id(std::string_view id) { return is_slug(id) && id[0] >= 'a' && id.size() <= 120; }
 
 bool is_empty(const Layer& layer) {
   return std::visit(

@@ -154,9 +154,8 @@ Texts read_texts(const JsonCursor& json) {
 }
 
 Picture read_picture(const JsonCursor& json) {
-  return {read_range(json.at("x")),      read_range(json.at("y")),
-          count(json.at("source")),      numbers(json.at("clear_x")),
-          numbers(json.at("clear_y")),   numbers(json.at("clear_by"))};
+  return {read_range(json.at("x")),    read_range(json.at("y")),    count(json.at("source")),
+          numbers(json.at("clear_x")), numbers(json.at("clear_y")), numbers(json.at("clear_by"))};
 }
 
 Layer read_layer(const JsonCursor& json) {

@@ -41,12 +41,13 @@ Displacements displacements(const Points& truth_m, const Points& estimate_m, dou
 std::string words_of_missing(const Displacements& found) {
   std::string text;
   if (found.far > 0)
-    text = fmt::format("{} far outside the room",
-                       found.far == 1 ? "1 estimate is" : fmt::format("{} estimates are", found.far));
+    text =
+        fmt::format("{} far outside the room",
+                    found.far == 1 ? "1 estimate is" : fmt::format("{} estimates are", found.far));
   if (found.missing > 0)
-    text += fmt::format("{}{} no place", text.empty() ? "" : " and ",
-                        found.missing == 1 ? "1 landmark has"
-                                           : fmt::format("{} landmarks have", found.missing));
+    text += fmt::format(
+        "{}{} no place", text.empty() ? "" : " and ",
+        found.missing == 1 ? "1 landmark has" : fmt::format("{} landmarks have", found.missing));
   return text.empty() ? text : text + ".";
 }
 

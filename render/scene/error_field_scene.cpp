@@ -13,7 +13,7 @@
 namespace mapproof {
 namespace {
 
-constexpr double kHighest = 0.35;    // The surface at the ramp's end, of the room's side.
+constexpr double kHighest = 0.35;  // The surface at the ramp's end, of the room's side.
 constexpr double kPercentile = 0.95;
 constexpr int kMostLevels = 6;
 
@@ -64,10 +64,9 @@ struct ErrorRamp {
 };
 
 Field field_of(const std::vector<Sample>& samples, const ErrorRamp& scale, double side_m) {
-  Field field{.label = fmt::format("position error, 0 to {} m; a line every {} m",
-                                   significant(scale.most_m),
-                                   significant(scale.levels.empty() ? scale.most_m
-                                                                    : scale.levels[0], 2)),
+  Field field{.label = fmt::format(
+                  "position error, 0 to {} m; a line every {} m", significant(scale.most_m),
+                  significant(scale.levels.empty() ? scale.most_m : scale.levels[0], 2)),
               .levels = scale.levels,
               .contour_radius = 0.0025 * side_m};
   field.tones.limits = {0.0, scale.most_m};

@@ -24,9 +24,9 @@ void require_usable(const ManifoldSceneSpec& spec) {
 
 /// The landmarks that have coordinates, coloured by one of the two true ones.
 Spheres landmarks(const ManifoldSceneSpec& spec, Eigen::Index axis, double radius) {
-  Spheres spheres{.label = fmt::format("true {}, 0 to {} m", axis == 0 ? "x" : "y",
-                                       significant(spec.side_m)),
-                  .radius = radius};
+  Spheres spheres{
+      .label = fmt::format("true {}, 0 to {} m", axis == 0 ? "x" : "y", significant(spec.side_m)),
+      .radius = radius};
   spheres.tones.limits = {0.0, spec.side_m};
   for (Eigen::Index i = 0; i < spec.coordinates.rows(); ++i) {
     if (!spec.coordinates.row(i).allFinite()) continue;
@@ -38,9 +38,8 @@ Spheres landmarks(const ManifoldSceneSpec& spec, Eigen::Index axis, double radiu
 }
 
 Rods graph(const ManifoldSceneSpec& spec, double radius) {
-  Rods rods{.label = "nearest neighbours",
-            .radius = radius,
-            .look = {.ink = Ink::kMuted, .share = 0.55}};
+  Rods rods{
+      .label = "nearest neighbours", .radius = radius, .look = {.ink = Ink::kMuted, .share = 0.55}};
   for (const auto& [a, b] : spec.edges) {
     if (!spec.coordinates.row(a).allFinite() || !spec.coordinates.row(b).allFinite()) continue;
     rods.from.emplace_back(spec.coordinates.row(a).transpose());

@@ -15,7 +15,7 @@ struct ManifoldSceneSpec {
   std::string id;
   std::string title;
   std::string caption;
-  Eigen::Matrix<double, Eigen::Dynamic, 3> coordinates;  ///< M x 3; NaN rows are left out.
+  Eigen::Matrix<double, Eigen::Dynamic, 3> coordinates;      ///< M x 3; NaN rows are left out.
   std::vector<std::pair<Eigen::Index, Eigen::Index>> edges;  ///< Of the neighbour graph.
   Points truth_m;                                            ///< M x 2.
   double side_m = 0.0;                                       ///< Of the room.

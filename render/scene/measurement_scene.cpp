@@ -68,10 +68,11 @@ class MeasurementScene {
         m_.step, m_.run.layout, m_.run.pose, std::lround(1000.0 * m_.reach_m),
         counted(static_cast<long long>(visible), "landmark"),
         hidden == 1 ? "1 is" : fmt::format("{} are", hidden));
-    scene_.alt = fmt::format("The floor around the robot at ({}, {}) m; within {} m {} visible, {} "
-                             "hidden.",
-                             significant(robot_.x), significant(robot_.y), significant(m_.reach_m),
-                             counted(static_cast<long long>(visible), "landmark"), hidden);
+    scene_.alt = fmt::format(
+        "The floor around the robot at ({}, {}) m; within {} m {} visible, {} "
+        "hidden.",
+        significant(robot_.x), significant(robot_.y), significant(m_.reach_m),
+        counted(static_cast<long long>(visible), "landmark"), hidden);
   }
 
   void show_bearings() {
@@ -91,9 +92,9 @@ class MeasurementScene {
         "Bearings at step {} of layout {}, pose {}: the angle from the heading (arrow) to each of "
         "{}.",
         m_.step, m_.run.layout, m_.run.pose, counted(known, "landmark"));
-    scene_.alt = fmt::format("The room with the robot at ({}, {}) m and a ray to each of {}.",
-                             significant(robot_.x), significant(robot_.y),
-                             counted(known, "landmark"));
+    scene_.alt =
+        fmt::format("The room with the robot at ({}, {}) m and a ray to each of {}.",
+                    significant(robot_.x), significant(robot_.y), counted(known, "landmark"));
     if (!labels.text.empty())
       scene_.alt += " Angles to the heading: " + listed(labels.text, 3) + ".";
     scene_.views[0].labels.push_back(std::move(labels));
@@ -133,7 +134,8 @@ class MeasurementScene {
   Rods rays(const std::vector<Eigen::Index>& named) const {
     Rods rods{.label = "ray", .radius = 0.0012 * side_, .look = {.ink = Ink::kMuted, .share = 0.7}};
     for (Eigen::Index i = 0; i < m_.world.landmarks_m.rows(); ++i) {
-      if (!std::isfinite(m_.bearings_rad(i)) || std::ranges::find(named, i) != named.end()) continue;
+      if (!std::isfinite(m_.bearings_rad(i)) || std::ranges::find(named, i) != named.end())
+        continue;
       rods.from.push_back(lifted(robot_, eye()));
       rods.to.push_back(place(i, eye()));
     }
@@ -170,12 +172,13 @@ class MeasurementScene {
                                       .at = {lifted(robot_, eye())},
                                       .radius = 0.014 * side_,
                                       .look = {.ink = Ink::kText}});
-    scene_.parts.emplace_back(Rods{.label = "heading",
-                                   .from = {lifted(robot_, eye())},
-                                   .to = {lifted(beside(robot_, 0.1 * side_, m_.heading_rad), eye())},
-                                   .radius = 0.005 * side_,
-                                   .arrow = true,
-                                   .look = {.ink = Ink::kText}});
+    scene_.parts.emplace_back(
+        Rods{.label = "heading",
+             .from = {lifted(robot_, eye())},
+             .to = {lifted(beside(robot_, 0.1 * side_, m_.heading_rad), eye())},
+             .radius = 0.005 * side_,
+             .arrow = true,
+             .look = {.ink = Ink::kText}});
   }
 
   /// Layers on the floor, one above the other.

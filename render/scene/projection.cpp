@@ -30,7 +30,8 @@ Extent extent_of(const Projection& projection, std::span<const Point3> points) {
 double distance_for(std::span<const Point3> points, const Camera& camera, double share) {
   const Projection projection(camera);
   const Point3 back = (camera.eye - camera.target).normalized();
-  const double slope_y = share * std::tan(camera.angle_rad / 2.0), slope_x = slope_y * camera.aspect;
+  const double slope_y = share * std::tan(camera.angle_rad / 2.0),
+               slope_x = slope_y * camera.aspect;
   double distance = 1e-9;
   for (const Point3& point : points) {
     const Point3 offset = point - camera.target;

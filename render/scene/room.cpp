@@ -5,9 +5,9 @@
 namespace mapproof {
 namespace {
 
-constexpr double kWallShare = 0.045;    // Of the room's side: low, since the front ones stand too.
-constexpr double kHeightShare = 0.09;   // Landmarks', of the room's side.
-constexpr double kLabelRoom = 0.11;     // Around the floor, for the labels of the axes.
+constexpr double kWallShare = 0.045;   // Of the room's side: low, since the front ones stand too.
+constexpr double kHeightShare = 0.09;  // Landmarks', of the room's side.
+constexpr double kLabelRoom = 0.11;    // Around the floor, for the labels of the axes.
 
 std::vector<Rule> floor_rules(double side_m) {
   const Range range{0.0, side_m};

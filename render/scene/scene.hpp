@@ -79,8 +79,8 @@ struct Spheres {
   bool operator==(const Spheres&) const = default;
 };
 
-/// Values at scattered points, interpolated linearly over the triangles of their plan [delaunay1934],
-/// with lines of equal value.
+/// Values at scattered points, interpolated linearly over the triangles of their plan
+/// [delaunay1934], with lines of equal value.
 struct Field {
   std::string label = {};
   std::vector<Point3> points = {};  ///< At least three, no two of them above each other.
@@ -126,13 +126,14 @@ struct SceneLabels {
   bool operator==(const SceneLabels&) const = default;
 };
 
-/// An axis through the scene, with ticks: values from `range.low` at `from` to `range.high` at `to`.
+/// An axis through the scene, with ticks: values from `range.low` at `from` to `range.high` at
+/// `to`.
 struct Rule {
   Point3 from = Point3::Zero();
   Point3 to = Point3::UnitX();
   Range range = {};
-  std::string label = {};            ///< With its unit.
-  Point3 away = -Point3::UnitY();    ///< From the axis towards its labels; any length above 0.
+  std::string label = {};          ///< With its unit.
+  Point3 away = -Point3::UnitY();  ///< From the axis towards its labels; any length above 0.
 
   bool operator==(const Rule&) const = default;
 };

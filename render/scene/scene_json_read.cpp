@@ -65,28 +65,39 @@ Part part(const JsonCursor& json) {
   const Look surface_look = look(json.at("look"));
   Tones values = tones(json.at("tones"));
   if (kind == "surface")
-    return Surface{label, list(json.at("points"), place), list(json.at("triangles"), triangle),
-                   json.at("smooth").boolean(), surface_look, std::move(values)};
+    return Surface{label,
+                   list(json.at("points"), place),
+                   list(json.at("triangles"), triangle),
+                   json.at("smooth").boolean(),
+                   surface_look,
+                   std::move(values)};
   if (kind == "tube")
     return Tube{label, list(json.at("points"), place), number(json.at("radius")), surface_look,
                 std::move(values)};
   if (kind == "rods")
-    return Rods{label, list(json.at("from"), place), list(json.at("to"), place),
-                number(json.at("radius")), json.at("arrow").boolean(), surface_look,
+    return Rods{label,
+                list(json.at("from"), place),
+                list(json.at("to"), place),
+                number(json.at("radius")),
+                json.at("arrow").boolean(),
+                surface_look,
                 std::move(values)};
   if (kind == "spheres")
     return Spheres{label, list(json.at("at"), place), number(json.at("radius")), surface_look,
                    std::move(values)};
   if (kind == "field")
-    return Field{label, list(json.at("points"), place), surface_look, std::move(values),
-                 list(json.at("levels"), number), number(json.at("contour_radius"))};
+    return Field{label,
+                 list(json.at("points"), place),
+                 surface_look,
+                 std::move(values),
+                 list(json.at("levels"), number),
+                 number(json.at("contour_radius"))};
   json.at("kind").fail("the kind " + in_quotes(kind) + " is unknown");
 }
 
 Camera camera(const JsonCursor& json) {
-  return {place(json.at("eye")),     place(json.at("target")),
-          place(json.at("up")),      json.at("parallel").boolean(),
-          number(json.at("height")), number(json.at("angle_rad")),
+  return {place(json.at("eye")),         place(json.at("target")),  place(json.at("up")),
+          json.at("parallel").boolean(), number(json.at("height")), number(json.at("angle_rad")),
           number(json.at("aspect"))};
 }
 
@@ -112,17 +123,11 @@ Light light(const JsonCursor& json) {
 
 Scene read_scene(const JsonCursor& json) {
   expect_schema(json, "mapproof.scene");
-  Scene scene{text(json.at("id")),
-              text(json.at("title")),
-              text(json.at("caption")),
-              text(json.at("alt")),
-              list(json.at("records"), text),
-              json.at("varies").boolean(),
-              list(json.at("notes"), note),
-              list(json.at("parts"), part),
-              list(json.at("lights"), light),
-              list(json.at("views"), view),
-              count(json.at("columns"))};
+  Scene scene{
+      text(json.at("id")),          text(json.at("title")),         text(json.at("caption")),
+      text(json.at("alt")),         list(json.at("records"), text), json.at("varies").boolean(),
+      list(json.at("notes"), note), list(json.at("parts"), part),   list(json.at("lights"), light),
+      list(json.at("views"), view), count(json.at("columns"))};
   if (const std::string what = problem(scene); !what.empty()) json.fail(what);
   return scene;
 }

@@ -54,12 +54,9 @@ Json part_json(const Surface& part) {
 }
 
 Json part_json(const Tube& part) {
-  return {{"kind", "tube"},
-          {"label", part.label},
-          {"points", places_json(part.points)},
-          {"radius", part.radius},
-          {"look", look_json(part.look)},
-          {"tones", tones_json(part.tones)}};
+  return {
+      {"kind", "tube"},        {"label", part.label},          {"points", places_json(part.points)},
+      {"radius", part.radius}, {"look", look_json(part.look)}, {"tones", tones_json(part.tones)}};
 }
 
 Json part_json(const Rods& part) {
@@ -74,12 +71,9 @@ Json part_json(const Rods& part) {
 }
 
 Json part_json(const Spheres& part) {
-  return {{"kind", "spheres"},
-          {"label", part.label},
-          {"at", places_json(part.at)},
-          {"radius", part.radius},
-          {"look", look_json(part.look)},
-          {"tones", tones_json(part.tones)}};
+  return {
+      {"kind", "spheres"},     {"label", part.label},          {"at", places_json(part.at)},
+      {"radius", part.radius}, {"look", look_json(part.look)}, {"tones", tones_json(part.tones)}};
 }
 
 Json part_json(const Field& part) {
@@ -93,12 +87,9 @@ Json part_json(const Field& part) {
 }
 
 Json camera_json(const Camera& camera) {
-  return {{"eye", place_json(camera.eye)},
-          {"target", place_json(camera.target)},
-          {"up", place_json(camera.up)},
-          {"parallel", camera.parallel},
-          {"height", camera.height},
-          {"angle_rad", camera.angle_rad},
+  return {{"eye", place_json(camera.eye)}, {"target", place_json(camera.target)},
+          {"up", place_json(camera.up)},   {"parallel", camera.parallel},
+          {"height", camera.height},       {"angle_rad", camera.angle_rad},
           {"aspect", camera.aspect}};
 }
 

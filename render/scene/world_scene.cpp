@@ -63,8 +63,8 @@ class WorldScene {
     std::vector<Eigen::Index> rows;
     for (Eigen::Index i = 0; i < world_.landmarks_m.rows(); ++i)
       if (is_anchor(i) == anchors) rows.push_back(i);
-    Rods rods = pillars(world_.landmarks_m, rows, world_.landmark_diameter_m / 2.0,
-                        landmark_height(side_));
+    Rods rods =
+        pillars(world_.landmarks_m, rows, world_.landmark_diameter_m / 2.0, landmark_height(side_));
     rods.label = anchors ? "anchor" : "landmark";
     rods.look.ink = anchors ? Ink::kSeries2 : Ink::kSeries1;
     if (rods.from.empty()) rods.label.clear();
@@ -116,9 +116,9 @@ class WorldScene {
         spec_.run.layout, spec_.run.pose, counted(landmarks, "landmark"),
         significant(1000.0 * world_.landmark_diameter_m), spec_.path_m.rows(),
         label(spec_.map.setting), spec_.map.step);
-    scene_.alt = fmt::format("A room of {} m by {} m with {}, {} of them anchors",
-                             significant(side_), significant(side_),
-                             counted(landmarks, "landmark"), spec_.map.anchors.size());
+    scene_.alt =
+        fmt::format("A room of {} m by {} m with {}, {} of them anchors", significant(side_),
+                    significant(side_), counted(landmarks, "landmark"), spec_.map.anchors.size());
     if (spec_.map.score)
       scene_.alt += fmt::format("; mean position error {} m", significant(spec_.map.score->mpe_m));
     if (const auto order = worst(); !order.empty()) {

@@ -75,8 +75,8 @@ SceneClient::~SceneClient() {
 
 void SceneClient::start() {
   if (::access(program_.c_str(), X_OK) != 0)
-    throw SceneError(fmt::format("scenes cannot be drawn: {} is no program: {}",
-                                 program_.string(), std::strerror(errno)));
+    throw SceneError(fmt::format("scenes cannot be drawn: {} is no program: {}", program_.string(),
+                                 std::strerror(errno)));
   std::array<int, 2> ends{};
   if (::socketpair(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0, ends.data()) != 0)
     throw SceneError(fmt::format("scenes cannot be drawn: no socket: {}", std::strerror(errno)));
@@ -142,7 +142,8 @@ Image SceneClient::draw(const Scene& scene, std::size_t view, int width, int hei
   if (view >= scene.views.size())
     throw InvalidInput(fmt::format("scene {}: there is no view {}", scene.id, view));
   if (std::min(width, height) < 1 || std::max(width, height) > kLargestSide)
-    throw InvalidInput(fmt::format("scene {}: no picture is {} x {} pixels", scene.id, width, height));
+    throw InvalidInput(
+        fmt::format("scene {}: no picture is {} x {} pixels", scene.id, width, height));
   const std::lock_guard lock(mutex_);
   if (process_ < 0) start();
   const SceneRequest request = scene_request(view, width, height, samples, theme);

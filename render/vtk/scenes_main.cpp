@@ -23,7 +23,8 @@ void answer(const SceneReply& reply, const Image* image) {
 }
 
 /// One request and its scene; a scene that cannot be drawn is answered, and the next one is read.
-void serve(SceneRenderer& renderer, const std::string& request_line, const std::string& scene_line) {
+void serve(SceneRenderer& renderer, const std::string& request_line,
+           const std::string& scene_line) {
   try {
     const SceneRequest request = request_from_line(request_line, "request");
     const Image image = renderer.draw(scene_from_json(scene_line, "scene"), request);

@@ -2,7 +2,6 @@
 
 #include <stdexcept>
 
-
 #if MAPPROOF_VTK_HAS_OSMESA
 #include <vtkOSOpenGLRenderWindow.h>
 #else

@@ -63,9 +63,11 @@ Point ink_middle(const Image& image) {
 TEST(ScenePixels, StandWhereTheProjectionSays) {
   SceneClient one = client();
   for (const bool parallel : {false, true})
-    for (const Point3& at : {Point3{0.9, 0.2, 0.4}, Point3{-0.8, 0.5, -0.3}, Point3{0.0, -0.9, 0.6}}) {
+    for (const Point3& at :
+         {Point3{0.9, 0.2, 0.4}, Point3{-0.8, 0.5, -0.3}, Point3{0.0, -0.9, 0.6}}) {
       Scene scene = small_scene();
-      scene.parts = {Spheres{.at = {at}, .radius = 0.03, .look = {.ink = Ink::kText, .lit = false}}};
+      scene.parts = {
+          Spheres{.at = {at}, .radius = 0.03, .look = {.ink = Ink::kText, .lit = false}}};
       const std::vector<Point3> corners = {{-1, -1, -1}, {1, 1, 1}, {-1, 1, 1}, {1, -1, -1}};
       scene.views[0].camera = fitted_camera(corners, {0.7, -1.0, 0.5}, parallel);
       const Point p = Projection(scene.views[0].camera)(at);
@@ -104,8 +106,7 @@ TEST(SceneClient, SaysInOneLineThatThereIsNoContext) {
       drawn(one, small_scene());
       FAIL();
     } catch (const SceneError& error) {
-      EXPECT_STREQ(error.what(),
-                   "scenes cannot be drawn: OSMesa makes no context of OpenGL 3.2");
+      EXPECT_STREQ(error.what(), "scenes cannot be drawn: OSMesa makes no context of OpenGL 3.2");
     }
 }
 

@@ -43,7 +43,9 @@ TEST(Scene, SaysWhichPartCannotBeDrawn) {
             "parts/2/to/0: not finite, or beyond 1e9");
   EXPECT_EQ(refused([](Scene& s) { std::get<Field>(s.parts[0]).points[1].setZero(); }),
             "parts/0/points: two above each other");
-  EXPECT_EQ(refused([](Scene& s) { std::get<Surface>(s.parts[5]).triangles[0] = {0, 1, 99}; }),
+  EXPECT_EQ(refused([](Scene& s) {
+              std::get<Surface>(s.parts[5]).triangles[0] = {0, 1, 99};
+            }),
             "parts/5/triangles/0: there is no point 99");
   EXPECT_EQ(refused([](Scene& s) {
               s.views[0].camera.up = s.views[0].camera.target - s.views[0].camera.eye;
@@ -74,16 +76,16 @@ TEST(Projection, PutsTheTargetInTheMiddleAndTheEdgesOfTheFieldAtTheEdges) {
   const Camera camera{.eye = {0.0, -4.0, 0.0}, .angle_rad = 2.0 * std::atan(0.25), .aspect = 2.0};
   const Projection project(camera);
   EXPECT_NEAR(project({0.0, 0.0, 0.0}).x, 0.0, 1e-15);
-  EXPECT_NEAR(project({0.0, 0.0, 1.0}).y, 1.0, 1e-14);   // 4 away, slope 1/4.
+  EXPECT_NEAR(project({0.0, 0.0, 1.0}).y, 1.0, 1e-14);  // 4 away, slope 1/4.
   EXPECT_NEAR(project({2.0, 0.0, 0.0}).x, 2.0, 1e-14);
-  EXPECT_NEAR(project({0.0, 4.0, 1.0}).y, 0.5, 1e-14);  // Twice as far, half as large.
+  EXPECT_NEAR(project({0.0, 4.0, 1.0}).y, 0.5, 1e-14);   // Twice as far, half as large.
   EXPECT_TRUE(std::isnan(project({0.0, -5.0, 1.0}).x));  // Behind the eye.
   EXPECT_NEAR(project.size_at({0.0, 0.0, 0.0}, 0.5), 0.5, 1e-14);
 }
 
 TEST(Projection, AParallelCameraKeepsLengths) {
-  const Projection project(Camera{.eye = {0.0, 0.0, 9.0}, .up = {0.0, 1.0, 0.0},
-                                  .parallel = true, .height = 4.0});
+  const Projection project(
+      Camera{.eye = {0.0, 0.0, 9.0}, .up = {0.0, 1.0, 0.0}, .parallel = true, .height = 4.0});
   for (const double depth : {0.0, 5.0}) {
     EXPECT_NEAR(project({1.0, 2.0, depth}).x, 0.5, 1e-14);
     EXPECT_NEAR(project({1.0, 2.0, depth}).y, 1.0, 1e-14);

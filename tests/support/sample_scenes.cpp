@@ -79,23 +79,27 @@ Scene small_scene() {
               .lights = usual_lights()};
   Surface sheet{.label = "sheet", .look = {.ink = Ink::kSeries3, .opacity = 0.5}};
   add_rectangle(sheet, {0.1, 0.1, 0.3}, {0.9, 0.1, 0.3}, {0.9, 0.9, 0.3}, {0.1, 0.9, 0.3});
-  Tube tube{.label = "tube", .points = {{0.0, 0.0, 0.1}, {0.5, 0.2, 0.1}, {1.0, 0.0, 0.4}},
+  Tube tube{.label = "tube",
+            .points = {{0.0, 0.0, 0.1}, {0.5, 0.2, 0.1}, {1.0, 0.0, 0.4}},
             .radius = 0.03};
   tube.tones = {{0.0, NAN, 2.0}, {0.0, 2.0}};
   Rods rods{.label = "rods", .from = {{0.2, 0.8, 0.0}}, .to = {{0.2, 0.8, 0.5}}, .radius = 0.06};
   rods.look.ink = Ink::kSeries1;
-  Rods arrow{.label = "arrow", .from = {{0.5, 0.9, 0.05}}, .to = {{0.9, 0.5, 0.05}},
-             .radius = 0.02, .arrow = true};
-  Spheres spheres{.label = "sphere", .at = {{0.75, 0.25, 0.15}}, .radius = 0.1,
-                  .look = {.ink = Ink::kSeries2}};
-  Field field{.label = "field", .points = {{0.0, 0.0, 0.0}, {1.0, 0.0, 0.0}, {0.0, 1.0, 0.0},
-                                           {1.0, 1.0, 0.1}}};
+  Rods arrow{.label = "arrow",
+             .from = {{0.5, 0.9, 0.05}},
+             .to = {{0.9, 0.5, 0.05}},
+             .radius = 0.02,
+             .arrow = true};
+  Spheres spheres{
+      .label = "sphere", .at = {{0.75, 0.25, 0.15}}, .radius = 0.1, .look = {.ink = Ink::kSeries2}};
+  Field field{.label = "field",
+              .points = {{0.0, 0.0, 0.0}, {1.0, 0.0, 0.0}, {0.0, 1.0, 0.0}, {1.0, 1.0, 0.1}}};
   field.tones = {{0.0, 1.0, 1.0, 2.0}, {0.0, 2.0}};
   field.levels = {0.5, 1.5};
   scene.parts = {field, tube, rods, arrow, spheres, sheet};
   Shot view;
-  const std::vector<Point3> corners = {{-0.2, -0.2, 0.0}, {1.2, -0.2, 0.0}, {1.2, 1.0, 0.0},
-                                       {0.0, 1.0, 0.6}};
+  const std::vector<Point3> corners = {
+      {-0.2, -0.2, 0.0}, {1.2, -0.2, 0.0}, {1.2, 1.0, 0.0}, {0.0, 1.0, 0.6}};
   view.camera = fitted_camera(corners, {0.4, -1.0, 0.8}, false);
   view.labels = {{{{0.75, 0.25, 0.25}, {0.2, 0.8, 0.5}}, {"σ² = ½", "λ"}, Ink::kText}};
   view.rules = {{.to = {1.0, 0.0, 0.0}, .range = {0.0, 1.0}, .label = "x [m]"}};
@@ -104,15 +108,14 @@ Scene small_scene() {
 }
 
 std::vector<Scene> sample_scenes() {
-  std::vector<Scene> scenes = {small_scene(),
-                               world_scene(world_spec("world-usual", 0.12), WorldView::kPerspective),
-                               world_scene(world_spec("world-plan", 0.12), WorldView::kPlan),
-                               hard_world(), bent_sheet()};
-  scenes.push_back(error_field_scene(
-      {.id = "field-two",
-       .title = "Where maps are wrong",
-       .side_m = kRoom_m,
-       .maps = {{"ISOMAP, K = 7", sample_map(50, 0.1, 7)}, {"LLE, K = 9", sample_map(50, 0.3, 7)}}}));
+  std::vector<Scene> scenes = {
+      small_scene(), world_scene(world_spec("world-usual", 0.12), WorldView::kPerspective),
+      world_scene(world_spec("world-plan", 0.12), WorldView::kPlan), hard_world(), bent_sheet()};
+  scenes.push_back(error_field_scene({.id = "field-two",
+                                      .title = "Where maps are wrong",
+                                      .side_m = kRoom_m,
+                                      .maps = {{"ISOMAP, K = 7", sample_map(50, 0.1, 7)},
+                                               {"LLE, K = 9", sample_map(50, 0.3, 7)}}}));
   return scenes;
 }
 
