@@ -14,7 +14,7 @@ namespace mapproof {
 class OsmesaWindow : public vtkGenericOpenGLRenderWindow {
  public:
   static OsmesaWindow* New();
-  vtkTypeMacro(OsmesaWindow, vtkGenericOpenGLRenderWindow);
+  vtkTypeMacro(OsmesaWindow, vtkGenericOpenGLRenderWindow)
 
   /// Makes the context. @return Whether there is one; problem() says why not.
   bool open();
