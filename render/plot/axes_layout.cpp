@@ -52,6 +52,7 @@ PanelMap AxesLayout::map(const Box& frame) const {
 }
 
 double AxesLayout::below_frame() const {
+  if (panel_.bare) return 0.0;
   const double label = has_x_label() ? kLabelLine * theme_.font_pt : 0.0;
   const double ticks = shown_.x_ticks ? tick_gap() + FontFacts::kAscent * theme_.tick_font_pt : 0.0;
   return tick_length() + ticks + label;

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "render/plot/layers.hpp"
 #include "render/plot/legend.hpp"
 #include "render/plot/mark_labels.hpp"
 #include "render/plot/markers.hpp"
@@ -126,7 +127,8 @@ class CellGrid {
 std::size_t columns_within(const Figure& figure, double width, const Theme& theme) {
   const std::size_t count = figure.panels.size();
   const std::size_t most = figure.columns == 0 ? count : std::min(figure.columns, count);
-  const bool narrow = figure.shared_y || std::ranges::all_of(figure.panels, &Panel::bare);
+  const bool narrow = !std::ranges::any_of(figure.panels, has_picture) &&
+                      (figure.shared_y || std::ranges::all_of(figure.panels, &Panel::bare));
   const double least = (narrow ? kLeastWidthShared : kLeastWidth) * theme.font_pt +
                        (figure.arrows.empty() ? 0.0 : kArrowWidth * theme.font_pt);
   const auto fit = static_cast<std::size_t>(std::max(1.0, std::floor(width / least)));

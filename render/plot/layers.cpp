@@ -1,5 +1,6 @@
 #include "render/plot/layers.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 #include "render/plot/markers.hpp"
@@ -189,6 +190,11 @@ Shape filled_shape(Fill fill, Ink ink, const Theme& theme) {
   if (fill != Fill::kNone) shape.fill = fill == Fill::kPaper ? theme.background : theme.of(ink);
   if (fill == Fill::kTint) shape.fill_opacity = kBandOpacity;
   return shape;
+}
+
+bool has_picture(const Panel& panel) {
+  return std::ranges::any_of(
+      panel.layers, [](const Layer& layer) { return std::holds_alternative<Picture>(layer); });
 }
 
 std::vector<double> dash_lengths(Dash dash, double width_pt) {

@@ -39,9 +39,8 @@ class Arranger {
     const Arrangement right = beside(room);
     if (area(right) >= 0.97 * area(inside)) return right;
     const Obstacles data = data_obstacles(panel_, layout_.map(inside.axes.frame), theme_);
-    const bool has_picture = std::ranges::any_of(
-        panel_.layers, [](const Layer& layer) { return std::holds_alternative<Picture>(layer); });
-    if (const auto place = legend_.free_place(inside.axes.frame, data); place && !has_picture) {
+    if (const auto place = legend_.free_place(inside.axes.frame, data);
+        place && !has_picture(panel_)) {
       inside.legend_at = Point{place->x0, place->y0};
       return inside;
     }

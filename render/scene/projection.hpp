@@ -36,6 +36,6 @@ class Projection {
 ///               an upright picture (plan views then have y upward).
 /// @throws InvalidInput without points.
 Camera fitted_camera(std::span<const Point3> points, const Point3& from, bool parallel,
-                     double aspect = 4.0 / 3.0, double margin = 0.06);
+                     double aspect = 1.6, double margin = 0.06);
 
 }  // namespace mapproof

@@ -104,7 +104,7 @@ struct Camera {
   bool parallel = false;
   double height = 1.0;     ///< > 0; of a parallel camera.
   double angle_rad = 0.5;  ///< In (0, pi); of a perspective one.
-  double aspect = 4.0 / 3.0;
+  double aspect = 1.6;
 
   bool operator==(const Camera&) const = default;
 };

@@ -3,27 +3,17 @@
 #include <algorithm>
 #include <cmath>
 
+#include "render/plot/layout.hpp"
 #include "render/scene/projection.hpp"
-#include "render/theme/ticks.hpp"
+#include "render/scene/rule_layers.hpp"
 
 namespace mapproof {
 namespace {
 
-constexpr int kMostTicks = 6;
-constexpr double kShareOfPage = 0.8;  // The height that the pictures of a page have, about.
-constexpr int kMostClear = 12;        // Squares along a rod.
+constexpr int kMostClear = 12;    // Squares along a rod.
+constexpr double kMostEm = 0.22;  // Of a picture's half height.
 
 bool known(Point p) { return std::isfinite(p.x) && std::isfinite(p.y); }
-
-/// Height of a tick's label in the units of a picture, about.
-double em_of(const Scene& scene, const Theme& theme) {
-  const std::size_t most = scene.columns == 0 ? scene.views.size() : scene.columns;
-  const auto columns = static_cast<double>(std::min(most, scene.views.size()));
-  const double width = theme.width_pt / columns;
-  const double height =
-      std::min(width / scene.views[0].camera.aspect, kShareOfPage * theme.height_pt);
-  return 2.0 * theme.tick_font_pt / height;
-}
 
 Fill fill_of(const Look& look) {
   return look.share * look.opacity > 0.6 ? Fill::kSolid : Fill::kTint;
@@ -80,7 +70,9 @@ class ViewPanel {
     for (std::size_t i = 0; i < scene_.parts.size(); ++i)
       if (shows(view_, i)) add_part(scene_.parts[i]);
     panel_.layers.insert(panel_.layers.begin(), picture_);
-    for (const Rule& rule : view_.rules) add_rule(rule);
+    RuleLayers rules(project_, em_);
+    for (const Rule& rule : view_.rules)
+      for (Layer& layer : rules.add(rule)) panel_.layers.push_back(std::move(layer));
     for (const SceneLabels& labels : view_.labels) add_labels(labels);
     return std::move(panel_);
   }
@@ -130,61 +122,6 @@ class ViewPanel {
     if (!layer.x.empty()) panel_.layers.push_back(std::move(layer));
   }
 
-  void add_rule(const Rule& rule) {
-    const Point from = project_(rule.from), to = project_(rule.to);
-    const Point outward = direction(rule);
-    if (!known(from) || !known(to) || !known(outward)) return;
-    Polyline line{.ink = Ink::kText, .width = 0.5};
-    line.x = {from.x, to.x};
-    line.y = {from.y, to.y};
-    panel_.layers.push_back(std::move(line));
-
-    const Ticks ticks = linear_ticks(rule.range.low, rule.range.high,
-                                     tick_step(rule.range.low, rule.range.high, kMostTicks));
-    Segments marks{.ink = Ink::kText, .width = 0.5};
-    Texts texts{.align = align_of(outward)};
-    for (std::size_t i = 0; i < ticks.at.size(); ++i) {
-      const double share = (ticks.at[i] - rule.range.low) / (rule.range.high - rule.range.low);
-      const Point at = project_(rule.from + share * (rule.to - rule.from));
-      if (!known(at)) continue;
-      marks.x0.push_back(at.x);
-      marks.y0.push_back(at.y);
-      marks.x1.push_back(at.x + 0.3 * em_ * outward.x);
-      marks.y1.push_back(at.y + 0.3 * em_ * outward.y);
-      add_text(texts, at, outward, 1.0, ticks.labels[i]);
-    }
-    panel_.layers.push_back(std::move(marks));
-    const Point middle = project_((rule.from + rule.to) / 2.0);
-    if (known(middle) && !rule.label.empty())
-      add_text(texts, middle, outward, texts.align == Align::kMiddle ? 2.4 : 3.2, rule.label);
-    panel_.layers.push_back(std::move(texts));
-  }
-
-  void add_text(Texts& texts, Point at, Point outward, double ems, const std::string& text) const {
-    texts.x.push_back(at.x + ems * em_ * outward.x);
-    texts.y.push_back(at.y + ems * em_ * outward.y);
-    texts.text.push_back(text);
-  }
-
-  /// From the axis to its labels in the picture: across the axis, on the side of `away`.
-  Point direction(const Rule& rule) const {
-    const Point from = project_(rule.from), to = project_(rule.to);
-    const Point3 middle = (rule.from + rule.to) / 2.0;
-    const double step = 1e-3 * (rule.to - rule.from).norm();
-    const Point a = project_(middle), b = project_(middle + step * rule.away.normalized());
-    const double length = std::hypot(to.x - from.x, to.y - from.y);
-    if (!(length > 1e-9)) return {NAN, NAN};
-    Point across{-(to.y - from.y) / length, (to.x - from.x) / length};
-    if (across.x * (b.x - a.x) + across.y * (b.y - a.y) < 0.0) across = {-across.x, -across.y};
-    return across;
-  }
-
-  static Align align_of(Point outward) {
-    constexpr double kSlanted = 0.35;
-    if (std::abs(outward.x) < kSlanted) return Align::kMiddle;
-    return outward.x > 0.0 ? Align::kStart : Align::kEnd;
-  }
-
   const Scene& scene_;
   const Shot& view_;
   Projection project_;
@@ -193,10 +130,8 @@ class ViewPanel {
   Panel panel_;
 };
 
-}  // namespace
-
-Figure scene_figure(const Scene& scene, const Theme& theme) {
-  require_valid(scene);
+/// @param em  Height of a tick's label in the units of a picture.
+Figure figure_with(const Scene& scene, double em) {
   Figure figure{.id = scene.id,
                 .title = scene.title,
                 .caption = scene.caption,
@@ -207,10 +142,25 @@ Figure scene_figure(const Scene& scene, const Theme& theme) {
                 .panels = {},
                 .columns = scene.columns};
   figure.shared_x = figure.shared_y = scene.views.size() > 1;
-  const double em = em_of(scene, theme);
   for (std::size_t i = 0; i < scene.views.size(); ++i)
     figure.panels.push_back(ViewPanel(scene, i, em).make());
   require_valid(figure);
+  return figure;
+}
+
+}  // namespace
+
+Figure scene_figure(const Scene& scene, const Theme& theme) {
+  require_valid(scene);
+  // How large the pictures become depends on what stands around them, and that on the labels'
+  // distance: three times is enough.
+  double em = 2.0 * theme.tick_font_pt / theme.height_pt;
+  Figure figure = figure_with(scene, em);
+  for (int pass = 0; pass < 2; ++pass) {
+    const double height = lay_out(figure, theme).frames[0].height();
+    em = std::min(kMostEm, 2.0 * theme.tick_font_pt / std::max(height, theme.tick_font_pt));
+    figure = figure_with(scene, em);
+  }
   return figure;
 }
 

@@ -28,7 +28,7 @@ namespace {
 class ErrorLog : public vtkOutputWindow {
  public:
   static ErrorLog* New();
-  vtkTypeMacro(ErrorLog, vtkOutputWindow);
+  vtkTypeMacro(ErrorLog, vtkOutputWindow)
 
   void DisplayText(const char*) override {}
   void DisplayErrorText(const char* text) override {

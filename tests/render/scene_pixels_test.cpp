@@ -71,9 +71,9 @@ TEST(ScenePixels, StandWhereTheProjectionSays) {
       const std::vector<Point3> corners = {{-1, -1, -1}, {1, 1, 1}, {-1, 1, 1}, {1, -1, -1}};
       scene.views[0].camera = fitted_camera(corners, {0.7, -1.0, 0.5}, parallel);
       const Point p = Projection(scene.views[0].camera)(at);
-      const Image image = one.draw(scene, 0, 800, 600, 0, report_theme());
+      const Image image = one.draw(scene, 0, 960, 600, 0, report_theme());
       const Point middle = ink_middle(image);
-      EXPECT_NEAR(middle.x, 300.0 * (4.0 / 3.0 + p.x), 0.6);
+      EXPECT_NEAR(middle.x, 300.0 * (1.6 + p.x), 0.6);
       EXPECT_NEAR(middle.y, 300.0 * (1.0 - p.y), 0.6);
     }
 }
