@@ -6,6 +6,7 @@
 
 #include <tbb/global_control.h>
 #include <tbb/parallel_for_each.h>
+#include <tbb/parallel_invoke.h>
 
 #include "app/embedded_experiments.hpp"
 #include "app/slam_outputs.hpp"
@@ -15,7 +16,9 @@
 #include "core/records/slam_store.hpp"
 #include "core/records/study_store.hpp"
 #include "render/output/write_figure.hpp"
+#include "render/output/write_scene.hpp"
 #include "reports/html/report_html.hpp"
+#include "reports/sections/wording.hpp"
 #include "reports/tables/write_tables.hpp"
 
 namespace mapproof {
@@ -68,14 +71,20 @@ FolderReport read_folder_report(const fs::path& folder, const std::optional<std:
 }
 
 FolderReport joined(const fs::path& folder, std::vector<FolderReport> parts) {
-  FolderReport all{
-      .folder = folder, .report = {}, .in_company = {}, .figures = {}, .runs = 0, .missing = {}};
+  FolderReport all{.folder = folder,
+                   .report = {},
+                   .in_company = {},
+                   .figures = {},
+                   .scenes = {},
+                   .runs = 0,
+                   .missing = {}};
   all.report.title = "Maps from what a robot observed";
   all.report.subtitle = "Two papers, made again";
   all.report.sections.push_back(contents_section(parts));
   for (FolderReport& part : parts) {
     all.runs += part.runs;
     std::ranges::move(part.figures, std::back_inserter(all.figures));
+    std::ranges::move(part.scenes, std::back_inserter(all.scenes));
     std::ranges::move(part.missing, std::back_inserter(all.missing));
     std::ranges::move(part.in_company, std::back_inserter(all.report.sections));
     all.report.footer = part.report.footer;
@@ -84,31 +93,47 @@ FolderReport joined(const fs::path& folder, std::vector<FolderReport> parts) {
   return all;
 }
 
-std::map<std::string, std::string> write_figures(const std::vector<const Figure*>& figures,
-                                                 const Theme& theme, const fs::path& folder,
-                                                 int jobs) {
+Pictures pictures_of(const FolderReport& report) {
+  Pictures pictures;
+  for (const Figure& figure : report.figures) pictures.figures.push_back(&figure);
+  for (const Scene& scene : report.scenes) pictures.scenes.push_back(&scene);
+  return pictures;
+}
+
+Drawn write_pictures(const Pictures& pictures, const Theme& theme, const fs::path& folder,
+                     int jobs) {
   const tbb::global_control limit(tbb::global_control::max_allowed_parallelism,
                                   static_cast<std::size_t>(jobs));
-  std::map<std::string, std::string> drawings;
-  for (const Figure* figure : figures) drawings[figure->id];  // None is inserted in parallel.
-  tbb::parallel_for_each(figures, [&](const Figure* figure) {
-    drawings.at(figure->id) = write_figure(*figure, theme, folder);
-  });
-  return drawings;
+  Drawn drawn;
+  for (const Figure* figure : pictures.figures) drawn.svg[figure->id];  // None in parallel.
+  for (const Scene* scene : pictures.scenes) drawn.svg[scene->id];
+  const auto draw_figures = [&] {
+    tbb::parallel_for_each(pictures.figures, [&](const Figure* figure) {
+      drawn.svg.at(figure->id) = write_figure(*figure, theme, folder);
+    });
+  };
+  const auto draw_scenes = [&] {
+    SceneClient client;
+    for (const Scene* scene : pictures.scenes)
+      drawn.svg.at(scene->id) = write_scene(*scene, theme, folder, client);
+    drawn.renderer = client.renderer();
+  };
+  tbb::parallel_invoke(draw_scenes, draw_figures);
+  return drawn;
 }
 
 fs::path write_report(const FolderReport& report, const Templates& page, int jobs) {
-  std::vector<const Figure*> figures;
-  for (const Figure& figure : report.figures) figures.push_back(&figure);
-  const std::map<std::string, std::string> drawings =
-      write_figures(figures, report_theme(), report.folder / "figures", jobs);
-  write_tables(report.report, report.folder / "tables");
+  const Drawn drawn =
+      write_pictures(pictures_of(report), report_theme(), report.folder / "figures", jobs);
+  Report shown = report.report;
+  if (!drawn.renderer.empty()) add_renderer(shown, drawn.renderer);
+  write_tables(shown, report.folder / "tables");
   const auto drawing = [&](const std::string& id) {
-    const auto found = drawings.find(id);
-    return found == drawings.end() ? std::string() : found->second;
+    const auto found = drawn.svg.find(id);
+    return found == drawn.svg.end() ? std::string() : found->second;
   };
   const fs::path path = report.folder / "report.html";
-  write_file(path, report_html(report.report, page, drawing));
+  write_file(path, report_html(shown, page, drawing));
   return path;
 }
 

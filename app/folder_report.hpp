@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "render/plot/figure.hpp"
+#include "render/scene/scene.hpp"
 #include "render/theme/theme.hpp"
 #include "reports/html/templates.hpp"
 #include "reports/model/report.hpp"
@@ -19,6 +20,7 @@ struct FolderReport {
   Report report;
   std::vector<Section> in_company;  ///< Its sections as they stand beside those of other studies.
   std::vector<Figure> figures;      ///< In the order of the report.
+  std::vector<Scene> scenes;        ///< Likewise.
   std::size_t runs = 0;
   std::vector<std::string> missing;  ///< Data asked for that are not there.
 };
@@ -40,13 +42,28 @@ std::vector<std::filesystem::path> study_folders(const std::filesystem::path& fo
 /// @throws InvalidInput if an id stands in two of them.
 FolderReport joined(const std::filesystem::path& folder, std::vector<FolderReport> parts);
 
-/// Draws the figures into `folder`, several at a time; no two may have one id.
-/// @return The text of each SVG file by its figure's id. @throws IoError.
-std::map<std::string, std::string> write_figures(const std::vector<const Figure*>& figures,
-                                                 const Theme& theme,
-                                                 const std::filesystem::path& folder, int jobs);
+/// What is drawn: no two have one id.
+struct Pictures {
+  std::vector<const Figure*> figures;
+  std::vector<const Scene*> scenes;
+};
 
-/// Writes figures/, tables/ and report.html into the report's folder.
+/// All of a report's.
+Pictures pictures_of(const FolderReport& report);
+
+/// What was drawn.
+struct Drawn {
+  std::map<std::string, std::string> svg;  ///< The text of each SVG file by its picture's id.
+  std::string renderer;                    ///< What drew the scenes; empty if there are none.
+};
+
+/// Draws the pictures into `folder`: figures several at a time, scenes one by one beside them.
+/// @throws IoError, SceneError.
+Drawn write_pictures(const Pictures& pictures, const Theme& theme,
+                     const std::filesystem::path& folder, int jobs);
+
+/// Writes figures/, tables/ and report.html, which names what drew the scenes, into the report's
+/// folder.
 /// @return The path of the report.
 std::filesystem::path write_report(const FolderReport& report, const Templates& page, int jobs);
 

@@ -25,9 +25,11 @@ FolderReport slam_folder_report(const std::filesystem::path& folder, const SlamS
                       .report = slam_report(input),
                       .in_company = slam_sections(input),
                       .figures = {},
+                      .scenes = {},
                       .runs = study.runs.size(),
                       .missing = study.missing};
   for (const Figure* figure : all_figures(figures)) result.figures.push_back(*figure);
+  for (const Scene* scene : all_scenes(figures)) result.scenes.push_back(*scene);
   return result;
 }
 

@@ -37,9 +37,11 @@ FolderReport study_folder_report(const StudyView& view, const std::string& comma
                                               .command = command}),
                       .in_company = {},
                       .figures = {},
+                      .scenes = {},
                       .runs = view.study.runs.size(),
                       .missing = {}};
   for (const Figure* figure : all_figures(view.figures)) report.figures.push_back(*figure);
+  for (const Scene* scene : all_scenes(view.figures)) report.scenes.push_back(*scene);
   report.in_company = report.report.sections;
   for (Section& section : report.in_company)
     section.title = "Map building: " + lower_first(section.title);

@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <iterator>
 #include <memory>
 
 #include <fmt/format.h>
@@ -20,39 +21,45 @@ struct Arguments {
   int jobs = 1;
 };
 
-std::vector<const Figure*> chosen_figures(const Arguments& arguments, const FolderReport& view) {
-  std::vector<const Figure*> figures;
-  for (const Figure& figure : view.figures) figures.push_back(&figure);
-  if (arguments.ids.empty()) return figures;
-  std::vector<const Figure*> chosen;
+std::vector<std::string> ids_of(const Pictures& pictures) {
+  std::vector<std::string> ids;
+  for (const Figure* figure : pictures.figures) ids.push_back(figure->id);
+  for (const Scene* scene : pictures.scenes) ids.push_back(scene->id);
+  return ids;
+}
+
+/// Those of the ids that were asked for, all if none was.
+Pictures chosen_pictures(const Arguments& arguments, const FolderReport& view) {
+  const Pictures all = pictures_of(view);
+  if (arguments.ids.empty()) return all;
+  Pictures chosen;
   for (const std::string& id : arguments.ids) {
-    const auto found = std::ranges::find(figures, id, [](const Figure* f) { return f->id; });
-    if (found == figures.end()) {
-      std::vector<std::string> known;
-      for (const Figure* figure : figures) known.push_back(figure->id);
-      throw InvalidInput(fmt::format("--figure: no figure \"{}\" in {}; there are {}",
-                                     printable(id), arguments.study, fmt::join(known, ", ")));
-    }
-    chosen.push_back(*found);
+    const auto is_it = [&id](const auto* picture) { return picture->id == id; };
+    const std::size_t before = chosen.figures.size() + chosen.scenes.size();
+    std::ranges::copy_if(all.figures, std::back_inserter(chosen.figures), is_it);
+    std::ranges::copy_if(all.scenes, std::back_inserter(chosen.scenes), is_it);
+    if (chosen.figures.size() + chosen.scenes.size() > before) continue;
+    throw InvalidInput(fmt::format("--figure: no figure \"{}\" in {}; there are {}", printable(id),
+                                   arguments.study, fmt::join(ids_of(all), ", ")));
   }
   return chosen;
 }
 
 int render(const Arguments& arguments, const Invocation& invocation) {
   const FolderReport view = read_folder_report(arguments.study, std::nullopt, "");
-  const std::vector<const Figure*> figures = chosen_figures(arguments, view);
+  const Pictures pictures = chosen_pictures(arguments, view);
   const bool paper = arguments.theme == "paper";
   const std::filesystem::path folder = arguments.out.empty()
                                            ? view.folder / (paper ? "figures-paper" : "figures")
                                            : std::filesystem::path(arguments.out);
-  write_figures(figures, paper ? paper_theme(arguments.width_in) : report_theme(), folder,
-                arguments.jobs);
+  write_pictures(pictures, paper ? paper_theme(arguments.width_in) : report_theme(), folder,
+                 arguments.jobs);
 
   nlohmann::ordered_json object{{"study", arguments.study}, {"folder", folder.string()}};
   std::string text;
-  for (const Figure* figure : figures) {
-    object["figures"].push_back(figure->id);
-    text += (folder / (figure->id + ".svg")).string() + "\n";
+  for (const std::string& id : ids_of(pictures)) {
+    object["figures"].push_back(id);
+    text += (folder / (id + ".svg")).string() + "\n";
   }
   invocation.console.result(text, object);
   return kDone;

@@ -18,11 +18,12 @@ int report(const Arguments& arguments, const Invocation& invocation) {
   const Templates page = load_templates(arguments.templates);
   const FolderReport view = read_folder_report(arguments.study, std::nullopt, invocation.command);
   const std::filesystem::path path = write_report(view, page, arguments.jobs);
-  invocation.console.detail(
-      fmt::format("{}: {} runs, {} figures", arguments.study, view.runs, view.figures.size()));
-  invocation.console.result(
-      path.string() + "\n",
-      {{"study", arguments.study}, {"report", path.string()}, {"figures", view.figures.size()}});
+  invocation.console.detail(fmt::format("{}: {} runs, {} figures, {} scenes", arguments.study,
+                                        view.runs, view.figures.size(), view.scenes.size()));
+  invocation.console.result(path.string() + "\n", {{"study", arguments.study},
+                                                   {"report", path.string()},
+                                                   {"figures", view.figures.size()},
+                                                   {"scenes", view.scenes.size()}});
   return kDone;
 }
 

@@ -154,6 +154,7 @@ int reproduce(const Arguments& arguments, const Invocation& invocation) {
   const FolderReport report = read_folder_report(arguments.out, command, "");
   const fs::path path = write_report(report, page, arguments.jobs);
   object["figures"] = report.figures.size();
+  object["scenes"] = report.scenes.size();
   object["report"] = path.string();
   invocation.console.result(text + path.string() + "\n", object);
   return kDone;

@@ -5,6 +5,7 @@
 #include <limits>
 #include <utility>
 
+#include "core/embed/observation_manifold.hpp"
 #include "core/observe/proximities.hpp"
 #include "core/simulate/sensors.hpp"
 
@@ -12,6 +13,7 @@ namespace mapproof {
 namespace {
 
 constexpr Eigen::Index kFirstSteps = 60;
+constexpr int kManifoldNeighbours = 5;
 constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 
 /// Counted from 0.
@@ -49,13 +51,13 @@ Eigen::VectorXd upper_triangle(const Eigen::MatrixXd& squared) {
   return distances;
 }
 
-Eigen::VectorXd observed_distances(const ObservationHistory& history, Eigen::Index steps) {
+Eigen::MatrixXd observed_squares(const ObservationHistory& history, Eigen::Index steps) {
   Eigen::MatrixXd squared = proximities(history, steps).squared_distances;
   for (const Eigen::Index i : unseen_landmarks(history, steps)) {
     squared.row(i).setConstant(kNaN);
     squared.col(i).setConstant(kNaN);
   }
-  return upper_triangle(squared);
+  return squared;
 }
 
 }  // namespace
@@ -63,6 +65,7 @@ Eigen::VectorXd observed_distances(const ObservationHistory& history, Eigen::Ind
 SensorDetails sensor_details(const SensorStudy& study, const World& world, const Path& path,
                              const ObservationHistory& history) {
   const int step = study.checkpoints.back();
+  const Eigen::MatrixXd squared = observed_squares(history, step);
   const Eigen::Index look = telling_look(study, world, path, step);
   SensorDetails details{
       .sensor = study.sensor.sensor,
@@ -71,7 +74,8 @@ SensorDetails sensor_details(const SensorStudy& study, const World& world, const
       .values = history.values.col(look),
       .first_steps = history.values.leftCols(std::min<Eigen::Index>(kFirstSteps, step)),
       .step = step,
-      .distances = observed_distances(history, step),
+      .distances = upper_triangle(squared),
+      .manifold = observation_manifold(squared, kManifoldNeighbours),
       .spectra = {}};
   if (study.sensor.sensor == Sensor::kVisibility) {
     details.reach_m = visibility_reach(world, study.sensor);

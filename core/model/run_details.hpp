@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <utility>
 #include <vector>
 
@@ -7,6 +8,7 @@
 
 #include "core/model/measurement.hpp"
 #include "core/model/method.hpp"
+#include "core/model/observation_manifold.hpp"
 #include "core/model/study.hpp"
 #include "core/model/world.hpp"
 
@@ -24,6 +26,7 @@ struct SensorDetails {
   /// Distances of the observation vectors, M (M - 1) / 2: those of landmark 0 to all after it, then
   /// of landmark 1, and so on; NaN where a pair has no step in common or one was never seen.
   Eigen::VectorXd distances;
+  std::optional<ObservationManifold> manifold;  ///< Of these distances; empty: too few are known.
   /// The leading eigenvalues of each setting that has some.
   std::vector<std::pair<MethodSetting, Eigen::VectorXd>> spectra;
 };

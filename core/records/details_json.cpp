@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <limits>
 #include <utility>
 
@@ -60,6 +61,34 @@ void read_look(const JsonCursor& value, Eigen::Index path_steps, SensorDetails& 
                            sensor.views.size()));
 }
 
+Json manifold_value(const ObservationManifold& manifold) {
+  Json coordinates = Json::array();
+  for (const auto& row : manifold.coordinates.rowwise())
+    coordinates.push_back(numbers_value(row.transpose()));
+  return {{"coordinates", std::move(coordinates)},
+          {"shares", manifold.shares},
+          {"K", manifold.neighbours},
+          {"edges", manifold.edges}};
+}
+
+ObservationManifold read_manifold(const JsonCursor& value, std::size_t landmarks) {
+  value.allow_only({"coordinates", "shares", "K", "edges"});
+  ObservationManifold manifold;
+  const std::vector<JsonCursor> rows = value.at("coordinates").elements(landmarks, landmarks);
+  manifold.coordinates.resize(std::ssize(rows), 3);
+  for (std::size_t i = 0; i < rows.size(); ++i)
+    manifold.coordinates.row(static_cast<Eigen::Index>(i)) = read_numbers(rows[i], 3).transpose();
+  const std::vector<double> shares = value.at("shares").numbers_or_null(0.0, 1e9, 3);
+  std::ranges::copy(shares, manifold.shares.begin());
+  const int last = static_cast<int>(landmarks) - 1;
+  manifold.neighbours = value.at("K").integer32(1, std::max(last, 1));
+  for (const JsonCursor& edge : value.at("edges").elements(0, landmarks * landmarks)) {
+    const std::vector<JsonCursor> ends = edge.elements(2, 2);
+    manifold.edges.emplace_back(ends[0].integer32(0, last), ends[1].integer32(0, last));
+  }
+  return manifold;
+}
+
 Json sensor_value(const SensorDetails& sensor) {
   Json first = Json::array();
   for (const auto& row : sensor.first_steps.rowwise())
@@ -70,16 +99,18 @@ Json sensor_value(const SensorDetails& sensor) {
     put_setting(spectrum, setting);
     spectrum["values"] = numbers_value(values);
   }
-  return {{"sensor", name(sensor.sensor)},
-          {"look", look_value(sensor)},
-          {"first_steps", std::move(first)},
-          {"step", sensor.step},
-          {"distances", numbers_value(sensor.distances)},
-          {"spectra", std::move(spectra)}};
+  Json value = {{"sensor", name(sensor.sensor)},
+                {"look", look_value(sensor)},
+                {"first_steps", std::move(first)},
+                {"step", sensor.step},
+                {"distances", numbers_value(sensor.distances)},
+                {"spectra", std::move(spectra)}};
+  if (sensor.manifold) value["manifold"] = manifold_value(*sensor.manifold);
+  return value;
 }
 
 SensorDetails read_sensor_details(const JsonCursor& value, Eigen::Index path_steps) {
-  value.allow_only({"sensor", "look", "first_steps", "step", "distances", "spectra"});
+  value.allow_only({"sensor", "look", "first_steps", "step", "distances", "spectra", "manifold"});
   SensorDetails sensor;
   sensor.sensor = read_sensor(value.at("sensor"));
   read_look(value.at("look"), path_steps, sensor);
@@ -96,6 +127,7 @@ SensorDetails read_sensor_details(const JsonCursor& value, Eigen::Index path_ste
   sensor.step = value.at("step").integer32(1, kMostSteps);
   const auto M = static_cast<std::size_t>(sensor.values.size());
   sensor.distances = read_numbers(value.at("distances"), M * (M - (M > 0)) / 2);
+  if (const auto manifold = value.find("manifold")) sensor.manifold = read_manifold(*manifold, M);
   for (const JsonCursor& item : value.at("spectra").elements(0, 1'000'000)) {
     std::vector<std::string_view> keys = {"values"};
     const MethodSetting setting = read_setting(item, keys);

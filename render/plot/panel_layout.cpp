@@ -85,8 +85,8 @@ class Arranger {
     Arrangement found{layout_.within(rest), std::nullopt, columns};
     const Box& frame = found.axes.frame;
     const double left = std::min(frame.x0, room.x1 - size.x);
-    found.legend_at =
-        Point{std::max(left, room.x0), frame.y1 + layout_.below_frame() + theme_.space_pt};
+    found.legend_at = Point{std::max(left, room.x0),
+                            frame.y1 + layout_.margins(found.axes).bottom + theme_.space_pt};
     return found;
   }
 

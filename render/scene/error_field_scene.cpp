@@ -14,6 +14,7 @@ namespace mapproof {
 namespace {
 
 constexpr double kHighest = 0.35;  // The surface at the ramp's end, of the room's side.
+constexpr double kAspect = 1.35;   // Several views share a page.
 constexpr double kPercentile = 0.95;
 constexpr int kMostLevels = 6;
 
@@ -24,9 +25,9 @@ struct Sample {
 };
 
 std::vector<Sample> samples_of(const MapRecord& map) {
-  if (!map.truth_m || map.truth_m->rows() != map.estimate.rows())
-    throw InvalidInput("error_field_scene: a map without a truth");
   std::vector<Sample> samples;
+  if (!map.truth_m || map.frame != Frame::kTruth || map.truth_m->rows() != map.estimate.rows())
+    return samples;
   for (Eigen::Index i = 0; i < map.estimate.rows(); ++i) {
     const Eigen::RowVector2d at = map.truth_m->row(i);
     const double error = (map.estimate.row(i) - at).norm();
@@ -80,6 +81,10 @@ Field field_of(const std::vector<Sample>& samples, const ErrorRamp& scale, doubl
 
 }  // namespace
 
+bool has_error_field(const MapRecord& map, double side_m) {
+  return spans_area(samples_of(map), side_m);
+}
+
 Scene error_field_scene(const ErrorFieldSpec& spec) {
   if (spec.maps.empty()) throw InvalidInput("error_field_scene: no map");
   if (!(spec.side_m > 0.0 && spec.side_m <= 1e6))
@@ -89,7 +94,7 @@ Scene error_field_scene(const ErrorFieldSpec& spec) {
   for (const ErrorFieldSpec::One& one : spec.maps) {
     samples.push_back(samples_of(one.map));
     if (!spans_area(samples.back(), spec.side_m))
-      throw InvalidInput("error_field_scene: no three landmarks of a map span an area");
+      throw InvalidInput("error_field_scene: a map without an error field");
     for (const Sample& sample : samples.back()) errors_m.push_back(sample.error_m);
   }
   const ErrorRamp scale(errors_m);
@@ -103,7 +108,7 @@ Scene error_field_scene(const ErrorFieldSpec& spec) {
               .columns = spec.columns};
   scene.parts = {floor_of(spec.side_m), walls_of(spec.side_m)};
   for (std::size_t i = 0; i < spec.maps.size(); ++i) {
-    Shot view = room_view(spec.side_m);
+    Shot view = room_view(spec.side_m, kHighest * spec.side_m, kAspect);
     view.title = spec.maps[i].title;
     view.parts = {0, 1, scene.parts.size()};
     scene.parts.emplace_back(field_of(samples[i], scale, spec.side_m));

@@ -11,13 +11,15 @@
 namespace mapproof {
 namespace {
 
+constexpr double kAspect = 1.25;  // Two views share a page.
+
 void require_usable(const ManifoldSceneSpec& spec) {
-  const Eigen::Index rows = spec.coordinates.rows();
+  const Eigen::Index rows = spec.manifold.coordinates.rows();
   if (spec.truth_m.rows() != rows)
     throw InvalidInput("manifold_scene: not as many true positions as coordinates");
   if (!(spec.side_m > 0.0 && std::isfinite(spec.side_m)))
     throw InvalidInput("manifold_scene: the room's side is no length");
-  for (const auto& [a, b] : spec.edges)
+  for (const auto& [a, b] : spec.manifold.edges)
     if (std::min(a, b) < 0 || std::max(a, b) >= rows)
       throw InvalidInput("manifold_scene: an edge has no landmark");
 }
@@ -28,9 +30,9 @@ Spheres landmarks(const ManifoldSceneSpec& spec, Eigen::Index axis, double radiu
       .label = fmt::format("true {}, 0 to {} m", axis == 0 ? "x" : "y", significant(spec.side_m)),
       .radius = radius};
   spheres.tones.limits = {0.0, spec.side_m};
-  for (Eigen::Index i = 0; i < spec.coordinates.rows(); ++i) {
-    if (!spec.coordinates.row(i).allFinite()) continue;
-    spheres.at.emplace_back(spec.coordinates.row(i).transpose());
+  for (Eigen::Index i = 0; i < spec.manifold.coordinates.rows(); ++i) {
+    if (!spec.manifold.coordinates.row(i).allFinite()) continue;
+    spheres.at.emplace_back(spec.manifold.coordinates.row(i).transpose());
     const double value = spec.truth_m(i, axis);
     spheres.tones.values.push_back(std::isfinite(value) ? value : NAN);
   }
@@ -38,12 +40,15 @@ Spheres landmarks(const ManifoldSceneSpec& spec, Eigen::Index axis, double radiu
 }
 
 Rods graph(const ManifoldSceneSpec& spec, double radius) {
-  Rods rods{
-      .label = "nearest neighbours", .radius = radius, .look = {.ink = Ink::kMuted, .share = 0.55}};
-  for (const auto& [a, b] : spec.edges) {
-    if (!spec.coordinates.row(a).allFinite() || !spec.coordinates.row(b).allFinite()) continue;
-    rods.from.emplace_back(spec.coordinates.row(a).transpose());
-    rods.to.emplace_back(spec.coordinates.row(b).transpose());
+  Rods rods{.label = fmt::format("{} nearest neighbours", spec.manifold.neighbours),
+            .radius = radius,
+            .look = {.ink = Ink::kMuted, .share = 0.55}};
+  for (const auto& [a, b] : spec.manifold.edges) {
+    if (!spec.manifold.coordinates.row(a).allFinite() ||
+        !spec.manifold.coordinates.row(b).allFinite())
+      continue;
+    rods.from.emplace_back(spec.manifold.coordinates.row(a).transpose());
+    rods.to.emplace_back(spec.manifold.coordinates.row(b).transpose());
   }
   if (rods.from.empty()) rods.label.clear();
   return rods;
@@ -61,18 +66,22 @@ Scene manifold_scene(const ManifoldSceneSpec& spec) {
   Scene scene{.id = spec.id,
               .title = spec.title,
               .caption = spec.caption,
-              .alt = fmt::format("{} in three principal coordinates of their observations, which "
-                                 "span {}, {} and {}; {} of the neighbour graph.",
-                                 counted(static_cast<long long>(by_x.at.size()), "landmark"),
-                                 significant(box.high.x() - box.low.x()),
-                                 significant(box.high.y() - box.low.y()),
-                                 significant(box.high.z() - box.low.z()),
-                                 counted(static_cast<long long>(spec.edges.size()), "edge")),
+              .alt = fmt::format(
+                  "{} in three principal coordinates of their observations, which "
+                  "span {}, {} and {}; {} of the neighbour graph.",
+                  counted(static_cast<long long>(by_x.at.size()), "landmark"),
+                  significant(box.high.x() - box.low.x()), significant(box.high.y() - box.low.y()),
+                  significant(box.high.z() - box.low.z()),
+                  counted(static_cast<long long>(spec.manifold.edges.size()), "edge")),
               .record_ids = spec.record_ids,
               .lights = usual_lights()};
   scene.parts = {box.edges(), graph(spec, 0.0022 * box.size()), by_x,
                  landmarks(spec, 1, by_x.radius)};
-  const Shot view{.camera = box.camera(), .rules = box.rules({"1st", "2nd", "3rd coordinate"})};
+  const std::array<double, 3>& shares = spec.manifold.shares;
+  scene.notes = {
+      {fmt::format("The three coordinates hold {:.0f}, {:.0f} and {:.0f} % of all spread.",
+                   100.0 * shares[0], 100.0 * shares[1], 100.0 * shares[2])}};
+  const Shot view{.camera = box.camera(kAspect), .rules = box.rules({"1st", "2nd", "3rd"})};
   scene.views = {view, view};
   scene.views[0].title = "By true x";
   scene.views[0].parts = {0, 1, 2};

@@ -6,6 +6,7 @@
 
 #include <Eigen/Core>
 
+#include "core/model/observation_manifold.hpp"
 #include "core/model/points.hpp"
 #include "render/scene/scene.hpp"
 
@@ -15,10 +16,9 @@ struct ManifoldSceneSpec {
   std::string id;
   std::string title;
   std::string caption;
-  Eigen::Matrix<double, Eigen::Dynamic, 3> coordinates;      ///< M x 3; NaN rows are left out.
-  std::vector<std::pair<Eigen::Index, Eigen::Index>> edges;  ///< Of the neighbour graph.
-  Points truth_m;                                            ///< M x 2.
-  double side_m = 0.0;                                       ///< Of the room.
+  ObservationManifold manifold;
+  Points truth_m;       ///< M x 2.
+  double side_m = 0.0;  ///< Of the room.
   std::vector<std::string> record_ids;
 };
 

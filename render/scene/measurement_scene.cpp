@@ -35,7 +35,7 @@ class MeasurementScene {
     scene_.id = id;
     scene_.lights = usual_lights();
     scene_.parts = {floor_of(side_), walls_of(side_)};
-    scene_.views = {room_view(side_)};
+    scene_.views = {room_view(side_, landmark_height(side_))};
     scene_.record_ids = {};
   }
 

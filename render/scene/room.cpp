@@ -24,14 +24,13 @@ std::vector<Rule> floor_rules(double side_m) {
 }
 
 /// Corners of the room and of the strip that the axes' labels need.
-std::vector<Point3> corners(double side_m) {
+std::vector<Point3> corners(double side_m, double height_m) {
   const double low = -kLabelRoom * side_m, high = (1.0 + kLabelRoom) * side_m;
-  const double top = landmark_height(side_m);
   std::vector<Point3> points;
   for (const double x : {0.0, high})
     for (const double y : {low, side_m}) points.emplace_back(x, y, 0.0);
   for (const double x : {0.0, side_m})
-    for (const double y : {0.0, side_m}) points.emplace_back(x, y, top);
+    for (const double y : {0.0, side_m}) points.emplace_back(x, y, height_m);
   return points;
 }
 
@@ -82,16 +81,16 @@ Rods pillars(const Points& points_m, const std::vector<Eigen::Index>& rows, doub
 
 Point3 on_floor(const Eigen::RowVector2d& at, double height) { return {at.x(), at.y(), height}; }
 
-Shot room_view(double side_m) {
+Shot room_view(double side_m, double height_m, double aspect) {
   Shot view;
-  view.camera = fitted_camera(corners(side_m), {0.42, -1.0, 0.95}, false);
+  view.camera = fitted_camera(corners(side_m, height_m), {0.42, -1.0, 0.95}, false, aspect);
   view.rules = floor_rules(side_m);
   return view;
 }
 
 Shot room_plan(double side_m) {
   Shot view;
-  view.camera = fitted_camera(corners(side_m), Point3::UnitZ(), true);
+  view.camera = fitted_camera(corners(side_m, landmark_height(side_m)), Point3::UnitZ(), true);
   view.rules = floor_rules(side_m);
   return view;
 }

@@ -29,8 +29,9 @@ Rods pillars(const Points& points_m, const std::vector<Eigen::Index>& rows, doub
 
 Point3 on_floor(const Eigen::RowVector2d& at, double height = 0.0);
 
-/// Sees the whole room, with axes along its front edges, from the south in perspective.
-Shot room_view(double side_m);
+/// Sees the whole room up to a height, with axes along its front edges, from the south in
+/// perspective.
+Shot room_view(double side_m, double height_m, double aspect = 1.6);
 
 /// The same from straight above, x to the right, y upward.
 Shot room_plan(double side_m);

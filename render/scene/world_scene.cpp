@@ -1,6 +1,7 @@
 #include "render/scene/world_scene.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <numeric>
 
 #include <fmt/format.h>
@@ -15,6 +16,7 @@ namespace mapproof {
 namespace {
 
 constexpr double kPathRadius = 0.0022;  // Of the room's side.
+constexpr double kMostCovered = 0.1;    // Of the floor, by the path.
 constexpr std::size_t kMostWorst = 3;
 
 void require_usable(const WorldSceneSpec& spec) {
@@ -39,7 +41,8 @@ class WorldScene {
     scene_.title = spec.title;
     scene_.record_ids = {spec.map.id};
     scene_.lights = usual_lights();
-    scene_.views = {view == WorldView::kPlan ? room_plan(side_) : room_view(side_)};
+    scene_.views = {view == WorldView::kPlan ? room_plan(side_)
+                                             : room_view(side_, landmark_height(side_))};
   }
 
   Scene make() {
@@ -71,8 +74,19 @@ class WorldScene {
     return rods;
   }
 
+  /// Long paths are thin: they cover at most a share of the floor.
+  double path_radius() const {
+    double length_m = 0.0;
+    for (Eigen::Index i = 1; i < spec_.path_m.rows(); ++i) {
+      const double step = (spec_.path_m.row(i) - spec_.path_m.row(i - 1)).norm();
+      if (std::isfinite(step)) length_m += step;
+    }
+    const double covering = kMostCovered * side_ * side_ / (2.0 * std::max(length_m, 1e-9));
+    return std::min(kPathRadius * side_, covering);
+  }
+
   Tube path() const {
-    Tube tube{.label = "path, start (dark) to end", .radius = kPathRadius * side_};
+    Tube tube{.label = "path, start (dark) to end", .radius = path_radius()};
     tube.tones.limits = {0.0, static_cast<double>(spec_.path_m.rows() - 1)};
     for (Eigen::Index i = 0; i < spec_.path_m.rows(); ++i) {
       if (!spec_.path_m.row(i).allFinite()) continue;

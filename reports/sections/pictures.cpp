@@ -12,12 +12,23 @@ FigureBlock figure_block(const Figure& figure) {
   return {figure.id, figure.title, figure.caption, figure.alt, figure.record_ids};
 }
 
+FigureBlock figure_block(const Scene& scene) {
+  return {scene.id, scene.title, scene.caption, scene.alt, scene.record_ids};
+}
+
+Gallery gallery_of(const FigureGroup& group, std::size_t first) {
+  Gallery gallery;
+  for (const Figure& figure : group.figures) gallery.figures.push_back(figure_block(figure));
+  for (const Scene& scene : group.scenes) gallery.figures.push_back(figure_block(scene));
+  gallery.figures.erase(gallery.figures.begin(),
+                        gallery.figures.begin() + static_cast<std::ptrdiff_t>(first));
+  return gallery;
+}
+
 Section figures_section(const FigureGroup& group) {
   Section section{group.id, group.title, {}};
   section.blocks.emplace_back(plain(group.words));
-  Gallery gallery;
-  for (const Figure& figure : group.figures) gallery.figures.push_back(figure_block(figure));
-  section.blocks.emplace_back(std::move(gallery));
+  section.blocks.emplace_back(gallery_of(group));
   return section;
 }
 

@@ -50,6 +50,15 @@ StudyFigures study_figures(const Study& study, std::span<const Timing> timings,
       "The method of least mean MPE of each sensor: the median run over its checkpoints, and the "
       "scatter over the runs of that layout.",
       forming_figures(source));
+  if (std::vector<Scene> scenes = study_scenes(source); !scenes.empty())
+    figures.groups.push_back(
+        {"scenes",
+         "In space",
+         "What a look takes in; the room with the map of least mean MPE, the median run; where its "
+         "landmarks lie in the space of their observations; and the error of each method over the "
+         "floor. Drawn by VTK without a screen.",
+         {},
+         std::move(scenes)});
   add("parameters", "Error over parameters",
       "At the last checkpoint; bands are 95 % intervals of the mean.", parameter_figures(source));
   add("comparison", "Methods side by side",
@@ -73,6 +82,13 @@ std::vector<const Figure*> all_figures(const StudyFigures& figures) {
   std::vector<const Figure*> all;
   for (const FigureGroup& group : figures.groups)
     for (const Figure& figure : group.figures) all.push_back(&figure);
+  return all;
+}
+
+std::vector<const Scene*> all_scenes(const StudyFigures& figures) {
+  std::vector<const Scene*> all;
+  for (const FigureGroup& group : figures.groups)
+    for (const Scene& scene : group.scenes) all.push_back(&scene);
   return all;
 }
 

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "render/plot/figure.hpp"
+#include "render/scene/scene.hpp"
 #include "reports/model/report.hpp"
 #include "reports/sections/figures/figure_source.hpp"
 
@@ -16,6 +17,9 @@ struct FigureGroup {
   std::string title;
   std::string words;  ///< What they have in common, a sentence or two.
   std::vector<Figure> figures;
+  std::vector<Scene> scenes = {};  ///< They stand after the figures.
+
+  bool empty() const { return figures.empty() && scenes.empty(); }
 };
 
 struct StudyFigures {
@@ -31,7 +35,14 @@ StudyFigures study_figures(const Study& study, std::span<const Timing> timings,
 /// All figures, in the order of the report. The pointers hold as long as `figures`.
 std::vector<const Figure*> all_figures(const StudyFigures& figures);
 
-/// Where a figure stands in a report.
+/// All scenes likewise.
+std::vector<const Scene*> all_scenes(const StudyFigures& figures);
+
+/// Where a figure or a scene stands in a report.
 FigureBlock figure_block(const Figure& figure);
+FigureBlock figure_block(const Scene& scene);
+
+/// The group's figures and scenes from the `first` one on, side by side.
+Gallery gallery_of(const FigureGroup& group, std::size_t first = 0);
 
 }  // namespace mapproof

@@ -1,5 +1,7 @@
 #include "reports/sections/wording.hpp"
 
+#include <algorithm>
+
 #include <fmt/format.h>
 
 namespace mapproof {
@@ -56,16 +58,33 @@ std::string paper_number(std::string_view id) {
 
 Paragraph plain(std::string text) { return {{{std::move(text), Emphasis::kPlain}}}; }
 
+namespace {
+
+constexpr const char* kDigest = "Digest of the solvers";
+
+}  // namespace
+
 KeyValues provenance_items(const Provenance& provenance) {
   KeyValues items;
   items.items.push_back({"mapproof", {provenance.version, Emphasis::kData}});
   items.items.push_back({"Commit", {provenance.commit, Emphasis::kCode}});
-  items.items.push_back({"Digest of the solvers", {provenance.solver_digest, Emphasis::kCode}});
+  items.items.push_back({kDigest, {provenance.solver_digest, Emphasis::kCode}});
   std::string libraries;
   for (const auto& [library, version] : provenance.libraries)
     libraries += fmt::format("{}{} {}", libraries.empty() ? "" : ", ", library, version);
   if (!libraries.empty()) items.items.push_back({"Built with", {libraries, Emphasis::kData}});
   return items;
+}
+
+void add_renderer(Report& report, const std::string& renderer) {
+  for (Section& section : report.sections)
+    for (Block& block : section.blocks) {
+      auto* items = std::get_if<KeyValues>(&block);
+      if (items == nullptr) continue;
+      const auto digest = std::ranges::find(items->items, kDigest, &KeyValues::Item::key);
+      if (digest != items->items.end())
+        items->items.push_back({"Scenes drawn by", {renderer, Emphasis::kData}});
+    }
 }
 
 }  // namespace mapproof

@@ -26,4 +26,7 @@ Paragraph plain(std::string text);
 /// Version, commit, digest and libraries, each an item.
 KeyValues provenance_items(const Provenance& provenance);
 
+/// Adds to these items in a report's sections what drew its scenes.
+void add_renderer(Report& report, const std::string& renderer);
+
 }  // namespace mapproof

@@ -5,10 +5,12 @@
 #include "core/base/random.hpp"
 #include "render/scene/error_field_scene.hpp"
 #include "render/scene/manifold_scene.hpp"
+#include "render/scene/measurement_scene.hpp"
 #include "render/scene/projection.hpp"
 #include "render/scene/room.hpp"
 #include "render/scene/world_scene.hpp"
 #include "tests/support/sample_figures.hpp"
+#include "tests/support/sample_studies.hpp"
 
 namespace mapproof::test {
 namespace {
@@ -23,6 +25,15 @@ Points spiral(int steps) {
     path.row(i) << kRoom_m / 2.0 + radius * std::cos(20.0 * share),
         kRoom_m / 2.0 + radius * std::sin(20.0 * share);
   }
+  return path;
+}
+
+/// Back and forth through the whole room.
+Points walk(int steps) {
+  Points path(steps, 2);
+  for (int i = 0; i < steps; ++i)
+    path.row(i) << kRoom_m / 2.0 + 1.15 * std::sin(0.0701 * i),
+        kRoom_m / 2.0 + 1.15 * std::sin(0.0533 * i + 0.4);
   return path;
 }
 
@@ -50,20 +61,23 @@ Scene hard_world() {
 /// A sheet that bends as observation histories do.
 Scene bent_sheet() {
   const MapRecord map = sample_map(60, 0.1, 3);
-  ManifoldSceneSpec spec{.id = "manifold-usual",
-                         .title = "Observation manifold",
-                         .caption = "Principal coordinates of a bent sheet.",
-                         .coordinates = {},
-                         .edges = {},
-                         .truth_m = *map.truth_m,
-                         .side_m = kRoom_m,
-                         .record_ids = {"r/1"}};
-  spec.coordinates.resize(60, 3);
+  ManifoldSceneSpec spec;
+  spec.id = "manifold-usual";
+  spec.title = "Observation manifold";
+  spec.caption = "Principal coordinates of a bent sheet.";
+  spec.truth_m = *map.truth_m;
+  spec.side_m = kRoom_m;
+  spec.record_ids = {"r/1"};
+  spec.manifold.shares = {0.48, 0.44, 0.05};
+  spec.manifold.neighbours = 4;
+  spec.manifold.coordinates.resize(60, 3);
   for (Eigen::Index i = 0; i < 60; ++i) {
     const double x = spec.truth_m(i, 0) - 1.25, y = spec.truth_m(i, 1) - 1.25;
-    spec.coordinates.row(i) << std::sin(1.2 * x), std::sin(1.2 * y), 0.5 * (x * x + y * y) / 1.6;
+    spec.manifold.coordinates.row(i) << std::sin(1.2 * x), std::sin(1.2 * y),
+        0.5 * (x * x + y * y) / 1.6;
     for (Eigen::Index j = 0; j < i; ++j)
-      if ((spec.truth_m.row(i) - spec.truth_m.row(j)).norm() < 0.42) spec.edges.emplace_back(j, i);
+      if ((spec.truth_m.row(i) - spec.truth_m.row(j)).norm() < 0.42)
+        spec.manifold.edges.emplace_back(static_cast<int>(j), static_cast<int>(i));
   }
   return manifold_scene(spec);
 }
@@ -116,6 +130,12 @@ std::vector<Scene> sample_scenes() {
                                       .side_m = kRoom_m,
                                       .maps = {{"ISOMAP, K = 7", sample_map(50, 0.1, 7)},
                                                {"LLE, K = 9", sample_map(50, 0.3, 7)}}}));
+  scenes.push_back(
+      measurement_scene(sample_measurement(Sensor::kVisibility, 50), "look-visibility"));
+  scenes.push_back(measurement_scene(sample_measurement(Sensor::kBearing, 50), "look-bearing"));
+  WorldSceneSpec walked = world_spec("world-walked", 0.12);
+  walked.path_m = walk(2000);
+  scenes.push_back(world_scene(walked, WorldView::kPerspective));
   return scenes;
 }
 

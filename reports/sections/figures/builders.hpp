@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "render/plot/figure.hpp"
+#include "render/scene/scene.hpp"
 #include "reports/sections/figures/figure_source.hpp"
 
 namespace mapproof {
@@ -37,5 +38,9 @@ std::vector<Figure> comparison_figures(FigureSource& source);
 std::vector<Figure> condition_figures(FigureSource& source);
 /// Error against seconds; varies from run to run.
 std::vector<Figure> cost_figures(FigureSource& source, std::span<const Timing> timings);
+
+/// What a look takes in, the room with the best map, its landmarks in the space of observations, and
+/// each method's error over the floor, for each sensor.
+std::vector<Scene> study_scenes(FigureSource& source);
 
 }  // namespace mapproof

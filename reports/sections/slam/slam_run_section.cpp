@@ -36,9 +36,7 @@ Section section_of(const FigureGroup* figures, std::string id, std::string title
   if (figures == nullptr) return {std::move(id), std::move(title), {}};
   Section section{figures->id, figures->title, {plain(figures->words)}};
   section.blocks.emplace_back(figure_block(figures->figures.front()));
-  Gallery others;
-  for (std::size_t i = 1; i < figures->figures.size(); ++i)
-    others.figures.push_back(figure_block(figures->figures[i]));
+  Gallery others = gallery_of(*figures, 1);
   if (!others.figures.empty()) section.blocks.emplace_back(std::move(others));
   return section;
 }

@@ -214,9 +214,10 @@ std::optional<Table> slam_seconds_table(const SlamStudy& study,
          "",
          false});
   }
-  table.notes = {"A method's own seconds, without the choice of windows and without the estimate it "
-                 "starts from.",
-                 "Seconds vary from run to run and are no part of any comparison."};
+  table.notes = {
+      "A method's own seconds, without the choice of windows and without the estimate it "
+      "starts from.",
+      "Seconds vary from run to run and are no part of any comparison."};
   return table;
 }
 

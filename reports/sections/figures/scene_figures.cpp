@@ -1,0 +1,89 @@
+#include <fmt/format.h>
+
+#include "render/scene/error_field_scene.hpp"
+#include "render/scene/manifold_scene.hpp"
+#include "render/scene/measurement_scene.hpp"
+#include "render/scene/world_scene.hpp"
+#include "reports/sections/figures/builders.hpp"
+#include "reports/sections/wording.hpp"
+
+namespace mapproof {
+namespace {
+
+/// The first run that has what a look needs.
+void add_look(FigureSource& source, Sensor sensor, std::vector<Scene>& scenes) {
+  if (sensor != Sensor::kVisibility && sensor != Sensor::kBearing) return;
+  for (const Run& run : source.study().runs)
+    if (const SensorDetails* details = source.details(run.id, sensor)) {
+      scenes.push_back(measurement_scene(measurement(*source.details(run.id), *details, run.world),
+                                         fmt::format("scene-look-{}", name(sensor))));
+      return;
+    }
+}
+
+/// The median run of the best method: its room from the side and from above, and where its
+/// landmarks lie in the space of their observations.
+void add_best(FigureSource& source, const SettingSummary& best, std::vector<Scene>& scenes) {
+  const auto id = median_run(source.study(), best);
+  if (!id) return;
+  const Run* run = source.run(*id);
+  const MapRecord* map = source.map(*id, best.sensor, best.setting, best.step);
+  const SensorDetails* details = source.details(*id, best.sensor);
+  if (run == nullptr || map == nullptr || map->frame != Frame::kTruth || details == nullptr) return;
+  WorldSceneSpec spec{.id = fmt::format("scene-world-{}", name(best.sensor)),
+                      .title = fmt::format("{}, {} after {} steps", title_of(best.sensor),
+                                           label(best.setting), best.step),
+                      .run = *id,
+                      .world = run->world,
+                      .path_m = source.details(*id)->path.positions_m,
+                      .map = *map};
+  scenes.push_back(world_scene(spec, WorldView::kPerspective));
+  spec.id += "-plan";
+  scenes.push_back(world_scene(spec, WorldView::kPlan));
+  if (!details->manifold) return;
+  scenes.push_back(manifold_scene(
+      {.id = fmt::format("scene-manifold-{}", name(best.sensor)),
+       .title =
+           fmt::format("{}: landmarks in the space of their observations", title_of(best.sensor)),
+       .caption = "The landmarks of the median run at the first three principal coordinates of "
+                  "their observation histories, joined to their neighbours. Where true x and true "
+                  "y both run along the surface without folds, a map of two dimensions can come "
+                  "out of observations alone.",
+       .manifold = *details->manifold,
+       .truth_m = run->world.landmarks_m,
+       .side_m = run->world.side_m,
+       .record_ids = {map->id}}));
+}
+
+void add_error_field(FigureSource& source, const SensorStudy& sensor, std::vector<Scene>& scenes) {
+  const Study& study = source.study();
+  ErrorFieldSpec spec{
+      .id = fmt::format("scene-error-{}", name(sensor.sensor.sensor)),
+      .title = fmt::format("{}: where maps are wrong", title_of(sensor.sensor.sensor)),
+      .side_m = study.experiment.world.side_m,
+      .maps = {},
+      .columns = 3};
+  for (const SettingSummary& best : source.best(sensor)) {
+    const auto run = median_run(study, best);
+    if (!run) continue;
+    const MapRecord* map = source.map(*run, best.sensor, best.setting, best.step);
+    if (map != nullptr && has_error_field(*map, spec.side_m))
+      spec.maps.push_back({short_label(best.setting), *map});
+  }
+  if (!spec.maps.empty()) scenes.push_back(error_field_scene(spec));
+}
+
+}  // namespace
+
+std::vector<Scene> study_scenes(FigureSource& source) {
+  std::vector<Scene> scenes;
+  for (const SensorStudy& sensor : source.study().experiment.sensors) {
+    add_look(source, sensor.sensor.sensor, scenes);
+    const std::vector<SettingSummary> all = source.best(sensor);
+    if (const SettingSummary* best = best_of(all)) add_best(source, *best, scenes);
+    add_error_field(source, sensor, scenes);
+  }
+  return scenes;
+}
+
+}  // namespace mapproof
