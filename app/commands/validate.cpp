@@ -7,14 +7,19 @@
 #include "core/base/errors.hpp"
 #include "core/records/validate.hpp"
 #include "render/plot/figure_json.hpp"
+#include "render/scene/scene_json.hpp"
 
 namespace mapproof {
 namespace {
 
 /// Reads the JSON formats that are not core's.
 bool read_foreign(std::string_view schema, std::string_view text, const std::string& source) {
-  if (schema != "mapproof.figure") return false;
-  figure_from_json(text, source);
+  if (schema == "mapproof.figure")
+    figure_from_json(text, source);
+  else if (schema == "mapproof.scene")
+    scene_from_json(text, source);
+  else
+    return false;
   return true;
 }
 

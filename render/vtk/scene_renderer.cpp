@@ -30,7 +30,7 @@ class ErrorLog : public vtkOutputWindow {
   static ErrorLog* New();
   vtkTypeMacro(ErrorLog, vtkOutputWindow)
 
-  void DisplayText(const char*) override {}
+      void DisplayText(const char*) override {}
   void DisplayErrorText(const char* text) override {
     if (errors.empty()) errors = text;
   }
@@ -76,12 +76,13 @@ void add_lights(const Scene& scene, vtkRenderer* renderer) {
 
 /// Upside down, as OpenGL has it, to Image's rows.
 Image image_of(vtkUnsignedCharArray* bytes, int width, int height) {
-  Image image{width, height, {}};
-  image.pixels.reserve(static_cast<std::size_t>(width) * height);
-  for (int y = height - 1; y >= 0; --y) {
-    const unsigned char* row = bytes->GetPointer(3 * static_cast<vtkIdType>(y) * width);
-    for (int x = 0; x < width; ++x, row += 3)
-      image.pixels.push_back(static_cast<std::uint32_t>(row[0]) << 16 | row[1] << 8 | row[2]);
+  Image image{width, height, std::vector<std::uint32_t>(static_cast<std::size_t>(width) * height)};
+  for (int y = 0; y < height; ++y) {
+    const auto from = static_cast<vtkIdType>(height - 1 - y) * width;
+    const unsigned char* pixel = bytes->GetPointer(3 * from);
+    std::uint32_t* row = image.row(y);
+    for (int x = 0; x < width; ++x, pixel += 3)
+      row[x] = static_cast<std::uint32_t>(pixel[0]) << 16 | pixel[1] << 8 | pixel[2];
   }
   return image;
 }

@@ -1,4 +1,7 @@
+#include <unistd.h>
+
 #include <cstdlib>
+#include <fstream>
 
 #include <gtest/gtest.h>
 
@@ -85,6 +88,35 @@ TEST(ScenePixels, NameWhatDrewThem) {
   EXPECT_NE(one.renderer().find("llvmpipe"), std::string::npos);
   EXPECT_NE(one.renderer().find("128 bits"), std::string::npos);
   EXPECT_NE(one.renderer().find("VTK 9"), std::string::npos);
+}
+
+/// Memory of the program that this one has started, MiB.
+double memory_of_child_mib() {
+  std::ifstream children("/proc/self/task/" + std::to_string(::getpid()) + "/children");
+  std::string child, word;
+  children >> child;
+  std::ifstream status("/proc/" + child + "/status");
+  while (status >> word)
+    if (word == "VmRSS:") {
+      double kib = 0.0;
+      status >> kib;
+      return kib / 1024.0;
+    }
+  return -1.0;
+}
+
+TEST(ScenePixels, TwoHundredOfThemLeaveNothingBehind) {
+  SceneClient one = client();
+  const Scene scene = small_scene();  // Has a part of every kind.
+  const auto draw = [&](int pictures) {
+    for (int i = 0; i < pictures; ++i)
+      one.draw(scene, 0, 320 + 16 * (i % 5), 240, 4 * (i % 2), report_theme());
+    return memory_of_child_mib();
+  };
+  const double before = draw(50);  // Shaders and buffers of every size and kind.
+  ASSERT_GT(before, 10.0);
+  constexpr double kPicture_mib = 320.0 * 240.0 * 3.0 / 1024.0 / 1024.0;
+  EXPECT_LT(draw(200) - before, 200.0 * kPicture_mib / 10.0);
 }
 
 TEST(SceneClient, SaysInOneLineThatTheProgramIsMissing) {
