@@ -1,0 +1,105 @@
+#include <cstdlib>
+
+#include <gtest/gtest.h>
+
+#include "core/base/files.hpp"
+#include "tests/support/program.hpp"
+
+namespace mapproof::test {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr const char* kScene = "scene-world-bearing";
+
+/// Sets variables of the environment while it lives.
+class Environment {
+ public:
+  explicit Environment(std::vector<std::pair<const char*, const char*>> values)
+      : values_(std::move(values)) {
+    for (const auto& [name, value] : values_) ::setenv(name, value, 1);
+  }
+  ~Environment() {
+    for (const auto& [name, value] : values_) ::unsetenv(name);
+  }
+
+ private:
+  std::vector<std::pair<const char*, const char*>> values_;
+};
+
+/// A small study with its report, made once for all tests.
+class ScenesOfAStudy : public ::testing::Test {
+ protected:
+  static void SetUpTestSuite() {
+    folder_ = new TemporaryFolder();
+    made_ = mapproof({"reproduce", "yairi2007", "--profile", "quick", "--out", study()});
+  }
+  static void TearDownTestSuite() {
+    delete folder_;
+    folder_ = nullptr;
+  }
+  static std::string study() { return *folder_ / "study"; }
+
+  /// One scene drawn again, in a folder of its own.
+  static Contents drawn(const std::string& name) {
+    const std::string out = *folder_ / name;
+    const Outcome outcome = mapproof({"render", study(), "--figure", kScene, "--out", out});
+    EXPECT_EQ(outcome.exit_code, 0) << outcome.error;
+    return contents(out);
+  }
+
+  static inline TemporaryFolder* folder_ = nullptr;
+  static inline Outcome made_;
+};
+
+TEST_F(ScenesOfAStudy, AreInItsReportWithWhatDrewThem) {
+  ASSERT_EQ(made_.exit_code, 0) << made_.error;
+  const std::string page = read_file(study() + "/report.html");
+  for (const char* id : {"scene-look-visibility", "scene-world-bearing", "scene-world-bearing-plan",
+                         "scene-manifold-visibility", "scene-error-bearing"}) {
+    EXPECT_NE(page.find(std::string("id=\"") + id), std::string::npos) << id;
+    for (const char* extension : {".svg", ".png", ".pdf", ".scene.json"})
+      EXPECT_TRUE(fs::exists(study() + "/figures/" + id + extension)) << id << extension;
+  }
+  EXPECT_NE(page.find("llvmpipe"), std::string::npos);
+}
+
+TEST_F(ScenesOfAStudy, AreTheSameBytesWithoutADisplayAndForAnyThreads) {
+  const Contents usual = drawn("usual");
+  EXPECT_EQ(usual.size(), 4U);
+  for (const auto& [name, bytes] : usual)
+    EXPECT_EQ(bytes, read_file(study() + "/figures/" + name)) << name;
+  ::unsetenv("DISPLAY");
+  {
+    const Environment one({{"DISPLAY", ":4711"}, {"LP_NUM_THREADS", "0"}});
+    expect_same(usual, drawn("one-thread"));
+  }
+  const Environment other({{"LP_NUM_THREADS", "7"},
+                           {"GALLIUM_DRIVER", "softpipe"},
+                           {"LP_NATIVE_VECTOR_WIDTH", "512"},
+                           {"MESA_SHADER_CACHE_DISABLE", "true"}});
+  expect_same(usual, drawn("other-driver"));
+}
+
+TEST_F(ScenesOfAStudy, ThatCannotBeDrawnAreOneLineAndCodeThree) {
+  const Environment missing({{"MAPPROOF_SCENES", "/nowhere/mapproof-scenes"}});
+  const std::string out = *folder_ / "none";
+  const Outcome outcome = mapproof({"render", study(), "--figure", kScene, "--out", out});
+  EXPECT_EQ(outcome.exit_code, 3);
+  EXPECT_EQ(outcome.error,
+            "mapproof: scenes cannot be drawn: /nowhere/mapproof-scenes is no program: No such "
+            "file or directory\n");
+  EXPECT_TRUE(!fs::exists(out) || contents(out).empty());
+}
+
+TEST_F(ScenesOfAStudy, AreNoConcernOfWhatDrawsNone) {
+  const Environment missing({{"MAPPROOF_SCENES", "/nowhere/mapproof-scenes"}});
+  EXPECT_EQ(mapproof({"methods"}).exit_code, 0);
+  EXPECT_EQ(
+      mapproof({"render", study(), "--figure", "map-bearing-isomap", "--out", *folder_ / "figure"})
+          .exit_code,
+      0);
+}
+
+}  // namespace
+}  // namespace mapproof::test
