@@ -1,8 +1,7 @@
-#include <cstdlib>
-
 #include <gtest/gtest.h>
 
 #include "core/base/files.hpp"
+#include "tests/support/environment.hpp"
 #include "tests/support/program.hpp"
 
 namespace mapproof::test {
@@ -11,21 +10,6 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr const char* kScene = "scene-world-bearing";
-
-/// Sets variables of the environment while it lives.
-class Environment {
- public:
-  explicit Environment(std::vector<std::pair<const char*, const char*>> values)
-      : values_(std::move(values)) {
-    for (const auto& [name, value] : values_) ::setenv(name, value, 1);
-  }
-  ~Environment() {
-    for (const auto& [name, value] : values_) ::unsetenv(name);
-  }
-
- private:
-  std::vector<std::pair<const char*, const char*>> values_;
-};
 
 /// A small study with its report, made once for all tests.
 class ScenesOfAStudy : public ::testing::Test {
@@ -71,18 +55,18 @@ TEST_F(ScenesOfAStudy, AreTheSameBytesWithoutADisplayAndForAnyThreads) {
     EXPECT_EQ(bytes, read_file(study() + "/figures/" + name)) << name;
   ::unsetenv("DISPLAY");
   {
-    const Environment one({{"DISPLAY", ":4711"}, {"LP_NUM_THREADS", "0"}});
+    const Environment one{{"DISPLAY", ":4711"}, {"LP_NUM_THREADS", "0"}};
     expect_same(usual, drawn("one-thread"));
   }
-  const Environment other({{"LP_NUM_THREADS", "7"},
-                           {"GALLIUM_DRIVER", "softpipe"},
-                           {"LP_NATIVE_VECTOR_WIDTH", "512"},
-                           {"MESA_SHADER_CACHE_DISABLE", "true"}});
+  const Environment other{{"LP_NUM_THREADS", "7"},
+                          {"GALLIUM_DRIVER", "softpipe"},
+                          {"LP_NATIVE_VECTOR_WIDTH", "512"},
+                          {"MESA_SHADER_CACHE_DISABLE", "true"}};
   expect_same(usual, drawn("other-driver"));
 }
 
 TEST_F(ScenesOfAStudy, ThatCannotBeDrawnAreOneLineAndCodeThree) {
-  const Environment missing({{"MAPPROOF_SCENES", "/nowhere/mapproof-scenes"}});
+  const Environment missing{{"MAPPROOF_SCENES", "/nowhere/mapproof-scenes"}};
   const std::string out = *folder_ / "none";
   const Outcome outcome = mapproof({"render", study(), "--figure", kScene, "--out", out});
   EXPECT_EQ(outcome.exit_code, 3);
@@ -93,7 +77,7 @@ TEST_F(ScenesOfAStudy, ThatCannotBeDrawnAreOneLineAndCodeThree) {
 }
 
 TEST_F(ScenesOfAStudy, AreNoConcernOfWhatDrawsNone) {
-  const Environment missing({{"MAPPROOF_SCENES", "/nowhere/mapproof-scenes"}});
+  const Environment missing{{"MAPPROOF_SCENES", "/nowhere/mapproof-scenes"}};
   EXPECT_EQ(mapproof({"methods"}).exit_code, 0);
   EXPECT_EQ(
       mapproof({"render", study(), "--figure", "map-bearing-isomap", "--out", *folder_ / "figure"})

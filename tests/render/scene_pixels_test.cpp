@@ -10,20 +10,11 @@
 #include "render/output/write_scene.hpp"
 #include "render/scene/projection.hpp"
 #include "tests/support/baselines.hpp"
+#include "tests/support/environment.hpp"
 #include "tests/support/sample_scenes.hpp"
 
 namespace mapproof::test {
 namespace {
-
-/// Sets a variable of the environment while it lives.
-class Environment {
- public:
-  Environment(const char* name, const char* value) : name_(name) { ::setenv(name, value, 1); }
-  ~Environment() { ::unsetenv(name_); }
-
- private:
-  const char* name_;
-};
 
 Image drawn(SceneClient& client, const Scene& scene, int samples = 4) {
   return client.draw(scene, 0, 320, 240, samples, report_theme());
@@ -36,9 +27,9 @@ TEST(ScenePixels, AreTheSameInEveryProcessForAnyThreadsAndAnyDisplay) {
   std::vector<std::uint32_t> first;
   for (const int samples : {0, 4})
     for (const char* threads : {"0", "1", "2"}) {
-      const Environment number("LP_NUM_THREADS", threads);
-      const Environment width("LP_NATIVE_VECTOR_WIDTH", "256");  // Overruled.
-      const Environment display("DISPLAY", ":99.7");
+      const Environment number{{"LP_NUM_THREADS", threads}};
+      const Environment width{{"LP_NATIVE_VECTOR_WIDTH", "256"}};  // Overruled.
+      const Environment display{{"DISPLAY", ":99.7"}};
       SceneClient one = client();
       const Image image = drawn(one, scene, samples);
       if (std::string(threads) == "0") first = image.pixels;
@@ -132,7 +123,7 @@ TEST(SceneClient, SaysInOneLineThatTheProgramIsMissing) {
 }
 
 TEST(SceneClient, SaysInOneLineThatThereIsNoContext) {
-  const Environment stub("LD_PRELOAD", MAPPROOF_NO_OSMESA);  // Makes no context, ever.
+  const Environment stub{{"LD_PRELOAD", MAPPROOF_NO_OSMESA}};  // Makes no context, ever.
   SceneClient one = client();
   for (int attempt = 0; attempt < 2; ++attempt) try {
       drawn(one, small_scene());
