@@ -1,5 +1,6 @@
 #include "render/output/write_scene.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 #include "core/base/files.hpp"
@@ -13,13 +14,18 @@
 namespace mapproof {
 namespace {
 
-constexpr int kPosterScale = 2;
-constexpr int kSamples = 4;  // All that llvmpipe has.
+constexpr int kSamples = 4;
 
 /// The place moved to whole pixels, so that none is drawn twice.
 Box on_pixels(const Box& place, double per_point) {
   const auto whole = [per_point](double at) { return std::round(at * per_point) / per_point; };
   return {whole(place.x0), whole(place.y0), whole(place.x1), whole(place.y1)};
+}
+
+/// How much finer the poster is; 1 where it would be larger than a picture can be.
+int poster_scale(const Drawing& drawing) {
+  const double longest = std::max(drawing.width, drawing.height) * drawing.dpi / 72.0;
+  return 2.0 * longest <= SceneClient::kLargestSide ? 2 : 1;
 }
 
 }  // namespace
@@ -28,7 +34,8 @@ SceneDrawing draw_scene(const Scene& scene, const Theme& theme, SceneClient& cli
   SceneDrawing drawn;
   drawn.screen = lay_out(scene_figure(scene, theme), theme);
   drawn.poster = drawn.screen;
-  drawn.poster.dpi = kPosterScale * theme.dpi;
+  const int scale = poster_scale(drawn.screen);
+  drawn.poster.dpi = scale * theme.dpi;
   const double per_point = theme.dpi / 72.0;
   for (std::size_t i = 0; i < drawn.screen.items.size(); ++i) {
     auto* screen = std::get_if<Raster>(&drawn.screen.items[i].what);
@@ -37,9 +44,9 @@ SceneDrawing draw_scene(const Scene& scene, const Theme& theme, SceneClient& cli
     screen->place = poster->place = on_pixels(screen->place, per_point);
     const auto width = static_cast<int>(std::lround(screen->place.width() * per_point));
     const auto height = static_cast<int>(std::lround(screen->place.height() * per_point));
-    auto fine = std::make_shared<Image>(client.draw(scene, screen->source, kPosterScale * width,
-                                                    kPosterScale * height, kSamples, theme));
-    screen->image = std::make_shared<Image>(halved(*fine));
+    auto fine = std::make_shared<Image>(
+        client.draw(scene, screen->source, scale * width, scale * height, kSamples, theme));
+    screen->image = scale == 1 ? fine : std::make_shared<Image>(halved(*fine));
     poster->image = std::move(fine);
   }
   drawn.screen.renderer = drawn.poster.renderer = client.renderer();

@@ -10,7 +10,8 @@
 
 namespace mapproof {
 
-/// A scene laid out, its pictures drawn: at the theme's dpi, and at twice that.
+/// A scene laid out, its pictures drawn: at the theme's dpi, and at twice that unless a side would
+/// then have more than SceneClient::kLargestSide pixels.
 struct SceneDrawing {
   Drawing screen;
   Drawing poster;

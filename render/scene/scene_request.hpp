@@ -14,7 +14,7 @@ struct SceneRequest {
   std::size_t view = 0;
   int width = 0;    ///< 1 to 8192.
   int height = 0;   ///< 1 to 8192.
-  int samples = 0;  ///< A pixel, up to 16; 0: no antialiasing.
+  int samples = 0;  ///< A pixel, up to 16, next square of it; 0: no antialiasing.
   Colour background = {};
   std::array<Colour, 10> inks = {};  ///< In the order of Ink.
 

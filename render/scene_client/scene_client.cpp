@@ -21,8 +21,6 @@
 namespace mapproof {
 namespace {
 
-constexpr int kLargestSide = 8192;
-
 /// In the child: becomes the program, its input and output the socket. Only calls that a child of
 /// a process with threads may make.
 [[noreturn]] void become(const char* program, int socket, int messages) {

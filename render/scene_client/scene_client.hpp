@@ -29,15 +29,18 @@ std::filesystem::path scenes_program();
 /// from any thread; pictures are drawn one at a time.
 class SceneClient {
  public:
+  static constexpr int kLargestSide = 8192;
+
   explicit SceneClient(std::filesystem::path program = scenes_program());
   ~SceneClient();
   SceneClient(const SceneClient&) = delete;
   SceneClient& operator=(const SceneClient&) = delete;
 
   /// One view in the theme's colours; the same pixels each time.
-  /// @param samples  A pixel; 0: no antialiasing.
+  /// @param samples  A pixel, up to 16, taken up to the next square; 0: no antialiasing. Fewer
+  ///                 where the whole would have more than 2^27.
   /// @throws InvalidInput if the scene cannot be drawn (see `problem`) or a side is not in
-  ///         1 to 8192; SceneError.
+  ///         1 to kLargestSide; SceneError.
   Image draw(const Scene& scene, std::size_t view, int width, int height, int samples,
              const Theme& theme);
 

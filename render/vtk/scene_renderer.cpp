@@ -1,5 +1,7 @@
 #include "render/vtk/scene_renderer.hpp"
 
+#include <algorithm>
+#include <array>
 #include <cstdlib>
 #include <numbers>
 #include <stdexcept>
@@ -74,15 +76,38 @@ void add_lights(const Scene& scene, vtkRenderer* renderer) {
   }
 }
 
-/// Upside down, as OpenGL has it, to Image's rows.
-Image image_of(vtkUnsignedCharArray* bytes, int width, int height) {
+/// How many samples a pixel has along each side. Fewer than asked for where the whole would be too
+/// large for the driver.
+int side_samples(const SceneRequest& request) {
+  constexpr int kLongest = 16384;                        // llvmpipe's.
+  constexpr std::int64_t kMost = std::int64_t{1} << 27;  // Some 2 GiB with depth and copies.
+  int side = 1;
+  while (side * side < request.samples) ++side;
+  const std::int64_t pixels = std::int64_t{request.width} * request.height;
+  while (side > 1 && (side * std::max(request.width, request.height) > kLongest ||
+                      side * side * pixels > kMost))
+    --side;
+  return side;
+}
+
+/// Samples upside down, as OpenGL has them, to Image's rows, each pixel the mean of `side` x
+/// `side`.
+Image image_of(vtkUnsignedCharArray* bytes, int width, int height, int side) {
   Image image{width, height, std::vector<std::uint32_t>(static_cast<std::size_t>(width) * height)};
+  const auto row_bytes = static_cast<vtkIdType>(3) * side * width;
+  const unsigned char* all = bytes->GetPointer(0);
+  const std::uint32_t count = static_cast<std::uint32_t>(side * side);
   for (int y = 0; y < height; ++y) {
-    const auto from = static_cast<vtkIdType>(height - 1 - y) * width;
-    const unsigned char* pixel = bytes->GetPointer(3 * from);
+    const unsigned char* first = all + row_bytes * side * (height - 1 - y);
     std::uint32_t* row = image.row(y);
-    for (int x = 0; x < width; ++x, pixel += 3)
-      row[x] = static_cast<std::uint32_t>(pixel[0]) << 16 | pixel[1] << 8 | pixel[2];
+    for (int x = 0; x < width; ++x, first += 3 * side) {
+      std::array<std::uint32_t, 3> sum{count / 2, count / 2, count / 2};
+      for (int i = 0; i < side; ++i)
+        for (int j = 0; j < side; ++j)
+          for (std::size_t c = 0; c < 3; ++c)
+            sum[c] += first[row_bytes * i + 3 * j + static_cast<vtkIdType>(c)];
+      row[x] = sum[0] / count << 16 | sum[1] / count << 8 | sum[2] / count;
+    }
   }
   return image;
 }
@@ -129,16 +154,19 @@ Image SceneRenderer::draw(const Scene& scene, const SceneRequest& request) {
   renderer->ResetCameraClippingRange();
 
   vtkRenderWindow* window = parts_->window;
-  window->SetMultiSamples(request.samples);
-  window->SetSize(request.width, request.height);
+  // llvmpipe's own multisampling takes twice as long as as many samples with a shade each.
+  const int side = side_samples(request);
+  const int width = side * request.width, height = side * request.height;
+  window->SetMultiSamples(0);
+  window->SetSize(width, height);
   window->AddRenderer(renderer);
   window->Render();
   vtkNew<vtkUnsignedCharArray> bytes;
-  window->GetPixelData(0, 0, request.width - 1, request.height - 1, 0, bytes);
+  window->GetPixelData(0, 0, width - 1, height - 1, 0, bytes);
   window->RemoveRenderer(renderer);
   if (!parts_->log->errors.empty())
     throw std::runtime_error("VTK: " + one_line(std::exchange(parts_->log->errors, {})));
-  return image_of(bytes, request.width, request.height);
+  return image_of(bytes, request.width, request.height, side);
 }
 
 }  // namespace mapproof
