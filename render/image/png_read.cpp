@@ -171,39 +171,62 @@ void check_size(const PngHeader& header, std::size_t compressed) {
                                    header.height, compressed));
 }
 
-}  // namespace
-
-PngFile read_png(std::string_view bytes) {
-  if (const std::string problem = png_problem(bytes); !problem.empty()) throw InvalidInput(problem);
-  const std::vector<PngChunk> chunks = png_chunks(bytes);
-  const PngHeader header = png_header(chunks.front());
-  PngFile file;
-  std::string gathered;
-  std::string_view rows, palette;
+/// A file's chunks, sorted out and within bounds.
+struct Parts {
+  std::vector<PngChunk> chunks;
+  PngHeader header;
+  std::string gathered = {};  ///< The rows, if they are in several chunks.
+  std::string_view rows = {}, palette = {};
   bool has_transparency = false;
-  for (const PngChunk& chunk : chunks) {
-    if (chunk.type == "PLTE") palette = chunk.data;
-    if (chunk.type == "tRNS") has_transparency = true;
+};
+
+/// Reads all but the pixels.
+Parts read_parts(std::string_view bytes, PngFile& file) {
+  if (const std::string problem = png_problem(bytes); !problem.empty()) throw InvalidInput(problem);
+  Parts parts{.chunks = png_chunks(bytes), .header = {}};
+  parts.header = png_header(parts.chunks.front());
+  std::size_t row_chunks = 0;
+  for (const PngChunk& chunk : parts.chunks) {
+    if (chunk.type == "PLTE") parts.palette = chunk.data;
+    if (chunk.type == "tRNS") parts.has_transparency = true;
     if (chunk.type == "tIME") file.has_time = true;
     if (chunk.type == "tEXt" || chunk.type == "iTXt") read_words(chunk, file);
     if (chunk.type == "pHYs" && chunk.data.size() == 9)
       file.pixels_per_metre = big_endian(chunk.data);
     if (chunk.type != "IDAT") continue;
-    // One chunk is read where it is, several as one.
-    if (!rows.empty() && gathered.empty()) gathered = rows;
-    if (!gathered.empty()) gathered += chunk.data;
-    rows = gathered.empty() ? chunk.data : gathered;
+    if (row_chunks++ == 0) {
+      parts.rows = chunk.data;
+      continue;
+    }
+    if (parts.gathered.empty()) parts.gathered = parts.rows;
+    parts.gathered += chunk.data;
   }
-  check_size(header, rows.size());
-  if (header.colour == 3 && palette.empty()) throw InvalidInput("its palette is missing");
-  if (!has_transparency && has_quick_rows(header))
-    if (std::optional<Image> image = quick_rows(header, rows, palette)) {
+  if (!parts.gathered.empty()) parts.rows = parts.gathered;
+  check_size(parts.header, parts.rows.size());
+  if (parts.header.colour == 3 && parts.palette.empty())
+    throw InvalidInput("its palette is missing");
+  return parts;
+}
+
+}  // namespace
+
+PngFile read_png_remarks(std::string_view bytes) {
+  PngFile file;
+  read_parts(bytes, file);
+  return file;
+}
+
+PngFile read_png(std::string_view bytes) {
+  PngFile file;
+  const Parts parts = read_parts(bytes, file);
+  if (!parts.has_transparency && has_quick_rows(parts.header))
+    if (std::optional<Image> image = quick_rows(parts.header, parts.rows, parts.palette)) {
       file.image = std::move(*image);
       return file;
     }
-  file.image = {static_cast<int>(header.width), static_cast<int>(header.height), {}};
-  const Samples samples = all_samples(bytes, chunks);
-  file.image.pixels.resize(static_cast<std::size_t>(header.width) * header.height);
+  const Samples samples = all_samples(bytes, parts.chunks);
+  file.image = {static_cast<int>(parts.header.width), static_cast<int>(parts.header.height), {}};
+  file.image.pixels.resize(static_cast<std::size_t>(file.image.width) * file.image.height);
   flatten(samples, file);
   return file;
 }

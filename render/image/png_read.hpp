@@ -30,4 +30,8 @@ inline constexpr std::int64_t kMostPngPixels = std::int64_t{1} << 28;
 /// @note Linear; 4 bytes a pixel, up to 12 where it is interlaced or has 16 bits.
 PngFile read_png(std::string_view bytes);
 
+/// All but the pixels, which are not decoded. @throws InvalidInput as read_png, as far as can be
+/// told.
+PngFile read_png_remarks(std::string_view bytes);
+
 }  // namespace mapproof

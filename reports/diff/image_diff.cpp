@@ -1,60 +1,170 @@
 #include "reports/diff/image_diff.hpp"
 
 #include <algorithm>
+#include <atomic>
 #include <cstring>
 
+#include <tbb/parallel_for.h>
+
 #include "core/base/errors.hpp"
+#include "reports/diff/judgement.hpp"
+#include "reports/diff/tile_evidence.hpp"
 
 namespace mapproof {
 namespace {
 
-/// Whether rows of the tile differ.
-bool tile_differs(const Image& a, const Image& b, int x0, int y0) {
-  const int count = std::min(kTile, a.width - x0), end = std::min(y0 + kTile, a.height);
-  for (int y = y0; y < end; ++y)
-    if (std::memcmp(a.row(y) + x0, b.row(y) + x0, 4 * static_cast<std::size_t>(count)) != 0)
-      return true;
-  return false;
+// A picture of which so many pixels differ by no more than noise has noise all over.
+constexpr double kNoisyShare = 0.2;
+
+/// What a first look at a tile tells.
+struct TileLook {
+  bool differs = false;
+  bool is_textured = false;  ///< Not of one colour.
+  int within_noise = 0;      ///< Pixels that differ by no more than noise.
+};
+
+/// The upper left corner and size of a tile, cut off at the picture's edge.
+struct TileBox {
+  int x0, y0, width, height;
+};
+
+TileBox box_of(const ChangeMap& marks, const Image& image, int tile) {
+  const int x0 = tile % marks.across() * kTile, y0 = tile / marks.across() * kTile;
+  return {x0, y0, std::min(kTile, image.width - x0), std::min(kTile, image.height - y0)};
 }
 
-int largest_channel(std::uint32_t a, std::uint32_t b) {
-  int most = 0;
+/// Makes `current` equal to the baseline in the boxes. @return How many pixels they hold.
+std::int64_t ignore(const Image& baseline, Image& current, const std::vector<PixelBox>& boxes) {
+  std::vector<bool> is_ignored(boxes.empty() ? 0 : baseline.pixels.size());
+  for (const PixelBox& box : boxes) {
+    const std::int64_t right =
+        std::min<std::int64_t>(std::int64_t{box.x} + box.width, baseline.width);
+    const std::int64_t end =
+        std::min<std::int64_t>(std::int64_t{box.y} + box.height, baseline.height);
+    for (std::int64_t y = std::max(box.y, 0); y < end; ++y)
+      for (std::int64_t x = std::max(box.x, 0); x < right; ++x) {
+        const std::size_t i = static_cast<std::size_t>(y * baseline.width + x);
+        current.pixels[i] = baseline.pixels[i];
+        is_ignored[i] = true;
+      }
+  }
+  return std::ranges::count(is_ignored, true);
+}
+
+bool is_within(std::uint32_t a, std::uint32_t b, double noise) {
   for (const int shift : {16, 8, 0})
-    most = std::max(most, std::abs(static_cast<int>((a >> shift) & 0xFF) -
-                                   static_cast<int>((b >> shift) & 0xFF)));
-  return most;
+    if (std::abs(static_cast<int>((a >> shift) & 0xFF) - static_cast<int>((b >> shift) & 0xFF)) >
+        noise)
+      return false;
+  return true;
+}
+
+TileLook look_at(const Image& a, const Image& b, const TileBox& box, double noise) {
+  TileLook look;
+  const std::uint32_t first = a.row(box.y0)[box.x0];
+  for (int y = box.y0; y < box.y0 + box.height; ++y) {
+    const std::uint32_t *p = a.row(y) + box.x0, *q = b.row(y) + box.x0;
+    look.is_textured =
+        look.is_textured || std::any_of(p, p + box.width, [=](auto v) { return v != first; });
+    if (std::memcmp(p, q, sizeof *p * static_cast<std::size_t>(box.width)) == 0) continue;
+    look.differs = true;
+    for (int x = 0; x < box.width; ++x)
+      look.within_noise += p[x] != q[x] && is_within(p[x], q[x], noise);
+  }
+  return look;
+}
+
+std::vector<TileLook> looks_at(const Image& baseline, const Image& current, const ChangeMap& marks,
+                               double noise) {
+  std::vector<TileLook> looks(static_cast<std::size_t>(marks.across()) * marks.down());
+  tbb::parallel_for(0, marks.down(), [&](int row) {
+    for (int tile = row * marks.across(); tile < (row + 1) * marks.across(); ++tile)
+      looks[tile] = look_at(baseline, current, box_of(marks, baseline, tile), noise);
+  });
+  return looks;
+}
+
+/// Counts the marks, and what the evidence of all tiles comes to.
+void sum_up(std::span<const int> tiles, std::span<const TileEvidence> evidence,
+            const ChangeMap& marks, PixelDiff& pixels) {
+  std::vector<bool> is_changed(static_cast<std::size_t>(marks.across()) * marks.down(), false);
+  for (std::size_t i = 0; i < tiles.size(); ++i) {
+    const TileEvidence& tile = evidence[i];
+    pixels.differing += tile.differing;
+    const auto count = [&](PixelMark mark) {
+      return std::ranges::count(*marks.tile(tiles[i]), mark);
+    };
+    pixels.antialiased += count(PixelMark::kSmoothed);
+    const std::int64_t changed = count(PixelMark::kChanged);
+    pixels.changed += changed;
+    is_changed[tiles[i]] = changed > 0;
+    pixels.largest_colour_difference =
+        std::max(pixels.largest_colour_difference, tile.largest_colour_difference);
+    pixels.largest_mean_shift = std::max(pixels.largest_mean_shift, tile.flat_shift);
+    if (tile.moved_share > 0.7 && changed > 0)
+      pixels.largest_displacement_px =
+          std::max(pixels.largest_displacement_px, tile.displacement_px());
+    if (tile.least_structure < pixels.least_structure) {
+      pixels.least_structure = tile.least_structure;
+      pixels.least_structure_at = tile.least_structure_at;
+    }
+  }
+  const double all = static_cast<double>(pixels.baseline.width) * pixels.baseline.height;
+  pixels.changed_share = all > 0.0 ? static_cast<double>(pixels.changed) / all : 0.0;
+  for (const std::vector<int>& group : tile_groups(marks.across(), is_changed)) {
+    ++pixels.clusters;
+    std::int64_t count = 0;
+    int left = pixels.baseline.width, top = pixels.baseline.height, right = 0, bottom = 0;
+    for (const int tile : group)
+      for (int i = 0; i < kTile * kTile; ++i)
+        if ((*marks.tile(tile))[i] == PixelMark::kChanged) {
+          const int x = tile % marks.across() * kTile + i % kTile;
+          const int y = tile / marks.across() * kTile + i / kTile;
+          left = std::min(left, x), right = std::max(right, x + 1);
+          top = std::min(top, y), bottom = std::max(bottom, y + 1);
+          ++count;
+        }
+    if (count <= pixels.largest_cluster_pixels) continue;
+    pixels.largest_cluster_pixels = count;
+    pixels.largest_cluster = {left, top, right - left, bottom - top};
+  }
 }
 
 }  // namespace
 
-ImageDiff image_diff(const Image& baseline, const Image& current, const PictureOptions& options) {
+ImageDiff image_diff(const Image& baseline, Image current, const PictureOptions& options) {
   if (const std::string problem = options.problem(); !problem.empty()) throw InvalidInput(problem);
   ImageDiff diff;
   diff.pixels.baseline = {baseline.width, baseline.height};
   diff.pixels.current = {current.width, current.height};
   if (diff.pixels.baseline != diff.pixels.current) return diff;
+  diff.pixels.ignored = ignore(baseline, current, options.ignored);
   diff.marks = ChangeMap(baseline.width, baseline.height);
-  std::vector<int> different;
-  for (int i = 0; i < diff.marks.across() * diff.marks.down(); ++i)
-    if (tile_differs(baseline, current, i % diff.marks.across() * kTile,
-                     i / diff.marks.across() * kTile))
-      different.push_back(i);
-  diff.marks.keep(different);
-  for (const int i : different) {
-    const int x0 = i % diff.marks.across() * kTile, y0 = i / diff.marks.across() * kTile;
-    for (int y = y0; y < std::min(y0 + kTile, baseline.height); ++y)
-      for (int x = x0; x < std::min(x0 + kTile, baseline.width); ++x) {
-        const int most = largest_channel(baseline.row(y)[x], current.row(y)[x]);
-        if (most == 0) continue;
-        ++diff.pixels.differing;
-        const bool is_changed = most > options.noise;
-        diff.pixels.changed += is_changed;
-        (*diff.marks.tile(i))[(y - y0) * kTile + x - x0] =
-            is_changed ? PixelMark::kChanged : PixelMark::kNoise;
-      }
+
+  // Which tiles differ, and whether there is noise all over.
+  const std::vector<TileLook> looks = looks_at(baseline, current, diff.marks, options.noise);
+  std::vector<int> tiles;
+  int textured = 0;
+  double within_noise = 0.0;
+  for (std::size_t i = 0; i < looks.size(); ++i) {
+    if (looks[i].differs) tiles.push_back(static_cast<int>(i));
+    textured += looks[i].is_textured;
+    within_noise += looks[i].within_noise;
   }
-  diff.pixels.changed_share = static_cast<double>(diff.pixels.changed) /
-                              std::max(1.0, double(baseline.width) * baseline.height);
+  const double pixels = static_cast<double>(baseline.width) * baseline.height;
+  const EvidenceBounds bounds{options.noise, options.mean_noise, options.displacement_px,
+                              within_noise > kNoisyShare * pixels};
+  diff.marks.keep(tiles);
+
+  // What each of them shows, and what follows from all together.
+  std::vector<TileEvidence> evidence(tiles.size());
+  tbb::parallel_for(std::size_t{0}, tiles.size(), [&](std::size_t i) {
+    const TileBox box = box_of(diff.marks, baseline, tiles[i]);
+    evidence[i] =
+        tile_evidence(baseline, current, box.x0, box.y0, bounds, *diff.marks.tile(tiles[i]));
+  });
+  judge(tiles, evidence, textured, options, diff.marks);
+  sum_up(tiles, evidence, diff.marks, diff.pixels);
   return diff;
 }
 

@@ -10,8 +10,10 @@ struct ImageDiff {
   ChangeMap marks;  ///< Empty if the sizes differ.
 };
 
-/// Compares two pictures.
+/// Compares two pictures. What is told apart and how: docs/diff-pictures.md.
+/// @param current  Taken over; its ignored pixels are overwritten.
 /// @throws InvalidInput if the options cannot be used.
-ImageDiff image_diff(const Image& baseline, const Image& current, const PictureOptions& options);
+/// @note Linear; equal tiles cost a comparison of their bytes. In parallel over tiles.
+ImageDiff image_diff(const Image& baseline, Image current, const PictureOptions& options = {});
 
 }  // namespace mapproof

@@ -1,6 +1,7 @@
 #include "reports/diff/picture_diff.hpp"
 
 #include <cmath>
+#include <utility>
 
 #include <fmt/format.h>
 #include <tbb/parallel_invoke.h>
@@ -8,14 +9,15 @@
 #include "core/base/errors.hpp"
 #include "core/base/files.hpp"
 #include "render/image/png_check.hpp"
+#include "render/image/png_chunks.hpp"
 #include "render/image/png_read.hpp"
 #include "reports/diff/image_diff.hpp"
+#include "reports/diff/svg_diff.hpp"
 
 namespace mapproof {
 namespace {
 
 constexpr std::size_t kMostBytes = std::size_t{1} << 30;
-constexpr std::string_view kPngStart = "\x89PNG\r\n\x1A\n";
 
 /// A PNG file, or why there is none.
 struct Side {
@@ -67,18 +69,105 @@ std::string words(const PixelDiff& found, bool finer_differs) {
   return "the pixels are equal";
 }
 
-void compare_pngs(const Side& baseline, const Side& current, const PictureOptions& options,
-                  PictureDiff& diff) {
+/// What a PNG file is made of, texts and other remarks apart.
+std::vector<std::string_view> picture_chunks(std::string_view bytes) {
+  std::vector<std::string_view> chunks;
+  for (const PngChunk& chunk : png_chunks(bytes))
+    if (chunk.type == "IHDR" || chunk.type == "PLTE" || chunk.type == "tRNS" ||
+        chunk.type == "IDAT")
+      chunks.push_back(chunk.whole);
+  return chunks;
+}
+
+/// Whether pixels need not be decoded, as both files have the same. Sets what else is to be told.
+bool are_same_pngs(std::string_view before, std::string_view after, PictureDiff& diff) {
+  if (!png_problem(before).empty() || !png_problem(after).empty() ||
+      picture_chunks(before) != picture_chunks(after))
+    return false;
+  try {
+    diff.baseline_renderer = renderer(read_png_remarks(before));
+    diff.current_renderer = renderer(read_png_remarks(after));
+  } catch (const InvalidInput&) {
+    return false;
+  }
+  diff.state = PictureState::kIdentical;
+  diff.reason = before == after ? "the files are equal" : "the pixels are equal, texts apart";
+  return true;
+}
+
+void compare_pngs(std::string_view before, std::string_view after, const PictureOptions& options,
+                  Image* heat, PictureDiff& diff) {
+  if (are_same_pngs(before, after, diff)) return;
+  Side baseline, current;
+  tbb::parallel_invoke([&] { read_side(before, baseline); }, [&] { read_side(after, current); });
   diff.baseline_renderer = renderer(baseline.png);
   diff.current_renderer = renderer(current.png);
   diff.reason = unreadable(baseline.reason, current.reason);
   if (!diff.reason.empty()) return;
-  diff.pixels = image_diff(baseline.png.image, current.png.image, options).pixels;
-  diff.state = state_of(*diff.pixels, options);
+  const ImageDiff found = image_diff(baseline.png.image, std::move(current.png.image), options);
+  diff.pixels = found.pixels;
+  diff.state = state_of(found.pixels, options);
   const bool finer_differs = baseline.png.finer_digest != current.png.finer_digest;
   if (finer_differs && diff.state == PictureState::kIdentical)
     diff.state = PictureState::kWithinTolerance;
-  diff.reason = words(*diff.pixels, finer_differs);
+  diff.reason = words(found.pixels, finer_differs);
+  if (heat && found.pixels.baseline == found.pixels.current && found.pixels.differing > 0)
+    *heat = heat_map(baseline.png.image, found.marks);
+}
+
+enum class PictureKind { kPng, kSvg, kEmpty, kOther };
+
+/// By how the content begins; names of files are not asked.
+PictureKind kind_of(std::string_view bytes) {
+  if (bytes.empty()) return PictureKind::kEmpty;
+  if (bytes.starts_with("\x89PNG")) return PictureKind::kPng;
+  if (bytes.starts_with("\xEF\xBB\xBF")) bytes.remove_prefix(3);
+  const std::size_t start = bytes.find_first_not_of(" \t\r\n");
+  return start != std::string_view::npos && bytes[start] == '<' ? PictureKind::kSvg
+                                                                : PictureKind::kOther;
+}
+
+std::string kind_problem(PictureKind kind) {
+  if (kind == PictureKind::kEmpty) return "is empty";
+  return kind == PictureKind::kOther ? "is neither PNG nor SVG" : "";
+}
+
+/// An SVG file, or why there is none.
+struct SvgSide {
+  SvgTree tree;
+  std::string reason = {};
+};
+
+void read_side(std::string_view bytes, SvgSide& side) {
+  try {
+    side.tree = parse_svg(bytes);
+  } catch (const InvalidInput& error) {
+    side.reason = error.what();
+  }
+}
+
+std::string words(const SvgDiff& found) {
+  if (found.total == 0) return "the elements are equal";
+  const std::int64_t changed = found.total - found.tolerated;
+  if (changed == 0)
+    return fmt::format("{} values differ within tolerance or are remarks", found.total);
+  const SvgChange& first = found.changes.front();
+  return fmt::format("{} changes, the first: {} {}", changed, first.element, first.what);
+}
+
+void compare_svgs(std::string_view before, std::string_view after, const PictureOptions& options,
+                  PictureDiff& diff) {
+  SvgSide baseline, current;
+  tbb::parallel_invoke([&] { read_side(before, baseline); }, [&] { read_side(after, current); });
+  diff.baseline_renderer = printable(baseline.tree.generator, 200);
+  diff.current_renderer = printable(current.tree.generator, 200);
+  diff.reason = unreadable(baseline.reason, current.reason);
+  if (!diff.reason.empty()) return;
+  diff.svg = svg_diff(baseline.tree, current.tree, options);
+  diff.state = diff.svg->total == 0                     ? PictureState::kIdentical
+               : diff.svg->total == diff.svg->tolerated ? PictureState::kWithinTolerance
+                                                        : PictureState::kDifferent;
+  diff.reason = words(*diff.svg);
 }
 
 }  // namespace
@@ -114,30 +203,34 @@ std::string PictureOptions::problem() const {
 }
 
 PictureDiff picture_diff(const std::filesystem::path& baseline,
-                         const std::filesystem::path& current, const PictureOptions& options) {
+                         const std::filesystem::path& current, const PictureOptions& options,
+                         Image* heat) {
   if (const std::string problem = options.problem(); !problem.empty()) throw InvalidInput(problem);
   const std::string before = read_file(baseline, kMostBytes);
   const std::string after = read_file(current, kMostBytes);
   PictureDiff diff;
   diff.baseline_bytes = before.size();
   diff.current_bytes = after.size();
-  Side first, second;
-  tbb::parallel_invoke([&] { read_side(before, first); }, [&] { read_side(after, second); });
-  compare_pngs(first, second, options, diff);
+  if (heat) *heat = {};
+  const PictureKind first = kind_of(before), second = kind_of(after);
+  diff.reason = unreadable(kind_problem(first), kind_problem(second));
+  if (!diff.reason.empty()) return diff;
+  if (first != second) {
+    diff.state = PictureState::kDifferent;
+    diff.reason = "one file is a PNG, the other an SVG";
+  } else if (first == PictureKind::kPng) {
+    compare_pngs(before, after, options, heat, diff);
+  } else {
+    compare_svgs(before, after, options, diff);
+  }
   return diff;
 }
 
 Image heat_map(const std::filesystem::path& baseline, const std::filesystem::path& current,
                const PictureOptions& options) {
-  if (const std::string problem = options.problem(); !problem.empty()) throw InvalidInput(problem);
-  const std::string before = read_file(baseline, kMostBytes);
-  const std::string after = read_file(current, kMostBytes);
-  Side first, second;
-  tbb::parallel_invoke([&] { read_side(before, first); }, [&] { read_side(after, second); });
-  if (!first.reason.empty() || !second.reason.empty()) return {};
-  const ImageDiff found = image_diff(first.png.image, second.png.image, options);
-  return found.pixels.baseline == found.pixels.current ? heat_map(first.png.image, found.marks)
-                                                       : Image{};
+  Image heat;
+  picture_diff(baseline, current, options, &heat);
+  return heat;
 }
 
 }  // namespace mapproof

@@ -35,10 +35,11 @@ struct PictureSize {
 };
 
 struct PictureOptions {
-  std::vector<PixelBox> ignored;  ///< Pixels that are not looked at; what lies outside is nothing.
+  std::vector<PixelBox> ignored =
+      {};                         ///< Pixels that are not looked at; what lies outside is nothing.
   double noise = 2.0;             ///< Of 255, 0 to 64: what one pixel in a flat region may differ.
-  double mean_noise = 0.5;        ///< Of 255, 0 to 64: what the mean of a flat region may differ.
-  double displacement_px = 0.7;   ///< 0 to 4: how far the pieces of a picture may be moved.
+  double mean_noise = 0.4;        ///< Of 255, 0 to 64: what the mean of a flat region may differ.
+  double displacement_px = 0.35;  ///< 0 to 4: how far a piece of a picture may be moved.
   double changed_share = 0.0;     ///< 0 to 1: share of changed pixels that still is tolerated.
   double svg_distance = 0.05;     ///< User units, >= 0: what a number of SVG geometry may differ.
   double svg_colour = 0.0;        ///< Of 255, 0 to 255: what a channel of an SVG colour may differ.
@@ -97,15 +98,20 @@ struct PictureDiff {
 };
 
 /// Compares two PNG or two SVG files. What is wrong with their content is data: kUnreadable.
+///
+/// @param heat  If given, gets heat_map of two PNGs of one size that are not identical, else
+/// nothing.
 /// @throws IoError if a file cannot be opened or exceeds 2^30 bytes.
 /// @throws InvalidInput if the options cannot be used.
-/// @note Memory: two pictures at 4 bytes a pixel and half a byte of marks. Uses oneTBB's threads;
-///       the result does not depend on them.
+/// @note Files of the same bytes, and PNGs that differ in their texts alone, are not decoded. Else
+///       two pictures of 4 bytes a pixel are held, and a byte a pixel where they differ. Uses
+///       oneTBB's threads; the result does not depend on them.
 PictureDiff picture_diff(const std::filesystem::path& baseline,
-                         const std::filesystem::path& current, const PictureOptions& options = {});
+                         const std::filesystem::path& current, const PictureOptions& options = {},
+                         Image* heat = nullptr);
 
-/// The baseline in pale grey, changed pixels red, differing ones that smoothing explains yellow.
-/// Empty (0 x 0) if the files are no PNGs, cannot be read, or their sizes differ.
+/// The baseline in pale grey, changed pixels red, those yellow that noise or smoothing explains.
+/// Empty (0 x 0) if the files are no PNGs, cannot be read, are identical or their sizes differ.
 /// @throws as picture_diff.
 Image heat_map(const std::filesystem::path& baseline, const std::filesystem::path& current,
                const PictureOptions& options = {});

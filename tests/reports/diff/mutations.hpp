@@ -1,0 +1,28 @@
+#pragma once
+
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "render/image/image.hpp"
+#include "render/plot/drawing.hpp"
+#include "reports/diff/picture_diff.hpp"
+#include "tests/reports/diff/looks.hpp"
+
+namespace mapproof::test {
+
+/// Two pictures of which the second has one thing mutated, and what must be said of them.
+struct Mutation {
+  std::string name;
+  std::string picture;
+  PictureState expected = PictureState::kDifferent;
+  std::function<Image()> baseline, current;
+};
+
+/// Everything that can be mutated in a drawing, one thing at a time.
+std::vector<Mutation> mutations_of(const Drawing& drawing, const std::string& picture);
+
+/// Sample figures at several sizes and themes, thick lines and thin.
+std::vector<std::pair<std::string, Drawing>> mutable_drawings();
+
+}  // namespace mapproof::test

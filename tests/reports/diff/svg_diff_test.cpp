@@ -1,0 +1,191 @@
+#include "reports/diff/svg_diff.hpp"
+
+#include <algorithm>
+#include <string>
+
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+#include <rapidcheck/gtest.h>
+
+#include "core/base/errors.hpp"
+#include "render/figures/map.hpp"
+#include "render/plot/layout.hpp"
+#include "render/svg/svg.hpp"
+#include "reports/diff/svg_values.hpp"
+#include "tests/support/sample_figures.hpp"
+
+namespace mapproof::test {
+namespace {
+
+std::string svg(const std::string& body) {
+  return R"(<svg xmlns="http://www.w3.org/2000/svg" xmlns:xlink="http://www.w3.org/1999/xlink">)" +
+         body + "</svg>";
+}
+
+SvgDiff diff_of(const std::string& a, const std::string& b, const PictureOptions& options = {}) {
+  return svg_diff(parse_svg(a), parse_svg(b), options);
+}
+
+SvgDiff body_diff(const std::string& a, const std::string& b) { return diff_of(svg(a), svg(b)); }
+
+Drawing usual_map() { return lay_out(map_figure(sample_map(30, 0.12, 1), "map"), report_theme()); }
+
+/// Circles in a row without ids, as other programs write them.
+std::string row_of_circles(int count, int without, double shift) {
+  std::string body;
+  for (int i = 0; i < count; ++i)
+    if (i != without)
+      body += fmt::format(R"(<circle cx="{}" cy="{}" r="2"/>)", 10 * i + shift, i * i % 17);
+  return "<g>" + body + "</g>";
+}
+
+TEST(SvgDiff, AFileIsLikeItself) {
+  const std::string text = to_svg(usual_map());
+  EXPECT_EQ(diff_of(text, text).total, 0);
+}
+
+TEST(SvgDiff, WhatIsWrittenOtherwiseAndMeansTheSameIsNoChange) {
+  for (const auto& [a, b] : {
+           std::pair{"<rect fill='#f00' x='1'/>", "<rect x='1.0' style='fill: red'/>"},
+           {"<rect fill='#abc'/>", "<rect fill='rgb(170, 187,204)'/>"},
+           {"<rect fill='rgb(100%,0%,0%)'/>", "<rect fill='RED'/>"},
+           {"<path d='M10-5l1 1 2 2z'/>", "<path d='M 10,-5 L 11,-4 l 2 2 Z'/>"},
+           {"<path d='M0 0A1 1 0 0 1 2 2'/>", "<path d='m0,0a1,1,0,012,2'/>"},
+           {"<g transform='translate(3)'/>", "<g transform='matrix(1 0 0 1 3 0)'/>"},
+           {"<g transform='rotate(0 5 5)scale(2)'/>", "<g transform='scale(2,2)'/>"},
+           {"<rect width='5px'/>", "<rect   width='5'></rect>"},
+           {"<text>a  b</text>", "<text> a b\n</text>"},
+       })
+    EXPECT_EQ(body_diff(a, b).total, 0) << a << " " << b;
+}
+
+TEST(SvgDiff, OneElementThatIsGoneIsOneChange) {
+  for (const double shift : {0.0, 0.01}) {
+    const SvgDiff found = body_diff(row_of_circles(40, -1, 0.0), row_of_circles(40, 17, shift));
+    EXPECT_EQ(found.total - found.tolerated, 1);
+    ASSERT_FALSE(found.changes.empty());
+    EXPECT_EQ(found.changes[0].what, "removed");
+    EXPECT_EQ(found.changes[0].element, "svg/g[1]/circle[18]");
+    EXPECT_EQ(found.structure, 1);
+  }
+}
+
+TEST(SvgDiff, AMarkerLostFromAFigureIsNamedByItsId) {
+  Drawing drawing = usual_map();
+  const std::string before = to_svg(drawing);
+  const auto marker = std::ranges::find_if(
+      drawing.items, [](const Item& item) { return item.role == Role::kMarker && item.mark; });
+  ASSERT_NE(marker, drawing.items.end());
+  drawing.items.erase(marker);
+  const SvgDiff found = diff_of(before, to_svg(drawing));
+  EXPECT_GE(found.structure, 1);
+  EXPECT_LE(found.total - found.tolerated, 2);
+}
+
+TEST(SvgDiff, NumbersHaveATolerance) {
+  const SvgDiff near = body_diff(R"(<circle cx="1"/>)", R"(<circle cx="1.04"/>)");
+  EXPECT_EQ(near.geometry, 1);
+  EXPECT_EQ(near.tolerated, 1);
+  const SvgDiff far = body_diff(R"(<path d="M0 0L5 5"/>)", R"(<path d="M0 0L5 6.5"/>)");
+  EXPECT_EQ(far.tolerated, 0);
+  EXPECT_DOUBLE_EQ(far.changes.at(0).distance, 1.5);
+  EXPECT_EQ(body_diff(R"(<g opacity="0.2"/>)", R"(<g opacity="0.21"/>)").tolerated, 0);
+  EXPECT_EQ(body_diff(R"(<g stroke-width="1"/>)", R"(<g/>)").style, 1);
+}
+
+TEST(SvgDiff, ColoursHaveADistance) {
+  const SvgDiff found = body_diff(R"(<g style="fill:#102030"/>)", R"(<g fill="#102034"/>)");
+  EXPECT_EQ(found.style, 1);
+  EXPECT_DOUBLE_EQ(found.changes.at(0).distance, 4.0);
+  EXPECT_FALSE(found.changes[0].tolerated);
+  EXPECT_EQ(diff_of(svg(R"(<g fill="#102030"/>)"), svg(R"(<g fill="#102034"/>)"), {.svg_colour = 4})
+                .tolerated,
+            1);
+}
+
+TEST(SvgDiff, TextAndRemarksAreToldApart) {
+  const SvgDiff found = body_diff("<title>a</title><text>x</text><g data-p='1'/>",
+                                  "<title>b</title><text>y</text><g data-p='2'/>");
+  EXPECT_EQ(found.text, 1);
+  EXPECT_EQ(found.metadata, 2);
+  EXPECT_EQ(found.tolerated, 2);
+}
+
+TEST(SvgDiff, TheOrderOfDrawingCounts) {
+  const SvgDiff found =
+      body_diff("<g id='a'/><g id='b'/><g id='c'/>", "<g id='c'/><g id='a'/><g id='b'/>");
+  EXPECT_EQ(found.total, 1);
+  EXPECT_EQ(found.changes.at(0).what, "moved");
+  EXPECT_EQ(found.changes[0].element, "svg/g#c");
+}
+
+TEST(SvgDiff, IdsThatAreMadeUpAnewAreRemarks) {
+  const SvgDiff found = body_diff("<defs><path id='m1f' d='M0 0'/></defs><use xlink:href='#m1f'/>",
+                                  "<defs><path id='x9a' d='M0 0'/></defs><use href='#x9a'/>");
+  EXPECT_EQ(found.tolerated, found.total);
+  EXPECT_EQ(body_diff("<path id='a'/><path id='b' d='M1 1'/><use href='#a'/>",
+                      "<path id='a'/><path id='b' d='M1 1'/><use href='#b'/>")
+                .style,
+            1);
+}
+
+TEST(SvgDiff, ListsNoMoreThanABoundedNumber) {
+  const SvgDiff found = body_diff(row_of_circles(900, -1, 0), row_of_circles(900, -1, 3));
+  EXPECT_EQ(found.changes.size(), 200u);
+  EXPECT_EQ(found.geometry, 900);
+}
+
+TEST(SvgParser, RefusesWhatRunsOrLoadsOrBlowsUp) {
+  std::string deep;
+  for (int i = 0; i < 300; ++i) deep += "<g>";
+  for (const std::string& text :
+       {std::string(), std::string("<svg"), svg("<g></rect>"), std::string("<html/>"),
+        "<!DOCTYPE svg [<!ENTITY a 'aaaa'><!ENTITY b '&a;&a;'>]>" + svg("<text>&b;</text>"),
+        "<!DOCTYPE svg SYSTEM 'x' [<!ENTITY x SYSTEM 'file:///etc/passwd'>]>" + svg("&x;"),
+        svg("<script>1</script>"), svg("<g onclick='x()'/>"),
+        svg("<image xlink:href='http://example.org/a.png'/>"), svg("<use href='other.svg#a'/>"),
+        svg("<a href='javascript:x()'/>"), svg("<g fill='url(http://example.org/#a)'/>"),
+        svg("<style>@import 'x.css';</style>"), svg("<foreignObject/>"), svg(deep)})
+    EXPECT_THROW(parse_svg(text), InvalidInput) << text.substr(0, 200);
+}
+
+TEST(SvgParser, TakesWhatOtherProgramsWrite) {
+  EXPECT_NO_THROW(parse_svg(
+      "<?xml version='1.0' standalone='no'?><!DOCTYPE svg PUBLIC '-//W3C//DTD SVG 1.1//EN' "
+      "'http://www.w3.org/Graphics/SVG/1.1/DTD/svg11.dtd'><!-- Created with x -->" +
+      svg("<a href='https://example.org'/><g clip-path='url(#p)'/>"
+          "<image href='data:image/png;base64,AA=='/>")));
+}
+
+TEST(SvgValues, NamesOfColoursAreKnown) {
+  EXPECT_EQ(css_colour("rebeccapurple"), (std::array<double, 3>{0x66, 0x33, 0x99}));
+  EXPECT_EQ(css_colour("none"), std::nullopt);
+  EXPECT_EQ(css_colour("#12345"), std::nullopt);
+}
+
+RC_GTEST_PROP(SvgValues, APathMovedAsAWholeIsThatFarAway, ()) {
+  const auto steps = *rc::gen::nonEmpty(rc::gen::container<std::vector<std::pair<int, int>>>(
+      rc::gen::pair(rc::gen::inRange(-99, 99), rc::gen::inRange(-99, 99))));
+  const int by = *rc::gen::inRange(1, 50);
+  std::string relative = "m 7 7", absolute = fmt::format("M{},7", 7 + by);
+  int x = 7 + by, y = 7;
+  for (const auto& [dx, dy] : steps) {
+    relative += fmt::format("l{},{}", dx, dy);
+    x += dx, y += dy;
+    absolute += fmt::format(" L {} {}", x, y);
+  }
+  RC_ASSERT(value_distance("d", relative, absolute).distance == by);
+}
+
+RC_GTEST_PROP(SvgParser, NoBytesDoHarm, ()) {
+  const auto middle = *rc::gen::container<std::string>(
+      rc::gen::elementOf(std::string("<>/='\" \n&;#!-[]gsv:aAdzM01.")));
+  try {
+    const SvgTree tree = parse_svg(svg(middle));
+    RC_ASSERT(svg_diff(tree, tree).total == 0);
+  } catch (const InvalidInput&) {
+  }
+}
+
+}  // namespace
+}  // namespace mapproof::test
