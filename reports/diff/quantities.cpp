@@ -1,0 +1,70 @@
+#include "reports/diff/quantities.hpp"
+
+#include <algorithm>
+#include <array>
+#include <limits>
+
+#include <fmt/format.h>
+
+namespace mapproof {
+namespace {
+
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+constexpr auto kLower = Direction::kLowerIsBetter;
+constexpr auto kNeither = Direction::kNeither;
+
+constexpr std::array kQuantities = {
+    QuantityFacts{"mpe_m", "MPE", "m", kLower, {1e-6, 1e-6}},
+    QuantityFacts{"moe_percent", "MOE", "%", kLower, {1e-9, 0.0}},
+    QuantityFacts{"mpe_all_fitted_m", "MPE fitted to all landmarks", "m", kLower, {1e-6, 1e-6}},
+    QuantityFacts{"moe_unmirrored_percent", "MOE free of reflection", "%", kLower, {1e-9, 0.0}},
+    QuantityFacts{"stress", "stress", "", kLower, {1e-9, 1e-6}},
+    QuantityFacts{"relative_gap", "relative gap", "", kLower, {1e-5, 0.0}},
+    QuantityFacts{"iterations", "iterations", "", kNeither, {kInfinity, 0.0}},
+    QuantityFacts{"landmark_m", "landmark", "m", kNeither, {1e-6, 1e-6}},
+    QuantityFacts{"landmark_shape", "landmark", "of the spread", kNeither, {1e-6, 0.0}},
+    QuantityFacts{"path_m", "position on the path", "m", kNeither, {1e-6, 1e-6}},
+    QuantityFacts{"mean_m", "mean error of the path", "m", kLower, {1e-6, 1e-6}},
+    QuantityFacts{"rmse_m", "root mean square error of the path", "m", kLower, {1e-6, 1e-6}},
+    QuantityFacts{"last_tenth_m", "error in the last tenth", "m", kLower, {1e-6, 1e-6}},
+    QuantityFacts{"best_tenth_m", "error in the best tenth", "m", kLower, {1e-6, 1e-6}},
+    QuantityFacts{"worst_tenth_m", "error in the worst tenth", "m", kLower, {1e-6, 1e-6}},
+    QuantityFacts{"landmarks_m", "mean error of landmarks", "m", kLower, {1e-6, 1e-6}},
+    QuantityFacts{"range_scale", "range scale", "", kNeither, {1e-9, 1e-6}},
+    QuantityFacts{"cost", "cost", "", kLower, {1e-9, 1e-6}},
+    QuantityFacts{"observation_error", "error of the observations", "", kLower, {1e-9, 1e-6}},
+    QuantityFacts{"positions_m", "mean error of positions", "m", kLower, {1e-6, 1e-6}},
+    QuantityFacts{"sine", "sine of the canonical angle", "", kLower, {1e-9, 1e-6}},
+    QuantityFacts{"other", "other numbers of the records", "", kNeither, {1e-9, 1e-6}},
+};
+
+}  // namespace
+
+std::span<const QuantityFacts> all_quantities() { return kQuantities; }
+
+const QuantityFacts* find_quantity(std::string_view name) {
+  const auto* found = std::ranges::find(kQuantities, name, &QuantityFacts::name);
+  return found == kQuantities.end() ? nullptr : found;
+}
+
+Tolerance tolerance_of(const QuantityFacts& quantity, const Tolerances& changed) {
+  const auto found = changed.find(quantity.name);
+  return found == changed.end() ? quantity.tolerance : found->second;
+}
+
+std::string quantity_text(double value) {
+  return std::isfinite(value) ? fmt::format("{:.4g}", value) : std::string("none");
+}
+
+std::string change_text(double baseline, double current, std::string_view unit) {
+  std::string from, to;
+  for (int digits = 3; digits <= 17 && (digits == 3 || (from == to && baseline != current));
+       ++digits) {
+    from = std::isfinite(baseline) ? fmt::format("{:.{}g}", baseline, digits) : "none";
+    to = std::isfinite(current) ? fmt::format("{:.{}g}", current, digits) : "none";
+    if (!std::isfinite(baseline) && !std::isfinite(current)) break;
+  }
+  return fmt::format("{} \u2192 {}{}{}", from, to, unit.empty() ? "" : " ", unit);
+}
+
+}  // namespace mapproof
