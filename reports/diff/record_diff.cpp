@@ -1,0 +1,163 @@
+#include "reports/diff/record_diff.hpp"
+
+#include <algorithm>
+#include <set>
+
+#include <fmt/format.h>
+
+#include "core/base/errors.hpp"
+#include "reports/diff/number_diff.hpp"
+#include "reports/diff/record_points.hpp"
+#include "reports/diff/record_series.hpp"
+#include "reports/diff/record_words.hpp"
+
+namespace mapproof {
+namespace {
+
+/// What both have is given to `both`, the rest listed.
+template <typename Map, typename Both>
+void match(const Map& a, const Map& b, std::vector<std::string>& missing,
+           std::vector<std::string>& added, Both both) {
+  for (const auto& [key, value] : a) {
+    const auto other = b.find(key);
+    if (other == b.end())
+      missing.push_back(key);
+    else
+      both(key, value, other->second);
+  }
+  for (const auto& [key, value] : b)
+    if (!a.contains(key)) added.push_back(key);
+}
+
+void compare_settings(const RecordSet& a, const RecordSet& b, RecordDiff& diff) {
+  std::set<std::string> pointers;
+  for (const RecordSet* side : {&a, &b})
+    for (const auto& [pointer, value] : side->settings) pointers.insert(pointer);
+  for (const std::string& pointer : pointers) {
+    const auto before = a.settings.find(pointer), after = b.settings.find(pointer);
+    const std::string first = before == a.settings.end() ? "" : before->second;
+    const std::string second = after == b.settings.end() ? "" : after->second;
+    if (first != second) diff.settings.push_back({pointer, first, second});
+  }
+}
+
+void compare_provenance(const Provenance& a, const Provenance& b, RecordDiff& diff) {
+  const auto add = [&](const std::string& what, const std::string& first,
+                       const std::string& second) {
+    if (first != second) diff.provenance.push_back({what, first, second});
+  };
+  add("mapproof", a.version, b.version);
+  add("commit", a.commit, b.commit);
+  add("solver digest", a.solver_digest, b.solver_digest);
+  std::map<std::string, std::pair<std::string, std::string>> libraries;
+  for (const auto& [library, version] : a.libraries) libraries[library].first = version;
+  for (const auto& [library, version] : b.libraries) libraries[library].second = version;
+  for (const auto& [library, versions] : libraries) add(library, versions.first, versions.second);
+}
+
+void compare_subjects(const RecordSet& a, const RecordSet& b, RecordDiff& diff) {
+  std::set<std::string> matched;
+  std::set<std::string> there;
+  for (const auto& [key, values] : b.values) there.insert(key.subject);
+  for (const auto& [subject, other] : matched_subjects(a, b)) {
+    if (there.contains(other))
+      matched.insert(other);
+    else
+      diff.missing_subjects.push_back(subject);
+  }
+  for (const std::string& subject : there)
+    if (!matched.contains(subject)) diff.new_subjects.push_back(subject);
+}
+
+/// Points of records on one side alone follow from runs, subjects or damaged files, which are told;
+/// files that are equal on both sides were not read.
+void compare_points(const RecordSet& a, const RecordSet& b, const Tolerances& tolerances,
+                    RecordDiff& diff) {
+  std::vector<std::string> missing, added;
+  match(a.points, b.points, missing, added,
+        [&](const std::string& record, const PlacedPoints& before, const PlacedPoints& after) {
+          if (auto moved = points_diff(record, before, after, tolerances))
+            diff.points.push_back(*std::move(moved));
+        });
+}
+
+void compare_rest(const RecordSet& a, const RecordSet& b, const RecordOptions& options,
+                  RecordDiff& diff) {
+  std::vector<std::string> missing, added;
+  match(a.statuses, b.statuses, missing, added,
+        [&](const std::string& record, const std::string& before, const std::string& after) {
+          if (before != after) diff.statuses.push_back({record, before, after});
+        });
+  match(a.anchors, b.anchors, missing, added,
+        [&](const std::string& run, const std::string& before, const std::string& after) {
+          if (before != after) diff.anchors.push_back(run);
+        });
+  const Tolerance tolerance = tolerance_of(*find_quantity("other"), options.tolerances);
+  match(a.others, b.others, missing, added,
+        [&](const std::string& name, const auto& before, const auto& after) {
+          try {
+            OtherDiff other = number_diff(name, before, after, tolerance);
+            if (other.within + other.beyond > 0 || other.shape)
+              diff.others.push_back(std::move(other));
+          } catch (const IoError& error) {
+            diff.problems.push_back({name + ".json", error.what()});
+          }
+        });
+  for (const RecordSet* side : {&a, &b})
+    diff.problems.insert(diff.problems.end(), side->problems.begin(), side->problems.end());
+}
+
+}  // namespace
+
+std::string_view name(Outcome outcome) {
+  switch (outcome) {
+    case Outcome::kEqual:
+      return "equal";
+    case Outcome::kWithinTolerance:
+      return "within-tolerance";
+    case Outcome::kBetter:
+      return "better";
+    case Outcome::kWorse:
+      return "worse";
+    case Outcome::kChanged:
+      return "changed";
+  }
+  return "";
+}
+
+RecordDiff record_diff(const RecordSet& a, const RecordSet& b, const RecordOptions& options) {
+  if (a.kind != b.kind)
+    throw InvalidInput(fmt::format("the baseline is a {}, the current a {}: not to be compared",
+                                   a.kind, b.kind));
+  RecordDiff diff;
+  diff.same_seeds = have_same_seeds(a, b, options.tolerances);
+  compare_settings(a, b, diff);
+  compare_provenance(a.provenance, b.provenance, diff);
+  match(a.runs, b.runs, diff.missing_runs, diff.new_runs,
+        [](const std::string&, const std::string&, const std::string&) {});
+  compare_subjects(a, b, diff);
+  diff.comparisons = compare_series(a, b, diff.same_seeds, options, diff.values);
+  compare_points(a, b, options.tolerances, diff);
+  compare_rest(a, b, options, diff);
+  diff.judgement = judge(diff);
+  return diff;
+}
+
+RecordTie tie(const RecordDiff& diff, const std::string& id) {
+  RecordTie found;
+  std::string subject = id.substr(0, id.find(" of "));
+  for (const PointsDiff& points : diff.points)
+    if (points.record == subject || points.record == subject + "/path")
+      found.points.push_back(&points);
+  if (subject.starts_with("layout-") && subject.find('/') != std::string::npos) {
+    found.run = subject.substr(0, subject.find('/'));
+    subject = subject.substr(found.run.size() + 1);
+  }
+  for (const Comparison& comparison : diff.comparisons)
+    if (comparison.subject == subject || comparison.current_subject == subject ||
+        comparison.subject.starts_with(subject + "/"))
+      found.comparisons.push_back(&comparison);
+  return found;
+}
+
+}  // namespace mapproof

@@ -1,0 +1,231 @@
+#include "reports/diff/record_series.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <set>
+
+#include "reports/diff/record_points.hpp"
+
+namespace mapproof {
+namespace {
+
+constexpr std::size_t kMostPairs = 20;
+constexpr int kLeastTested = 6;  // Below it, no p can be less than 0.05.
+constexpr double kNothing = std::numeric_limits<double>::quiet_NaN();
+
+using Values = std::map<std::string, double>;
+
+std::set<std::string> subjects_of(const RecordSet& set) {
+  std::set<std::string> subjects;
+  for (const auto& [key, values] : set.values) subjects.insert(key.subject);
+  return subjects;
+}
+
+/// Subjects of `some` that are not in `others`, by family.
+std::map<std::string, std::vector<std::string>> lone_subjects(const RecordSet& some,
+                                                              const RecordSet& others) {
+  const std::set<std::string> there = subjects_of(others);
+  std::map<std::string, std::vector<std::string>> lone;
+  for (const std::string& subject : subjects_of(some)) {
+    if (there.contains(subject)) continue;
+    const auto family = some.families.find(subject);
+    if (family != some.families.end()) lone[family->second.name].push_back(subject);
+  }
+  return lone;
+}
+
+double mean(const std::vector<double>& values) {
+  double sum = 0.0;
+  for (const double value : values) sum += value;
+  return values.empty() ? kNothing : sum / static_cast<double>(values.size());
+}
+
+double mean_of(const Values& values) {
+  std::vector<double> known;
+  for (const auto& [run, value] : values)
+    if (std::isfinite(value)) known.push_back(value);
+  return mean(known);
+}
+
+/// Differences of pairs, by layout and by run.
+struct Differences {
+  std::map<std::string, std::vector<double>> by_layout;
+  std::vector<double> by_run;
+  int up = 0, down = 0;  ///< Beyond tolerance.
+};
+
+void compare_pair(const std::string& run, const std::string& layout, double a, double b,
+                  const Tolerance& tolerance, Comparison& out, Differences& differences) {
+  if (std::isnan(a) && std::isnan(b)) return;
+  if (std::isnan(a) || std::isnan(b)) {
+    ++(std::isnan(a) ? out.gained : out.lost);
+    out.largest.push_back({run, a, b});
+    return;
+  }
+  ++out.pairs;
+  if (std::isinf(a) || std::isinf(b)) {  // An unproved gap: no difference, but better or worse.
+    if (a == b) {
+      ++out.equal;
+      return;
+    }
+  } else {
+    differences.by_run.push_back(b - a);
+    differences.by_layout[layout].push_back(b - a);
+    if (a == b) {
+      ++out.equal;
+      return;
+    }
+    if (tolerance.holds(a, b)) {
+      ++out.within;
+      return;
+    }
+  }
+  ++out.beyond;
+  ++(b > a ? differences.up : differences.down);
+  out.largest.push_back({run, a, b});
+}
+
+std::optional<PairedTest> paired_test(const Differences& differences) {
+  PairedTest test;
+  std::vector<double> means;
+  for (const auto& [layout, values] : differences.by_layout) means.push_back(mean(values));
+  const bool by_layout = static_cast<int>(means.size()) >= kLeastTested;
+  test.unit = by_layout ? "layout" : "run";
+  const std::vector<double>& units = by_layout ? means : differences.by_run;
+  if (static_cast<int>(units.size()) < kLeastTested) return std::nullopt;
+  test.test = signed_rank_test(units);
+  test.p = test.test.p;
+  return test;
+}
+
+void keep_largest(std::vector<PairedValue>& pairs) {
+  const auto size = [](const PairedValue& pair) {
+    const double difference = std::abs(pair.current - pair.baseline);
+    return std::isnan(difference) ? std::numeric_limits<double>::infinity() : difference;
+  };
+  std::ranges::stable_sort(pairs, std::ranges::greater(), size);
+  if (pairs.size() > kMostPairs) pairs.resize(kMostPairs);
+}
+
+/// A comparison with what decides its outcome.
+struct Open {
+  Comparison comparison;
+  Differences differences;
+};
+
+/// The value of a run; NaN where the side has the run but not the value, nothing where it lacks both.
+std::optional<double> value_of(const RecordSet& set, const Values& values, const std::string& run) {
+  const auto found = values.find(run);
+  if (found != values.end()) return found->second;
+  return run.empty() || set.runs.contains(run) ? std::optional(kNothing) : std::nullopt;
+}
+
+Open compare(const RecordSet& a, const RecordSet& b, const Values& before, const Values& after,
+             bool same_seeds, const Tolerance& tolerance) {
+  Open open;
+  Comparison& out = open.comparison;
+  std::set<std::string> runs;
+  for (const Values* side : {&before, &after})
+    for (const auto& [run, value] : *side) runs.insert(run);
+  std::vector<double> firsts, seconds;
+  for (const std::string& run : runs) {
+    const std::optional<double> first = value_of(a, before, run), second = value_of(b, after, run);
+    if (!first || !second) continue;
+    const auto layout = a.runs.find(run);
+    compare_pair(run, layout == a.runs.end() ? run : layout->second, *first, *second, tolerance,
+                 out, open.differences);
+    if (!std::isfinite(*first) || !std::isfinite(*second)) continue;
+    firsts.push_back(*first);
+    seconds.push_back(*second);
+  }
+  out.baseline_mean = same_seeds && !firsts.empty() ? mean(firsts) : mean_of(before);
+  out.current_mean = same_seeds && !seconds.empty() ? mean(seconds) : mean_of(after);
+  keep_largest(out.largest);
+  if (same_seeds && a.repeats && out.beyond > 0) out.test = paired_test(open.differences);
+  return open;
+}
+
+Outcome outcome_of(const Open& open, bool same_seeds, const QuantityFacts& quantity,
+                   const RecordOptions& options) {
+  const Comparison& c = open.comparison;
+  if (c.beyond + c.lost + c.gained == 0)
+    return c.within > 0 ? Outcome::kWithinTolerance : Outcome::kEqual;
+  if (quantity.direction == Direction::kNeither || !same_seeds) return Outcome::kChanged;
+  if (c.test && c.lost + c.gained == 0) {
+    const bool decides = c.test->p < options.significance &&
+                         std::abs(c.test->test.effect) >= options.least_effect;
+    if (!decides) return Outcome::kChanged;
+    return c.test->test.effect > 0.0 ? Outcome::kWorse : Outcome::kBetter;
+  }
+  const int worse = open.differences.up + c.lost, better = open.differences.down + c.gained;
+  if (worse > 0 && better > 0) return Outcome::kChanged;
+  return worse > 0 ? Outcome::kWorse : Outcome::kBetter;
+}
+
+void correct(std::vector<Open>& all) {
+  std::vector<double> p;
+  for (const Open& open : all)
+    if (open.comparison.test) p.push_back(open.comparison.test->p);
+  const std::vector<double> corrected = holm(p);
+  std::size_t next = 0;
+  for (Open& open : all)
+    if (open.comparison.test) open.comparison.test->p = corrected[next++];
+}
+
+}  // namespace
+
+bool have_same_seeds(const RecordSet& a, const RecordSet& b, const Tolerances& tolerances) {
+  if (a.seed != b.seed) return false;
+  return std::ranges::all_of(a.worlds, [&](const auto& world) {
+    const auto other = b.worlds.find(world.first);
+    return other == b.worlds.end() || same_places(world.second, other->second, tolerances);
+  });
+}
+
+std::map<std::string, std::string> matched_subjects(const RecordSet& a, const RecordSet& b) {
+  std::map<std::string, std::string> matched;
+  for (const std::string& subject : subjects_of(a)) matched[subject] = subject;
+  const auto after = lone_subjects(b, a);
+  for (const auto& [family, before] : lone_subjects(a, b)) {
+    const auto other = after.find(family);
+    if (other != after.end() && before.size() == 1 && other->second.size() == 1)
+      matched[before[0]] = other->second[0];
+  }
+  return matched;
+}
+
+std::vector<Comparison> compare_series(const RecordSet& a, const RecordSet& b, bool same_seeds,
+                                       const RecordOptions& options, long& values) {
+  const std::set<std::string> there = subjects_of(b);
+  static const Values kNone;
+  std::vector<Open> all;
+  values = 0;
+  for (const auto& [subject, other] : matched_subjects(a, b)) {
+    if (!there.contains(other)) continue;
+    for (const QuantityFacts& quantity : all_quantities()) {
+      const auto before = a.values.find({subject, std::string(quantity.name)});
+      const auto after = b.values.find({other, std::string(quantity.name)});
+      if (before == a.values.end() && after == b.values.end()) continue;
+      Open open = compare(a, b, before == a.values.end() ? kNone : before->second,
+                          after == b.values.end() ? kNone : after->second, same_seeds,
+                          tolerance_of(quantity, options.tolerances));
+      Comparison& c = open.comparison;
+      values += c.pairs + c.lost + c.gained;
+      c.subject = subject;
+      c.current_subject = other;
+      c.quantity = quantity.name;
+      if (c.within + c.beyond + c.lost + c.gained > 0) all.push_back(std::move(open));
+    }
+  }
+  correct(all);
+  std::vector<Comparison> compared;
+  for (Open& open : all) {
+    open.comparison.outcome =
+        outcome_of(open, same_seeds, *find_quantity(open.comparison.quantity), options);
+    compared.push_back(std::move(open.comparison));
+  }
+  return compared;
+}
+
+}  // namespace mapproof

@@ -1,0 +1,167 @@
+#include "reports/diff/record_set.hpp"
+
+#include <fstream>
+#include <limits>
+#include <system_error>
+
+#include <fmt/format.h>
+
+#include "core/base/errors.hpp"
+#include "core/base/files.hpp"
+#include "core/json/json_cursor.hpp"
+#include "core/records/map_files.hpp"
+#include "core/records/slam_run_json.hpp"
+#include "core/records/slam_store.hpp"
+#include "core/records/study_store.hpp"
+#include "reports/diff/record_set_parts.hpp"
+
+namespace mapproof {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr double kNothing = std::numeric_limits<double>::quiet_NaN();
+
+bool is_plain(const nlohmann::json& value) {
+  if (!value.is_array()) return value.is_primitive();
+  return std::ranges::all_of(value, [](const auto& item) { return item.is_primitive(); });
+}
+
+void flatten(const nlohmann::json& value, const std::string& pointer,
+             std::map<std::string, std::string>& out) {
+  if (is_plain(value)) {
+    out[pointer] = value.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
+    return;
+  }
+  if (value.is_array()) {
+    for (std::size_t i = 0; i < value.size(); ++i)
+      flatten(value[i], fmt::format("{}/{}", pointer, i), out);
+    return;
+  }
+  for (const auto& [key, item] : value.items()) flatten(item, pointer + "/" + key, out);
+}
+
+/// The JSON file of a map or of one log's result: the path itself, or the file in its folder.
+fs::path single_file(const fs::path& path) {
+  std::error_code error;
+  if (!fs::is_directory(path, error)) return path;
+  for (const char* name : {"map.json", "slam.json"})
+    if (fs::is_regular_file(path / name, error)) return path / name;
+  return {};
+}
+
+RecordSet read_single(const fs::path& file) {
+  const std::string text = read_file(file);
+  const std::string source = file.string();
+  const std::string schema = schema_of(parse_json(text, source).cursor()).name;
+  RecordSet set;
+  set.kind = schema;
+  if (schema == "mapproof.map") {
+    const MapRecord map = parse_map(text, source);
+    const std::string subject =
+        add_subject(set, map.sensor, map.setting, std::to_string(map.step));
+    set.runs[""] = "";
+    add_score(set, subject, "", map.score);
+    add_statuses(set, map.id, map.statuses);
+    add_map(set, map.id, map);
+    return set;
+  }
+  if (schema != "mapproof.slam_run") throw IoError(source, "holds no records but " + schema);
+  const SlamRun run = parse_slam_run(text, source);
+  add_slam_run(set, run);
+  return set;
+}
+
+}  // namespace
+
+bool same_bytes(const fs::path& a, const fs::path& b) {
+  std::error_code error;
+  const auto size = fs::file_size(a, error);
+  if (error || size != fs::file_size(b, error) || error) return false;
+  std::ifstream first(a, std::ios::binary), second(b, std::ios::binary);
+  std::string block(1 << 16, '\0'), other(1 << 16, '\0');
+  while (first && second) {
+    first.read(block.data(), static_cast<std::streamsize>(block.size()));
+    second.read(other.data(), static_cast<std::streamsize>(other.size()));
+    if (first.gcount() != second.gcount()) return false;
+    const auto count = static_cast<std::size_t>(first.gcount());
+    if (block.compare(0, count, other, 0, count) != 0) return false;
+    if (count == 0) break;
+  }
+  return first.eof() && second.eof();
+}
+
+void add_settings(RecordSet& set, const std::string& text, const std::string& source) {
+  const JsonDocument document = parse_json(text, source);
+  if (document.root.contains("experiment"))
+    flatten(document.root["experiment"], "", set.settings);
+  const auto seed = set.settings.find("/seed");
+  if (seed != set.settings.end()) set.seed = seed->second;
+}
+
+std::string add_subject(RecordSet& set, Sensor sensor, const MethodSetting& setting,
+                        const std::string& place) {
+  const std::string subject = fmt::format("{}/{}/{}", name(sensor), slug(setting), place);
+  if (setting.parameter)
+    set.families[subject] = {
+        fmt::format("{}/{}/{}", name(sensor), info(setting.method).name, place),
+        parameter_text(setting)};
+  return subject;
+}
+
+void add_value(RecordSet& set, const std::string& subject, std::string_view quantity,
+               const std::string& run, double value) {
+  set.values[{subject, std::string(quantity)}][run] = value;
+}
+
+void add_score(RecordSet& set, const std::string& subject, const std::string& run,
+               const std::optional<Score>& score) {
+  add_value(set, subject, "mpe_m", run, score ? score->mpe_m : kNothing);
+  add_value(set, subject, "moe_percent", run, score ? score->moe_percent : kNothing);
+  add_value(set, subject, "mpe_all_fitted_m", run, score ? score->mpe_all_fitted_m : kNothing);
+  add_value(set, subject, "moe_unmirrored_percent", run,
+            score ? score->moe_unmirrored_percent : kNothing);
+}
+
+void add_map(RecordSet& set, const std::string& id, const MapRecord& map) {
+  set.points[id] = {.quantity = map.frame == Frame::kTruth ? "landmark_m" : "landmark_shape",
+                    .frame = map.frame,
+                    .names = map.names,
+                    .points = map.estimate,
+                    .truth = map.truth_m};
+}
+
+void add_statuses(RecordSet& set, const std::string& id, const std::vector<Status>& statuses) {
+  std::string codes;
+  for (const Status& status : statuses)
+    codes += (codes.empty() ? "" : ", ") + std::string(name(status.code));
+  set.statuses[id] = codes;
+}
+
+bool holds_records(const fs::path& path) {
+  std::error_code error;
+  if (fs::is_directory(path, error)) return is_study(path) || !single_file(path).empty();
+  const std::string file = path.filename().string();
+  if (!file.ends_with(".json") || file.ends_with(".figure.json") || file.ends_with(".scene.json"))
+    return false;
+  try {
+    const std::string schema =
+        schema_of(parse_json(read_file(path), path.string()).cursor()).name;
+    return schema == "mapproof.map" || schema == "mapproof.slam_run";
+  } catch (const IoError&) {
+    return false;
+  }
+}
+
+RecordSet read_records(const fs::path& path, const fs::path& beside) {
+  std::error_code error;
+  if (!fs::is_directory(path, error)) return read_single(path);
+  if (!is_study(path)) {
+    const fs::path file = single_file(path);
+    if (file.empty()) throw IoError(path.string(), "holds no records");
+    return read_single(file);
+  }
+  return is_slam_study(path) ? read_slam_records(path) : read_study_records(path, beside);
+}
+
+}  // namespace mapproof

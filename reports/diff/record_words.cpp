@@ -1,0 +1,217 @@
+#include "reports/diff/record_words.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include "core/base/errors.hpp"
+#include "core/base/words.hpp"
+
+namespace mapproof {
+namespace {
+
+constexpr std::size_t kMostNames = 3;
+
+/// Heavier first, then the order of all_quantities(), then the least p, then the largest change.
+bool tells_more(const Comparison& a, const Comparison& b) {
+  const Verdict first = verdict_of(a.outcome), second = verdict_of(b.outcome);
+  if (first != second) return first > second;
+  const auto place = [](const Comparison& c) { return find_quantity(c.quantity); };
+  if (place(a) != place(b)) return place(a) < place(b);
+  const double p = a.test ? a.test->p : 1.0, q = b.test ? b.test->p : 1.0;
+  if (p != q) return p < q;
+  const auto change = [](const Comparison& c) {
+    const double ratio = std::abs(c.current_mean - c.baseline_mean) /
+                         std::max(std::abs(c.baseline_mean), 1e-300);
+    return std::isnan(ratio) ? 0.0 : ratio;
+  };
+  return change(a) > change(b);
+}
+
+std::string names_text(const std::vector<std::string>& names) {
+  std::vector<std::string> shown;
+  for (const std::string& name : names) shown.push_back(printable(name));
+  return listed(shown, kMostNames);
+}
+
+/// One side of the records has what the other lacks.
+void judge_presence(const RecordDiff& diff, Judgement& whole, std::vector<std::string>& causes) {
+  const auto add = [&](const std::vector<std::string>& names, Verdict verdict, const char* what) {
+    if (names.empty()) return;
+    whole.verdict = heavier(whole.verdict, verdict);
+    causes.push_back(fmt::format("{} {}: {}", what, names.size() == 1 ? "is" : "are",
+                                 names_text(names)));
+  };
+  add(diff.missing_runs, Verdict::kMissing, "missing runs");
+  add(diff.missing_subjects, Verdict::kMissing, "missing records");
+  add(diff.new_runs, Verdict::kNew, "new runs");
+  add(diff.new_subjects, Verdict::kNew, "new records");
+}
+
+void judge_comparisons(const RecordDiff& diff, Judgement& whole,
+                       std::vector<std::string>& causes) {
+  std::vector<const Comparison*> all;
+  for (const Comparison& comparison : diff.comparisons) {
+    all.push_back(&comparison);
+    whole.verdict = heavier(whole.verdict, verdict_of(comparison.outcome));
+  }
+  const Comparison* first = most_telling(all);
+  if (first == nullptr || verdict_of(first->outcome) <= Verdict::kWithinTolerance) return;
+  const auto beyond = std::ranges::count_if(
+      all, [](const Comparison* c) { return verdict_of(c->outcome) > Verdict::kWithinTolerance; });
+  const bool test_is_silent =
+      first->outcome == Outcome::kChanged && first->test && first->test->p >= 0.05;
+  causes.push_back(fmt::format(
+      "{} of {}{}{}", comparison_text(*first), first->subject,
+      test_is_silent ? ", neither better nor worse over the seeds" : "",
+      beyond > 1 ? fmt::format(", and {} more", counted(beyond - 1, "quantity")) : ""));
+}
+
+void judge_points(const RecordDiff& diff, Judgement& whole, std::vector<std::string>& causes) {
+  const PointsDiff* first = nullptr;
+  long records = 0, others = 0;
+  for (const PointsDiff& points : diff.points) {
+    const bool beyond = points.beyond + points.lost + points.gained > 0 || points.truth_differs;
+    whole.verdict =
+        heavier(whole.verdict, beyond ? Verdict::kChanged : Verdict::kWithinTolerance);
+    if (points.truth_differs) ++others;
+    if (!beyond || points.moves.empty()) continue;
+    ++records;
+    if (first == nullptr || points.moves[0].moved > first->moves[0].moved) first = &points;
+  }
+  if (first != nullptr)
+    causes.push_back(fmt::format(
+        "{} in record {}{}", move_text(first->moves[0], first->quantity), first->record,
+        records > 1 ? fmt::format(", points moved in {} in all", counted(records, "record")) : ""));
+  if (others > 0 && diff.same_seeds)
+    causes.push_back(fmt::format("{} of other landmarks", counted(others, "map")));
+}
+
+void judge_rest(const RecordDiff& diff, Judgement& whole, std::vector<std::string>& causes) {
+  if (!diff.statuses.empty()) {
+    whole.verdict = heavier(whole.verdict, Verdict::kChanged);
+    const StatusChange& first = diff.statuses[0];
+    causes.push_back(fmt::format("status of {}: {} \u2192 {}", first.record,
+                                 first.baseline.empty() ? "none" : first.baseline,
+                                 first.current.empty() ? "none" : first.current));
+  }
+  if (!diff.anchors.empty()) {
+    whole.verdict = heavier(whole.verdict, Verdict::kChanged);
+    causes.push_back("other anchors in " + names_text(diff.anchors));
+  }
+  for (const OtherDiff& other : diff.others) {
+    const bool beyond = other.beyond > 0 || other.shape;
+    whole.verdict =
+        heavier(whole.verdict, beyond ? Verdict::kChanged : Verdict::kWithinTolerance);
+    if (beyond && causes.size() < kMostNames)
+      causes.push_back(fmt::format("{}: {} differ, the first at {}", other.file,
+                                   counted(other.beyond, "number"), other.first));
+  }
+}
+
+/// Counts of what lies within tolerance.
+std::string within_text(const RecordDiff& diff) {
+  long values = 0, points = 0, numbers = 0;
+  for (const Comparison& c : diff.comparisons) values += c.within + c.beyond;
+  for (const PointsDiff& p : diff.points) points += p.within;
+  for (const OtherDiff& o : diff.others) numbers += o.within;
+  return fmt::format("{}, {} and {} differ within tolerance", counted(values, "value"),
+                     counted(points, "position"), counted(numbers, "other number"));
+}
+
+std::string sentence(const std::vector<std::string>& causes) {
+  std::string text;
+  for (const std::string& cause : causes) text += (text.empty() ? "" : "; ") + cause;
+  return text;
+}
+
+}  // namespace
+
+Verdict verdict_of(Outcome outcome) {
+  switch (outcome) {
+    case Outcome::kEqual:
+      return Verdict::kIdentical;
+    case Outcome::kWithinTolerance:
+      return Verdict::kWithinTolerance;
+    case Outcome::kBetter:
+      return Verdict::kBetter;
+    case Outcome::kWorse:
+      return Verdict::kWorse;
+    case Outcome::kChanged:
+      return Verdict::kChanged;
+  }
+  return Verdict::kChanged;
+}
+
+const Comparison* most_telling(const std::vector<const Comparison*>& comparisons) {
+  const Comparison* first = nullptr;
+  for (const Comparison* comparison : comparisons)
+    if (first == nullptr || tells_more(*comparison, *first)) first = comparison;
+  return first;
+}
+
+std::string settings_text(const RecordDiff& diff) {
+  std::vector<std::string> parts;
+  for (const SettingChange& change : diff.settings) {
+    const auto shown = [](const std::string& value) {
+      return value.empty() ? std::string("none") : printable(value, 40);
+    };
+    parts.push_back(fmt::format("{} {} \u2192 {}", printable(change.pointer.substr(1)),
+                                shown(change.baseline), shown(change.current)));
+  }
+  std::string text = parts.empty() ? "" : listed(parts, kMostNames);
+  if (!diff.same_seeds) text += text.empty() ? "other worlds" : ": other worlds";
+  return text;
+}
+
+std::string comparison_text(const Comparison& comparison, const std::string& run) {
+  const QuantityFacts& quantity = *find_quantity(comparison.quantity);
+  const auto own = std::ranges::find(comparison.largest, run, &PairedValue::run);
+  const bool has_own = own != comparison.largest.end();
+  std::string text =
+      fmt::format("{} {}", quantity.label,
+                  has_own ? change_text(own->baseline, own->current, quantity.unit)
+                          : change_text(comparison.baseline_mean, comparison.current_mean,
+                                        quantity.unit));
+  if (!has_own && comparison.pairs > 1)
+    text += fmt::format(" over {}", counted(comparison.pairs, "run"));
+  if (comparison.test) text += fmt::format(", p = {:.2g}", comparison.test->p);
+  if (comparison.lost > 0) text += fmt::format(", lost in {}", counted(comparison.lost, "run"));
+  if (comparison.gained > 0)
+    text += fmt::format(", gained in {}", counted(comparison.gained, "run"));
+  return text;
+}
+
+std::string move_text(const PointMove& move, const std::string& quantity) {
+  const std::string who = (quantity == "path_m" ? "position " : "landmark ") + printable(move.name);
+  if (!std::isfinite(move.moved))
+    return who + (std::isfinite(move.current.x) ? " gained its place" : " lost its place");
+  if (quantity == "landmark_shape")
+    return fmt::format("{} moved {:.3g} of the map's spread", who, move.moved);
+  return move.moved < 1.0 ? fmt::format("{} moved {:.3g} mm", who, 1000.0 * move.moved)
+                          : fmt::format("{} moved {:.3g} m", who, move.moved);
+}
+
+Judgement judge(const RecordDiff& diff) {
+  Judgement whole;
+  std::vector<std::string> causes;
+  const std::string settings = settings_text(diff);
+  judge_presence(diff, whole, causes);
+  judge_comparisons(diff, whole, causes);
+  judge_points(diff, whole, causes);
+  judge_rest(diff, whole, causes);
+  if (!diff.problems.empty()) {
+    whole.verdict = Verdict::kUnreadable;
+    causes.insert(causes.begin(), diff.problems[0].what);
+  }
+  if (!settings.empty()) {
+    whole.verdict = heavier(whole.verdict, Verdict::kStyle);
+    causes.insert(causes.begin(), settings);
+  }
+  if (whole.verdict == Verdict::kWithinTolerance) causes.push_back(within_text(diff));
+  whole.cause = sentence(causes);
+  return whole;
+}
+
+}  // namespace mapproof

@@ -1,0 +1,21 @@
+#pragma once
+
+#include "reports/diff/record_diff.hpp"
+
+namespace mapproof {
+
+/// The verdict on all of it, and its cause in one sentence.
+Judgement judge(const RecordDiff& diff);
+
+/// The comparison of those that says most: the heaviest outcome, MPE before others, the least p.
+/// Null if there is none.
+const Comparison* most_telling(const std::vector<const Comparison*>& comparisons);
+
+/// What the outcome makes of a thing.
+Verdict verdict_of(Outcome outcome);
+
+/// "seed 0 → 5", "K = 6 → K = 7 of bearing/isomap/2000": what the experiments differ in; empty if
+/// nothing.
+std::string settings_text(const RecordDiff& diff);
+
+}  // namespace mapproof
