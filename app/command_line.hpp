@@ -24,7 +24,7 @@ struct Invocation {
 using Action = std::function<int(const Invocation&)>;
 
 /// Adds a verb to the program: its options to `app`, its work to be returned.
-using Verb = Action (*)(CLI::App& app);
+using AddVerb = Action (*)(CLI::App& app);
 
 /// The words of a command line, quoted for a POSIX shell where needed.
 std::string quoted_command(const std::vector<std::string>& words);

@@ -63,10 +63,10 @@ int run_verb_of(int argc, char** argv) {
   app.set_version_flag("--version", std::function<std::string()>(version_text));
   app.require_subcommand(1);
   Common common;
-  const std::vector<std::pair<const char*, Verb>> verbs = {
+  const std::vector<std::pair<const char*, AddVerb>> verbs = {
       {"reproduce", reproduce_verb}, {"run", run_verb},           {"render", render_verb},
       {"report", report_verb},       {"map", map_verb},           {"slam", slam_verb},
-      {"methods", methods_verb},     {"validate", validate_verb},
+      {"diff", diff_verb},           {"methods", methods_verb},   {"validate", validate_verb},
   };
   std::vector<std::pair<CLI::App*, Action>> actions;
   for (const auto& [name, verb] : verbs) {

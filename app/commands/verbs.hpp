@@ -4,13 +4,14 @@
 
 namespace mapproof {
 
-/// Each adds its options to the verb's parser and returns its work (see Verb).
+/// Each adds its options to the verb's parser and returns its work (see AddVerb).
 Action reproduce_verb(CLI::App& app);
 Action run_verb(CLI::App& app);
 Action render_verb(CLI::App& app);
 Action report_verb(CLI::App& app);
 Action map_verb(CLI::App& app);
 Action slam_verb(CLI::App& app);
+Action diff_verb(CLI::App& app);
 Action methods_verb(CLI::App& app);
 Action validate_verb(CLI::App& app);
 

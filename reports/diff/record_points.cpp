@@ -105,6 +105,12 @@ void note(PointsDiff& diff, Errors& errors, PointMove move, const Tolerance& tol
   diff.moves.push_back(std::move(move));
 }
 
+PlacedPoints places(const Points& points) {
+  PlacedPoints placed;
+  placed.points = points;
+  return placed;
+}
+
 void keep_farthest(std::vector<PointMove>& moves) {
   std::ranges::stable_sort(moves, std::ranges::greater(), &PointMove::moved);
   if (moves.size() > kMostMoves) moves.resize(kMostMoves);
@@ -126,9 +132,9 @@ std::optional<PointsDiff> points_diff(const std::string& record, const PlacedPoi
   PointsDiff diff;
   diff.record = record;
   diff.quantity = a.quantity;
-  const bool same_truth = a.truth.has_value() == b.truth.has_value() &&
-                          (!a.truth || same_places({.points = *a.truth, .truth = {}},
-                                                   {.points = *b.truth, .truth = {}}, tolerances));
+  const bool same_truth =
+      a.truth.has_value() == b.truth.has_value() &&
+      (!a.truth || same_places(places(*a.truth), places(*b.truth), tolerances));
   if (a.names != b.names || a.quantity != b.quantity || a.points.rows() != b.points.rows() ||
       !same_truth) {
     diff.truth_differs = true;

@@ -65,7 +65,14 @@ void judge_comparisons(const RecordDiff& diff, Judgement& whole,
   causes.push_back(fmt::format(
       "{} of {}{}{}", comparison_text(*first), first->subject,
       test_is_silent ? ", neither better nor worse over the seeds" : "",
-      beyond > 1 ? fmt::format(", and {} more", counted(beyond - 1, "quantity")) : ""));
+      beyond > 1 ? fmt::format(", and {} of other quantities or records", beyond - 1) : ""));
+}
+
+/// Whether a quantity of that record's subject says already what its change is worth.
+bool has_outcome(const RecordDiff& diff, const std::string& record) {
+  return std::ranges::any_of(tie(diff, record).comparisons, [](const Comparison* comparison) {
+    return verdict_of(comparison->outcome) > Verdict::kWithinTolerance;
+  });
 }
 
 void judge_points(const RecordDiff& diff, Judgement& whole, std::vector<std::string>& causes) {
@@ -73,8 +80,10 @@ void judge_points(const RecordDiff& diff, Judgement& whole, std::vector<std::str
   long records = 0, others = 0;
   for (const PointsDiff& points : diff.points) {
     const bool beyond = points.beyond + points.lost + points.gained > 0 || points.truth_differs;
-    whole.verdict =
-        heavier(whole.verdict, beyond ? Verdict::kChanged : Verdict::kWithinTolerance);
+    if (!beyond)
+      whole.verdict = heavier(whole.verdict, Verdict::kWithinTolerance);
+    else if (!has_outcome(diff, points.record))
+      whole.verdict = heavier(whole.verdict, Verdict::kChanged);
     if (points.truth_differs) ++others;
     if (!beyond || points.moves.empty()) continue;
     ++records;
@@ -89,8 +98,10 @@ void judge_points(const RecordDiff& diff, Judgement& whole, std::vector<std::str
 }
 
 void judge_rest(const RecordDiff& diff, Judgement& whole, std::vector<std::string>& causes) {
+  for (const StatusChange& change : diff.statuses)
+    if (!has_outcome(diff, change.record))
+      whole.verdict = heavier(whole.verdict, Verdict::kChanged);
   if (!diff.statuses.empty()) {
-    whole.verdict = heavier(whole.verdict, Verdict::kChanged);
     const StatusChange& first = diff.statuses[0];
     causes.push_back(fmt::format("status of {}: {} \u2192 {}", first.record,
                                  first.baseline.empty() ? "none" : first.baseline,
@@ -102,9 +113,11 @@ void judge_rest(const RecordDiff& diff, Judgement& whole, std::vector<std::strin
   }
   for (const OtherDiff& other : diff.others) {
     const bool beyond = other.beyond > 0 || other.shape;
-    whole.verdict =
-        heavier(whole.verdict, beyond ? Verdict::kChanged : Verdict::kWithinTolerance);
-    if (beyond && causes.size() < kMostNames)
+    if (!beyond)
+      whole.verdict = heavier(whole.verdict, Verdict::kWithinTolerance);
+    else if (whole.verdict <= Verdict::kWithinTolerance)  // Else scores say what it is worth.
+      whole.verdict = Verdict::kChanged;
+    if (beyond && causes.empty())
       causes.push_back(fmt::format("{}: {} differ, the first at {}", other.file,
                                    counted(other.beyond, "number"), other.first));
   }
@@ -206,7 +219,7 @@ Judgement judge(const RecordDiff& diff) {
     causes.insert(causes.begin(), diff.problems[0].what);
   }
   if (!settings.empty()) {
-    whole.verdict = heavier(whole.verdict, Verdict::kStyle);
+    if (whole.verdict <= Verdict::kWithinTolerance) whole.verdict = Verdict::kStyle;
     causes.insert(causes.begin(), settings);
   }
   if (whole.verdict == Verdict::kWithinTolerance) causes.push_back(within_text(diff));

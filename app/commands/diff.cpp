@@ -1,0 +1,43 @@
+#include <cstdlib>
+#include <memory>
+
+#include "app/commands/verbs.hpp"
+#include "app/diff_options.hpp"
+#include "reports/diff/folder_diff.hpp"
+
+namespace mapproof {
+namespace {
+
+struct Arguments {
+  std::string baseline;
+  std::string current;
+  DiffOptions options;
+};
+
+int diff(const Arguments& arguments, const Invocation& invocation) {
+  const DiffSettings settings = diff_settings(arguments.options, arguments.baseline);
+  const DiffResult result = folder_diff(arguments.baseline, arguments.current, settings);
+  return hand_out(result, arguments.options, invocation.console);
+}
+
+}  // namespace
+
+Action diff_verb(CLI::App& app) {
+  auto arguments = std::make_shared<Arguments>();
+  app.description("Compare two studies, folders of pictures or files, and say why they differ");
+  app.footer(
+      "Examples:\n"
+      "  mapproof diff baseline out\n"
+      "  mapproof diff baseline out --junit diff.junit.xml --markdown diff.md\n"
+      "  mapproof diff old.png new.png\n\n"
+      "Exit code 0 if all is identical, within tolerance, or drawn otherwise without being seen;\n"
+      "1 for any other verdict that --allow does not name; 2 if nothing could be compared.\n"
+      "docs/diff.md says what the verdicts mean.\n");
+  app.add_option("BASELINE", arguments->baseline, "The study, folder or file to compare with")
+      ->required();
+  app.add_option("CURRENT", arguments->current, "The one that is compared")->required();
+  add_diff_options(app, arguments->options);
+  return [arguments](const Invocation& invocation) { return diff(*arguments, invocation); };
+}
+
+}  // namespace mapproof

@@ -1,0 +1,88 @@
+#include "app/diff_options.hpp"
+
+#include <cstdlib>
+#include <system_error>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include "core/base/errors.hpp"
+#include "core/base/files.hpp"
+#include "core/base/spelling.hpp"
+#include "core/json/json_text.hpp"
+#include "reports/diff/diff_outputs.hpp"
+
+namespace mapproof {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr std::size_t kLargestSettings = std::size_t{1} << 24;  // Bytes.
+
+std::vector<Verdict> verdicts_in(const std::string& list) {
+  std::vector<std::string_view> names;
+  for (const Verdict verdict : kVerdicts) names.push_back(name(verdict));
+  std::vector<Verdict> verdicts;
+  for (std::size_t at = 0; at <= list.size();) {
+    const std::size_t end = std::min(list.find(',', at), list.size());
+    const std::string word = list.substr(at, end - at);
+    const auto verdict = verdict_named(word);
+    if (!verdict)
+      throw InvalidInput(fmt::format("--allow: no verdict \"{}\"; did you mean \"{}\"? There are {}",
+                                     printable(word), nearest_word(word, names),
+                                     fmt::join(names, ", ")));
+    verdicts.push_back(*verdict);
+    at = end + 1;
+  }
+  return verdicts;
+}
+
+/// mapproof-diff.json of the baseline: in the folder, or beside the file.
+fs::path settings_beside(const std::string& baseline) {
+  std::error_code error;
+  const fs::path folder =
+      fs::is_directory(baseline, error) ? fs::path(baseline) : fs::path(baseline).parent_path();
+  const fs::path file = folder / "mapproof-diff.json";
+  return fs::is_regular_file(file, error) ? file : fs::path();
+}
+
+bool is_run_by_ctest() {
+  return std::getenv("DASHBOARD_TEST_FROM_CTEST") != nullptr ||
+         std::getenv("CTEST_INTERACTIVE_DEBUG_MODE") != nullptr;
+}
+
+}  // namespace
+
+void add_diff_options(CLI::App& app, DiffOptions& options) {
+  app.remove_option(app.get_option("--json"));
+  app.add_option("--json", options.json, "Write all that was found as JSON; - to standard output");
+  app.add_option("--junit", options.junit, "Write the verdicts as JUnit XML");
+  app.add_option("--markdown", options.markdown, "Write a summary for a comment on a change");
+  app.add_option("--allow", options.allow, "Verdicts that pass as well: better,style,new");
+  app.add_option("--settings", options.settings,
+                 "Tolerances and ignored regions (default: mapproof-diff.json of the baseline)");
+}
+
+DiffSettings diff_settings(const DiffOptions& options, const std::string& baseline) {
+  const fs::path file =
+      options.settings.empty() ? settings_beside(baseline) : fs::path(options.settings);
+  DiffSettings settings;
+  if (!file.empty())
+    settings = parse_diff_settings(read_file(file, kLargestSettings), file.string());
+  if (!options.allow.empty())
+    for (const Verdict verdict : verdicts_in(options.allow)) settings.allowed.push_back(verdict);
+  return settings;
+}
+
+int hand_out(const DiffResult& result, const DiffOptions& options, const Console& console) {
+  const nlohmann::ordered_json object = diff_json(result);
+  if (!options.json.empty() && options.json != "-") write_file(options.json, json_text(object));
+  if (!options.junit.empty()) write_file(options.junit, diff_junit(result));
+  if (!options.markdown.empty()) write_file(options.markdown, diff_markdown(result));
+  std::string text = options.json == "-" ? json_text(object) : diff_text(result);
+  if (options.json != "-" && is_run_by_ctest()) text += ctest_lines(result);
+  console.result(text, object);
+  return result.passes ? kDone : kNo;
+}
+
+}  // namespace mapproof

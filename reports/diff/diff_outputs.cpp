@@ -1,0 +1,153 @@
+#include "reports/diff/diff_outputs.hpp"
+
+#include <fmt/format.h>
+
+#include "core/base/errors.hpp"
+#include "core/base/words.hpp"
+#include "reports/model/format.hpp"
+
+namespace mapproof {
+namespace {
+
+constexpr std::size_t kMostRows = 50;
+constexpr std::size_t kLongest = 2000;  // Characters of a cause.
+
+/// Fit for XML: escaped, without characters that XML does not have.
+std::string xml(const std::string& text) {
+  std::string out;
+  for (const char c : displayable(text)) {
+    switch (c) {
+      case '&':
+        out += "&amp;";
+        break;
+      case '<':
+        out += "&lt;";
+        break;
+      case '>':
+        out += "&gt;";
+        break;
+      case '"':
+        out += "&quot;";
+        break;
+      case '\n':
+      case '\t':
+        out += ' ';
+        break;
+      default:
+        out += c;
+    }
+  }
+  return out;
+}
+
+/// Fit for a cell of a Markdown table on a page that takes HTML.
+std::string cell(const std::string& text) {
+  std::string out;
+  for (const char c : xml(printable(text, kLongest))) {
+    if (std::string_view("|\\`*_[]#~@").find(c) != std::string_view::npos)
+      out += fmt::format("&#{};", static_cast<int>(c));
+    else
+      out += c;
+  }
+  return out;
+}
+
+std::string counts_text(const DiffResult& result) {
+  const std::vector<int> counts = counts_of(result);
+  std::string text;
+  for (std::size_t v = kVerdicts.size(); v-- > 0;)
+    if (counts[v] > 0)
+      text += fmt::format("{}{} {}", text.empty() ? "" : ", ", counts[v], label(kVerdicts[v]));
+  return text;
+}
+
+int failures_of(const DiffResult& result, bool unreadable) {
+  int count = 0;
+  for (const DiffItem& item : result.items)
+    count += !item.passes && (item.judgement.verdict == Verdict::kUnreadable) == unreadable;
+  return count;
+}
+
+}  // namespace
+
+std::string diff_text(const DiffResult& result) {
+  std::string text;
+  for (const DiffItem& item : result.items)
+    if (item.judgement.verdict != Verdict::kIdentical)
+      text += fmt::format("{:<21}  {}: {}\n", label(item.judgement.verdict), printable(item.id),
+                          printable(item.judgement.cause, kLongest));
+  return text + fmt::format("{}: {}\n", result.passes ? "passes" : "does not pass",
+                            counts_text(result));
+}
+
+std::string diff_junit(const DiffResult& result) {
+  const int failures = failures_of(result, false), errors = failures_of(result, true);
+  const std::string totals = fmt::format("tests=\"{}\" failures=\"{}\" errors=\"{}\"",
+                                         result.items.size(), failures, errors);
+  std::string out = "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n";
+  out += fmt::format("<testsuites name=\"mapproof diff\" {} time=\"0\">\n", totals);
+  out += fmt::format("  <testsuite name=\"mapproof diff\" {} skipped=\"0\" time=\"0\">\n", totals);
+  for (const DiffItem& item : result.items) {
+    const Judgement& told = item.judgement;
+    out += fmt::format("    <testcase name=\"{}\" classname=\"mapproof.{}\" time=\"0\"",
+                       xml(item.id), name(item.kind));
+    if (told.verdict == Verdict::kIdentical) {
+      out += "/>\n";
+      continue;
+    }
+    const std::string message = xml(printable(told.cause, kLongest));
+    out += ">\n";
+    if (!item.passes) {
+      const char* element = told.verdict == Verdict::kUnreadable ? "error" : "failure";
+      out += fmt::format("      <{} type=\"{}\" message=\"{}: {}\">{}</{}>\n", element,
+                         name(told.verdict), label(told.verdict), message, message, element);
+    }
+    out += fmt::format("      <system-out>{}: {}</system-out>\n    </testcase>\n",
+                       label(told.verdict), message);
+  }
+  return out + "  </testsuite>\n</testsuites>\n";
+}
+
+std::string diff_markdown(const DiffResult& result) {
+  std::string out = fmt::format("### mapproof diff: {}\n\n{}\n", result.passes ? "passes" : "does not pass",
+                                counts_text(result));
+  std::size_t rows = 0, left = 0;
+  for (const DiffItem& item : result.items) {
+    if (item.judgement.verdict == Verdict::kIdentical) continue;
+    if (++rows > kMostRows) {
+      ++left;
+      continue;
+    }
+    if (rows == 1) out += "\n| | what | verdict | why |\n|---|---|---|---|\n";
+    out += fmt::format("| {} | {} | {} | {} |\n", item.passes ? "passes" : "**fails**",
+                       cell(item.id), label(item.judgement.verdict), cell(item.judgement.cause));
+  }
+  if (left > 0) out += fmt::format("\nand {} more.\n", left);
+  return out;
+}
+
+std::string ctest_lines(const DiffResult& result) {
+  constexpr int kMostPictures = 10;
+  std::string out;
+  const std::vector<int> counts = counts_of(result);
+  for (std::size_t v = 0; v < kVerdicts.size(); ++v)
+    out += fmt::format(
+        "<CTestMeasurement type=\"numeric/integer\" name=\"{}\">{}</CTestMeasurement>\n",
+        name(kVerdicts[v]), counts[v]);
+  int shown = 0;
+  for (const DiffItem& item : result.items) {
+    if (item.passes) continue;
+    for (const PictureFile& picture : item.pictures) {
+      if (picture.format != "png" || shown >= 2 * kMostPictures) continue;
+      for (const auto& [side, path] :
+           {std::pair("baseline", picture.baseline), std::pair("current", picture.current)})
+        if (!path.empty() && ++shown)
+          out += fmt::format(
+              "<CTestMeasurementFile type=\"image/png\" name=\"{} {}\">{}</CTestMeasurementFile>\n",
+              xml(item.id), side, xml(std::filesystem::absolute(path).string()));
+    }
+  }
+  return out;
+}
+
+}  // namespace mapproof

@@ -1,0 +1,92 @@
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include "core/base/errors.hpp"
+#include "core/base/words.hpp"
+#include "reports/diff/figure_diff.hpp"
+
+namespace mapproof {
+namespace {
+
+constexpr std::size_t kMostWords = 60;  // Characters of a value in a sentence.
+
+std::string change_sentence(const FigureChange& change) {
+  const std::string before = printable(change.baseline, kMostWords);
+  const std::string after = printable(change.current, kMostWords);
+  std::string text = change.place + ": " + change.what;
+  if (change.baseline.empty() && change.current.empty()) return text;
+  if (change.current.empty()) return text + " (was " + before + ")";
+  if (change.baseline.empty()) return text + " (" + after + ")";
+  return fmt::format("{} {} \u2192 {}", text, before, after);
+}
+
+/// The first change of that kind, and how many more there are.
+std::string first_of(const FigureDiff& diff, ChangeKind kind) {
+  const FigureChange* first = nullptr;
+  long count = 0;
+  for (const FigureChange& change : diff.changes)
+    if (change.kind == kind && count++ == 0) first = &change;
+  if (first == nullptr) return "";
+  return change_sentence(*first) +
+         (count > 1 ? fmt::format(", and {} more", counted(count - 1, "change")) : "");
+}
+
+Verdict direction(const FigureDiff& diff) {
+  if (!diff.baseline_error || !diff.current_error) return Verdict::kChanged;
+  const double change = *diff.current_error - *diff.baseline_error;
+  if (std::abs(change) <= 1e-6 * (1.0 + std::abs(*diff.baseline_error))) return Verdict::kChanged;
+  return change > 0.0 ? Verdict::kWorse : Verdict::kBetter;
+}
+
+std::string data_cause(const FigureDiff& diff) {
+  std::string text;
+  if (!diff.moves.empty()) {
+    text = move_text(diff.moves[0]);
+    if (diff.moved > 1) text += fmt::format(", {} moved in all", diff.moved);
+  }
+  const std::string more = first_of(diff, ChangeKind::kData);
+  if (!more.empty()) text += (text.empty() ? "" : "; ") + more;
+  if (direction(diff) != Verdict::kChanged)
+    text += fmt::format(
+        "; mean error {}", change_text(*diff.baseline_error, *diff.current_error, ""));
+  return text;
+}
+
+}  // namespace
+
+std::string move_text(const MarkMove& move) {
+  const std::string who = move.landmark.empty()
+                              ? fmt::format("point {} of {}", move.point + 1, move.place)
+                              : (move.place.find("line") != std::string::npos ||
+                                         move.place.find("band") != std::string::npos
+                                     ? fmt::format("point {} of {}", move.point + 1,
+                                                   printable(move.landmark))
+                                     : "landmark " + printable(move.landmark));
+  std::string text = std::isnan(move.distance)
+                         ? fmt::format("{} {}", who,
+                                       std::isnan(move.current.x + move.current.y)
+                                           ? "lost its place"
+                                           : "gained a place")
+                         : fmt::format("{} moved {:.3g}", who, move.distance);
+  if (move.distance_px) text += fmt::format(" ({:.1f} px)", *move.distance_px);
+  return text;
+}
+
+Judgement judge(const FigureDiff& diff) {
+  if (diff.equal) return {};
+  if (diff.has(ChangeKind::kData)) return {direction(diff), true, data_cause(diff)};
+  if (diff.has(ChangeKind::kStyle))
+    return {Verdict::kStyle, true, first_of(diff, ChangeKind::kStyle)};
+  if (diff.has(ChangeKind::kMetadata))
+    return {Verdict::kStyle, false, "words alone: " + first_of(diff, ChangeKind::kMetadata)};
+  if (diff.within > 0)
+    return {Verdict::kWithinTolerance, false,
+            counted(diff.within, "point") + " moved within tolerance"};
+  if (diff.masked > 0)
+    return {Verdict::kWithinTolerance, false,
+            fmt::format("varies from run to run: {} not judged", counted(diff.masked, "difference"))};
+  return {};
+}
+
+}  // namespace mapproof

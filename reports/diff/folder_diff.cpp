@@ -1,0 +1,196 @@
+#include "reports/diff/folder_diff.hpp"
+
+#include <algorithm>
+#include <set>
+#include <system_error>
+#include <utility>
+
+#include <fmt/format.h>
+#include <tbb/parallel_for.h>
+
+#include "core/base/errors.hpp"
+#include "core/base/words.hpp"
+#include "reports/diff/item_diff.hpp"
+#include "reports/diff/item_files.hpp"
+#include "reports/diff/record_set.hpp"
+#include "reports/diff/swapped_files.hpp"
+
+namespace mapproof {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// Folders of records: the path itself, or those right below it, by the id of their item.
+std::map<std::string, fs::path> record_places(const fs::path& path) {
+  std::map<std::string, fs::path> places;
+  std::error_code error;
+  if (holds_records(path)) places["records"] = path;
+  if (!fs::is_directory(path, error) || !places.empty()) return places;
+  for (fs::directory_iterator entry(path, error), end; !error && entry != end;
+       entry.increment(error))
+    if (entry->is_directory(error) && holds_records(entry->path()))
+      places["records/" + entry->path().filename().string()] = entry->path();
+  return places;
+}
+
+DiffItem compare_records(const std::string& id, const fs::path& baseline, const fs::path& current,
+                         const DiffSettings& settings) {
+  DiffItem item;
+  item.id = id;
+  item.kind = ItemKind::kRecords;
+  try {
+    item.records = record_diff(read_records(baseline, current), read_records(current, baseline),
+                               settings.records);
+    item.judgement = item.records->judgement;
+  } catch (const IoError& error) {
+    item.judgement = {Verdict::kUnreadable, true, error.what()};
+  }
+  item.passes = passes(item.judgement, settings.allowed);
+  return item;
+}
+
+DiffItem lone_records(const std::string& id, Judgement judgement) {
+  DiffItem item;
+  item.id = id;
+  item.kind = ItemKind::kRecords;
+  item.judgement = std::move(judgement);
+  return item;
+}
+
+std::vector<DiffItem> record_items(const fs::path& baseline, const fs::path& current,
+                                   const DiffSettings& settings) {
+  const auto before = record_places(baseline), after = record_places(current);
+  std::vector<DiffItem> items;
+  for (const auto& [id, path] : before) {
+    const auto other = after.find(id);
+    if (other != after.end()) {
+      items.push_back(compare_records(id, path, other->second, settings));
+      continue;
+    }
+    items.push_back(lone_records(id, {Verdict::kMissing, true, "the current has no records"}));
+  }
+  for (const auto& [id, path] : after)
+    if (!before.contains(id))
+      items.push_back(lone_records(id, {Verdict::kNew, true, "the baseline has no records"}));
+  for (DiffItem& item : items) item.passes = passes(item.judgement, settings.allowed);
+  return items;
+}
+
+void check_there(const fs::path& path) {
+  std::error_code error;
+  if (!fs::exists(path, error))
+    throw IoError(path.string(), error ? error.message() : "is not there");
+}
+
+/// Two files of one kind, each the item "".
+void check_kinds(const ItemList& baseline, const ItemList& current, const fs::path& a,
+                 const fs::path& b) {
+  std::error_code error;
+  const bool first = fs::is_directory(a, error), second = fs::is_directory(b, error);
+  if (first != second)
+    throw InvalidInput(fmt::format("{} is a {}, {} a {}: not to be compared", a.string(),
+                                   first ? "folder" : "file", b.string(),
+                                   second ? "folder" : "file"));
+  if (first || baseline.empty() || current.empty()) return;
+  const ItemFiles& x = baseline.begin()->second;
+  const ItemFiles& y = current.begin()->second;
+  const bool same_kind = x.figure.empty() == y.figure.empty() &&
+                         x.pictures.size() == y.pictures.size() &&
+                         std::ranges::equal(x.pictures, y.pictures, {},
+                                            &decltype(x.pictures)::value_type::first,
+                                            &decltype(x.pictures)::value_type::first);
+  if (!same_kind)
+    throw InvalidInput(a.string() + " and " + b.string() +
+                       " are files of different kinds: not to be compared");
+}
+
+/// "fig-7.png": what a single file is called.
+std::string file_id(const fs::path& path) { return item_name(path, path.parent_path()).id; }
+
+std::vector<DiffItem> picture_items(ItemList baseline, const ItemList& current,
+                                    const std::string& name, const RecordContext& context,
+                                    const DiffSettings& settings) {
+  join_keyed(baseline, current);
+  std::set<std::string> ids;
+  for (const ItemList* side : {static_cast<const ItemList*>(&baseline), &current})
+    for (const auto& [id, files] : *side) ids.insert(id);
+  const std::vector<std::string> order(ids.begin(), ids.end());
+  std::vector<DiffItem> items(order.size());
+  tbb::parallel_for(std::size_t{0}, order.size(), [&](std::size_t i) {
+    const auto before = std::as_const(baseline).find(order[i]);
+    const auto after = current.find(order[i]);
+    items[i] = item_diff(order[i].empty() ? name : order[i],
+                         before == std::as_const(baseline).end() ? nullptr : &before->second,
+                         after == current.end() ? nullptr : &after->second, context, settings);
+  });
+  return items;
+}
+
+/// "1 worse, 2 style, 51 identical; first …".
+Judgement judge_whole(const DiffResult& result) {
+  Judgement whole;
+  whole.visible = false;
+  std::string counts;
+  const std::vector<int> all = counts_of(result);
+  for (std::size_t v = kVerdicts.size(); v-- > 0;)
+    if (all[v] > 0) {
+      counts += fmt::format("{}{} {}", counts.empty() ? "" : ", ", all[v], name(kVerdicts[v]));
+      whole.verdict = heavier(whole.verdict, kVerdicts[v]);
+    }
+  for (const DiffItem& item : result.items) whole.visible |= item.judgement.visible;
+  if (whole.verdict == Verdict::kIdentical) return whole;
+  whole.cause = counts + "; " + result.items[0].id + ": " + result.items[0].judgement.cause;
+  return whole;
+}
+
+}  // namespace
+
+std::string_view name(ItemKind kind) {
+  switch (kind) {
+    case ItemKind::kRecords:
+      return "records";
+    case ItemKind::kFigure:
+      return "figure";
+    case ItemKind::kPicture:
+      return "picture";
+  }
+  return "";
+}
+
+std::vector<int> counts_of(const DiffResult& result) {
+  std::vector<int> counts(kVerdicts.size(), 0);
+  for (const DiffItem& item : result.items)
+    ++counts[static_cast<std::size_t>(item.judgement.verdict)];
+  return counts;
+}
+
+DiffResult folder_diff(const fs::path& baseline, const fs::path& current,
+                       const DiffSettings& settings) {
+  check_there(baseline);
+  check_there(current);
+  DiffResult result;
+  result.baseline = baseline.string();
+  result.current = current.string();
+  result.allowed = settings.allowed;
+  const ItemList before = list_items(baseline), after = list_items(current);
+  check_kinds(before, after, baseline, current);
+  result.items = record_items(baseline, current, settings);
+  RecordContext context;
+  for (const DiffItem& item : result.items)
+    if (item.records) context.records.push_back(&*item.records);
+  std::vector<DiffItem> pictures =
+      picture_items(before, after, file_id(current), context, settings);
+  name_swapped(pictures);
+  std::ranges::move(pictures, std::back_inserter(result.items));
+  if (result.items.empty())
+    throw InvalidInput(baseline.string() + " and " + current.string() +
+                       " hold no records, figures or pictures to compare");
+  std::ranges::stable_sort(result.items, std::ranges::greater(),
+                           [](const DiffItem& item) { return item.judgement.verdict; });
+  result.judgement = judge_whole(result);
+  result.passes =
+      std::ranges::all_of(result.items, [](const DiffItem& item) { return item.passes; });
+  return result;
+}
+
+}  // namespace mapproof

@@ -1,0 +1,151 @@
+#include "reports/diff/item_diff.hpp"
+
+#include <algorithm>
+#include <set>
+
+#include <fmt/format.h>
+
+#include "core/base/errors.hpp"
+#include "core/base/files.hpp"
+#include "core/base/words.hpp"
+#include "render/plot/figure_json.hpp"
+
+namespace mapproof {
+namespace {
+
+constexpr std::size_t kLargestFigure = std::size_t{1} << 28;  // Bytes.
+
+Figure read_figure(const std::filesystem::path& path) {
+  return figure_from_json(read_file(path, kLargestFigure), path.string());
+}
+
+/// The plain baseline or another valid one: that whose picture differs least.
+PictureFile compare_picture(const std::string& format,
+                            const std::map<std::string, std::filesystem::path>& baselines,
+                            const std::filesystem::path& current, const PictureOptions& options) {
+  PictureFile best;
+  bool first = true;
+  for (const auto& [key, baseline] : baselines) {
+    PictureFile file{.format = format,
+                     .baseline_key = key,
+                     .baseline = baseline,
+                     .current = current,
+                     .diff = picture_diff(baseline, current, options)};
+    if (first || file.diff.state < best.diff.state) best = std::move(file);
+    first = false;
+    if (best.diff.state == PictureState::kIdentical) break;
+  }
+  return best;
+}
+
+/// The pictures of both sides, format by format.
+std::vector<PictureFile> compare_pictures(const ItemFiles& baseline, const ItemFiles& current,
+                                          const PictureOptions& options) {
+  std::vector<PictureFile> files;
+  std::set<std::string> formats;
+  for (const ItemFiles* side : {&baseline, &current})
+    for (const auto& [format, paths] : side->pictures) formats.insert(format);
+  for (const std::string& format : formats) {
+    const auto before = baseline.pictures.find(format), after = current.pictures.find(format);
+    if (before != baseline.pictures.end() && after != current.pictures.end())
+      files.push_back(
+          compare_picture(format, before->second, after->second.begin()->second, options));
+    else if (before != baseline.pictures.end())
+      files.push_back({format, "", before->second.begin()->second, {}, {}});
+    else
+      files.push_back({format, "", {}, after->second.begin()->second, {}});
+  }
+  return files;
+}
+
+/// One side alone.
+DiffItem lone_item(DiffItem item, const ItemFiles& files, bool is_new) {
+  item.kind = files.figure.empty() ? ItemKind::kPicture : ItemKind::kFigure;
+  (is_new ? item.current_figure : item.baseline_figure) = files.figure;
+  item.pictures = is_new ? compare_pictures({}, files, {}) : compare_pictures(files, {}, {});
+  item.judgement = {is_new ? Verdict::kNew : Verdict::kMissing, true,
+                    is_new ? "is not in the baseline" : "is not in the current"};
+  return item;
+}
+
+std::vector<std::string> records_of(const Figure& a, const Figure& b) {
+  std::vector<std::string> ids = a.record_ids;
+  for (const std::string& id : b.record_ids)
+    if (std::ranges::find(ids, id) == ids.end()) ids.push_back(id);
+  return ids;
+}
+
+/// The PNG's size on the current side, by whatever was compared.
+std::vector<PixelBox> masks(const Figure& a, const Figure& b, const PictureFile& file) {
+  if (!file.diff.pixels) return {};
+  std::vector<PixelBox> boxes = varying_regions(a, file.diff.pixels->baseline);
+  const std::vector<PixelBox> more = varying_regions(b, file.diff.pixels->current);
+  boxes.insert(boxes.end(), more.begin(), more.end());
+  return boxes;
+}
+
+/// Pictures of a figure whose data vary are looked at outside the regions that vary; an SVG has no
+/// regions, and follows from the same values.
+void mask(const Figure& a, const Figure& b, std::vector<PictureFile>& pictures,
+          PictureOptions options) {
+  std::erase_if(pictures, [](const PictureFile& file) {
+    return file.format == "svg" && !file.baseline.empty() && !file.current.empty() &&
+           file.diff.state != PictureState::kUnreadable;
+  });
+  for (PictureFile& file : pictures) {
+    if (file.format != "png" || file.diff.state != PictureState::kDifferent) continue;
+    const std::vector<PixelBox> boxes = masks(a, b, file);
+    options.ignored.insert(options.ignored.end(), boxes.begin(), boxes.end());
+    file.diff = picture_diff(file.baseline, file.current, options);
+  }
+}
+
+void compare_values(DiffItem& item, const RecordContext& context, const DiffSettings& settings) {
+  Figure a, b;
+  try {
+    a = read_figure(item.baseline_figure);
+    b = read_figure(item.current_figure);
+  } catch (const IoError& error) {
+    item.judgement = {Verdict::kUnreadable, true, error.what()};
+    return;
+  }
+  item.figure = figure_diff(a, b, settings.figures);
+  item.judgement = judge(*item.figure);
+  if (item.figure->has(ChangeKind::kData))
+    item.judgement =
+        tied_judgement(item.id, *item.figure, item.judgement, records_of(a, b), context);
+  if (a.varies && b.varies && item.figure->masked > 0)
+    mask(a, b, item.pictures, settings.pictures_of(item.id));
+}
+
+}  // namespace
+
+DiffItem item_diff(const std::string& id, const ItemFiles* baseline, const ItemFiles* current,
+                   const RecordContext& context, const DiffSettings& settings) {
+  DiffItem item;
+  item.id = id;
+  if (baseline == nullptr || current == nullptr) {
+    item = lone_item(std::move(item), baseline == nullptr ? *current : *baseline,
+                     baseline == nullptr);
+  } else {
+    item.baseline_figure = baseline->figure;
+    item.current_figure = current->figure;
+    const bool some = !baseline->figure.empty() || !current->figure.empty();
+    const bool both = !baseline->figure.empty() && !current->figure.empty();
+    item.kind = some ? ItemKind::kFigure : ItemKind::kPicture;
+    item.pictures = compare_pictures(*baseline, *current, settings.pictures_of(id));
+    if (both) compare_values(item, context, settings);
+    if (item.judgement.verdict != Verdict::kUnreadable)
+      item.judgement = judge_pictures(item.judgement, both, item.pictures, context);
+    if (some && !both)
+      item.judgement = {heavier(item.judgement.verdict, current->figure.empty() ? Verdict::kMissing
+                                                                                : Verdict::kNew),
+                        true,
+                        current->figure.empty() ? "its figure.json is missing"
+                                                : "its figure.json is not in the baseline"};
+  }
+  item.passes = passes(item.judgement, settings.allowed);
+  return item;
+}
+
+}  // namespace mapproof

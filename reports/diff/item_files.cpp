@@ -1,0 +1,77 @@
+#include "reports/diff/item_files.hpp"
+
+#include <array>
+#include <string_view>
+#include <system_error>
+
+#include "core/base/errors.hpp"
+
+namespace mapproof {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr std::size_t kMostFiles = 100'000;
+constexpr std::array<std::string_view, 5> kKinds = {"figure.json", "scene.json", "png", "svg",
+                                                    "pdf"};
+
+void add(ItemList& items, const ItemName& name, const fs::path& file) {
+  if (name.kind == "figure.json")
+    items[name.id].figure = file;
+  else if (name.kind == "png")
+    items[name.id].pictures[name.kind][""] = file;
+}
+
+}  // namespace
+
+ItemName item_name(const fs::path& file, const fs::path& folder) {
+  std::string path = file.lexically_relative(folder).generic_string();
+  constexpr std::string_view kFigures = "figures/";
+  if (path.starts_with(kFigures)) path.erase(0, kFigures.size());
+  for (const std::string_view kind : kKinds)
+    if (path.size() > kind.size() + 1 && path.ends_with(kind) &&
+        path[path.size() - kind.size() - 1] == '.')
+      return {path.substr(0, path.size() - kind.size() - 1), std::string(kind)};
+  return {path, ""};
+}
+
+ItemList list_items(const fs::path& path) {
+  ItemList items;
+  std::error_code error;
+  if (!fs::is_directory(path, error)) {
+    ItemName name = item_name(path, path.parent_path());
+    name.id = "";
+    if (!name.kind.empty()) add(items, name, path);
+    return items;
+  }
+  std::size_t files = 0;
+  fs::recursive_directory_iterator entry(path, error), end;
+  for (; !error && entry != end; entry.increment(error)) {
+    if (!entry->is_regular_file(error)) continue;
+    const ItemName name = item_name(entry->path(), path);
+    if (name.kind.empty()) continue;
+    if (++files > kMostFiles)
+      throw IoError(path.string(), "holds more than 100,000 pictures: compare folders below it");
+    add(items, name, entry->path());
+  }
+  if (error) throw IoError(path.string(), "cannot be listed: " + error.message());
+  return items;
+}
+
+void join_keyed(ItemList& baseline, const ItemList& current) {
+  for (auto item = baseline.begin(); item != baseline.end();) {
+    const std::size_t at = item->first.rfind('@');
+    if (at == std::string::npos || current.contains(item->first) ||
+        !current.contains(item->first.substr(0, at))) {
+      ++item;
+      continue;
+    }
+    ItemFiles& whole = baseline[item->first.substr(0, at)];
+    for (const auto& [format, files] : item->second.pictures)
+      for (const auto& [none, file] : files)
+        whole.pictures[format][item->first.substr(at + 1)] = file;
+    item = baseline.erase(item);
+  }
+}
+
+}  // namespace mapproof

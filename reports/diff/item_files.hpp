@@ -1,0 +1,36 @@
+#pragma once
+
+#include <filesystem>
+#include <map>
+#include <string>
+#include <vector>
+
+namespace mapproof {
+
+/// The files of one item on one side.
+struct ItemFiles {
+  std::filesystem::path figure;  ///< ID.figure.json; empty: none.
+  /// By format ("png", "svg") and baseline key; the plain file has the key "".
+  std::map<std::string, std::map<std::string, std::filesystem::path>> pictures;
+};
+
+/// Items by id.
+using ItemList = std::map<std::string, ItemFiles>;
+
+/// The pictures and figures of a folder and of those below it, or a single file as the item "".
+/// The id is the path below the folder without "figures/" at its head and without its extension.
+/// @throws IoError if the folder cannot be listed, or holds more than 100,000 such files.
+ItemList list_items(const std::filesystem::path& path);
+
+/// Takes "ID@KEY" of the baseline for another valid baseline of ID, where the current has ID and no
+/// "ID@KEY".
+void join_keyed(ItemList& baseline, const ItemList& current);
+
+/// The id of a file below `folder` and its kind: "png", "svg", "figure.json", "pdf", "scene.json";
+/// an empty kind: no file of an item.
+struct ItemName {
+  std::string id, kind;
+};
+ItemName item_name(const std::filesystem::path& file, const std::filesystem::path& folder);
+
+}  // namespace mapproof

@@ -1,0 +1,147 @@
+#include <algorithm>
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include "core/base/words.hpp"
+#include "render/plot/layout.hpp"
+#include "reports/diff/item_diff.hpp"
+
+namespace mapproof {
+namespace {
+
+/// "Cairo 1.16.0 → 1.18.0": what drew the two, by the files or else by the studies.
+std::string renderers_text(const PictureDiff& diff, const RecordContext& context) {
+  if (!diff.baseline_renderer.empty() || !diff.current_renderer.empty()) {
+    if (diff.baseline_renderer == diff.current_renderer)
+      return "both drawn by " + diff.current_renderer;
+    const auto shown = [](const std::string& text) { return text.empty() ? "unknown" : text; };
+    return fmt::format("drawn by {} \u2192 {}", shown(diff.baseline_renderer),
+                       shown(diff.current_renderer));
+  }
+  for (const RecordDiff* records : context.records)
+    for (const SettingChange& change : records->provenance)
+      for (const char* library : {"Cairo", "FreeType", "HarfBuzz"})
+        if (change.pointer == library)
+          return fmt::format("{} {} \u2192 {}", library, change.baseline, change.current);
+  return "versions unknown";
+}
+
+/// Whether an SVG differs in more than where things stand by a little.
+bool changes_style(const PictureFile& file) {
+  return file.diff.svg && file.diff.state == PictureState::kDifferent &&
+         file.diff.svg->style + file.diff.svg->text + file.diff.svg->structure > 0;
+}
+
+bool is_visible(const PictureFile& file) { return file.diff.state == PictureState::kDifferent; }
+
+const PictureFile* first_with(const std::vector<PictureFile>& files, auto holds) {
+  const auto found = std::ranges::find_if(files, holds);
+  return found == files.end() ? nullptr : &*found;
+}
+
+/// Of files that are there on one side alone or cannot be read.
+std::optional<Judgement> judge_presence(const std::vector<PictureFile>& files) {
+  const auto there = [](const PictureFile& f) { return !f.baseline.empty() && !f.current.empty(); };
+  if (const PictureFile* bad = first_with(files, [&](const PictureFile& f) {
+        return there(f) && f.diff.state == PictureState::kUnreadable;
+      }))
+    return Judgement{Verdict::kUnreadable, true, bad->format + ": " + bad->diff.reason};
+  if (const PictureFile* gone =
+          first_with(files, [](const PictureFile& f) { return f.current.empty(); }))
+    return Judgement{Verdict::kMissing, true, "its " + gone->format + " is missing"};
+  if (const PictureFile* added =
+          first_with(files, [](const PictureFile& f) { return f.baseline.empty(); }))
+    return Judgement{Verdict::kNew, true, "its " + added->format + " is not in the baseline"};
+  return std::nullopt;
+}
+
+/// Of pictures without a value.
+Judgement judge_alone(const std::vector<PictureFile>& files) {
+  if (const PictureFile* different = first_with(files, is_visible))
+    return {Verdict::kChanged, true, different->format + ", by its pixels alone: " +
+                                         different->diff.reason};
+  if (const PictureFile* near = first_with(files, [](const PictureFile& f) {
+        return f.diff.state == PictureState::kWithinTolerance;
+      }))
+    return {Verdict::kWithinTolerance, false, near->format + ": " + near->diff.reason};
+  return {};
+}
+
+/// Of pictures whose figure's value is equal.
+Judgement judge_drawing(const std::vector<PictureFile>& files, const RecordContext& context) {
+  if (const PictureFile* style = first_with(files, changes_style)) {
+    const SvgChange* first =
+        style->diff.svg->changes.empty() ? nullptr : &style->diff.svg->changes[0];
+    return {Verdict::kStyle, true,
+            fmt::format("the figure's value is equal, its looks are not: {}{}", style->diff.reason,
+                        first ? fmt::format("; {}: {} {} \u2192 {}", first->element, first->what,
+                                            first->baseline, first->current)
+                              : "")};
+  }
+  const PictureFile* file = first_with(files, is_visible);
+  const bool visible = file != nullptr;
+  if (!visible)
+    file = first_with(files, [](const PictureFile& f) {
+      return f.diff.state == PictureState::kWithinTolerance;
+    });
+  if (file == nullptr) return {};
+  return {Verdict::kRenderer, visible,
+          fmt::format("the figure's value is equal, its {} is drawn otherwise: {}; {}",
+                      file->format, file->diff.reason, renderers_text(file->diff, context))};
+}
+
+PixelBox pixels_of(const Box& box, double scale) {
+  const int x = std::max(0, static_cast<int>(std::floor(box.x0 * scale)) - 1);
+  const int y = std::max(0, static_cast<int>(std::floor(box.y0 * scale)) - 1);
+  return {x, y, static_cast<int>(std::ceil(box.x1 * scale)) + 1 - x,
+          static_cast<int>(std::ceil(box.y1 * scale)) + 1 - y};
+}
+
+}  // namespace
+
+Judgement judge_pictures(const Judgement& value, bool has_value,
+                         const std::vector<PictureFile>& pictures, const RecordContext& context) {
+  if (const auto presence = judge_presence(pictures)) {
+    const Verdict verdict = heavier(presence->verdict, value.verdict);
+    return verdict == presence->verdict ? *presence : value;
+  }
+  if (!has_value) return judge_alone(pictures);
+  if (value.verdict > Verdict::kWithinTolerance && value.visible) {
+    Judgement told = value;
+    const bool unmoved =
+        !pictures.empty() && std::ranges::all_of(pictures, [](const PictureFile& file) {
+          return file.diff.state == PictureState::kIdentical;
+        });
+    if (unmoved) told.cause += "; its pictures are the same: they are not of this value";
+    return told;
+  }
+  const Judgement drawing = judge_drawing(pictures, context);
+  // A heavier word of the drawing names its own cause; equal weight keeps the value's.
+  return drawing.verdict > value.verdict ? drawing : value;
+}
+
+std::vector<PixelBox> varying_regions(const Figure& figure, const PictureSize& size) {
+  if (!problem(figure).empty()) return {};
+  const Theme theme = report_theme();
+  const Drawing drawing = lay_out(figure, theme);
+  const double scale = theme.dpi / 72.0;
+  if (std::abs(drawing.width * scale - size.width) > 1.0 ||
+      std::abs(drawing.height * scale - size.height) > 1.0)
+    return {};
+  std::vector<PixelBox> boxes;
+  for (const Box& frame : drawing.frames) boxes.push_back(pixels_of(frame, scale));
+  for (const Item& item : drawing.items) {
+    const bool varies = item.role == Role::kTickLabel || item.role == Role::kTick ||
+                        item.role == Role::kMarkLabel || item.role == Role::kNote ||
+                        item.role == Role::kLegendText;
+    if (!varies) continue;
+    if (const auto* line = std::get_if<TextLine>(&item.what))
+      boxes.push_back(pixels_of(ink_box(*line), scale));
+    else if (const auto* shape = std::get_if<Shape>(&item.what))
+      boxes.push_back(pixels_of(bounds(shape->path), scale));
+  }
+  return boxes;
+}
+
+}  // namespace mapproof

@@ -1,0 +1,85 @@
+#include "reports/diff/swapped_files.hpp"
+
+#include <map>
+#include <system_error>
+
+#include <fmt/format.h>
+
+#include "reports/diff/record_set_parts.hpp"
+
+namespace mapproof {
+namespace {
+
+namespace fs = std::filesystem;
+
+struct BaselineFile {
+  const DiffItem* item;
+  fs::path path;
+};
+
+/// Files by their size: only those can be equal.
+using BySize = std::multimap<std::uintmax_t, BaselineFile>;
+
+bool is_suspect(const DiffItem& item) {
+  return item.judgement.verdict > Verdict::kWithinTolerance;
+}
+
+void add(BySize& files, const DiffItem& item, const fs::path& path) {
+  std::error_code error;
+  if (path.empty()) return;
+  const std::uintmax_t size = fs::file_size(path, error);
+  if (!error && size > 0) files.emplace(size, BaselineFile{&item, path});
+}
+
+/// The item whose baseline file has these bytes; null if there is none.
+const DiffItem* owner_of(const fs::path& current, const DiffItem& self, const BySize& files) {
+  std::error_code error;
+  if (current.empty()) return nullptr;
+  const auto [first, last] = files.equal_range(fs::file_size(current, error));
+  if (error) return nullptr;
+  for (auto file = first; file != last; ++file)
+    if (file->second.item != &self && file->second.path.extension() == current.extension() &&
+        same_bytes(file->second.path, current))
+      return file->second.item;
+  return nullptr;
+}
+
+/// The first file of the item that belongs to another one.
+const DiffItem* owner_of(const DiffItem& item, const BySize& files) {
+  if (const DiffItem* owner = owner_of(item.current_figure, item, files)) return owner;
+  for (const PictureFile& picture : item.pictures)
+    if (const DiffItem* owner = owner_of(picture.current, item, files)) return owner;
+  return nullptr;
+}
+
+}  // namespace
+
+void name_swapped(std::vector<DiffItem>& items) {
+  BySize files;
+  for (const DiffItem& item : items) {
+    if (!is_suspect(item)) continue;
+    add(files, item, item.baseline_figure);
+    for (const PictureFile& picture : item.pictures) add(files, item, picture.baseline);
+  }
+  std::vector<std::pair<DiffItem*, std::string>> words;
+  std::map<std::string, std::string> renamed;
+  for (DiffItem& item : items) {
+    if (!is_suspect(item)) continue;
+    const DiffItem* owner = owner_of(item, files);
+    if (owner == nullptr) continue;
+    const bool is_rename = item.judgement.verdict == Verdict::kNew &&
+                           owner->judgement.verdict == Verdict::kMissing;
+    words.emplace_back(&item, 
+                       is_rename ? fmt::format("it is {} of the baseline, renamed", owner->id)
+                                 : fmt::format("its file is that of {} in the baseline: swapped",
+                                               owner->id));
+    if (is_rename) renamed[owner->id] = item.id;
+  }
+  for (auto& [item, text] : words) item->judgement.cause += "; " + text;
+  for (DiffItem& item : items)
+    if (const auto to = renamed.find(item.id);
+        to != renamed.end() && item.judgement.verdict == Verdict::kMissing)
+      item.judgement.cause += fmt::format("; it is {} of the current, renamed", to->second);
+}
+
+}  // namespace mapproof
