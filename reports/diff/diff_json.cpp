@@ -123,6 +123,7 @@ Json figure_json(const FigureDiff& diff) {
              return Json{{"place", move.place},
                          {"mark", move.mark},
                          {"landmark", move.landmark},
+                         {"curve", move.curve},
                          {"point", move.point},
                          {"baseline", point(move.baseline)},
                          {"current", point(move.current)},

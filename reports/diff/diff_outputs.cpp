@@ -72,10 +72,14 @@ int failures_of(const DiffResult& result, bool unreadable) {
 
 std::string diff_text(const DiffResult& result) {
   std::string text;
-  for (const DiffItem& item : result.items)
-    if (item.judgement.verdict != Verdict::kIdentical)
-      text += fmt::format("{:<21}  {}: {}\n", label(item.judgement.verdict), printable(item.id),
-                          printable(item.judgement.cause, kLongest));
+  for (const DiffItem& item : result.items) {
+    const Judgement& told = item.judgement;
+    if (told.verdict == Verdict::kIdentical) continue;
+    // Causes that are tied to records begin with the id themselves.
+    const std::string head = told.cause.starts_with(item.id + " ") ? "" : item.id + ": ";
+    text += fmt::format("{:<21}  {}\n", label(told.verdict),
+                        printable(head + told.cause, kLongest));
+  }
   return text + fmt::format("{}: {}\n", result.passes ? "passes" : "does not pass",
                             counts_text(result));
 }

@@ -21,12 +21,12 @@ std::string change_sentence(const FigureChange& change) {
   return fmt::format("{} {} \u2192 {}", text, before, after);
 }
 
-/// The first change of that kind, and how many more there are.
+/// The first change of that kind, and how many more there are; other records are told apart.
 std::string first_of(const FigureDiff& diff, ChangeKind kind) {
   const FigureChange* first = nullptr;
   long count = 0;
   for (const FigureChange& change : diff.changes)
-    if (change.kind == kind && count++ == 0) first = &change;
+    if (change.kind == kind && change.what != "records" && count++ == 0) first = &change;
   if (first == nullptr) return "";
   return change_sentence(*first) +
          (count > 1 ? fmt::format(", and {} more", counted(count - 1, "change")) : "");
@@ -56,13 +56,9 @@ std::string data_cause(const FigureDiff& diff) {
 }  // namespace
 
 std::string move_text(const MarkMove& move) {
-  const std::string who = move.landmark.empty()
-                              ? fmt::format("point {} of {}", move.point + 1, move.place)
-                              : (move.place.find("line") != std::string::npos ||
-                                         move.place.find("band") != std::string::npos
-                                     ? fmt::format("point {} of {}", move.point + 1,
-                                                   printable(move.landmark))
-                                     : "landmark " + printable(move.landmark));
+  const std::string of = move.curve.empty() ? move.place : printable(move.curve);
+  const std::string who = move.landmark.empty() ? fmt::format("point {} of {}", move.point + 1, of)
+                                                : "landmark " + printable(move.landmark);
   std::string text = std::isnan(move.distance)
                          ? fmt::format("{} {}", who,
                                        std::isnan(move.current.x + move.current.y)
@@ -79,7 +75,7 @@ Judgement judge(const FigureDiff& diff) {
   if (diff.has(ChangeKind::kStyle))
     return {Verdict::kStyle, true, first_of(diff, ChangeKind::kStyle)};
   if (diff.has(ChangeKind::kMetadata))
-    return {Verdict::kStyle, false, "words alone: " + first_of(diff, ChangeKind::kMetadata)};
+    return {Verdict::kStyle, true, "words alone: " + first_of(diff, ChangeKind::kMetadata)};
   if (diff.within > 0)
     return {Verdict::kWithinTolerance, false,
             counted(diff.within, "point") + " moved within tolerance"};

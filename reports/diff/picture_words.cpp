@@ -129,18 +129,17 @@ std::vector<PixelBox> varying_regions(const Figure& figure, const PictureSize& s
   if (std::abs(drawing.width * scale - size.width) > 1.0 ||
       std::abs(drawing.height * scale - size.height) > 1.0)
     return {};
-  std::vector<PixelBox> boxes;
-  for (const Box& frame : drawing.frames) boxes.push_back(pixels_of(frame, scale));
+  // The whole of each panel: other ticks move its frame and labels, whose words the values tell.
+  std::vector<Box> panels = drawing.frames;
   for (const Item& item : drawing.items) {
-    const bool varies = item.role == Role::kTickLabel || item.role == Role::kTick ||
-                        item.role == Role::kMarkLabel || item.role == Role::kNote ||
-                        item.role == Role::kLegendText;
-    if (!varies) continue;
+    if (item.role == Role::kTitle || item.clipped || item.panel >= panels.size()) continue;
     if (const auto* line = std::get_if<TextLine>(&item.what))
-      boxes.push_back(pixels_of(ink_box(*line), scale));
+      panels[item.panel] = panels[item.panel].united(ink_box(*line));
     else if (const auto* shape = std::get_if<Shape>(&item.what))
-      boxes.push_back(pixels_of(bounds(shape->path), scale));
+      panels[item.panel] = panels[item.panel].united(bounds(shape->path));
   }
+  std::vector<PixelBox> boxes;
+  for (const Box& panel : panels) boxes.push_back(pixels_of(panel.grown(theme.line_pt), scale));
   return boxes;
 }
 

@@ -34,11 +34,13 @@ Ties ties_of(const std::vector<std::string>& ids, const RecordContext& context) 
   return ties;
 }
 
-/// Position and orientation errors are what figures show; others count where these do not differ.
-std::vector<const Comparison*> primary(const std::vector<const Comparison*>& all) {
+/// The quantity that the figure is about, by its id; others count where that one does not differ.
+std::vector<const Comparison*> primary(const std::string& id,
+                                       const std::vector<const Comparison*>& all) {
+  const bool shows_moe = id.find("moe") != std::string::npos;
   std::vector<const Comparison*> some;
   for (const Comparison* comparison : all)
-    if (comparison->quantity == "mpe_m" || comparison->quantity == "moe_percent" ||
+    if (comparison->quantity == (shows_moe ? "moe_percent" : "mpe_m") ||
         comparison->quantity == "mean_m")
       some.push_back(comparison);
   return some.empty() ? all : some;
@@ -81,7 +83,7 @@ Judgement tied_judgement(const std::string& id, const FigureDiff& diff, const Ju
                        change->current);
   why += what_moved(diff, ties, own);
 
-  const std::vector<const Comparison*> shown = primary(ties.comparisons);
+  const std::vector<const Comparison*> shown = primary(id, ties.comparisons);
   if (const Comparison* first = most_telling(shown)) {
     judgement.verdict = Verdict::kBetter;
     for (const Comparison* comparison : shown)

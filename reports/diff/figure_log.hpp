@@ -1,0 +1,34 @@
+#pragma once
+
+#include <string>
+#include <string_view>
+
+#include "reports/diff/figure_diff.hpp"
+
+namespace mapproof {
+
+/// Gathers what two figures differ in, within bounds.
+class FigureLog {
+ public:
+  /// @param varies  Data are counted as masked, and so are words that differ in numbers alone.
+  explicit FigureLog(bool varies) : varies_(varies) {}
+
+  /// Notes nothing if both values are the same.
+  void change(ChangeKind kind, const std::string& place, std::string_view what,
+              const std::string& baseline, const std::string& current);
+  void move(MarkMove move);
+  /// A point that moved within tolerance.
+  void within() { ++diff_.within; }
+  /// Errors of marks on both sides: their sums, and how many.
+  void errors(double baseline, double current, double count);
+
+  /// All of it: data changes first, far moves first.
+  FigureDiff take();
+
+ private:
+  bool varies_;
+  FigureDiff diff_;
+  double baseline_errors_ = 0.0, current_errors_ = 0.0, errors_ = 0.0;
+};
+
+}  // namespace mapproof
