@@ -28,9 +28,9 @@ std::vector<Verdict> verdicts_in(const std::string& list) {
     const std::string word = list.substr(at, end - at);
     const auto verdict = verdict_named(word);
     if (!verdict)
-      throw InvalidInput(fmt::format("--allow: no verdict \"{}\"; did you mean \"{}\"? There are {}",
-                                     printable(word), nearest_word(word, names),
-                                     fmt::join(names, ", ")));
+      throw InvalidInput(
+          fmt::format("--allow: no verdict \"{}\"; did you mean \"{}\"? There are {}",
+                      printable(word), nearest_word(word, names), fmt::join(names, ", ")));
     verdicts.push_back(*verdict);
     at = end + 1;
   }

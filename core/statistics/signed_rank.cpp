@@ -14,8 +14,8 @@ namespace {
 
 constexpr int kMostExact = 200;
 
-/// The chance that the sum of ranks with a fair sign each is at most `sum`. Doubled ranks are whole,
-/// ties or not.
+/// The chance that the sum of ranks with a fair sign each is at most `sum`. Doubled ranks are
+/// whole, ties or not.
 double chance_of_at_most(const Eigen::RowVectorXd& ranks, double sum) {
   const auto top = static_cast<std::size_t>(std::lround(2.0 * ranks.sum()));
   std::vector<double> chance(top + 1, 0.0);

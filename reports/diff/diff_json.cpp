@@ -26,12 +26,18 @@ Json array(const List& list, Make make) {
 Json point(const Point& at) { return Json::array({number(at.x), number(at.y)}); }
 
 Json comparison_json(const Comparison& c) {
-  Json json{{"subject", c.subject},       {"current_subject", c.current_subject},
-            {"quantity", c.quantity},     {"outcome", name(c.outcome)},
-            {"pairs", c.pairs},           {"equal", c.equal},
-            {"within", c.within},         {"beyond", c.beyond},
-            {"lost", c.lost},             {"gained", c.gained},
-            {"baseline", number(c.baseline_mean)}, {"current", number(c.current_mean)}};
+  Json json{{"subject", c.subject},
+            {"current_subject", c.current_subject},
+            {"quantity", c.quantity},
+            {"outcome", name(c.outcome)},
+            {"pairs", c.pairs},
+            {"equal", c.equal},
+            {"within", c.within},
+            {"beyond", c.beyond},
+            {"lost", c.lost},
+            {"gained", c.gained},
+            {"baseline", number(c.baseline_mean)},
+            {"current", number(c.current_mean)}};
   json["test"] = nullptr;
   if (c.test)
     json["test"] = {{"unit", c.test->unit},
@@ -42,9 +48,8 @@ Json comparison_json(const Comparison& c) {
                     {"p_corrected", c.test->p},
                     {"effect", c.test->test.effect}};
   json["largest"] = array(c.largest, [](const PairedValue& pair) {
-    return Json{{"run", pair.run},
-                {"baseline", number(pair.baseline)},
-                {"current", number(pair.current)}};
+    return Json{
+        {"run", pair.run}, {"baseline", number(pair.baseline)}, {"current", number(pair.current)}};
   });
   return json;
 }
@@ -161,10 +166,9 @@ Json svg_json(const SvgDiff& svg) {
           {"structure", svg.structure},
           {"metadata", svg.metadata},
           {"changes", array(svg.changes, [](const SvgChange& change) {
-             return Json{{"element", change.element},   {"what", change.what},
-                         {"baseline", change.baseline}, {"current", change.current},
-                         {"distance", number(change.distance)},
-                         {"tolerated", change.tolerated}};
+             return Json{{"element", change.element},           {"what", change.what},
+                         {"baseline", change.baseline},         {"current", change.current},
+                         {"distance", number(change.distance)}, {"tolerated", change.tolerated}};
            })}};
 }
 

@@ -77,11 +77,11 @@ std::string diff_text(const DiffResult& result) {
     if (told.verdict == Verdict::kIdentical) continue;
     // Causes that are tied to records begin with the id themselves.
     const std::string head = told.cause.starts_with(item.id + " ") ? "" : item.id + ": ";
-    text += fmt::format("{:<21}  {}\n", label(told.verdict),
-                        printable(head + told.cause, kLongest));
+    text +=
+        fmt::format("{:<21}  {}\n", label(told.verdict), printable(head + told.cause, kLongest));
   }
-  return text + fmt::format("{}: {}\n", result.passes ? "passes" : "does not pass",
-                            counts_text(result));
+  return text +
+         fmt::format("{}: {}\n", result.passes ? "passes" : "does not pass", counts_text(result));
 }
 
 std::string diff_junit(const DiffResult& result) {
@@ -113,8 +113,8 @@ std::string diff_junit(const DiffResult& result) {
 }
 
 std::string diff_markdown(const DiffResult& result) {
-  std::string out = fmt::format("### mapproof diff: {}\n\n{}\n", result.passes ? "passes" : "does not pass",
-                                counts_text(result));
+  std::string out = fmt::format("### mapproof diff: {}\n\n{}\n",
+                                result.passes ? "passes" : "does not pass", counts_text(result));
   std::size_t rows = 0, left = 0;
   for (const DiffItem& item : result.items) {
     if (item.judgement.verdict == Verdict::kIdentical) continue;

@@ -14,10 +14,10 @@ namespace mapproof {
 
 /// A picture file of an item.
 struct PictureFile {
-  std::string format;            ///< "png", "svg".
-  std::string baseline_key;      ///< Of several valid baselines, which; empty: the plain one.
+  std::string format;        ///< "png", "svg".
+  std::string baseline_key;  ///< Of several valid baselines, which; empty: the plain one.
   std::filesystem::path baseline, current;  ///< Empty: not there.
-  PictureDiff diff;              ///< If both are there.
+  PictureDiff diff;                         ///< If both are there.
 };
 
 enum class ItemKind {

@@ -34,8 +34,8 @@ void read_records(const JsonCursor& at, RecordOptions& options) {
 }
 
 void read_pictures(const JsonCursor& at, PictureOptions& options) {
-  at.allow_only({"noise", "mean_noise", "displacement_px", "changed_share", "svg_distance",
-                 "svg_colour"});
+  at.allow_only(
+      {"noise", "mean_noise", "displacement_px", "changed_share", "svg_distance", "svg_colour"});
   const auto read = [&](const char* key, double most, double& value) {
     if (const auto found = at.find(key)) value = found->number(0.0, most);
   };

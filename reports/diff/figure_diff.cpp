@@ -51,8 +51,7 @@ std::string arrows_text(const Figure& figure) {
 }
 
 void compare_frame(const Figure& a, const Figure& b, FigureLog& log) {
-  const auto add = [&](std::string_view what, const std::string& before,
-                       const std::string& after) {
+  const auto add = [&](std::string_view what, const std::string& before, const std::string& after) {
     log.change(ChangeKind::kStyle, "figure", what, before, after);
   };
   const auto panels = [](const Figure& figure) {
@@ -71,7 +70,8 @@ void compare_axis(const std::string& place, const char* which, const Axis& a, co
     log.change(ChangeKind::kStyle, place, fmt::format("{} of {}", what, which), before, after);
   };
   add("label", a.label, b.label);
-  add("scale", a.scale == Scale::kLog ? "log" : "linear", b.scale == Scale::kLog ? "log" : "linear");
+  add("scale", a.scale == Scale::kLog ? "log" : "linear",
+      b.scale == Scale::kLog ? "log" : "linear");
   add("limits", text_of(a.limits), text_of(b.limits));
   add("ticks", a.whole ? "whole numbers" : "any", b.whole ? "whole numbers" : "any");
 }

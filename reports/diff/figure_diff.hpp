@@ -32,13 +32,13 @@ struct FigureChange {
 
 /// A mark, or a point of a curve, that moved.
 struct MarkMove {
-  std::string place;     ///< As FigureChange::place.
-  std::string mark;      ///< Mark::id, "" if it has none.
-  std::string landmark;  ///< Its data-landmark, "" if it has none.
-  std::string curve;     ///< Its data-curve, "" if it has none.
-  std::size_t point = 0;  ///< Which of its layer, counted from 0.
-  Point baseline, current;  ///< In the units of the axes.
-  double distance = 0.0;    ///< In the units of the axes; NaN: a place on one side alone.
+  std::string place;                  ///< As FigureChange::place.
+  std::string mark;                   ///< Mark::id, "" if it has none.
+  std::string landmark;               ///< Its data-landmark, "" if it has none.
+  std::string curve;                  ///< Its data-curve, "" if it has none.
+  std::size_t point = 0;              ///< Which of its layer, counted from 0.
+  Point baseline, current;            ///< In the units of the axes.
+  double distance = 0.0;              ///< In the units of the axes; NaN: a place on one side alone.
   std::optional<double> distance_px;  ///< On the page of the report's theme.
 };
 

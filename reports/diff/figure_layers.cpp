@@ -136,6 +136,19 @@ struct Viewer {
             .texts = l.text,
             .marks = {}};
   }
+  LayerView operator()(const Picture& l) const {
+    return {.kind = "picture",
+            .label = "",
+            .looks = {{"source", number(static_cast<double>(l.source))}},
+            .coordinates = {{"x", l.clear_x}, {"y", l.clear_y}, {"half a side", l.clear_by}},
+            .places = {{0, 1}},
+            .extents = {{"left edge", l.x.low},
+                        {"right edge", l.x.high},
+                        {"lower edge", l.y.low},
+                        {"upper edge", l.y.high}},
+            .texts = {},
+            .marks = {}};
+  }
 };
 
 }  // namespace
@@ -147,8 +160,8 @@ std::string_view name(Dash dash) { return name_in(figure_json::kDashes, dash); }
 std::string_view name(Marker marker) { return name_in(figure_json::kMarkers, marker); }
 
 std::string_view data_of(const Mark& mark, std::string_view key) {
-  const auto found =
-      std::ranges::find(mark.data, key, [](const auto& item) { return std::string_view(item.first); });
+  const auto found = std::ranges::find(
+      mark.data, key, [](const auto& item) { return std::string_view(item.first); });
   return found == mark.data.end() ? std::string_view() : std::string_view(found->second);
 }
 

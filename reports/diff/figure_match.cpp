@@ -89,8 +89,7 @@ std::vector<Match> match_points(const LayerView& a, const LayerView& b) {
   for (std::size_t i = 0; i < a.points(); ++i) {
     const std::string_view name = a.has_mark_a_point() ? a.marks[i].id : a.texts[i];
     const auto found = second->find(name);
-    matches.push_back(
-        {i, found == second->end() ? std::nullopt : std::optional(found->second)});
+    matches.push_back({i, found == second->end() ? std::nullopt : std::optional(found->second)});
   }
   for (std::size_t j = 0; j < b.points(); ++j) {
     const std::string_view name = b.has_mark_a_point() ? b.marks[j].id : b.texts[j];

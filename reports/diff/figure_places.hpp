@@ -19,8 +19,7 @@ class FigurePlaces {
 
   /// Whether a point of a panel moved: along an axis by more than `tolerance`, its relative part
   /// that of what the panel spans, or on a log axis of the value. A point on one side alone moved.
-  Movement movement(std::size_t panel, Point before, Point after,
-                    const Tolerance& tolerance) const;
+  Movement movement(std::size_t panel, Point before, Point after, const Tolerance& tolerance) const;
 
   /// Between the two places on the pages of the report's theme, in its pixels.
   std::optional<double> distance_px(std::size_t panel, Point before, Point after) const;

@@ -48,8 +48,8 @@ std::string data_cause(const FigureDiff& diff) {
   const std::string more = first_of(diff, ChangeKind::kData);
   if (!more.empty()) text += (text.empty() ? "" : "; ") + more;
   if (direction(diff) != Verdict::kChanged)
-    text += fmt::format(
-        "; mean error {}", change_text(*diff.baseline_error, *diff.current_error, ""));
+    text +=
+        fmt::format("; mean error {}", change_text(*diff.baseline_error, *diff.current_error, ""));
   return text;
 }
 
@@ -59,12 +59,12 @@ std::string move_text(const MarkMove& move) {
   const std::string of = move.curve.empty() ? move.place : printable(move.curve);
   const std::string who = move.landmark.empty() ? fmt::format("point {} of {}", move.point + 1, of)
                                                 : "landmark " + printable(move.landmark);
-  std::string text = std::isnan(move.distance)
-                         ? fmt::format("{} {}", who,
-                                       std::isnan(move.current.x + move.current.y)
-                                           ? "lost its place"
-                                           : "gained a place")
-                         : fmt::format("{} moved {:.3g}", who, move.distance);
+  std::string text =
+      std::isnan(move.distance)
+          ? fmt::format(
+                "{} {}", who,
+                std::isnan(move.current.x + move.current.y) ? "lost its place" : "gained a place")
+          : fmt::format("{} moved {:.3g}", who, move.distance);
   if (move.distance_px) text += fmt::format(" ({:.1f} px)", *move.distance_px);
   return text;
 }
@@ -80,8 +80,9 @@ Judgement judge(const FigureDiff& diff) {
     return {Verdict::kWithinTolerance, false,
             counted(diff.within, "point") + " moved within tolerance"};
   if (diff.masked > 0)
-    return {Verdict::kWithinTolerance, false,
-            fmt::format("varies from run to run: {} not judged", counted(diff.masked, "difference"))};
+    return {
+        Verdict::kWithinTolerance, false,
+        fmt::format("varies from run to run: {} not judged", counted(diff.masked, "difference"))};
   return {};
 }
 

@@ -94,11 +94,10 @@ void check_kinds(const ItemList& baseline, const ItemList& current, const fs::pa
   if (first || baseline.empty() || current.empty()) return;
   const ItemFiles& x = baseline.begin()->second;
   const ItemFiles& y = current.begin()->second;
-  const bool same_kind = x.figure.empty() == y.figure.empty() &&
-                         x.pictures.size() == y.pictures.size() &&
-                         std::ranges::equal(x.pictures, y.pictures, {},
-                                            &decltype(x.pictures)::value_type::first,
-                                            &decltype(x.pictures)::value_type::first);
+  const bool same_kind =
+      x.figure.empty() == y.figure.empty() && x.pictures.size() == y.pictures.size() &&
+      std::ranges::equal(x.pictures, y.pictures, {}, &decltype(x.pictures)::value_type::first,
+                         &decltype(x.pictures)::value_type::first);
   if (!same_kind)
     throw InvalidInput(a.string() + " and " + b.string() +
                        " are files of different kinds: not to be compared");

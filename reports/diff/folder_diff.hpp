@@ -9,7 +9,8 @@ namespace mapproof {
 
 /// Compares two studies with their figures, two folders of pictures, or two files (pictures,
 /// figures as JSON, map.json, slam.json).
-/// @throws IoError if one of them is not there or cannot be listed; InvalidInput if there is nothing
+/// @throws IoError if one of them is not there or cannot be listed; InvalidInput if there is
+/// nothing
 ///         to compare, or two things of different kinds.
 /// @note Several pictures at a time, by oneTBB; the result does not depend on it.
 DiffResult folder_diff(const std::filesystem::path& baseline, const std::filesystem::path& current,

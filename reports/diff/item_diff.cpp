@@ -125,8 +125,8 @@ DiffItem item_diff(const std::string& id, const ItemFiles* baseline, const ItemF
   DiffItem item;
   item.id = id;
   if (baseline == nullptr || current == nullptr) {
-    item = lone_item(std::move(item), baseline == nullptr ? *current : *baseline,
-                     baseline == nullptr);
+    item =
+        lone_item(std::move(item), baseline == nullptr ? *current : *baseline, baseline == nullptr);
   } else {
     item.baseline_figure = baseline->figure;
     item.current_figure = current->figure;
@@ -138,8 +138,8 @@ DiffItem item_diff(const std::string& id, const ItemFiles* baseline, const ItemF
     if (item.judgement.verdict != Verdict::kUnreadable)
       item.judgement = judge_pictures(item.judgement, both, item.pictures, context);
     if (some && !both)
-      item.judgement = {heavier(item.judgement.verdict, current->figure.empty() ? Verdict::kMissing
-                                                                                : Verdict::kNew),
+      item.judgement = {heavier(item.judgement.verdict,
+                                current->figure.empty() ? Verdict::kMissing : Verdict::kNew),
                         true,
                         current->figure.empty() ? "its figure.json is missing"
                                                 : "its figure.json is not in the baseline"};

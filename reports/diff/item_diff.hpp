@@ -21,8 +21,7 @@ DiffItem item_diff(const std::string& id, const ItemFiles* baseline, const ItemF
 /// Why the data of a figure changed, by the records that it names; and which way.
 /// @param own  The figure's own judgement.
 Judgement tied_judgement(const std::string& id, const FigureDiff& diff, const Judgement& own,
-                         const std::vector<std::string>& record_ids,
-                         const RecordContext& context);
+                         const std::vector<std::string>& record_ids, const RecordContext& context);
 
 /// What the pictures of a figure add to the judgement of its value, or say alone.
 /// @param has_value  Whether the figure's value was compared.

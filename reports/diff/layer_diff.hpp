@@ -28,8 +28,7 @@ class LayerDiff {
 
  private:
   void compare_point(const LayerView& a, std::size_t i, const LayerView& b, std::size_t j);
-  void compare_values(const LayerView& a, const LayerView& b,
-                      const std::vector<Match>& matches);
+  void compare_values(const LayerView& a, const LayerView& b, const std::vector<Match>& matches);
   void compare_data(const Mark& a, const Mark& b);
   void lone_points(const char* what, long count, const std::string& first);
   MarkMove mark_move(const LayerView& layer, std::size_t point, Point before, Point after) const;

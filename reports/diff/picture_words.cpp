@@ -59,8 +59,8 @@ std::optional<Judgement> judge_presence(const std::vector<PictureFile>& files) {
 /// Of pictures without a value.
 Judgement judge_alone(const std::vector<PictureFile>& files) {
   if (const PictureFile* different = first_with(files, is_visible))
-    return {Verdict::kChanged, true, different->format + ", by its pixels alone: " +
-                                         different->diff.reason};
+    return {Verdict::kChanged, true,
+            different->format + ", by its pixels alone: " + different->diff.reason};
   if (const PictureFile* near = first_with(files, [](const PictureFile& f) {
         return f.diff.state == PictureState::kWithinTolerance;
       }))
@@ -82,9 +82,8 @@ Judgement judge_drawing(const std::vector<PictureFile>& files, const RecordConte
   const PictureFile* file = first_with(files, is_visible);
   const bool visible = file != nullptr;
   if (!visible)
-    file = first_with(files, [](const PictureFile& f) {
-      return f.diff.state == PictureState::kWithinTolerance;
-    });
+    file = first_with(
+        files, [](const PictureFile& f) { return f.diff.state == PictureState::kWithinTolerance; });
   if (file == nullptr) return {};
   return {Verdict::kRenderer, visible,
           fmt::format("the figure's value is equal, its {} is drawn otherwise: {}; {}",

@@ -15,9 +15,9 @@ constexpr auto kNeither = Direction::kNeither;
 
 constexpr std::array kQuantities = {
     QuantityFacts{"mpe_m", "MPE", "m", kLower, {1e-6, 1e-6}},
-    QuantityFacts{"moe_percent", "MOE", "%", kLower, {1e-9, 0.0}},
+    QuantityFacts{"moe_percent", "MOE", "%", kLower, {1e-9, 1e-6}},
     QuantityFacts{"mpe_all_fitted_m", "MPE fitted to all landmarks", "m", kLower, {1e-6, 1e-6}},
-    QuantityFacts{"moe_unmirrored_percent", "MOE free of reflection", "%", kLower, {1e-9, 0.0}},
+    QuantityFacts{"moe_unmirrored_percent", "MOE free of reflection", "%", kLower, {1e-9, 1e-6}},
     QuantityFacts{"stress", "stress", "", kLower, {1e-9, 1e-6}},
     QuantityFacts{"relative_gap", "relative gap", "", kLower, {1e-5, 0.0}},
     QuantityFacts{"iterations", "iterations", "", kNeither, {kInfinity, 0.0}},

@@ -127,8 +127,8 @@ std::string_view name(Outcome outcome) {
 
 RecordDiff record_diff(const RecordSet& a, const RecordSet& b, const RecordOptions& options) {
   if (a.kind != b.kind)
-    throw InvalidInput(fmt::format("the baseline is a {}, the current a {}: not to be compared",
-                                   a.kind, b.kind));
+    throw InvalidInput(
+        fmt::format("the baseline is a {}, the current a {}: not to be compared", a.kind, b.kind));
   RecordDiff diff;
   diff.same_seeds = have_same_seeds(a, b, options.tolerances);
   compare_settings(a, b, diff);

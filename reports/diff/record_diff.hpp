@@ -48,12 +48,13 @@ struct Comparison {
   int equal = 0;
   int within = 0;
   int beyond = 0;
-  int lost = 0;    ///< Runs with a value in the baseline alone; not in `pairs`.
-  int gained = 0;  ///< Runs with a value in the current alone.
+  int lost = 0;                ///< Runs with a value in the baseline alone; not in `pairs`.
+  int gained = 0;              ///< Runs with a value in the current alone.
   double baseline_mean = 0.0;  ///< Over the pairs, or without pairs over all; NaN: none.
   double current_mean = 0.0;
-  std::vector<PairedValue> largest;  ///< Beyond tolerance, the largest difference first; at most 20.
-  std::optional<PairedTest> test;    ///< Where six or more pairs of equal seeds are there.
+  std::vector<PairedValue>
+      largest;                     ///< Beyond tolerance, the largest difference first; at most 20.
+  std::optional<PairedTest> test;  ///< Where six or more pairs of equal seeds are there.
   Outcome outcome = Outcome::kEqual;
 };
 
@@ -74,8 +75,8 @@ struct PointsDiff {
   int beyond = 0;
   int lost = 0;
   int gained = 0;
-  bool truth_differs = false;  ///< Other landmarks: nothing was compared.
-  std::vector<PointMove> moves;  ///< The farthest first; at most 20.
+  bool truth_differs = false;                           ///< Other landmarks: nothing was compared.
+  std::vector<PointMove> moves;                         ///< The farthest first; at most 20.
   std::optional<double> baseline_error, current_error;  ///< Means where the truth is known.
 };
 
@@ -119,8 +120,8 @@ struct RecordDiff {
 };
 
 /// Compares records run by run. Where six or more pairs of equal seeds are there, Wilcoxon's signed
-/// rank test, corrected by Holm over all quantities that differ beyond tolerance, and its effect size
-/// decide between better, worse and changed; with fewer pairs all have to point one way.
+/// rank test, corrected by Holm over all quantities that differ beyond tolerance, and its effect
+/// size decide between better, worse and changed; with fewer pairs all have to point one way.
 ///
 /// Tests are of what differs at all: under the hypothesis that is tested, signs as likely up as
 /// down, leaving out the quantities without a difference changes no chance.

@@ -132,9 +132,8 @@ std::optional<PointsDiff> points_diff(const std::string& record, const PlacedPoi
   PointsDiff diff;
   diff.record = record;
   diff.quantity = a.quantity;
-  const bool same_truth =
-      a.truth.has_value() == b.truth.has_value() &&
-      (!a.truth || same_places(places(*a.truth), places(*b.truth), tolerances));
+  const bool same_truth = a.truth.has_value() == b.truth.has_value() &&
+                          (!a.truth || same_places(places(*a.truth), places(*b.truth), tolerances));
   if (a.names != b.names || a.quantity != b.quantity || a.points.rows() != b.points.rows() ||
       !same_truth) {
     diff.truth_differs = true;

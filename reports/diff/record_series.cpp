@@ -114,7 +114,8 @@ struct Open {
   Differences differences;
 };
 
-/// The value of a run; NaN where the side has the run but not the value, nothing where it lacks both.
+/// The value of a run; NaN where the side has the run but not the value, nothing where it lacks
+/// both.
 std::optional<double> value_of(const RecordSet& set, const Values& values, const std::string& run) {
   const auto found = values.find(run);
   if (found != values.end()) return found->second;
@@ -153,8 +154,8 @@ Outcome outcome_of(const Open& open, bool same_seeds, const QuantityFacts& quant
     return c.within > 0 ? Outcome::kWithinTolerance : Outcome::kEqual;
   if (quantity.direction == Direction::kNeither || !same_seeds) return Outcome::kChanged;
   if (c.test && c.lost + c.gained == 0) {
-    const bool decides = c.test->p < options.significance &&
-                         std::abs(c.test->test.effect) >= options.least_effect;
+    const bool decides =
+        c.test->p < options.significance && std::abs(c.test->test.effect) >= options.least_effect;
     if (!decides) return Outcome::kChanged;
     return c.test->test.effect > 0.0 ? Outcome::kWorse : Outcome::kBetter;
   }

@@ -14,8 +14,7 @@ bool have_same_seeds(const RecordSet& baseline, const RecordSet& current,
 /// Every quantity that is not equal throughout, its outcome decided.
 /// @param values  Set to the number of values that were compared.
 std::vector<Comparison> compare_series(const RecordSet& baseline, const RecordSet& current,
-                                       bool same_seeds, const RecordOptions& options,
-                                       long& values);
+                                       bool same_seeds, const RecordOptions& options, long& values);
 
 /// Which subject of the current one of the baseline is compared with: itself, or the one that
 /// differs from it in its parameter alone.

@@ -58,8 +58,7 @@ RecordSet read_single(const fs::path& file) {
   set.kind = schema;
   if (schema == "mapproof.map") {
     const MapRecord map = parse_map(text, source);
-    const std::string subject =
-        add_subject(set, map.sensor, map.setting, std::to_string(map.step));
+    const std::string subject = add_subject(set, map.sensor, map.setting, std::to_string(map.step));
     set.runs[""] = "";
     add_score(set, subject, "", map.score);
     add_statuses(set, map.id, map.statuses);
@@ -93,8 +92,7 @@ bool same_bytes(const fs::path& a, const fs::path& b) {
 
 void add_settings(RecordSet& set, const std::string& text, const std::string& source) {
   const JsonDocument document = parse_json(text, source);
-  if (document.root.contains("experiment"))
-    flatten(document.root["experiment"], "", set.settings);
+  if (document.root.contains("experiment")) flatten(document.root["experiment"], "", set.settings);
   const auto seed = set.settings.find("/seed");
   if (seed != set.settings.end()) set.seed = seed->second;
 }
@@ -145,8 +143,7 @@ bool holds_records(const fs::path& path) {
   if (!file.ends_with(".json") || file.ends_with(".figure.json") || file.ends_with(".scene.json"))
     return false;
   try {
-    const std::string schema =
-        schema_of(parse_json(read_file(path), path.string()).cursor()).name;
+    const std::string schema = schema_of(parse_json(read_file(path), path.string()).cursor()).name;
     return schema == "mapproof.map" || schema == "mapproof.slam_run";
   } catch (const IoError&) {
     return false;

@@ -44,26 +44,27 @@ struct RecordProblem {
 
 /// The records of one side of a comparison, whatever kind they are of.
 struct RecordSet {
-  std::string kind;  ///< "mapproof.study", "mapproof.slam_study", "mapproof.map", "mapproof.slam_run".
+  std::string
+      kind;  ///< "mapproof.study", "mapproof.slam_study", "mapproof.map", "mapproof.slam_run".
   std::string seed;  ///< Of the experiment; empty: none.
   /// The experiment, value by value: JSON pointer and text.
   std::map<std::string, std::string> settings;
   Provenance provenance;
-  bool repeats = false;                       ///< Runs differ by their seed alone.
-  std::map<std::string, std::string> runs;    ///< Id of each, and the layout it belongs to.
+  bool repeats = false;                        ///< Runs differ by their seed alone.
+  std::map<std::string, std::string> runs;     ///< Id of each, and the layout it belongs to.
   std::map<std::string, PlacedPoints> worlds;  ///< By run: the true places.
   std::map<std::string, std::string> anchors;  ///< By run: their rows, as text.
-  std::map<std::string, Family> families;     ///< By subject, where it has a parameter.
+  std::map<std::string, Family> families;      ///< By subject, where it has a parameter.
   /// Numbers by run; NaN: no map came out, or there is nothing to judge.
   std::map<SeriesKey, std::map<std::string, double>> values;
-  std::map<std::string, std::string> statuses;      ///< Of a record: its codes, in order.
-  std::map<std::string, PlacedPoints> points;       ///< By record: "layout-1-pose-2/bearing/lpca/2000".
+  std::map<std::string, std::string> statuses;  ///< Of a record: its codes, in order.
+  std::map<std::string, PlacedPoints> points;   ///< By record: "layout-1-pose-2/bearing/lpca/2000".
   std::map<std::string, std::filesystem::path> others;  ///< Files compared number by number.
   std::vector<RecordProblem> problems;
 };
 
-/// Whether there are records that read_records() reads: the folder of a study of either kind or of a
-/// map, a map.json or a slam.json.
+/// Whether there are records that read_records() reads: the folder of a study of either kind or of
+/// a map, a map.json or a slam.json.
 bool holds_records(const std::filesystem::path& path);
 
 /// Reads the records of a folder or a file. A file of a study that cannot be read is a problem and

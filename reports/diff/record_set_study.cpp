@@ -38,9 +38,8 @@ void add_variation(RecordSet& set, const std::string& run, const Experiment& exp
                    const VariationRecord& record) {
   for (const Variation& variation : experiment.variations)
     if (variation.id == record.variation) {
-      const std::string subject =
-          add_subject(set, variation.sensor, record.setting,
-                      fmt::format("{}-{}", record.variation, record.level));
+      const std::string subject = add_subject(set, variation.sensor, record.setting,
+                                              fmt::format("{}-{}", record.variation, record.level));
       add_score(set, subject, run, record.score);
       add_statuses(set, run + "/" + subject, record.statuses);
     }
@@ -52,10 +51,8 @@ void add_run(RecordSet& set, const Experiment& experiment, const Run& run) {
   PlacedPoints& world = set.worlds[id];
   world.points = run.world.landmarks_m;
   for (const RunRecord& record : run.records) add_record(set, id, record);
-  for (const VariationRecord& record : run.variations)
-    add_variation(set, id, experiment, record);
-  for (const Eigen::Index anchor : run.anchors)
-    set.anchors[id] += fmt::format(" {}", anchor);
+  for (const VariationRecord& record : run.variations) add_variation(set, id, experiment, record);
+  for (const Eigen::Index anchor : run.anchors) set.anchors[id] += fmt::format(" {}", anchor);
 }
 
 void add_maps(RecordSet& set, const fs::path& file) {

@@ -69,8 +69,7 @@ const FigureChange* other_records(const FigureDiff& diff) {
 }  // namespace
 
 Judgement tied_judgement(const std::string& id, const FigureDiff& diff, const Judgement& own,
-                         const std::vector<std::string>& record_ids,
-                         const RecordContext& context) {
+                         const std::vector<std::string>& record_ids, const RecordContext& context) {
   if (context.records.empty()) return own;
   const Ties ties = ties_of(record_ids, context);
   Judgement judgement{Verdict::kChanged, true, ""};
@@ -79,8 +78,7 @@ Judgement tied_judgement(const std::string& id, const FigureDiff& diff, const Ju
     if (const std::string settings = settings_text(*records); !settings.empty() && why.empty())
       why = settings + "; ";
   if (const FigureChange* change = other_records(diff))
-    why += fmt::format("it shows other records, {} \u2192 {}; ", change->baseline,
-                       change->current);
+    why += fmt::format("it shows other records, {} \u2192 {}; ", change->baseline, change->current);
   why += what_moved(diff, ties, own);
 
   const std::vector<const Comparison*> shown = primary(id, ties.comparisons);

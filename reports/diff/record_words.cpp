@@ -22,8 +22,8 @@ bool tells_more(const Comparison& a, const Comparison& b) {
   const double p = a.test ? a.test->p : 1.0, q = b.test ? b.test->p : 1.0;
   if (p != q) return p < q;
   const auto change = [](const Comparison& c) {
-    const double ratio = std::abs(c.current_mean - c.baseline_mean) /
-                         std::max(std::abs(c.baseline_mean), 1e-300);
+    const double ratio =
+        std::abs(c.current_mean - c.baseline_mean) / std::max(std::abs(c.baseline_mean), 1e-300);
     return std::isnan(ratio) ? 0.0 : ratio;
   };
   return change(a) > change(b);
@@ -40,8 +40,8 @@ void judge_presence(const RecordDiff& diff, Judgement& whole, std::vector<std::s
   const auto add = [&](const std::vector<std::string>& names, Verdict verdict, const char* what) {
     if (names.empty()) return;
     whole.verdict = heavier(whole.verdict, verdict);
-    causes.push_back(fmt::format("{} {}: {}", what, names.size() == 1 ? "is" : "are",
-                                 names_text(names)));
+    causes.push_back(
+        fmt::format("{} {}: {}", what, names.size() == 1 ? "is" : "are", names_text(names)));
   };
   add(diff.missing_runs, Verdict::kMissing, "missing runs");
   add(diff.missing_subjects, Verdict::kMissing, "missing records");
@@ -49,8 +49,7 @@ void judge_presence(const RecordDiff& diff, Judgement& whole, std::vector<std::s
   add(diff.new_subjects, Verdict::kNew, "new records");
 }
 
-void judge_comparisons(const RecordDiff& diff, Judgement& whole,
-                       std::vector<std::string>& causes) {
+void judge_comparisons(const RecordDiff& diff, Judgement& whole, std::vector<std::string>& causes) {
   std::vector<const Comparison*> all;
   for (const Comparison& comparison : diff.comparisons) {
     all.push_back(&comparison);
@@ -182,11 +181,10 @@ std::string comparison_text(const Comparison& comparison, const std::string& run
   const QuantityFacts& quantity = *find_quantity(comparison.quantity);
   const auto own = std::ranges::find(comparison.largest, run, &PairedValue::run);
   const bool has_own = own != comparison.largest.end();
-  std::string text =
-      fmt::format("{} {}", quantity.label,
-                  has_own ? change_text(own->baseline, own->current, quantity.unit)
-                          : change_text(comparison.baseline_mean, comparison.current_mean,
-                                        quantity.unit));
+  std::string text = fmt::format(
+      "{} {}", quantity.label,
+      has_own ? change_text(own->baseline, own->current, quantity.unit)
+              : change_text(comparison.baseline_mean, comparison.current_mean, quantity.unit));
   if (!has_own && comparison.pairs > 1)
     text += fmt::format(" over {}", counted(comparison.pairs, "run"));
   if (comparison.test) text += fmt::format(", p = {:.2g}", comparison.test->p);
@@ -202,8 +200,8 @@ std::string move_text(const PointMove& move, const std::string& quantity) {
     return who + (std::isfinite(move.current.x) ? " gained its place" : " lost its place");
   if (quantity == "landmark_shape")
     return fmt::format("{} moved {:.3g} of the map's spread", who, move.moved);
-  return move.moved < 1.0 ? fmt::format("{} moved {:.3g} mm", who, 1000.0 * move.moved)
-                          : fmt::format("{} moved {:.3g} m", who, move.moved);
+  return move.moved < 0.9995 ? fmt::format("{} moved {:.3g} mm", who, 1000.0 * move.moved)
+                             : fmt::format("{} moved {:.3g} m", who, move.moved);
 }
 
 Judgement judge(const RecordDiff& diff) {

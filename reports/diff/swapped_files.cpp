@@ -20,9 +20,7 @@ struct BaselineFile {
 /// Files by their size: only those can be equal.
 using BySize = std::multimap<std::uintmax_t, BaselineFile>;
 
-bool is_suspect(const DiffItem& item) {
-  return item.judgement.verdict > Verdict::kWithinTolerance;
-}
+bool is_suspect(const DiffItem& item) { return item.judgement.verdict > Verdict::kWithinTolerance; }
 
 void add(BySize& files, const DiffItem& item, const fs::path& path) {
   std::error_code error;
@@ -67,12 +65,12 @@ void name_swapped(std::vector<DiffItem>& items) {
     if (!is_suspect(item)) continue;
     const DiffItem* owner = owner_of(item, files);
     if (owner == nullptr) continue;
-    const bool is_rename = item.judgement.verdict == Verdict::kNew &&
-                           owner->judgement.verdict == Verdict::kMissing;
-    words.emplace_back(&item, 
-                       is_rename ? fmt::format("it is {} of the baseline, renamed", owner->id)
-                                 : fmt::format("its file is that of {} in the baseline: swapped",
-                                               owner->id));
+    const bool is_rename =
+        item.judgement.verdict == Verdict::kNew && owner->judgement.verdict == Verdict::kMissing;
+    words.emplace_back(
+        &item, is_rename
+                   ? fmt::format("it is {} of the baseline, renamed", owner->id)
+                   : fmt::format("its file is that of {} in the baseline: swapped", owner->id));
     if (is_rename) renamed[owner->id] = item.id;
   }
   for (auto& [item, text] : words) item->judgement.cause += "; " + text;

@@ -57,8 +57,8 @@ const std::map<std::string, Modules>& allowed() {
       {"reports/model", with_leaves({})},
       {"reports/sections",
        with_leaves({"reports/model", "render/figures", "render/plot", "render/scene"})},
-      {"reports/diff", with_leaves({"reports/model", "core/json", "core/records", "render/base",
-                                    "render/image", "render/plot", "render/theme"})},
+      {"reports/diff", with_leaves({"reports/model", "core/json", "core/records", "core/align",
+                                    "render/base", "render/image", "render/plot", "render/theme"})},
       {"reports/html", with_leaves({"reports/model"})},
       {"reports/tables", with_leaves({"reports/model"})},
   };
@@ -69,7 +69,7 @@ const std::map<std::string, Modules>& allowed() {
 const std::map<std::string, Modules>& kept_in() {
   static const std::map<std::string, Modules> table = {
       {"cairo", {"render/cairo"}},
-      {"nlohmann/", {"core/json", "core/records", "render/plot", "render/scene"}},
+      {"nlohmann/", {"core/json", "core/records", "render/plot", "render/scene", "reports/diff"}},
       {"csdp/", {"core/embed"}},
       {"ceres/", {"core/range_slam"}},
       {"glog/", {"core/range_slam"}},

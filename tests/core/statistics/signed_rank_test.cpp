@@ -35,8 +35,8 @@ double p_by_enumeration(const std::vector<double>& differences) {
 }
 
 TEST(SignedRank, HasTheValuesOfSciPyWithoutTies) {
-  const SignedRankTest test = signed_rank_test(
-      std::vector{1.83, 0.5, -0.3, 2.2, 0.9, 1.1, -0.2, 3.1, 0.7, 1.4});
+  const SignedRankTest test =
+      signed_rank_test(std::vector{1.83, 0.5, -0.3, 2.2, 0.9, 1.1, -0.2, 3.1, 0.7, 1.4});
   EXPECT_EQ(test.rank_sum_minus, 3.0);
   EXPECT_DOUBLE_EQ(test.p, 0.009765625);  // scipy 1.10, method='exact'
   EXPECT_DOUBLE_EQ(signed_rank_test(std::vector{.1, .2, .3, .4, .5, -.6}).p, 0.4375);
@@ -57,8 +57,8 @@ TEST(SignedRank, HasTheValuesOfSciPyInTheNormalLimit) {
 }
 
 RC_GTEST_PROP(SignedRank, CountsAllSignsAlsoWhereRanksTie, ()) {
-  const auto whole = *rc::gen::resize(
-      11, rc::gen::container<std::vector<int>>(rc::gen::inRange(-4, 5)));
+  const auto whole =
+      *rc::gen::resize(11, rc::gen::container<std::vector<int>>(rc::gen::inRange(-4, 5)));
   const std::vector<double> differences(whole.begin(), whole.end());
   RC_ASSERT(std::abs(signed_rank_test(differences).p - p_by_enumeration(differences)) < 1e-12);
 }

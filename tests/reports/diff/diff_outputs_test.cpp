@@ -1,0 +1,160 @@
+#include "reports/diff/diff_outputs.hpp"
+
+#include <algorithm>
+
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+#include <valijson/adapters/nlohmann_json_adapter.hpp>
+#include <valijson/schema.hpp>
+#include <valijson/schema_parser.hpp>
+#include <valijson/validation_results.hpp>
+#include <valijson/validator.hpp>
+
+#include "core/base/errors.hpp"
+#include "core/base/files.hpp"
+#include "reports/diff/diff_settings.hpp"
+#include "reports/diff/folder_diff.hpp"
+#include "tests/reports/diff/value_cases.hpp"
+#include "tests/support/temporary_folder.hpp"
+#include "tests/support/xml.hpp"
+
+namespace mapproof::test {
+namespace {
+
+using nlohmann::json;
+using Adapter = valijson::adapters::NlohmannJsonAdapter;
+
+std::string schema_problem(const std::string& name, const json& value) {
+  const json document =
+      json::parse(read_file(std::string(MAPPROOF_SOURCE_DIR) + "/docs/schemas/" + name));
+  valijson::Schema schema;
+  valijson::SchemaParser().populateSchema(Adapter(document), schema);
+  valijson::ValidationResults results;
+  if (valijson::Validator().validate(schema, Adapter(value), &results)) return {};
+  valijson::ValidationResults::Error error;
+  results.popError(error);
+  std::string place;
+  for (const std::string& part : error.context) place += part;
+  return place + ": " + error.description;
+}
+
+/// One item of each verdict, with names that have broken something somewhere.
+DiffResult hostile_result() {
+  DiffResult result;
+  result.baseline = "a <\"&'>";
+  result.current = "b\x01\xff";
+  for (const Verdict verdict : kVerdicts) {
+    DiffItem& item = result.items.emplace_back();
+    item.id = std::string("]]><|`*_ ") + std::string(name(verdict)) + "\x02\xfe\n</testcase>";
+    item.judgement = {verdict, true, "<script>alert(1)</script> & | \"x\" \x1b[31m \xc3\x28 @all"};
+    item.passes = verdict <= Verdict::kWithinTolerance;
+  }
+  return result;
+}
+
+TEST(DiffOutputs, JunitIsWellFormedWhateverNamesAndCausesHold) {
+  const std::string junit = diff_junit(hostile_result());
+  const std::vector<XmlElement> elements = parse_xml(junit);  // Throws if it is malformed.
+  EXPECT_EQ(elements.at(0).name, "testsuites");
+  EXPECT_EQ(std::ranges::count(elements, "testcase", &XmlElement::name), 10);
+  EXPECT_EQ(std::ranges::count(elements, "failure", &XmlElement::name), 7);
+  EXPECT_EQ(std::ranges::count(elements, "error", &XmlElement::name), 1);
+  EXPECT_NE(junit.find("tests=\"10\" failures=\"7\" errors=\"1\""), std::string::npos);
+  EXPECT_EQ(junit.find("<script>"), std::string::npos);
+}
+
+TEST(DiffOutputs, MarkdownHoldsNoMarkupOfNamesAndCauses) {
+  const std::string markdown = diff_markdown(hostile_result());
+  EXPECT_EQ(markdown.find("<script>"), std::string::npos);
+  EXPECT_EQ(markdown.find("@all"), std::string::npos);
+  EXPECT_NE(markdown.find("| **fails** |"), std::string::npos);
+  EXPECT_EQ(markdown.find('\x1b'), std::string::npos);
+}
+
+TEST(DiffOutputs, MarkdownEndsAtFiftyRowsAndSaysHowManyAreLeft) {
+  DiffResult result;
+  for (int i = 0; i < 120; ++i) {
+    DiffItem& item = result.items.emplace_back();
+    item.id = std::to_string(i);
+    item.judgement = {Verdict::kWorse, true, "worse"};
+  }
+  EXPECT_NE(diff_markdown(result).find("and 70 more"), std::string::npos);
+}
+
+TEST(DiffOutputs, JsonIsAsItsSchemaSays) {
+  const TemporaryFolder folder;
+  write_base_study(folder / "a");
+  std::vector<ValueCase> cases = record_cases();
+  const std::vector<ValueCase> more = figure_cases();
+  cases.insert(cases.end(), more.begin(), more.end());
+  for (std::size_t i = 0; i < cases.size(); i += 20) {
+    SCOPED_TRACE(cases[i].name);
+    std::filesystem::remove_all(folder / "b");
+    std::filesystem::copy(folder / "a", folder / "b", std::filesystem::copy_options::recursive);
+    cases[i].change(folder / "b");
+    const json value = json::parse(diff_json(folder_diff(folder / "a", folder / "b")).dump());
+    EXPECT_EQ(schema_problem("diff.schema.json", value), "");
+  }
+}
+
+TEST(DiffSettings, TakeEveryKeyThatTheSchemaHas) {
+  const std::string text = R"({
+    "schema": {"name": "mapproof.diff_settings", "version": 1},
+    "records": {"significance": 0.01, "least_effect": 0.5,
+                "tolerances": {"mpe_m": {"absolute": 0.001}, "other": {"relative": 0.1}}},
+    "figures": {"position": {"absolute": 0.5}},
+    "pictures": {"noise": 3, "mean_noise": 1, "displacement_px": 1, "changed_share": 0.001,
+                 "svg_distance": 0.1, "svg_colour": 2},
+    "ignore": [{"id": "a", "x": 1, "y": 2, "width": 3, "height": 4},
+               {"id": "*", "x": 9, "y": 9, "width": 1, "height": 1}],
+    "allow": ["better", "style"]
+  })";
+  EXPECT_EQ(schema_problem("diff_settings.schema.json", json::parse(text)), "");
+  const DiffSettings settings = parse_diff_settings(text, "s.json");
+  EXPECT_EQ(settings.records.significance, 0.01);
+  EXPECT_EQ(settings.records.tolerances.at("mpe_m").absolute, 0.001);
+  EXPECT_EQ(settings.records.tolerances.at("mpe_m").relative, 1e-6);  // As without settings.
+  EXPECT_EQ(settings.pictures_of("a").ignored.size(), 2U);
+  EXPECT_EQ(settings.pictures_of("b").ignored.size(), 1U);
+  EXPECT_EQ(settings.pictures.noise, 3.0);
+  EXPECT_EQ(settings.allowed.size(), 2U);
+}
+
+TEST(DiffSettings, AreRefusedWithFileAndPointer) {
+  const auto refusal = [](const std::string& rest) {
+    try {
+      parse_diff_settings(
+          R"({"schema": {"name": "mapproof.diff_settings", "version": 1})" + rest + "}", "s.json");
+    } catch (const IoError& error) {
+      return std::string(error.what());
+    }
+    return std::string("taken");
+  };
+  EXPECT_EQ(refusal(""), "taken");
+  EXPECT_NE(refusal(R"(, "tolerance": 1)").find("s.json: "), std::string::npos);
+  EXPECT_NE(refusal(R"(, "records": {"tolerances": {"mpe": {}}})").find("/records/tolerances"),
+            std::string::npos);
+  EXPECT_NE(refusal(R"(, "records": {"significance": 2})").find("/records/significance"),
+            std::string::npos);
+  EXPECT_NE(refusal(R"(, "pictures": {"noise": -1})").find("/pictures/noise"), std::string::npos);
+  EXPECT_NE(refusal(R"(, "ignore": [{"id": "a", "x": 1, "y": 2, "width": 0, "height": 4}])")
+                .find("/ignore/0/width"),
+            std::string::npos);
+  EXPECT_NE(refusal(R"(, "allow": ["best"])").find("/allow/0"), std::string::npos);
+}
+
+TEST(Verdicts, PassOnlyWhereNothingIsToBeSeenOrIsAllowed) {
+  const std::vector<Verdict> none, better = {Verdict::kBetter, Verdict::kStyle};
+  for (const Verdict verdict : kVerdicts) {
+    const bool light = verdict == Verdict::kIdentical || verdict == Verdict::kWithinTolerance;
+    EXPECT_EQ(passes({verdict, true, ""}, none), light) << name(verdict);
+    EXPECT_EQ(passes({verdict, true, ""}, better),
+              light || verdict == Verdict::kBetter || verdict == Verdict::kStyle);
+    EXPECT_EQ(verdict_named(name(verdict)), verdict);
+  }
+  EXPECT_TRUE(passes({Verdict::kRenderer, false, ""}, none));
+  EXPECT_FALSE(verdict_named("best"));
+}
+
+}  // namespace
+}  // namespace mapproof::test

@@ -1,0 +1,168 @@
+#include "reports/diff/record_diff.hpp"
+
+#include <cmath>
+
+#include <gtest/gtest.h>
+
+#include "core/base/errors.hpp"
+#include "reports/diff/record_points.hpp"
+
+namespace mapproof {
+namespace {
+
+/// One quantity of one subject in that many layouts, at 1 + layout / 10.
+RecordSet set_of(int layouts) {
+  RecordSet set;
+  set.kind = "mapproof.study";
+  set.seed = "7";
+  set.repeats = true;
+  for (int layout = 1; layout <= layouts; ++layout) {
+    const std::string run = "layout-" + std::to_string(layout) + "-pose-1";
+    set.runs[run] = "layout-" + std::to_string(layout);
+    set.values[{"bearing/lpca/100", "mpe_m"}][run] = 1.0 + 0.1 * layout;
+  }
+  return set;
+}
+
+std::map<std::string, double>& values(RecordSet& set) {
+  return set.values[{"bearing/lpca/100", "mpe_m"}];
+}
+
+TEST(RecordDiff, GivesNoPWithFewerThanSixPairsButADirectionIfAllAgree) {
+  for (const int layouts : {1, 2, 5}) {
+    const RecordSet before = set_of(layouts);
+    RecordSet after = before;
+    for (auto& [run, value] : values(after)) value += 0.01;
+    const RecordDiff diff = record_diff(before, after);
+    ASSERT_EQ(diff.comparisons.size(), 1U);
+    EXPECT_FALSE(diff.comparisons[0].test);
+    EXPECT_EQ(diff.judgement.verdict, Verdict::kWorse) << layouts;
+    EXPECT_EQ(diff.judgement.cause.find("p ="), std::string::npos);
+  }
+  RecordSet before = set_of(5), after = before;
+  double sign = 1.0;
+  for (auto& [run, value] : values(after)) value += 0.01 * (sign = -sign);
+  EXPECT_EQ(record_diff(before, after).judgement.verdict, Verdict::kChanged);
+}
+
+TEST(RecordDiff, CountsLayoutsNotPosesWhereThereAreEnough) {
+  RecordSet before = set_of(8);
+  for (int layout = 1; layout <= 8; ++layout) {
+    const std::string run = "layout-" + std::to_string(layout) + "-pose-2";
+    before.runs[run] = "layout-" + std::to_string(layout);
+    values(before)[run] = 2.0;
+  }
+  RecordSet after = before;
+  for (auto& [run, value] : values(after)) value *= 1.1;
+  const RecordDiff diff = record_diff(before, after);
+  ASSERT_TRUE(diff.comparisons[0].test);
+  EXPECT_EQ(diff.comparisons[0].test->unit, "layout");
+  EXPECT_EQ(diff.comparisons[0].test->test.pairs, 8);
+  EXPECT_DOUBLE_EQ(diff.comparisons[0].test->p, 2.0 / 256.0);
+}
+
+TEST(RecordDiff, CorrectsForTheNumberOfQuantitiesThatDiffer) {
+  RecordSet before = set_of(8);
+  for (const char* subject : {"a", "b", "c", "d", "e", "f", "g"})
+    before.values[{subject, "mpe_m"}] = values(before);
+  RecordSet after = before;
+  for (auto& [key, runs] : after.values)
+    for (auto& [run, value] : runs) value *= 1.1;
+  // 8 x 2 / 256 > 0.05: so many tests find one such run of luck too easily.
+  EXPECT_EQ(record_diff(before, after).judgement.verdict, Verdict::kChanged);
+  for (const char* subject : {"a", "b", "c", "d"})
+    after.values[{subject, "mpe_m"}] = before.values[{subject, "mpe_m"}];
+  EXPECT_EQ(record_diff(before, after).judgement.verdict, Verdict::kWorse);
+}
+
+TEST(RecordDiff, PairsNothingOfAnotherSeedOrOtherWorlds) {
+  const RecordSet before = set_of(8);
+  RecordSet after = before;
+  for (auto& [run, value] : values(after)) value *= 2.0;
+  after.seed = "8";
+  RecordDiff diff = record_diff(before, after);
+  EXPECT_FALSE(diff.same_seeds);
+  EXPECT_FALSE(diff.comparisons[0].test);
+  EXPECT_EQ(diff.judgement.verdict, Verdict::kChanged);
+
+  RecordSet here = before, there = after;
+  there.seed = "7";
+  here.worlds["layout-1-pose-1"].points = Points::Zero(3, 2);
+  there.worlds["layout-1-pose-1"].points = Points::Ones(3, 2);
+  EXPECT_FALSE(record_diff(here, there).same_seeds);
+}
+
+TEST(RecordDiff, TakesALostScoreForWorseAndAGainedOneForBetter) {
+  RecordSet before = set_of(8), after = before;
+  values(after).begin()->second = std::nan("");
+  EXPECT_EQ(record_diff(before, after).judgement.verdict, Verdict::kWorse);
+  EXPECT_EQ(record_diff(after, before).judgement.verdict, Verdict::kBetter);
+  EXPECT_EQ(record_diff(after, after).judgement.verdict, Verdict::kIdentical);
+}
+
+TEST(RecordDiff, NeverJudgesVersionsNorIterations) {
+  RecordSet before = set_of(8);
+  for (const auto& [run, layout] : before.runs)
+    before.values[{"bearing/lpca/100", "iterations"}][run] = 10.0;
+  RecordSet after = before;
+  after.provenance.version = "9.9";
+  EXPECT_EQ(record_diff(before, after).judgement.verdict, Verdict::kIdentical);
+  EXPECT_EQ(record_diff(before, after).provenance.size(), 1U);
+  for (auto& [run, value] : after.values[{"bearing/lpca/100", "iterations"}]) value = 900.0;
+  EXPECT_EQ(record_diff(before, after).judgement.verdict, Verdict::kWithinTolerance);
+}
+
+TEST(RecordDiff, RefusesRecordsOfTwoKinds) {
+  RecordSet before, after;
+  before.kind = "mapproof.study";
+  after.kind = "mapproof.map";
+  EXPECT_THROW(record_diff(before, after), InvalidInput);
+}
+
+PlacedPoints shape_of(const Points& points) {
+  PlacedPoints placed;
+  placed.quantity = "landmark_shape";
+  placed.frame = Frame::kSimilarity;
+  placed.points = points;
+  return placed;
+}
+
+TEST(PointsDiff, LaysShapesOnEachOtherByPlaceTurnScaleAndMirror) {
+  Points points(5, 2);
+  points << 0, 0, 1, 0, 2, 1, 0.5, 3, -1, 1;
+  Points moved(5, 2);
+  for (Eigen::Index i = 0; i < 5; ++i)  // Mirrored, turned by a right angle, twice as large.
+    moved.row(i) << 2.0 * points(i, 1) + 4.0, 2.0 * points(i, 0) - 7.0;
+  const auto same = points_diff("m", shape_of(points), shape_of(moved), {});
+  ASSERT_TRUE(same);
+  EXPECT_EQ(same->beyond, 0);
+  moved(3, 0) += 0.2;
+  const auto other = points_diff("m", shape_of(points), shape_of(moved), {});
+  ASSERT_TRUE(other);
+  EXPECT_GT(other->beyond, 0);
+  EXPECT_EQ(other->moves[0].name, "4");
+}
+
+TEST(PointsDiff, TellsAPlaceThatIsLostAndOneThatIsGained) {
+  PlacedPoints before, after;
+  before.points.resize(4, 2);
+  before.points << 0, 1, 2, 3, 4, 5, 6, 7;
+  after.points = before.points;
+  before.points.row(1).setConstant(std::nan(""));
+  after.points.row(2).setConstant(std::nan(""));
+  const auto diff = points_diff("m", before, after, {});
+  ASSERT_TRUE(diff);
+  EXPECT_EQ(diff->lost, 1);
+  EXPECT_EQ(diff->gained, 1);
+  EXPECT_EQ(diff->points, 2);
+  EXPECT_FALSE(points_diff("m", before, before, {}));
+}
+
+TEST(Quantities, TextsTellApartWhatIsNotEqual) {
+  EXPECT_EQ(change_text(0.138, 0.152, "m"), "0.138 \u2192 0.152 m");
+  EXPECT_EQ(change_text(1.0, 1.0 + 1e-9, ""), "1 \u2192 1.000000001");
+  EXPECT_EQ(change_text(std::nan(""), 2.0, "%"), "none \u2192 2 %");
+}
+
+}  // namespace
+}  // namespace mapproof
