@@ -16,7 +16,7 @@ namespace mapproof {
 namespace {
 
 constexpr double kPathRadius = 0.0022;  // Of the room's side.
-constexpr double kMostCovered = 0.1;    // Of the floor, by the path.
+constexpr double kMostCovered = 0.2;    // Of the floor, by the path.
 constexpr std::size_t kMostWorst = 3;
 
 void require_usable(const WorldSceneSpec& spec) {

@@ -43,6 +43,7 @@ data figure_data(const FigureBlock& figure, const SvgLookup& svg, const HtmlOpti
   out.set("title", figure.title);
   out.set("caption", figure.caption);
   out.set("alt", figure.alt);
+  out.set("value", figure.value);
   out.set("long", figure.caption.size() > kLongCaption);
   const std::string drawing = svg ? svg(figure.id) : "";
   out.set("svg", text_or_false(drawing));

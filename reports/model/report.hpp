@@ -98,6 +98,7 @@ struct FigureBlock {
   std::string caption;
   std::string alt;  ///< What the figure shows, in words.
   std::vector<std::string> record_ids;
+  std::string value = "figure";  ///< What it is as a value, in ID.VALUE.json: "figure", "scene".
 };
 
 /// Figures of one kind, side by side.

@@ -13,7 +13,7 @@ FigureBlock figure_block(const Figure& figure) {
 }
 
 FigureBlock figure_block(const Scene& scene) {
-  return {scene.id, scene.title, scene.caption, scene.alt, scene.record_ids};
+  return {scene.id, scene.title, scene.caption, scene.alt, scene.record_ids, "scene"};
 }
 
 Gallery gallery_of(const FigureGroup& group, std::size_t first) {

@@ -1,3 +1,5 @@
+#include <regex>
+
 #include <gtest/gtest.h>
 
 #include "core/base/files.hpp"
@@ -46,6 +48,17 @@ TEST_F(ScenesOfAStudy, AreInItsReportWithWhatDrewThem) {
       EXPECT_TRUE(fs::exists(study() + "/figures/" + id + extension)) << id << extension;
   }
   EXPECT_NE(page.find("llvmpipe"), std::string::npos);
+}
+
+TEST_F(ScenesOfAStudy, AreLinkedToFilesThatAreThereAsAllPicturesAre) {
+  const std::string page = read_file(study() + "/report.html");
+  const std::regex link("href=\"(figures/[^\"]*)\"");
+  int links = 0;
+  for (std::sregex_iterator found(page.begin(), page.end(), link), end; found != end; ++found) {
+    ++links;
+    EXPECT_TRUE(fs::exists(study() + "/" + (*found)[1].str())) << (*found)[1];
+  }
+  EXPECT_GT(links, 100);
 }
 
 TEST_F(ScenesOfAStudy, AreTheSameBytesWithoutADisplayAndForAnyThreads) {
