@@ -15,63 +15,77 @@
 namespace mapproof {
 namespace {
 
-void check(const Factorization& factors, const KnownLandmarks& known) {
-  if (factors.U.cols() < 4 || factors.V.rows() != factors.U.cols() || factors.V.cols() < 4)
-    throw InvalidInput("a map needs a factorisation of rank 4 or more");
-  if (const std::string problem = known_problem(known, factors.U.rows()); !problem.empty())
-    throw InvalidInput(problem);
+void check(const Factorization& factors, const std::vector<Eigen::Index>& rows,
+           const Eigen::MatrixXd& positions_m) {
+  const Eigen::Index rank = positions_m.cols() + 2;
+  if (factors.U.cols() < rank || factors.V.rows() != factors.U.cols() || factors.V.cols() < rank)
+    throw InvalidInput(fmt::format("a map needs a factorisation of rank {} or more", rank));
+  const std::string problem = known_problem(rows, positions_m, factors.U.rows());
+  if (!problem.empty()) throw InvalidInput(problem);
 }
 
 /// Takes X of points moved by -center and divided by `unit` to X of the points.
-Eigen::Matrix4d to_metres(const Eigen::RowVector2d& center, double unit) {
-  Eigen::Matrix4d change;
-  change << 1.0, 0.0, 0.0, 0.0,    //
-      -center(0), unit, 0.0, 0.0,  //
-      -center(1), 0.0, unit, 0.0,  //
-      0.5 * center.squaredNorm(), -unit * center, unit * unit;
+Eigen::MatrixXd to_metres(const Eigen::RowVectorXd& center, double unit) {
+  const Eigen::Index d = center.size();
+  Eigen::MatrixXd change = Eigen::MatrixXd::Identity(d + 2, d + 2);
+  change.col(0).segment(1, d) = -center.transpose();
+  change.block(1, 1, d, d) *= unit;
+  change.row(d + 1) << 0.5 * center.squaredNorm(), -unit * center, unit * unit;
   return change;
 }
 
 }  // namespace
 
 SpectralMap map_from_known_landmarks(const Factorization& factors, const KnownLandmarks& known) {
-  check(factors, known);
+  return map_from_known_places(factors, known.rows, known.positions_m);
+}
+
+SpectralMap map_from_known_places(const Factorization& factors,
+                                  const std::vector<Eigen::Index>& rows,
+                                  const Eigen::MatrixXd& positions_m) {
+  check(factors, rows, positions_m);
+  const Eigen::Index rank = positions_m.cols() + 2;
+  const bool in_plane = rank == 4;
   SpectralMap map;
   map.statuses = factors.statuses;
-  if (known.rows.size() < 4) {
+  if (std::ssize(rows) < rank) {
     map.statuses.push_back(
         {StatusCode::kTooFewObservations,
-         fmt::format("{} landmarks are known, 4 are needed.", known.rows.size())});
+         fmt::format("{} landmarks are known, {} are needed.", rows.size(), rank)});
     return map;
   }
 
   // In units of their spread about their centre the condition is one of shape alone.
-  const Eigen::RowVector2d center = known.positions_m.colwise().mean();
-  const Points offsets = known.positions_m.rowwise() - center;
+  const Eigen::RowVectorXd center = positions_m.colwise().mean();
+  const Eigen::MatrixXd offsets = positions_m.rowwise() - center;
   const double unit = std::sqrt(offsets.squaredNorm() / static_cast<double>(offsets.rows()));
-  const Points shape = unit > 0.0 ? Points(offsets / unit) : offsets;
+  const Eigen::MatrixXd shape = unit > 0.0 ? Eigen::MatrixXd(offsets / unit) : offsets;
   const Eigen::JacobiSVD<Eigen::MatrixXd> svd(landmark_states(shape),
                                               Eigen::ComputeThinU | Eigen::ComputeThinV);
   const Eigen::VectorXd& s = svd.singularValues();
-  map.condition = s(3) > 0.0 ? s(0) / s(3) : std::numeric_limits<double>::infinity();
+  const double least = s(rank - 1);
+  map.condition = least > 0.0 ? s(0) / least : std::numeric_limits<double>::infinity();
   if (!(*map.condition < kDegenerateCondition)) {
-    map.statuses.push_back({StatusCode::kDegenerateGeometry,
-                            fmt::format("The known landmarks lie on one line or circle: condition "
-                                        "number {:.3g}.",
-                                        *map.condition)});
+    map.statuses.push_back(
+        {StatusCode::kDegenerateGeometry,
+         fmt::format("The known landmarks lie on one {}: condition number "
+                     "{:.3g}.",
+                     in_plane ? "line or circle" : "plane or sphere", *map.condition)});
     return map;
   }
 
   // U = C S^-1 on the known rows, so X = S^-1 V; longer ranges lengthen all of X.
   const Eigen::MatrixXd small_X =
-      svd.solve(factors.U(known.rows, Eigen::all)) / (unit * unit) * factors.V;
+      svd.solve(factors.U(rows, Eigen::all)) / (unit * unit) * factors.V;
   const Eigen::ColPivHouseholderQR<Eigen::MatrixXd> qr(small_X.transpose());
-  const Eigen::Matrix4d change = to_metres(center, unit);
+  const Eigen::MatrixXd change = to_metres(center, unit);
   const double squared_scale = small_X.row(0).mean();
-  if (!(squared_scale > 0.0) || qr.rank() < 4) {
-    map.statuses.push_back({StatusCode::kFailed,
-                            "The ranges do not tell positions from the known landmarks: their rank "
-                            "is lower than that of a path in the plane."});
+  if (!(squared_scale > 0.0) || qr.rank() < rank) {
+    map.statuses.push_back(
+        {StatusCode::kFailed,
+         fmt::format("The ranges do not tell positions from the known landmarks: their rank is "
+                     "lower than that of a path in {}.",
+                     in_plane ? "the plane" : "space")});
     return map;
   }
   map.X = change * small_X / squared_scale;

@@ -31,4 +31,12 @@ inline constexpr double kDegenerateCondition = 1e6;
 /// @note O(T) time.
 SpectralMap map_from_known_landmarks(const Factorization& factors, const KnownLandmarks& known);
 
+/// The same in d dimensions: from d + 2 known places or more, on no one hyperplane or sphere.
+/// @param factors      Of rank d + 2 or more.
+/// @param rows         In the map, all different.
+/// @param positions_m  As many as rows, x d; finite.
+SpectralMap map_from_known_places(const Factorization& factors,
+                                  const std::vector<Eigen::Index>& rows,
+                                  const Eigen::MatrixXd& positions_m);
+
 }  // namespace mapproof

@@ -27,6 +27,8 @@ std::optional<Status> path_on_a_line(const Points& positions_m);
 /// What keeps known landmarks from being used with n landmarks: a place for each of some different
 /// rows is needed; empty if nothing.
 std::string known_problem(const KnownLandmarks& known, Eigen::Index n);
+std::string known_problem(const std::vector<Eigen::Index>& rows, const Eigen::MatrixXd& positions_m,
+                          Eigen::Index n);
 
 /// Which landmarks have a reading from `first_s` to `last_s`: N.
 std::vector<bool> heard_between(const RangeLog& log, double first_s, double last_s);

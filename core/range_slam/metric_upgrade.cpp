@@ -14,35 +14,34 @@
 namespace mapproof {
 namespace {
 
-/// Least numbers of states: eight settle the quadric, four span the space.
-constexpr Eigen::Index kFitted = 8;
-constexpr Eigen::Index kOther = 4;
-/// From this condition number on the fourth dimension is rounding.
+/// States that settle a quadric of n variables up to a pencil: all coefficients but two.
+constexpr Eigen::Index fitted_states(Eigen::Index n) { return n * (n + 1) / 2 - 2; }
+/// From this condition number on the last dimension is rounding.
 constexpr double kFlat = 1e12;
 
 /// States scaled to w' v = 1, in orthonormal coordinates of that plane, and the quadric there.
-QuadricCloud in_plane(const Eigen::MatrixXd& V, const Eigen::Vector4d& w,
-                      const Eigen::Matrix4d& Q) {
+QuadricCloud in_plane(const Eigen::MatrixXd& V, const Eigen::VectorXd& w,
+                      const Eigen::MatrixXd& Q) {
+  const Eigen::Index n = w.size();
   const Eigen::HouseholderQR<Eigen::MatrixXd> qr(w);
-  const Eigen::Matrix4d basis = qr.householderQ();
-  Eigen::Matrix4d chart;  // [p; 1] to v
-  chart << basis.rightCols<3>(), w / w.squaredNorm();
+  const Eigen::MatrixXd basis = qr.householderQ() * Eigen::MatrixXd::Identity(n, n);
+  Eigen::MatrixXd chart(n, n);  // [p; 1] to v
+  chart << basis.rightCols(n - 1), w / w.squaredNorm();
   QuadricCloud cloud;
   const Eigen::RowVectorXd scale = (w.transpose() * V).cwiseInverse();
-  cloud.points = (basis.rightCols<3>().transpose() * V * scale.asDiagonal()).transpose();
+  cloud.points = (basis.rightCols(n - 1).transpose() * V * scale.asDiagonal()).transpose();
   cloud.Q = chart.transpose() * Q * chart;
   return cloud;
 }
 
-/// (x, y, (x^2 + y^2)/2) of states, and the paraboloid.
+/// (p, |p|^2/2) of states, and the paraboloid.
 QuadricCloud on_paraboloid(const Eigen::MatrixXd& X) {
+  const Eigen::Index d = X.rows() - 2;
   QuadricCloud cloud;
-  cloud.points.resize(X.cols(), 3);
-  cloud.points << -X.middleRows(1, 2).transpose(), X.row(3).transpose();
-  cloud.Q << 1.0, 0.0, 0.0, 0.0,  //
-      0.0, 1.0, 0.0, 0.0,         //
-      0.0, 0.0, 0.0, -1.0,        //
-      0.0, 0.0, -1.0, 0.0;
+  cloud.points.resize(X.cols(), d + 1);
+  cloud.points << -X.middleRows(1, d).transpose(), X.row(d + 1).transpose();
+  cloud.Q = Eigen::MatrixXd::Identity(d + 2, d + 2);
+  cloud.Q.bottomRightCorner(2, 2) << 0.0, -1.0, -1.0, 0.0;
   return cloud;
 }
 
@@ -54,13 +53,13 @@ Factorization with_sides_changed(const Factorization& factors) {
   return changed;
 }
 
-/// [r^2/2, -x, -y, 1] from [1, -x, -y, r^2/2] and back.
+/// [r^2/2, -p, 1] from [1, -p, r^2/2] and back, the coordinates of p in reverse.
 MetricUpgrade with_sides_changed_back(MetricUpgrade upgrade) {
   if (upgrade.map.empty()) return upgrade;
   const Eigen::MatrixXd C = upgrade.map.X.colwise().reverse().transpose();
   upgrade.map.X = upgrade.map.C.rowwise().reverse().transpose();
   upgrade.map.C = C;
-  const Eigen::Matrix4d inverse = upgrade.S.inverse();
+  const Eigen::MatrixXd inverse = upgrade.S.inverse();
   upgrade.S = inverse.transpose().rowwise().reverse();
   return upgrade;
 }
@@ -68,8 +67,9 @@ MetricUpgrade with_sides_changed_back(MetricUpgrade upgrade) {
 }  // namespace
 
 MetricUpgrade metric_upgrade(const Factorization& factors, UpgradeSide side) {
-  if (factors.U.cols() != 4 || factors.V.rows() != 4)
-    throw InvalidInput("a metric upgrade needs a factorisation of rank 4");
+  const Eigen::Index n = factors.U.cols();
+  if (n < 4 || n > 5 || factors.V.rows() != n)
+    throw InvalidInput("a metric upgrade needs a factorisation of rank 4 or 5");
   if (side == UpgradeSide::kLandmarks)
     return with_sides_changed_back(metric_upgrade(with_sides_changed(factors)));
 
@@ -77,23 +77,23 @@ MetricUpgrade metric_upgrade(const Factorization& factors, UpgradeSide side) {
   SpectralMap& map = result.map;
   map.statuses = factors.statuses;
   const Eigen::Index T = factors.V.cols();
-  if (T < kFitted || factors.U.rows() < kOther) {
+  if (T < fitted_states(n) || factors.U.rows() < n) {
     map.statuses.push_back({StatusCode::kTooFewObservations,
                             fmt::format("{} states against {} on the other side; {} against {} "
                                         "are needed.",
-                                        T, factors.U.rows(), kFitted, kOther)});
+                                        T, factors.U.rows(), fitted_states(n), n)});
     return result;
   }
 
   // Whitened, or the fit is ill-conditioned.
-  const Eigen::LLT<Eigen::Matrix4d> llt(factors.V * factors.V.transpose() / static_cast<double>(T));
-  const Eigen::Matrix4d L = llt.matrixL();
+  const Eigen::LLT<Eigen::MatrixXd> llt(factors.V * factors.V.transpose() / static_cast<double>(T));
+  const Eigen::MatrixXd L = llt.matrixL();
   const Eigen::MatrixXd V = L.triangularView<Eigen::Lower>().solve(factors.V);
   if (factors.condition > kFlat || llt.info() != Eigen::Success || !V.allFinite()) {
     map.statuses.push_back({StatusCode::kDegenerateGeometry,
-                            fmt::format("The states do not span four dimensions: condition number "
+                            fmt::format("The states do not span {} dimensions: condition number "
                                         "{:.3g}.",
-                                        factors.condition)});
+                                        n == 4 ? "four" : "five", factors.condition)});
     return result;
   }
   const Eigen::MatrixXd U = factors.U * L;
@@ -106,7 +106,7 @@ MetricUpgrade metric_upgrade(const Factorization& factors, UpgradeSide side) {
 
   result.S = L * transform.S;
   map.C = U * transform.S;
-  map.X = state_cone() * transform.S.transpose() * transform.Q * V;  // S^-1 V
+  map.X = state_cone(n - 2) * transform.S.transpose() * transform.Q * V;  // S^-1 V
   result.before = in_plane(V, V.rowwise().mean(), transform.Q);
   result.after = on_paraboloid(map.X);
   return result;

@@ -6,10 +6,10 @@
 
 namespace mapproof {
 
-Eigen::Matrix4d state_cone() {
-  Eigen::Matrix4d Q = Eigen::Matrix4d::Zero();
-  Q(1, 1) = Q(2, 2) = 1.0;
-  Q(0, 3) = Q(3, 0) = -1.0;
+Eigen::MatrixXd state_cone(Eigen::Index dimension) {
+  Eigen::MatrixXd Q = Eigen::MatrixXd::Identity(dimension + 2, dimension + 2);
+  Q(0, 0) = Q(dimension + 1, dimension + 1) = 0.0;
+  Q(0, dimension + 1) = Q(dimension + 1, 0) = -1.0;
   return Q;
 }
 
@@ -24,11 +24,13 @@ Eigen::MatrixXd quadratic_monomials(const Eigen::MatrixXd& V) {
   return products;
 }
 
-Eigen::Matrix4d quadric_of(const Eigen::VectorXd& coefficients) {
-  Eigen::Matrix4d Q;
+Eigen::MatrixXd quadric_of(const Eigen::VectorXd& coefficients) {
+  Eigen::Index q = 1;
+  while (q * (q + 1) / 2 < coefficients.size()) ++q;
+  Eigen::MatrixXd Q(q, q);
   Eigen::Index k = 0;
-  for (Eigen::Index i = 0; i < 4; ++i)
-    for (Eigen::Index j = i; j < 4; ++j, ++k)
+  for (Eigen::Index i = 0; i < q; ++i)
+    for (Eigen::Index j = i; j < q; ++j, ++k)
       Q(i, j) = Q(j, i) = coefficients(k) / (i == j ? 1.0 : std::numbers::sqrt2);
   return Q;
 }

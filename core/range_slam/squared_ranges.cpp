@@ -21,18 +21,19 @@ Eigen::VectorXd half_square_variances(const Eigen::MatrixXd& Y, const RangeNoise
   return ((squares * s2 + 0.5 * s2.square()) / (growth * growth)).rowwise().mean();
 }
 
-Eigen::MatrixXd landmark_states(const Points& landmarks_m) {
-  Eigen::MatrixXd C(landmarks_m.rows(), 4);
+Eigen::MatrixXd landmark_states(const Eigen::MatrixXd& landmarks_m) {
+  Eigen::MatrixXd C(landmarks_m.rows(), landmarks_m.cols() + 2);
   C << 0.5 * landmarks_m.rowwise().squaredNorm(), landmarks_m,
       Eigen::VectorXd::Ones(landmarks_m.rows());
   return C;
 }
 
-Eigen::MatrixXd robot_states(const Points& positions_m) {
-  Eigen::MatrixXd X(4, positions_m.rows());
+Eigen::MatrixXd robot_states(const Eigen::MatrixXd& positions_m) {
+  const Eigen::Index d = positions_m.cols();
+  Eigen::MatrixXd X(d + 2, positions_m.rows());
   X.row(0).setOnes();
-  X.middleRows(1, 2) = -positions_m.transpose();
-  X.row(3) = 0.5 * positions_m.rowwise().squaredNorm().transpose();
+  X.middleRows(1, d) = -positions_m.transpose();
+  X.row(d + 1) = 0.5 * positions_m.rowwise().squaredNorm().transpose();
   return X;
 }
 

@@ -2,8 +2,6 @@
 
 #include <Eigen/Core>
 
-#include "core/model/points.hpp"
-
 namespace mapproof {
 
 /// Standard deviation of one range reading at distance d: the root of sigma_m^2 + (share d)^2.
@@ -24,12 +22,14 @@ Eigen::MatrixXd half_squared_ranges(const Eigen::MatrixXd& ranges_m, const Range
 /// @return N, m^4.
 Eigen::VectorXd half_square_variances(const Eigen::MatrixXd& Y, const RangeNoise& noise);
 
-/// C with the rows [|m|^2/2, m_x, m_y, 1] [boots2013, eq. 3].
-/// @param landmarks_m  N x 2.
-Eigen::MatrixXd landmark_states(const Points& landmarks_m);
+/// C with the rows [|m|^2/2, m, 1] [boots2013, eq. 3], which holds in space as in the plane.
+/// @param landmarks_m  N x d.
+/// @return N x (d + 2).
+Eigen::MatrixXd landmark_states(const Eigen::MatrixXd& landmarks_m);
 
-/// X with the columns [1, -x, -y, (x^2 + y^2)/2] [boots2013, eq. 3], so that Y = C X.
-/// @param positions_m  T x 2.
-Eigen::MatrixXd robot_states(const Points& positions_m);
+/// X with the columns [1, -p, |p|^2/2] [boots2013, eq. 3], so that Y = C X.
+/// @param positions_m  T x d.
+/// @return (d + 2) x T.
+Eigen::MatrixXd robot_states(const Eigen::MatrixXd& positions_m);
 
 }  // namespace mapproof

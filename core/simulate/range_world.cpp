@@ -1,12 +1,12 @@
 #include "core/simulate/range_world.hpp"
 
-#include <algorithm>
 #include <cmath>
 #include <numbers>
 
+#include "core/base/angle.hpp"
 #include "core/base/errors.hpp"
 #include "core/base/random.hpp"
-#include "core/base/angle.hpp"
+#include "core/simulate/range_noise.hpp"
 
 namespace mapproof {
 namespace {
@@ -17,10 +17,7 @@ void check(const RangeWorldOptions& o) {
     throw InvalidInput("a world's half width must be above 0");
   if (!(o.step_m > 0.0 && o.step_m <= o.half_width_m))
     throw InvalidInput("a step must be above 0 and at most the half width");
-  if (!(o.turn_sigma_rad >= 0.0 && o.noise_m >= 0.0 && o.noise_share >= 0.0))
-    throw InvalidInput("turns and noise must not be negative");
-  if (!(o.noise_correlation >= 0.0 && o.noise_correlation < 1.0))
-    throw InvalidInput("the correlation of noise must be at least 0 and below 1");
+  if (!(o.turn_sigma_rad >= 0.0)) throw InvalidInput("turns must not be negative");
 }
 
 Eigen::RowVector2d uniform_point(double half_width, Random& random) {
@@ -59,18 +56,11 @@ RangeWorld simulate_range_world(const RangeWorldOptions& options, std::uint64_t 
     world.landmarks_m.row(n) = uniform_point(options.half_width_m, random);
   walk(world, options, random);
 
-  const double rho = options.noise_correlation;
-  const double fresh = std::sqrt(1.0 - rho * rho);
-  world.ranges_m.resize(options.landmarks, options.steps);
-  for (Eigen::Index n = 0; n < options.landmarks; ++n) {
-    double error = random.normal();
-    for (Eigen::Index t = 0; t < options.steps; ++t) {
-      if (t > 0) error = rho * error + fresh * random.normal();
-      const double range = (world.landmarks_m.row(n) - world.positions_m.row(t)).norm();
-      const double sigma = std::hypot(options.noise_m, options.noise_share * range);
-      world.ranges_m(n, t) = std::max(0.0, range + sigma * error);
-    }
-  }
+  world.ranges_m = simulated_ranges(world.landmarks_m, world.positions_m,
+                                    {.sigma_m = options.noise_m,
+                                     .share = options.noise_share,
+                                     .correlation = options.noise_correlation},
+                                    random);
   return world;
 }
 

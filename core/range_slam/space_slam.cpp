@@ -1,0 +1,77 @@
+#include "core/range_slam/space_slam.hpp"
+
+#include <algorithm>
+#include <limits>
+
+#include <fmt/format.h>
+
+#include "core/base/errors.hpp"
+#include "core/range_slam/known_landmarks.hpp"
+#include "core/range_slam/log_checks.hpp"
+#include "core/range_slam/metric_upgrade.hpp"
+
+namespace mapproof {
+namespace {
+
+constexpr Eigen::Index kRank = 5;
+constexpr Eigen::Index kLeastSteps = 13;  // All but two coefficients of a quadric of 5 variables.
+
+/// A condition of the factors, squares being squares: from here on the heights, or the other
+/// direction that is missing, are ten thousand times less than the extent.
+constexpr double kFlat = 1e8;
+
+Factorization factors_of(const Eigen::MatrixXd& Y, const RangeNoise& noise) {
+  if (noise.sigma_m > 0.0 || noise.share > 0.0)
+    return factorize_without_noise(Y, half_square_variances(Y, noise), kRank);
+  return factorize(Y, kRank);
+}
+
+/// Whether the fifth dimension is there; adds why not.
+bool spans_space(const Factorization& factors, std::vector<Status>& statuses) {
+  const bool is_noise = std::ranges::any_of(
+      factors.statuses, [](const Status& s) { return s.code == StatusCode::kRankDeficient; });
+  if (!is_noise && factors.condition < kFlat) return true;
+  statuses.push_back({StatusCode::kDegenerateGeometry,
+                      fmt::format("Landmarks or path lie on one plane or sphere, as far as the "
+                                  "ranges tell: condition number {:.3g}.",
+                                  factors.condition)});
+  return false;
+}
+
+}  // namespace
+
+SpaceEstimate space_slam(const Eigen::MatrixXd& ranges_m,
+                         const std::optional<KnownSpaceLandmarks>& known, const RangeNoise& noise) {
+  const Eigen::Index N = ranges_m.rows(), T = ranges_m.cols();
+  if (known)
+    if (const auto problem = known_problem(known->rows, known->positions_m, N); !problem.empty())
+      throw InvalidInput(problem);
+  const Eigen::MatrixXd Y = half_squared_ranges(ranges_m, noise);
+  SpaceEstimate estimate;
+  estimate.positions_m.resize(0, 3);
+  estimate.landmarks_m = SpacePoints::Constant(N, 3, std::numeric_limits<double>::quiet_NaN());
+  if (N < kRank || T < kLeastSteps) {
+    estimate.statuses.push_back(
+        {StatusCode::kTooFewObservations,
+         fmt::format("{} landmarks, ranged to together at {} times; {} at {} are needed.", N, T,
+                     kRank, kLeastSteps)});
+    return estimate;
+  }
+  const Factorization factors = factors_of(Y, noise);
+  estimate.singular_values = factors.singular_values;
+  if (N > kRank) estimate.noise_level = factors.noise_floor;
+  estimate.statuses = factors.statuses;
+  if (!spans_space(factors, estimate.statuses)) return estimate;
+
+  const SpectralMap map = known ? map_from_known_places(factors, known->rows, known->positions_m)
+                                : metric_upgrade(factors).map;
+  estimate.condition = map.condition;
+  estimate.range_scale = map.range_scale;
+  estimate.statuses = map.statuses;
+  if (map.empty()) return estimate;
+  estimate.landmarks_m = space_landmarks_of(map.C);
+  estimate.positions_m = space_positions_of(map.X);
+  return estimate;
+}
+
+}  // namespace mapproof
