@@ -71,6 +71,8 @@ Parts parts_of(const SlamExperiment& experiment, const SlamData& data, SlamStore
                 [&] { store.write(make_convergence(experiment, noise)); });
   if (experiment.histories)
     parts.add(store.has_histories(), [&] { store.write(make_histories(experiment)); });
+  if (experiment.space)
+    parts.add(store.has_space(), [&] { store.write(make_space_run(experiment)); });
   if (experiment.example)
     parts.add(store.has_run(experiment.example->noise.id), [&] {
       std::vector<SlamTiming> timings;

@@ -16,7 +16,8 @@ enum Purpose : std::uint64_t {
   kSlamHistories = 8,
   kSlamCost = 9,
   kSlamStart = 10,
-  kSlamBootstrap = 11
+  kSlamBootstrap = 11,
+  kSlamSpace = 12
 };
 
 }  // namespace mapproof

@@ -14,12 +14,14 @@
 #include "core/range_slam/refine.hpp"
 #include "core/range_slam/refine_starts.hpp"
 #include "core/range_slam/spectral_slam.hpp"
+#include "core/range_slam/spread_rows.hpp"
 #include "core/range_slam/synchronous_slam.hpp"
 
 namespace mapproof {
 namespace {
 
 constexpr Eigen::Index kPosesWithCovariance = 60;  ///< As many ellipses as a figure can show.
+constexpr Eigen::Index kStatesShown = 300;         ///< Of a metric upgrade.
 
 SlamEstimate failed(const RangeLog& log, const std::string& why) {
   SlamEstimate estimate;
@@ -28,6 +30,20 @@ SlamEstimate failed(const RangeLog& log, const std::string& why) {
                                           std::numeric_limits<double>::quiet_NaN());
   estimate.statuses.push_back({StatusCode::kFailed, why});
   return estimate;
+}
+
+QuadricPoints shown_of(const QuadricCloud& cloud, const std::vector<Eigen::Index>& rows) {
+  const Eigen::MatrixXd symmetric = 0.5 * (cloud.Q + cloud.Q.transpose());
+  return {.points = cloud.points(rows, Eigen::all), .Q = symmetric};
+}
+
+std::optional<UpgradeClouds> clouds_of(const MetricUpgrade& upgrade) {
+  if (upgrade.map.empty()) return std::nullopt;
+  UpgradeClouds clouds;
+  clouds.steps = spread_rows(upgrade.before.points.rows(), kStatesShown);
+  clouds.before = shown_of(upgrade.before, clouds.steps);
+  clouds.after = shown_of(upgrade.after, clouds.steps);
+  return clouds;
 }
 
 bool is_spectral(SlamMethod method) {
@@ -125,11 +141,15 @@ SlamEstimate SlamEstimates::spectral(bool with_known, bool with_heading) {
     SpectralSlam found = spectral_slam(
         log_, reckoned(), {.known = known, .with_heading = with_heading, .window = window()});
     Y_ = std::move(found.Y);
+    if (!with_known && !with_heading) upgrade_ = clouds_of(found.upgrade);
     return std::move(found.estimate);
   }
   if (with_heading) return failed(log_, "The log has no odometry, which headings need.");
   const auto landmarks = static_cast<Eigen::Index>(log_.landmarks.size());
-  return synchronous_slam(synchronous_ranges(log_.ranges, landmarks), known, options_.noise);
+  SynchronousSlam found =
+      synchronous_slam(synchronous_ranges(log_.ranges, landmarks), known, options_.noise);
+  if (!with_known) upgrade_ = clouds_of(found.upgrade);
+  return std::move(found.estimate);
 }
 
 SlamEstimate SlamEstimates::filtered() const {

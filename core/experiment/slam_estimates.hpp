@@ -30,6 +30,10 @@ class SlamEstimates {
   /// The window lengths tried; empty without odometry.
   std::optional<WindowCurve> windows() const;
 
+  /// Some of the states that the metric upgrade of the last map without known landmarks and heading
+  /// was fitted to; empty if there is none.
+  const std::optional<UpgradeClouds>& upgrade() const { return upgrade_; }
+
  private:
   SlamEstimate solve(SlamMethod method);
   SlamEstimate spectral(bool with_known, bool with_heading);
@@ -46,6 +50,7 @@ class SlamEstimates {
   std::optional<WindowOptions> window_;
   WindowCurve curve_;
   Eigen::MatrixXd Y_;  ///< Squared ranges of the spectral map made last.
+  std::optional<UpgradeClouds> upgrade_;
   std::optional<SlamEstimate> spectral_start_;
   std::optional<SlamEstimate> odometry_start_;
 };

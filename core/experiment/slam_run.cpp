@@ -106,6 +106,8 @@ SlamRunResult make_slam_run(const std::string& id, RangeLog log, const SlamRunOp
   }
   add_random_starts(estimates, options, run);
   run.windows = estimates.windows();
+  if (std::ranges::find(options.methods, SlamMethod::kSpectral) != options.methods.end())
+    run.upgrade = estimates.upgrade();
   if (!run.log.truth) lay_on_first(run, options);
   return result;
 }

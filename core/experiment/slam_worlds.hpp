@@ -28,6 +28,10 @@ ConvergenceCurve make_convergence(const SlamExperiment& experiment, const RangeN
 /// @throws InvalidInput if the experiment has no such part.
 RangeHistoryStudy make_histories(const SlamExperiment& experiment);
 
+/// What comes of the ranges of one flight in space, with landmarks known and with none.
+/// @throws InvalidInput if the experiment has no such part.
+SpaceRun make_space_run(const SlamExperiment& experiment);
+
 /// Seconds of factorisation and upgrade over the experiment's grid.
 std::vector<FactorizationCost> time_factorization(const SlamExperiment& experiment);
 

@@ -30,6 +30,13 @@ std::vector<std::pair<std::string, std::string>> facts_of(const SlamExperiment& 
         "Mapping methods on ranges",
         fmt::format("{} landmarks, {} steps, {}, K = {}", histories->landmarks, histories->steps,
                     histories->noise.title, histories->neighbours));
+  if (const auto& space = experiment.space)
+    facts.emplace_back(
+        "Flight in space",
+        fmt::format("{0:g} m \u00D7 {0:g} m \u00D7 {1:g} m, {2} landmarks, {3} of them known, {4} "
+                    "steps of {5:g} m, {6}",
+                    2.0 * space->half_width_m, space->height_m, space->landmarks, space->known,
+                    space->steps, space->step_m, space->noise.title));
   return facts;
 }
 

@@ -67,6 +67,18 @@ struct RangeHistoryOptions {
   std::vector<Method> methods;
 };
 
+/// A flight in space over landmarks that are ranged to at every step.
+struct SpaceFlightOptions {
+  int landmarks = 12;
+  int known = 6;  ///< The first so many have a known place.
+  int steps = 400;
+  double half_width_m = 10.0;  ///< Landmarks and flight lie in [-half_width, half_width]^2,
+  double height_m = 8.0;       ///< from the ground to this height.
+  double step_m = 1.0;
+  double turn_sigma_rad = 0.3;  ///< Of the direction from step to step.
+  RangeNoiseModel noise;
+};
+
 /// What the factorisation and upgrade are timed on.
 struct FactorizationGrid {
   std::vector<int> landmarks;  ///< Ascending.
@@ -85,6 +97,7 @@ struct SlamExperiment {
   std::vector<SlamMethod> methods;  ///< Tried on each data set, in the order of the tables.
   int random_starts = 12;           ///< Of the refinement on each data set.
   std::optional<RangeHistoryOptions> histories;
+  std::optional<SpaceFlightOptions> space;
   FactorizationGrid factorization;
 };
 

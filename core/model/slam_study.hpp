@@ -11,7 +11,9 @@
 #include <Eigen/Core>
 
 #include "core/model/slam.hpp"
+#include "core/model/space_slam.hpp"
 #include "core/model/study.hpp"
+#include "core/model/upgrade_clouds.hpp"
 #include "core/statistics/intervals.hpp"
 
 namespace mapproof {
@@ -91,6 +93,7 @@ struct SlamRun {
   std::vector<SlamRecord> records;
   std::vector<RefinementStart> starts;  ///< Empty: none compared.
   std::optional<PublishedDrive> published;
+  std::optional<UpgradeClouds> upgrade;  ///< Of SlamMethod::kSpectral, where it gave a map.
 };
 
 /// Means over random pairs of path and environment, after so many readings.
@@ -159,6 +162,7 @@ struct SlamStudy {
   std::vector<SlamRun> runs;  ///< The simulated example first, if there is one.
   std::vector<ConvergenceCurve> convergence;
   std::optional<RangeHistoryStudy> histories;
+  std::optional<SpaceRun> space;
   std::vector<std::string> missing;  ///< Data asked for that are not there, with how to get them.
 };
 

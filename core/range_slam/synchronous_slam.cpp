@@ -7,16 +7,11 @@
 #include "core/base/errors.hpp"
 #include "core/linalg/planarity.hpp"
 #include "core/range_slam/localise.hpp"
-#include "core/range_slam/metric_upgrade.hpp"
 
 namespace mapproof {
 namespace {
 
 constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
-
-SpectralMap map_of(const Factorization& factors, const std::optional<KnownLandmarks>& known) {
-  return known ? map_from_known_landmarks(factors, *known) : metric_upgrade(factors).map;
-}
 
 }  // namespace
 
@@ -48,42 +43,45 @@ SynchronousRanges synchronous_ranges(const std::vector<RangeReading>& ranges,
   return common;
 }
 
-SlamEstimate synchronous_slam(const SynchronousRanges& ranges,
-                              const std::optional<KnownLandmarks>& known, const RangeNoise& noise) {
+SynchronousSlam synchronous_slam(const SynchronousRanges& ranges,
+                                 const std::optional<KnownLandmarks>& known,
+                                 const RangeNoise& noise) {
   const Eigen::Index N = ranges.ranges_m.rows();
   const Eigen::Index T = ranges.ranges_m.cols();
-  SlamEstimate estimate;
+  SynchronousSlam found;
+  SlamEstimate& estimate = found.estimate;
   estimate.path.positions_m.resize(0, 2);
   estimate.landmarks_m = Points::Constant(N, 2, kNaN);
   if (N < 4 || T < 8) {
     estimate.statuses.push_back(
         {StatusCode::kTooFewObservations,
          fmt::format("{} landmarks, ranged to together at {} times; 4 at 8 are needed.", N, T)});
-    return estimate;
+    return found;
   }
   Eigen::MatrixXd Y = half_squared_ranges(ranges.ranges_m, noise);
   const Factorization factors = noise.sigma_m > 0.0 || noise.share > 0.0
                                     ? factorize_without_noise(Y, half_square_variances(Y, noise), 4)
                                     : factorize(Y, 4);
-  const SpectralMap map = map_of(factors, known);
+  if (!known) found.upgrade = metric_upgrade(factors);
+  const SpectralMap map = known ? map_from_known_landmarks(factors, *known) : found.upgrade.map;
   estimate.singular_values = factors.singular_values;
   if (N > 4) estimate.noise_level = factors.noise_floor;
   estimate.condition = map.condition;
   estimate.range_scale = map.range_scale;
   estimate.statuses = factors.statuses;
   estimate.statuses.insert(estimate.statuses.end(), map.statuses.begin(), map.statuses.end());
-  if (map.empty()) return estimate;
+  if (map.empty()) return found;
   const Points landmarks_m = landmarks_of(map.C);
   if (!(planarity(landmarks_m) > kFlatPlanarity)) {
     estimate.statuses.push_back(
         {StatusCode::kDegenerateGeometry, "The landmarks came out on one line: no positions."});
-    return estimate;
+    return found;
   }
   Y /= map.range_scale * map.range_scale;
   estimate.landmarks_m = landmarks_m;
   estimate.path = {
       .time_s = ranges.time_s, .positions_m = localise(landmarks_m, Y), .heading_rad = {}};
-  return estimate;
+  return found;
 }
 
 }  // namespace mapproof

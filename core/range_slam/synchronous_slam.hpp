@@ -6,6 +6,7 @@
 #include "core/model/range_log.hpp"
 #include "core/model/slam.hpp"
 #include "core/range_slam/known_landmarks.hpp"
+#include "core/range_slam/metric_upgrade.hpp"
 #include "core/range_slam/squared_ranges.hpp"
 
 namespace mapproof {
@@ -24,6 +25,12 @@ struct SynchronousRanges {
 SynchronousRanges synchronous_ranges(const std::vector<RangeReading>& ranges,
                                      Eigen::Index landmarks);
 
+/// What comes of ranges at common times.
+struct SynchronousSlam {
+  SlamEstimate estimate;
+  MetricUpgrade upgrade;  ///< Where no landmark was known.
+};
+
 /// Spectral SLAM as the paper has it [boots2013, algorithm 1], without odometry: factorisation, map
 /// by known landmarks or by the metric upgrade, and positions by localise().
 /// @param known  Empty: no landmark is known; the map is then free to move and mirror.
@@ -31,8 +38,8 @@ SynchronousRanges synchronous_ranges(const std::vector<RangeReading>& ranges,
 /// @return Empty path, NaN landmarks and a status where no map came out.
 /// @throws InvalidInput if a bound is broken.
 /// @note O(N^2 T) time.
-SlamEstimate synchronous_slam(const SynchronousRanges& ranges,
-                              const std::optional<KnownLandmarks>& known,
-                              const RangeNoise& noise = {});
+SynchronousSlam synchronous_slam(const SynchronousRanges& ranges,
+                                 const std::optional<KnownLandmarks>& known,
+                                 const RangeNoise& noise = {});
 
 }  // namespace mapproof

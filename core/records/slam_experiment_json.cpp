@@ -51,6 +51,17 @@ Json histories_value(const RangeHistoryOptions& histories) {
           {"methods", methods}};
 }
 
+Json space_value(const SpaceFlightOptions& space) {
+  return {{"landmarks", space.landmarks},
+          {"known", space.known},
+          {"steps", space.steps},
+          {"half_width_m", space.half_width_m},
+          {"height_m", space.height_m},
+          {"step_m", space.step_m},
+          {"turn_sigma_rad", space.turn_sigma_rad},
+          {"noise", noise_value(space.noise)}};
+}
+
 }  // namespace
 
 Json slam_experiment_value(const SlamExperiment& experiment) {
@@ -76,6 +87,7 @@ Json slam_experiment_value(const SlamExperiment& experiment) {
   value["methods"] = std::move(methods);
   value["random_starts"] = experiment.random_starts;
   if (experiment.histories) value["histories"] = histories_value(*experiment.histories);
+  if (experiment.space) value["space"] = space_value(*experiment.space);
   if (!experiment.factorization.steps.empty())
     value["factorization"] = {{"landmarks", experiment.factorization.landmarks},
                               {"steps", experiment.factorization.steps}};

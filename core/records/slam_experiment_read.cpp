@@ -120,6 +120,24 @@ RangeHistoryOptions read_histories(const JsonCursor& object) {
   return histories;
 }
 
+SpaceFlightOptions read_space(const JsonCursor& object) {
+  object.allow_only({"landmarks", "known", "steps", "half_width_m", "height_m", "step_m",
+                     "turn_sigma_rad", "noise"});
+  SpaceFlightOptions space;
+  read_if_there(object, "landmarks", 5, kMostLandmarks, space.landmarks);
+  space.known = std::min(space.known, space.landmarks);
+  read_if_there(object, "known", 5, space.landmarks, space.known);
+  read_if_there(object, "steps", 13, 100'000, space.steps);
+  read_if_there(object, "half_width_m", 1e-3, kLargest_m, space.half_width_m);
+  space.height_m = std::min(space.height_m, 2.0 * space.half_width_m);
+  read_if_there(object, "height_m", 1e-3, 2.0 * space.half_width_m, space.height_m);
+  space.step_m = std::min(space.step_m, 0.5 * space.height_m);
+  read_if_there(object, "step_m", 1e-6, 0.5 * space.height_m, space.step_m);
+  read_if_there(object, "turn_sigma_rad", 0.0, 100.0, space.turn_sigma_rad);
+  space.noise = read_noise(object.at("noise"));
+  return space;
+}
+
 /// Sizes that no single number shows.
 void check_sizes(const SlamExperiment& experiment, const JsonCursor& document) {
   const auto check = [](double landmarks, double steps, const JsonCursor& place) {
@@ -130,6 +148,8 @@ void check_sizes(const SlamExperiment& experiment, const JsonCursor& document) {
   if (experiment.convergence)
     check(experiment.world.landmarks, experiment.convergence->steps.back(),
           document.at("convergence").at("steps"));
+  if (experiment.space)
+    check(experiment.space->landmarks, experiment.space->steps, document.at("space"));
   const FactorizationGrid& grid = experiment.factorization;
   if (!grid.landmarks.empty() && !grid.steps.empty())
     check(grid.landmarks.back(), grid.steps.back(), document.at("factorization"));
@@ -140,7 +160,7 @@ void check_sizes(const SlamExperiment& experiment, const JsonCursor& document) {
 SlamExperiment read_slam_experiment(const JsonCursor& document) {
   expect_schema(document, "mapproof.slam_experiment");
   document.allow_only({"schema", "name", "title", "seed", "world", "example", "convergence", "data",
-                       "methods", "random_starts", "histories", "factorization"});
+                       "methods", "random_starts", "histories", "space", "factorization"});
   SlamExperiment experiment;
   experiment.name = read_study_name(document.at("name"));
   experiment.title = experiment.name;
@@ -157,6 +177,7 @@ SlamExperiment read_slam_experiment(const JsonCursor& document) {
   read_if_there(document, "random_starts", 1, 1000, experiment.random_starts);
   if (const auto histories = document.find("histories"))
     experiment.histories = read_histories(*histories);
+  if (const auto space = document.find("space")) experiment.space = read_space(*space);
   if (const auto grid = document.find("factorization")) {
     grid->allow_only({"landmarks", "steps"});
     experiment.factorization = {.landmarks = read_sizes(grid->at("landmarks"), 4, kMostLandmarks),

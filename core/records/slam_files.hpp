@@ -18,6 +18,7 @@ struct SlamFiles {
   std::filesystem::path curves() const { return folder / "convergence"; }
   std::filesystem::path curve(const std::string& id) const { return curves() / (id + ".json"); }
   std::filesystem::path histories() const { return folder / "histories.json"; }
+  std::filesystem::path space() const { return folder / "space.json"; }
 };
 
 }  // namespace mapproof

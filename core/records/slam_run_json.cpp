@@ -8,6 +8,7 @@
 #include "core/records/provenance_values.hpp"
 #include "core/records/slam_experiment_json.hpp"
 #include "core/records/slam_values.hpp"
+#include "core/records/space_values.hpp"
 
 namespace mapproof {
 namespace {
@@ -122,6 +123,7 @@ std::string slam_run_json(const SlamRun& run) {
                     {"windows", windows_value(run.windows)},
                     {"records", std::move(records)},
                     {"starts", starts_value(run.starts)},
+                    {"upgrade", run.upgrade ? upgrade_value(*run.upgrade) : Json(nullptr)},
                     {"published", published_drive_value(run.published)}});
 }
 
@@ -130,7 +132,7 @@ SlamRun parse_slam_run(std::string_view text, const std::string& source) {
   const JsonCursor root = document.cursor();
   expect_schema(root, "mapproof.slam_run");
   root.allow_only({"schema", "id", "figure", "simulated", "log", "known", "windows", "records",
-                   "starts", "published"});
+                   "starts", "upgrade", "published"});
   SlamRun run;
   run.id = read_id(root.at("id"));
   run.figure = read_figure(root.at("figure"));
@@ -143,6 +145,9 @@ SlamRun parse_slam_run(std::string_view text, const std::string& source) {
     run.records.push_back(read_slam_record(record, landmarks));
   for (const JsonCursor& start : root.at("starts").elements(0, 1000))
     run.starts.push_back(read_start(start));
+  // Not in studies of older versions.
+  if (const auto upgrade = root.find("upgrade"); upgrade && !upgrade->is_null())
+    run.upgrade = read_upgrade(*upgrade);
   run.published = read_published_drive(root.at("published"));
   return run;
 }

@@ -11,6 +11,7 @@
 #include "core/records/slam_files.hpp"
 #include "core/records/slam_run_json.hpp"
 #include "core/records/slam_values.hpp"
+#include "core/records/space_run_json.hpp"
 #include "core/records/study_folder.hpp"
 #include "core/records/timings_jsonl.hpp"
 #include "core/records/trajectory_files.hpp"
@@ -74,9 +75,9 @@ SlamStore SlamStore::open(const fs::path& folder, const SlamExperiment& experime
   make_folder(folder);
   auto state = std::make_unique<State>(folder);
   const SlamFiles& files = state->files;
-  state->is_redone = take_up_study(
-      folder, slam_study_json(experiment, provenance), read_head,
-      {files.runs(), files.paths(), files.curves(), files.histories(), files.timings()});
+  state->is_redone = take_up_study(folder, slam_study_json(experiment, provenance), read_head,
+                                   {files.runs(), files.paths(), files.curves(), files.histories(),
+                                    files.space(), files.timings()});
   return SlamStore(std::move(state));
 }
 
@@ -109,6 +110,13 @@ bool SlamStore::has_histories() const {
                   });
 }
 
+bool SlamStore::has_space() const {
+  return is_whole(state_->files.space(), [](const std::string& text, const std::string& source) {
+    parse_space_run(text, source);
+    return true;
+  });
+}
+
 void SlamStore::write(const SlamRun& run, std::span<const SlamTiming> timings) {
   write_paths(run, state_->files.paths(run.id));
   write_file(state_->files.run(run.id), slam_run_json(run));
@@ -121,6 +129,10 @@ void SlamStore::write(const ConvergenceCurve& curve) {
 
 void SlamStore::write(const RangeHistoryStudy& histories) {
   write_file(state_->files.histories(), range_histories_json(histories));
+}
+
+void SlamStore::write(const SpaceRun& space) {
+  write_file(state_->files.space(), space_run_json(space));
 }
 
 void SlamStore::write(std::span<const FactorizationCost> costs) { state_->append(lines_of(costs)); }

@@ -36,12 +36,14 @@ class SlamStore {
   bool has_run(const std::string& id) const;
   bool has_convergence(const std::string& id) const;
   bool has_histories() const;
+  bool has_space() const;
 
   /// Each writes one part; a run's paths as TUM and CSV come before its record. Thread-safe.
   /// @throws IoError.
   void write(const SlamRun& run, std::span<const SlamTiming> timings);
   void write(const ConvergenceCurve& curve);
   void write(const RangeHistoryStudy& histories);
+  void write(const SpaceRun& space);
   /// Appends to timings.jsonl. Thread-safe. @throws IoError.
   void write(std::span<const FactorizationCost> costs);
   void write_session(const Session& session);

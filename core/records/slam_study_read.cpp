@@ -9,6 +9,7 @@
 #include "core/records/slam_files.hpp"
 #include "core/records/slam_run_json.hpp"
 #include "core/records/slam_store.hpp"
+#include "core/records/space_run_json.hpp"
 #include "core/records/study_store.hpp"
 #include "core/records/timings_jsonl.hpp"
 
@@ -79,6 +80,8 @@ SlamStudy read_slam_study(const fs::path& folder) {
   if (order.experiment.histories && is_there(files.histories()))
     study.histories =
         parse_range_histories(read_file(files.histories()), files.histories().string());
+  if (order.experiment.space && is_there(files.space()))
+    study.space = parse_space_run(read_file(files.space()), files.space().string());
   return study;
 }
 

@@ -20,6 +20,7 @@
 #include "core/records/slam_experiment_json.hpp"
 #include "core/records/slam_run_json.hpp"
 #include "core/records/slam_store.hpp"
+#include "core/records/space_run_json.hpp"
 #include "core/records/study_files.hpp"
 #include "core/records/study_store.hpp"
 #include "core/records/timings_jsonl.hpp"
@@ -62,6 +63,8 @@ constexpr std::array kSchemas = {
     KnownSchema{"mapproof.slam_run", [](auto text, auto& source) { parse_slam_run(text, source); }},
     KnownSchema{"mapproof.slam_study",
                 [](auto text, auto& source) { parse_slam_study(text, source); }},
+    KnownSchema{"mapproof.space_run",
+                [](auto text, auto& source) { parse_space_run(text, source); }},
     KnownSchema{"mapproof.study", [](auto text, auto& source) { parse_study(text, source); }},
 };
 

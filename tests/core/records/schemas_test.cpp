@@ -17,6 +17,7 @@
 #include "core/records/observations.hpp"
 #include "core/records/slam_experiment_json.hpp"
 #include "core/records/slam_run_json.hpp"
+#include "core/records/space_run_json.hpp"
 #include "core/records/timings_jsonl.hpp"
 #include "core/records/validate.hpp"
 #include "tests/core/records/samples.hpp"
@@ -125,6 +126,7 @@ TEST(Schemas, HoldForEveryFileOfARangeOnlyStudy) {
        {slam_run_json(test::made_up_slam_run("drive")),
         convergence_json(test::made_up_convergence("white")),
         range_histories_json(test::made_up_histories()), slam_experiment_json(experiment),
+        space_run_json(test::made_up_space_run()),
         slam_study_json(experiment, test::made_up_provenance())}) {
     const json value = json::parse(text);
     EXPECT_EQ(schema_problem(kind_of(value), value), "") << kind_of(value);
@@ -175,6 +177,7 @@ class Damaged : public ::testing::TestWithParam<Damage> {
       return json::parse(convergence_json(test::made_up_convergence("white")));
     if (kind == "range_histories")
       return json::parse(range_histories_json(test::made_up_histories()));
+    if (kind == "space_run") return json::parse(space_run_json(test::made_up_space_run()));
     if (kind == "observations") return read("observations/observations.json");
     StudyStore::open(folder_.path(), test::small_experiment(), test::made_up_provenance())
         .write(test::made_up_result({1, 1}));
@@ -257,6 +260,12 @@ INSTANTIATE_TEST_SUITE_P(
         Damage{"slam_run", "/records/0/landmark_cov_m2/0", {1, 2}},
         Damage{"slam_run", "/records/0/statuses/0/code", "tired"},
         Damage{"slam_run", "/windows/chosen_s", "long"}, Damage{"slam_run", "/starts/0/number", 0},
+        Damage{"slam_experiment", "/space/known", 4},
+        Damage{"slam_run", "/upgrade/before/points/0", {1, 2}},
+        Damage{"slam_run", "/upgrade/after/quadric/0", {1, 2, 3}},
+        Damage{"space_run", "/records/0/alignment", "some"},
+        Damage{"space_run", "/records/0/landmarks_m/0", {1, 2}},
+        Damage{"space_run", "/landmarks_m", nullptr},
         Damage{"slam_convergence", "/points/0/steps", 0},
         Damage{"slam_convergence", "/points/0/sine/mean", "x"},
         Damage{"range_histories", "/maps/0/K", nullptr},

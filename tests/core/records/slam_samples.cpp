@@ -86,6 +86,10 @@ SlamRun made_up_slam_run(const std::string& id) {
                  .iterations = 3,
                  .converged = false}};
   run.published = PublishedDrive{.length_km = 1.9, .poses = 9658, .readings = 3529};
+  run.upgrade.emplace();
+  run.upgrade->steps = {0, 2};
+  run.upgrade->before = {SpacePoints::Constant(2, 3, 1.0 / 7.0), Eigen::Matrix4d::Identity()};
+  run.upgrade->after = {SpacePoints::Constant(2, 3, -2.5), Eigen::Matrix4d::Constant(0.1)};
   return run;
 }
 
@@ -120,6 +124,33 @@ RangeHistoryStudy made_up_histories() {
   return study;
 }
 
+SpaceRun made_up_space_run() {
+  SpaceRun run{.landmarks_m = SpacePoints::Constant(5, 3, 0.1),
+               .positions_m = SpacePoints::Constant(2, 3, 1.0 / 3.0),
+               .known = {0, 2},
+               .noise = "white noise",
+               .records = {}};
+  SpaceRecord record{.knows_landmarks = true,
+                     .estimate = {},
+                     .alignment = Alignment::kNone,
+                     .landmarks_error_m = 0.25,
+                     .positions_error_m = 0.5};
+  record.estimate.landmarks_m = run.landmarks_m;
+  record.estimate.landmarks_m.row(1).setConstant(kNaN);
+  record.estimate.positions_m = run.positions_m;
+  record.estimate.singular_values = Eigen::Vector3d(5.0, 1.5, 1e-7);
+  record.estimate.noise_level = 0.01;
+  run.records.push_back(record);
+  record.knows_landmarks = false;
+  record.alignment = Alignment::kRigidWithReflection;
+  record.estimate.landmarks_m.setConstant(kNaN);
+  record.estimate.positions_m.resize(0, 3);
+  record.estimate.statuses = {{StatusCode::kDegenerateGeometry, "All in a plane."}};
+  record.landmarks_error_m = record.positions_error_m = std::nullopt;
+  run.records.push_back(record);
+  return run;
+}
+
 SlamExperiment small_slam_experiment() {
   SlamExperiment experiment;
   experiment.name = "small";
@@ -143,6 +174,7 @@ SlamExperiment small_slam_experiment() {
                                              .noise = noise,
                                              .neighbours = 4,
                                              .methods = {Method::kLpca, Method::kIsomap}};
+  experiment.space = SpaceFlightOptions{.landmarks = 8, .steps = 40, .noise = noise};
   experiment.factorization = {.landmarks = {4, 6}, .steps = {20}};
   return experiment;
 }

@@ -12,6 +12,9 @@ ConvergenceCurve made_up_convergence(const std::string& id);
 
 RangeHistoryStudy made_up_histories();
 
+/// With known landmarks a map, with none a failure.
+SpaceRun made_up_space_run();
+
 /// One example, one noise model, one data set "drive".
 SlamExperiment small_slam_experiment();
 

@@ -8,6 +8,7 @@
 #include "core/base/files.hpp"
 #include "core/records/slam_experiment_json.hpp"
 #include "core/records/slam_run_json.hpp"
+#include "core/records/space_run_json.hpp"
 #include "core/records/study_store.hpp"
 #include "core/records/validate.hpp"
 #include "tests/core/records/samples.hpp"
@@ -26,6 +27,7 @@ SlamStore filled(const fs::path& folder, const Provenance& provenance) {
   store.write(test::made_up_slam_run("drive"), timings);
   store.write(test::made_up_convergence("white"));
   store.write(test::made_up_histories());
+  store.write(test::made_up_space_run());
   const std::vector<FactorizationCost> costs = {{.landmarks = 4, .steps = 20, .seconds = 0.001}};
   store.write(costs);
   return store;
@@ -48,6 +50,9 @@ TEST(SlamStudy, IsReadBackAsItWasWritten) {
   ASSERT_TRUE(study.histories);
   EXPECT_EQ(range_histories_json(*study.histories),
             range_histories_json(test::made_up_histories()));
+  ASSERT_TRUE(study.space);
+  EXPECT_EQ(space_run_json(*study.space), space_run_json(test::made_up_space_run()));
+  EXPECT_TRUE(study.space->records[1].estimate.empty());
   EXPECT_TRUE(study.missing.empty());
   EXPECT_TRUE(is_slam_study(folder.path()));
 }
@@ -76,6 +81,7 @@ TEST(SlamStudy, KnowsWhatItHoldsAndWhatIsDamagedOrOfAnotherLog) {
   EXPECT_TRUE(store.has_run("drive", run.log));
   EXPECT_TRUE(store.has_convergence("white"));
   EXPECT_TRUE(store.has_histories());
+  EXPECT_TRUE(store.has_space());
   EXPECT_FALSE(store.has_run("simulation"));
   EXPECT_FALSE(store.has_convergence("correlated"));
   RangeLog other = run.log;
@@ -126,13 +132,33 @@ TEST(SlamStudy, IsValidAndEachDamagedFileOfItIsNamed) {
   const test::TemporaryFolder folder;
   { filled(folder.path(), test::made_up_provenance()); }
   for (const Finding& finding : validate(folder.path())) EXPECT_EQ(finding.problem, "");
-  for (const char* file : {"runs/drive.json", "convergence/white.json", "histories.json"}) {
+  for (const char* file :
+       {"runs/drive.json", "convergence/white.json", "histories.json", "space.json"}) {
     const std::string whole = read_file(folder / file);
     write_file(folder / file, whole.substr(0, whole.size() / 2));
     const Finding study = validate(folder.path()).at(0);
     EXPECT_NE(study.problem.find(file), std::string::npos) << study.problem;
     write_file(folder / file, whole);
   }
+}
+
+TEST(SlamRun, OfAnOlderVersionHasNoUpgrade) {
+  std::string text = slam_run_json(test::made_up_slam_run("drive"));
+  const std::size_t start = text.find("\"upgrade\""), end = text.find("\"published\"");
+  text.erase(start, end - start);
+  EXPECT_FALSE(parse_slam_run(text, "old.json").upgrade);
+}
+
+TEST(SpaceRun, WithNumbersThatDoNotFitIsRefused) {
+  const auto refused = [](auto change) {
+    SpaceRun run = test::made_up_space_run();
+    change(run);
+    EXPECT_THROW(parse_space_run(space_run_json(run), "space.json"), IoError);
+  };
+  refused([](SpaceRun& run) { run.landmarks_m(0, 0) = NAN; });
+  refused([](SpaceRun& run) { run.records[0].estimate.landmarks_m.conservativeResize(4, 3); });
+  refused([](SpaceRun& run) { run.records[0].estimate.positions_m.conservativeResize(1, 3); });
+  refused([](SpaceRun& run) { run.known = {5}; });
 }
 
 TEST(SlamExperiment, IsReadBackAsItWasWritten) {
