@@ -2,12 +2,18 @@
 
 #include <cmath>
 
+#include <fmt/format.h>
+#include <Eigen/LU>
+
 #include "core/base/random.hpp"
 #include "render/scene/error_field_scene.hpp"
+#include "render/scene/forming_scene.hpp"
 #include "render/scene/manifold_scene.hpp"
 #include "render/scene/measurement_scene.hpp"
 #include "render/scene/projection.hpp"
+#include "render/scene/quadric_scene.hpp"
 #include "render/scene/room.hpp"
+#include "render/scene/space_scene.hpp"
 #include "render/scene/world_scene.hpp"
 #include "tests/support/sample_figures.hpp"
 #include "tests/support/sample_studies.hpp"
@@ -82,7 +88,77 @@ Scene bent_sheet() {
   return manifold_scene(spec);
 }
 
+/// Maps of one room after 200 to 2000 steps, ever better.
+FormingSceneSpec forming_spec() {
+  FormingSceneSpec spec{.id = "forming-usual",
+                        .title = "Bearing, ISOMAP, K = 7: the map forms",
+                        .world = {},
+                        .maps = {}};
+  for (int i = 1; i <= 10; ++i) {
+    spec.maps.push_back(sample_map(50, 0.9 / i, 7));
+    spec.maps.back().step = 200 * i;
+    spec.maps.back().id += fmt::format("/{}", i);
+  }
+  spec.world = {kRoom_m, 0.048, *spec.maps[0].truth_m};
+  return spec;
+}
+
 }  // namespace
+
+UpgradeClouds sample_clouds(double noise) {
+  Random random(5);
+  UpgradeClouds clouds;
+  clouds.after.points.resize(150, 3);
+  for (Eigen::Index t = 0; t < 150; ++t) {
+    const double x = 9.0 * std::sin(0.11 * double(t)), y = 8.0 * std::sin(0.07 * double(t) + 1.0);
+    clouds.after.points.row(t) << x, y, 0.5 * (x * x + y * y) + noise * random.normal();
+    clouds.steps.push_back(3 * t);
+  }
+  clouds.after.Q.setIdentity();
+  clouds.after.Q.bottomRightCorner<2, 2>() << 0.0, -1.0, -1.0, 0.0;
+  // Before: seen from another frame, p = A q + b for the points q after.
+  Eigen::Matrix4d to_after;
+  to_after << 5.0, 1.0, 0.5, 1.0, -1.0, 3.0, 2.0, -2.0, 4.0, -6.0, 21.0, 20.0, 0.0, 0.0, 0.0, 1.0;
+  Eigen::MatrixX4d lifted(150, 4);
+  lifted << clouds.after.points, Eigen::VectorXd::Ones(150);
+  clouds.before.points = (lifted * to_after.inverse().transpose()).leftCols<3>();
+  clouds.before.Q = to_after.transpose() * clouds.after.Q * to_after;
+  return clouds;
+}
+
+SpaceRun sample_space_run() {
+  Random random(6);
+  SpaceRun run{.landmarks_m = SpacePoints(10, 3),
+               .positions_m = SpacePoints(200, 3),
+               .known = {0, 1, 2, 3, 4, 5},
+               .noise = "white noise, 1 % of the range",
+               .records = {}};
+  for (auto row : run.landmarks_m.rowwise())
+    row << random.uniform(-10.0, 10.0), random.uniform(-10.0, 10.0), random.uniform(0.0, 8.0);
+  for (Eigen::Index t = 0; t < 200; ++t) {
+    const double a = 0.05 * double(t);
+    run.positions_m.row(t) << 9.0 * std::sin(a), 9.0 * std::cos(1.7 * a),
+        4.0 + 3.5 * std::sin(2.3 * a);
+  }
+  for (const double error_m : {0.05, 0.15}) {
+    SpaceRecord record{
+        .knows_landmarks = error_m < 0.1,
+        .estimate = {},
+        .alignment = error_m < 0.1 ? Alignment::kNone : Alignment::kRigidWithReflection,
+        .landmarks_error_m = error_m,
+        .positions_error_m = error_m};
+    const auto moved = [&](SpacePoints points) {
+      for (double& x : points.reshaped()) x += error_m * random.normal() / std::sqrt(3.0);
+      return points;
+    };
+    record.estimate.landmarks_m = moved(run.landmarks_m);
+    record.estimate.positions_m = moved(run.positions_m);
+    run.records.push_back(record);
+  }
+  return run;
+}
+
+std::vector<Scene> sample_frames() { return forming_frames(forming_spec()); }
 
 Scene small_scene() {
   Scene scene{.id = "small",
@@ -133,6 +209,29 @@ std::vector<Scene> sample_scenes() {
   scenes.push_back(
       measurement_scene(sample_measurement(Sensor::kVisibility, 50), "look-visibility"));
   scenes.push_back(measurement_scene(sample_measurement(Sensor::kBearing, 50), "look-bearing"));
+  scenes.push_back(quadric_scene({.id = "quadric-usual",
+                                  .title = "Metric upgrade",
+                                  .name = "A sample",
+                                  .clouds = sample_clouds(0.5),
+                                  .record_ids = {"sample"}}));
+  SpaceSceneSpec space{.id = "space-usual",
+                       .title = "Landmarks in space from ranges alone",
+                       .run = sample_space_run(),
+                       .record_ids = {"space"}};
+  scenes.push_back(space_scene(space));
+  space.id = "space-failed";
+  space.run.records[0].estimate.landmarks_m.setConstant(NAN);
+  space.run.records[0].estimate.positions_m.resize(0, 3);
+  space.run.records[0].landmarks_error_m = space.run.records[0].positions_error_m = std::nullopt;
+  scenes.push_back(space_scene(space));
+  FormingSceneSpec forming = forming_spec();
+  scenes.push_back(forming_scene(forming));
+  forming.id = "forming-hard";
+  forming.maps[0].estimate.row(3) << 1e7, -3.0;
+  forming.maps[0].estimate.row(4).setConstant(NAN);
+  forming.maps[0].score.reset();
+  forming.most = 4;
+  scenes.push_back(forming_scene(forming));
   WorldSceneSpec walked = world_spec("world-walked", 0.12);
   walked.path_m = walk(2000);
   scenes.push_back(world_scene(walked, WorldView::kPerspective));

@@ -2,6 +2,8 @@
 
 #include <vector>
 
+#include "core/model/space_slam.hpp"
+#include "core/model/upgrade_clouds.hpp"
 #include "render/scene/scene.hpp"
 
 namespace mapproof::test {
@@ -12,5 +14,14 @@ Scene small_scene();
 
 /// Every kind of scene, with tame data and with data that is hard to draw. Ids tell which.
 std::vector<Scene> sample_scenes();
+
+/// States of a path before and after a metric upgrade, off the paraboloid by so much.
+UpgradeClouds sample_clouds(double noise);
+
+/// Ten landmarks and a winding flight, with a record of either kind.
+SpaceRun sample_space_run();
+
+/// Frames of an animation.
+std::vector<Scene> sample_frames();
 
 }  // namespace mapproof::test

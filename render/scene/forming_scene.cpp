@@ -1,0 +1,156 @@
+#include "render/scene/forming_scene.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include "core/base/errors.hpp"
+#include "core/base/words.hpp"
+#include "render/figures/words.hpp"
+#include "render/scene/displacements.hpp"
+#include "render/scene/room.hpp"
+
+namespace mapproof {
+namespace {
+
+constexpr double kPercentile = 0.95;
+constexpr std::size_t kColumns = 3;
+
+void require_usable(const FormingSceneSpec& spec) {
+  const World& world = spec.world;
+  if (spec.maps.empty() || spec.most < 1) throw InvalidInput("forming_scene: no map");
+  if (!(world.side_m > 0.0 && world.side_m <= 1e6) ||
+      !(world.landmark_diameter_m > 0.0 && world.landmark_diameter_m <= world.side_m))
+    throw InvalidInput("forming_scene: the room's side or the landmarks' diameter is no length");
+  const Eigen::Index landmarks = world.landmarks_m.rows();
+  for (std::size_t i = 0; i < spec.maps.size(); ++i) {
+    const MapRecord& map = spec.maps[i];
+    if (map.estimate.rows() != landmarks)
+      throw InvalidInput("forming_scene: a map is not of the world's landmarks");
+    if (map.frame != Frame::kTruth)
+      throw InvalidInput("forming_scene: a map is not in the frame of the truth");
+    if (i > 0 && map.step <= spec.maps[i - 1].step)
+      throw InvalidInput("forming_scene: the steps do not ascend");
+    for (const Eigen::Index row : map.anchors)
+      if (row < 0 || row >= landmarks)
+        throw InvalidInput("forming_scene: an anchor is no landmark");
+  }
+}
+
+class Forming {
+ public:
+  explicit Forming(const FormingSceneSpec& spec) : spec_(spec), side_(spec.world.side_m) {
+    std::vector<double> errors;
+    for (const MapRecord& map : spec.maps) {
+      found_.push_back(displacements(spec.world.landmarks_m, map.estimate, side_));
+      errors.insert(errors.end(), found_.back().errors_m.begin(), found_.back().errors_m.end());
+    }
+    std::ranges::sort(errors);
+    if (!errors.empty())
+      most_m_ = errors[static_cast<std::size_t>(
+          std::lround(kPercentile * static_cast<double>(errors.size() - 1)))];
+    most_m_ = std::max(most_m_, 1e-6);
+  }
+
+  /// Views of those maps.
+  Scene make(std::string id, const std::vector<std::size_t>& shown) const {
+    Scene scene{.id = std::move(id), .title = spec_.title, .lights = usual_lights()};
+    scene.columns = std::min(kColumns, shown.size());
+    scene.parts = {floor_of(side_), walls_of(side_), landmarks(false), landmarks(true)};
+    const std::size_t shared = scene.parts.size();
+    Displacements lost;
+    for (const std::size_t i : shown) {
+      Shot view = room_view(side_, landmark_height(side_));
+      if (shown.size() > 1) view.rules.clear();
+      view.title = title_of(i);
+      for (std::size_t part = 0; part < shared; ++part) view.parts.push_back(part);
+      view.parts.push_back(scene.parts.size());
+      scene.parts.emplace_back(arrows(i, scene.views.empty()));
+      scene.views.push_back(std::move(view));
+      scene.record_ids.push_back(spec_.maps[i].id);
+      lost.far += found_[i].far;
+      lost.missing += found_[i].missing;
+    }
+    if (const std::string words = words_of_missing(lost); !words.empty())
+      scene.notes.push_back({shown.size() > 1 ? "Over all views: " + words : words, Ink::kWarning});
+    describe(scene, shown);
+    require_valid(scene);
+    return scene;
+  }
+
+ private:
+  Rods landmarks(bool anchors) const {
+    const World& world = spec_.world;
+    const std::vector<Eigen::Index>& given = spec_.maps.back().anchors;
+    std::vector<Eigen::Index> rows;
+    for (Eigen::Index i = 0; i < world.landmarks_m.rows(); ++i)
+      if ((std::ranges::find(given, i) != given.end()) == anchors) rows.push_back(i);
+    Rods rods =
+        pillars(world.landmarks_m, rows, world.landmark_diameter_m / 2.0, landmark_height(side_));
+    rods.label = rods.from.empty() ? "" : anchors ? "anchor" : "landmark";
+    rods.look.ink = anchors ? Ink::kSeries2 : Ink::kSeries1;
+    return rods;
+  }
+
+  Rods arrows(std::size_t map, bool in_legend) const {
+    Rods arrows = found_[map].arrows;
+    if (in_legend)
+      arrows.label = fmt::format("true to estimated position, 0 to {} m", significant(most_m_));
+    arrows.look.ink = Ink::kText;
+    arrows.tones.values = found_[map].errors_m;
+    arrows.tones.limits = {0.0, most_m_};
+    return arrows;
+  }
+
+  std::string error_of(std::size_t map) const {
+    const auto& score = spec_.maps[map].score;
+    return score && std::isfinite(score->mpe_m) ? significant(score->mpe_m) + " m" : "no score";
+  }
+
+  std::string title_of(std::size_t map) const {
+    return fmt::format("{}: {}", counted(spec_.maps[map].step, "step"), error_of(map));
+  }
+
+  void describe(Scene& scene, const std::vector<std::size_t>& shown) const {
+    scene.caption = fmt::format(
+        "{}: the map after so many steps, with its mean position error. Pillars stand at true "
+        "places; arrows lead to where the map has them, and their colours are their lengths, cut "
+        "at {} m, the 95th percentile over all steps.",
+        label(spec_.maps.front().setting), significant(most_m_));
+    scene.alt =
+        "A room with arrows from true to estimated positions of landmarks; mean position "
+        "error ";
+    for (std::size_t k = 0; k < shown.size(); ++k)
+      scene.alt += fmt::format("{}{} after {}", k == 0 ? "" : ", ", error_of(shown[k]),
+                               counted(spec_.maps[shown[k]].step, "step"));
+    scene.alt += ".";
+  }
+
+  const FormingSceneSpec& spec_;
+  double side_;
+  std::vector<Displacements> found_;
+  double most_m_ = 0.0;
+};
+
+}  // namespace
+
+Scene forming_scene(const FormingSceneSpec& spec) {
+  require_usable(spec);
+  const std::size_t size = spec.maps.size(), count = std::min(spec.most, size);
+  std::vector<std::size_t> shown;
+  for (std::size_t i = 0; i < count; ++i)
+    shown.push_back(count > 1 ? i * (size - 1) / (count - 1) : size - 1);
+  return Forming(spec).make(spec.id, shown);
+}
+
+std::vector<Scene> forming_frames(const FormingSceneSpec& spec) {
+  require_usable(spec);
+  const Forming forming(spec);
+  std::vector<Scene> frames;
+  for (std::size_t i = 0; i < spec.maps.size(); ++i)
+    frames.push_back(forming.make(fmt::format("{}-{}", spec.id, i + 1), {i}));
+  return frames;
+}
+
+}  // namespace mapproof

@@ -1,0 +1,33 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "core/model/map_record.hpp"
+#include "core/model/world.hpp"
+#include "render/scene/scene.hpp"
+
+namespace mapproof {
+
+struct FormingSceneSpec {
+  std::string id;
+  std::string title;
+  World world;
+  std::vector<MapRecord> maps;  ///< Of the world's landmarks by one setting, steps ascending.
+  std::size_t most = 6;         ///< Views of the film strip.
+};
+
+/// How a map forms as observations come in, as a film strip: one room, one camera, one ramp of
+/// errors from 0 to the 95th percentile, and a view for each map, or for `most` of them, evenly
+/// spread, the first and the last among them. Landmarks stand at their true places; an arrow leads
+/// to where the map has each, coloured by its length. Estimates far outside the room have no arrow;
+/// a note counts them.
+/// @throws InvalidInput if there is no map, the steps do not ascend, a map is not in the frame of
+///         the truth or not of the world's landmarks, or lengths are not positive and finite.
+Scene forming_scene(const FormingSceneSpec& spec);
+
+/// The same as the frames of an animation: a scene of one view for each map, all with one layout.
+/// Their ids end with their place, from 1.
+std::vector<Scene> forming_frames(const FormingSceneSpec& spec);
+
+}  // namespace mapproof

@@ -1,0 +1,157 @@
+#include "render/scene/quadric_scene.hpp"
+
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include "core/base/errors.hpp"
+#include "core/base/words.hpp"
+#include "render/figures/words.hpp"
+#include "render/scene/cloud_box.hpp"
+#include "render/scene/quadric_surface.hpp"
+#include "render/scene/room.hpp"
+
+namespace mapproof {
+namespace {
+
+constexpr double kTallness = 0.6;  // Height of the drawn paraboloid, of its width.
+
+void require_usable(const UpgradeClouds& clouds) {
+  const auto size = static_cast<Eigen::Index>(clouds.steps.size());
+  if (size < 2) throw InvalidInput("quadric_scene: fewer than two points");
+  for (const QuadricPoints* cloud : {&clouds.before, &clouds.after})
+    if (cloud->points.rows() != size || !cloud->points.allFinite() || !cloud->Q.allFinite())
+      throw InvalidInput("quadric_scene: a finite point of each cloud a step is needed");
+}
+
+/// The cloud with its coordinates multiplied by `scale`, and the quadric through it.
+QuadricPoints scaled(const QuadricPoints& cloud, const Eigen::Vector3d& scale) {
+  Eigen::Vector4d back = Eigen::Vector4d::Ones();
+  back.head<3>() = scale.cwiseInverse();
+  return {cloud.points * scale.asDiagonal(), back.asDiagonal() * cloud.Q * back.asDiagonal()};
+}
+
+/// How much higher the sheet's rim is than its middle, on average.
+double rise_of(const Surface& sheet) {
+  if (sheet.points.empty()) return 0.0;
+  double sum = 0.0;
+  for (const Point3& point : sheet.points) sum += point.z() - sheet.points[0].z();
+  return sum;
+}
+
+/// Coordinates of the plane of scale 1 have no sign of their own: the bowl is turned upright.
+QuadricPoints upright(const QuadricPoints& cloud) {
+  if (rise_of(quadric_surface(cloud).sheet) >= 0.0) return cloud;
+  return scaled(cloud, Eigen::Vector3d::Constant(-1.0));
+}
+
+double root_mean_square(const Eigen::VectorXd& values) {
+  return std::sqrt(values.squaredNorm() / static_cast<double>(values.size()));
+}
+
+class QuadricScene {
+ public:
+  explicit QuadricScene(const QuadricSceneSpec& spec) : spec_(spec) {
+    scene_.id = spec.id;
+    scene_.title = spec.title;
+    scene_.record_ids = spec.record_ids;
+    scene_.lights = usual_lights();
+  }
+
+  Scene make() {
+    const QuadricPoints& after = spec_.clouds.after;
+    const SpacePoints& p = after.points;
+    const double width =
+        (p.leftCols<2>().colwise().maxCoeff() - p.leftCols<2>().colwise().minCoeff()).maxCoeff();
+    const double height = p.col(2).maxCoeff() - p.col(2).minCoeff();
+    if (!(width > 0.0 && height > 0.0)) throw InvalidInput("quadric_scene: all in one place");
+    const double lift = kTallness * width / height;
+    add_view(upright(spec_.clouds.before), 1.0, "Before the upgrade",
+             {"1st", "2nd", "3rd coordinate"});
+    add_view(scaled(after, {1.0, 1.0, lift}), lift, "After the upgrade",
+             {"x [m]", "y [m]", "(x\u00B2 + y\u00B2)/2 [m\u00B2]"});
+    describe(height);
+    require_valid(scene_);
+    return std::move(scene_);
+  }
+
+ private:
+  /// @param lift  By which the cloud's third coordinate is multiplied.
+  void add_view(const QuadricPoints& cloud, double lift, const std::string& title,
+                const std::array<std::string, 3>& labels) {
+    QuadricSurface quadric = quadric_surface(cloud);
+    std::vector<Point3> shown = quadric.sheet.points;
+    for (const auto& point : cloud.points.rowwise()) shown.emplace_back(point.transpose());
+    const CloudBox box(shown);
+    Shot view{.title = title, .camera = box.camera(), .rules = box.rules(labels)};
+    view.rules[2].range = {view.rules[2].range.low / lift, view.rules[2].range.high / lift};
+    const auto add = [&](Part part) {
+      view.parts.push_back(scene_.parts.size());
+      scene_.parts.push_back(std::move(part));
+    };
+    add(box.edges());
+    add(points_of(cloud.points, 0.009 * box.size()));
+    if (!quadric.sheet.triangles.empty()) {
+      const bool is_first = scene_.views.empty();
+      quadric.lines.radius = 0.0011 * box.size();
+      quadric.lines.look = {.ink = Ink::kSeries1, .share = 0.7, .lit = false};
+      add(std::move(quadric.lines));
+      quadric.sheet.label = is_first ? "fitted quadric" : "";
+      quadric.sheet.look = {.ink = Ink::kSeries1, .share = 0.55, .opacity = 0.4};
+      add(std::move(quadric.sheet));
+    }
+    scene_.views.push_back(std::move(view));
+  }
+
+  Spheres points_of(const SpacePoints& points, double radius) const {
+    const std::vector<Eigen::Index>& steps = spec_.clouds.steps;
+    Spheres spheres{.radius = radius};
+    if (scene_.views.empty()) spheres.label = "robot's states, start (dark) to end";
+    spheres.tones.limits = {static_cast<double>(steps.front()), static_cast<double>(steps.back())};
+    for (Eigen::Index i = 0; i < points.rows(); ++i) {
+      spheres.at.emplace_back(points.row(i).transpose());
+      spheres.tones.values.push_back(static_cast<double>(steps[static_cast<std::size_t>(i)]));
+    }
+    return spheres;
+  }
+
+  /// @param height  Of the states over the plane, after the upgrade.
+  void describe(double height) {
+    const UpgradeClouds& clouds = spec_.clouds;
+    const SpacePoints& b = clouds.before.points;
+    const double extent = (b.colwise().maxCoeff() - b.colwise().minCoeff()).norm();
+    const double before = root_mean_square(quadric_distances(clouds.before)) / extent;
+    const SpacePoints& p = clouds.after.points;
+    const Eigen::VectorXd lifted = 0.5 * p.leftCols<2>().rowwise().squaredNorm();
+    const double after = root_mean_square(p.col(2) - lifted);
+    scene_.notes.push_back({fmt::format("From the surface: {} % of the cloud's extent before, {} "
+                                        "m\u00B2 in height after (root mean square).",
+                                        significant(100.0 * before, 2), significant(after, 2)),
+                            Ink::kMuted});
+    scene_.caption = fmt::format(
+        "{}: states of {} of the path. Of their four entries the scale is divided out. Left, the "
+        "whitened factor in orthonormal coordinates of the plane of scale 1, and the quadric "
+        "fitted "
+        "to it; right, the same after the metric upgrade has made the quadric the paraboloid of x, "
+        "y and (x\u00B2 + y\u00B2)/2 about the mean position (heights drawn to another scale).",
+        spec_.name, counted(static_cast<long long>(clouds.steps.size()), "position"));
+    scene_.alt = fmt::format(
+        "{} coloured by time on a translucent bowl, leaning on the left and upright on the right. "
+        "On the left they are {} % of the cloud's extent from the surface, on the right {} m\u00B2 "
+        "of a height of {} m\u00B2 (root mean square).",
+        counted(static_cast<long long>(clouds.steps.size()), "state"),
+        significant(100.0 * before, 2), significant(after, 2), significant(height));
+  }
+
+  const QuadricSceneSpec& spec_;
+  Scene scene_;
+};
+
+}  // namespace
+
+Scene quadric_scene(const QuadricSceneSpec& spec) {
+  require_usable(spec.clouds);
+  return QuadricScene(spec).make();
+}
+
+}  // namespace mapproof

@@ -1,0 +1,200 @@
+#include "render/scene/space_scene.hpp"
+
+#include <array>
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include "core/base/errors.hpp"
+#include "core/base/words.hpp"
+#include "render/figures/words.hpp"
+#include "render/scene/cloud_box.hpp"
+#include "render/scene/room.hpp"
+
+namespace mapproof {
+namespace {
+
+constexpr double kSeen = 0.035;  // A rod this long is seen, of the box.
+
+void require_usable(const SpaceRun& run) {
+  if (run.records.empty() || run.landmarks_m.rows() < 1 || run.positions_m.rows() < 2)
+    throw InvalidInput("space_scene: no record, landmark or path");
+  if (!run.landmarks_m.allFinite() || !run.positions_m.allFinite())
+    throw InvalidInput("space_scene: a truth that is not finite");
+  for (const SpaceRecord& record : run.records)
+    if (record.estimate.landmarks_m.rows() != run.landmarks_m.rows() ||
+        (!record.estimate.empty() && record.estimate.positions_m.rows() != run.positions_m.rows()))
+      throw InvalidInput("space_scene: an estimate is not of the run's landmarks and positions");
+}
+
+std::vector<Point3> as_points(const SpacePoints& rows) {
+  std::vector<Point3> points;
+  for (const auto& row : rows.rowwise()) points.emplace_back(row.transpose());
+  return points;
+}
+
+/// Truth, and what of the estimate is not too far away to be drawn.
+std::vector<Point3> all_places(const SpaceRun& run) {
+  std::vector<Point3> places = as_points(run.landmarks_m);
+  for (const Point3& p : as_points(run.positions_m)) places.push_back(p);
+  const CloudBox truth(places);
+  for (const SpaceRecord& record : run.records)
+    for (const Point3& p : as_points(record.estimate.positions_m))
+      if (p.allFinite() && (p - 0.5 * (truth.low + truth.high)).norm() < truth.size())
+        places.push_back(p);
+  return places;
+}
+
+/// What errors are lengthened by: the least of 1, 2, 5, 10, ... with which the mean is seen.
+double round_factor(double mean_m, double size) {
+  double factor = 1.0;
+  for (int i = 0; mean_m > 0.0 && factor * mean_m < kSeen * size && i < 12; ++i)
+    factor *= i % 3 == 1 ? 2.5 : 2.0;
+  return factor;
+}
+
+class SpaceScene {
+ public:
+  explicit SpaceScene(const SpaceSceneSpec& spec)
+      : spec_(spec), run_(spec.run), box_(all_places(spec.run)) {
+    scene_.id = spec.id;
+    scene_.title = spec.title;
+    scene_.record_ids = spec.record_ids;
+    scene_.lights = usual_lights();
+    double least = 0.0;
+    for (const SpaceRecord& record : run_.records)
+      if (record.landmarks_error_m) least = std::max(least, *record.landmarks_error_m);
+    factor_ = round_factor(least, box_.size());
+  }
+
+  Scene make() {
+    add_truth();
+    const std::size_t shared = scene_.parts.size();
+    for (const SpaceRecord& record : run_.records) add_view(record, shared);
+    describe();
+    require_valid(scene_);
+    return std::move(scene_);
+  }
+
+ private:
+  void add_truth() {
+    scene_.parts.emplace_back(box_.edges());
+    Rods stalks{.radius = 0.0018 * box_.size(), .look = {.ink = Ink::kMuted, .share = 0.6}};
+    for (const Point3& p : as_points(run_.landmarks_m)) {
+      stalks.from.emplace_back(p.x(), p.y(), box_.low.z());
+      stalks.to.push_back(p);
+    }
+    scene_.parts.emplace_back(std::move(stalks));
+    scene_.parts.emplace_back(path());
+    scene_.parts.emplace_back(Spheres{.label = "true landmark",
+                                      .at = as_points(run_.landmarks_m),
+                                      .radius = 0.01 * box_.size(),
+                                      .look = {.ink = Ink::kSeries1}});
+  }
+
+  Tube path() const {
+    Tube tube{.label = "true path, start (dark) to end",
+              .points = as_points(run_.positions_m),
+              .radius = 0.0026 * box_.size()};
+    for (std::size_t i = 0; i < tube.points.size(); ++i)
+      tube.tones.values.push_back(static_cast<double>(i));
+    tube.tones.limits = {0.0, static_cast<double>(tube.points.size() - 1)};
+    return tube;
+  }
+
+  void add_view(const SpaceRecord& record, std::size_t shared) {
+    const bool is_first = scene_.views.empty();
+    Shot view{
+        .title = record.knows_landmarks
+                     ? fmt::format("{} known",
+                                   counted(static_cast<long long>(run_.known.size()), "landmark"))
+                     : "No landmark known",
+        .camera = box_.camera(),
+        .rules = box_.rules({"x [m]", "y [m]", "height [m]"})};
+    for (std::size_t i = 0; i < shared; ++i) view.parts.push_back(i);
+    const auto add = [&](Part part) {
+      view.parts.push_back(scene_.parts.size());
+      scene_.parts.push_back(std::move(part));
+    };
+    if (record.estimate.empty()) {
+      scene_.notes.push_back({view.title + ": no map came out.", Ink::kWarning});
+    } else {
+      Tube estimated{.label = is_first ? "estimated path" : "",
+                     .points = as_points(record.estimate.positions_m),
+                     .radius = 0.0016 * box_.size(),
+                     .look = {.ink = Ink::kText, .share = 0.75}};
+      add(std::move(estimated));
+      Rods rods = errors_of(record.estimate);
+      Spheres ends{.label = is_first ? "estimated landmark" : "",
+                   .at = rods.to,
+                   .radius = 0.007 * box_.size(),
+                   .look = {.ink = Ink::kSeries2}};
+      rods.label = is_first ? rods_label() : "";
+      if (!rods.from.empty()) {
+        add(std::move(rods));
+        add(std::move(ends));
+      }
+    }
+    scene_.views.push_back(std::move(view));
+  }
+
+  std::string rods_label() const {
+    if (factor_ == 1.0) return "true to estimated place";
+    return fmt::format("true to estimated place, {:g} \u00D7 as long", factor_);
+  }
+
+  /// To the estimates, which then stand where lengthened errors put them.
+  Rods errors_of(const SpaceEstimate& estimate) const {
+    Rods rods{.radius = 0.0035 * box_.size(), .look = {.ink = Ink::kSeries2}};
+    for (Eigen::Index n = 0; n < run_.landmarks_m.rows(); ++n) {
+      const Point3 truth = run_.landmarks_m.row(n).transpose();
+      const Point3 error = estimate.landmarks_m.row(n).transpose() - truth;
+      if (!error.allFinite() || factor_ * error.norm() > box_.size()) continue;
+      rods.from.push_back(truth);
+      rods.to.push_back(truth + factor_ * error);
+    }
+    return rods;
+  }
+
+  void describe() {
+    scene_.caption = fmt::format(
+        "{} in space and a flight of {}, from ranges alone ({}): rank 5 instead of 4. Paths as "
+        "estimated; errors of landmarks {}.",
+        counted(run_.landmarks_m.rows(), "landmark"), counted(run_.positions_m.rows(), "step"),
+        run_.noise,
+        factor_ == 1.0 ? "drawn as long as they are"
+                       : fmt::format("drawn {:g} times as long as they are", factor_));
+    scene_.alt =
+        fmt::format("{} at heights from {} to {} m", counted(run_.landmarks_m.rows(), "landmark"),
+                    significant(run_.landmarks_m.col(2).minCoeff()),
+                    significant(run_.landmarks_m.col(2).maxCoeff()));
+    for (std::size_t i = 0; i < run_.records.size(); ++i) {
+      const SpaceRecord& record = run_.records[i];
+      scene_.alt += "; " + scene_.views[i].title + ": ";
+      if (!record.landmarks_error_m || !record.positions_error_m)
+        scene_.alt += "no map";
+      else
+        scene_.alt += fmt::format(
+            "mean error {} m of landmarks, {} m of positions ({})",
+            significant(*record.landmarks_error_m), significant(*record.positions_error_m),
+            record.alignment == Alignment::kNone ? "not aligned"
+                                                 : "after the best motion or mirror");
+    }
+    scene_.alt += ".";
+  }
+
+  const SpaceSceneSpec& spec_;
+  const SpaceRun& run_;
+  CloudBox box_;
+  double factor_ = 1.0;
+  Scene scene_;
+};
+
+}  // namespace
+
+Scene space_scene(const SpaceSceneSpec& spec) {
+  require_usable(spec.run);
+  return SpaceScene(spec).make();
+}
+
+}  // namespace mapproof

@@ -1,0 +1,25 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "core/model/space_slam.hpp"
+#include "render/scene/scene.hpp"
+
+namespace mapproof {
+
+struct SpaceSceneSpec {
+  std::string id;
+  std::string title;
+  SpaceRun run;
+  std::vector<std::string> record_ids;
+};
+
+/// Landmarks in space, a view for each record: true places over the ground, the true path as a tube
+/// coloured by time with the estimated one beside it, and a rod from each true place to its
+/// estimate, lengthened by a round factor that is said where it would be too short to be seen. A
+/// record without a map shows the truth alone and a note says why.
+/// @throws InvalidInput without records, landmarks or positions, or if sizes disagree.
+Scene space_scene(const SpaceSceneSpec& spec);
+
+}  // namespace mapproof
