@@ -82,6 +82,12 @@ void append_text(std::string& out, const std::string& key, const std::string& te
 
 }  // namespace
 
+std::string png_texts(const std::vector<std::pair<std::string, std::string>>& texts) {
+  std::string out;
+  for (const auto& [key, text] : texts) append_text(out, key, text);
+  return out;
+}
+
 std::string encode_png(const Image& image, const PngOptions& options) {
   const bool sized =
       image.width >= 1 && image.height >= 1 && image.width <= 100000 && image.height <= 100000;
@@ -99,7 +105,7 @@ std::string encode_png(const Image& image, const PngOptions& options) {
   append_big_endian(density, per_metre);
   append_big_endian(density, per_metre);
   append_chunk(out, "pHYs", density + '\x01');
-  for (const auto& [key, text] : options.texts) append_text(out, key, text);
+  out += png_texts(options.texts);
   if (indexed) {
     std::string colours;
     for (const std::uint32_t colour : indexed->colours)

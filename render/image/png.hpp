@@ -20,4 +20,7 @@ struct PngOptions {
 ///         as RGB exceed 2^31 - 1 bytes.
 std::string encode_png(const Image& image, const PngOptions& options = {});
 
+/// The texts of PngOptions as chunks, as encode_png() writes them after the header.
+std::string png_texts(const std::vector<std::pair<std::string, std::string>>& texts);
+
 }  // namespace mapproof

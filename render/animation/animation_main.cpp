@@ -1,0 +1,51 @@
+#include <cstdio>
+#include <exception>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include "render/animation/apng_encoder.hpp"
+
+namespace mapproof {
+namespace {
+
+AnimationInput read_header() {
+  AnimationInput input;
+  if (std::scanf("%d %d %d %d", &input.width, &input.height, &input.frames, &input.frame_ms) != 4 ||
+      std::getchar() != '\n')
+    throw std::runtime_error("no header");
+  constexpr int kLargest = 100'000;
+  for (const int number : {input.width, input.height, input.frames, input.frame_ms})
+    if (number < 1 || number > kLargest) throw std::runtime_error("a header of odd numbers");
+  return input;
+}
+
+void run() {
+  const AnimationInput input = read_header();
+  ApngEncoder encoder(input);
+  std::vector<std::uint32_t> pixels(static_cast<std::size_t>(input.width) *
+                                    static_cast<std::size_t>(input.height));
+  for (int i = 0; i < input.frames; ++i) {
+    if (std::fread(pixels.data(), sizeof(pixels[0]), pixels.size(), stdin) != pixels.size())
+      throw std::runtime_error("the frames end too soon");
+    encoder.add(pixels);
+  }
+  const std::string file = encoder.finish();
+  if (std::fwrite(file.data(), 1, file.size(), stdout) != file.size() || std::fflush(stdout) != 0)
+    throw std::runtime_error("the file cannot be written");
+}
+
+}  // namespace
+}  // namespace mapproof
+
+/// Reads an AnimationInput with its frames and writes an animated PNG. Started by mapproof; of no
+/// use to a person.
+int main() {
+  try {
+    mapproof::run();
+  } catch (const std::exception& error) {
+    std::fprintf(stderr, "%s\n", error.what());
+    return 1;
+  }
+  return 0;
+}

@@ -1,0 +1,143 @@
+#include "render/animation/apng_encoder.hpp"
+
+#include <array>
+#include <memory>
+#include <stdexcept>
+
+extern "C" {
+#include <libavcodec/avcodec.h>
+#include <libavformat/avformat.h>
+#include <libavutil/opt.h>
+}
+
+namespace mapproof {
+namespace {
+
+constexpr int kMillisecondsASecond = 1000;
+
+/// @throws std::runtime_error if FFmpeg's answer is an error.
+int checked(int answer, const char* what) {
+  if (answer >= 0) return answer;
+  std::array<char, AV_ERROR_MAX_STRING_SIZE> words{};
+  av_strerror(answer, words.data(), words.size());
+  throw std::runtime_error(std::string(what) + ": " + words.data());
+}
+
+template <typename Kind>
+Kind* there(Kind* pointer, const char* what) {
+  if (pointer == nullptr) throw std::runtime_error(std::string(what) + ": there is none");
+  return pointer;
+}
+
+struct FreeCodec {
+  void operator()(AVCodecContext* codec) const { avcodec_free_context(&codec); }
+};
+struct FreeFormat {
+  void operator()(AVFormatContext* format) const {
+    if (format->pb != nullptr) {
+      std::uint8_t* bytes = nullptr;
+      avio_close_dyn_buf(format->pb, &bytes);
+      av_free(bytes);
+    }
+    avformat_free_context(format);
+  }
+};
+struct FreeFrame {
+  void operator()(AVFrame* frame) const { av_frame_free(&frame); }
+};
+struct FreePacket {
+  void operator()(AVPacket* packet) const { av_packet_free(&packet); }
+};
+
+}  // namespace
+
+struct ApngEncoder::State {
+  std::unique_ptr<AVCodecContext, FreeCodec> codec;
+  std::unique_ptr<AVFormatContext, FreeFormat> format;
+  std::unique_ptr<AVFrame, FreeFrame> frame;
+  std::unique_ptr<AVPacket, FreePacket> packet;
+  int frame_ms = 0;
+  std::int64_t next = 0;  ///< Frames that were added.
+};
+
+ApngEncoder::ApngEncoder(const AnimationInput& input) : state_(nullptr) {
+  auto state = std::make_unique<State>();
+  state->frame_ms = input.frame_ms;
+  const AVCodec* kind = there(avcodec_find_encoder(AV_CODEC_ID_APNG), "encoder of APNG");
+  state->codec.reset(there(avcodec_alloc_context3(kind), "encoder"));
+  AVCodecContext& codec = *state->codec;
+  codec.width = input.width;
+  codec.height = input.height;
+  codec.pix_fmt = AV_PIX_FMT_RGB24;
+  codec.time_base = {1, kMillisecondsASecond};
+  codec.thread_count = 1;
+  codec.flags |= AV_CODEC_FLAG_BITEXACT;
+  codec.compression_level = 9;
+  checked(av_opt_set(codec.priv_data, "pred", "mixed", 0), "prediction");
+  checked(avcodec_open2(&codec, kind, nullptr), "encoder");
+
+  AVFormatContext* format = nullptr;
+  checked(avformat_alloc_output_context2(&format, nullptr, "apng", nullptr), "APNG");
+  state->format.reset(format);
+  format->flags |= AVFMT_FLAG_BITEXACT;
+  AVStream* stream = there(avformat_new_stream(format, nullptr), "stream");
+  stream->time_base = codec.time_base;
+  checked(avcodec_parameters_from_context(stream->codecpar, &codec), "stream");
+  checked(av_opt_set_int(format->priv_data, "plays", 0, 0), "endless play");
+  checked(avio_open_dyn_buf(&format->pb), "memory");
+  checked(avformat_write_header(format, nullptr), "header");
+
+  state->frame.reset(there(av_frame_alloc(), "frame"));
+  state->frame->format = codec.pix_fmt;
+  state->frame->width = input.width;
+  state->frame->height = input.height;
+  checked(av_frame_get_buffer(state->frame.get(), 0), "frame");
+  state->packet.reset(there(av_packet_alloc(), "packet"));
+  state_ = state.release();
+}
+
+ApngEncoder::~ApngEncoder() { delete state_; }
+
+void ApngEncoder::add(const std::vector<std::uint32_t>& pixels) {
+  AVFrame& frame = *state_->frame;
+  checked(av_frame_make_writable(&frame), "frame");
+  std::size_t next = 0;
+  for (int y = 0; y < frame.height; ++y) {
+    std::uint8_t* to = frame.data[0] + static_cast<std::ptrdiff_t>(y) * frame.linesize[0];
+    for (int x = 0; x < frame.width; ++x) {
+      const std::uint32_t pixel = pixels.at(next++);
+      for (const int shift : {16, 8, 0}) *to++ = static_cast<std::uint8_t>(pixel >> shift);
+    }
+  }
+  frame.pts = state_->next++ * state_->frame_ms;
+  checked(avcodec_send_frame(state_->codec.get(), &frame), "frame");
+  drain();
+}
+
+void ApngEncoder::drain() {
+  while (true) {
+    AVPacket* packet = state_->packet.get();
+    const int answer = avcodec_receive_packet(state_->codec.get(), packet);
+    if (answer == AVERROR(EAGAIN) || answer == AVERROR_EOF) return;
+    checked(answer, "packet");
+    packet->stream_index = 0;
+    packet->duration = state_->frame_ms;
+    av_packet_rescale_ts(packet, state_->codec->time_base, state_->format->streams[0]->time_base);
+    checked(av_write_frame(state_->format.get(), packet), "packet");
+    av_packet_unref(packet);
+  }
+}
+
+std::string ApngEncoder::finish() {
+  checked(avcodec_send_frame(state_->codec.get(), nullptr), "end");
+  drain();
+  checked(av_write_trailer(state_->format.get()), "end");
+  std::uint8_t* bytes = nullptr;
+  const int size = avio_close_dyn_buf(state_->format->pb, &bytes);
+  state_->format->pb = nullptr;
+  std::string file(reinterpret_cast<const char*>(bytes), static_cast<std::size_t>(size));
+  av_free(bytes);
+  return file;
+}
+
+}  // namespace mapproof
