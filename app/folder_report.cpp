@@ -76,6 +76,7 @@ FolderReport joined(const fs::path& folder, std::vector<FolderReport> parts) {
                    .in_company = {},
                    .figures = {},
                    .scenes = {},
+                   .films = {},
                    .runs = 0,
                    .missing = {}};
   all.report.title = "Maps from what a robot observed";
@@ -85,6 +86,7 @@ FolderReport joined(const fs::path& folder, std::vector<FolderReport> parts) {
     all.runs += part.runs;
     std::ranges::move(part.figures, std::back_inserter(all.figures));
     std::ranges::move(part.scenes, std::back_inserter(all.scenes));
+    std::ranges::move(part.films, std::back_inserter(all.films));
     std::ranges::move(part.missing, std::back_inserter(all.missing));
     std::ranges::move(part.in_company, std::back_inserter(all.report.sections));
     all.report.footer = part.report.footer;

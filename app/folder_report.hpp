@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "render/plot/figure.hpp"
+#include "render/scene/film.hpp"
 #include "render/scene/scene.hpp"
 #include "render/theme/theme.hpp"
 #include "reports/html/templates.hpp"
@@ -21,6 +22,7 @@ struct FolderReport {
   std::vector<Section> in_company;  ///< Its sections as they stand beside those of other studies.
   std::vector<Figure> figures;      ///< In the order of the report.
   std::vector<Scene> scenes;        ///< Likewise.
+  std::vector<Film> films;          ///< Of some of the scenes.
   std::size_t runs = 0;
   std::vector<std::string> missing;  ///< Data asked for that are not there.
 };

@@ -14,6 +14,7 @@
 #include "app/commands/verbs.hpp"
 #include "core/base/errors.hpp"
 #include "core/base/spelling.hpp"
+#include "render/animation/animation.hpp"
 #include "render/scene_client/scene_client.hpp"
 
 namespace mapproof {
@@ -119,6 +120,8 @@ int main(int argc, char** argv) {
   } catch (const InvalidInput& error) {
     return fail(error.what(), kUsage);
   } catch (const SceneError& error) {
+    return fail(error.what(), kInternal);
+  } catch (const AnimationError& error) {
     return fail(error.what(), kInternal);
   } catch (const std::bad_alloc&) {
     return fail("out of memory", kInternal);

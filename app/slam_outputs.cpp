@@ -26,10 +26,12 @@ FolderReport slam_folder_report(const std::filesystem::path& folder, const SlamS
                       .in_company = slam_sections(input),
                       .figures = {},
                       .scenes = {},
+                      .films = {},
                       .runs = study.runs.size(),
                       .missing = study.missing};
   for (const Figure* figure : all_figures(figures)) result.figures.push_back(*figure);
   for (const Scene* scene : all_scenes(figures)) result.scenes.push_back(*scene);
+  for (const Film* film : all_films(figures)) result.films.push_back(*film);
   return result;
 }
 

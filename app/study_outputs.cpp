@@ -38,10 +38,12 @@ FolderReport study_folder_report(const StudyView& view, const std::string& comma
                       .in_company = {},
                       .figures = {},
                       .scenes = {},
+                      .films = {},
                       .runs = view.study.runs.size(),
                       .missing = {}};
   for (const Figure* figure : all_figures(view.figures)) report.figures.push_back(*figure);
   for (const Scene* scene : all_scenes(view.figures)) report.scenes.push_back(*scene);
+  for (const Film* film : all_films(view.figures)) report.films.push_back(*film);
   report.in_company = report.report.sections;
   for (Section& section : report.in_company)
     section.title = "Map building: " + lower_first(section.title);

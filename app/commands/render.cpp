@@ -8,6 +8,7 @@
 #include "app/commands/verbs.hpp"
 #include "app/folder_report.hpp"
 #include "core/base/errors.hpp"
+#include "render/output/write_animation.hpp"
 
 namespace mapproof {
 namespace {
@@ -18,6 +19,7 @@ struct Arguments {
   std::string theme = "report";
   double width_in = 3.25;
   std::vector<std::string> ids;
+  std::vector<std::string> animations;
   int jobs = 1;
 };
 
@@ -45,21 +47,46 @@ Pictures chosen_pictures(const Arguments& arguments, const FolderReport& view) {
   return chosen;
 }
 
+/// The films that were asked for. @throws InvalidInput for an id that none has.
+std::vector<const Film*> chosen_films(const Arguments& arguments, const FolderReport& view) {
+  std::vector<const Film*> chosen;
+  std::vector<std::string> ids;
+  for (const Film& film : view.films) ids.push_back(film.id);
+  for (const std::string& id : arguments.animations) {
+    const auto found = std::ranges::find(view.films, id, &Film::id);
+    if (found == view.films.end())
+      throw InvalidInput(fmt::format(
+          "--animate: nothing moves in \"{}\" of {}; {}", printable(id), arguments.study,
+          ids.empty() ? "no scene does" : fmt::format("there are {}", fmt::join(ids, ", "))));
+    chosen.push_back(&*found);
+  }
+  return chosen;
+}
+
 int render(const Arguments& arguments, const Invocation& invocation) {
   const FolderReport view = read_folder_report(arguments.study, std::nullopt, "");
-  const Pictures pictures = chosen_pictures(arguments, view);
+  const std::vector<const Film*> films = chosen_films(arguments, view);
+  // Animations alone, if nothing else was named.
+  const bool only_films = !films.empty() && arguments.ids.empty();
+  const Pictures pictures = only_films ? Pictures{} : chosen_pictures(arguments, view);
   const bool paper = arguments.theme == "paper";
   const std::filesystem::path folder = arguments.out.empty()
                                            ? view.folder / (paper ? "figures-paper" : "figures")
                                            : std::filesystem::path(arguments.out);
-  write_pictures(pictures, paper ? paper_theme(arguments.width_in) : report_theme(), folder,
-                 arguments.jobs);
+  const Theme theme = paper ? paper_theme(arguments.width_in) : report_theme();
+  write_pictures(pictures, theme, folder, arguments.jobs);
+  SceneClient client;
+  for (const Film* film : films) write_animation(*film, theme, folder, client);
 
   nlohmann::ordered_json object{{"study", arguments.study}, {"folder", folder.string()}};
   std::string text;
   for (const std::string& id : ids_of(pictures)) {
     object["figures"].push_back(id);
     text += (folder / (id + ".svg")).string() + "\n";
+  }
+  for (const Film* film : films) {
+    object["animations"].push_back(film->id);
+    text += (folder / (film->id + ".apng")).string() + "\n";
   }
   invocation.console.result(text, object);
   return kDone;
@@ -73,7 +100,8 @@ Action render_verb(CLI::App& app) {
   app.footer(
       "Examples:\n"
       "  mapproof render out\n"
-      "  mapproof render out --theme paper --width 6.75 --figure map-bearing-isomap\n");
+      "  mapproof render out --theme paper --width 6.75 --figure map-bearing-isomap\n"
+      "  mapproof render out --animate scene-forming-bearing\n");
   app.add_option("DIR", arguments->study, "The study's folder")->required();
   add_out_option(app, arguments->out,
                  "Folder for the figures (default: DIR/figures, DIR/figures-paper)");
@@ -84,6 +112,9 @@ Action render_verb(CLI::App& app) {
       ->check(CLI::Range(2.0, 20.0))
       ->capture_default_str();
   app.add_option("--figure", arguments->ids, "Only the figures of these ids");
+  app.add_option("--animate", arguments->animations,
+                 "Animate the scenes of these ids, e.g. scene-forming-bearing, as ID.apng; without "
+                 "--figure nothing else is drawn");
   add_jobs_option(app, arguments->jobs);
   return [arguments](const Invocation& invocation) { return render(*arguments, invocation); };
 }

@@ -25,7 +25,7 @@ constexpr std::size_t kMostPixels = std::size_t{1} << 28;
 constexpr int kLongestFrame_ms = 60'000;
 
 void check(std::span<const Image> frames, const AnimationOptions& options) {
-  if (frames.empty()) throw InvalidInput("an animation of no frames");
+  if (frames.size() < 2) throw InvalidInput("an animation needs two frames");
   const int width = frames[0].width, height = frames[0].height;
   if (std::min(width, height) < 1 || std::max(width, height) > kLargestSide)
     throw InvalidInput(fmt::format("no animation is {} x {} pixels", width, height));

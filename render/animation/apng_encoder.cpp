@@ -1,8 +1,12 @@
 #include "render/animation/apng_encoder.hpp"
 
 #include <array>
+#include <cerrno>
+#include <cstdio>
+#include <cstring>
 #include <memory>
 #include <stdexcept>
+#include <utility>
 
 extern "C" {
 #include <libavcodec/avcodec.h>
@@ -34,11 +38,8 @@ struct FreeCodec {
 };
 struct FreeFormat {
   void operator()(AVFormatContext* format) const {
-    if (format->pb != nullptr) {
-      std::uint8_t* bytes = nullptr;
-      avio_close_dyn_buf(format->pb, &bytes);
-      av_free(bytes);
-    }
+    if (format->pb != nullptr) av_freep(&format->pb->buffer);
+    avio_context_free(&format->pb);
     avformat_free_context(format);
   }
 };
@@ -49,9 +50,45 @@ struct FreePacket {
   void operator()(AVPacket* packet) const { av_packet_free(&packet); }
 };
 
+/// A file in memory. FFmpeg's own pads its end wherever it stands, which is within the file here:
+/// the number of frames is written into the header last.
+struct MemoryFile {
+  std::string bytes;
+  std::size_t at = 0;
+};
+
+int write_to_memory(void* opaque, std::uint8_t* data, int size) {
+  auto& file = *static_cast<MemoryFile*>(opaque);
+  const auto count = static_cast<std::size_t>(size);
+  if (file.bytes.size() < file.at + count) file.bytes.resize(file.at + count);
+  std::memcpy(file.bytes.data() + file.at, data, count);
+  file.at += count;
+  return size;
+}
+
+std::int64_t seek_in_memory(void* opaque, std::int64_t offset, int whence) {
+  auto& file = *static_cast<MemoryFile*>(opaque);
+  const auto size = static_cast<std::int64_t>(file.bytes.size());
+  if (whence == AVSEEK_SIZE) return size;
+  if (whence == SEEK_CUR) offset += static_cast<std::int64_t>(file.at);
+  if (whence == SEEK_END) offset += size;
+  if (offset < 0 || offset > size) return AVERROR(EINVAL);
+  file.at = static_cast<std::size_t>(offset);
+  return offset;
+}
+
+AVIOContext* opened(MemoryFile& file) {
+  constexpr int kBlock = 1 << 16;
+  auto* block = static_cast<std::uint8_t*>(there(av_malloc(kBlock), "memory"));
+  return there(
+      avio_alloc_context(block, kBlock, 1, &file, nullptr, write_to_memory, seek_in_memory),
+      "memory");
+}
+
 }  // namespace
 
 struct ApngEncoder::State {
+  MemoryFile file;
   std::unique_ptr<AVCodecContext, FreeCodec> codec;
   std::unique_ptr<AVFormatContext, FreeFormat> format;
   std::unique_ptr<AVFrame, FreeFrame> frame;
@@ -84,7 +121,7 @@ ApngEncoder::ApngEncoder(const AnimationInput& input) : state_(nullptr) {
   stream->time_base = codec.time_base;
   checked(avcodec_parameters_from_context(stream->codecpar, &codec), "stream");
   checked(av_opt_set_int(format->priv_data, "plays", 0, 0), "endless play");
-  checked(avio_open_dyn_buf(&format->pb), "memory");
+  format->pb = opened(state->file);
   checked(avformat_write_header(format, nullptr), "header");
 
   state->frame.reset(there(av_frame_alloc(), "frame"));
@@ -132,12 +169,8 @@ std::string ApngEncoder::finish() {
   checked(avcodec_send_frame(state_->codec.get(), nullptr), "end");
   drain();
   checked(av_write_trailer(state_->format.get()), "end");
-  std::uint8_t* bytes = nullptr;
-  const int size = avio_close_dyn_buf(state_->format->pb, &bytes);
-  state_->format->pb = nullptr;
-  std::string file(reinterpret_cast<const char*>(bytes), static_cast<std::size_t>(size));
-  av_free(bytes);
-  return file;
+  avio_flush(state_->format->pb);
+  return std::move(state_->file.bytes);
 }
 
 }  // namespace mapproof

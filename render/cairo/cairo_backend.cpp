@@ -44,15 +44,19 @@ Image to_image(const Drawing& drawing) {
   return image;
 }
 
+std::vector<std::pair<std::string, std::string>> png_words(const Drawing& drawing) {
+  std::vector<std::pair<std::string, std::string>> words = {
+      {"Title", visible_lines(drawing.title)},
+      {"Description", visible_lines(drawing.alt)},
+      {"Software", "mapproof"},
+      {"mapproof:figure", drawing.id},
+      {"mapproof:records", joined(drawing.record_ids)}};
+  if (!drawing.renderer.empty()) words.emplace_back("mapproof:renderer", drawing.renderer);
+  return words;
+}
+
 std::string to_png(const Drawing& drawing) {
-  PngOptions options{.dpi = drawing.dpi, .texts = {}};
-  options.texts = {{"Title", visible_lines(drawing.title)},
-                   {"Description", visible_lines(drawing.alt)},
-                   {"Software", "mapproof"},
-                   {"mapproof:figure", drawing.id},
-                   {"mapproof:records", joined(drawing.record_ids)}};
-  if (!drawing.renderer.empty()) options.texts.emplace_back("mapproof:renderer", drawing.renderer);
-  return encode_png(to_image(drawing), options);
+  return encode_png(to_image(drawing), {.dpi = drawing.dpi, .texts = png_words(drawing)});
 }
 
 std::string to_pdf(const Drawing& drawing) {
@@ -69,7 +73,7 @@ std::string to_pdf(const Drawing& drawing) {
   set(CAIRO_PDF_METADATA_TITLE, visible_lines(drawing.title));
   set(CAIRO_PDF_METADATA_SUBJECT, visible_lines(drawing.alt));
   set(CAIRO_PDF_METADATA_KEYWORDS, drawing.id + " " + joined(drawing.record_ids) +
-                                     (drawing.renderer.empty() ? "" : " " + drawing.renderer));
+                                       (drawing.renderer.empty() ? "" : " " + drawing.renderer));
   set(CAIRO_PDF_METADATA_CREATOR, "mapproof");
   set(CAIRO_PDF_METADATA_CREATE_DATE, kFixedDate);
   {

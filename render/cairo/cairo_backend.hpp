@@ -1,6 +1,8 @@
 #pragma once
 
 #include <string>
+#include <utility>
+#include <vector>
 
 #include "render/image/image.hpp"
 #include "render/plot/drawing.hpp"
@@ -10,6 +12,9 @@ namespace mapproof {
 /// The drawing as pixels, at its own dpi. Safe from any thread, the same pixels each time.
 /// @throws InvalidInput if that would be more than 20000 pixels wide or high.
 Image to_image(const Drawing& drawing);
+
+/// What a PNG file says of the drawing, as keywords and words.
+std::vector<std::pair<std::string, std::string>> png_words(const Drawing& drawing);
 
 /// to_image as a PNG file with the figure's id, title, records and description as text chunks.
 std::string to_png(const Drawing& drawing);

@@ -72,8 +72,7 @@ class Forming {
       lost.far += found_[i].far;
       lost.missing += found_[i].missing;
     }
-    if (const std::string words = words_of_missing(lost); !words.empty())
-      scene.notes.push_back({shown.size() > 1 ? "Over all views: " + words : words, Ink::kWarning});
+    tell(lost, scene);
     describe(scene, shown);
     require_valid(scene);
     return scene;
@@ -101,6 +100,16 @@ class Forming {
     arrows.tones.values = found_[map].errors_m;
     arrows.tones.limits = {0.0, most_m_};
     return arrows;
+  }
+
+  /// A note under the title would move a frame against the others.
+  void tell(const Displacements& lost, Scene& scene) const {
+    const std::string words = words_of_missing(lost);
+    if (words.empty()) return;
+    if (scene.views.size() > 1)
+      scene.notes.push_back({"Over all views: " + words, Ink::kWarning});
+    else
+      scene.views[0].title += ". " + words;
   }
 
   std::string error_of(std::size_t map) const {
@@ -144,13 +153,13 @@ Scene forming_scene(const FormingSceneSpec& spec) {
   return Forming(spec).make(spec.id, shown);
 }
 
-std::vector<Scene> forming_frames(const FormingSceneSpec& spec) {
+Film forming_film(const FormingSceneSpec& spec) {
   require_usable(spec);
   const Forming forming(spec);
-  std::vector<Scene> frames;
+  Film film{.id = spec.id, .frames = {}};
   for (std::size_t i = 0; i < spec.maps.size(); ++i)
-    frames.push_back(forming.make(fmt::format("{}-{}", spec.id, i + 1), {i}));
-  return frames;
+    film.frames.push_back(forming.make(fmt::format("{}-{}", spec.id, i + 1), {i}));
+  return film;
 }
 
 }  // namespace mapproof

@@ -5,6 +5,7 @@
 
 #include "core/model/map_record.hpp"
 #include "core/model/world.hpp"
+#include "render/scene/film.hpp"
 #include "render/scene/scene.hpp"
 
 namespace mapproof {
@@ -26,8 +27,8 @@ struct FormingSceneSpec {
 ///         the truth or not of the world's landmarks, or lengths are not positive and finite.
 Scene forming_scene(const FormingSceneSpec& spec);
 
-/// The same as the frames of an animation: a scene of one view for each map, all with one layout.
-/// Their ids end with their place, from 1.
-std::vector<Scene> forming_frames(const FormingSceneSpec& spec);
+/// The same as an animation: a frame for each map, all of one layout; what has no arrow is counted
+/// in the frames' titles. The frames' ids end with their place, from 1.
+Film forming_film(const FormingSceneSpec& spec);
 
 }  // namespace mapproof

@@ -14,6 +14,7 @@
 namespace mapproof {
 namespace {
 
+constexpr double kAspect = 1.25;
 constexpr double kSeen = 0.035;  // A rod this long is seen, of the box.
 
 void require_usable(const SpaceRun& run) {
@@ -109,7 +110,7 @@ class SpaceScene {
                      ? fmt::format("{} known",
                                    counted(static_cast<long long>(run_.known.size()), "landmark"))
                      : "No landmark known",
-        .camera = box_.camera(),
+        .camera = box_.camera(kAspect),
         .rules = box_.rules({"x [m]", "y [m]", "height [m]"})};
     for (std::size_t i = 0; i < shared; ++i) view.parts.push_back(i);
     const auto add = [&](Part part) {

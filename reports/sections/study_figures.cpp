@@ -55,10 +55,11 @@ StudyFigures study_figures(const Study& study, std::span<const Timing> timings,
         {"scenes",
          "In space",
          "What a look takes in; the room with the map of least mean MPE, the median run; where its "
-         "landmarks lie in the space of their observations; and the error of each method over the "
-         "floor. Drawn by VTK without a screen.",
+         "landmarks lie in the space of their observations; how the map forms; and the error of "
+         "each method over the floor. Drawn by VTK without a screen.",
          {},
-         std::move(scenes)});
+         std::move(scenes),
+         study_films(source)});
   add("parameters", "Error over parameters",
       "At the last checkpoint; bands are 95 % intervals of the mean.", parameter_figures(source));
   add("comparison", "Methods side by side",
@@ -89,6 +90,13 @@ std::vector<const Scene*> all_scenes(const StudyFigures& figures) {
   std::vector<const Scene*> all;
   for (const FigureGroup& group : figures.groups)
     for (const Scene& scene : group.scenes) all.push_back(&scene);
+  return all;
+}
+
+std::vector<const Film*> all_films(const StudyFigures& figures) {
+  std::vector<const Film*> all;
+  for (const FigureGroup& group : figures.groups)
+    for (const Film& film : group.films) all.push_back(&film);
   return all;
 }
 

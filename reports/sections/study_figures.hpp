@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "render/plot/figure.hpp"
+#include "render/scene/film.hpp"
 #include "render/scene/scene.hpp"
 #include "reports/model/report.hpp"
 #include "reports/sections/figures/figure_source.hpp"
@@ -18,6 +19,7 @@ struct FigureGroup {
   std::string words;  ///< What they have in common, a sentence or two.
   std::vector<Figure> figures;
   std::vector<Scene> scenes = {};  ///< They stand after the figures.
+  std::vector<Film> films = {};    ///< Of scenes of the same ids, drawn when they are asked for.
 
   bool empty() const { return figures.empty() && scenes.empty(); }
 };
@@ -37,6 +39,9 @@ std::vector<const Figure*> all_figures(const StudyFigures& figures);
 
 /// All scenes likewise.
 std::vector<const Scene*> all_scenes(const StudyFigures& figures);
+
+/// All films likewise.
+std::vector<const Film*> all_films(const StudyFigures& figures);
 
 /// Where a figure or a scene stands in a report.
 FigureBlock figure_block(const Figure& figure);

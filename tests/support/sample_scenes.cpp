@@ -158,7 +158,7 @@ SpaceRun sample_space_run() {
   return run;
 }
 
-std::vector<Scene> sample_frames() { return forming_frames(forming_spec()); }
+Film sample_film() { return forming_film(forming_spec()); }
 
 Scene small_scene() {
   Scene scene{.id = "small",

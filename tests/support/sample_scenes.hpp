@@ -4,6 +4,7 @@
 
 #include "core/model/space_slam.hpp"
 #include "core/model/upgrade_clouds.hpp"
+#include "render/scene/film.hpp"
 #include "render/scene/scene.hpp"
 
 namespace mapproof::test {
@@ -21,7 +22,7 @@ UpgradeClouds sample_clouds(double noise);
 /// Ten landmarks and a winding flight, with a record of either kind.
 SpaceRun sample_space_run();
 
-/// Frames of an animation.
-std::vector<Scene> sample_frames();
+/// Ten frames.
+Film sample_film();
 
 }  // namespace mapproof::test

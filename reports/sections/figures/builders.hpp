@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "render/plot/figure.hpp"
+#include "render/scene/film.hpp"
 #include "render/scene/scene.hpp"
 #include "reports/sections/figures/figure_source.hpp"
 
@@ -39,8 +40,12 @@ std::vector<Figure> condition_figures(FigureSource& source);
 /// Error against seconds; varies from run to run.
 std::vector<Figure> cost_figures(FigureSource& source, std::span<const Timing> timings);
 
-/// What a look takes in, the room with the best map, its landmarks in the space of observations, and
-/// each method's error over the floor, for each sensor.
+/// What a look takes in, the room with the best map, its landmarks in the space of observations,
+/// and each method's error over the floor, for each sensor; how the best map forms where there are
+/// maps at several steps.
 std::vector<Scene> study_scenes(FigureSource& source);
+
+/// The scenes of maps that form, as animations.
+std::vector<Film> study_films(FigureSource& source);
 
 }  // namespace mapproof

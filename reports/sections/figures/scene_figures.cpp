@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 
 #include "render/scene/error_field_scene.hpp"
+#include "render/scene/forming_scene.hpp"
 #include "render/scene/manifold_scene.hpp"
 #include "render/scene/measurement_scene.hpp"
 #include "render/scene/world_scene.hpp"
@@ -55,6 +56,27 @@ void add_best(FigureSource& source, const SettingSummary& best, std::vector<Scen
        .record_ids = {map->id}}));
 }
 
+/// The median run of the best method, at every checkpoint that has a map in the frame of the truth;
+/// empty with fewer than two.
+std::optional<FormingSceneSpec> forming_of(FigureSource& source, const SensorStudy& sensor) {
+  const std::vector<SettingSummary> all = source.best(sensor);
+  const SettingSummary* best = best_of(all);
+  const auto id = best != nullptr ? median_run(source.study(), *best) : std::nullopt;
+  const Run* run = id ? source.run(*id) : nullptr;
+  if (run == nullptr) return std::nullopt;
+  FormingSceneSpec spec{
+      .id = fmt::format("scene-forming-{}", name(best->sensor)),
+      .title = fmt::format("{}, {}: the map forms", title_of(best->sensor), label(best->setting)),
+      .world = run->world,
+      .maps = {}};
+  for (const int step : sensor.checkpoints) {
+    const MapRecord* map = source.map(*id, best->sensor, best->setting, step);
+    if (map != nullptr && map->frame == Frame::kTruth) spec.maps.push_back(*map);
+  }
+  if (spec.maps.size() < 2) return std::nullopt;
+  return spec;
+}
+
 void add_error_field(FigureSource& source, const SensorStudy& sensor, std::vector<Scene>& scenes) {
   const Study& study = source.study();
   ErrorFieldSpec spec{
@@ -81,9 +103,17 @@ std::vector<Scene> study_scenes(FigureSource& source) {
     add_look(source, sensor.sensor.sensor, scenes);
     const std::vector<SettingSummary> all = source.best(sensor);
     if (const SettingSummary* best = best_of(all)) add_best(source, *best, scenes);
+    if (const auto forming = forming_of(source, sensor)) scenes.push_back(forming_scene(*forming));
     add_error_field(source, sensor, scenes);
   }
   return scenes;
+}
+
+std::vector<Film> study_films(FigureSource& source) {
+  std::vector<Film> films;
+  for (const SensorStudy& sensor : source.study().experiment.sensors)
+    if (const auto forming = forming_of(source, sensor)) films.push_back(forming_film(*forming));
+  return films;
 }
 
 }  // namespace mapproof

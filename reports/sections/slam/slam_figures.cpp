@@ -12,6 +12,8 @@
 #include "render/figures/refinement_starts.hpp"
 #include "render/figures/singular_values.hpp"
 #include "render/figures/window_curve.hpp"
+#include "render/scene/quadric_scene.hpp"
+#include "render/scene/space_scene.hpp"
 #include "reports/sections/figures/builders.hpp"
 #include "reports/sections/slam/slam_words.hpp"
 #include "reports/sections/wording.hpp"
@@ -137,6 +139,16 @@ std::vector<Figure> history_figures(const RangeHistoryStudy& study) {
   return figures;
 }
 
+/// How the metric upgrade changed the states of one run, where that is known.
+std::vector<Scene> run_scenes(const SlamRun& run) {
+  if (!run.upgrade || run.upgrade->steps.size() < 2) return {};
+  return {quadric_scene({.id = "scene-quadric-" + run.id,
+                         .title = "Metric upgrade, " + title_of(run),
+                         .name = title_of(run),
+                         .clouds = *run.upgrade,
+                         .record_ids = {run.id}})};
+}
+
 }  // namespace
 
 std::string slam_run_group(const SlamRun& run) { return "slam-run-" + run.id; }
@@ -144,24 +156,37 @@ std::string slam_run_group(const SlamRun& run) { return "slam-run-" + run.id; }
 StudyFigures slam_figures(const SlamStudy& study, const SlamTimings& timings) {
   StudyFigures figures;
   const auto add = [&](std::string id, std::string title, std::string words,
-                       std::vector<Figure> group) {
-    if (!group.empty())
+                       std::vector<Figure> group, std::vector<Scene> scenes = {}) {
+    if (!group.empty() || !scenes.empty())
       figures.groups.push_back(
-          {std::move(id), std::move(title), std::move(words), std::move(group)});
+          {std::move(id), std::move(title), std::move(words), std::move(group), std::move(scenes)});
   };
   std::vector<Figure> simulation;
+  std::vector<Scene> upgrades;
   for (const SlamRun& run : study.runs)
-    if (run.simulated) std::ranges::move(run_figures(run), std::back_inserter(simulation));
+    if (run.simulated) {
+      std::ranges::move(run_figures(run), std::back_inserter(simulation));
+      std::ranges::move(run_scenes(run), std::back_inserter(upgrades));
+    }
   std::ranges::move(convergence_figures(study), std::back_inserter(simulation));
   add(kSlamSimulation, "Range-only SLAM: simulation",
       "A simulated robot among landmarks; every step hears all of them. Squared ranges factor into "
       "a map and a path of rank 4.",
-      std::move(simulation));
+      std::move(simulation), std::move(upgrades));
   for (const SlamRun& run : study.runs)
     if (!run.simulated)
       add(slam_run_group(run), "Range-only SLAM: " + title_of(run),
           "Paths and landmarks as the methods recovered them, and what they rest on.",
-          run_figures(run));
+          run_figures(run), run_scenes(run));
+  if (study.space && !study.space->records.empty())
+    add(kSlamSpace, "Range-only SLAM: landmarks in space",
+        "A simulated flight over landmarks at various heights. In space squared ranges have rank "
+        "5, and the same factorisation, regression and metric upgrade hold.",
+        {},
+        {space_scene({.id = "scene-space",
+                      .title = "Landmarks in space, from ranges alone",
+                      .run = *study.space,
+                      .record_ids = {"space"}})});
   if (study.histories)
     add(kSlamHistories, "Range-only SLAM: mapping without a path",
         "The mapping methods on the ranges and the squared ranges of one simulated world, each by "

@@ -12,6 +12,7 @@ StudyFigures slam_figures(const SlamStudy& study, const SlamTimings& timings);
 /// Ids of the groups, and of the sections that show them.
 inline constexpr const char* kSlamSimulation = "slam-simulation";
 inline constexpr const char* kSlamHistories = "slam-histories";
+inline constexpr const char* kSlamSpace = "slam-space";
 inline constexpr const char* kSlamCost = "slam-cost";
 std::string slam_run_group(const SlamRun& run);  ///< "slam-run-plaza-1".
 

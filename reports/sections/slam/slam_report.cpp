@@ -29,6 +29,16 @@ std::optional<Section> histories_section(const SlamReportInput& input) {
   return section;
 }
 
+std::optional<Section> space_section(const SlamReportInput& input) {
+  if (!input.study.space) return std::nullopt;
+  const FigureGroup* figures = group_of(input.figures, kSlamSpace);
+  Section section = figures != nullptr
+                        ? figures_section(*figures)
+                        : Section{kSlamSpace, "Range-only SLAM: landmarks in space", {}};
+  section.blocks.emplace_back(slam_space_table(*input.study.space));
+  return section;
+}
+
 std::optional<Section> cost_section(const SlamReportInput& input) {
   const FigureGroup* figures = group_of(input.figures, kSlamCost);
   auto seconds = slam_seconds_table(input.study, input.timings.methods);
@@ -77,6 +87,7 @@ std::vector<Section> slam_sections(const SlamReportInput& input) {
   if (auto simulation = slam_simulation_section(study, group_of(input.figures, kSlamSimulation)))
     sections.push_back(*std::move(simulation));
   if (auto histories = histories_section(input)) sections.push_back(*std::move(histories));
+  if (auto space = space_section(input)) sections.push_back(*std::move(space));
   if (auto cost = cost_section(input)) sections.push_back(*std::move(cost));
   sections.push_back(slam_statuses_section(study));
   sections.push_back(slam_provenance_section(input));

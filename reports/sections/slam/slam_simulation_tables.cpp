@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include "core/base/words.hpp"
 #include "reports/sections/cells.hpp"
 #include "reports/sections/slam/slam_tables.hpp"
 
@@ -86,6 +87,35 @@ Table slam_history_table(const RangeHistoryStudy& study) {
             false};
     add_score(&map, row);
     table.rows.push_back(std::move(row));
+  }
+  return table;
+}
+
+Table slam_space_table(const SpaceRun& run) {
+  Table table;
+  table.id = "slam-space";
+  table.caption = fmt::format("{} in space from {} steps of ranges",
+                              counted(run.landmarks_m.rows(), "landmark"), run.positions_m.rows());
+  table.columns = {{"Known landmarks", "", "", ""},
+                   {"Landmarks", "m", "Mean error", ""},
+                   {"Positions", "m", "Mean error", ""},
+                   {"Alignment", "", "", "Before the errors were taken."},
+                   {"Range scale", "", "", "Measured range over distance, where it can be told."},
+                   {"Condition", "", "", "Of the regression, or of the upgrade."}};
+  const auto cell = [](const std::optional<double>& number, int decimals) {
+    return number ? Cell{NumberCell{*number, decimals}} : Cell{MissingCell{}};
+  };
+  for (const SpaceRecord& record : run.records) {
+    const bool has_scale = record.knows_landmarks && !record.estimate.empty();
+    const std::string known =
+        record.knows_landmarks ? fmt::format("{}", run.known.size()) : std::string("none");
+    table.rows.push_back(
+        {{TextCell{known}, cell(record.landmarks_error_m, 4), cell(record.positions_error_m, 4),
+          TextCell{std::string(name(record.alignment))},
+          has_scale ? Cell{NumberCell{record.estimate.range_scale, 4}} : Cell{MissingCell{}},
+          cell(record.estimate.condition, 1)},
+         record.knows_landmarks ? "space/known" : "space/unknown",
+         false});
   }
   return table;
 }

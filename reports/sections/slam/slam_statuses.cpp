@@ -45,6 +45,11 @@ Section slam_statuses_section(const SlamStudy& study) {
       add_statuses(fmt::format("{}, {}", map.squared ? "squared ranges" : "ranges",
                                map.setting ? label(*map.setting) : "spectral"),
                    "histories", map.statuses, list);
+  if (study.space)
+    for (const SpaceRecord& record : study.space->records)
+      add_statuses(fmt::format("in space, {}",
+                               record.knows_landmarks ? "landmarks known" : "no landmark known"),
+                   "space", record.estimate.statuses, list);
   std::ranges::stable_partition(list.items, &StatusList::Item::failed);
   if (list.items.empty())
     section.blocks.emplace_back(plain("Nothing: each solve ended well."));

@@ -31,6 +31,9 @@ Table slam_convergence_table(std::span<const ConvergenceCurve> curves);
 /// Each mapping method on ranges and on squared ranges, and the spectral map.
 Table slam_history_table(const RangeHistoryStudy& study);
 
+/// Errors of a flight in space, with landmarks known and with none.
+Table slam_space_table(const SpaceRun& run);
+
 /// Seconds of methods and of the factorisation; vary from run to run.
 std::optional<Table> slam_seconds_table(const SlamStudy& study,
                                         std::span<const SlamTiming> timings);

@@ -1,0 +1,249 @@
+#include <cmath>
+#include <numbers>
+
+#include <gtest/gtest.h>
+
+#include "core/base/errors.hpp"
+#include "core/base/random.hpp"
+#include "render/scene/forming_scene.hpp"
+#include "render/scene/quadric_scene.hpp"
+#include "render/scene/quadric_surface.hpp"
+#include "render/scene/space_scene.hpp"
+#include "tests/support/sample_figures.hpp"
+#include "tests/support/sample_scenes.hpp"
+
+namespace mapproof::test {
+namespace {
+
+/// Largest |f| over the sheet's and the lines' points, in units of the quadric at them.
+double off_quadric(const QuadricSurface& surface, const Eigen::Matrix4d& Q) {
+  std::vector<Point3> points = surface.sheet.points;
+  points.insert(points.end(), surface.lines.from.begin(), surface.lines.from.end());
+  points.insert(points.end(), surface.lines.to.begin(), surface.lines.to.end());
+  double worst = 0.0;
+  for (const Point3& p : points) {
+    const Eigen::Vector4d v(p.x(), p.y(), p.z(), 1.0);
+    worst = std::max(worst, std::abs(v.dot(Q * v)) / (Q.norm() * v.squaredNorm()));
+  }
+  return worst;
+}
+
+/// The part of an ellipsoid about its south pole.
+QuadricPoints bowl_of_an_ellipsoid() {
+  QuadricPoints cloud{SpacePoints(60, 3), Eigen::Matrix4d::Zero()};
+  cloud.Q.diagonal() << 1.0 / 9.0, 1.0 / 4.0, 1.0 / 100.0, -1.0;
+  for (Eigen::Index i = 0; i < 60; ++i) {
+    const double turn = 0.4 * double(i), tilt = 0.02 * double(i);
+    cloud.points.row(i) << 3.0 * std::sin(tilt) * std::cos(turn),
+        2.0 * std::sin(tilt) * std::sin(turn), -10.0 * std::cos(tilt);
+  }
+  return cloud;
+}
+
+TEST(QuadricSurface, LiesOnTheQuadricAndReachesAllPoints) {
+  const UpgradeClouds clouds = sample_clouds(0.0);
+  for (const QuadricPoints& cloud : {clouds.before, clouds.after, bowl_of_an_ellipsoid()}) {
+    const QuadricSurface surface = quadric_surface(cloud);
+    ASSERT_GT(surface.sheet.triangles.size(), 3000U);
+    EXPECT_LT(off_quadric(surface, cloud.Q), 1e-12);
+    const SpacePoints sheet = Eigen::Map<const Eigen::Matrix3Xd>(surface.sheet.points[0].data(), 3,
+                                                                 std::ssize(surface.sheet.points))
+                                  .transpose();
+    const double size =
+        (cloud.points.colwise().maxCoeff() - cloud.points.colwise().minCoeff()).norm();
+    for (const auto& point : cloud.points.rowwise())
+      EXPECT_LT((sheet.rowwise() - point).rowwise().norm().minCoeff(), 0.06 * size);
+  }
+}
+
+TEST(QuadricSurface, OfAPlaneIsNone) {
+  QuadricPoints plane{SpacePoints::Zero(20, 3), Eigen::Matrix4d::Zero()};
+  for (Eigen::Index i = 0; i < 20; ++i) plane.points.row(i) << 0.3 * double(i % 5), double(i), 0.0;
+  plane.Q(2, 3) = plane.Q(3, 2) = 1.0;
+  EXPECT_TRUE(quadric_surface(plane).sheet.triangles.empty());
+}
+
+TEST(QuadricDistances, AreThoseOfASphereToFirstOrder) {
+  Random random(1);
+  QuadricPoints cloud{SpacePoints(40, 3), Eigen::Matrix4d::Identity()};
+  cloud.Q(3, 3) = -25.0;
+  Eigen::VectorXd exact(40);
+  for (Eigen::Index i = 0; i < 40; ++i) {
+    exact(i) = random.uniform(-1e-3, 1e-3);
+    const Eigen::RowVector3d way(random.normal(), random.normal(), random.normal());
+    cloud.points.row(i) = (5.0 + exact(i)) * way.normalized();
+  }
+  EXPECT_LT((quadric_distances(cloud) - exact.cwiseAbs()).cwiseAbs().maxCoeff(), 1e-6);
+}
+
+QuadricSceneSpec quadric_spec(double noise) {
+  return {
+      .id = "quadric", .title = "t", .name = "n", .clouds = sample_clouds(noise), .record_ids = {}};
+}
+
+TEST(QuadricScene, HasTwoViewsWithASheetAndTheSamePointsEach) {
+  const Scene scene = quadric_scene(quadric_spec(0.5));
+  ASSERT_EQ(scene.views.size(), 2U);
+  for (const Shot& view : scene.views) {
+    int sheets = 0;
+    for (const std::size_t part : view.parts) {
+      if (const auto* spheres = std::get_if<Spheres>(&scene.parts[part])) {
+        EXPECT_EQ(spheres->at.size(), 150U);
+        EXPECT_EQ(spheres->tones.values.back(), 447.0);
+      }
+      sheets += std::holds_alternative<Surface>(scene.parts[part]) ? 1 : 0;
+    }
+    EXPECT_EQ(sheets, 1);
+  }
+}
+
+TEST(QuadricScene, TellsHeightsInSquareMetresThoughTheyAreDrawnShorter) {
+  const QuadricSceneSpec spec = quadric_spec(0.0);
+  const Scene scene = quadric_scene(spec);
+  const Rule& height = scene.views[1].rules[2];
+  EXPECT_GT(height.range.high, spec.clouds.after.points.col(2).maxCoeff());
+  EXPECT_LT(height.range.high, 1.6 * spec.clouds.after.points.col(2).maxCoeff());
+  EXPECT_LT((height.to - height.from).norm(), 25.0);
+}
+
+TEST(QuadricScene, TurnsTheBowlUprightAndTellsTheNoise) {
+  QuadricSceneSpec spec = quadric_spec(0.5);
+  const std::string alt = quadric_scene(spec).alt;
+  EXPECT_NE(alt.find("0.53 m\u00B2 of a height"), std::string::npos) << alt;
+  // Mirrored through the origin it is the same scene.
+  const Scene scene = quadric_scene(spec);
+  spec.clouds.before.points *= -1.0;
+  spec.clouds.before.Q.topRightCorner<3, 1>() *= -1.0;
+  spec.clouds.before.Q.bottomLeftCorner<1, 3>() *= -1.0;
+  const Scene turned = quadric_scene(spec);
+  EXPECT_LT((turned.views[0].camera.eye - scene.views[0].camera.eye).norm(), 1e-6);
+}
+
+TEST(QuadricScene, RefusesCloudsThatDoNotFit) {
+  const auto refused = [](auto change) {
+    QuadricSceneSpec spec = quadric_spec(0.1);
+    change(spec.clouds);
+    EXPECT_THROW(quadric_scene(spec), InvalidInput);
+  };
+  refused([](UpgradeClouds& c) { c.steps.pop_back(); });
+  refused([](UpgradeClouds& c) { c.before.points(0, 0) = NAN; });
+  refused([](UpgradeClouds& c) { c.after.Q(1, 1) = HUGE_VAL; });
+  refused([](UpgradeClouds& c) { c.after.points.setOnes(); });
+  refused([](UpgradeClouds& c) { c = {}; });
+}
+
+SpaceSceneSpec space_spec() {
+  return {.id = "space", .title = "t", .run = sample_space_run(), .record_ids = {}};
+}
+
+const Rods& error_rods(const Scene& scene, std::size_t view) {
+  const std::vector<std::size_t>& parts = scene.views[view].parts;
+  return std::get<Rods>(scene.parts[parts[parts.size() - 2]]);
+}
+
+TEST(SpaceScene, JoinsTruthAndEstimateByRodsAsLongAsItSays) {
+  const SpaceSceneSpec spec = space_spec();
+  const Scene scene = space_scene(spec);
+  ASSERT_EQ(scene.views.size(), 2U);
+  for (std::size_t view = 0; view < 2; ++view) {
+    const Rods& rods = error_rods(scene, view);
+    ASSERT_EQ(rods.from.size(), 10U);
+    for (std::size_t n = 0; n < 10; ++n) {
+      const auto row = static_cast<Eigen::Index>(n);
+      const Point3 truth = spec.run.landmarks_m.row(row).transpose();
+      const Point3 estimate = spec.run.records[view].estimate.landmarks_m.row(row).transpose();
+      EXPECT_LT((rods.from[n] - truth).norm(), 1e-12);
+      EXPECT_LT((rods.to[n] - truth - 10.0 * (estimate - truth)).norm(), 1e-9);
+    }
+  }
+  EXPECT_NE(scene.caption.find("10 times"), std::string::npos);
+}
+
+TEST(SpaceScene, DrawsLargeErrorsAsTheyAre) {
+  SpaceSceneSpec spec = space_spec();
+  for (SpaceRecord& record : spec.run.records) record.landmarks_error_m = 3.0;
+  EXPECT_EQ(space_scene(spec).caption.find("times"), std::string::npos);
+}
+
+TEST(SpaceScene, OfARecordWithoutAMapSaysSo) {
+  SpaceSceneSpec spec = space_spec();
+  SpaceRecord& record = spec.run.records[1];
+  record.estimate.landmarks_m.setConstant(NAN);
+  record.estimate.positions_m.resize(0, 3);
+  record.landmarks_error_m.reset();
+  const Scene scene = space_scene(spec);
+  ASSERT_EQ(scene.notes.size(), 1U);
+  EXPECT_EQ(scene.notes[0].text, "No landmark known: no map came out.");
+  EXPECT_NE(scene.alt.find("No landmark known: no map"), std::string::npos);
+}
+
+TEST(SpaceScene, RefusesWhatDoesNotFit) {
+  const auto refused = [](auto change) {
+    SpaceSceneSpec spec = space_spec();
+    change(spec.run);
+    EXPECT_THROW(space_scene(spec), InvalidInput);
+  };
+  refused([](SpaceRun& run) { run.records.clear(); });
+  refused([](SpaceRun& run) { run.positions_m(3, 1) = NAN; });
+  refused([](SpaceRun& run) { run.landmarks_m.conservativeResize(9, 3); });
+  refused([](SpaceRun& run) { run.records[0].estimate.positions_m.conservativeResize(3, 3); });
+}
+
+FormingSceneSpec forming_spec(int maps) {
+  FormingSceneSpec spec{.id = "forming", .title = "t", .world = {}, .maps = {}};
+  for (int i = 1; i <= maps; ++i) {
+    spec.maps.push_back(sample_map(20, 1.0 / i, 3));
+    spec.maps.back().step = 100 * i;
+  }
+  spec.world = {2.5, 0.048, *spec.maps[0].truth_m};
+  return spec;
+}
+
+TEST(FormingScene, IsAFilmStripOfOneCameraFromTheFirstToTheLastMap) {
+  const FormingSceneSpec spec = forming_spec(9);
+  const Scene scene = forming_scene(spec);
+  ASSERT_EQ(scene.views.size(), 6U);
+  EXPECT_TRUE(scene.views.front().title.starts_with("100 steps"));
+  EXPECT_TRUE(scene.views.back().title.starts_with("900 steps"));
+  for (const Shot& view : scene.views) {
+    EXPECT_EQ(view.camera, scene.views[0].camera);
+    const Rods& arrows = std::get<Rods>(scene.parts[view.parts.back()]);
+    EXPECT_TRUE(arrows.arrow);
+    EXPECT_EQ(arrows.tones.limits, std::get<Rods>(scene.parts[4]).tones.limits);
+    EXPECT_EQ(arrows.tones.values.size(), arrows.from.size());
+  }
+  EXPECT_EQ(forming_scene(forming_spec(1)).views.size(), 1U);
+}
+
+TEST(FormingFilm, HasAFrameAMapThatDiffersInItsArrowsAlone) {
+  FormingSceneSpec spec = forming_spec(9);
+  spec.maps[2].estimate.row(5) << 1e7, 0.0;
+  const Film film = forming_film(spec);
+  ASSERT_EQ(film.frames.size(), 9U);
+  for (const Scene& frame : film.frames) {
+    ASSERT_EQ(frame.views.size(), 1U);
+    EXPECT_EQ(frame.views[0].camera, film.frames[0].views[0].camera);
+    EXPECT_EQ(frame.title, film.frames[0].title);
+    EXPECT_TRUE(frame.notes.empty());
+    EXPECT_EQ(std::get<Rods>(frame.parts[4]).label, std::get<Rods>(film.frames[0].parts[4]).label);
+  }
+  EXPECT_NE(film.frames[2].views[0].title.find("far outside"), std::string::npos);
+}
+
+TEST(FormingScene, RefusesMapsThatAreNotOfOneRoomOneAfterTheOther) {
+  const auto refused = [](auto change) {
+    FormingSceneSpec spec = forming_spec(3);
+    change(spec);
+    EXPECT_THROW(forming_scene(spec), InvalidInput);
+    EXPECT_THROW(forming_film(spec), InvalidInput);
+  };
+  refused([](FormingSceneSpec& s) { s.maps.clear(); });
+  refused([](FormingSceneSpec& s) { s.maps[1].step = 100; });
+  refused([](FormingSceneSpec& s) { s.maps[1].frame = Frame::kSimilarity; });
+  refused([](FormingSceneSpec& s) { s.maps[1].estimate.conservativeResize(3, 2); });
+  refused([](FormingSceneSpec& s) { s.world.side_m = NAN; });
+  refused([](FormingSceneSpec& s) { s.maps[0].anchors = {99}; });
+}
+
+}  // namespace
+}  // namespace mapproof::test
