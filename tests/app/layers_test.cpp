@@ -51,9 +51,11 @@ const std::map<std::string, Modules>& allowed() {
       {"render/scene_client",
        with_leaves({"render/base", "render/theme", "render/image", "render/scene"})},
       {"render/vtk", with_leaves({"render/base", "render/theme", "render/image", "render/scene"})},
+      {"render/animation", with_leaves({"render/image"})},
       {"render/output",
        with_leaves({"render/base", "render/plot", "render/theme", "render/image", "render/svg",
-                    "render/cairo", "render/scene", "render/scene_client"})},
+                    "render/cairo", "render/scene", "render/scene_client",
+                    "render/animation"})},
       {"reports/model", with_leaves({})},
       {"reports/sections",
        with_leaves({"reports/model", "render/figures", "render/plot", "render/scene"})},
@@ -80,6 +82,7 @@ const std::map<std::string, Modules>& kept_in() {
       {"ft2build", {"render/theme", "render/cairo"}},
       {"kainjow/", {"reports/html"}},
       {"vtk", {"render/vtk"}},
+      {"libav", {"render/animation"}},
       {"GL/", {"render/vtk"}},
   };
   return table;
