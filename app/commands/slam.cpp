@@ -39,6 +39,7 @@ SlamStudy study_of(const SlamRun& run) {
   study.title = "Range-only map of " + run.log.name;
   study.provenance = build_provenance();
   study.runs = {run};
+  study.runs[0].upgrade.reset();  // Its scene would make a person wait for VTK.
   return study;
 }
 

@@ -17,12 +17,13 @@ namespace {
 constexpr double kAspect = 1.25;
 constexpr double kTallness = 0.6;  // Height of the drawn paraboloid, of its width.
 
-void require_usable(const UpgradeClouds& clouds) {
-  const auto size = static_cast<Eigen::Index>(clouds.steps.size());
-  if (size < 2) throw InvalidInput("quadric_scene: fewer than two points");
-  for (const QuadricPoints* cloud : {&clouds.before, &clouds.after})
-    if (cloud->points.rows() != size || !cloud->points.allFinite() || !cloud->Q.allFinite())
-      throw InvalidInput("quadric_scene: a finite point of each cloud a step is needed");
+double height_of(const SpacePoints& points) {
+  return points.col(2).maxCoeff() - points.col(2).minCoeff();
+}
+
+double width_of(const SpacePoints& points) {
+  return (points.leftCols<2>().colwise().maxCoeff() - points.leftCols<2>().colwise().minCoeff())
+      .maxCoeff();
 }
 
 /// The cloud with its coordinates multiplied by `scale`, and the quadric through it.
@@ -61,12 +62,8 @@ class QuadricScene {
 
   Scene make() {
     const QuadricPoints& after = spec_.clouds.after;
-    const SpacePoints& p = after.points;
-    const double width =
-        (p.leftCols<2>().colwise().maxCoeff() - p.leftCols<2>().colwise().minCoeff()).maxCoeff();
-    const double height = p.col(2).maxCoeff() - p.col(2).minCoeff();
-    if (!(width > 0.0 && height > 0.0)) throw InvalidInput("quadric_scene: all in one place");
-    const double lift = kTallness * width / height;
+    const double height = height_of(after.points);
+    const double lift = kTallness * width_of(after.points) / height;
     add_view(upright(spec_.clouds.before), 1.0, "Before the upgrade",
              {"1st", "2nd", "3rd coordinate"});
     add_view(scaled(after, {1.0, 1.0, lift}), lift, "After the upgrade",
@@ -150,8 +147,25 @@ class QuadricScene {
 
 }  // namespace
 
+bool has_quadric_scene(const UpgradeClouds& clouds) {
+  constexpr double kLargest = 1e6, kLeast = 1e-6, kLeastRise = 1e-3;
+  const auto size = static_cast<Eigen::Index>(clouds.steps.size());
+  if (size < 2 || clouds.steps.front() >= clouds.steps.back()) return false;
+  for (const QuadricPoints* cloud : {&clouds.before, &clouds.after}) {
+    const SpacePoints& points = cloud->points;
+    if (points.rows() != size || !points.allFinite() || !cloud->Q.allFinite() ||
+        points.cwiseAbs().maxCoeff() > kLargest ||
+        (points.rowwise() - points.row(0)).cwiseAbs().maxCoeff() < kLeast)
+      return false;
+  }
+  const SpacePoints& after = clouds.after.points;
+  return width_of(after) > kLeast && height_of(after) > kLeast &&
+         height_of(after) > kLeastRise * after.col(2).cwiseAbs().maxCoeff();
+}
+
 Scene quadric_scene(const QuadricSceneSpec& spec) {
-  require_usable(spec.clouds);
+  if (!has_quadric_scene(spec.clouds))
+    throw InvalidInput("quadric_scene: two clouds of finite points, a point a step, are needed");
   return QuadricScene(spec).make();
 }
 

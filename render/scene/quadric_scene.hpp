@@ -16,12 +16,16 @@ struct QuadricSceneSpec {
   std::vector<std::string> record_ids;
 };
 
+/// Whether there is a scene of the clouds: two points or more of each that are finite, within 1e6,
+/// and neither in one place nor, after the upgrade, at one height.
+bool has_quadric_scene(const UpgradeClouds& clouds);
+
 /// What the metric upgrade does [boots2013, section 2], side by side: states of the path, of four
 /// entries, as points in space, coloured by time, and the quadric that was fitted to them. Before:
 /// whitened, in orthonormal coordinates of the plane of scale 1, where the quadric leans as it
 /// will. After: x, y and (x^2 + y^2)/2, on the paraboloid. How far the points are from the surfaces
 /// is said in numbers.
-/// @throws InvalidInput for fewer than two points, or sizes that disagree.
+/// @throws InvalidInput unless has_quadric_scene().
 Scene quadric_scene(const QuadricSceneSpec& spec);
 
 }  // namespace mapproof

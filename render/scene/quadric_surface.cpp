@@ -14,6 +14,8 @@ constexpr int kRays = 72;
 constexpr int kLineRings = 4;
 constexpr int kLineRays = 8;
 constexpr double kBeyond = 1.06;     // The sheet's edge, of the farthest point.
+constexpr double kFarthest = 10.0;   // A point of the sheet this far out, in sizes of the cloud,
+                                     // is none.
 constexpr double kStraight = 1e-12;  // A curvature below this share of the largest is none.
 
 /// A quadric as heights over a plane through the points' mean: the small root of a square equation,
@@ -39,6 +41,7 @@ class Sheet {
       const double a = offset.dot(across_.col(0)) / across_.col(0).squaredNorm();
       const double b = offset.dot(across_.col(1)) / across_.col(1).squaredNorm();
       reach_ = std::max(reach_, kBeyond * std::hypot(a, b));
+      size_ = std::max(size_, offset.norm());
     }
   }
 
@@ -53,7 +56,8 @@ class Sheet {
     const Eigen::Vector4d along(axis_.x(), axis_.y(), axis_.z(), 0.0);
     const double a = along.dot(Q_ * along), b = 2.0 * along.dot(Q_ * from), c = from.dot(Q_ * from);
     const double root = std::sqrt(b * b - 4.0 * a * c);
-    return foot - 2.0 * c / (b + std::copysign(root, b)) * axis_;
+    const Point3 point = foot - 2.0 * c / (b + std::copysign(root, b)) * axis_;
+    return (point - center_).norm() <= kFarthest * size_ ? point : Point3::Constant(NAN);
   }
 
  private:
@@ -62,6 +66,7 @@ class Sheet {
   Eigen::Matrix<double, 3, 2> across_;
   bool curved_ = true;
   double reach_ = 0.0;
+  double size_ = 0.0;  ///< The farthest point's distance from the middle.
 };
 
 double angle_of(int ray, int rays) { return 2.0 * std::numbers::pi * ray / rays; }

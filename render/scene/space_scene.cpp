@@ -2,6 +2,7 @@
 
 #include <array>
 #include <cmath>
+#include <functional>
 
 #include <fmt/format.h>
 
@@ -34,15 +35,10 @@ std::vector<Point3> as_points(const SpacePoints& rows) {
   return points;
 }
 
-/// Truth, and what of the estimate is not too far away to be drawn.
-std::vector<Point3> all_places(const SpaceRun& run) {
+/// The truth, about which the box is.
+std::vector<Point3> true_places(const SpaceRun& run) {
   std::vector<Point3> places = as_points(run.landmarks_m);
   for (const Point3& p : as_points(run.positions_m)) places.push_back(p);
-  const CloudBox truth(places);
-  for (const SpaceRecord& record : run.records)
-    for (const Point3& p : as_points(record.estimate.positions_m))
-      if (p.allFinite() && (p - 0.5 * (truth.low + truth.high)).norm() < truth.size())
-        places.push_back(p);
   return places;
 }
 
@@ -57,7 +53,7 @@ double round_factor(double mean_m, double size) {
 class SpaceScene {
  public:
   explicit SpaceScene(const SpaceSceneSpec& spec)
-      : spec_(spec), run_(spec.run), box_(all_places(spec.run)) {
+      : spec_(spec), run_(spec.run), box_(true_places(spec.run)) {
     scene_.id = spec.id;
     scene_.title = spec.title;
     scene_.record_ids = spec.record_ids;
@@ -120,11 +116,7 @@ class SpaceScene {
     if (record.estimate.empty()) {
       scene_.notes.push_back({view.title + ": no map came out.", Ink::kWarning});
     } else {
-      Tube estimated{.label = is_first ? "estimated path" : "",
-                     .points = as_points(record.estimate.positions_m),
-                     .radius = 0.0016 * box_.size(),
-                     .look = {.ink = Ink::kText, .share = 0.75}};
-      add(std::move(estimated));
+      add_estimated_path(record.estimate, view.title, is_first, add);
       Rods rods = errors_of(record.estimate);
       Spheres ends{.label = is_first ? "estimated landmark" : "",
                    .at = rods.to,
@@ -137,6 +129,25 @@ class SpaceScene {
       }
     }
     scene_.views.push_back(std::move(view));
+  }
+
+  /// The estimated path, as far as it keeps near the box; a note counts the rest.
+  void add_estimated_path(const SpaceEstimate& estimate, const std::string& title, bool is_first,
+                          const std::function<void(Part)>& add) {
+    const Point3 middle = 0.5 * (box_.low + box_.high);
+    Tube tube{.label = is_first ? "estimated path" : "",
+              .radius = 0.0016 * box_.size(),
+              .look = {.ink = Ink::kText, .share = 0.75}};
+    for (const Point3& p : as_points(estimate.positions_m))
+      if ((p - middle).norm() < box_.size()) tube.points.push_back(p);
+    const auto far = estimate.positions_m.rows() - std::ssize(tube.points);
+    if (far > 0)
+      scene_.notes.push_back(
+          {fmt::format("{}: {} far outside.", title,
+                       far == 1 ? "1 estimated position is"
+                                : fmt::format("{} estimated positions are", far)),
+           Ink::kWarning});
+    if (tube.points.size() > 1) add(std::move(tube));
   }
 
   std::string rods_label() const {

@@ -123,12 +123,16 @@ TEST(QuadricScene, RefusesCloudsThatDoNotFit) {
   const auto refused = [](auto change) {
     QuadricSceneSpec spec = quadric_spec(0.1);
     change(spec.clouds);
+    EXPECT_FALSE(has_quadric_scene(spec.clouds));
     EXPECT_THROW(quadric_scene(spec), InvalidInput);
   };
   refused([](UpgradeClouds& c) { c.steps.pop_back(); });
   refused([](UpgradeClouds& c) { c.before.points(0, 0) = NAN; });
   refused([](UpgradeClouds& c) { c.after.Q(1, 1) = HUGE_VAL; });
   refused([](UpgradeClouds& c) { c.after.points.setOnes(); });
+  refused([](UpgradeClouds& c) { c.before.points *= 1e9; });
+  refused([](UpgradeClouds& c) { c.after.points.col(2).setConstant(5.0); });
+  refused([](UpgradeClouds& c) { c.steps.back() = c.steps.front(); });
   refused([](UpgradeClouds& c) { c = {}; });
 }
 
@@ -175,6 +179,15 @@ TEST(SpaceScene, OfARecordWithoutAMapSaysSo) {
   ASSERT_EQ(scene.notes.size(), 1U);
   EXPECT_EQ(scene.notes[0].text, "No landmark known: no map came out.");
   EXPECT_NE(scene.alt.find("No landmark known: no map"), std::string::npos);
+}
+
+TEST(SpaceScene, LeavesOutAndCountsWhatIsFarAway) {
+  SpaceSceneSpec spec = space_spec();
+  spec.run.records[0].estimate.positions_m.row(7) << 1e12, 0.0, 0.0;
+  spec.run.records[0].estimate.landmarks_m.row(2) << 0.0, -1e15, 0.0;
+  const Scene scene = space_scene(spec);
+  EXPECT_EQ(scene.notes.at(0).text, "6 landmarks known: 1 estimated position is far outside.");
+  EXPECT_EQ(error_rods(scene, 0).from.size(), 9U);
 }
 
 TEST(SpaceScene, RefusesWhatDoesNotFit) {

@@ -54,6 +54,37 @@ TEST(SlamFigures, AreThePapersAndThoseBeyondItUnderTheirIds) {
   EXPECT_TRUE(all_figures(figures)[2]->title.starts_with("Fig. 1B. "));
 }
 
+TEST(SlamFigures, HaveAQuadricForEachUpgradeAndTheFlightInSpace) {
+  SlamStudy study = sample_slam_study();
+  const auto ids = [&] {
+    std::vector<std::string> found;
+    for (const Scene* scene : all_scenes(slam_figures(study, {}))) found.push_back(scene->id);
+    return found;
+  };
+  EXPECT_EQ(ids(), (std::vector<std::string>{"scene-quadric-simulation", "scene-space"}));
+  study.runs[1].upgrade = std::move(study.runs[0].upgrade);
+  study.runs[0].upgrade.reset();
+  study.runs[1].upgrade->before.points(0, 0) = 1e300;
+  study.space.reset();
+  EXPECT_TRUE(ids().empty());
+}
+
+TEST(SlamReport, TellsTheErrorsOfAFlightInSpaceAndItsStatuses) {
+  SlamStudy study = sample_slam_study();
+  SpaceRecord& record = study.space->records[1];
+  record.estimate.statuses = {{StatusCode::kUndetermined, "Another fits."}};
+  record.landmarks_error_m.reset();
+  const std::vector<Section> sections = sections_of(study);
+  const auto section = std::ranges::find(sections, "slam-space", &Section::id);
+  ASSERT_NE(section, sections.end());
+  const Table& table = table_named(*section, "slam-space");
+  ASSERT_EQ(table.rows.size(), 2U);
+  EXPECT_EQ(std::get<NumberCell>(table.rows[0].cells[1]).value, 0.05);
+  EXPECT_TRUE(std::holds_alternative<MissingCell>(table.rows[1].cells[1]));
+  const auto statuses = std::ranges::find(sections, "slam-statuses", &Section::id);
+  EXPECT_NE(words(*statuses).find("Another fits."), std::string::npos);
+}
+
 TEST(SlamFigures, HaveTheTenMethodsAndTheSpectralMapOnOneWall) {
   const StudyFigures figures = slam_figures(sample_slam_study(), {});
   for (const Figure* figure : all_figures(figures))

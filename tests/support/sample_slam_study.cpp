@@ -6,6 +6,7 @@
 
 #include "core/base/random.hpp"
 #include "core/model/method.hpp"
+#include "tests/support/sample_scenes.hpp"
 #include "tests/support/sample_slam.hpp"
 
 namespace mapproof::test {
@@ -265,6 +266,8 @@ SlamStudy sample_slam_study() {
   study.convergence = {sample_convergence("white", "white noise, 1 % of range", 1.0),
                        sample_convergence("correlated", "correlated noise, .9 a step", 2.6)};
   study.histories = sample_histories();
+  study.runs[0].upgrade = sample_clouds(0.5);
+  study.space = sample_space_run();
   return study;
 }
 

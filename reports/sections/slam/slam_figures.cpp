@@ -141,7 +141,7 @@ std::vector<Figure> history_figures(const RangeHistoryStudy& study) {
 
 /// How the metric upgrade changed the states of one run, where that is known.
 std::vector<Scene> run_scenes(const SlamRun& run) {
-  if (!run.upgrade || run.upgrade->steps.size() < 2) return {};
+  if (!run.upgrade || !has_quadric_scene(*run.upgrade)) return {};
   return {quadric_scene({.id = "scene-quadric-" + run.id,
                          .title = "Metric upgrade, " + title_of(run),
                          .name = title_of(run),

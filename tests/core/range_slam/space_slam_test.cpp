@@ -12,6 +12,7 @@
 
 #include "core/align/rigid_space.hpp"
 #include "core/base/errors.hpp"
+#include "core/experiment/slam_worlds.hpp"
 #include "core/range_slam/metric_upgrade.hpp"
 #include "core/range_slam/quadric.hpp"
 #include "core/simulate/range_flight.hpp"
@@ -251,6 +252,65 @@ TEST(RigidSpace, GivesBackAMotionAndAMirror) {
     EXPECT_EQ((motion(from) - to).norm() < 1e-12, !mirrored);
   }
   EXPECT_THROW(fit_space_motion(SpacePoints(0, 3), SpacePoints(0, 3), true), InvalidInput);
+}
+
+SlamExperiment small_flight() {
+  SlamExperiment experiment;
+  experiment.name = "flight";
+  experiment.seed = 3;
+  experiment.space = SpaceFlightOptions{.landmarks = 10, .steps = 150};
+  experiment.space->noise.share = 0.005;
+  return experiment;
+}
+
+TEST(SpaceRun, HasARecordWithKnownLandmarksAndOneWithNoneInTheFrameOfTheTruth) {
+  const SpaceRun run = make_space_run(small_flight());
+  EXPECT_EQ(run.known.size(), 6U);
+  ASSERT_EQ(run.records.size(), 2U);
+  EXPECT_TRUE(run.records[0].knows_landmarks);
+  EXPECT_EQ(run.records[0].alignment, Alignment::kNone);
+  EXPECT_EQ(run.records[1].alignment, Alignment::kRigidWithReflection);
+  for (const SpaceRecord& record : run.records) {
+    EXPECT_TRUE(record.estimate.statuses.empty());
+    EXPECT_LT(*record.landmarks_error_m, 0.5);
+    EXPECT_LT(*record.positions_error_m, 0.5);
+    EXPECT_NEAR((record.estimate.positions_m - run.positions_m).rowwise().norm().mean(),
+                *record.positions_error_m, 1e-12);
+  }
+  EXPECT_EQ(make_space_run(small_flight()).records[1].estimate.landmarks_m,
+            run.records[1].estimate.landmarks_m);
+}
+
+TEST(SpaceRun, OfAFlightThatIsNearlyFlatHasNoMapAndSaysWhy) {
+  SlamExperiment experiment = small_flight();
+  experiment.space->height_m = 0.05;
+  experiment.space->step_m = 0.02;
+  for (const SpaceRecord& record : make_space_run(experiment).records) {
+    EXPECT_TRUE(record.estimate.empty());
+    EXPECT_FALSE(record.positions_error_m);
+    EXPECT_TRUE(has(record.estimate.statuses, StatusCode::kDegenerateGeometry));
+  }
+  experiment.space.reset();
+  EXPECT_THROW(make_space_run(experiment), InvalidInput);
+}
+
+TEST(SlamRun, KeepsTheStatesOfItsMetricUpgradeOnTheirQuadrics) {
+  SlamExperiment experiment = small_flight();
+  experiment.example = SlamExample{.figure = "fig-1a", .steps = 500, .noise = {}};
+  experiment.example->noise.id = "simulation";
+  std::vector<SlamTiming> timings;
+  const SlamRun run = make_example(experiment, timings);
+  ASSERT_TRUE(run.upgrade);
+  EXPECT_EQ(run.upgrade->steps.size(), 300U);
+  EXPECT_EQ(run.upgrade->steps.back(), 499);
+  for (const QuadricPoints& cloud : {run.upgrade->before, run.upgrade->after}) {
+    ASSERT_EQ(cloud.points.rows(), 300);
+    Eigen::MatrixX4d lifted(300, 4);
+    lifted << cloud.points, Eigen::VectorXd::Ones(300);
+    const Eigen::VectorXd values = (lifted * cloud.Q).cwiseProduct(lifted).rowwise().sum();
+    EXPECT_LT(values.cwiseAbs().maxCoeff(), 1e-9 * cloud.Q.norm() * lifted.squaredNorm());
+    EXPECT_EQ(cloud.Q, cloud.Q.transpose());
+  }
 }
 
 TEST(RangeFlight, StaysInItsBoxInStepsOfOneLengthAndIsOfItsSeed) {
