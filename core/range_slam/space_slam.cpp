@@ -26,11 +26,13 @@ Factorization factors_of(const Eigen::MatrixXd& Y, const RangeNoise& noise) {
   return factorize(Y, kRank);
 }
 
-/// Whether the fifth dimension is there; adds why not.
-bool spans_space(const Factorization& factors, std::vector<Status>& statuses) {
+/// Whether the fifth dimension is there; adds why not. It is not where it has less of the squares
+/// than noise has in one direction.
+bool spans_space(const Factorization& factors, double noise_square, std::vector<Status>& statuses) {
   const bool is_noise = std::ranges::any_of(
       factors.statuses, [](const Status& s) { return s.code == StatusCode::kRankDeficient; });
-  if (!is_noise && factors.condition < kFlat) return true;
+  const double least = factors.singular_values(kRank - 1);
+  if (!is_noise && factors.condition < kFlat && least * least > noise_square) return true;
   statuses.push_back({StatusCode::kDegenerateGeometry,
                       fmt::format("Landmarks or path lie on one plane or sphere, as far as the "
                                   "ranges tell: condition number {:.3g}.",
@@ -61,7 +63,8 @@ SpaceEstimate space_slam(const Eigen::MatrixXd& ranges_m,
   estimate.singular_values = factors.singular_values;
   if (N > kRank) estimate.noise_level = factors.noise_floor;
   estimate.statuses = factors.statuses;
-  if (!spans_space(factors, estimate.statuses)) return estimate;
+  const double noise_square = static_cast<double>(T) * half_square_variances(Y, noise).mean();
+  if (!spans_space(factors, noise_square, estimate.statuses)) return estimate;
 
   const SpectralMap map = known ? map_from_known_places(factors, known->rows, known->positions_m)
                                 : metric_upgrade(factors).map;

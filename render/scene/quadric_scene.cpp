@@ -64,10 +64,9 @@ class QuadricScene {
     const QuadricPoints& after = spec_.clouds.after;
     const double height = height_of(after.points);
     const double lift = kTallness * width_of(after.points) / height;
-    add_view(upright(spec_.clouds.before), 1.0, "Before the upgrade",
-             {"1st", "2nd", "3rd coordinate"});
+    add_view(upright(spec_.clouds.before), 1.0, "Before the upgrade", {"1st", "2nd", "3rd"});
     add_view(scaled(after, {1.0, 1.0, lift}), lift, "After the upgrade",
-             {"x [m]", "y [m]", "(x\u00B2 + y\u00B2)/2 [m\u00B2]"});
+             {"x [m]", "y [m]", "r\u00B2/2 [m\u00B2]"});
     describe(height);
     require_valid(scene_);
     return std::move(scene_);
@@ -131,7 +130,8 @@ class QuadricScene {
         "whitened factor in orthonormal coordinates of the plane of scale 1, and the quadric "
         "fitted "
         "to it; right, the same after the metric upgrade has made the quadric the paraboloid of x, "
-        "y and (x\u00B2 + y\u00B2)/2 about the mean position (heights drawn to another scale).",
+        "y and r\u00B2/2, r\u00B2 = x\u00B2 + y\u00B2, about the mean position (heights drawn to "
+        "another scale).",
         spec_.name, counted(static_cast<long long>(clouds.steps.size()), "position"));
     scene_.alt = fmt::format(
         "{} coloured by time on a translucent bowl, leaning on the left and upright on the right. "

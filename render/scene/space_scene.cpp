@@ -107,7 +107,7 @@ class SpaceScene {
                                    counted(static_cast<long long>(run_.known.size()), "landmark"))
                      : "No landmark known",
         .camera = box_.camera(kAspect),
-        .rules = box_.rules({"x [m]", "y [m]", "height [m]"})};
+        .rules = box_.rules({"x [m]", "y [m]", "z [m]"})};
     for (std::size_t i = 0; i < shared; ++i) view.parts.push_back(i);
     const auto add = [&](Part part) {
       view.parts.push_back(scene_.parts.size());

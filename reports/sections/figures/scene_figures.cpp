@@ -63,7 +63,8 @@ std::optional<FormingSceneSpec> forming_of(FigureSource& source, const SensorStu
   const SettingSummary* best = best_of(all);
   const auto id = best != nullptr ? median_run(source.study(), *best) : std::nullopt;
   const Run* run = id ? source.run(*id) : nullptr;
-  if (run == nullptr) return std::nullopt;
+  if (run == nullptr || !(run->world.side_m > 0.0 && run->world.landmark_diameter_m > 0.0))
+    return std::nullopt;
   FormingSceneSpec spec{
       .id = fmt::format("scene-forming-{}", name(best->sensor)),
       .title = fmt::format("{}, {}: the map forms", title_of(best->sensor), label(best->setting)),
