@@ -15,7 +15,7 @@
 namespace mapproof {
 namespace {
 
-constexpr double kAspect = 1.25;
+constexpr double kAspect = 2.0;  // One view under the other.
 constexpr double kSeen = 0.035;  // A rod this long is seen, of the box.
 
 void require_usable(const SpaceRun& run) {
@@ -58,6 +58,7 @@ class SpaceScene {
     scene_.title = spec.title;
     scene_.record_ids = spec.record_ids;
     scene_.lights = usual_lights();
+    scene_.columns = 1;
     double least = 0.0;
     for (const SpaceRecord& record : run_.records)
       if (record.landmarks_error_m) least = std::max(least, *record.landmarks_error_m);
@@ -100,7 +101,8 @@ class SpaceScene {
   }
 
   void add_view(const SpaceRecord& record, std::size_t shared) {
-    const bool is_first = scene_.views.empty();
+    const bool is_first = !has_estimate_ && !record.estimate.empty();
+    has_estimate_ = has_estimate_ || is_first;
     Shot view{
         .title = record.knows_landmarks
                      ? fmt::format("{} known",
@@ -199,6 +201,7 @@ class SpaceScene {
   const SpaceRun& run_;
   CloudBox box_;
   double factor_ = 1.0;
+  bool has_estimate_ = false;  ///< Shown so far; the first stands in the legend.
   Scene scene_;
 };
 
