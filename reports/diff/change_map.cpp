@@ -1,6 +1,7 @@
 #include "reports/diff/change_map.hpp"
 
 #include <algorithm>
+#include <utility>
 
 namespace mapproof {
 namespace {
@@ -16,9 +17,9 @@ std::uint32_t pale(std::uint32_t pixel) {
 
 }  // namespace
 
-Image heat_map(const Image& baseline, const ChangeMap& marks) {
-  Image map{baseline.width, baseline.height, std::vector<std::uint32_t>(baseline.pixels.size())};
-  std::ranges::transform(baseline.pixels, map.pixels.begin(), pale);
+Image heat_map(Image baseline, const ChangeMap& marks) {
+  Image map = std::move(baseline);
+  std::ranges::transform(map.pixels, map.pixels.begin(), pale);
   for (int index = 0; index < marks.across() * marks.down(); ++index) {
     const TileMarks* tile = marks.tile(index);
     if (!tile) continue;

@@ -9,7 +9,7 @@
 namespace mapproof {
 
 /// What a pixel's difference is taken for.
-enum class PixelMark : std::uint8_t { kEqual, kIgnored, kNoise, kSmoothed, kChanged };
+enum class PixelMark : std::uint8_t { kEqual, kNoise, kSmoothed, kChanged };
 
 inline constexpr int kTile = 16;  ///< Pixels a side.
 
@@ -48,6 +48,7 @@ class ChangeMap {
 };
 
 /// The picture in pale grey, what changed in red, what noise or smoothing explains in yellow.
-Image heat_map(const Image& baseline, const ChangeMap& marks);
+/// @param baseline  Taken over.
+Image heat_map(Image baseline, const ChangeMap& marks);
 
 }  // namespace mapproof

@@ -1,8 +1,10 @@
 #include "reports/diff/image_diff.hpp"
 
 #include <algorithm>
-#include <atomic>
+#include <climits>
+#include <cstdlib>
 #include <cstring>
+#include <span>
 
 #include <tbb/parallel_for.h>
 
@@ -84,20 +86,16 @@ std::vector<TileLook> looks_at(const Image& baseline, const Image& current, cons
   return looks;
 }
 
-/// Counts the marks, and what the evidence of all tiles comes to.
+/// What the evidence of all tiles comes to.
 void sum_up(std::span<const int> tiles, std::span<const TileEvidence> evidence,
             const ChangeMap& marks, PixelDiff& pixels) {
-  std::vector<bool> is_changed(static_cast<std::size_t>(marks.across()) * marks.down(), false);
   for (std::size_t i = 0; i < tiles.size(); ++i) {
     const TileEvidence& tile = evidence[i];
+    const TileMarks& tile_marks = *marks.tile(tiles[i]);
+    const std::int64_t changed = std::ranges::count(tile_marks, PixelMark::kChanged);
     pixels.differing += tile.differing;
-    const auto count = [&](PixelMark mark) {
-      return std::ranges::count(*marks.tile(tiles[i]), mark);
-    };
-    pixels.antialiased += count(PixelMark::kSmoothed);
-    const std::int64_t changed = count(PixelMark::kChanged);
     pixels.changed += changed;
-    is_changed[tiles[i]] = changed > 0;
+    pixels.antialiased += std::ranges::count(tile_marks, PixelMark::kSmoothed);
     pixels.largest_colour_difference =
         std::max(pixels.largest_colour_difference, tile.largest_colour_difference);
     pixels.largest_mean_shift = std::max(pixels.largest_mean_shift, tile.flat_shift);
@@ -111,22 +109,41 @@ void sum_up(std::span<const int> tiles, std::span<const TileEvidence> evidence,
   }
   const double all = static_cast<double>(pixels.baseline.width) * pixels.baseline.height;
   pixels.changed_share = all > 0.0 ? static_cast<double>(pixels.changed) / all : 0.0;
+}
+
+/// The changed pixels of a group of tiles.
+struct Cluster {
+  std::int64_t pixels = 0;
+  int left = INT_MAX, top = INT_MAX, right = 0, bottom = 0;
+
+  PixelBox box() const { return {left, top, right - left, bottom - top}; }
+};
+
+Cluster cluster_of(const std::vector<int>& group, const ChangeMap& marks) {
+  Cluster found;
+  for (const int tile : group)
+    for (int i = 0; i < kTile * kTile; ++i) {
+      if ((*marks.tile(tile))[i] != PixelMark::kChanged) continue;
+      const int x = tile % marks.across() * kTile + i % kTile;
+      const int y = tile / marks.across() * kTile + i / kTile;
+      found.left = std::min(found.left, x), found.right = std::max(found.right, x + 1);
+      found.top = std::min(found.top, y), found.bottom = std::max(found.bottom, y + 1);
+      ++found.pixels;
+    }
+  return found;
+}
+
+void find_clusters(std::span<const int> tiles, const ChangeMap& marks, PixelDiff& pixels) {
+  std::vector<bool> is_changed(static_cast<std::size_t>(marks.across()) * marks.down(), false);
+  for (const int tile : tiles)
+    is_changed[tile] =
+        std::ranges::find(*marks.tile(tile), PixelMark::kChanged) != marks.tile(tile)->end();
   for (const std::vector<int>& group : tile_groups(marks.across(), is_changed)) {
     ++pixels.clusters;
-    std::int64_t count = 0;
-    int left = pixels.baseline.width, top = pixels.baseline.height, right = 0, bottom = 0;
-    for (const int tile : group)
-      for (int i = 0; i < kTile * kTile; ++i)
-        if ((*marks.tile(tile))[i] == PixelMark::kChanged) {
-          const int x = tile % marks.across() * kTile + i % kTile;
-          const int y = tile / marks.across() * kTile + i / kTile;
-          left = std::min(left, x), right = std::max(right, x + 1);
-          top = std::min(top, y), bottom = std::max(bottom, y + 1);
-          ++count;
-        }
-    if (count <= pixels.largest_cluster_pixels) continue;
-    pixels.largest_cluster_pixels = count;
-    pixels.largest_cluster = {left, top, right - left, bottom - top};
+    const Cluster cluster = cluster_of(group, marks);
+    if (cluster.pixels <= pixels.largest_cluster_pixels) continue;
+    pixels.largest_cluster_pixels = cluster.pixels;
+    pixels.largest_cluster = cluster.box();
   }
 }
 
@@ -165,6 +182,7 @@ ImageDiff image_diff(const Image& baseline, Image current, const PictureOptions&
   });
   judge(tiles, evidence, textured, options, diff.marks);
   sum_up(tiles, evidence, diff.marks, diff.pixels);
+  find_clusters(tiles, diff.marks, diff.pixels);
   return diff;
 }
 

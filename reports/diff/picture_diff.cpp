@@ -50,7 +50,7 @@ std::string unreadable(const std::string& baseline, const std::string& current) 
 
 PictureState state_of(const PixelDiff& pixels, const PictureOptions& options) {
   if (pixels.baseline != pixels.current) return PictureState::kDifferent;
-  if (pixels.changed > 0 && pixels.changed_share >= options.changed_share)
+  if (pixels.changed > 0 && pixels.changed_share > options.changed_share)
     return PictureState::kDifferent;
   return pixels.differing > 0 ? PictureState::kWithinTolerance : PictureState::kIdentical;
 }
@@ -112,7 +112,7 @@ void compare_pngs(std::string_view before, std::string_view after, const Picture
     diff.state = PictureState::kWithinTolerance;
   diff.reason = words(found.pixels, finer_differs);
   if (heat && found.pixels.baseline == found.pixels.current && found.pixels.differing > 0)
-    *heat = heat_map(baseline.png.image, found.marks);
+    *heat = heat_map(std::move(baseline.png.image), found.marks);
 }
 
 enum class PictureKind { kPng, kSvg, kEmpty, kOther };
