@@ -82,7 +82,7 @@ void make(const fs::path& folder) {
 void compare(const fs::path& baseline, const fs::path& current, const fs::path& heat) {
   Image map;
   const PictureDiff diff = picture_diff(baseline, current, {}, &map);
-  if (diff.state == PictureState::kDifferent) write_file(heat, encode_png(map));
+  if (diff.state == PictureState::kDifferent && map.width > 0) write_file(heat, encode_png(map));
 }
 
 void compare_folders(const fs::path& baseline, const fs::path& current, const fs::path& heat) {
