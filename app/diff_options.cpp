@@ -11,6 +11,7 @@
 #include "core/base/spelling.hpp"
 #include "core/json/json_text.hpp"
 #include "reports/diff/diff_outputs.hpp"
+#include "reports/html/diff/diff_html.hpp"
 
 namespace mapproof {
 namespace {
@@ -56,6 +57,8 @@ bool is_run_by_ctest() {
 void add_diff_options(CLI::App& app, DiffOptions& options) {
   app.remove_option(app.get_option("--json"));
   app.add_option("--json", options.json, "Write all that was found as JSON; - to standard output");
+  app.add_option("--templates", options.templates,
+                 "Folder whose templates replace those of the page");
   app.add_option("--junit", options.junit, "Write the verdicts as JUnit XML");
   app.add_option("--markdown", options.markdown, "Write a summary for a comment on a change");
   app.add_option("--allow", options.allow, "Verdicts that pass as well: better,style,new");
@@ -74,7 +77,10 @@ DiffSettings diff_settings(const DiffOptions& options, const std::string& baseli
   return settings;
 }
 
-int hand_out(const DiffResult& result, const DiffOptions& options, const Console& console) {
+int hand_out(const DiffResult& result, const DiffSettings& settings, const DiffOptions& options,
+             const Console& console) {
+  if (!options.page.empty())
+    write_file(options.page, diff_html(result, settings, load_templates(options.templates)));
   const nlohmann::ordered_json object = diff_json(result);
   if (!options.json.empty() && options.json != "-") write_file(options.json, json_text(object));
   if (!options.junit.empty()) write_file(options.junit, diff_junit(result));

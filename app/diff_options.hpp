@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -11,12 +12,14 @@ namespace mapproof {
 
 /// What the verbs that compare have in common.
 struct DiffOptions {
-  std::string junit, json, markdown;  ///< Files to write; empty: none.
+  std::string page, junit, json, markdown;  ///< Files to write; empty: none.
+  std::optional<std::string> templates;     ///< Folder whose templates replace the embedded ones.
   std::string allow;                  ///< "better,style".
   std::string settings;  ///< File; empty: mapproof-diff.json beside the baseline, if it is there.
 };
 
-/// Adds --junit, --json FILE (in place of the common --json), --markdown, --allow and --settings.
+/// Adds --templates, --junit, --json FILE (in place of the common --json), --markdown, --allow and
+/// --settings. The page is the verb's own option: --out may be taken.
 void add_diff_options(CLI::App& app, DiffOptions& options);
 
 /// What a comparison with that baseline goes by.
@@ -26,6 +29,7 @@ DiffSettings diff_settings(const DiffOptions& options, const std::string& baseli
 /// Writes the files asked for, and the verdicts to standard output, with the lines that CTest takes
 /// where it runs the program.
 /// @return kDone or kNo. @throws IoError.
-int hand_out(const DiffResult& result, const DiffOptions& options, const Console& console);
+int hand_out(const DiffResult& result, const DiffSettings& settings, const DiffOptions& options,
+             const Console& console);
 
 }  // namespace mapproof

@@ -17,7 +17,7 @@ struct Arguments {
 int diff(const Arguments& arguments, const Invocation& invocation) {
   const DiffSettings settings = diff_settings(arguments.options, arguments.baseline);
   const DiffResult result = folder_diff(arguments.baseline, arguments.current, settings);
-  return hand_out(result, arguments.options, invocation.console);
+  return hand_out(result, settings, arguments.options, invocation.console);
 }
 
 }  // namespace
@@ -28,6 +28,7 @@ Action diff_verb(CLI::App& app) {
   app.footer(
       "Examples:\n"
       "  mapproof diff baseline out\n"
+      "  mapproof diff baseline out --out diff.html\n"
       "  mapproof diff baseline out --junit diff.junit.xml --markdown diff.md\n"
       "  mapproof diff old.png new.png\n\n"
       "Exit code 0 if all is identical, within tolerance, or drawn otherwise without being seen;\n"
@@ -36,6 +37,8 @@ Action diff_verb(CLI::App& app) {
   app.add_option("BASELINE", arguments->baseline, "The study, folder or file to compare with")
       ->required();
   app.add_option("CURRENT", arguments->current, "The one that is compared")->required();
+  app.add_option("--out", arguments->options.page,
+                 "Write a page that shows what differs, diff.html for instance");
   add_diff_options(app, arguments->options);
   return [arguments](const Invocation& invocation) { return diff(*arguments, invocation); };
 }

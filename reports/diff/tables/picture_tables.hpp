@@ -1,0 +1,19 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "reports/diff/diff_result.hpp"
+#include "reports/model/report.hpp"
+
+namespace mapproof {
+
+/// "1600 × 1200".
+std::string size_text(const PictureSize& size);
+
+/// Adds what the files of the pictures say: sizes, pixels, clusters, SVG elements.
+/// @param suffix  Ends the tables' ids.
+void add_picture_tables(std::vector<Block>& blocks, const std::vector<PictureFile>& files,
+                        const std::string& suffix);
+
+}  // namespace mapproof

@@ -1,0 +1,17 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "reports/diff/record_diff.hpp"
+#include "reports/model/report.hpp"
+
+namespace mapproof {
+
+/// Adds what became of the records: scores with their tests, positions, settings, statuses, runs
+/// on one side alone, versions, files that cannot be read.
+/// @param suffix  Ends the tables' ids.
+void add_record_tables(std::vector<Block>& blocks, const RecordDiff& diff,
+                       const std::string& suffix);
+
+}  // namespace mapproof

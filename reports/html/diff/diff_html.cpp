@@ -1,0 +1,87 @@
+#include "reports/html/diff/diff_html.hpp"
+
+#include <utility>
+
+#include <fmt/format.h>
+#include <kainjow/mustache.hpp>
+
+#include "core/base/errors.hpp"
+#include "core/base/version.hpp"
+#include "core/base/words.hpp"
+#include "reports/diff/tables/item_blocks.hpp"
+#include "reports/html/block_data.hpp"
+#include "reports/html/diff/item_data.hpp"
+#include "reports/html/diff/url_text.hpp"
+#include "reports/html/page_frame.hpp"
+#include "reports/html/table_data.hpp"
+
+namespace mapproof {
+namespace {
+
+using kainjow::mustache::data;
+using kainjow::mustache::list;
+
+/// Verdicts that occur, the heaviest first, with how many items have each.
+list counts_data(const DiffResult& result) {
+  const std::vector<int> counts = counts_of(result);
+  list out;
+  for (std::size_t v = kVerdicts.size(); v-- > 0;) {
+    if (counts[v] == 0) continue;
+    data entry;
+    entry.set("verdict", std::string(name(kVerdicts[v])));
+    entry.set("label", std::string(label(kVerdicts[v])));
+    entry.set("count", fmt::format("{}", counts[v]));
+    out.push_back(std::move(entry));
+  }
+  return out;
+}
+
+/// How many items have pictures that are not shown for want of room.
+std::string left_out(const std::vector<ShownPictures>& shown) {
+  long long count = 0;
+  for (const ShownPictures& pictures : shown) count += pictures.absent.empty() ? 0 : 1;
+  return count == 0 ? "" : "Pictures of " + counted(count, "item") + " are not shown; each says why.";
+}
+
+void set_items(data& page, const DiffResult& result, const std::vector<ShownPictures>& shown) {
+  list changed, items, identical;
+  for (std::size_t i = 0; i < result.items.size(); ++i) {
+    const DiffItem& item = result.items[i];
+    if (item.judgement.verdict == Verdict::kIdentical) {
+      identical.push_back(entry_data(item));
+      continue;
+    }
+    changed.push_back(entry_data(item));
+    items.push_back(item_data(item, result, shown[i], i + 1));
+  }
+  page.set("identical_count", fmt::format("{}", identical.size()));
+  page.set("any_identical", !identical.empty());
+  page.set("any_items", !items.empty());
+  page.set("entries", changed);
+  page.set("items_list", items);
+  page.set("identical", identical);
+}
+
+}  // namespace
+
+std::string diff_html(const DiffResult& result, const DiffSettings& settings,
+                      const Templates& templates, const PictureBudget& budget) {
+  const std::vector<ShownPictures> shown = shown_pictures(result, settings, budget);
+  data page;
+  set_page_frame(page, "diff", templates);
+  page.set("passes", result.passes);
+  page.set("verdict", std::string(name(result.judgement.verdict)));
+  page.set("label", std::string(label(result.judgement.verdict)));
+  page.set("cause", text_or_false(printable(result.judgement.cause, 2000)));
+  page.set("compared", counted(std::ssize(result.items), "item"));
+  page.set("baseline", url_text(result.baseline));
+  page.set("current", url_text(result.current));
+  page.set("facts", block_data(whole_facts(result), {}, {}));
+  page.set("counts", counts_data(result));
+  page.set("left_out", text_or_false(left_out(shown)));
+  page.set("version", std::string(version()));
+  set_items(page, result, shown);
+  return rendered("diff", templates, page);
+}
+
+}  // namespace mapproof
