@@ -87,8 +87,8 @@ function showBox(stage, [x, y, width, height]) {
     frame.className = "frame";
     frame.style.left = `${100 * x / size.width}%`;
     frame.style.top = `${100 * y / size.height}%`;
-    frame.style.width = `${100 * width / size.width}%`;
-    frame.style.height = `${100 * height / size.height}%`;
+    frame.style.setProperty("--width", `${100 * width / size.width}%`);
+    frame.style.setProperty("--height", `${100 * height / size.height}%`);
     canvas.append(frame);
   }
   Object.assign(viewOf(stage), {
@@ -250,16 +250,16 @@ function followHash() {
   show(item);
 }
 
-function step(by) {
+function step(count) {
   const visible = items.filter(shown);
   const at = visible.indexOf(atHand);
-  const next = at < 0 ? visible[0] : visible[at + by];
-  const first = by > 0 && !location.hash && at === 0 && scrollY < atHand.offsetTop - innerHeight / 2;
-  const target = first ? visible[0] : next;
+  // From above the first item, "next" is the first one.
+  const above = count > 0 && at === 0 && location.hash === "" && !held;
+  const target = at < 0 || above ? visible[0] : visible[at + count];
   if (!target) return;
   const hash = `#${linkTo(target)}`;
   if (location.hash === hash) show(target);
-  else if (root.dataset.mode === "side" || target) location.hash = hash;
+  else location.hash = hash;
 }
 
 function followReading() {
@@ -350,6 +350,7 @@ function command() {
   const sides = [main.dataset.baseline, main.dataset.current].map(decoded);
   if (sides.includes(null)) return "";
   const words = ["mapproof approve", ...sides.map(path)];
+  if ("files" in main.dataset) return words.join(" ");
   if (ids.length > 20) return [...words, "--from mapproof-approvals.json"].join(" ");
   const dashed = ids.some((id) => id.startsWith("-"));
   return [...words, ...(dashed ? ["--"] : []), ...ids.map(quoted)].join(" ");
@@ -359,6 +360,7 @@ function tellTicks() {
   const count = tickedItems().length;
   by("ticked").value = String(count);
   document.querySelector(".approvals").hidden = items.every((item) => !tickOf(item));
+  by("download").hidden = "files" in main.dataset;
   for (const id of ["download", "copy", "untick"]) by(id).disabled = count === 0;
   by("command").textContent = count === 0 ? "" : command();
   by("command").hidden = by("command").textContent === "";

@@ -61,7 +61,7 @@ const std::map<std::string, Modules>& allowed() {
        with_leaves({"reports/model", "render/figures", "render/plot", "render/scene"})},
       {"reports/diff", with_leaves({"reports/model", "core/json", "core/records", "core/align",
                                     "render/base", "render/image", "render/plot", "render/theme"})},
-      {"reports/html", with_leaves({"reports/model"})},
+      {"reports/html", with_leaves({"reports/model", "reports/diff", "render/image"})},
       {"reports/tables", with_leaves({"reports/model"})},
   };
   return table;

@@ -46,12 +46,14 @@ std::string json(const std::vector<std::string>& texts) {
 }
 
 std::string harness(const std::vector<std::string>& texts,
-                    const std::vector<std::string>& attributes) {
-  return "<!DOCTYPE html><meta charset=\"utf-8\"><iframe src=\"report.html\" width=\"1400\" "
+                    const std::vector<std::string>& attributes, const std::string& checks,
+                    const std::string& fragment) {
+  return "<!DOCTYPE html><meta charset=\"utf-8\"><iframe src=\"report.html" + fragment +
+         "\" width=\"1400\" "
          "height=\"900\"></iframe><pre id=\"findings\"></pre>"
          "<script type=\"application/json\" id=\"expected\">{\"texts\":" +
          json(texts) + ",\"attributes\":" + json(attributes) + "}</script><script>" +
-         read_file(MAPPROOF_SOURCE_DIR "/tests/reports/browser_checks.js") + "</script>";
+         read_file(MAPPROOF_SOURCE_DIR "/tests/reports/" + checks) + "</script>";
 }
 
 std::map<std::string, std::string> findings(const std::string& dom) {
@@ -96,10 +98,12 @@ std::optional<std::string> chromium() {
 
 std::map<std::string, std::string> browse(const std::string& page,
                                           const std::vector<std::string>& texts,
-                                          const std::vector<std::string>& attributes) {
+                                          const std::vector<std::string>& attributes,
+                                          const std::string& checks,
+                                          const std::string& fragment) {
   const TemporaryFolder folder;
   write_file(folder.path() / "report.html", page);
-  write_file(folder.path() / "harness.html", harness(texts, attributes));
+  write_file(folder.path() / "harness.html", harness(texts, attributes, checks, fragment));
   // The harness reads into the frame, which two local files may not do by default.
   return findings(output_of_chromium(
       folder, "--allow-file-access-from-files --virtual-time-budget=10000 --dump-dom",

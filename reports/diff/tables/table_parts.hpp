@@ -9,7 +9,7 @@
 namespace mapproof {
 
 /// Rows of one table on a page; the rest is counted.
-inline constexpr std::size_t kMostTableRows = 100;
+inline constexpr std::size_t kMostTableRows = 30;
 
 /// Text of a user's file, at most 500 characters.
 TextCell user_text(const std::string& text);

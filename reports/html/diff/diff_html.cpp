@@ -1,5 +1,7 @@
 #include "reports/html/diff/diff_html.hpp"
 
+#include <filesystem>
+#include <system_error>
 #include <utility>
 
 #include <fmt/format.h>
@@ -76,6 +78,8 @@ std::string diff_html(const DiffResult& result, const DiffSettings& settings,
   page.set("compared", counted(std::ssize(result.items), "item"));
   page.set("baseline", url_text(result.baseline));
   page.set("current", url_text(result.current));
+  std::error_code error;
+  page.set("files", std::filesystem::is_regular_file(result.current, error));
   page.set("facts", block_data(whole_facts(result), {}, {}));
   page.set("counts", counts_data(result));
   page.set("left_out", text_or_false(left_out(shown)));

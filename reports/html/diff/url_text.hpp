@@ -6,7 +6,7 @@
 namespace mapproof {
 
 /// `text` byte by byte as it may stand in a fragment, an id or an attribute: letters, digits and
-/// "-._/" as they are, every other byte as %XX [rfc3986]. Two texts never become one.
+/// "-._/" as they are, every other byte as %XX. Two texts never become one.
 std::string url_text(std::string_view text);
 
 }  // namespace mapproof

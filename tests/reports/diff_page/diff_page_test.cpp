@@ -1,0 +1,155 @@
+#include <regex>
+#include <set>
+
+#include <gtest/gtest.h>
+
+#include "core/base/files.hpp"
+#include "reports/html/diff/diff_html.hpp"
+#include "reports/html/diff/url_text.hpp"
+#include "reports/html/sha256.hpp"
+#include "tests/reports/diff_page/page_samples.hpp"
+#include "tests/support/temporary_folder.hpp"
+
+namespace mapproof {
+namespace {
+
+std::string page_of(const DiffResult& result, const PictureBudget& budget = {}) {
+  return diff_html(result, {}, load_templates(), budget);
+}
+
+/// The first group of every match.
+std::vector<std::string> all_matches(const std::string& text, const std::string& pattern) {
+  const std::regex regex(pattern);
+  std::vector<std::string> found;
+  for (std::sregex_iterator it(text.begin(), text.end(), regex), end; it != end; ++it)
+    found.push_back((*it)[1]);
+  return found;
+}
+
+int count_of(const std::string& text, const std::string& part) {
+  int count = 0;
+  for (std::size_t at = text.find(part); at != std::string::npos; at = text.find(part, at + 1))
+    ++count;
+  return count;
+}
+
+std::string uri_of(const std::filesystem::path& path) { return base64(read_file(path)); }
+
+TEST(UrlText, TurnsNoTwoTextsIntoOneAndLeavesNothingThatHtmlReads) {
+  EXPECT_EQ(url_text("sub/fig-7.b_c"), "sub/fig-7.b_c");
+  EXPECT_EQ(url_text("a b%20:<\"'&\xff"), "a%20b%2520%3A%3C%22%27%26%FF");
+}
+
+TEST(DiffPage, HoldsEachPictureOnceAsItIsOnDisk) {
+  const test::TemporaryFolder folder;
+  const std::string page = page_of(test::compared_folders(folder.path()));
+  for (const char* name : {"a/moved.png", "b/moved.png", "a/resized.png", "b/resized.png",
+                           "drawn-a.svg", "drawn-b.svg", "a/gone.png", "b/added.png"})
+    EXPECT_EQ(count_of(page, uri_of(folder / name)), 1) << name;
+}
+
+TEST(DiffPage, ListsIdenticalPicturesButDoesNotHoldThem) {
+  const test::TemporaryFolder folder;
+  const std::string page = page_of(test::compared_folders(folder.path()));
+  EXPECT_EQ(count_of(page, uri_of(folder / "a/same-2.png")), 0);
+  EXPECT_EQ(count_of(page, "<li id=\"figure-same-2\""), 1);
+  const test::TemporaryFolder larger;
+  const std::string many = page_of(test::compared_folders(larger.path(), 300));
+  EXPECT_LT(many.size(), page.size() + 300 * 300);
+}
+
+TEST(DiffPage, MakesAHeatMapOnlyOfPngsOfOneSizeThatDiffer) {
+  const test::TemporaryFolder folder;
+  const std::string page = page_of(test::compared_folders(folder.path()));
+  EXPECT_EQ(count_of(page, "class=\"pane heat\""), 1);
+  EXPECT_NE(page.find("alt=\"Heat map of moved\""), std::string::npos);
+}
+
+TEST(DiffPage, SaysThatSizesDifferAndWhyAPictureIsNotShown) {
+  const test::TemporaryFolder folder;
+  const std::string page = page_of(test::compared_folders(folder.path()));
+  EXPECT_NE(page.find("160 \u00D7 120 \u2192 160 \u00D7 140 pixels"), std::string::npos);
+  EXPECT_NE(page.find("Not shown: png cannot be read."), std::string::npos);
+}
+
+TEST(DiffPage, LeavesOutPicturesBeyondItsBudgetAndCountsThem) {
+  const test::TemporaryFolder folder;
+  const DiffResult result = test::compared_folders(folder.path());
+  const std::string page = page_of(result, {.largest_bytes = 1 << 20, .all_bytes = 1, .heat_maps = 0});
+  EXPECT_EQ(count_of(page, "<img "), 0);
+  EXPECT_NE(page.find("Pictures of 6 items are not shown"), std::string::npos);
+  EXPECT_NE(page.find("id=\"figure-moved\""), std::string::npos);
+}
+
+TEST(DiffPage, ShowsNoPngThatClaimsToBeHuge) {
+  const test::TemporaryFolder folder;
+  std::string bytes = test::square_png(16, 16, 0, 0);
+  bytes.replace(16, 8, std::string("\0\1\x86\xa0\0\1\x86\xa0", 8));  // 100,000 x 100,000
+  folder.file("huge.png", bytes);
+  DiffItem item;
+  item.id = "huge";
+  item.judgement = {Verdict::kNew, true, "is not in the baseline"};
+  PictureFile file;
+  file.format = "png";
+  file.current = folder / "huge.png";
+  item.pictures = {file};
+  DiffResult result;
+  result.items = {item};
+  const std::string page = page_of(result);
+  EXPECT_EQ(count_of(page, "<img "), 0);
+  EXPECT_NE(page.find("100000 x 100000 pixels are not shown"), std::string::npos);
+}
+
+TEST(DiffPage, FetchesNothingAndNamesItsStyleSheetAndScriptInItsPolicy) {
+  const test::TemporaryFolder folder;
+  const std::string page = page_of(test::compared_folders(folder.path()));
+  for (const std::string& target : all_matches(page, "(?:href|srcset|action)=\"([^\"]*)\""))
+    EXPECT_TRUE(std::regex_match(target, std::regex("#[a-zA-Z0-9./_%-]+|data:,"))) << target;
+  EXPECT_EQ(count_of(page, " src=\""), count_of(page, " src=\"data:image/"));
+  const auto between = [&](const std::string& begin, const std::string& end) {
+    const std::size_t from = page.find(begin) + begin.size();
+    return page.substr(from, page.find(end, from) - from);
+  };
+  const std::string policy = between("Security-Policy\" content=\"", "\">");
+  EXPECT_NE(policy.find("default-src &#39;none&#39;"), std::string::npos);
+  EXPECT_NE(policy.find(policy_hash(between("<style>", "</style>"))), std::string::npos);
+  EXPECT_NE(policy.find(policy_hash(between("<script>", "</script>"))), std::string::npos);
+  EXPECT_EQ(policy.find("unsafe"), std::string::npos);
+  for (const char* word : {"innerHTML", "outerHTML", "insertAdjacent", "document.write", "eval(",
+                           "fetch(", "XMLHttpRequest", "@import", "url("})
+    EXPECT_EQ(page.find(word), std::string::npos) << word;
+}
+
+TEST(DiffPage, GivesEachIdOnceAndHasNoInlineStyleOrHandler) {
+  const test::TemporaryFolder folder;
+  for (const DiffResult& result :
+       {test::compared_folders(folder.path()), test::hostile_diff(folder.path()).result}) {
+    std::string page = page_of(result);
+    page = std::regex_replace(page, std::regex("src=\"data:[^\"]*\""), "");
+    page.erase(page.find("<script>"), page.find("</script>") - page.find("<script>"));
+    std::set<std::string> seen;
+    for (const std::string& id : all_matches(page, " id=\"([^\"]*)\""))
+      EXPECT_TRUE(seen.insert(id).second) << id;
+    EXPECT_TRUE(all_matches(page, "<[a-z]+[^>\"]*(?:\"[^\"]*\"[^>\"]*)* (style|on[a-z]+)=").empty());
+  }
+}
+
+TEST(DiffPage, SaysSoWhereAllIsIdentical) {
+  DiffItem item;
+  item.id = "fig-7";
+  DiffResult result;
+  result.passes = true;
+  result.items = {item};
+  const std::string page = page_of(result);
+  EXPECT_NE(page.find("All that was compared is identical."), std::string::npos);
+  EXPECT_NE(page.find("<title>Passes: identical</title>"), std::string::npos);
+}
+
+TEST(DiffPage, IsTheSameBytesEachTime) {
+  const test::TemporaryFolder folder;
+  const DiffResult result = test::compared_folders(folder.path());
+  EXPECT_EQ(page_of(result), page_of(result));
+}
+
+}  // namespace
+}  // namespace mapproof
