@@ -14,7 +14,7 @@ namespace mapproof {
 struct DiffOptions {
   std::string page, junit, json, markdown;  ///< Files to write; empty: none.
   std::optional<std::string> templates;     ///< Folder whose templates replace the embedded ones.
-  std::string allow;                  ///< "better,style".
+  std::string allow;                        ///< "better,style".
   std::string settings;  ///< File; empty: mapproof-diff.json beside the baseline, if it is there.
 };
 

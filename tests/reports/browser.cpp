@@ -99,8 +99,7 @@ std::optional<std::string> chromium() {
 std::map<std::string, std::string> browse(const std::string& page,
                                           const std::vector<std::string>& texts,
                                           const std::vector<std::string>& attributes,
-                                          const std::string& checks,
-                                          const std::string& fragment) {
+                                          const std::string& checks, const std::string& fragment) {
   const TemporaryFolder folder;
   write_file(folder.path() / "report.html", page);
   write_file(folder.path() / "harness.html", harness(texts, attributes, checks, fragment));

@@ -11,7 +11,8 @@ namespace mapproof::test {
 /// The program that is Chromium here; empty if there is none.
 std::optional<std::string> chromium();
 
-/// What the checks, a file beside this one, find in a page, loaded under its own policy in a real browser.
+/// What the checks, a file beside this one, find in a page, loaded under its own policy in a real
+/// browser.
 /// @param texts       Must stand in the page's text; `attributes` in its attributes.
 /// @param fragment    Of the page's address: "#figure-1"; may be empty.
 /// @return name → value; empty if the browser gave nothing back.

@@ -24,7 +24,8 @@ std::string place_text(Point at, Point other) {
   if (!std::isfinite(at.x) || !std::isfinite(at.y)) return "none";
   const auto digits = [](double a, double b) {
     int enough = 4;
-    while (enough < 17 && a != b && fmt::format("{:.{}g}", a, enough) == fmt::format("{:.{}g}", b, enough))
+    while (enough < 17 && a != b &&
+           fmt::format("{:.{}g}", a, enough) == fmt::format("{:.{}g}", b, enough))
       ++enough;
     return enough;
   };
@@ -44,12 +45,12 @@ Table moves_table(const FigureDiff& diff, const std::string& suffix) {
   for (const MarkMove& move : diff.moves)
     if (std::isfinite(move.distance)) scale = std::max(scale, move.distance);
   for (const MarkMove& move : diff.moves) {
-    Row row{{user_text(who(move)), user_text(move.place),
-             TextCell{place_text(move.baseline, move.current)},
-             TextCell{place_text(move.current, move.baseline)},
-             scaled_number(move.distance, scale)},
-            "",
-            false};
+    Row row{
+        {user_text(who(move)), user_text(move.place),
+         TextCell{place_text(move.baseline, move.current)},
+         TextCell{place_text(move.current, move.baseline)}, scaled_number(move.distance, scale)},
+        "",
+        false};
     row.cells.push_back(move.distance_px ? Cell(NumberCell{*move.distance_px, 1})
                                          : Cell(MissingCell{}));
     table.rows.push_back(std::move(row));
@@ -74,11 +75,11 @@ void add_figure_tables(std::vector<Block>& blocks, const FigureDiff& diff,
                      {"Baseline", "", "", ""},
                      {"Current", "", "", ""}};
   for (const FigureChange& change : diff.changes)
-    changes.rows.push_back({{user_text(change.place), user_text(change.what),
-                             TextCell{std::string(name(change.kind))}, user_text(change.baseline),
-                             user_text(change.current)},
-                            "",
-                            false});
+    changes.rows.push_back(
+        {{user_text(change.place), user_text(change.what), TextCell{std::string(name(change.kind))},
+          user_text(change.baseline), user_text(change.current)},
+         "",
+         false});
   if (diff.masked > 0)
     changes.notes.push_back("Varies from run to run: " + counted(diff.masked, "difference") +
                             " not judged.");

@@ -99,20 +99,21 @@ void add_picture_tables(std::vector<Block>& blocks, const std::vector<PictureFil
   for (const PictureFile& file : files) {
     const auto& pixels = file.diff.pixels;
     if (pixels && pixels->baseline != pixels->current)
-      blocks.emplace_back(Callout{Callout::Tone::kWarning,
-                                  "The sizes differ",
-                                  {{{size_text(pixels->baseline) + " \u2192 " +
-                                         size_text(pixels->current) + " pixels",
-                                     Emphasis::kPlain}}}});
+      blocks.emplace_back(Callout{
+          Callout::Tone::kWarning,
+          "The sizes differ",
+          {{{size_text(pixels->baseline) + " \u2192 " + size_text(pixels->current) + " pixels",
+             Emphasis::kPlain}}}});
     add_facts(facts, file);
   }
   if (!facts.items.empty()) blocks.emplace_back(std::move(facts));
   int number = 0;
   for (const PictureFile& file : files)
     if (file.diff.svg)
-      add_table(blocks,
-                svg_table(*file.diff.svg, suffix + (number++ > 0 ? fmt::format("-{}", number) : "")),
-                file.diff.svg->total);
+      add_table(
+          blocks,
+          svg_table(*file.diff.svg, suffix + (number++ > 0 ? fmt::format("-{}", number) : "")),
+          file.diff.svg->total);
 }
 
 }  // namespace mapproof

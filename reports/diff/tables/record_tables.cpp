@@ -22,11 +22,11 @@ Table changes_table(const std::string& id, const std::string& caption, const std
   table.columns = {{what, "", "", ""}, {"Baseline", "", "", ""}, {"Current", "", "", ""}};
   for (const auto& change : changes) {
     if (table.rows.size() == kMostTableRows) break;
-    table.rows.push_back({{user_text(name_of(change)),
-                           user_text(change.baseline.empty() ? "none" : change.baseline),
-                           user_text(change.current.empty() ? "none" : change.current)},
-                          "",
-                          false});
+    table.rows.push_back(
+        {{user_text(name_of(change)), user_text(change.baseline.empty() ? "none" : change.baseline),
+          user_text(change.current.empty() ? "none" : change.current)},
+         "",
+         false});
   }
   return table;
 }
@@ -64,8 +64,7 @@ void add_points_table(std::vector<Block>& blocks, const RecordDiff& diff,
 void add_presence(std::vector<Block>& blocks, const RecordDiff& diff) {
   KeyValues facts;
   const auto add = [&](const std::string& key, const std::vector<std::string>& names) {
-    if (!names.empty())
-      facts.items.push_back({key, {listed(names, kMostNames), Emphasis::kData}});
+    if (!names.empty()) facts.items.push_back({key, {listed(names, kMostNames), Emphasis::kData}});
   };
   add("Runs missing", diff.missing_runs);
   add("Runs new", diff.new_runs);

@@ -10,9 +10,7 @@
 
 namespace mapproof {
 
-TextCell user_text(const std::string& text) {
-  return {printable(text, 500), Emphasis::kData};
-}
+TextCell user_text(const std::string& text) { return {printable(text, 500), Emphasis::kData}; }
 
 NumberCell scaled_number(double value, double scale) {
   const double digits =

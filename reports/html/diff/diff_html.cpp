@@ -42,7 +42,8 @@ list counts_data(const DiffResult& result) {
 std::string left_out(const std::vector<ShownPictures>& shown) {
   long long count = 0;
   for (const ShownPictures& pictures : shown) count += pictures.absent.empty() ? 0 : 1;
-  return count == 0 ? "" : "Pictures of " + counted(count, "item") + " are not shown; each says why.";
+  return count == 0 ? ""
+                    : "Pictures of " + counted(count, "item") + " are not shown; each says why.";
 }
 
 void set_items(data& page, const DiffResult& result, const std::vector<ShownPictures>& shown) {

@@ -116,8 +116,7 @@ std::vector<Plan> plans(const DiffResult& result, const PictureBudget& budget) {
     if (plan.file != nullptr) {
       used += bytes_of(*plan.file);
       plan.heat = plan.file->format == "png" && has_both(*plan.file) &&
-                  plan.file->diff.state == PictureState::kDifferent &&
-                  heat_maps < budget.heat_maps;
+                  plan.file->diff.state == PictureState::kDifferent && heat_maps < budget.heat_maps;
       heat_maps += plan.heat ? 1 : 0;
     }
     all.push_back(std::move(plan));

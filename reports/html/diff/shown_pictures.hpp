@@ -11,9 +11,9 @@ namespace mapproof {
 
 /// A picture within the page.
 struct ShownPicture {
-  std::string uri;              ///< "data:image/png;base64,…".
+  std::string uri;                  ///< "data:image/png;base64,…".
   std::optional<PictureSize> size;  ///< In pixels; none: an SVG.
-  std::string renderer;         ///< What drew it, as its file says; may be empty.
+  std::string renderer;             ///< What drew it, as its file says; may be empty.
 };
 
 /// The pictures of one item: of the format that differs most, PNG before SVG.

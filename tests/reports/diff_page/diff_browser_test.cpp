@@ -22,8 +22,7 @@ class DiffBrowser : public ::testing::Test {
 
   static Findings look_at(const std::string& page, const std::vector<std::string>& texts = {},
                           const std::string& fragment = "") {
-    Findings found =
-        test::browse(page, texts, {}, "diff_page/diff_checks.js", fragment);
+    Findings found = test::browse(page, texts, {}, "diff_page/diff_checks.js", fragment);
     EXPECT_EQ(found["done"], "true") << found["error"];
     return found;
   }
@@ -71,8 +70,8 @@ TEST_F(DiffBrowser, ZoomsAllPicturesOfAFigureInStep) {
   EXPECT_EQ(found["zoomed"], "1.500");
   EXPECT_EQ(found["in-step"], "1");
   EXPECT_EQ(found["others-zoomed"], "1.000");
-  for (const char* what : {"arrow-moves", "wheel-zooms", "drag-moves", "pinch", "cluster-zooms",
-                           "cluster-in-view"})
+  for (const char* what :
+       {"arrow-moves", "wheel-zooms", "drag-moves", "pinch", "cluster-zooms", "cluster-in-view"})
     EXPECT_EQ(found[what], "true") << what;
   EXPECT_EQ(found["fitted"], "1.000 0,0");
   EXPECT_EQ(found["zoom-button"], "150 %");

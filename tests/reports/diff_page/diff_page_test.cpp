@@ -75,7 +75,8 @@ TEST(DiffPage, SaysThatSizesDifferAndWhyAPictureIsNotShown) {
 TEST(DiffPage, LeavesOutPicturesBeyondItsBudgetAndCountsThem) {
   const test::TemporaryFolder folder;
   const DiffResult result = test::compared_folders(folder.path());
-  const std::string page = page_of(result, {.largest_bytes = 1 << 20, .all_bytes = 1, .heat_maps = 0});
+  const std::string page =
+      page_of(result, {.largest_bytes = 1 << 20, .all_bytes = 1, .heat_maps = 0});
   EXPECT_EQ(count_of(page, "<img "), 0);
   EXPECT_NE(page.find("Pictures of 6 items are not shown"), std::string::npos);
   EXPECT_NE(page.find("id=\"figure-moved\""), std::string::npos);
@@ -130,7 +131,8 @@ TEST(DiffPage, GivesEachIdOnceAndHasNoInlineStyleOrHandler) {
     std::set<std::string> seen;
     for (const std::string& id : all_matches(page, " id=\"([^\"]*)\""))
       EXPECT_TRUE(seen.insert(id).second) << id;
-    EXPECT_TRUE(all_matches(page, "<[a-z]+[^>\"]*(?:\"[^\"]*\"[^>\"]*)* (style|on[a-z]+)=").empty());
+    EXPECT_TRUE(
+        all_matches(page, "<[a-z]+[^>\"]*(?:\"[^\"]*\"[^>\"]*)* (style|on[a-z]+)=").empty());
   }
 }
 
