@@ -73,7 +73,7 @@ function moveBy(stage, x, y) {
 
 function fit(stage) {
   Object.assign(viewOf(stage), { zoom: 1, x: 0, y: 0 });
-  for (const frame of stage.querySelectorAll(".frame")) frame.remove();
+  for (const marks of stage.querySelectorAll(".marks")) marks.remove();
   applyView(stage);
 }
 
@@ -82,14 +82,18 @@ function showBox(stage, [x, y, width, height]) {
   const size = largestSize(stage);
   const zoom = clamp(0.4 / Math.max(width / size.width, height / size.height), 1, 24);
   fit(stage);
-  for (const canvas of stage.querySelectorAll(".canvas")) {
+  const shares = {
+    left: x / size.width, top: y / size.height,
+    width: width / size.width, height: height / size.height,
+  };
+  for (const view of stage.querySelectorAll(".view")) {
+    const marks = document.createElement("div");
+    marks.className = "marks";
     const frame = document.createElement("span");
     frame.className = "frame";
-    frame.style.left = `${100 * x / size.width}%`;
-    frame.style.top = `${100 * y / size.height}%`;
-    frame.style.setProperty("--width", `${100 * width / size.width}%`);
-    frame.style.setProperty("--height", `${100 * height / size.height}%`);
-    canvas.append(frame);
+    for (const [name, share] of Object.entries(shares)) frame.style.setProperty(`--${name}`, share);
+    marks.append(frame);
+    view.append(marks);
   }
   Object.assign(viewOf(stage), {
     zoom,
@@ -364,6 +368,7 @@ function tellTicks() {
   for (const id of ["download", "copy", "untick"]) by(id).disabled = count === 0;
   by("command").textContent = count === 0 ? "" : command();
   by("command").hidden = by("command").textContent === "";
+  document.querySelector(".approvals").classList.toggle("some", count > 0);
   by("told").textContent = "";
 }
 

@@ -105,7 +105,7 @@ std::map<std::string, std::string> browse(const std::string& page,
   write_file(folder.path() / "harness.html", harness(texts, attributes, checks, fragment));
   // The harness reads into the frame, which two local files may not do by default.
   return findings(output_of_chromium(
-      folder, "--allow-file-access-from-files --virtual-time-budget=10000 --dump-dom",
+      folder, "--allow-file-access-from-files --virtual-time-budget=60000 --dump-dom",
       "harness.html"));
 }
 
