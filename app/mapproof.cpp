@@ -67,7 +67,8 @@ int run_verb_of(int argc, char** argv) {
   const std::vector<std::pair<const char*, AddVerb>> verbs = {
       {"reproduce", reproduce_verb}, {"run", run_verb},         {"render", render_verb},
       {"report", report_verb},       {"map", map_verb},         {"slam", slam_verb},
-      {"diff", diff_verb},           {"methods", methods_verb}, {"validate", validate_verb},
+      {"diff", diff_verb},           {"approve", approve_verb}, {"check", check_verb},
+      {"methods", methods_verb},     {"validate", validate_verb},
   };
   std::vector<std::pair<CLI::App*, Action>> actions;
   for (const auto& [name, verb] : verbs) {

@@ -11,6 +11,8 @@ Action render_verb(CLI::App& app);
 Action report_verb(CLI::App& app);
 Action map_verb(CLI::App& app);
 Action slam_verb(CLI::App& app);
+Action approve_verb(CLI::App& app);
+Action check_verb(CLI::App& app);
 Action diff_verb(CLI::App& app);
 Action methods_verb(CLI::App& app);
 Action validate_verb(CLI::App& app);

@@ -78,7 +78,7 @@ std::string diff_text(const DiffResult& result) {
     // Causes that are tied to records begin with the id themselves.
     const std::string head = told.cause.starts_with(item.id + " ") ? "" : item.id + ": ";
     text +=
-        fmt::format("{:<21}  {}\n", label(told.verdict), printable(head + told.cause, kLongest));
+        fmt::format("{:<22}  {}\n", label(told.verdict), printable(head + told.cause, kLongest));
   }
   return text +
          fmt::format("{}: {}\n", result.passes ? "passes" : "does not pass", counts_text(result));

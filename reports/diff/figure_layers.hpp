@@ -10,7 +10,7 @@
 namespace mapproof {
 
 /// One attribute of a layer as text.
-struct Look {
+struct LayerLook {
   std::string_view what;  ///< "colour".
   std::string value;      ///< "series2".
 };
@@ -22,7 +22,7 @@ struct Coordinates {
 };
 
 /// A number that is the whole layer's.
-struct Extent {
+struct LayerExtent {
   std::string_view what;  ///< "left edge".
   double value = 0.0;
 };
@@ -37,10 +37,10 @@ struct Places {
 struct LayerView {
   std::string_view kind;  ///< As in files: "polyline".
   std::string label;
-  std::vector<Look> looks;
+  std::vector<LayerLook> looks;
   std::vector<Coordinates> coordinates;
   std::vector<Places> places;
-  std::vector<Extent> extents;
+  std::vector<LayerExtent> extents;
   std::span<const std::string> texts;  ///< One a point, or none.
   std::span<const Mark> marks;         ///< One a point, one for all, or none.
   bool is_whole = false;               ///< The mark is that of the whole layer.

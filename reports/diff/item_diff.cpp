@@ -9,6 +9,7 @@
 #include "core/base/files.hpp"
 #include "core/base/words.hpp"
 #include "render/plot/figure_json.hpp"
+#include "reports/diff/scene_diff.hpp"
 
 namespace mapproof {
 namespace {
@@ -100,7 +101,30 @@ void mask(const Figure& a, const Figure& b, std::vector<PictureFile>& pictures,
   }
 }
 
+bool is_scene(const std::filesystem::path& file) {
+  return file.filename().string().ends_with(".scene.json");
+}
+
+void compare_scenes(DiffItem& item, const RecordContext& context, const DiffSettings& settings) {
+  SceneWords words;
+  try {
+    item.figure = scene_diff(read_file(item.baseline_figure, kLargestFigure),
+                             item.baseline_figure.string(),
+                             read_file(item.current_figure, kLargestFigure),
+                             item.current_figure.string(), settings.figures, words);
+  } catch (const IoError& error) {
+    item.judgement = {Verdict::kUnreadable, true, error.what()};
+    return;
+  }
+  item.judgement = judge(*item.figure);
+  if (item.figure->has(ChangeKind::kData))
+    item.judgement =
+        tied_judgement(item.id, *item.figure, item.judgement, words.record_ids, context);
+}
+
 void compare_values(DiffItem& item, const RecordContext& context, const DiffSettings& settings) {
+  if (is_scene(item.baseline_figure) || is_scene(item.current_figure))
+    return compare_scenes(item, context, settings);
   Figure a, b;
   try {
     a = read_figure(item.baseline_figure);

@@ -16,9 +16,9 @@ constexpr std::array<std::string_view, 5> kKinds = {"figure.json", "scene.json",
                                                     "pdf"};
 
 void add(ItemList& items, const ItemName& name, const fs::path& file) {
-  if (name.kind == "figure.json")
+  if (name.kind == "figure.json" || name.kind == "scene.json")
     items[name.id].figure = file;
-  else if (name.kind == "png")
+  else if (name.kind == "png" || name.kind == "svg")
     items[name.id].pictures[name.kind][""] = file;
 }
 

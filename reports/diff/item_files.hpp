@@ -9,7 +9,7 @@ namespace mapproof {
 
 /// The files of one item on one side.
 struct ItemFiles {
-  std::filesystem::path figure;  ///< ID.figure.json; empty: none.
+  std::filesystem::path figure;  ///< ID.figure.json or ID.scene.json; empty: none.
   /// By format ("png", "svg") and baseline key; the plain file has the key "".
   std::map<std::string, std::map<std::string, std::filesystem::path>> pictures;
 };

@@ -27,10 +27,23 @@ std::string renderers_text(const PictureDiff& diff, const RecordContext& context
   return "versions unknown";
 }
 
-/// Whether an SVG differs in more than where things stand by a little.
-bool changes_style(const PictureFile& file) {
-  return file.diff.svg && file.diff.state == PictureState::kDifferent &&
-         file.diff.svg->style + file.diff.svg->text + file.diff.svg->structure > 0;
+/// Whether both were drawn by the same, as far as files and studies say.
+bool same_renderer(const std::vector<PictureFile>& files, const RecordContext& context) {
+  for (const RecordDiff* records : context.records)
+    for (const SettingChange& change : records->provenance)
+      for (const char* library : {"mapproof", "Cairo", "FreeType", "HarfBuzz"})
+        if (change.pointer == library) return false;
+  return std::ranges::all_of(files, [](const PictureFile& file) {
+    return file.diff.baseline_renderer == file.diff.current_renderer;
+  });
+}
+
+/// Whether an SVG shows that looks changed: other colours, texts or elements; or other places, where
+/// the same renderer laid them out.
+bool changes_style(const PictureFile& file, bool same_renderer) {
+  if (!file.diff.svg || file.diff.state != PictureState::kDifferent) return false;
+  const SvgDiff& svg = *file.diff.svg;
+  return same_renderer || svg.style + svg.text + svg.structure > 0;
 }
 
 bool is_visible(const PictureFile& file) { return file.diff.state == PictureState::kDifferent; }
@@ -70,7 +83,9 @@ Judgement judge_alone(const std::vector<PictureFile>& files) {
 
 /// Of pictures whose figure's value is equal.
 Judgement judge_drawing(const std::vector<PictureFile>& files, const RecordContext& context) {
-  if (const PictureFile* style = first_with(files, changes_style)) {
+  const bool same = same_renderer(files, context);
+  if (const PictureFile* style =
+          first_with(files, [&](const PictureFile& file) { return changes_style(file, same); })) {
     const SvgChange* first =
         style->diff.svg->changes.empty() ? nullptr : &style->diff.svg->changes[0];
     return {Verdict::kStyle, true,
@@ -116,8 +131,9 @@ Judgement judge_pictures(const Judgement& value, bool has_value,
     return told;
   }
   const Judgement drawing = judge_drawing(pictures, context);
-  // A heavier word of the drawing names its own cause; equal weight keeps the value's.
-  return drawing.verdict > value.verdict ? drawing : value;
+  // What nobody sees is no news where the value says more.
+  const bool says_more = value.verdict == Verdict::kIdentical || drawing.visible;
+  return says_more && drawing.verdict > value.verdict ? drawing : value;
 }
 
 std::vector<PixelBox> varying_regions(const Figure& figure, const PictureSize& size) {

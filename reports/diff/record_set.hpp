@@ -22,7 +22,7 @@ struct SeriesKey {
 };
 
 /// A subject without its parameter, so that another value of it can be recognised.
-struct Family {
+struct SubjectFamily {
   std::string name;       ///< "bearing/isomap/2000".
   std::string parameter;  ///< "K = 9"; empty: none.
 };
@@ -54,7 +54,7 @@ struct RecordSet {
   std::map<std::string, std::string> runs;     ///< Id of each, and the layout it belongs to.
   std::map<std::string, PlacedPoints> worlds;  ///< By run: the true places.
   std::map<std::string, std::string> anchors;  ///< By run: their rows, as text.
-  std::map<std::string, Family> families;      ///< By subject, where it has a parameter.
+  std::map<std::string, SubjectFamily> families;      ///< By subject, where it has a parameter.
   /// Numbers by run; NaN: no map came out, or there is nothing to judge.
   std::map<SeriesKey, std::map<std::string, double>> values;
   std::map<std::string, std::string> statuses;  ///< Of a record: its codes, in order.

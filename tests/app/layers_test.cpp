@@ -60,7 +60,8 @@ const std::map<std::string, Modules>& allowed() {
       {"reports/sections",
        with_leaves({"reports/model", "render/figures", "render/plot", "render/scene"})},
       {"reports/diff", with_leaves({"reports/model", "core/json", "core/records", "core/align",
-                                    "render/base", "render/image", "render/plot", "render/theme"})},
+                                    "render/base", "render/image", "render/plot", "render/theme",
+                                    "render/scene"})},
       {"reports/html", with_leaves({"reports/model", "reports/diff", "render/image"})},
       {"reports/tables", with_leaves({"reports/model"})},
   };

@@ -77,6 +77,10 @@ TEST_F(Mutations, OfRecordsAreAllToldWithTheirCause) { run("records", record_cas
 
 TEST_F(Mutations, OfFiguresAreAllToldWithTheirCause) { run("figures", figure_cases()); }
 
+TEST_F(Mutations, OfDrawingsAreToldFromThoseOfValues) { run("drawings", drawing_cases()); }
+
+TEST_F(Mutations, OfFilesAreToldAndTheRestGoesOn) { run("files", file_cases()); }
+
 TEST_F(Mutations, ThatAreNoneAreIdentical) {
   const DiffResult result = folder_diff(*folder_ / "base", *folder_ / "base");
   EXPECT_TRUE(result.passes);

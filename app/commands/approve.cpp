@@ -1,0 +1,92 @@
+#include <memory>
+#include <system_error>
+
+#include <fmt/format.h>
+
+#include "app/commands/verbs.hpp"
+#include "core/base/errors.hpp"
+#include "core/base/files.hpp"
+#include "core/records/folder_lock.hpp"
+#include "reports/diff/approvals.hpp"
+
+namespace mapproof {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr std::size_t kLargestFile = std::size_t{1} << 26;  // Bytes, of approvals.
+
+struct Arguments {
+  std::string baseline;
+  std::string current;
+  std::string from;
+  ApprovalOrder order;
+};
+
+/// Two files need no ids.
+bool are_files(const Arguments& arguments) {
+  std::error_code error;
+  return fs::is_regular_file(arguments.current, error);
+}
+
+ApprovalOrder order_of(const Arguments& arguments) {
+  ApprovalOrder order = arguments.order;
+  if (!arguments.from.empty())
+    for (std::string& id :
+         parse_approvals(read_file(arguments.from, kLargestFile), arguments.from))
+      order.ids.push_back(std::move(id));
+  if (order.all && !order.ids.empty())
+    throw InvalidInput("--all takes every figure: name none beside it");
+  if (!order.all && order.ids.empty() && arguments.from.empty() && !are_files(arguments))
+    throw InvalidInput("name what is approved, or --all, or --from FILE");
+  return order;
+}
+
+int approve(const Arguments& arguments, const Invocation& invocation) {
+  const ApprovalOrder order = order_of(arguments);
+  std::optional<FolderLock> lock;
+  if (!are_files(arguments)) {
+    make_folder(arguments.baseline);
+    lock.emplace(arguments.baseline);
+    remove_leftovers(arguments.baseline);
+  }
+  nlohmann::ordered_json object{{"baseline", arguments.baseline},
+                                {"written", nlohmann::ordered_json::array()},
+                                {"removed", nlohmann::ordered_json::array()}};
+  std::string text;
+  for (const ApprovalStep& step :
+       approval_steps(arguments.baseline, arguments.current, order)) {
+    apply(step);
+    const bool removed = step.from.empty();
+    object[removed ? "removed" : "written"].push_back(step.to.string());
+    text += fmt::format("{}  {}\n", removed ? "removed" : "written", step.to.string());
+  }
+  if (text.empty()) invocation.console.info(arguments.baseline + ": nothing differs");
+  invocation.console.result(text, object);
+  return kDone;
+}
+
+}  // namespace
+
+Action approve_verb(CLI::App& app) {
+  auto arguments = std::make_shared<Arguments>();
+  app.description("Take changes as the new baseline, one file at a time");
+  app.footer(
+      "Examples:\n"
+      "  mapproof approve baseline out map-bearing-isomap\n"
+      "  mapproof approve baseline out --from approvals.json\n"
+      "  mapproof approve baseline out --all\n\n"
+      "Records, ID.figure.json, SVG, PNG and PDF of a figure go together. Stopped at any moment,\n"
+      "every file is the old or the new one.\n");
+  app.add_option("BASELINE", arguments->baseline, "The folder or file that is replaced")
+      ->required();
+  app.add_option("CURRENT", arguments->current, "The one that is taken")->required();
+  app.add_option("ID", arguments->order.ids, "Figures, pictures, or \"records\"");
+  app.add_flag("--all", arguments->order.all, "Everything; what the current lacks is removed");
+  app.add_option("--from", arguments->from, "File of approvals, as the page of a diff writes it");
+  app.add_option("--key", arguments->order.key,
+                 "Keep the pictures beside the others, as ID@KEY: another valid renderer's");
+  return [arguments](const Invocation& invocation) { return approve(*arguments, invocation); };
+}
+
+}  // namespace mapproof

@@ -1,0 +1,246 @@
+#include "reports/diff/approvals.hpp"
+
+#include <algorithm>
+#include <array>
+#include <map>
+#include <set>
+#include <system_error>
+
+#include "core/base/errors.hpp"
+#include "core/base/files.hpp"
+#include "core/base/spelling.hpp"
+#include "core/json/json_cursor.hpp"
+#include "core/records/study_files.hpp"
+#include "core/records/study_store.hpp"
+#include "render/image/png_read.hpp"
+#include "render/plot/figure_json.hpp"
+#include "reports/diff/item_files.hpp"
+#include "reports/diff/record_set.hpp"
+#include "reports/diff/record_set_parts.hpp"
+
+namespace mapproof {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr const char* kRecords = "records";
+constexpr std::size_t kMostIds = 100'000;
+
+/// What the records of a study or of a map are kept in; maps and details before runs, since a run's
+/// file says that they are there.
+constexpr std::array kRecordParts = {"study.json", "maps",          "details",       "paths",
+                                     "convergence", "histories.json", "runs",        "map.json",
+                                     "map.csv",    "slam.json",     "landmarks.csv", "path.csv",
+                                     "path.tum"};
+
+/// Files of the items on one side, below its folder: id, and the paths of it.
+using Files = std::map<std::string, std::set<fs::path>>;
+
+void add_records(Files& files, const std::string& id, const fs::path& place, const fs::path& root) {
+  std::error_code error;
+  for (const char* part : kRecordParts) {
+    const fs::path path = place / part;
+    if (fs::is_regular_file(path, error)) files[id].insert(path.lexically_relative(root));
+    if (!fs::is_directory(path, error)) continue;
+    for (fs::recursive_directory_iterator entry(path, error), end; !error && entry != end;
+         entry.increment(error))
+      if (entry->is_regular_file(error))
+        files[id].insert(entry->path().lexically_relative(root));
+  }
+}
+
+Files files_of(const fs::path& root) {
+  Files files;
+  std::error_code error;
+  if (!fs::exists(root, error)) return files;
+  if (!fs::is_directory(root, error)) throw IoError(root.string(), "is no folder");
+  if (holds_records(root)) add_records(files, kRecords, root, root);
+  fs::recursive_directory_iterator entry(root, error), end;
+  for (; !error && entry != end; entry.increment(error)) {
+    if (entry.depth() == 0 && !files.contains(kRecords) && entry->is_directory(error) &&
+        holds_records(entry->path()))
+      add_records(files, std::string(kRecords) + "/" + entry->path().filename().string(),
+                  entry->path(), root);
+    if (!entry->is_regular_file(error)) continue;
+    const ItemName name = item_name(entry->path(), root);
+    if (!name.kind.empty()) files[name.id].insert(entry->path().lexically_relative(root));
+  }
+  if (error) throw IoError(root.string(), "cannot be listed: " + error.message());
+  return files;
+}
+
+std::vector<std::string> chosen_ids(const ApprovalOrder& order, const Files& before,
+                                    const Files& after) {
+  std::set<std::string> known;
+  for (const Files* side : {&before, &after})
+    for (const auto& [id, paths] : *side) known.insert(id);
+  if (order.all) return {known.begin(), known.end()};
+  const std::vector<std::string_view> names(known.begin(), known.end());
+  for (const std::string& id : order.ids)
+    if (!known.contains(id)) {
+      const std::string_view meant = nearest_word(id, names);
+      throw InvalidInput("no figure or picture \"" + printable(id) + "\"" +
+                         (meant.empty() ? "" : "; did you mean \"" + std::string(meant) + "\"?"));
+    }
+  return order.ids;
+}
+
+/// What cannot be read is never made a baseline.
+void require_readable(const fs::path& file) {
+  const std::string name = file.filename().string();
+  try {
+    if (name.ends_with(".figure.json")) figure_from_json(read_file(file), file.string());
+    if (name.ends_with(".png")) read_png(read_file(file));
+  } catch (const IoError& error) {
+    throw InvalidInput(std::string("not approved: ") + error.what());
+  } catch (const InvalidInput& error) {
+    throw InvalidInput("not approved: " + file.string() + ": " + error.what());
+  }
+}
+
+/// The runs whose records a figure was made from.
+std::vector<std::string> runs_of(const Figure& figure, const fs::path& study) {
+  std::set<std::string> runs;
+  for (const std::string& record : figure.record_ids) {
+    if (record.starts_with("layout-")) {
+      runs.insert(record.substr(0, record.find('/')));
+      continue;
+    }
+    for (const RunId& run : StudyFiles{study}.listed_runs()) runs.insert(slug(run));
+  }
+  return {runs.begin(), runs.end()};
+}
+
+class Planner {
+ public:
+  Planner(const fs::path& baseline, const fs::path& current)
+      : baseline_(baseline),
+        current_(current),
+        before_(files_of(baseline)),
+        after_(files_of(current)) {}
+
+  std::vector<ApprovalStep> plan(const ApprovalOrder& order) {
+    std::vector<std::string> ids = chosen_ids(order, before_, after_);
+    const auto is_records = [](const std::string& id) {
+      return id == kRecords || id.starts_with("records/");
+    };
+    std::ranges::stable_partition(ids, is_records);
+    const bool whole = !ids.empty() && is_records(ids.front());
+    for (const std::string& id : ids) {
+      if (!order.key.empty()) {
+        add_keyed(id, order.key);
+        continue;
+      }
+      if (!whole) add_records_of(id);
+      add_item(id);
+    }
+    return std::move(steps_);
+  }
+
+ private:
+  void add(const fs::path& relative) {
+    const fs::path from = current_ / relative, to = baseline_ / relative;
+    if (!planned_.insert(relative).second || same_bytes(from, to)) return;
+    require_readable(from);
+    steps_.push_back({from, to});
+  }
+
+  void add_item(const std::string& id) {
+    const auto before = before_.find(id), after = after_.find(id);
+    if (after != after_.end())
+      for (const fs::path& path : after->second) add(path);
+    if (before == before_.end()) return;
+    for (const fs::path& path : before->second)
+      if (after == after_.end() || !after->second.contains(path))
+        steps_.push_back({{}, baseline_ / path});
+  }
+
+  /// Pictures alone, under names of their own.
+  void add_keyed(const std::string& id, const std::string& key) {
+    const auto after = after_.find(id);
+    if (after == after_.end()) return;
+    for (const fs::path& path : after->second) {
+      const std::string extension = path.extension().string();
+      if (extension != ".png" && extension != ".svg") continue;
+      require_readable(current_ / path);
+      const fs::path name = path.stem().string() + "@" + key + extension;
+      steps_.push_back({current_ / path, baseline_ / path.parent_path() / name});
+    }
+  }
+
+  /// The records that a figure names go with it, if both sides are studies.
+  void add_records_of(const std::string& id) {
+    const auto after = after_.find(id);
+    if (after == after_.end() || !is_study(current_) || !is_study(baseline_)) return;
+    for (const fs::path& path : after->second) {
+      if (!path.filename().string().ends_with(".figure.json")) continue;
+      const fs::path file = current_ / path;
+      require_readable(file);
+      const Figure figure = figure_from_json(read_file(file), file.string());
+      for (const std::string& run : runs_of(figure, current_))
+        for (const char* part : {"maps", "details", "runs"}) add_record(id, fs::path(part) / (run + ".json"));
+    }
+  }
+
+  void add_record(const std::string& id, const fs::path& relative) {
+    std::error_code error;
+    if (!fs::is_regular_file(current_ / relative, error)) return;
+    if (same_bytes(current_ / relative, baseline_ / relative)) return;
+    if (!same_bytes(StudyFiles{current_}.study(), StudyFiles{baseline_}.study()))
+      throw InvalidInput(id + ": its records are of another experiment or solver than the " +
+                         "baseline's; approve records, or --all");
+    add(relative);
+  }
+
+  fs::path baseline_, current_;
+  Files before_, after_;
+  std::set<fs::path> planned_;
+  std::vector<ApprovalStep> steps_;
+};
+
+bool is_key(const std::string& key) {
+  return std::ranges::all_of(key, [](char c) {
+    return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '.' ||
+           c == '_' || c == '-';
+  });
+}
+
+}  // namespace
+
+std::vector<ApprovalStep> approval_steps(const fs::path& baseline, const fs::path& current,
+                                         const ApprovalOrder& order) {
+  if (!is_key(order.key))
+    throw InvalidInput("the key \"" + printable(order.key) +
+                       "\" may hold letters, digits, '.', '_' and '-' alone");
+  std::error_code error;
+  if (fs::is_regular_file(current, error)) {
+    require_readable(current);
+    return {{current, baseline}};
+  }
+  if (!fs::is_directory(current, error)) throw IoError(current.string(), "is not there");
+  return Planner(baseline, current).plan(order);
+}
+
+void apply(const ApprovalStep& step) {
+  if (!step.from.empty()) {
+    write_file(step.to, read_file(step.from));
+    return;
+  }
+  std::error_code error;
+  fs::remove(step.to, error);
+  if (error) throw IoError(step.to.string(), "cannot be removed: " + error.message());
+}
+
+std::vector<std::string> parse_approvals(std::string_view text, const std::string& source) {
+  const JsonDocument document = parse_json(text, source);
+  const JsonCursor root = document.cursor();
+  expect_schema(root, "mapproof.approvals");
+  root.allow_only({"schema", "baseline", "current", "ids"});
+  for (const char* side : {"baseline", "current"})
+    if (const auto value = root.find(side)) value->text();
+  std::vector<std::string> ids;
+  for (const JsonCursor& id : root.at("ids").elements(0, kMostIds)) ids.push_back(id.text());
+  return ids;
+}
+
+}  // namespace mapproof

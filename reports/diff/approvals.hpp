@@ -1,0 +1,42 @@
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace mapproof {
+
+/// One file of the baseline to be replaced, or removed.
+struct ApprovalStep {
+  std::filesystem::path from;  ///< Of the current; empty: the baseline's file goes.
+  std::filesystem::path to;    ///< In the baseline.
+};
+
+/// What is to be taken as the new baseline.
+struct ApprovalOrder {
+  std::vector<std::string> ids;  ///< Of items.
+  bool all = false;              ///< Every item of either side.
+  std::string key;  ///< Pictures become further baselines ID@KEY; [A-Za-z0-9._-]*.
+};
+
+/// The files that belong to the items, those that are the same on both sides left out: of a figure
+/// its records, ID.figure.json, ID.scene.json, SVG, PNG and PDF; of "records" all of the study.
+/// Records come before what is drawn of them.
+/// @throws InvalidInput for an id that is on neither side, a key that cannot be part of a name, a
+///         current file that cannot be read, or a figure whose records are of another experiment
+///         than the baseline's: these go as a whole.
+/// @throws IoError if a folder cannot be listed.
+std::vector<ApprovalStep> approval_steps(const std::filesystem::path& baseline,
+                                         const std::filesystem::path& current,
+                                         const ApprovalOrder& order);
+
+/// Does one step: after a kill at any moment the file is the old or the new one, whole.
+/// @throws IoError.
+void apply(const ApprovalStep& step);
+
+/// The ids in a file of approvals (docs/schemas/approvals.schema.json).
+/// @throws IoError with file and JSON pointer.
+std::vector<std::string> parse_approvals(std::string_view text, const std::string& source);
+
+}  // namespace mapproof

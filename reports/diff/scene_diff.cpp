@@ -1,0 +1,133 @@
+#include "reports/diff/scene_diff.hpp"
+
+#include <algorithm>
+#include <array>
+
+#include <fmt/format.h>
+
+#include "core/base/words.hpp"
+#include "core/json/json_cursor.hpp"
+#include "render/scene/scene_json.hpp"
+#include "reports/diff/figure_log.hpp"
+
+namespace mapproof {
+namespace {
+
+using Json = nlohmann::json;
+
+constexpr std::array<std::string_view, 8> kData = {"points", "from",   "to",     "at",
+                                                   "values", "levels", "limits", "triangles"};
+constexpr std::array<std::string_view, 4> kWords = {"title", "caption", "alt", "id"};
+constexpr std::size_t kMostNames = 3;
+
+/// What a key of a part or of the scene is about. Lights and rules have `from` and `to` as well.
+ChangeKind kind_of(std::string_view key, std::string_view place) {
+  const bool is_part = place.starts_with("part ");
+  if (is_part && std::ranges::find(kData, key) != kData.end()) return ChangeKind::kData;
+  if (place == "scene" && std::ranges::find(kWords, key) != kWords.end())
+    return ChangeKind::kMetadata;
+  return ChangeKind::kStyle;
+}
+
+std::string text_of(const Json& value) {
+  return value.is_string() ? value.get<std::string>()
+                           : value.dump(-1, ' ', false, Json::error_handler_t::replace);
+}
+
+class SceneComparer {
+ public:
+  SceneComparer(const FigureOptions& options, FigureLog& log) : options_(options), log_(log) {}
+
+  void compare(const Json& a, const Json& b, const std::string& place) {
+    for (const auto& [key, value] : a.items()) {
+      if (key == "schema" || key == "records") continue;
+      if (key == "parts" && place == "scene")
+        compare_parts(value, b.at(key));
+      else if (value.is_object())
+        compare(value, b.at(key), place);
+      else
+        compare_value(value, b.at(key), place, key);
+    }
+  }
+
+ private:
+  void compare_parts(const Json& a, const Json& b) {
+    for (std::size_t i = 0; i < std::max(a.size(), b.size()); ++i) {
+      const Json& part = i < a.size() ? a[i] : b[i];
+      const std::string place = fmt::format("part {}, {}", i + 1, text_of(part.at("kind")));
+      const bool both = i < a.size() && i < b.size() && a[i].at("kind") == b[i].at("kind");
+      if (both)
+        compare(a[i], b[i], place);
+      else
+        log_.change(ChangeKind::kData, place, "part",
+                    i < a.size() ? text_of(a[i].at("kind")) : "",
+                    i < b.size() ? text_of(b[i].at("kind")) : "");
+    }
+  }
+
+  void compare_value(const Json& a, const Json& b, const std::string& place,
+                     const std::string& key) {
+    Difference difference;
+    walk(a, b, difference);
+    if (difference.within) log_.within();
+    if (difference.count == 0) return;
+    const std::string what =
+        difference.count == 1 ? key : fmt::format("{}, {} values", key, difference.count);
+    log_.change(kind_of(key, place), place, what, difference.baseline, difference.current);
+  }
+
+  struct Difference {
+    long count = 0;
+    bool within = false;
+    std::string baseline, current;  ///< Of the first.
+  };
+
+  void walk(const Json& a, const Json& b, Difference& difference) const {
+    if (a == b) return;
+    if (a.is_number() && b.is_number() &&
+        options_.position.holds(a.get<double>(), b.get<double>())) {
+      difference.within = true;
+      return;
+    }
+    if (a.is_structured() && a.type() == b.type() && a.size() == b.size()) {
+      for (auto x = a.begin(), y = b.begin(); x != a.end(); ++x, ++y) walk(*x, *y, difference);
+      return;
+    }
+    if (difference.count++ > 0) return;
+    difference.baseline = a.is_structured() ? counted(static_cast<long long>(a.size()), "entry")
+                                            : text_of(a);
+    difference.current = b.is_structured() ? counted(static_cast<long long>(b.size()), "entry")
+                                           : text_of(b);
+    if (difference.baseline == difference.current) difference.current += ", others";
+  }
+
+  const FigureOptions& options_;
+  FigureLog& log_;
+};
+
+Json parse(std::string_view text, const std::string& name, SceneWords& words) {
+  const Scene scene = scene_from_json(text, name);
+  for (const std::string& id : scene.record_ids)
+    if (std::ranges::find(words.record_ids, id) == words.record_ids.end())
+      words.record_ids.push_back(id);
+  words.varies = scene.varies;
+  return parse_json(scene_to_json(scene), name).root;  // Every key is there.
+}
+
+}  // namespace
+
+FigureDiff scene_diff(std::string_view baseline, const std::string& baseline_name,
+                      std::string_view current, const std::string& current_name,
+                      const FigureOptions& options, SceneWords& words) {
+  const Json a = parse(baseline, baseline_name, words);
+  const Json b = parse(current, current_name, words);
+  FigureLog log(a.value("varies", false) && b.value("varies", false));
+  if (a.at("records") != b.at("records"))
+    log.change(ChangeKind::kData, "figure", "records",
+               listed(a.at("records").get<std::vector<std::string>>(), kMostNames),
+               "others: " + listed(b.at("records").get<std::vector<std::string>>(), kMostNames));
+  SceneComparer(options, log).compare(a, b, "scene");
+  return log.take();
+}
+
+}  // namespace mapproof
