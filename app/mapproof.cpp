@@ -65,9 +65,9 @@ int run_verb_of(int argc, char** argv) {
   app.require_subcommand(1);
   Common common;
   const std::vector<std::pair<const char*, AddVerb>> verbs = {
-      {"reproduce", reproduce_verb}, {"run", run_verb},         {"render", render_verb},
-      {"report", report_verb},       {"map", map_verb},         {"slam", slam_verb},
-      {"diff", diff_verb},           {"approve", approve_verb}, {"check", check_verb},
+      {"reproduce", reproduce_verb}, {"run", run_verb},           {"render", render_verb},
+      {"report", report_verb},       {"map", map_verb},           {"slam", slam_verb},
+      {"diff", diff_verb},           {"approve", approve_verb},   {"check", check_verb},
       {"methods", methods_verb},     {"validate", validate_verb},
   };
   std::vector<std::pair<CLI::App*, Action>> actions;

@@ -32,8 +32,7 @@ bool are_files(const Arguments& arguments) {
 ApprovalOrder order_of(const Arguments& arguments) {
   ApprovalOrder order = arguments.order;
   if (!arguments.from.empty())
-    for (std::string& id :
-         parse_approvals(read_file(arguments.from, kLargestFile), arguments.from))
+    for (std::string& id : parse_approvals(read_file(arguments.from, kLargestFile), arguments.from))
       order.ids.push_back(std::move(id));
   if (order.all && !order.ids.empty())
     throw InvalidInput("--all takes every figure: name none beside it");
@@ -54,8 +53,7 @@ int approve(const Arguments& arguments, const Invocation& invocation) {
                                 {"written", nlohmann::ordered_json::array()},
                                 {"removed", nlohmann::ordered_json::array()}};
   std::string text;
-  for (const ApprovalStep& step :
-       approval_steps(arguments.baseline, arguments.current, order)) {
+  for (const ApprovalStep& step : approval_steps(arguments.baseline, arguments.current, order)) {
     apply(step);
     const bool removed = step.from.empty();
     object[removed ? "removed" : "written"].push_back(step.to.string());

@@ -49,8 +49,7 @@ void make_candidate(const Arguments& arguments, const Invocation& invocation) {
   } else {
     Experiment experiment = parse_experiment(file.text, file.source, arguments.profile);
     apply(arguments.changes, experiment);
-    make_records(experiment, arguments.out, arguments.jobs, invocation.command,
-                 invocation.console);
+    make_records(experiment, arguments.out, arguments.jobs, invocation.command, invocation.console);
   }
   write_report(read_folder_report(arguments.out, invocation.command, ""),
                load_templates(std::nullopt), arguments.jobs);
@@ -60,7 +59,8 @@ int check(const Arguments& arguments, const Invocation& invocation) {
   const DiffSettings settings = diff_settings(arguments.options, arguments.baseline);
   make_candidate(arguments, invocation);
   std::error_code error;
-  // An empty folder stands for a baseline that is not there yet: everything in the candidate is new.
+  // An empty folder stands for a baseline that is not there yet: everything in the candidate is
+  // new.
   if (!fs::exists(arguments.baseline, error)) {
     invocation.console.warning(fmt::format(
         "{}: there is no baseline. The candidate is kept in {}; look at it, and if it is right:\n"
@@ -82,7 +82,8 @@ Action check_verb(CLI::App& app) {
       "Examples:\n"
       "  mapproof check yairi2007 --profile quick --baseline baseline --out out/check\n"
       "  mapproof check experiment.json --baseline baseline --junit diff.junit.xml\n\n"
-      "Exit codes as of \"mapproof diff\". Without a baseline it is 1, and what was made is kept.\n");
+      "Exit codes as of \"mapproof diff\". Without a baseline it is 1, and what was made is "
+      "kept.\n");
   app.add_option("EXPERIMENT", arguments->experiment,
                  "The experiment's JSON file, or a name that reproduce takes")
       ->required();

@@ -28,10 +28,9 @@ constexpr std::size_t kMostIds = 100'000;
 
 /// What the records of a study or of a map are kept in; maps and details before runs, since a run's
 /// file says that they are there.
-constexpr std::array kRecordParts = {"study.json", "maps",          "details",       "paths",
-                                     "convergence", "histories.json", "runs",        "map.json",
-                                     "map.csv",    "slam.json",     "landmarks.csv", "path.csv",
-                                     "path.tum"};
+constexpr std::array kRecordParts = {
+    "study.json", "maps",    "details",   "paths",         "convergence", "histories.json", "runs",
+    "map.json",   "map.csv", "slam.json", "landmarks.csv", "path.csv",    "path.tum"};
 
 /// Files of the items on one side, below its folder: id, and the paths of it.
 using Files = std::map<std::string, std::set<fs::path>>;
@@ -44,8 +43,7 @@ void add_records(Files& files, const std::string& id, const fs::path& place, con
     if (!fs::is_directory(path, error)) continue;
     for (fs::recursive_directory_iterator entry(path, error), end; !error && entry != end;
          entry.increment(error))
-      if (entry->is_regular_file(error))
-        files[id].insert(entry->path().lexically_relative(root));
+      if (entry->is_regular_file(error)) files[id].insert(entry->path().lexically_relative(root));
   }
 }
 
@@ -178,7 +176,8 @@ class Planner {
       require_readable(file);
       const Figure figure = figure_from_json(read_file(file), file.string());
       for (const std::string& run : runs_of(figure, current_))
-        for (const char* part : {"maps", "details", "runs"}) add_record(id, fs::path(part) / (run + ".json"));
+        for (const char* part : {"maps", "details", "runs"})
+          add_record(id, fs::path(part) / (run + ".json"));
     }
   }
 

@@ -17,7 +17,7 @@ struct ApprovalStep {
 struct ApprovalOrder {
   std::vector<std::string> ids;  ///< Of items.
   bool all = false;              ///< Every item of either side.
-  std::string key;  ///< Pictures become further baselines ID@KEY; [A-Za-z0-9._-]*.
+  std::string key;               ///< Pictures become further baselines ID@KEY; [A-Za-z0-9._-]*.
 };
 
 /// The files that belong to the items, those that are the same on both sides left out: of a figure

@@ -108,10 +108,10 @@ bool is_scene(const std::filesystem::path& file) {
 void compare_scenes(DiffItem& item, const RecordContext& context, const DiffSettings& settings) {
   SceneWords words;
   try {
-    item.figure = scene_diff(read_file(item.baseline_figure, kLargestFigure),
-                             item.baseline_figure.string(),
-                             read_file(item.current_figure, kLargestFigure),
-                             item.current_figure.string(), settings.figures, words);
+    item.figure =
+        scene_diff(read_file(item.baseline_figure, kLargestFigure), item.baseline_figure.string(),
+                   read_file(item.current_figure, kLargestFigure), item.current_figure.string(),
+                   settings.figures, words);
   } catch (const IoError& error) {
     item.judgement = {Verdict::kUnreadable, true, error.what()};
     return;

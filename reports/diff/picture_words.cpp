@@ -38,8 +38,8 @@ bool same_renderer(const std::vector<PictureFile>& files, const RecordContext& c
   });
 }
 
-/// Whether an SVG shows that looks changed: other colours, texts or elements; or other places, where
-/// the same renderer laid them out.
+/// Whether an SVG shows that looks changed: other colours, texts or elements; or other places,
+/// where the same renderer laid them out.
 bool changes_style(const PictureFile& file, bool same_renderer) {
   if (!file.diff.svg || file.diff.state != PictureState::kDifferent) return false;
   const SvgDiff& svg = *file.diff.svg;

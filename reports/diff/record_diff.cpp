@@ -143,19 +143,29 @@ RecordDiff record_diff(const RecordSet& a, const RecordSet& b, const RecordOptio
   return diff;
 }
 
-RecordTie tie(const RecordDiff& diff, const std::string& id) {
-  RecordTie found;
-  std::string subject = id.substr(0, id.find(" of "));
-  for (const PointsDiff& points : diff.points)
-    if (points.record == subject || points.record == subject + "/path")
-      found.points.push_back(&points);
-  if (subject.starts_with("layout-") && subject.find('/') != std::string::npos) {
-    found.run = subject.substr(0, subject.find('/'));
-    subject = subject.substr(found.run.size() + 1);
+RecordName subject_of(const std::string& id) {
+  RecordName name{.run = "", .subject = id.substr(0, id.find(" of "))};
+  constexpr std::string_view kPath = "/path";
+  if (name.subject.ends_with(kPath)) name.subject.resize(name.subject.size() - kPath.size());
+  const std::size_t slash = name.subject.find('/');
+  if (name.subject.starts_with("layout-") && slash != std::string::npos) {
+    name.run = name.subject.substr(0, slash);
+    name.subject.erase(0, slash + 1);
   }
+  return name;
+}
+
+RecordTie tie(const RecordDiff& diff, const std::string& id) {
+  const RecordName name = subject_of(id);
+  RecordTie found;
+  found.run = name.run;
+  const std::string record = name.run.empty() ? name.subject : name.run + "/" + name.subject;
+  for (const PointsDiff& points : diff.points)
+    if (points.record == record || points.record == record + "/path")
+      found.points.push_back(&points);
   for (const Comparison& comparison : diff.comparisons)
-    if (comparison.subject == subject || comparison.current_subject == subject ||
-        comparison.subject.starts_with(subject + "/"))
+    if (comparison.subject == name.subject || comparison.current_subject == name.subject ||
+        comparison.subject.starts_with(name.subject + "/"))
       found.comparisons.push_back(&comparison);
   return found;
 }

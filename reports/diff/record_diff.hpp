@@ -129,6 +129,16 @@ struct RecordDiff {
 RecordDiff record_diff(const RecordSet& baseline, const RecordSet& current,
                        const RecordOptions& options = {});
 
+/// What a record's id names.
+struct RecordName {
+  std::string run;      ///< "layout-1-pose-2"; empty: all runs.
+  std::string subject;  ///< "bearing/lpca/2000".
+};
+
+/// @param id  "layout-1-pose-2/bearing/lpca/2000", "bearing/lpca/2000 of 5 runs",
+///            "plaza-1/spectral/path".
+RecordName subject_of(const std::string& id);
+
 /// What a figure's record id stands for: one record, or a subject over all runs.
 struct RecordTie {
   std::vector<const Comparison*> comparisons;  ///< Of its subject; empty: all equal.

@@ -50,11 +50,11 @@ struct RecordSet {
   /// The experiment, value by value: JSON pointer and text.
   std::map<std::string, std::string> settings;
   Provenance provenance;
-  bool repeats = false;                        ///< Runs differ by their seed alone.
-  std::map<std::string, std::string> runs;     ///< Id of each, and the layout it belongs to.
-  std::map<std::string, PlacedPoints> worlds;  ///< By run: the true places.
-  std::map<std::string, std::string> anchors;  ///< By run: their rows, as text.
-  std::map<std::string, SubjectFamily> families;      ///< By subject, where it has a parameter.
+  bool repeats = false;                           ///< Runs differ by their seed alone.
+  std::map<std::string, std::string> runs;        ///< Id of each, and the layout it belongs to.
+  std::map<std::string, PlacedPoints> worlds;     ///< By run: the true places.
+  std::map<std::string, std::string> anchors;     ///< By run: their rows, as text.
+  std::map<std::string, SubjectFamily> families;  ///< By subject, where it has a parameter.
   /// Numbers by run; NaN: no map came out, or there is nothing to judge.
   std::map<SeriesKey, std::map<std::string, double>> values;
   std::map<std::string, std::string> statuses;  ///< Of a record: its codes, in order.

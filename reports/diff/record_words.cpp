@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <set>
 
 #include <fmt/format.h>
 
@@ -59,29 +60,31 @@ void judge_comparisons(const RecordDiff& diff, Judgement& whole, std::vector<std
   if (first == nullptr || verdict_of(first->outcome) <= Verdict::kWithinTolerance) return;
   const auto beyond = std::ranges::count_if(
       all, [](const Comparison* c) { return verdict_of(c->outcome) > Verdict::kWithinTolerance; });
-  const bool test_is_silent =
-      first->outcome == Outcome::kChanged && first->test && first->test->p >= 0.05;
+  const bool test_is_silent = first->outcome == Outcome::kChanged && first->test;
   causes.push_back(fmt::format(
       "{} of {}{}{}", comparison_text(*first), first->subject,
       test_is_silent ? ", neither better nor worse over the seeds" : "",
       beyond > 1 ? fmt::format(", and {} of other quantities or records", beyond - 1) : ""));
 }
 
-/// Whether a quantity of that record's subject says already what its change is worth.
-bool has_outcome(const RecordDiff& diff, const std::string& record) {
-  return std::ranges::any_of(tie(diff, record).comparisons, [](const Comparison* comparison) {
-    return verdict_of(comparison->outcome) > Verdict::kWithinTolerance;
-  });
+/// Subjects of which a quantity says already what their change is worth.
+std::set<std::string> judged_subjects(const RecordDiff& diff) {
+  std::set<std::string> subjects;
+  for (const Comparison& comparison : diff.comparisons)
+    if (verdict_of(comparison.outcome) > Verdict::kWithinTolerance)
+      subjects.insert({comparison.subject, comparison.current_subject});
+  return subjects;
 }
 
 void judge_points(const RecordDiff& diff, Judgement& whole, std::vector<std::string>& causes) {
+  const std::set<std::string> judged = judged_subjects(diff);
   const PointsDiff* first = nullptr;
   long records = 0, others = 0;
   for (const PointsDiff& points : diff.points) {
     const bool beyond = points.beyond + points.lost + points.gained > 0 || points.truth_differs;
     if (!beyond)
       whole.verdict = heavier(whole.verdict, Verdict::kWithinTolerance);
-    else if (!has_outcome(diff, points.record))
+    else if (!judged.contains(subject_of(points.record).subject))
       whole.verdict = heavier(whole.verdict, Verdict::kChanged);
     if (points.truth_differs) ++others;
     if (!beyond || points.moves.empty()) continue;
@@ -97,8 +100,9 @@ void judge_points(const RecordDiff& diff, Judgement& whole, std::vector<std::str
 }
 
 void judge_rest(const RecordDiff& diff, Judgement& whole, std::vector<std::string>& causes) {
+  const std::set<std::string> judged = judged_subjects(diff);
   for (const StatusChange& change : diff.statuses)
-    if (!has_outcome(diff, change.record))
+    if (!judged.contains(subject_of(change.record).subject))
       whole.verdict = heavier(whole.verdict, Verdict::kChanged);
   if (!diff.statuses.empty()) {
     const StatusChange& first = diff.statuses[0];

@@ -59,8 +59,7 @@ class SceneComparer {
       if (both)
         compare(a[i], b[i], place);
       else
-        log_.change(ChangeKind::kData, place, "part",
-                    i < a.size() ? text_of(a[i].at("kind")) : "",
+        log_.change(ChangeKind::kData, place, "part", i < a.size() ? text_of(a[i].at("kind")) : "",
                     i < b.size() ? text_of(b[i].at("kind")) : "");
     }
   }
@@ -94,10 +93,10 @@ class SceneComparer {
       return;
     }
     if (difference.count++ > 0) return;
-    difference.baseline = a.is_structured() ? counted(static_cast<long long>(a.size()), "entry")
-                                            : text_of(a);
-    difference.current = b.is_structured() ? counted(static_cast<long long>(b.size()), "entry")
-                                           : text_of(b);
+    difference.baseline =
+        a.is_structured() ? counted(static_cast<long long>(a.size()), "entry") : text_of(a);
+    difference.current =
+        b.is_structured() ? counted(static_cast<long long>(b.size()), "entry") : text_of(b);
     if (difference.baseline == difference.current) difference.current += ", others";
   }
 

@@ -34,8 +34,8 @@ std::string plain_png(const Image& image) {
     rows += '\0';
     for (int x = 0; x < image.width; ++x) {
       const std::uint32_t pixel = image.row(y)[x];
-      rows += {static_cast<char>(pixel >> 16), static_cast<char>(pixel >> 8),
-               static_cast<char>(pixel)};
+      rows +=
+          {static_cast<char>(pixel >> 16), static_cast<char>(pixel >> 8), static_cast<char>(pixel)};
     }
   }
   const std::unique_ptr<libdeflate_compressor, decltype(&libdeflate_free_compressor)> compressor(

@@ -53,7 +53,8 @@ void add_damage(Files& files, const std::string& id) {
 
 void add_whole(Files& files, const std::string& id, const std::string& other) {
   const auto each = [](const fs::path& folder, const auto& use) {
-    for (const char* extension : {".figure.json", ".png", ".svg"}) use(folder / "figures", extension);
+    for (const char* extension : {".figure.json", ".png", ".svg"})
+      use(folder / "figures", extension);
   };
   files.add(id + " deleted", id, Verdict::kMissing, {"is not in the current"}, true,
             [=](const fs::path& folder) {
@@ -95,8 +96,8 @@ void add_records(Files& files) {
     files.add(name + " emptied", "records", Verdict::kUnreadable, {name}, true,
               [=](const fs::path& folder) { fs::resize_file(folder / name, 0); });
   }
-  files.add("a run deleted", "records", Verdict::kMissing, {"missing runs", "layout-3-pose-1"}, true,
-            [](const fs::path& folder) { fs::remove(folder / "runs/layout-3-pose-1.json"); });
+  files.add("a run deleted", "records", Verdict::kMissing, {"missing runs", "layout-3-pose-1"},
+            true, [](const fs::path& folder) { fs::remove(folder / "runs/layout-3-pose-1.json"); });
   files.add("study.json truncated", "records", Verdict::kUnreadable, {"study.json"}, true,
             [](const fs::path& folder) { truncate(folder / "study.json"); });
   files.add("study.json deleted", "records", Verdict::kMissing, {"no records"}, true,

@@ -1,0 +1,264 @@
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <chrono>
+#include <csignal>
+#include <map>
+#include <thread>
+
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+#include "core/base/files.hpp"
+#include "tests/support/environment.hpp"
+#include "tests/support/program.hpp"
+
+namespace mapproof::test {
+namespace {
+
+namespace fs = std::filesystem;
+using nlohmann::json;
+
+const std::string kStudy = std::string(MAPPROOF_TEST_DATA) + "/study";
+const std::string kPictures = std::string(MAPPROOF_SOURCE_DIR) + "/tests/baselines";
+
+/// Writes `to` for the first `from` in a file.
+void replace_in(const fs::path& file, const std::string& from, const std::string& to) {
+  std::string text = read_file(file);
+  const std::size_t at = text.find(from);
+  ASSERT_NE(at, std::string::npos) << from;
+  write_file(file, text.replace(at, from.size(), to));
+}
+
+/// A baseline and a copy of it, for one to be changed.
+struct TwoStudies {
+  TemporaryFolder folder;
+  std::string before = folder / "before";
+  std::string after = folder / "after";
+
+  TwoStudies() {
+    for (const std::string& copy : {before, after}) {
+      fs::copy(kStudy, copy, fs::copy_options::recursive);
+      fs::create_directory(fs::path(copy) / "figures");
+      for (const char* picture : {"curve-usual", "map-usual", "pair-usual"})
+        fs::copy_file(fs::path(kPictures) / (std::string(picture) + ".png"),
+                      fs::path(copy) / "figures" / (std::string(picture) + ".png"));
+    }
+  }
+  void change_picture() const {
+    fs::copy_file(fs::path(kPictures) / "curve-log.png", fs::path(after) / "figures/map-usual.png",
+                  fs::copy_options::overwrite_existing);
+  }
+  /// In one run alone, so that it has no direction.
+  void change_score() const {
+    replace_in(fs::path(after) / "runs/layout-1-pose-1.json", "\"mpe_m\": 0.", "\"mpe_m\": 0.9");
+  }
+};
+
+TEST(DiffVerb, PassesAStudyAndItsCopy) {
+  const TwoStudies two;
+  const Outcome outcome = mapproof({"diff", two.before, two.after});
+  EXPECT_EQ(outcome.exit_code, 0) << outcome.out << outcome.error;
+  EXPECT_NE(outcome.out.find("passes: 4 identical"), std::string::npos) << outcome.out;
+}
+
+TEST(DiffVerb, FailsWhatDiffersUnlessItIsAllowed) {
+  const TwoStudies two;
+  two.change_picture();
+  two.change_score();
+  const Outcome outcome = mapproof({"diff", two.before, two.after});
+  EXPECT_EQ(outcome.exit_code, 1);
+  EXPECT_NE(outcome.out.find("map-usual: png, by its pixels alone"), std::string::npos)
+      << outcome.out;
+  EXPECT_NE(outcome.out.find("records: MPE "), std::string::npos) << outcome.out;
+  EXPECT_EQ(mapproof({"diff", two.before, two.after, "--allow", "style"}).exit_code, 1);
+  EXPECT_EQ(mapproof({"diff", two.before, two.after, "--allow", "changed,worse"}).exit_code, 0);
+}
+
+TEST(DiffVerb, WritesWhatIsAskedFor) {
+  const TwoStudies two;
+  two.change_picture();
+  const std::string out = two.folder / "diff";
+  EXPECT_EQ(mapproof({"diff", two.before, two.after, "--json", out + ".json", "--junit",
+                      out + ".xml", "--markdown", out + ".md"})
+                .exit_code,
+            1);
+  const json found = json::parse(read_file(out + ".json"));
+  EXPECT_EQ(found["schema"]["name"], "mapproof.diff");
+  EXPECT_EQ(found["items"][0]["id"], "map-usual");
+  EXPECT_NE(read_file(out + ".xml").find("failures=\"1\""), std::string::npos);
+  EXPECT_NE(read_file(out + ".md").find("map-usual"), std::string::npos);
+  const Outcome printed = mapproof({"diff", two.before, two.after, "--json", "-"});
+  EXPECT_EQ(json::parse(printed.out), found);
+}
+
+TEST(DiffVerb, EndsWithTwoWhereNothingCanBeCompared) {
+  const TwoStudies two;
+  const TemporaryFolder empty;
+  const auto expect_two = [](const std::vector<std::string>& arguments, const std::string& word) {
+    const Outcome outcome = mapproof(arguments);
+    EXPECT_EQ(outcome.exit_code, 2) << outcome.out << outcome.error;
+    EXPECT_NE(outcome.error.find(word), std::string::npos) << outcome.error;
+  };
+  expect_two({"diff", two.before, two.folder / "nowhere"}, "nowhere");
+  expect_two({"diff", empty.path(), empty.path()}, "nothing");
+  expect_two({"diff", two.before, two.after + "/study.json"}, "not to be compared");
+  expect_two({"diff", two.before}, "CURRENT");
+  expect_two({"diff", two.before, two.after, "--allow", "beter"}, "did you mean \"better\"");
+  const fs::path settings = two.folder.file(
+      "s.json", R"({"schema": {"name": "mapproof.diff_settings", "version": 1}, "ignored": []})");
+  expect_two({"diff", two.before, two.after, "--settings", settings}, "ignored");
+}
+
+TEST(DiffVerb, GoesByTheSettingsBesideTheBaseline) {
+  const TwoStudies two;
+  two.change_score();
+  write_file(fs::path(two.before) / "mapproof-diff.json",
+             R"({"schema": {"name": "mapproof.diff_settings", "version": 1},
+                 "records": {"tolerances": {"mpe_m": {"absolute": 10}}}})");
+  EXPECT_EQ(mapproof({"diff", two.before, two.after}).exit_code, 0);
+  EXPECT_EQ(mapproof({"diff", two.after, two.before}).exit_code, 1);
+}
+
+TEST(DiffVerb, TakesFoldersOfPicturesOfOthersAndTwoFiles) {
+  const TwoStudies two;
+  const std::string before = two.before + "/figures", after = two.after + "/figures";
+  EXPECT_EQ(mapproof({"diff", before, after}).exit_code, 0);
+  two.change_picture();
+  EXPECT_EQ(mapproof({"diff", before, after}).exit_code, 1);
+  EXPECT_EQ(mapproof({"diff", before + "/map-usual.png", after + "/map-usual.png"}).exit_code, 1);
+  EXPECT_EQ(mapproof({"diff", before + "/pair-usual.png", after + "/pair-usual.png"}).exit_code, 0);
+  fs::remove(after + "/map-usual.png");
+  const Outcome outcome = mapproof({"diff", before, after});
+  EXPECT_EQ(outcome.exit_code, 1);
+  EXPECT_NE(outcome.out.find("missing"), std::string::npos);
+}
+
+TEST(DiffVerb, TakesTheMostAlikeOfSeveralBaselines) {
+  const TwoStudies two;
+  two.change_picture();
+  fs::copy_file(two.after + "/figures/map-usual.png",
+                two.before + "/figures/map-usual@cairo-1.18.png");
+  const Outcome outcome = mapproof({"diff", two.before, two.after, "--json", "-"});
+  EXPECT_EQ(outcome.exit_code, 0) << outcome.out;
+  EXPECT_NE(outcome.out.find("\"baseline_key\": \"cairo-1.18\""), std::string::npos);
+}
+
+TEST(DiffVerb, HandsItsPicturesToCtest) {
+  const TwoStudies two;
+  two.change_picture();
+  const Environment ctest({{"DASHBOARD_TEST_FROM_CTEST", "3.25"}});
+  const Outcome outcome = mapproof({"diff", two.before, two.after});
+  EXPECT_NE(
+      outcome.out.find("<CTestMeasurementFile type=\"image/png\" name=\"map-usual current\">"),
+      std::string::npos)
+      << outcome.out;
+}
+
+TEST(ApproveVerb, TakesWhatIsNamedAndNothingElse) {
+  const TwoStudies two;
+  two.change_picture();
+  fs::remove(two.after + "/figures/pair-usual.png");
+  EXPECT_EQ(mapproof({"approve", two.before, two.after}).exit_code, 2);
+  EXPECT_EQ(mapproof({"approve", two.before, two.after, "map-usul"}).exit_code, 2);
+  EXPECT_EQ(mapproof({"approve", two.before, two.after, "map-usual"}).exit_code, 0);
+  EXPECT_EQ(read_file(two.before + "/figures/map-usual.png"),
+            read_file(two.after + "/figures/map-usual.png"));
+  EXPECT_TRUE(fs::exists(two.before + "/figures/pair-usual.png"));
+  EXPECT_EQ(mapproof({"diff", two.before, two.after}).exit_code, 1);
+  EXPECT_EQ(mapproof({"approve", two.before, two.after, "--all"}).exit_code, 0);
+  EXPECT_EQ(mapproof({"diff", two.before, two.after}).exit_code, 0);
+}
+
+TEST(ApproveVerb, TakesAFileOfApprovals) {
+  const TwoStudies two;
+  two.change_picture();
+  const fs::path approvals = two.folder.file(
+      "a.json",
+      R"({"schema": {"name": "mapproof.approvals", "version": 1}, "ids": ["map-usual"]})");
+  EXPECT_EQ(mapproof({"approve", two.before, two.after, "--from", approvals}).exit_code, 0);
+  EXPECT_EQ(mapproof({"diff", two.before, two.after}).exit_code, 0);
+  const fs::path bad = two.folder.file(
+      "b.json", R"({"schema": {"name": "mapproof.approvals", "version": 1}, "id": []})");
+  EXPECT_EQ(mapproof({"approve", two.before, two.after, "--from", bad}).exit_code, 2);
+}
+
+TEST(ApproveVerb, NeverTakesWhatCannotBeRead) {
+  const TwoStudies two;
+  fs::resize_file(two.after + "/figures/map-usual.png", 100);
+  const std::string before = read_file(two.before + "/figures/map-usual.png");
+  EXPECT_EQ(mapproof({"approve", two.before, two.after, "map-usual"}).exit_code, 2);
+  EXPECT_EQ(mapproof({"approve", two.before, two.after, "--all"}).exit_code, 2);
+  EXPECT_EQ(read_file(two.before + "/figures/map-usual.png"), before);
+}
+
+TEST(ApproveVerb, KeepsPicturesOfAnotherRendererBesideTheOthers) {
+  const TwoStudies two;
+  two.change_picture();
+  EXPECT_EQ(mapproof({"approve", two.before, two.after, "map-usual", "--key", "../x"}).exit_code,
+            2);
+  EXPECT_EQ(
+      mapproof({"approve", two.before, two.after, "map-usual", "--key", "cairo-1.18"}).exit_code,
+      0);
+  EXPECT_EQ(mapproof({"diff", two.before, two.after}).exit_code, 0);
+  EXPECT_EQ(mapproof({"diff", two.before, two.before}).exit_code, 0);
+}
+
+TEST(ApproveVerb, LeavesEveryFileOldOrNewWhenItIsKilled) {
+  const TemporaryFolder folder;
+  const std::string current = folder / "current", before = folder / "before";
+  for (int i = 0; i < 60; ++i) {
+    const std::string name = "/p" + std::to_string(i) + ".png";
+    write_file(before + name, read_file(fs::path(kPictures) / "map-usual.png"));
+    write_file(current + name, read_file(fs::path(kPictures) / "curve-usual.png"));
+  }
+  const auto files_of = [](const std::string& path) {
+    std::map<std::string, std::string> files;
+    for (auto& [name, bytes] : contents(path)) files[name] = bytes;
+    return files;
+  };
+  const auto old_files = files_of(before), new_files = files_of(current);
+  int some_new = 0;
+  for (int delay_us = 2000; delay_us < 60'000; delay_us = delay_us * 5 / 4) {
+    const std::string baseline = folder / "baseline";
+    fs::remove_all(baseline);
+    fs::copy(before, baseline);
+    const pid_t child = start_mapproof({"approve", baseline, current, "--all"});
+    std::this_thread::sleep_for(std::chrono::microseconds(delay_us));
+    ::kill(child, SIGKILL);
+    ::waitpid(child, nullptr, 0);
+    int taken = 0;
+    for (const auto& [name, bytes] : files_of(baseline)) {
+      if (name.find(".part-") != std::string::npos) continue;  // Beside its place, never in it.
+      EXPECT_TRUE(bytes == old_files.at(name) || bytes == new_files.at(name)) << name;
+      taken += bytes == new_files.at(name) ? 1 : 0;
+    }
+    some_new += taken > 0 && taken < 60 ? 1 : 0;
+    EXPECT_EQ(mapproof({"approve", baseline, current, "--all"}).exit_code, 0);
+    EXPECT_EQ(files_of(baseline), new_files);  // Leftovers are gone too.
+  }
+  EXPECT_GT(some_new, 0) << "no kill came in between";
+}
+
+TEST(CheckVerb, FailsWithoutABaselineAndKeepsTheCandidate) {
+  const TemporaryFolder folder;
+  const std::string experiment = std::string(MAPPROOF_TEST_DATA) + "/experiments/small.json";
+  const std::string baseline = folder / "baseline", out = folder / "out";
+  const Outcome first = mapproof({"check", experiment, "--baseline", baseline, "--out", out});
+  EXPECT_EQ(first.exit_code, 1) << first.error;
+  EXPECT_NE(first.error.find("there is no baseline"), std::string::npos) << first.error;
+  EXPECT_TRUE(fs::exists(out + "/study.json"));
+  EXPECT_FALSE(fs::exists(baseline));
+  EXPECT_EQ(mapproof({"approve", baseline, out, "--all"}).exit_code, 0);
+  const Outcome second =
+      mapproof({"check", experiment, "--baseline", baseline, "--out", folder / "again"});
+  EXPECT_EQ(second.exit_code, 0) << second.out << second.error;
+  const Outcome other = mapproof(
+      {"check", experiment, "--baseline", baseline, "--out", folder / "other", "--seed", "77"});
+  EXPECT_EQ(other.exit_code, 1);
+  EXPECT_NE(other.out.find("\u2192 77: other worlds"), std::string::npos) << other.out;
+}
+
+}  // namespace
+}  // namespace mapproof::test
