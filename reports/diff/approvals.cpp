@@ -72,7 +72,13 @@ std::vector<std::string> chosen_ids(const ApprovalOrder& order, const Files& bef
   std::set<std::string> known;
   for (const Files* side : {&before, &after})
     for (const auto& [id, paths] : *side) known.insert(id);
-  if (order.all) return {known.begin(), known.end()};
+  if (order.all) {
+    // Other valid baselines of an item go with it, or stay with it.
+    std::erase_if(known, [&](const std::string& id) {
+      return !after.contains(id) && after.contains(id.substr(0, id.rfind('@')));
+    });
+    return {known.begin(), known.end()};
+  }
   const std::vector<std::string_view> names(known.begin(), known.end());
   for (const std::string& id : order.ids)
     if (!known.contains(id)) {
@@ -136,17 +142,28 @@ class Planner {
   }
 
  private:
-  void add(const fs::path& relative) {
+  /// Whether the file is another one than the baseline's.
+  bool add(const fs::path& relative) {
     const fs::path from = current_ / relative, to = baseline_ / relative;
-    if (!planned_.insert(relative).second || same_bytes(from, to)) return;
+    if (!planned_.insert(relative).second || same_bytes(from, to)) return false;
     require_readable(from);
     steps_.push_back({from, to});
+    return true;
+  }
+
+  /// Other baselines of a picture that is replaced are of what it was.
+  void remove_keyed(const std::string& id, const fs::path& extension) {
+    for (const auto& [other, paths] : before_)
+      if (other.starts_with(id + "@") && !after_.contains(other))
+        for (const fs::path& path : paths)
+          if (path.extension() == extension) steps_.push_back({{}, baseline_ / path});
   }
 
   void add_item(const std::string& id) {
     const auto before = before_.find(id), after = after_.find(id);
     if (after != after_.end())
-      for (const fs::path& path : after->second) add(path);
+      for (const fs::path& path : after->second)
+        if (add(path)) remove_keyed(id, path.extension());
     if (before == before_.end()) return;
     for (const fs::path& path : before->second)
       if (after == after_.end() || !after->second.contains(path))

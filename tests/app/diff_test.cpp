@@ -203,6 +203,12 @@ TEST(ApproveVerb, KeepsPicturesOfAnotherRendererBesideTheOthers) {
       0);
   EXPECT_EQ(mapproof({"diff", two.before, two.after}).exit_code, 0);
   EXPECT_EQ(mapproof({"diff", two.before, two.before}).exit_code, 0);
+  const std::string keyed = two.before + "/figures/map-usual@cairo-1.18.png";
+  EXPECT_TRUE(fs::exists(keyed));
+  EXPECT_EQ(mapproof({"approve", two.before, two.before, "--all"}).exit_code, 0);
+  EXPECT_TRUE(fs::exists(keyed));
+  EXPECT_EQ(mapproof({"approve", two.before, two.after, "--all"}).exit_code, 0);
+  EXPECT_FALSE(fs::exists(keyed)) << "it is of the picture that was replaced";
 }
 
 TEST(ApproveVerb, LeavesEveryFileOldOrNewWhenItIsKilled) {

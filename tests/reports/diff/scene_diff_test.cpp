@@ -1,0 +1,60 @@
+#include "reports/diff/scene_diff.hpp"
+
+#include <functional>
+
+#include <gtest/gtest.h>
+
+#include "core/base/errors.hpp"
+#include "render/scene/scene_json.hpp"
+#include "tests/support/sample_scenes.hpp"
+
+namespace mapproof::test {
+namespace {
+
+FigureDiff diff_of(const Scene& a, const Scene& b) {
+  SceneWords words;
+  return scene_diff(scene_to_json(a), "a", scene_to_json(b), "b", {}, words);
+}
+
+TEST(SceneDiff, FindsNothingInTheSameScene) {
+  for (const Scene& scene : sample_scenes()) EXPECT_TRUE(diff_of(scene, scene).equal) << scene.id;
+}
+
+TEST(SceneDiff, TellsDataFromStyleAndWords) {
+  const auto kind_after = [](const std::function<void(Scene&)>& change) {
+    Scene scene = sample_scenes()[0];
+    change(scene);
+    const FigureDiff diff = diff_of(sample_scenes()[0], scene);
+    EXPECT_EQ(diff.changes.size(), 1U);
+    return diff.changes.at(0).kind;
+  };
+  EXPECT_EQ(kind_after([](Scene& s) { s.title += " again"; }), ChangeKind::kMetadata);
+  EXPECT_EQ(kind_after([](Scene& s) { s.record_ids.emplace_back("another"); }), ChangeKind::kData);
+  EXPECT_EQ(kind_after([](Scene& s) { s.views[0].camera.eye.x() += 1.0; }), ChangeKind::kStyle);
+  EXPECT_EQ(kind_after([](Scene& s) {
+              s.notes.push_back({"A note", Ink::kText});
+            }),
+            ChangeKind::kStyle);
+  EXPECT_EQ(kind_after([](Scene& s) {
+              std::visit(
+                  [](auto& part) {
+                    if constexpr (requires { part.points; }) part.points[0].x() += 0.5;
+                    if constexpr (requires { part.at; }) part.at[0].x() += 0.5;
+                    if constexpr (requires { part.to; }) part.to[0].x() += 0.5;
+                  },
+                  s.parts[0]);
+            }),
+            ChangeKind::kData);
+  EXPECT_EQ(kind_after([](Scene& s) {
+              std::visit([](auto& part) { part.look.opacity *= 0.5; }, s.parts[0]);
+            }),
+            ChangeKind::kStyle);
+}
+
+TEST(SceneDiff, NamesAFileThatIsNoScene) {
+  SceneWords words;
+  EXPECT_THROW(scene_diff("{}", "a", "{}", "b", {}, words), IoError);
+}
+
+}  // namespace
+}  // namespace mapproof::test
