@@ -52,7 +52,7 @@ void make_candidate(const Arguments& arguments, const Invocation& invocation) {
     make_records(experiment, arguments.out, arguments.jobs, invocation.command, invocation.console);
   }
   write_report(read_folder_report(arguments.out, invocation.command, ""),
-               load_templates(std::nullopt), arguments.jobs);
+               load_templates(arguments.options.templates), arguments.jobs);
 }
 
 int check(const Arguments& arguments, const Invocation& invocation) {
@@ -69,8 +69,8 @@ int check(const Arguments& arguments, const Invocation& invocation) {
         quoted_command({"mapproof", "approve", arguments.baseline, arguments.out, "--all"})));
     return kNo;
   }
-  return hand_out(folder_diff(arguments.baseline, arguments.out, settings), arguments.options,
-                  invocation.console);
+  return hand_out(folder_diff(arguments.baseline, arguments.out, settings), settings,
+                  arguments.options, invocation.console);
 }
 
 }  // namespace
@@ -94,6 +94,8 @@ Action check_verb(CLI::App& app) {
   add_jobs_option(app, arguments->jobs);
   add_experiment_options(app, arguments->changes);
   add_plaza_option(app, arguments->plaza);
+  app.add_option("--page", arguments->options.page,
+                 "Write a page that shows what differs, diff.html for instance");
   add_diff_options(app, arguments->options);
   return [arguments](const Invocation& invocation) { return check(*arguments, invocation); };
 }
