@@ -58,9 +58,9 @@ const std::map<std::string, Modules>& allowed() {
       {"reports/model", with_leaves({})},
       {"reports/sections",
        with_leaves({"reports/model", "render/figures", "render/plot", "render/scene"})},
-      {"reports/diff", with_leaves({"reports/model", "core/json", "core/records", "core/align",
-                                    "render/base", "render/image", "render/plot", "render/theme",
-                                    "render/scene"})},
+      {"reports/diff",
+       with_leaves({"reports/model", "core/json", "core/records", "core/align", "render/base",
+                    "render/image", "render/plot", "render/theme", "render/scene"})},
       {"reports/html", with_leaves({"reports/model", "reports/diff", "render/image"})},
       {"reports/tables", with_leaves({"reports/model"})},
   };
