@@ -30,6 +30,7 @@ Provenance build_provenance() {
        fmt::format("{}.{}.{}", FMT_VERSION / 10000, FMT_VERSION / 100 % 100, FMT_VERSION % 100)},
       {"spdlog", fmt::format("{}.{}.{}", SPDLOG_VER_MAJOR, SPDLOG_VER_MINOR, SPDLOG_VER_PATCH)},
       {"CLI11", CLI11_VERSION},
+      {"VTK", MAPPROOF_VTK_VERSION},
       {"g++", __VERSION__},
   };
   for (auto& library : render_library_versions()) provenance.libraries.push_back(library);

@@ -116,8 +116,12 @@ Drawn write_pictures(const Pictures& pictures, const Theme& theme, const fs::pat
   };
   const auto draw_scenes = [&] {
     SceneClient client;
-    for (const Scene* scene : pictures.scenes)
-      drawn.svg.at(scene->id) = write_scene(*scene, theme, folder, client);
+    try {
+      for (const Scene* scene : pictures.scenes)
+        drawn.svg.at(scene->id) = write_scene(*scene, theme, folder, client);
+    } catch (const SceneError& error) {
+      drawn.scene_error = error.what();
+    }
     drawn.renderer = client.renderer();
   };
   tbb::parallel_invoke(draw_scenes, draw_figures);
@@ -136,6 +140,7 @@ fs::path write_report(const FolderReport& report, const Templates& page, int job
   };
   const fs::path path = report.folder / "report.html";
   write_file(path, report_html(shown, page, drawing));
+  if (!drawn.scene_error.empty()) throw SceneError(drawn.scene_error);
   return path;
 }
 

@@ -57,16 +57,18 @@ Pictures pictures_of(const FolderReport& report);
 struct Drawn {
   std::map<std::string, std::string> svg;  ///< The text of each SVG file by its picture's id.
   std::string renderer;                    ///< What drew the scenes; empty if there are none.
+  std::string scene_error;                 ///< Why scenes are missing; empty if none is.
 };
 
 /// Draws the pictures into `folder`: figures several at a time, scenes one by one beside them.
-/// @throws IoError, SceneError.
+/// @throws IoError.
 Drawn write_pictures(const Pictures& pictures, const Theme& theme,
                      const std::filesystem::path& folder, int jobs);
 
 /// Writes figures/, tables/ and report.html, which names what drew the scenes, into the report's
 /// folder.
 /// @return The path of the report.
+/// @throws SceneError once all else is written, if a scene could not be drawn.
 std::filesystem::path write_report(const FolderReport& report, const Templates& page, int jobs);
 
 }  // namespace mapproof

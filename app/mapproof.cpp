@@ -1,3 +1,6 @@
+#include <fcntl.h>
+#include <unistd.h>
+
 #include <algorithm>
 #include <csignal>
 #include <exception>
@@ -102,6 +105,13 @@ int run_verb_of(int argc, char** argv) {
   return kInternal;
 }
 
+/// Standard streams that the caller closed are /dev/null: no file or socket that is opened later
+/// may get their numbers, which children take for their own streams.
+void open_standard_streams() {
+  for (const int stream : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO})
+    if (::fcntl(stream, F_GETFD) < 0) (void)::open("/dev/null", O_RDWR);  // The lowest free number.
+}
+
 int fail(const std::string& what, ExitCode code) {
   std::cerr << "mapproof: " << printable(what, 4000) << "\n";
   return code;
@@ -112,6 +122,7 @@ int fail(const std::string& what, ExitCode code) {
 
 int main(int argc, char** argv) {
   using namespace mapproof;
+  open_standard_streams();
   // A limit on file sizes then fails the write, which says so and cleans up, not the program.
   std::signal(SIGXFSZ, SIG_IGN);
   try {

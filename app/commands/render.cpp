@@ -30,12 +30,20 @@ std::vector<std::string> ids_of(const Pictures& pictures) {
   return ids;
 }
 
+/// Each once, as it came first.
+std::vector<std::string> without_repeats(const std::vector<std::string>& ids) {
+  std::vector<std::string> once;
+  for (const std::string& id : ids)
+    if (std::ranges::find(once, id) == once.end()) once.push_back(id);
+  return once;
+}
+
 /// Those of the ids that were asked for, all if none was.
 Pictures chosen_pictures(const Arguments& arguments, const FolderReport& view) {
   const Pictures all = pictures_of(view);
   if (arguments.ids.empty()) return all;
   Pictures chosen;
-  for (const std::string& id : arguments.ids) {
+  for (const std::string& id : without_repeats(arguments.ids)) {
     const auto is_it = [&id](const auto* picture) { return picture->id == id; };
     const std::size_t before = chosen.figures.size() + chosen.scenes.size();
     std::ranges::copy_if(all.figures, std::back_inserter(chosen.figures), is_it);
@@ -52,7 +60,7 @@ std::vector<const Film*> chosen_films(const Arguments& arguments, const FolderRe
   std::vector<const Film*> chosen;
   std::vector<std::string> ids;
   for (const Film& film : view.films) ids.push_back(film.id);
-  for (const std::string& id : arguments.animations) {
+  for (const std::string& id : without_repeats(arguments.animations)) {
     const auto found = std::ranges::find(view.films, id, &Film::id);
     if (found == view.films.end())
       throw InvalidInput(fmt::format(
@@ -74,11 +82,14 @@ int render(const Arguments& arguments, const Invocation& invocation) {
                                            ? view.folder / (paper ? "figures-paper" : "figures")
                                            : std::filesystem::path(arguments.out);
   const Theme theme = paper ? paper_theme(arguments.width_in) : report_theme();
-  write_pictures(pictures, theme, folder, arguments.jobs);
+  const Drawn drawn = write_pictures(pictures, theme, folder, arguments.jobs);
+  if (!drawn.scene_error.empty()) throw SceneError(drawn.scene_error);
   SceneClient client;
   for (const Film* film : films) write_animation(*film, theme, folder, client);
 
-  nlohmann::ordered_json object{{"study", arguments.study}, {"folder", folder.string()}};
+  nlohmann::ordered_json object{{"study", arguments.study},
+                                {"folder", folder.string()},
+                                {"figures", nlohmann::ordered_json::array()}};
   std::string text;
   for (const std::string& id : ids_of(pictures)) {
     object["figures"].push_back(id);
@@ -96,7 +107,9 @@ int render(const Arguments& arguments, const Invocation& invocation) {
 
 Action render_verb(CLI::App& app) {
   auto arguments = std::make_shared<Arguments>();
-  app.description("Draw a study's figures again from its records: SVG, PNG, PDF");
+  app.description(
+      "Draw a study's figures and scenes again from its records (SVG, PNG, PDF), or animate a "
+      "scene");
   app.footer(
       "Examples:\n"
       "  mapproof render out\n"

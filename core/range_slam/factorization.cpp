@@ -37,8 +37,9 @@ void judge_rank(Factorization& result, Eigen::Index rank) {
   result.statuses.push_back(
       {StatusCode::kRankDeficient,
        fmt::format("Squared ranges have rank {} above the noise, {} is needed: condition number "
-                   "{:.3g}. So it is where the robot or the landmarks keep to a line or a circle.",
-                   signals, rank, result.condition)});
+                   "{:.3g}. So it is where the robot or the landmarks keep to {}.",
+                   signals, rank, result.condition,
+                   rank == 4 ? "a line or a circle" : "a plane or a sphere")});
 }
 
 Factorization factorize(const Eigen::MatrixXd& Y, Eigen::Index rank) {

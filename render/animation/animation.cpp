@@ -25,14 +25,12 @@ constexpr std::size_t kMostPixels = std::size_t{1} << 28;
 constexpr int kLongestFrame_ms = 60'000;
 
 void check(std::span<const Image> frames, const AnimationOptions& options) {
-  if (frames.size() < 2) throw InvalidInput("an animation needs two frames");
-  const int width = frames[0].width, height = frames[0].height;
-  if (std::min(width, height) < 1 || std::max(width, height) > kLargestSide)
-    throw InvalidInput(fmt::format("no animation is {} x {} pixels", width, height));
-  const std::size_t pixels = static_cast<std::size_t>(width) * static_cast<std::size_t>(height);
-  if (frames.size() > kMostPixels / pixels) throw InvalidInput("an animation of too many pixels");
+  const Image none{0, 0, {}};
+  const Image& first = frames.empty() ? none : frames[0];
+  require_animation_size(first.width, first.height, frames.size());
   for (const Image& frame : frames)
-    if (frame.width != width || frame.height != height || frame.pixels.size() != pixels)
+    if (frame.width != first.width || frame.height != first.height ||
+        frame.pixels.size() != first.pixels.size())
       throw InvalidInput("frames of an animation differ in size");
   if (options.frame_ms < 1 || options.frame_ms > kLongestFrame_ms)
     throw InvalidInput("a frame is seen for 1 ms to a minute");
@@ -92,6 +90,17 @@ std::string run(const std::filesystem::path& program, const Descriptor& input) {
 }
 
 }  // namespace
+
+void require_animation_size(int width, int height, std::size_t frames) {
+  if (frames < 2) throw InvalidInput("an animation needs two frames");
+  if (std::min(width, height) < 1 || std::max(width, height) > kLargestSide)
+    throw InvalidInput(fmt::format("no animation is {} x {} pixels", width, height));
+  const std::size_t most =
+      kMostPixels / (static_cast<std::size_t>(width) * static_cast<std::size_t>(height));
+  if (frames > most)
+    throw InvalidInput(fmt::format("an animation of {} x {} pixels has at most {} frames, not {}",
+                                   width, height, most, frames));
+}
 
 std::filesystem::path animation_program() {
   if (const char* named = std::getenv("MAPPROOF_ANIMATION"); named != nullptr && *named != '\0')

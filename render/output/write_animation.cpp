@@ -14,6 +14,8 @@ void write_animation(const Film& film, const Theme& theme, const std::filesystem
   for (const Scene& scene : film.frames) {
     Drawing drawing = draw_scene(scene, theme, client).screen;
     frames.push_back(to_image(drawing));
+    if (frames.size() == 1)
+      require_animation_size(frames[0].width, frames[0].height, film.frames.size());
     drawing.id = film.id;
     options.texts = png_words(drawing);
   }

@@ -8,9 +8,11 @@
 
 namespace mapproof {
 
-/// Writes ID.apng at the theme's dpi, each frame drawn as a scene's PNG is, with the titles and
+/// Writes ID.apng at the theme's dpi, each frame drawn as the picture in a scene's SVG is,
+/// with the titles and
 /// records of the last frame as its texts.
-/// @throws InvalidInput if a frame cannot be drawn or their sizes differ; IoError; SceneError;
+/// @throws InvalidInput if a frame cannot be drawn, their sizes differ or they are too many (see
+///         require_animation_size; told after the first); IoError; SceneError;
 ///         AnimationError.
 void write_animation(const Film& film, const Theme& theme, const std::filesystem::path& folder,
                      SceneClient& client);

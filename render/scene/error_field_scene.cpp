@@ -15,6 +15,7 @@ namespace {
 
 constexpr double kHighest = 0.35;  // The surface at the ramp's end, of the room's side.
 constexpr double kAspect = 1.35;   // Several views share a page.
+constexpr double kLift = 0.004;    // Of the side: no error still lies above the floor.
 constexpr double kPercentile = 0.95;
 constexpr int kMostLevels = 6;
 
@@ -66,15 +67,16 @@ struct ErrorRamp {
 
 Field field_of(const std::vector<Sample>& samples, const ErrorRamp& scale, double side_m) {
   Field field{.label = fmt::format(
-                  "position error, 0 to {} m; a line every {} m", significant(scale.most_m),
+                  "position error, 0 to {} m or more; a line every {} m", significant(scale.most_m),
                   significant(scale.levels.empty() ? scale.most_m : scale.levels[0], 2)),
               .levels = scale.levels,
               .contour_radius = 0.0025 * side_m};
   field.tones.limits = {0.0, scale.most_m};
   for (const Sample& sample : samples) {
     const double shown = std::min(sample.error_m, scale.most_m);
-    field.points.push_back(on_floor(sample.at_m, kHighest * side_m * shown / scale.most_m));
-    field.tones.values.push_back(shown);
+    const double height = (kLift + kHighest * shown / scale.most_m) * side_m;
+    field.points.push_back(on_floor(sample.at_m, height));
+    field.tones.values.push_back(sample.error_m);
   }
   return field;
 }
@@ -82,12 +84,12 @@ Field field_of(const std::vector<Sample>& samples, const ErrorRamp& scale, doubl
 }  // namespace
 
 bool has_error_field(const MapRecord& map, double side_m) {
-  return spans_area(samples_of(map), side_m);
+  return is_room_side(side_m) && spans_area(samples_of(map), side_m);
 }
 
 Scene error_field_scene(const ErrorFieldSpec& spec) {
   if (spec.maps.empty()) throw InvalidInput("error_field_scene: no map");
-  if (!(spec.side_m > 0.0 && spec.side_m <= 1e6))
+  if (!is_room_side(spec.side_m))
     throw InvalidInput("error_field_scene: the room's side is no length");
   std::vector<std::vector<Sample>> samples;
   std::vector<double> errors_m;
@@ -100,15 +102,16 @@ Scene error_field_scene(const ErrorFieldSpec& spec) {
   const ErrorRamp scale(errors_m);
   Scene scene{.id = spec.id,
               .title = spec.title,
-              .caption = fmt::format("Position error over the floor, interpolated between the "
-                                     "landmarks; heights are errors, cut at {} m, the 95th "
-                                     "percentile.",
-                                     significant(scale.most_m)),
+              .caption = fmt::format(
+                  "Position error over the floor, interpolated between the "
+                  "landmarks; heights are errors, {} times as high, cut at {} m, "
+                  "the 95th percentile of all.",
+                  significant(kHighest * spec.side_m / scale.most_m, 2), significant(scale.most_m)),
               .lights = usual_lights(),
               .columns = spec.columns};
   scene.parts = {floor_of(spec.side_m), walls_of(spec.side_m)};
   for (std::size_t i = 0; i < spec.maps.size(); ++i) {
-    Shot view = room_view(spec.side_m, kHighest * spec.side_m, kAspect);
+    Shot view = room_view(spec.side_m, kHighest * spec.side_m, {}, kAspect);
     view.title = spec.maps[i].title;
     view.parts = {0, 1, scene.parts.size()};
     scene.parts.emplace_back(field_of(samples[i], scale, spec.side_m));

@@ -21,8 +21,7 @@ constexpr double kAspect = 1.4;
 void require_usable(const FormingSceneSpec& spec) {
   const World& world = spec.world;
   if (spec.maps.empty() || spec.most < 1) throw InvalidInput("forming_scene: no map");
-  if (!(world.side_m > 0.0 && world.side_m <= 1e6) ||
-      !(world.landmark_diameter_m > 0.0 && world.landmark_diameter_m <= world.side_m))
+  if (!has_room(world))
     throw InvalidInput("forming_scene: the room's side or the landmarks' diameter is no length");
   const Eigen::Index landmarks = world.landmarks_m.rows();
   for (std::size_t i = 0; i < spec.maps.size(); ++i) {
@@ -45,7 +44,9 @@ class Forming {
     std::vector<double> errors;
     for (const MapRecord& map : spec.maps) {
       found_.push_back(displacements(spec.world.landmarks_m, map.estimate, side_));
-      errors.insert(errors.end(), found_.back().errors_m.begin(), found_.back().errors_m.end());
+      const Displacements& found = found_.back();
+      errors.insert(errors.end(), found.errors_m.begin(), found.errors_m.end());
+      ends_.insert(ends_.end(), found.arrows.to.begin(), found.arrows.to.end());
     }
     std::ranges::sort(errors);
     if (!errors.empty())
@@ -62,7 +63,7 @@ class Forming {
     const std::size_t shared = scene.parts.size();
     Displacements lost;
     for (const std::size_t i : shown) {
-      Shot view = room_view(side_, landmark_height(side_), kAspect);
+      Shot view = room_view(side_, landmark_height(side_), ends_, kAspect);
       if (shown.size() > 1) view.rules.clear();
       view.title = title_of(i);
       for (std::size_t part = 0; part < shared; ++part) view.parts.push_back(part);
@@ -86,8 +87,7 @@ class Forming {
     std::vector<Eigen::Index> rows;
     for (Eigen::Index i = 0; i < world.landmarks_m.rows(); ++i)
       if ((std::ranges::find(given, i) != given.end()) == anchors) rows.push_back(i);
-    Rods rods =
-        pillars(world.landmarks_m, rows, world.landmark_diameter_m / 2.0, landmark_height(side_));
+    Rods rods = pillars(world.landmarks_m, rows, pillar_radius_m(world), landmark_height(side_));
     rods.label = rods.from.empty() ? "" : anchors ? "anchor" : "landmark";
     rods.look.ink = anchors ? Ink::kSeries2 : Ink::kSeries1;
     return rods;
@@ -105,6 +105,9 @@ class Forming {
 
   /// A note under the title would move a frame against the others.
   void tell(const Displacements& lost, Scene& scene) const {
+    if (const std::string wide = words_of_pillars(spec_.world);
+        !wide.empty() && scene.views.size() > 1)
+      scene.notes.push_back({wide, Ink::kWarning});
     const std::string words = words_of_missing(lost);
     if (words.empty()) return;
     if (scene.views.size() > 1)
@@ -119,7 +122,9 @@ class Forming {
   }
 
   std::string title_of(std::size_t map) const {
-    return fmt::format("{}: {}", counted(spec_.maps[map].step, "step"), error_of(map));
+    const bool is_scored = spec_.maps[map].score && std::isfinite(spec_.maps[map].score->mpe_m);
+    return fmt::format("{}, {}{}", counted(spec_.maps[map].step, "step"), is_scored ? "MPE " : "",
+                       error_of(map));
   }
 
   void describe(Scene& scene, const std::vector<std::size_t>& shown) const {
@@ -140,6 +145,7 @@ class Forming {
   const FormingSceneSpec& spec_;
   double side_;
   std::vector<Displacements> found_;
+  std::vector<Point3> ends_;  // Of all maps' arrows.
   double most_m_ = 0.0;
 };
 

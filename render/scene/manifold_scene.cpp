@@ -1,5 +1,9 @@
 #include "render/scene/manifold_scene.hpp"
 
+#include <algorithm>
+#include <array>
+#include <cmath>
+
 #include <fmt/format.h>
 
 #include "core/base/errors.hpp"
@@ -42,7 +46,7 @@ Spheres landmarks(const ManifoldSceneSpec& spec, Eigen::Index axis, double radiu
 Rods graph(const ManifoldSceneSpec& spec, double radius) {
   Rods rods{.label = fmt::format("{} nearest neighbours", spec.manifold.neighbours),
             .radius = radius,
-            .look = {.ink = Ink::kMuted, .share = 0.55}};
+            .look = {.ink = Ink::kMuted}};
   for (const auto& [a, b] : spec.manifold.edges) {
     if (!spec.manifold.coordinates.row(a).allFinite() ||
         !spec.manifold.coordinates.row(b).allFinite())
@@ -55,6 +59,12 @@ Rods graph(const ManifoldSceneSpec& spec, double radius) {
 }
 
 }  // namespace
+
+bool has_manifold_scene(const ObservationManifold& manifold) {
+  Eigen::Index known = 0;
+  for (const auto& row : manifold.coordinates.rowwise()) known += row.allFinite();
+  return known >= 2;
+}
 
 Scene manifold_scene(const ManifoldSceneSpec& spec) {
   require_usable(spec);

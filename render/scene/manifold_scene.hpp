@@ -22,6 +22,9 @@ struct ManifoldSceneSpec {
   std::vector<std::string> record_ids;
 };
 
+/// Whether at least two landmarks have coordinates.
+bool has_manifold_scene(const ObservationManifold& manifold);
+
 /// Landmarks at the first three principal coordinates of their observations, with the neighbour
 /// graph, coloured by true x and, beside it, by true y: where both run along the surface without
 /// folds, a map of two dimensions can come out.

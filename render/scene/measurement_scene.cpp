@@ -15,8 +15,9 @@
 namespace mapproof {
 namespace {
 
-constexpr Eigen::Index kTrail = 40;  // Steps of the path that are drawn.
-constexpr double kAround = 1.15;     // Half the side of what is seen, in reaches.
+constexpr Eigen::Index kTrail = 40;   // Steps of the path that are drawn.
+constexpr double kSeenReaches = 4.0;  // Across a view of visibility.
+constexpr double kAround = 1.15;      // Half the side of what is seen, in reaches.
 
 Point3 lifted(Point p, double height) { return {p.x, p.y, height}; }
 
@@ -31,11 +32,15 @@ void add_fan(Surface& surface, const std::vector<Point>& outline, double height)
 class MeasurementScene {
  public:
   MeasurementScene(const Measurement& m, const std::string& id)
-      : m_(m), robot_{m.robot_m.x(), m.robot_m.y()}, side_(m.world.side_m) {
+      : m_(m),
+        robot_{m.robot_m.x(), m.robot_m.y()},
+        side_(m.world.side_m),
+        seen_m_(m.sensor == Sensor::kVisibility ? std::min(side_, kSeenReaches * m.reach_m)
+                                                : side_) {
     scene_.id = id;
     scene_.lights = usual_lights();
     scene_.parts = {floor_of(side_), walls_of(side_)};
-    scene_.views = {room_view(side_, landmark_height(side_))};
+    scene_.views = {room_view(side_, landmark_height(seen_m_))};
     scene_.record_ids = {};
   }
 
@@ -51,7 +56,7 @@ class MeasurementScene {
     std::vector<Point3> seen;
     for (const double x : {-kAround, kAround})
       for (const double y : {-kAround, kAround})
-        for (const double z : {0.0, landmark_height(side_)})
+        for (const double z : {0.0, landmark_height(seen_m_)})
           seen.emplace_back(robot_.x + x * m_.reach_m, robot_.y + y * m_.reach_m, z);
     scene_.views[0].camera = fitted_camera(seen, {0.3, -1.0, 1.25}, false);
     scene_.views[0].rules.clear();  // The room's edges are mostly outside.
@@ -82,7 +87,7 @@ class MeasurementScene {
     SceneLabels labels;
     for (std::size_t i = 0; i < named.size(); ++i) {
       add_angle(named[i], i);
-      labels.at.push_back(place(named[i], landmark_height(side_)));
+      labels.at.push_back(place(named[i], landmark_height(seen_m_)));
       labels.text.push_back(
           fmt::format("L{}: {}", named[i] + 1, degrees(m_.bearings_rad(named[i]))));
     }
@@ -102,13 +107,13 @@ class MeasurementScene {
 
   Surface disc() const {
     Surface surface{.label = fmt::format("reach, {} mm", std::lround(1000.0 * m_.reach_m)),
-                    .look = {.ink = Ink::kSeries7, .share = 0.35, .lit = false}};
+                    .look = {.ink = Ink::kSeries7, .share = kTintShare, .lit = false}};
     add_fan(surface, arc_points(robot_, m_.reach_m, 0.0, 2.0 * std::numbers::pi), lift(1));
     return surface;
   }
 
   Surface shadows() const {
-    Surface surface{.look = {.ink = Ink::kText, .share = 0.45, .lit = false}};
+    Surface surface{.look = {.ink = Ink::kText, .share = kTintShare, .lit = false}};
     for (const std::vector<Point>& outline : shadow_outlines(m_))
       add_fan(surface, outline, lift(2));
     if (!surface.triangles.empty()) surface.label = "shadow";
@@ -120,19 +125,18 @@ class MeasurementScene {
     for (Eigen::Index i = 0; i < m_.world.landmarks_m.rows(); ++i)
       if (!view || m_.views[static_cast<std::size_t>(i)] == *view) rows.push_back(i);
     Rods rods = pillars(m_.world.landmarks_m, rows, m_.world.landmark_diameter_m / 2.0,
-                        landmark_height(side_));
+                        landmark_height(seen_m_));
     rods.label = "landmark";
     rods.look.ink = Ink::kSeries1;
     if (view == View::kVisible) rods.label = "visible";
     if (view == View::kHidden) rods.label = "hidden", rods.look.ink = Ink::kSeries2;
-    if (view == View::kOutOfReach)
-      rods.label = "out of reach", rods.look = {.ink = Ink::kMuted, .share = 0.5};
+    if (view == View::kOutOfReach) rods.label = "out of reach", rods.look.ink = Ink::kMuted;
     if (rows.empty()) rods.label.clear();
     return rods;
   }
 
   Rods rays(const std::vector<Eigen::Index>& named) const {
-    Rods rods{.label = "ray", .radius = 0.0012 * side_, .look = {.ink = Ink::kMuted, .share = 0.7}};
+    Rods rods{.label = "ray", .radius = 0.0012 * seen_m_, .look = {.ink = Ink::kMuted}};
     for (Eigen::Index i = 0; i < m_.world.landmarks_m.rows(); ++i) {
       if (!std::isfinite(m_.bearings_rad(i)) || std::ranges::find(named, i) != named.end())
         continue;
@@ -146,20 +150,20 @@ class MeasurementScene {
   /// The ray to a landmark and the arc from the heading to it, the n-th farther out.
   void add_angle(Eigen::Index row, std::size_t n) {
     const Look look{.ink = series_ink(n + 1)};
-    const double radius = (0.05 + 0.03 * static_cast<double>(n)) * side_;
-    Tube arc{.radius = 0.003 * side_, .look = look};
+    const double radius = (0.05 + 0.03 * static_cast<double>(n)) * seen_m_;
+    Tube arc{.radius = 0.003 * seen_m_, .look = look};
     for (const Point p :
          arc_points(robot_, radius, m_.heading_rad, m_.heading_rad + m_.bearings_rad(row)))
       arc.points.push_back(lifted(p, eye()));
     scene_.parts.emplace_back(std::move(arc));
     scene_.parts.emplace_back(Rods{.from = {lifted(robot_, eye())},
                                    .to = {place(row, eye())},
-                                   .radius = 0.003 * side_,
+                                   .radius = 0.003 * seen_m_,
                                    .look = look});
   }
 
   Tube trail() const {
-    Tube tube{.label = "path so far", .radius = 0.002 * side_, .look = {.ink = Ink::kText}};
+    Tube tube{.label = "path so far", .radius = 0.002 * seen_m_, .look = {.ink = Ink::kText}};
     const Eigen::Index first = std::max<Eigen::Index>(0, m_.path_m.rows() - kTrail);
     for (Eigen::Index i = first; i < m_.path_m.rows(); ++i)
       tube.points.push_back(on_floor(m_.path_m.row(i), tube.radius));
@@ -170,21 +174,21 @@ class MeasurementScene {
   void add_robot() {
     scene_.parts.emplace_back(Spheres{.label = "robot",
                                       .at = {lifted(robot_, eye())},
-                                      .radius = 0.014 * side_,
+                                      .radius = 0.014 * seen_m_,
                                       .look = {.ink = Ink::kText}});
     scene_.parts.emplace_back(
         Rods{.label = "heading",
              .from = {lifted(robot_, eye())},
-             .to = {lifted(beside(robot_, 0.1 * side_, m_.heading_rad), eye())},
-             .radius = 0.005 * side_,
+             .to = {lifted(beside(robot_, 0.1 * seen_m_, m_.heading_rad), eye())},
+             .radius = 0.005 * seen_m_,
              .arrow = true,
              .look = {.ink = Ink::kText}});
   }
 
   /// Layers on the floor, one above the other.
-  double lift(int layer) const { return 0.0012 * side_ * layer; }
+  double lift(int layer) const { return 0.0012 * seen_m_ * layer; }
   /// Where the robot looks from.
-  double eye() const { return 0.5 * landmark_height(side_); }
+  double eye() const { return 0.5 * landmark_height(seen_m_); }
   Point3 place(Eigen::Index row, double height) const {
     return on_floor(m_.world.landmarks_m.row(row), height);
   }
@@ -195,6 +199,7 @@ class MeasurementScene {
   const Measurement& m_;
   Point robot_;
   double side_;
+  double seen_m_;  ///< What robot, rays and heights are sized by: about the width of the view.
   Scene scene_;
 };
 

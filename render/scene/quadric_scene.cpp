@@ -33,9 +33,8 @@ QuadricPoints scaled(const QuadricPoints& cloud, const Eigen::Vector3d& scale) {
   return {cloud.points * scale.asDiagonal(), back.asDiagonal() * cloud.Q * back.asDiagonal()};
 }
 
-/// How much higher the sheet's rim is than its middle, on average.
+/// Above zero if the sheet's points are higher than its first one, the middle, on the whole.
 double rise_of(const Surface& sheet) {
-  if (sheet.points.empty()) return 0.0;
   double sum = 0.0;
   for (const Point3& point : sheet.points) sum += point.z() - sheet.points[0].z();
   return sum;

@@ -1,5 +1,10 @@
 #include "render/scene/room.hpp"
 
+#include <algorithm>
+
+#include <fmt/format.h>
+
+#include "render/figures/words.hpp"
 #include "render/scene/projection.hpp"
 
 namespace mapproof {
@@ -7,7 +12,8 @@ namespace {
 
 constexpr double kWallShare = 0.045;   // Of the room's side: low, since the front ones stand too.
 constexpr double kHeightShare = 0.09;  // Landmarks', of the room's side.
-constexpr double kLabelRoom = 0.11;    // Around the floor, for the labels of the axes.
+constexpr double kLeastRadiusShare = 0.002;  // Of a pillar, of the room's side.
+constexpr double kLabelRoom = 0.11;          // Around the floor, for the labels of the axes.
 
 std::vector<Rule> floor_rules(double side_m) {
   const Range range{0.0, side_m};
@@ -24,9 +30,9 @@ std::vector<Rule> floor_rules(double side_m) {
 }
 
 /// Corners of the room and of the strip that the axes' labels need.
-std::vector<Point3> corners(double side_m, double height_m) {
+std::vector<Point3> corners(double side_m, double height_m, std::span<const Point3> also) {
   const double low = -kLabelRoom * side_m, high = (1.0 + kLabelRoom) * side_m;
-  std::vector<Point3> points;
+  std::vector<Point3> points(also.begin(), also.end());
   for (const double x : {0.0, high})
     for (const double y : {low, side_m}) points.emplace_back(x, y, 0.0);
   for (const double x : {0.0, side_m})
@@ -35,6 +41,13 @@ std::vector<Point3> corners(double side_m, double height_m) {
 }
 
 }  // namespace
+
+bool is_room_side(double side_m) { return side_m > 0.0 && side_m <= kLongestSide_m; }
+
+bool has_room(const World& world) {
+  return is_room_side(world.side_m) && world.landmark_diameter_m > 0.0 &&
+         world.landmark_diameter_m <= world.side_m;
+}
 
 std::vector<Light> usual_lights() {
   return {{{-0.35, -0.6, 1.0}, 0.85}, {{0.9, -0.25, 0.5}, 0.35}};
@@ -56,7 +69,7 @@ Surface floor_of(double side_m) {
 }
 
 Surface walls_of(double side_m) {
-  Surface walls{.look = {.ink = Ink::kMuted, .share = 0.55}};
+  Surface walls{.look = {.ink = Ink::kMuted, .share = kTintShare}};
   const double top = kWallShare * side_m, s = side_m;
   const std::array<Point3, 5> foot = {
       {{0.0, 0.0, 0.0}, {s, 0.0, 0.0}, {s, s, 0.0}, {0.0, s, 0.0}, {0.0, 0.0, 0.0}}};
@@ -81,16 +94,27 @@ Rods pillars(const Points& points_m, const std::vector<Eigen::Index>& rows, doub
 
 Point3 on_floor(const Eigen::RowVector2d& at, double height) { return {at.x(), at.y(), height}; }
 
-Shot room_view(double side_m, double height_m, double aspect) {
+double pillar_radius_m(const World& world) {
+  return std::max(world.landmark_diameter_m / 2.0, kLeastRadiusShare * world.side_m);
+}
+
+std::string words_of_pillars(const World& world) {
+  const double times = 2.0 * pillar_radius_m(world) / world.landmark_diameter_m;
+  if (times <= 1.0) return "";
+  return fmt::format("Landmarks are drawn {} times as wide as they are.", significant(times, 2));
+}
+
+Shot room_view(double side_m, double height_m, std::span<const Point3> also, double aspect) {
   Shot view;
-  view.camera = fitted_camera(corners(side_m, height_m), {0.42, -1.0, 0.95}, false, aspect);
+  view.camera = fitted_camera(corners(side_m, height_m, also), {0.42, -1.0, 0.95}, false, aspect);
   view.rules = floor_rules(side_m);
   return view;
 }
 
-Shot room_plan(double side_m) {
+Shot room_plan(double side_m, std::span<const Point3> also) {
   Shot view;
-  view.camera = fitted_camera(corners(side_m, landmark_height(side_m)), Point3::UnitZ(), true);
+  view.camera =
+      fitted_camera(corners(side_m, landmark_height(side_m), also), Point3::UnitZ(), true);
   view.rules = floor_rules(side_m);
   return view;
 }

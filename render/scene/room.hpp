@@ -1,11 +1,26 @@
 #pragma once
 
+#include <span>
+#include <string>
 #include <vector>
 
 #include "core/model/points.hpp"
+#include "core/model/world.hpp"
 #include "render/scene/scene.hpp"
 
 namespace mapproof {
+
+/// The share of an ink that a legend's tint has: what is not drawn in the full ink has this one.
+inline constexpr double kTintShare = 0.2;
+
+/// The longest side of a room that is drawn.
+inline constexpr double kLongestSide_m = 1e6;
+
+/// Whether a room of that side can be drawn: positive, finite, no longer than kLongestSide_m.
+bool is_room_side(double side_m);
+
+/// Whether a room can be drawn with its landmarks at true size, which no side may fall below.
+bool has_room(const World& world);
 
 /// From above and from two sides, so that neighbouring faces differ.
 std::vector<Light> usual_lights();
@@ -29,11 +44,18 @@ Rods pillars(const Points& points_m, const std::vector<Eigen::Index>& rows, doub
 
 Point3 on_floor(const Eigen::RowVector2d& at, double height = 0.0);
 
-/// Sees the whole room up to a height, with axes along its front edges, from the south in
-/// perspective.
-Shot room_view(double side_m, double height_m, double aspect = 1.6);
+/// Radius of the landmarks' pillars: the true one, or what can still be seen in a room so large.
+double pillar_radius_m(const World& world);
+
+/// "Landmarks are drawn 12 times as wide as they are.", or nothing.
+std::string words_of_pillars(const World& world);
+
+/// Sees the whole room up to a height, and what else is said, with axes along its front edges, from
+/// the south in perspective.
+Shot room_view(double side_m, double height_m, std::span<const Point3> also = {},
+               double aspect = 1.6);
 
 /// The same from straight above, x to the right, y upward.
-Shot room_plan(double side_m);
+Shot room_plan(double side_m, std::span<const Point3> also = {});
 
 }  // namespace mapproof

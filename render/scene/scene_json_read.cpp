@@ -1,5 +1,6 @@
 #include <limits>
 
+#include "core/base/errors.hpp"
 #include "core/json/json_cursor.hpp"
 #include "core/json/text_input.hpp"
 #include "render/plot/figure_json_names.hpp"
@@ -44,11 +45,13 @@ Ink ink(const JsonCursor& json) {
 }
 
 Look look(const JsonCursor& json) {
+  json.allow_only({"ink", "share", "opacity", "lit"});
   return {ink(json.at("ink")), number(json.at("share")), number(json.at("opacity")),
           json.at("lit").boolean()};
 }
 
 Tones tones(const JsonCursor& json) {
+  json.allow_only({"values", "limits"});
   return {json.at("values").numbers_or_null(-kGreatest, kGreatest), range(json.at("limits"))};
 }
 
@@ -59,8 +62,23 @@ std::array<std::uint32_t, 3> triangle(const JsonCursor& json) {
   return read;
 }
 
+/// The keys of each kind beside those of all.
+void allow_keys_of(const std::string& kind, const JsonCursor& json) {
+  std::vector<std::string_view> keys = {"kind", "label", "look", "tones"};
+  const auto also = [&keys](std::initializer_list<std::string_view> more) {
+    keys.insert(keys.end(), more);
+  };
+  if (kind == "surface") also({"points", "triangles", "smooth"});
+  if (kind == "tube") also({"points", "radius"});
+  if (kind == "rods") also({"from", "to", "radius", "arrow"});
+  if (kind == "spheres") also({"at", "radius"});
+  if (kind == "field") also({"points", "levels", "contour_radius"});
+  json.allow_only(keys);
+}
+
 Part part(const JsonCursor& json) {
   const std::string kind = text(json.at("kind"));
+  allow_keys_of(kind, json);
   const std::string label = text(json.at("label"));
   const Look surface_look = look(json.at("look"));
   Tones values = tones(json.at("tones"));
@@ -96,39 +114,50 @@ Part part(const JsonCursor& json) {
 }
 
 Camera camera(const JsonCursor& json) {
+  json.allow_only({"eye", "target", "up", "parallel", "height", "angle_rad", "aspect"});
   return {place(json.at("eye")),         place(json.at("target")),  place(json.at("up")),
           json.at("parallel").boolean(), number(json.at("height")), number(json.at("angle_rad")),
           number(json.at("aspect"))};
 }
 
 SceneLabels labels(const JsonCursor& json) {
+  json.allow_only({"at", "text", "ink"});
   return {list(json.at("at"), place), list(json.at("text"), text), ink(json.at("ink"))};
 }
 
 Rule rule(const JsonCursor& json) {
+  json.allow_only({"from", "to", "range", "label", "away"});
   return {place(json.at("from")), place(json.at("to")), range(json.at("range")),
           text(json.at("label")), place(json.at("away"))};
 }
 
 Shot view(const JsonCursor& json) {
+  json.allow_only({"title", "camera", "parts", "labels", "rules"});
   return {text(json.at("title")), camera(json.at("camera")), list(json.at("parts"), count),
           list(json.at("labels"), labels), list(json.at("rules"), rule)};
 }
 
-Note note(const JsonCursor& json) { return {text(json.at("text")), ink(json.at("ink"))}; }
+Note note(const JsonCursor& json) {
+  json.allow_only({"text", "ink"});
+  return {text(json.at("text")), ink(json.at("ink"))};
+}
 
 Light light(const JsonCursor& json) {
+  json.allow_only({"from", "strength"});
   return {place(json.at("from")), number(json.at("strength"))};
 }
 
 Scene read_scene(const JsonCursor& json) {
   expect_schema(json, "mapproof.scene");
+  json.allow_only({"schema", "id", "title", "caption", "alt", "records", "varies", "notes", "parts",
+                   "lights", "views", "columns"});
   Scene scene{
       text(json.at("id")),          text(json.at("title")),         text(json.at("caption")),
       text(json.at("alt")),         list(json.at("records"), text), json.at("varies").boolean(),
       list(json.at("notes"), note), list(json.at("parts"), part),   list(json.at("lights"), light),
       list(json.at("views"), view), count(json.at("columns"))};
-  if (const std::string what = problem(scene); !what.empty()) json.fail(what);
+  if (const std::string what = problem(scene); !what.empty())
+    throw IoError(json.source(), "/" + what);
   return scene;
 }
 

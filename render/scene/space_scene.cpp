@@ -1,5 +1,6 @@
 #include "render/scene/space_scene.hpp"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <functional>
@@ -8,6 +9,7 @@
 
 #include "core/base/errors.hpp"
 #include "core/base/words.hpp"
+#include "render/figures/status_words.hpp"
 #include "render/figures/words.hpp"
 #include "render/scene/cloud_box.hpp"
 #include "render/scene/room.hpp"
@@ -19,14 +21,16 @@ constexpr double kAspect = 2.0;  // One view under the other.
 constexpr double kSeen = 0.035;  // A rod this long is seen, of the box.
 
 void require_usable(const SpaceRun& run) {
-  if (run.records.empty() || run.landmarks_m.rows() < 1 || run.positions_m.rows() < 2)
-    throw InvalidInput("space_scene: no record, landmark or path");
-  if (!run.landmarks_m.allFinite() || !run.positions_m.allFinite())
-    throw InvalidInput("space_scene: a truth that is not finite");
+  if (!has_space_scene(run)) throw InvalidInput("space_scene: nothing that can be shown");
   for (const SpaceRecord& record : run.records)
     if (record.estimate.landmarks_m.rows() != run.landmarks_m.rows() ||
         (!record.estimate.empty() && record.estimate.positions_m.rows() != run.positions_m.rows()))
       throw InvalidInput("space_scene: an estimate is not of the run's landmarks and positions");
+}
+
+/// What went wrong, after a space; nothing if that is not known.
+std::string words_of(const SpaceEstimate& estimate) {
+  return estimate.statuses.empty() ? "" : " " + status_words(estimate.statuses.front());
 }
 
 std::vector<Point3> as_points(const SpacePoints& rows) {
@@ -116,7 +120,8 @@ class SpaceScene {
       scene_.parts.push_back(std::move(part));
     };
     if (record.estimate.empty()) {
-      scene_.notes.push_back({view.title + ": no map came out.", Ink::kWarning});
+      scene_.notes.push_back(
+          {view.title + ": no map came out." + words_of(record.estimate), Ink::kWarning});
     } else {
       add_estimated_path(record.estimate, view.title, is_first, add);
       Rods rods = errors_of(record.estimate);
@@ -206,6 +211,16 @@ class SpaceScene {
 };
 
 }  // namespace
+
+bool has_space_scene(const SpaceRun& run) {
+  constexpr double kFarthest_m = 1e8, kLeastSize = 1e-6;  // The size as a share of the distance.
+  if (run.records.empty() || run.landmarks_m.rows() < 1 || run.positions_m.rows() < 2) return false;
+  if (!run.landmarks_m.allFinite() || !run.positions_m.allFinite()) return false;
+  const double farthest =
+      std::max(run.landmarks_m.cwiseAbs().maxCoeff(), run.positions_m.cwiseAbs().maxCoeff());
+  const CloudBox box(true_places(run));
+  return farthest <= kFarthest_m && box.size() > kLeastSize * std::max(farthest, 1.0);
+}
 
 Scene space_scene(const SpaceSceneSpec& spec) {
   require_usable(spec.run);

@@ -15,6 +15,10 @@ struct SpaceSceneSpec {
   std::vector<std::string> record_ids;
 };
 
+/// Whether there is something to show: a record, landmarks and a path that are not all in one point
+/// and nowhere beyond 1e8 m.
+bool has_space_scene(const SpaceRun& run);
+
 /// Landmarks in space, a view for each record: true places over the ground, the true path as a tube
 /// coloured by time with the estimated one beside it, and a rod from each true place to its
 /// estimate, lengthened by a round factor that is said where it would be too short to be seen. A

@@ -21,8 +21,7 @@ constexpr std::size_t kMostWorst = 3;
 
 void require_usable(const WorldSceneSpec& spec) {
   const World& world = spec.world;
-  if (!(world.side_m > 0.0 && world.side_m <= 1e6) ||
-      !(world.landmark_diameter_m > 0.0 && world.landmark_diameter_m <= world.side_m))
+  if (!has_room(world))
     throw InvalidInput("world_scene: the room's side or the landmarks' diameter is no length");
   if (spec.map.estimate.rows() != world.landmarks_m.rows() ||
       spec.map.names.size() != static_cast<std::size_t>(world.landmarks_m.rows()))
@@ -41,8 +40,9 @@ class WorldScene {
     scene_.title = spec.title;
     scene_.record_ids = {spec.map.id};
     scene_.lights = usual_lights();
-    scene_.views = {view == WorldView::kPlan ? room_plan(side_)
-                                             : room_view(side_, landmark_height(side_))};
+    scene_.views = {view == WorldView::kPlan
+                        ? room_plan(side_, found_.arrows.to)
+                        : room_view(side_, landmark_height(side_), found_.arrows.to)};
   }
 
   Scene make() {
@@ -66,8 +66,7 @@ class WorldScene {
     std::vector<Eigen::Index> rows;
     for (Eigen::Index i = 0; i < world_.landmarks_m.rows(); ++i)
       if (is_anchor(i) == anchors) rows.push_back(i);
-    Rods rods =
-        pillars(world_.landmarks_m, rows, world_.landmark_diameter_m / 2.0, landmark_height(side_));
+    Rods rods = pillars(world_.landmarks_m, rows, pillar_radius_m(world_), landmark_height(side_));
     rods.label = anchors ? "anchor" : "landmark";
     rods.look.ink = anchors ? Ink::kSeries2 : Ink::kSeries1;
     if (rods.from.empty()) rods.label.clear();
@@ -121,14 +120,15 @@ class WorldScene {
   }
 
   void describe() {
-    if (const std::string words = words_of_missing(found_); !words.empty())
-      scene_.notes.push_back({words, Ink::kWarning});
+    for (const std::string& words : {words_of_missing(found_), words_of_pillars(world_)})
+      if (!words.empty()) scene_.notes.push_back({words, Ink::kWarning});
     const auto landmarks = static_cast<std::size_t>(world_.landmarks_m.rows());
     scene_.caption = fmt::format(
-        "Layout {}, pose {}: {} of {} mm in diameter (heights are the drawing's), the robot's path "
+        "Layout {}, pose {}: {} of {} mm in diameter{}, the robot's path "
         "over {} steps, and where {} of {} steps puts each landmark.",
         spec_.run.layout, spec_.run.pose, counted(landmarks, "landmark"),
-        significant(1000.0 * world_.landmark_diameter_m), spec_.path_m.rows(),
+        significant(1000.0 * world_.landmark_diameter_m),
+        scene_.views[0].camera.parallel ? "" : " (heights are the drawing's)", spec_.path_m.rows(),
         label(spec_.map.setting), spec_.map.step);
     scene_.alt =
         fmt::format("A room of {} m by {} m with {}, {} of them anchors", significant(side_),

@@ -3,6 +3,7 @@
 #include <signal.h>
 #include <sys/mman.h>
 #include <sys/socket.h>
+#include <sys/time.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -20,6 +21,8 @@
 
 namespace mapproof {
 namespace {
+
+constexpr time_t kPatience_s = 600;  // Far beyond what the largest picture takes.
 
 /// In the child: becomes the program, its input and output the socket. Only calls that a child of
 /// a process with threads may make.
@@ -78,6 +81,8 @@ void SceneClient::start() {
   std::array<int, 2> ends{};
   if (::socketpair(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0, ends.data()) != 0)
     throw SceneError(fmt::format("scenes cannot be drawn: no socket: {}", std::strerror(errno)));
+  const timeval patience{.tv_sec = kPatience_s, .tv_usec = 0};
+  ::setsockopt(ends[0], SOL_SOCKET, SO_RCVTIMEO, &patience, sizeof(patience));
   Descriptor theirs(ends[1]);
   socket_ = Descriptor(ends[0]);
   messages_ = Descriptor(::memfd_create("mapproof-scenes", MFD_CLOEXEC));
@@ -92,8 +97,14 @@ std::string SceneClient::ending() {
   if (process_ <= 0) return {};
   int status = 0;
   ::waitpid(std::exchange(process_, -1), &status, 0);
-  if (WIFSIGNALED(status)) return fmt::format("it was ended by signal {}", WTERMSIG(status));
+  if (WIFSIGNALED(status))
+    return fmt::format("it was ended by signal {}, perhaps for want of memory", WTERMSIG(status));
   return fmt::format("it ended with exit code {}", WEXITSTATUS(status));
+}
+
+void SceneClient::give_up() {
+  ::kill(process_, SIGKILL);
+  fail(fmt::format("it gave no answer within {} s", kPatience_s));
 }
 
 void SceneClient::fail(const std::string& what) {
@@ -113,6 +124,7 @@ void SceneClient::read_bytes(char* to, std::size_t count) {
   for (std::size_t done = kept; done < count;) {
     const ssize_t got = ::recv(socket_.get(), to + done, count - done, 0);
     if (got < 0 && errno == EINTR) continue;
+    if (got < 0 && errno == EAGAIN) give_up();
     if (got <= 0) fail("it stopped in the middle of a picture");
     done += static_cast<std::size_t>(got);
   }
@@ -125,6 +137,7 @@ std::string SceneClient::read_line() {
   while (end == std::string::npos) {
     const ssize_t got = ::recv(socket_.get(), block.data(), block.size(), 0);
     if (got < 0 && errno == EINTR) continue;
+    if (got < 0 && errno == EAGAIN) give_up();
     if (got <= 0 || unread_.size() > kLongest) fail("it gave no answer");
     unread_.append(block.data(), static_cast<std::size_t>(got));
     end = unread_.find('\n');
@@ -142,6 +155,8 @@ Image SceneClient::draw(const Scene& scene, std::size_t view, int width, int hei
   if (std::min(width, height) < 1 || std::max(width, height) > kLargestSide)
     throw InvalidInput(
         fmt::format("scene {}: no picture is {} x {} pixels", scene.id, width, height));
+  if (samples < 0 || samples > kMostSamples)
+    throw InvalidInput(fmt::format("scene {}: {} samples a pixel", scene.id, samples));
   const std::lock_guard lock(mutex_);
   if (process_ < 0) start();
   const SceneRequest request = scene_request(view, width, height, samples, theme);

@@ -30,6 +30,7 @@ std::filesystem::path scenes_program();
 class SceneClient {
  public:
   static constexpr int kLargestSide = 8192;
+  static constexpr int kMostSamples = 16;
 
   explicit SceneClient(std::filesystem::path program = scenes_program());
   ~SceneClient();
@@ -39,8 +40,8 @@ class SceneClient {
   /// One view in the theme's colours; the same pixels each time.
   /// @param samples  A pixel, up to 16, taken up to the next square; 0: no antialiasing. Fewer
   ///                 where the whole would have more than 2^27.
-  /// @throws InvalidInput if the scene cannot be drawn (see `problem`) or a side is not in
-  ///         1 to kLargestSide; SceneError.
+  /// @throws InvalidInput if the scene cannot be drawn (see `problem`), a side is not in
+  ///         1 to kLargestSide or `samples` not in 0 to kMostSamples; SceneError.
   Image draw(const Scene& scene, std::size_t view, int width, int height, int samples,
              const Theme& theme);
 
@@ -51,6 +52,7 @@ class SceneClient {
   void start();
   std::string read_line();
   void read_bytes(char* to, std::size_t count);
+  [[noreturn]] void give_up();
   [[noreturn]] void fail(const std::string& what);
   std::string ending();
 

@@ -120,12 +120,23 @@ struct SceneRenderer::Parts {
 };
 
 void pin_driver() {
+  // What neither Mesa nor VTK draws by.
+  constexpr std::array kKept = {"HOME",
+                                "XDG_CACHE_HOME",
+                                "PATH",
+                                "TMPDIR",
+                                "LD_LIBRARY_PATH",
+                                "LP_NUM_THREADS",
+                                "MESA_SHADER_CACHE_DISABLE",
+                                "MESA_SHADER_CACHE_DIR",
+                                "MESA_SHADER_CACHE_MAX_SIZE"};
+  std::vector<std::pair<const char*, std::string>> kept;
+  for (const char* name : kKept)
+    if (const char* value = std::getenv(name)) kept.emplace_back(name, value);
+  ::clearenv();
+  for (const auto& [name, value] : kept) ::setenv(name, value.c_str(), 1);
   ::setenv("GALLIUM_DRIVER", "llvmpipe", 1);
   ::setenv("LP_NATIVE_VECTOR_WIDTH", "128", 1);
-  for (const char* name : {"MESA_GL_VERSION_OVERRIDE", "MESA_EXTENSION_OVERRIDE", "LP_PERF",
-                           "LP_DEBUG", "GALLIVM_PERF", "GALLIVM_DEBUG", "GALLIUM_NOSSE",
-                           "MESA_DEBUG", "LIBGL_ALWAYS_INDIRECT", "VTK_DEFAULT_OPENGL_WINDOW"})
-    ::unsetenv(name);
 }
 
 SceneRenderer::SceneRenderer() : parts_(std::make_unique<Parts>()) {

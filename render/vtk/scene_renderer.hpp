@@ -10,8 +10,9 @@
 namespace mapproof {
 
 /// Fixes what the driver's pixels hang on, other than the scene: llvmpipe, with vectors of 128 bits
-/// (their width decides how sums are rounded, and follows the processor otherwise), and none of
-/// the environment's overrides. To be called before anything of OpenGL.
+/// (their width decides how sums are rounded, and follows the processor otherwise), and nothing
+/// of the environment but where caches and libraries are and how many threads draw. To be called
+/// before anything of OpenGL.
 void pin_driver();
 
 /// Draws scenes by VTK in one context of OSMesa. For one thread.

@@ -24,13 +24,15 @@ void answer(const SceneReply& reply, const Image* image) {
   std::fflush(stdout);
 }
 
-/// One request and its scene; a scene that cannot be drawn is answered, and the next one is read.
+/// One request and its scene; a scene that cannot be drawn is answered with what is wrong.
 void serve(SceneRenderer& renderer, const std::string& request_line,
            const std::string& scene_line) {
   try {
     const SceneRequest request = request_from_line(request_line, "request");
     const Image image = renderer.draw(scene_from_json(scene_line, "scene"), request);
     answer({"", image.width, image.height, renderer.name()}, &image);
+  } catch (const std::bad_alloc&) {
+    answer({.error = "out of memory"}, nullptr);
   } catch (const std::exception& error) {
     answer({.error = error.what()}, nullptr);
   }

@@ -66,7 +66,10 @@ TEST_F(ScenesOfAStudy, AreTheSameBytesWithoutADisplayAndForAnyThreads) {
   EXPECT_EQ(usual.size(), 4U);
   for (const auto& [name, bytes] : usual)
     EXPECT_EQ(bytes, read_file(study() + "/figures/" + name)) << name;
-  ::unsetenv("DISPLAY");
+  {
+    const Environment none{{"DISPLAY", nullptr}};
+    expect_same(usual, drawn("no-display"));
+  }
   {
     const Environment one{{"DISPLAY", ":4711"}, {"LP_NUM_THREADS", "0"}};
     expect_same(usual, drawn("one-thread"));
@@ -87,6 +90,50 @@ TEST_F(ScenesOfAStudy, ThatCannotBeDrawnAreOneLineAndCodeThree) {
             "mapproof: scenes cannot be drawn: /nowhere/mapproof-scenes is no program: No such "
             "file or directory\n");
   EXPECT_TRUE(!fs::exists(out) || contents(out).empty());
+}
+
+TEST_F(ScenesOfAStudy, AreDrawnOnceThoughNamedTwice) {
+  const std::string out = *folder_ / "twice";
+  const Outcome outcome = mapproof({"render", study(), "--figure", "map-bearing-isomap", "--figure",
+                                    "map-bearing-isomap", "--out", out, "--jobs", "4"});
+  EXPECT_EQ(outcome.exit_code, 0) << outcome.error;
+  EXPECT_EQ(outcome.out, out + "/map-bearing-isomap.svg\n");
+}
+
+TEST_F(ScenesOfAStudy, MoveWhereThatIsAskedForAndNothingElseIsDrawn) {
+  const std::string out = *folder_ / "film";
+  const Outcome outcome =
+      mapproof({"render", study(), "--animate", "scene-forming-bearing", "--out", out, "--json"});
+  ASSERT_EQ(outcome.exit_code, 0) << outcome.error;
+  const Contents files = contents(out);
+  ASSERT_EQ(files.size(), 1U);
+  EXPECT_EQ(files[0].first, "scene-forming-bearing.apng");
+  EXPECT_NE(files[0].second.find("acTL"), std::string::npos);
+  EXPECT_NE(outcome.out.find("\"animations\""), std::string::npos);
+  EXPECT_NE(outcome.out.find("\"figures\""), std::string::npos);
+  const Outcome unknown = mapproof({"render", study(), "--animate", "map-bearing-isomap"});
+  EXPECT_EQ(unknown.exit_code, 2);
+  EXPECT_NE(unknown.error.find("scene-forming-bearing"), std::string::npos) << unknown.error;
+  const Environment missing{{"MAPPROOF_ANIMATION", "/nowhere/mapproof-animation"}};
+  EXPECT_EQ(mapproof({"render", study(), "--animate", "scene-forming-bearing", "--out",
+                      *folder_ / "no-film"})
+                .exit_code,
+            3);
+}
+
+TEST_F(ScenesOfAStudy, OfARoomThatCannotBeDrawnAreLeftOut) {
+  const fs::path copy = *folder_ / "odd";
+  fs::copy(study(), copy, fs::copy_options::recursive);
+  for (const auto& entry : fs::directory_iterator(copy / "runs")) {
+    std::string text = read_file(entry.path());
+    const std::string key = "\"landmark_diameter_m\": ";
+    text.replace(text.find(key), key.size() + 5, key + "7.48 ");
+    write_file(entry.path(), text);
+  }
+  const Outcome outcome = mapproof({"render", copy.string(), "--figure", "map-bearing-isomap",
+                                    "--figure", "scene-error-bearing"});
+  EXPECT_EQ(outcome.exit_code, 0) << outcome.error;
+  EXPECT_EQ(mapproof({"render", copy.string(), "--figure", "scene-world-bearing"}).exit_code, 2);
 }
 
 TEST_F(ScenesOfAStudy, AreNoConcernOfWhatDrawsNone) {

@@ -10,6 +10,7 @@
 #include "core/base/random.hpp"
 #include "render/output/write_animation.hpp"
 #include "tests/support/apng_reader.hpp"
+#include "tests/support/environment.hpp"
 #include "tests/support/sample_scenes.hpp"
 #include "tests/support/temporary_folder.hpp"
 
@@ -99,7 +100,7 @@ TEST(Animation, WithoutItsProgramIsOneLine) {
 TEST(Animation, OfAMapThatFormsHasAFrameAStep) {
   const TemporaryFolder folder;
   SceneClient client(MAPPROOF_SCENES_PROGRAM);
-  ::setenv("MAPPROOF_ANIMATION", kProgram.c_str(), 1);
+  const Environment ours{{"MAPPROOF_ANIMATION", kProgram.c_str()}};
   Film film = sample_film();
   film.frames.resize(3);
   write_animation(film, paper_theme(3.25), folder.path(), client);

@@ -239,6 +239,14 @@ TEST(FormingFilm, HasAFrameAMapThatDiffersInItsArrowsAlone) {
     EXPECT_EQ(frame.title, film.frames[0].title);
     EXPECT_TRUE(frame.notes.empty());
     EXPECT_EQ(std::get<Rods>(frame.parts[4]).label, std::get<Rods>(film.frames[0].parts[4]).label);
+    Scene other = frame;  // But for what tells frames apart.
+    other.id = film.frames[0].id;
+    other.alt = film.frames[0].alt;
+    other.record_ids = film.frames[0].record_ids;
+    other.caption = film.frames[0].caption;
+    other.views[0].title = film.frames[0].views[0].title;
+    other.parts[4] = film.frames[0].parts[4];
+    EXPECT_EQ(other, film.frames[0]);
   }
   EXPECT_NE(film.frames[2].views[0].title.find("far outside"), std::string::npos);
 }

@@ -4,6 +4,7 @@
 #include "render/scene/forming_scene.hpp"
 #include "render/scene/manifold_scene.hpp"
 #include "render/scene/measurement_scene.hpp"
+#include "render/scene/room.hpp"
 #include "render/scene/world_scene.hpp"
 #include "reports/sections/figures/builders.hpp"
 #include "reports/sections/wording.hpp"
@@ -15,7 +16,8 @@ namespace {
 void add_look(FigureSource& source, Sensor sensor, std::vector<Scene>& scenes) {
   if (sensor != Sensor::kVisibility && sensor != Sensor::kBearing) return;
   for (const Run& run : source.study().runs)
-    if (const SensorDetails* details = source.details(run.id, sensor)) {
+    if (const SensorDetails* details = source.details(run.id, sensor);
+        details != nullptr && has_room(run.world)) {
       scenes.push_back(measurement_scene(measurement(*source.details(run.id), *details, run.world),
                                          fmt::format("scene-look-{}", name(sensor))));
       return;
@@ -30,7 +32,9 @@ void add_best(FigureSource& source, const SettingSummary& best, std::vector<Scen
   const Run* run = source.run(*id);
   const MapRecord* map = source.map(*id, best.sensor, best.setting, best.step);
   const SensorDetails* details = source.details(*id, best.sensor);
-  if (run == nullptr || map == nullptr || map->frame != Frame::kTruth || details == nullptr) return;
+  if (run == nullptr || map == nullptr || map->frame != Frame::kTruth || details == nullptr ||
+      !has_room(run->world))
+    return;
   WorldSceneSpec spec{.id = fmt::format("scene-world-{}", name(best.sensor)),
                       .title = fmt::format("{}, {} after {} steps", title_of(best.sensor),
                                            label(best.setting), best.step),
@@ -40,8 +44,9 @@ void add_best(FigureSource& source, const SettingSummary& best, std::vector<Scen
                       .map = *map};
   scenes.push_back(world_scene(spec, WorldView::kPerspective));
   spec.id += "-plan";
+  spec.title += ", from above";
   scenes.push_back(world_scene(spec, WorldView::kPlan));
-  if (!details->manifold) return;
+  if (!details->manifold || !has_manifold_scene(*details->manifold)) return;
   scenes.push_back(manifold_scene(
       {.id = fmt::format("scene-manifold-{}", name(best.sensor)),
        .title =
@@ -63,8 +68,7 @@ std::optional<FormingSceneSpec> forming_of(FigureSource& source, const SensorStu
   const SettingSummary* best = best_of(all);
   const auto id = best != nullptr ? median_run(source.study(), *best) : std::nullopt;
   const Run* run = id ? source.run(*id) : nullptr;
-  if (run == nullptr || !(run->world.side_m > 0.0 && run->world.landmark_diameter_m > 0.0))
-    return std::nullopt;
+  if (run == nullptr || !has_room(run->world)) return std::nullopt;
   FormingSceneSpec spec{
       .id = fmt::format("scene-forming-{}", name(best->sensor)),
       .title = fmt::format("{}, {}: the map forms", title_of(best->sensor), label(best->setting)),

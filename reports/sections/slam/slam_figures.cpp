@@ -178,7 +178,7 @@ StudyFigures slam_figures(const SlamStudy& study, const SlamTimings& timings) {
       add(slam_run_group(run), "Range-only SLAM: " + title_of(run),
           "Paths and landmarks as the methods recovered them, and what they rest on.",
           run_figures(run), run_scenes(run));
-  if (study.space && !study.space->records.empty())
+  if (study.space && has_space_scene(*study.space))
     add(kSlamSpace, "Range-only SLAM: landmarks in space",
         "A simulated flight over landmarks at various heights. In space squared ranges have rank "
         "5, and the same factorisation, regression and metric upgrade hold.",
