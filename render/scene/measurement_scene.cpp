@@ -16,6 +16,7 @@ namespace mapproof {
 namespace {
 
 constexpr Eigen::Index kTrail = 40;   // Steps of the path that are drawn.
+constexpr double kNearViews = 4.0;    // Across what is drawn of a large room, in views.
 constexpr double kSeenReaches = 4.0;  // Across a view of visibility.
 constexpr double kAround = 1.15;      // Half the side of what is seen, in reaches.
 
@@ -39,7 +40,7 @@ class MeasurementScene {
                                                 : side_) {
     scene_.id = id;
     scene_.lights = usual_lights();
-    scene_.parts = {floor_of(side_), walls_of(side_)};
+    scene_.parts = {floor(), walls()};
     scene_.views = {room_view(side_, landmark_height(seen_m_))};
     scene_.record_ids = {};
   }
@@ -105,6 +106,28 @@ class MeasurementScene {
     scene_.views[0].labels.push_back(std::move(labels));
   }
 
+  /// Of a much larger room only what is near, since a picture holds no such depths.
+  Surface floor() const {
+    if (is_whole()) return floor_of(side_);
+    Surface around{.look = floor_of(side_).look};
+    const double x0 = near(robot_.x, -1.0), x1 = near(robot_.x, 1.0);
+    const double y0 = near(robot_.y, -1.0), y1 = near(robot_.y, 1.0);
+    add_rectangle(around, {x0, y0, 0.0}, {x1, y0, 0.0}, {x1, y1, 0.0}, {x0, y1, 0.0});
+    return around;
+  }
+  Surface walls() const {
+    return is_whole() ? walls_of(side_) : Surface{.look = walls_of(side_).look};
+  }
+
+  bool is_whole() const { return side_ <= kNearViews * seen_m_; }
+  /// The edge of what is near, on one side of a coordinate.
+  double near(double at, double side) const {
+    return std::clamp(at + side * kNearViews * seen_m_ / 2.0, 0.0, side_);
+  }
+  bool is_near(const Eigen::RowVector2d& at) const {
+    return is_whole() || (at - m_.robot_m).cwiseAbs().maxCoeff() < kNearViews * seen_m_ / 2.0;
+  }
+
   Surface disc() const {
     Surface surface{.label = fmt::format("reach, {} mm", std::lround(1000.0 * m_.reach_m)),
                     .look = {.ink = Ink::kSeries7, .share = kTintShare, .lit = false}};
@@ -123,7 +146,9 @@ class MeasurementScene {
   Rods landmarks(std::optional<View> view) const {
     std::vector<Eigen::Index> rows;
     for (Eigen::Index i = 0; i < m_.world.landmarks_m.rows(); ++i)
-      if (!view || m_.views[static_cast<std::size_t>(i)] == *view) rows.push_back(i);
+      if ((!view || m_.views[static_cast<std::size_t>(i)] == *view) &&
+          is_near(m_.world.landmarks_m.row(i)))
+        rows.push_back(i);
     Rods rods = pillars(m_.world.landmarks_m, rows, m_.world.landmark_diameter_m / 2.0,
                         landmark_height(seen_m_));
     rods.label = "landmark";

@@ -12,7 +12,7 @@ namespace {
 
 constexpr double kWallShare = 0.045;   // Of the room's side: low, since the front ones stand too.
 constexpr double kHeightShare = 0.09;  // Landmarks', of the room's side.
-constexpr double kLeastRadiusShare = 0.002;  // Of a pillar, of the room's side.
+constexpr double kLeastRadiusShare = 0.005;  // Of a pillar, of the room's side.
 constexpr double kLabelRoom = 0.11;          // Around the floor, for the labels of the axes.
 
 std::vector<Rule> floor_rules(double side_m) {
