@@ -18,30 +18,12 @@ TEST_P(Baseline, IsMatched) {
   EXPECT_EQ(difference_from_baseline(figure.id, to_image(lay_out(figure, baseline_theme()))), "");
 }
 
-/// Those that differ most in what they show.
-std::vector<Figure> chosen() {
-  std::vector<Figure> figures = sample_figures();
-  std::erase_if(figures, [](const Figure& figure) {
-    for (const char* id :
-         {"map-usual",           "map-one-far-off", "map-some-missing", "map-shape",
-          "curve-usual",         "curve-log",       "curve-filled",     "measurement-visibility",
-          "measurement-bearing", "parameter-usual", "ranks-10",         "ellipses-usual",
-          "shepard-usual",       "spectrum-usual",  "film-four",        "pair-usual",
-          "idea-visibility",     "anchors-usual",   "levels-usual",     "occlusion-usual",
-          "pareto-usual",        "path-usual",      "path-walk",        "convergence-usual",
-          "cost-usual",          "singular-usual",  "windows-usual",    "starts-usual",
-          "wall-eleven"})
-      if (figure.id == id) return false;
-    return true;
-  });
-  return figures;
-}
-
-INSTANTIATE_TEST_SUITE_P(Of, Baseline, ::testing::ValuesIn(chosen()), [](const auto& one) {
-  std::string text = one.param.id;
-  std::ranges::replace(text, '-', '_');
-  return text;
-});
+INSTANTIATE_TEST_SUITE_P(Of, Baseline, ::testing::ValuesIn(baseline_figures()),
+                         [](const auto& one) {
+                           std::string text = one.param.id;
+                           std::ranges::replace(text, '-', '_');
+                           return text;
+                         });
 
 TEST(Baselines, AMissingOneIsAFailureThatLeavesACandidate) {
   const Image image{8, 8, std::vector<std::uint32_t>(64, 0xFFFFFF)};
