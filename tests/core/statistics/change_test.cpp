@@ -1,0 +1,123 @@
+#include <cmath>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include "core/base/errors.hpp"
+#include "core/base/random.hpp"
+#include "core/statistics/change_point.hpp"
+#include "core/statistics/paired_change.hpp"
+#include "core/statistics/robust_noise.hpp"
+
+namespace mapproof {
+namespace {
+
+std::vector<double> noise(int count, std::uint64_t seed) {
+  Random random(seed);
+  std::vector<double> values;
+  for (int i = 0; i < count; ++i) values.push_back(random.normal());
+  return values;
+}
+
+TEST(PairedChange, OfFewPairsIsStudentsT) {
+  const PairedChange change = paired_change(std::vector{1.0, 2.0, 3.0, 4.0, 5.0});
+  EXPECT_FALSE(change.by_ranks);
+  EXPECT_NEAR(change.shift, 3.0, 1e-12);
+  EXPECT_NEAR(change.p, 0.0132356, 1e-7);  // scipy.stats.ttest_1samp.
+  EXPECT_NEAR(change.low, 3.0 - 1.963243, 1e-5);
+}
+
+TEST(PairedChange, OfManyPairsIsTheMedianOfWalshAveragesAndOneWildPairDoesNotMoveIt) {
+  std::vector<double> differences;
+  for (int i = 0; i < 25; ++i) differences.push_back(1.0 + 0.01 * i);
+  const PairedChange clean = paired_change(differences);
+  EXPECT_TRUE(clean.by_ranks);
+  EXPECT_NEAR(clean.shift, 1.12, 1e-12);
+  EXPECT_LT(clean.p, 1e-7);
+  EXPECT_LT(clean.low, 1.12);
+  EXPECT_GT(clean.low, 1.0);
+  differences[3] = 1e14;
+  EXPECT_NEAR(paired_change(differences).shift, 1.12, 0.02);
+}
+
+TEST(PairedChange, NothingChangedHasNoP) {
+  for (const int n : {1, 2, 5, 30})
+    EXPECT_EQ(paired_change(std::vector<double>(static_cast<std::size_t>(n), 0.0)).p, 1.0) << n;
+}
+
+TEST(PairedChange, IntervalsHoldTheTruthAsOftenAsTheySay) {
+  for (const int n : {8, 25}) {
+    int held = 0;
+    for (std::uint64_t seed = 0; seed < 2000; ++seed) {
+      const PairedChange change = paired_change(noise(n, seed));
+      held += change.low <= 0.0 && change.high >= 0.0;
+    }
+    EXPECT_NEAR(held / 2000.0, 0.95, 0.015) << n;
+  }
+}
+
+TEST(PairedChange, RefusesWhatIsNoDifference) {
+  EXPECT_THROW(paired_change({}), InvalidInput);
+  EXPECT_THROW(paired_change(std::vector{1.0, std::nan("")}), InvalidInput);
+}
+
+TEST(RobustNoise, IsTheStandardDeviationOfANormalAndHalfOfItMayBeWild) {
+  std::vector<double> values = noise(20'000, 7);
+  EXPECT_NEAR(robust_noise(values).sigma, 1.0, 0.03);
+  for (std::size_t i = 0; i < 1000; ++i) values[i] = 1e9;
+  EXPECT_NEAR(robust_noise(values).sigma, 1.0, 0.1);
+}
+
+TEST(RobustNoise, LimitsOfFewValuesAreCrossedAboutAsSeldomAsAskedFor) {
+  for (const int n : {5, 10, 20}) {
+    int crossed = 0;
+    for (std::uint64_t seed = 0; seed < 20'000; ++seed) {
+      std::vector<double> values = noise(n + 1, seed);
+      const double next = values.back();
+      values.pop_back();
+      crossed += next > upper_limit(robust_noise(values), 0.01, 0.0);
+    }
+    EXPECT_LT(crossed / 20'000.0, 0.025) << n;
+    EXPECT_GT(crossed / 20'000.0, 0.001) << n;
+  }
+}
+
+TEST(ChangePoint, FindsAStepWhereItIs) {
+  std::vector<double> values = noise(40, 3);
+  for (std::size_t i = 25; i < values.size(); ++i) values[i] += 5.0;
+  const ChangePoint change = rise_in(values);
+  EXPECT_LT(change.p, 1e-4);
+  EXPECT_EQ(change.first, 25);
+  EXPECT_FALSE(change.gradual);
+  EXPECT_NEAR(change.rise, 5.0, 1.3);  // Three standard errors of the medians.
+}
+
+TEST(ChangePoint, FindsWhereASlowDriftBegins) {
+  std::vector<double> values = noise(60, 4);
+  for (std::size_t i = 30; i < values.size(); ++i) values[i] += 0.4 * static_cast<double>(i - 29);
+  const ChangePoint change = rise_in(values);
+  EXPECT_LT(change.p, 1e-4);
+  EXPECT_TRUE(change.gradual);
+  EXPECT_NEAR(change.first, 30, 6);
+}
+
+TEST(ChangePoint, OneWildValueIsNoChange) {
+  std::vector<double> values(30, 1.0);
+  values[20] = 1e6;
+  EXPECT_GT(rise_in(values).p, 0.5);
+}
+
+TEST(ChangePoint, AFallIsNoRise) {
+  std::vector<double> values(30, 1.0);
+  for (std::size_t i = 15; i < 30; ++i) values[i] = 0.0;
+  EXPECT_EQ(rise_in(values).p, 1.0);
+}
+
+TEST(ChangePoint, FalseAlarmsAreNoMoreThanAskedFor) {
+  int alarms = 0;
+  for (std::uint64_t seed = 0; seed < 4000; ++seed) alarms += rise_in(noise(30, seed)).p < 0.01;
+  EXPECT_LE(alarms, 40);
+}
+
+}  // namespace
+}  // namespace mapproof
