@@ -12,6 +12,7 @@ enum ExitCode {
   kNo = 1,        ///< The check that was asked for says no, or no map came out.
   kUsage = 2,     ///< Usage or input.
   kInternal = 3,  ///< A fault of the program.
+  kCostGrew = 4,  ///< Of nightly: only seconds or memory got worse.
 };
 
 /// How much is said on standard error.

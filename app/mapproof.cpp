@@ -28,7 +28,8 @@ constexpr const char* kExitCodes =
     "  0  done\n"
     "  1  the check that was asked for says no, or no map came out\n"
     "  2  usage or input\n"
-    "  3  internal error\n";
+    "  3  internal error\n"
+    "  4  nightly: only seconds or memory grew\n";
 
 constexpr const char* kFooter =
     "Every verb takes --json (its result as one JSON object on standard output), --quiet and "
@@ -71,7 +72,8 @@ int run_verb_of(int argc, char** argv) {
       {"reproduce", reproduce_verb}, {"run", run_verb},           {"render", render_verb},
       {"report", report_verb},       {"map", map_verb},           {"slam", slam_verb},
       {"diff", diff_verb},           {"approve", approve_verb},   {"check", check_verb},
-      {"methods", methods_verb},     {"validate", validate_verb},
+      {"methods", methods_verb},     {"validate", validate_verb}, {"nightly", nightly_verb},
+      {"history", history_verb},
   };
   std::vector<std::pair<CLI::App*, Action>> actions;
   for (const auto& [name, verb] : verbs) {

@@ -16,5 +16,7 @@ Action check_verb(CLI::App& app);
 Action diff_verb(CLI::App& app);
 Action methods_verb(CLI::App& app);
 Action validate_verb(CLI::App& app);
+Action nightly_verb(CLI::App& app);
+Action history_verb(CLI::App& app);
 
 }  // namespace mapproof

@@ -33,22 +33,38 @@ std::optional<pid_t> writer(const fs::path& file) {
   return process;
 }
 
+Descriptor opened(const fs::path& folder) {
+  Descriptor descriptor(::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC));
+  if (descriptor.get() < 0)
+    throw IoError(folder.string(), std::string("cannot be opened: ") + std::strerror(errno));
+  return descriptor;
+}
+
+/// Whether the lock was taken, or the file system knows none.
+bool locked(const Descriptor& folder, int how) {
+  int result = 0;
+  do result = ::flock(folder.get(), how);
+  while (result != 0 && errno == EINTR);
+  return result == 0 || errno != EWOULDBLOCK;
+}
+
 bool is_running(pid_t process) {
   return process != ::getpid() && (::kill(process, 0) == 0 || errno == EPERM);
 }
 
 }  // namespace
 
-FolderLock::FolderLock(const fs::path& folder)
-    : folder_(::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC)) {
-  if (folder_.get() < 0)
-    throw IoError(folder.string(), std::string("cannot be opened: ") + std::strerror(errno));
-  int result = 0;
-  do result = ::flock(folder_.get(), LOCK_EX | LOCK_NB);
-  while (result != 0 && errno == EINTR);
-  if (result != 0 && errno == EWOULDBLOCK)
+FolderLock::FolderLock(const fs::path& folder) : folder_(opened(folder)) {
+  if (!locked(folder_, LOCK_EX | LOCK_NB))
     throw IoError(folder.string(),
                   "is in use by another mapproof; wait for it, or choose another folder");
+}
+
+FolderLock::FolderLock(const fs::path& folder, const std::function<void()>& busy)
+    : folder_(opened(folder)) {
+  if (locked(folder_, LOCK_EX | LOCK_NB)) return;
+  busy();
+  locked(folder_, LOCK_EX);
 }
 
 bool is_leftover(const fs::path& file) { return writer(file).has_value(); }

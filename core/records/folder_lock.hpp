@@ -1,6 +1,7 @@
 #pragma once
 
 #include <filesystem>
+#include <functional>
 
 #include "core/base/descriptor.hpp"
 
@@ -13,6 +14,10 @@ class FolderLock {
  public:
   /// @throws IoError if another process, or another lock of this one, holds the folder.
   explicit FolderLock(const std::filesystem::path& folder);
+
+  /// Waits until nobody else holds the folder. @param busy  Called once if there is a wait.
+  /// @throws IoError if the folder cannot be opened.
+  FolderLock(const std::filesystem::path& folder, const std::function<void()>& busy);
 
  private:
   Descriptor folder_;

@@ -1,19 +1,9 @@
 #include "reports/html/sha256.hpp"
 
 #include <cstddef>
-
-#include <sha256.h>
+#include <cstdint>
 
 namespace mapproof {
-
-std::array<std::uint8_t, 32> sha256(std::string_view bytes) {
-  SHA256_CTX context;
-  SHA256_Init(&context);
-  SHA256_Update(&context, reinterpret_cast<const std::uint8_t*>(bytes.data()), bytes.size());
-  std::array<std::uint8_t, 32> digest{};
-  SHA256_Final(digest.data(), &context);
-  return digest;
-}
 
 std::string base64(std::string_view bytes) {
   static constexpr std::string_view kDigits =

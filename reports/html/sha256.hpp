@@ -1,14 +1,11 @@
 #pragma once
 
-#include <array>
-#include <cstdint>
 #include <string>
 #include <string_view>
 
-namespace mapproof {
+#include "core/base/sha256.hpp"
 
-/// SHA-256 [fips180-4].
-std::array<std::uint8_t, 32> sha256(std::string_view bytes);
+namespace mapproof {
 
 /// Base64 with padding [rfc4648, section 4].
 std::string base64(std::string_view bytes);

@@ -1,0 +1,192 @@
+#include <sys/utsname.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <charconv>
+#include <ctime>
+#include <memory>
+#include <thread>
+
+#include <fmt/chrono.h>
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include "app/build_facts.hpp"
+#include "app/commands/verbs.hpp"
+#include "app/embedded_experiments.hpp"
+#include "app/folder_report.hpp"
+#include "app/history_report.hpp"
+#include "app/night_folders.hpp"
+#include "app/nightly_study.hpp"
+#include "core/base/errors.hpp"
+#include "core/base/files.hpp"
+#include "core/json/json_text.hpp"
+#include "core/records/folder_lock.hpp"
+#include "core/records/provenance_values.hpp"
+#include "reports/history/history_export.hpp"
+#include "reports/history/history_prune.hpp"
+#include "reports/history/judge_night.hpp"
+#include "reports/history/night_scores.hpp"
+#include "reports/history/object_folder.hpp"
+
+namespace mapproof {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr const char* kLastGood = "last-good";
+
+struct Arguments {
+  std::vector<std::string> experiments;
+  std::string store;
+  std::string out;
+  std::string reference = kLastGood;
+  std::string profile;
+  int jobs = 1;
+  std::optional<std::string> templates;
+  std::optional<std::string> plaza;
+};
+
+std::string now_utc() {
+  return fmt::format("{:%Y-%m-%dT%H:%M:%SZ}", fmt::gmtime(std::time(nullptr)));
+}
+
+std::optional<int> asked_reference(const std::string& text) {
+  if (text == kLastGood) return std::nullopt;
+  int number = 0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
+  if (error != std::errc() || end != text.data() + text.size() || number < 1)
+    throw InvalidInput("--reference: \"" + printable(text) + "\" is no night's number and not " +
+                       kLastGood);
+  return number;
+}
+
+NightFacts begun(int number, int jobs, const std::string& command) {
+  char host[256] = "";
+  utsname system{};
+  return {.number = number,
+          .started_utc = now_utc(),
+          .ended_utc = "",
+          .command = command,
+          .provenance = json_line(provenance_value(build_provenance())),
+          .host = ::gethostname(host, sizeof host - 1) == 0 ? host : "",
+          .processor = ::uname(&system) == 0 ? system.machine : "",
+          .cores = static_cast<int>(std::thread::hardware_concurrency()),
+          .jobs = jobs};
+}
+
+/// Makes the records of every study. @return The worst exit code.
+int make_all(const std::vector<NightlyOrder>& orders, const fs::path& folder, int jobs,
+             const std::string& command, const Console& console) {
+  int worst = kDone;
+  for (const NightlyOrder& order : orders)
+    worst = std::max(worst, make_apart(order, folder / order.name, jobs, command, console));
+  return worst;
+}
+
+/// What each study is, with its report drawn and its figures kept.
+std::vector<StudyNight> read_all(const std::vector<NightlyOrder>& orders, const fs::path& folder,
+                                 const fs::path& store, const Templates& page,
+                                 const Arguments& arguments, const std::string& command) {
+  const ObjectFolder objects(store / "objects");
+  std::vector<StudyNight> studies;
+  for (const NightlyOrder& order : orders) {
+    const fs::path study = folder / order.name;
+    write_report(read_folder_report(study, command, command), page, arguments.jobs);
+    studies.push_back(read_study_night(study, order.name));
+    studies.back().figures = objects.keep(study / "figures");
+  }
+  return studies;
+}
+
+int exit_code(NightVerdict verdict) {
+  switch (verdict) {
+    case NightVerdict::kGood:
+      return kDone;
+    case NightVerdict::kCost:
+      return kCostGrew;
+    default:
+      return kNo;
+  }
+}
+
+std::string night_text(const Night& night, const std::vector<std::string>& remarks) {
+  std::string text = fmt::format("night {}: {}\n", night.facts.number,
+                                 verdict_sentence(night.facts, night.findings.size()));
+  for (const NightFinding& finding : night.findings)
+    text += fmt::format("  {}: {}\n", finding.study, finding.sentence);
+  for (const std::string& remark : remarks) text += fmt::format("  ({})\n", remark);
+  return text;
+}
+
+int nightly(const Arguments& arguments, const Invocation& invocation) {
+  const Console& console = invocation.console;
+  const Templates page = load_templates(arguments.templates);
+  const std::optional<int> asked = asked_reference(arguments.reference);
+  const std::vector<NightlyOrder> orders =
+      read_nightly_orders(arguments.experiments, arguments.profile, arguments.plaza);
+  const fs::path store = arguments.store;
+  make_folder(store);
+  const FolderLock lock(store, [&] {
+    console.warning(store.string() +
+                    ": another mapproof is at work in it; waiting, since two at once would spoil "
+                    "each other's seconds");
+  });
+  HistoryStore history = HistoryStore::open(store);
+  for (const std::string& remark : history.remarks()) console.warning(remark);
+
+  Night night{.facts = begun(next_night(history, store), arguments.jobs, invocation.command)};
+  if (asked) reference_night(history, night, asked);  // Refused before hours of work.
+  const fs::path folder = night_folder(store, night.facts.number);
+  begin_night(folder, orders, console);
+  const int made = make_all(orders, folder, arguments.jobs, invocation.command, console);
+  if (made != kDone) {
+    console.warning(
+        fmt::format("night {}: not recorded, since a study was not finished", night.facts.number));
+    return made;
+  }
+  night.studies = read_all(orders, folder, store, page, arguments, invocation.command);
+  night.facts.ended_utc = now_utc();
+  const std::vector<std::string> remarks = judge_night(history, night, asked);
+  history.append(night);
+  end_night(folder, night);
+  const fs::path index =
+      write_history_pages(history, arguments.out.empty() ? store : fs::path(arguments.out), remarks,
+                          page, arguments.jobs);
+
+  nlohmann::ordered_json object = night_value(night.facts, night.findings);
+  object["remarks"] = remarks;
+  object["index"] = index.string();
+  console.result(night_text(night, remarks) + index.string() + "\n", object);
+  return exit_code(night.facts.verdict);
+}
+
+}  // namespace
+
+Action nightly_verb(CLI::App& app) {
+  auto arguments = std::make_shared<Arguments>();
+  app.description("Run experiments, add them to a history, and say what got worse");
+  app.footer(
+      "Examples:\n"
+      "  mapproof nightly yairi2007 --store history\n"
+      "  mapproof nightly mine.json boots2013 --profile quick --store history --reference 12\n\n"
+      "Exit code 0: nothing got worse; 1: accuracy did; 4: seconds or memory alone grew.\n"
+      "docs/nightly.md says by which rules, and how to run it by a timer.\n");
+  app.add_option("EXPERIMENT", arguments->experiments,
+                 fmt::format("Experiments' JSON files, or {}", fmt::join(experiment_names(), ", ")))
+      ->required();
+  app.add_option("--store", arguments->store, "Folder of the history; made if it is not there")
+      ->required();
+  add_out_option(app, arguments->out, "Folder for index and trend pages, instead of the store");
+  app.add_option("--reference", arguments->reference,
+                 "Night to compare with: its number, or last-good (the pinned one if there is one)")
+      ->capture_default_str();
+  app.add_option("--profile", arguments->profile, "Profile of those experiments that have it");
+  add_jobs_option(app, arguments->jobs);
+  app.add_option("--templates", arguments->templates,
+                 "Folder whose templates replace the embedded ones");
+  add_plaza_option(app, arguments->plaza);
+  return [arguments](const Invocation& invocation) { return nightly(*arguments, invocation); };
+}
+
+}  // namespace mapproof

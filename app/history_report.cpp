@@ -1,0 +1,42 @@
+#include "app/history_report.hpp"
+
+#include "app/folder_report.hpp"
+#include "core/base/files.hpp"
+#include "reports/history/judge_night.hpp"
+#include "reports/html/report_html.hpp"
+
+namespace mapproof {
+
+namespace fs = std::filesystem;
+
+fs::path write_history_pages(HistoryStore& history, const fs::path& out,
+                             std::span<const std::string> remarks, const Templates& page,
+                             int jobs) {
+  const std::vector<NightFacts> nights = history.nights();
+  NightFindings findings;
+  for (const NightFacts& night : nights) findings[night.number] = history.findings(night.number);
+  std::vector<std::string> studies;
+  if (!nights.empty())
+    for (const StudyNight& study : history.studies(nights.back().number)) {
+      studies.push_back(study.name);
+      HistoryPage trend = trend_page(
+          history.trend(study.name, study.order_digest, kTrendNights, nights.back().number),
+          findings);
+      const FolderReport report{.folder = out / "trends" / study.name,
+                                .report = std::move(trend.report),
+                                .in_company = {},
+                                .figures = std::move(trend.figures),
+                                .scenes = {},
+                                .runs = 0,
+                                .missing = {}};
+      write_report(report, page, jobs);
+    }
+  const fs::path index = out / "index.html";
+  const HtmlOptions no_files{.figure_folder = "", .table_folder = ""};
+  write_file(index, report_html(
+                        index_page(nights, findings, studies, remarks), page,
+                        [](const std::string&) { return std::string(); }, no_files));
+  return index;
+}
+
+}  // namespace mapproof

@@ -1,0 +1,244 @@
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "core/statistics/intervals.hpp"
+#include "core/statistics/robust_noise.hpp"
+#include "reports/history/regression_rules.hpp"
+
+namespace mapproof {
+namespace {
+
+constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
+constexpr std::size_t kMethodsForCommon = 4;
+constexpr double kLeastError = 1e-9;
+
+double median_of(const std::vector<double>& values) {
+  const RobustNoise noise = robust_noise(values);
+  return noise.values == 0 ? kNone : noise.median;
+}
+
+std::vector<double> picked(const std::vector<double>& values,
+                           const std::vector<std::size_t>& places) {
+  std::vector<double> out;
+  for (const std::size_t place : places)
+    if (!std::isnan(values[place])) out.push_back(values[place]);
+  return out;
+}
+
+/// The mean over steps of the logarithms of a method's median seconds, night by night; a night that
+/// lacks a step has none, and neither has a method whose pieces are too short.
+std::map<std::string, std::vector<double>> log_seconds(const StudyTrend& trend, double shortest) {
+  std::map<std::string, std::vector<std::vector<double>>> steps;
+  for (const auto& [series, values] : trend.medians) {
+    if (history_quantity(series.quantity).compared != Compared::kDuration) continue;
+    const double usual = median_of(values);
+    if (std::isnan(usual) || usual < shortest) continue;
+    std::vector<double> logs;
+    for (const double value : values) logs.push_back(std::log(std::max(value, 1e-9)));
+    steps[method_of(series)].push_back(std::move(logs));
+  }
+  std::map<std::string, std::vector<double>> methods;
+  for (const auto& [method, all] : steps) {
+    std::vector<double> mean(trend.nights.size(), 0.0);
+    for (const auto& logs : all)
+      for (std::size_t i = 0; i < mean.size(); ++i)
+        mean[i] += logs[i] / static_cast<double>(all.size());
+    methods[method] = std::move(mean);
+  }
+  return methods;
+}
+
+/// A limit that tonight is held against.
+struct Limit {
+  double usual = 0.0;
+  double most = 0.0;
+  int nights = 0;
+};
+
+Limit limit_of(const NightSeries& series, const std::vector<std::size_t>& usual, double p) {
+  const std::vector<double> values = picked(series.values, usual);
+  const RobustNoise noise = robust_noise(values);
+  return {noise.median, std::max(noise.median + series.least, upper_limit(noise, p, series.floor)),
+          noise.values};
+}
+
+NightFinding finding_of(const NightSeries& series, const Limit& limit, const StudyTrend& trend,
+                        int since, const std::string& word) {
+  const std::string label(series.quantity == "memory" ? "peak memory"
+                                                      : history_quantity(series.quantity).label);
+  return {.study = trend.name,
+          .rule = series.rule,
+          .subject = series.subject,
+          .quantity = series.quantity,
+          .since = since,
+          .sentence = fmt::format(
+              "{}: {} {} than usual in {} good nights, where the limit is {}{}", series.subject,
+              label, change_words(series.values.back() - limit.usual, series.ratio, word),
+              limit.nights, change_words(limit.most - limit.usual, series.ratio, word),
+              since == trend.nights.back().number ? "" : fmt::format("; since night {}", since))};
+}
+
+/// The place of the last night before tonight that has a value and was made on the same machine.
+std::optional<std::size_t> night_before(const StudyTrend& trend, const NightSeries& series) {
+  for (std::size_t i = trend.nights.size() - 1; i-- > 0;)
+    if (!std::isnan(series.values[i]) && same_machine(trend.nights[i], trend.nights.back()))
+      return i;
+  return std::nullopt;
+}
+
+void judge_sustained(const NightSeries& series, const StudyTrend& trend,
+                     const std::vector<std::size_t>& usual, double p, int least_nights,
+                     RuleOutcome& outcome) {
+  const auto before = night_before(trend, series);
+  if (std::isnan(series.values.back()) || !before) return;
+  // The night before is judged as well: it cannot say what is usual.
+  std::vector<std::size_t> others = usual;
+  std::erase(others, *before);
+  const Limit limit = limit_of(series, others, p);
+  if (limit.nights < least_nights || series.values.back() <= limit.most) return;
+  const std::string word = series.rule == NightRule::kAllSeconds ? "slower" : "higher";
+  const int since = trend.nights[*before].number;
+  if (series.values[*before] > limit.most) {
+    outcome.findings.push_back(finding_of(series, limit, trend, since, word));
+    return;
+  }
+  outcome.remarks.push_back(
+      finding_of(series, limit, trend, trend.nights.back().number, word).sentence +
+      "; flagged if the next night is too");
+}
+
+/// Accuracy of single logs: nothing to pair, so judged over nights.
+std::vector<NightSeries> unpaired_series(const StudyEvidence& evidence,
+                                         const RegressionRules& rules) {
+  std::vector<NightSeries> series;
+  for (NightSeries& one : accuracy_series(evidence.trend, rules)) {
+    int runs = 0;
+    for (const auto& [id, values] : evidence.tonight)
+      if (method_of(id) == one.subject && id.quantity == one.quantity)
+        runs = std::max(runs, static_cast<int>(values.size()));
+    one.least = one.ratio ? std::log1p(rules.least_growth) : rules.least_points;
+    if (runs < rules.least_units) series.push_back(std::move(one));
+  }
+  return series;
+}
+
+}  // namespace
+
+std::vector<std::size_t> usual_nights(const StudyTrend& trend, const RegressionRules& rules) {
+  std::vector<std::size_t> usual;
+  for (std::size_t i = 0; i + 1 < trend.nights.size(); ++i)
+    // Who pins a night takes it as good.
+    if ((trend.nights[i].verdict == NightVerdict::kGood || trend.nights[i].pinned) &&
+        same_machine(trend.nights[i], trend.nights.back()))
+      usual.push_back(i);
+  const auto most = static_cast<std::size_t>(rules.most_good_nights);
+  if (usual.size() > most) usual.erase(usual.begin(), usual.end() - static_cast<long>(most));
+  return usual;
+}
+
+std::vector<NightSeries> seconds_series(const StudyTrend& trend,
+                                        const std::vector<std::size_t>& usual,
+                                        const RegressionRules& rules) {
+  std::vector<NightSeries> all;
+  for (auto& [method, values] : log_seconds(trend, rules.shortest_s)) {
+    const double level = median_of(picked(values, usual));
+    if (std::isnan(level)) continue;
+    NightSeries series{.rule = NightRule::kSeconds,
+                       .subject = method,
+                       .quantity = "seconds",
+                       .least = std::log1p(rules.least_slowdown),
+                       .floor = rules.seconds_floor,
+                       .values = values};
+    for (double& value : series.values) value -= level;
+    all.push_back(std::move(series));
+  }
+  if (all.size() < kMethodsForCommon) {
+    for (NightSeries& series : all) series.rule = NightRule::kAllSeconds;
+    return all;
+  }
+  NightSeries common{.rule = NightRule::kAllSeconds,
+                     .subject = "all methods",
+                     .quantity = "seconds",
+                     .least = std::log1p(rules.least_slowdown),
+                     .floor = rules.seconds_floor};
+  for (std::size_t night = 0; night < trend.nights.size(); ++night) {
+    std::vector<double> of_night;
+    for (const NightSeries& series : all) of_night.push_back(series.values[night]);
+    common.values.push_back(median_of(of_night));
+    for (NightSeries& series : all) series.values[night] -= common.values.back();
+  }
+  all.push_back(std::move(common));
+  return all;
+}
+
+std::vector<NightSeries> memory_series(const StudyTrend& trend, const RegressionRules& rules) {
+  NightSeries series{.rule = NightRule::kMemory,
+                     .subject = "the whole study",
+                     .quantity = "memory",
+                     .least = std::log1p(rules.least_growth),
+                     .floor = rules.memory_floor};
+  bool known = false;
+  for (const double mib : trend.peak_memory_mib) {
+    series.values.push_back(mib > 0.0 ? std::log(mib) : kNone);
+    known = known || mib > 0.0;
+  }
+  return known ? std::vector{series} : std::vector<NightSeries>{};
+}
+
+std::vector<NightSeries> accuracy_series(const StudyTrend& trend, const RegressionRules& rules) {
+  // Series ascend by step: the last of each method and quantity stays.
+  std::map<std::pair<std::string, std::string>, NightSeries> last;
+  for (const auto& [id, values] : trend.medians) {
+    const Compared compared = history_quantity(id.quantity).compared;
+    if (compared != Compared::kRatio && compared != Compared::kPoints) continue;
+    const bool ratio = compared == Compared::kRatio;
+    NightSeries series{.rule = NightRule::kAccuracy,
+                       .subject = method_of(id),
+                       .quantity = id.quantity,
+                       .ratio = ratio,
+                       .least = ratio ? std::log1p(rules.least_ratio) : rules.least_points,
+                       .values = values};
+    if (ratio)
+      for (double& value : series.values)
+        value = std::isnan(value) ? kNone : std::log(std::max(value, kLeastError));
+    last[{series.subject, series.quantity}] = std::move(series);
+  }
+  std::vector<NightSeries> all;
+  for (auto& [key, series] : last) all.push_back(std::move(series));
+  return all;
+}
+
+RuleOutcome judge_costs(const StudyEvidence& evidence, const RegressionRules& rules) {
+  RuleOutcome outcome;
+  const StudyTrend& trend = evidence.trend;
+  const std::vector<std::size_t> usual = usual_nights(trend, rules);
+  if (std::cmp_less(usual.size(), rules.least_good_nights)) {
+    outcome.remarks.push_back(fmt::format(
+        "{}: {} of {} good nights on this machine so far; seconds and memory are not judged yet",
+        trend.name, usual.size(), rules.least_good_nights));
+    return outcome;
+  }
+  const std::vector<NightSeries> seconds = seconds_series(trend, usual, rules);
+  const double p = rules.alpha / std::max<double>(1.0, static_cast<double>(seconds.size()));
+  for (const NightSeries& series : seconds) {
+    if (series.rule == NightRule::kAllSeconds) {
+      judge_sustained(series, trend, usual, p, rules.least_good_nights - 1, outcome);
+      continue;
+    }
+    const Limit limit = limit_of(series, usual, p);
+    if (limit.nights >= rules.least_good_nights && series.values.back() > limit.most)
+      outcome.findings.push_back(
+          finding_of(series, limit, trend, trend.nights.back().number, "slower"));
+  }
+  for (const NightSeries& series : memory_series(trend, rules))
+    judge_sustained(series, trend, usual, rules.alpha, rules.least_good_nights - 1, outcome);
+  for (const NightSeries& series : unpaired_series(evidence, rules))
+    judge_sustained(series, trend, usual, rules.alpha, 1, outcome);
+  return outcome;
+}
+
+}  // namespace mapproof

@@ -1,0 +1,157 @@
+#include "reports/history/database.hpp"
+
+#include <cmath>
+#include <limits>
+
+#include <sqlite3.h>
+
+#include "core/base/errors.hpp"
+
+namespace mapproof {
+namespace {
+
+constexpr int kBusyMilliseconds = 10'000;
+
+/// Writes that fail for want of room are told of by SQLite as either.
+bool is_full(int code) {
+  return (code & 0xFF) == SQLITE_FULL || code == SQLITE_IOERR_WRITE || code == SQLITE_IOERR_FSYNC ||
+         code == SQLITE_IOERR_TRUNCATE;
+}
+
+}  // namespace
+
+Statement::Statement(Database& database, std::string_view sql) : database_(&database) {
+  sqlite3_stmt* statement = nullptr;
+  const int code = sqlite3_prepare_v2(database.handle(), sql.data(), static_cast<int>(sql.size()),
+                                      &statement, nullptr);
+  statement_.reset(statement);
+  if (code != SQLITE_OK) database.fail();
+}
+
+void Statement::Finalizer::operator()(sqlite3_stmt* statement) const {
+  sqlite3_finalize(statement);
+}
+
+Statement& Statement::bind(std::int64_t value) {
+  if (sqlite3_bind_int64(statement_.get(), ++bound_, value) != SQLITE_OK) database_->fail();
+  return *this;
+}
+
+Statement& Statement::bind(double value) {
+  if (std::isnan(value)) return bind_null();
+  if (sqlite3_bind_double(statement_.get(), ++bound_, value) != SQLITE_OK) database_->fail();
+  return *this;
+}
+
+Statement& Statement::bind(std::string_view value) {
+  if (sqlite3_bind_text64(statement_.get(), ++bound_, value.data(), value.size(), SQLITE_TRANSIENT,
+                          SQLITE_UTF8) != SQLITE_OK)
+    database_->fail();
+  return *this;
+}
+
+Statement& Statement::bind_null() {
+  if (sqlite3_bind_null(statement_.get(), ++bound_) != SQLITE_OK) database_->fail();
+  return *this;
+}
+
+bool Statement::step() {
+  const int code = sqlite3_step(statement_.get());
+  if (code == SQLITE_ROW) return true;
+  if (code != SQLITE_DONE) database_->fail();
+  sqlite3_reset(statement_.get());
+  bound_ = 0;
+  return false;
+}
+
+void Statement::run() {
+  while (step()) {
+  }
+}
+
+std::int64_t Statement::integer(int column) const {
+  return sqlite3_column_int64(statement_.get(), column);
+}
+
+double Statement::real(int column) const {
+  return is_null(column) ? std::numeric_limits<double>::quiet_NaN()
+                         : sqlite3_column_double(statement_.get(), column);
+}
+
+std::string Statement::text(int column) const {
+  const unsigned char* bytes = sqlite3_column_text(statement_.get(), column);
+  if (bytes == nullptr) return "";
+  return {reinterpret_cast<const char*>(bytes),
+          static_cast<std::size_t>(sqlite3_column_bytes(statement_.get(), column))};
+}
+
+bool Statement::is_null(int column) const {
+  return sqlite3_column_type(statement_.get(), column) == SQLITE_NULL;
+}
+
+Database::Database(const std::filesystem::path& path, Access access) : path_(path) {
+  const int flags =
+      access == Access::kWrite ? SQLITE_OPEN_READWRITE | SQLITE_OPEN_CREATE : SQLITE_OPEN_READWRITE;
+  // A reader opens for writing too, where it may: a killed writer's journal has to be rolled back.
+  int code = sqlite3_open_v2(path.c_str(), &handle_, flags, nullptr);
+  if (code != SQLITE_OK && access == Access::kRead) {
+    sqlite3_close(handle_);
+    code = sqlite3_open_v2(path.c_str(), &handle_, SQLITE_OPEN_READONLY, nullptr);
+  }
+  try {
+    if (code != SQLITE_OK) fail();
+    sqlite3_extended_result_codes(handle_, 1);
+    sqlite3_busy_timeout(handle_, kBusyMilliseconds);
+    execute("PRAGMA journal_mode = DELETE; PRAGMA synchronous = EXTRA; PRAGMA foreign_keys = ON;");
+  } catch (...) {
+    sqlite3_close(handle_);
+    throw;
+  }
+}
+
+Database::~Database() { sqlite3_close(handle_); }
+
+void Database::execute(const std::string& sql) {
+  if (sqlite3_exec(handle_, sql.c_str(), nullptr, nullptr, nullptr) != SQLITE_OK) fail();
+}
+
+std::string Database::damage() {
+  try {
+    Statement check(*this, "PRAGMA integrity_check(1)");
+    if (!check.step()) return "its check says nothing";
+    const std::string answer = check.text(0);
+    if (answer != "ok") return answer;
+    Statement keys(*this, "PRAGMA foreign_key_check");
+    return keys.step() ? "a row of " + keys.text(0) + " belongs to none of " + keys.text(2) : "";
+  } catch (const IoError& error) {
+    return error.what();
+  }
+}
+
+std::int64_t Database::last_row() const { return sqlite3_last_insert_rowid(handle_); }
+
+void Database::fail() const {
+  if (handle_ == nullptr) throw IoError(path_.string(), "cannot be opened: out of memory");
+  const int code = sqlite3_extended_errcode(handle_);
+  if (is_full(code))
+    throw IoError(path_.string(), "cannot be written: the disk is full; what it held is untouched");
+  if ((code & 0xFF) == SQLITE_BUSY) throw IoError(path_.string(), "is in use by another process");
+  throw IoError(path_.string(), sqlite3_errmsg(handle_));
+}
+
+Transaction::Transaction(Database& database) : database_(&database) {
+  database.execute("BEGIN IMMEDIATE");
+}
+
+Transaction::~Transaction() {
+  // Fails if SQLite has rolled back by itself, which is as good.
+  if (database_ != nullptr)
+    sqlite3_exec(database_->handle(), "ROLLBACK", nullptr, nullptr, nullptr);
+}
+
+void Transaction::commit() {
+  database_->execute("COMMIT");
+  database_ = nullptr;
+}
+
+}  // namespace mapproof

@@ -1,0 +1,98 @@
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "core/statistics/change_point.hpp"
+#include "core/statistics/signed_rank.hpp"
+#include "reports/history/regression_rules.hpp"
+
+namespace mapproof {
+namespace {
+
+/// A series without the nights that have no value.
+struct Known {
+  NightSeries series = {};
+  std::vector<double> values = {};
+  std::vector<int> nights = {};
+  ChangePoint change = {};
+};
+
+/// @param same_machine_alone  Whether other machines' nights are left out.
+void add_known(std::vector<Known>& all, NightSeries series, const StudyTrend& trend,
+               bool same_machine_alone, int least_nights) {
+  Known known{.series = std::move(series)};
+  for (std::size_t i = 0; i < trend.nights.size(); ++i) {
+    if (!std::isfinite(known.series.values[i])) continue;
+    if (same_machine_alone && !same_machine(trend.nights[i], trend.nights.back())) continue;
+    known.values.push_back(known.series.values[i]);
+    known.nights.push_back(trend.nights[i].number);
+  }
+  if (std::cmp_less(known.values.size(), least_nights)) return;
+  known.change = rise_in(known.values);
+  all.push_back(std::move(known));
+}
+
+std::vector<Known> known_series(const StudyTrend& trend, const RegressionRules& rules) {
+  std::vector<Known> all;
+  const int least = rules.least_drift_nights;
+  for (NightSeries& series : accuracy_series(trend, rules))
+    add_known(all, std::move(series), trend, false, least);
+  std::vector<std::size_t> nights;
+  for (std::size_t i = 0; i < trend.nights.size(); ++i)
+    if (same_machine(trend.nights[i], trend.nights.back())) nights.push_back(i);
+  for (NightSeries& series : seconds_series(trend, nights, rules)) {
+    // A drift is found below the limit of a single night.
+    series.least = std::log1p(0.5 * rules.least_slowdown);
+    add_known(all, std::move(series), trend, true, least);
+  }
+  for (NightSeries& series : memory_series(trend, rules))
+    add_known(all, std::move(series), trend, true, least);
+  return all;
+}
+
+/// Whether another rule tells of it already.
+bool is_told(const std::vector<NightFinding>& found, const NightSeries& series) {
+  return std::ranges::any_of(found, [&](const NightFinding& finding) {
+    return finding.quantity == series.quantity && finding.subject.starts_with(series.subject);
+  });
+}
+
+NightFinding finding_of(const Known& known, double p, std::size_t tests, const StudyTrend& trend) {
+  const NightSeries& series = known.series;
+  const bool accuracy = series.rule == NightRule::kAccuracy;
+  const int since = known.nights[static_cast<std::size_t>(known.change.first)];
+  const std::string label(series.quantity == "memory" ? "peak memory"
+                                                      : history_quantity(series.quantity).label);
+  return {
+      .study = trend.name,
+      .rule = accuracy ? NightRule::kAccuracyDrift : NightRule::kCostDrift,
+      .subject = series.subject,
+      .quantity = series.quantity,
+      .since = since,
+      .sentence = fmt::format(
+          "{}: {} {} since about night {}, {}; p = {:.2g} corrected for {} series of {} nights",
+          series.subject, label,
+          change_words(known.change.rise, series.ratio,
+                       series.quantity == "seconds" ? "slower" : "higher"),
+          since, known.change.gradual ? "a slow drift" : "a step", p, tests, known.values.size())};
+}
+
+}  // namespace
+
+RuleOutcome judge_drifts(const StudyEvidence& evidence, const RegressionRules& rules,
+                         const std::vector<NightFinding>& found) {
+  RuleOutcome outcome;
+  const std::vector<Known> all = known_series(evidence.trend, rules);
+  std::vector<double> p;
+  for (const Known& known : all) p.push_back(known.change.p);
+  p = holm(p);
+  for (std::size_t i = 0; i < all.size(); ++i)
+    if (p[i] <= rules.alpha && all[i].change.rise >= all[i].series.least &&
+        !is_told(found, all[i].series))
+      outcome.findings.push_back(finding_of(all[i], p[i], all.size(), evidence.trend));
+  return outcome;
+}
+
+}  // namespace mapproof

@@ -1,0 +1,230 @@
+#include "reports/history/history_pages.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <set>
+
+#include <fmt/format.h>
+
+#include "core/base/words.hpp"
+#include "core/model/method.hpp"
+#include "render/figures/error_lines.hpp"
+#include "reports/history/history_tables.hpp"
+
+namespace mapproof {
+namespace {
+
+/// More would hide each other; the table has all.
+constexpr std::size_t kMostLines = 12;
+
+/// "smacof-knn" of "smacof-knn-K6"; a range-only method's own name.
+std::string base_method(const std::string& method) {
+  std::string best;
+  for (const MethodInfo& known : all_methods())
+    if (method.starts_with(known.name) && known.name.size() > best.size() &&
+        (method.size() == known.name.size() || method[known.name.size()] == '-'))
+      best = known.name;
+  return best.empty() ? method : best;
+}
+
+/// [a-z0-9-]+ of any name.
+std::string id_of(const std::string& name) {
+  std::string id;
+  for (const char c : lower_case(name))
+    id += (c >= 'a' && c <= 'z') || (c >= '0' && c <= '9') ? c : '-';
+  return id;
+}
+
+double median_or_last(const std::vector<double>& values) {
+  for (auto value = values.rbegin(); value != values.rend(); ++value)
+    if (std::isfinite(*value)) return *value;
+  return INFINITY;
+}
+
+using Line = std::pair<SeriesId, const std::vector<double>*>;
+
+/// Of each method the setting that is best tonight, at its last step.
+std::vector<Line> best_settings(const StudyTrend& trend, const std::string& sensor,
+                                const std::string& quantity) {
+  std::map<std::string, Line> best;
+  for (const auto& [id, values] : trend.medians) {
+    if (id.sensor != sensor || id.quantity != quantity) continue;
+    if (id.method.find(' ') != std::string::npos) continue;  // A variation.
+    Line& line = best[base_method(id.method)];
+    const bool later = line.second != nullptr && line.first.method == id.method;
+    if (line.second == nullptr || later || median_or_last(values) < median_or_last(*line.second))
+      line = {id, &values};
+  }
+  std::vector<Line> lines;
+  for (const auto& [method, line] : best)
+    if (std::isfinite(median_or_last(*line.second))) lines.push_back(line);
+  if (lines.size() > kMostLines) lines.resize(kMostLines);
+  return lines;
+}
+
+ErrorPanel panel_of(const StudyTrend& trend) {
+  ErrorPanel panel;
+  panel.x.label = "night";
+  panel.x.whole = true;
+  // A single night, too, has an axis.
+  const double first = trend.nights.front().number;
+  panel.x.limits = Range{first - 0.5, std::max<double>(trend.nights.back().number, first) + 0.5};
+  return panel;
+}
+
+std::vector<double> night_numbers(const StudyTrend& trend) {
+  std::vector<double> x;
+  for (const NightFacts& night : trend.nights) x.push_back(night.number);
+  return x;
+}
+
+std::optional<Figure> lines_figure(const StudyTrend& trend, const std::string& sensor,
+                                   const std::string& quantity) {
+  const std::vector<Line> lines = best_settings(trend, sensor, quantity);
+  if (lines.empty()) return std::nullopt;
+  const HistoryQuantity& facts = history_quantity(quantity);
+  ErrorLinesSpec spec;
+  spec.id = "trend-" + id_of(quantity) + "-" + id_of(sensor);
+  spec.title = fmt::format("{}: {}, night by night", sensor, facts.label);
+  spec.y_label = facts.unit.empty() ? std::string(facts.label)
+                                    : fmt::format("{} [{}]", facts.label, facts.unit);
+  spec.quantity = facts.label;
+  spec.caption = fmt::format(
+      "Lines: median over runs of {} at the last step, of each method the setting that is best "
+      "tonight.",
+      facts.label);
+  ErrorPanel panel = panel_of(trend);
+  for (const auto& [id, values] : lines) {
+    const std::string label = id.step == 0 ? id.method : fmt::format("{}, {}", id.method, id.step);
+    panel.lines.push_back(
+        {.label = label, .key = id_of(label), .x = night_numbers(trend), .mean = *values});
+  }
+  spec.panels.push_back(std::move(panel));
+  Figure figure = error_lines_figure(spec);
+  figure.varies = facts.compared == Compared::kDuration;
+  return figure;
+}
+
+std::optional<Figure> memory_figure(const StudyTrend& trend) {
+  if (std::ranges::none_of(trend.peak_memory_mib, [](double mib) { return std::isfinite(mib); }))
+    return std::nullopt;
+  ErrorLinesSpec spec;
+  spec.id = "trend-memory";
+  spec.title = "Peak memory, night by night";
+  spec.y_label = "peak memory [MiB]";
+  spec.quantity = "peak memory";
+  spec.caption = "Peak memory of the process that made the study.";
+  ErrorPanel panel = panel_of(trend);
+  panel.lines.push_back({.label = "peak memory",
+                         .key = "peak-memory",
+                         .x = night_numbers(trend),
+                         .mean = trend.peak_memory_mib});
+  spec.panels.push_back(std::move(panel));
+  Figure figure = error_lines_figure(spec);
+  figure.varies = true;
+  return figure;
+}
+
+FigureBlock block_of(const Figure& figure) {
+  return {figure.id, figure.title, figure.caption, figure.alt, figure.record_ids};
+}
+
+Section summary_section(const StudyTrend& trend, const NightFindings& findings) {
+  Section section{"summary", "Tonight", {}};
+  const NightFacts& tonight = trend.nights.back();
+  std::vector<Paragraph> found;
+  if (const auto of_night = findings.find(tonight.number); of_night != findings.end())
+    for (const NightFinding& finding : of_night->second)
+      if (finding.study == trend.name)
+        found.push_back({{{finding.sentence + ".", Emphasis::kPlain}}});
+  if (found.empty())
+    section.blocks.emplace_back(
+        Paragraph{{{fmt::format("Night {}: nothing got worse in this study.", tonight.number)}}});
+  else
+    section.blocks.emplace_back(BulletList{std::move(found)});
+  section.blocks.emplace_back(Paragraph{
+      {{fmt::format("{} from night {} on are shown: those that had the same order as the last.",
+                    counted(static_cast<long long>(trend.nights.size()), "night"),
+                    trend.nights.front().number)}}});
+  return section;
+}
+
+}  // namespace
+
+std::vector<Figure> trend_figures(const StudyTrend& trend) {
+  std::set<std::pair<std::string, std::string>> shown;
+  for (const auto& [id, values] : trend.medians)
+    if (history_quantity(id.quantity).compared != Compared::kNot)
+      shown.insert({id.quantity, id.sensor});
+  std::vector<Figure> figures;
+  for (const auto& [quantity, sensor] : shown)
+    if (auto figure = lines_figure(trend, sensor, quantity)) figures.push_back(std::move(*figure));
+  if (auto figure = memory_figure(trend)) figures.push_back(std::move(*figure));
+  return figures;
+}
+
+HistoryPage trend_page(const StudyTrend& trend, const NightFindings& findings) {
+  HistoryPage page;
+  page.figures = trend_figures(trend);
+  page.report.title = trend.name + ", night by night";
+  page.report.subtitle =
+      fmt::format("Nights {} to {}", trend.nights.front().number, trend.nights.back().number);
+  page.report.sections.push_back(summary_section(trend, findings));
+  Section figures{"trends", "Trends", {}};
+  for (const Figure& figure : page.figures) figures.blocks.emplace_back(block_of(figure));
+  page.report.sections.push_back(std::move(figures));
+  page.report.sections.push_back({"values", "Values", {accuracy_table(trend)}});
+  if (Table found = findings_table(findings, trend.name); !found.rows.empty())
+    page.report.sections.push_back({"findings", "Findings", {std::move(found)}});
+  return page;
+}
+
+std::string verdict_sentence(const NightFacts& night, std::size_t findings) {
+  const std::string count = counted(static_cast<long long>(findings), "finding");
+  switch (night.verdict) {
+    case NightVerdict::kGood:
+      return night.reference ? fmt::format("Nothing got worse than on night {}.", *night.reference)
+                             : "There was nothing to compare with.";
+    case NightVerdict::kCost:
+      return "Accuracy is as it was; seconds or memory grew: " + count + ".";
+    default:
+      return "Accuracy got worse: " + count + ".";
+  }
+}
+
+Report index_page(std::span<const NightFacts> nights, const NightFindings& findings,
+                  std::span<const std::string> studies, std::span<const std::string> remarks) {
+  Report report{.title = "Nights", .subtitle = "", .sections = {}, .footer = ""};
+  Section last{"last", "The last night", {}};
+  if (nights.empty()) {
+    last.blocks.emplace_back(Paragraph{{{"No night was recorded yet."}}});
+    report.sections.push_back(std::move(last));
+    return report;
+  }
+  const NightFacts& tonight = nights.back();
+  report.subtitle =
+      fmt::format("{}, the last begun {}", counted(static_cast<long long>(nights.size()), "night"),
+                  tonight.started_utc);
+  const auto found = findings.find(tonight.number);
+  const std::size_t count = found == findings.end() ? 0 : found->second.size();
+  last.blocks.emplace_back(
+      Paragraph{{{fmt::format("Night {}: ", tonight.number), Emphasis::kStrong},
+                 {verdict_sentence(tonight, count)}}});
+  BulletList list;
+  if (count > 0)
+    for (const NightFinding& finding : found->second)
+      list.items.push_back({{{finding.study + ": ", Emphasis::kStrong}, {finding.sentence + "."}}});
+  for (const std::string& remark : remarks) list.items.push_back({{{remark + "."}}});
+  if (!list.items.empty()) last.blocks.emplace_back(std::move(list));
+  for (const std::string& study : studies)
+    last.blocks.emplace_back(Paragraph{
+        {{study + ": ", Emphasis::kStrong},
+         {fmt::format("nights/{:04}/{}/report.html", tonight.number, study), Emphasis::kCode},
+         {", over the nights "},
+         {fmt::format("trends/{}/report.html", study), Emphasis::kCode}}});
+  report.sections.push_back(std::move(last));
+  report.sections.push_back({"nights", "All nights", {nights_table(nights, findings)}});
+  return report;
+}
+
+}  // namespace mapproof

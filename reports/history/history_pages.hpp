@@ -1,0 +1,39 @@
+#pragma once
+
+#include <map>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "render/plot/figure.hpp"
+#include "reports/history/night.hpp"
+#include "reports/model/report.hpp"
+
+namespace mapproof {
+
+/// A page with its figures as values.
+struct HistoryPage {
+  Report report;
+  std::vector<Figure> figures;
+};
+
+/// Findings by night.
+using NightFindings = std::map<int, std::vector<NightFinding>>;
+
+/// One study over the nights: what was found, accuracy of the best setting of each method, seconds
+/// and memory. Pure: the same values give the same page.
+/// @param trend  At least one night.
+HistoryPage trend_page(const StudyTrend& trend, const NightFindings& findings);
+
+/// All nights, the last one first, and what the last one says.
+/// @param remarks  What could not be judged, or is only suspected, of the last night.
+Report index_page(std::span<const NightFacts> nights, const NightFindings& findings,
+                  std::span<const std::string> studies, std::span<const std::string> remarks);
+
+/// Figures of a trend: one a sensor and quantity of accuracy, seconds, memory.
+std::vector<Figure> trend_figures(const StudyTrend& trend);
+
+/// "Nothing got worse.", "Accuracy got worse: 2 findings.", …
+std::string verdict_sentence(const NightFacts& night, std::size_t findings);
+
+}  // namespace mapproof

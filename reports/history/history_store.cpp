@@ -1,0 +1,334 @@
+#include "reports/history/history_store.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <map>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "core/base/errors.hpp"
+#include "reports/history/schema.hpp"
+
+namespace mapproof {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr const char* kNightColumns =
+    "number, started_utc, ended_utc, command, provenance, host, processor, cores, jobs, reference, "
+    "pinned, verdict";
+
+NightFacts read_facts(const Statement& row, const fs::path& path) {
+  NightFacts facts{.number = static_cast<int>(row.integer(0)),
+                   .started_utc = row.text(1),
+                   .ended_utc = row.text(2),
+                   .command = row.text(3),
+                   .provenance = row.text(4),
+                   .host = row.text(5),
+                   .processor = row.text(6),
+                   .cores = static_cast<int>(row.integer(7)),
+                   .jobs = static_cast<int>(row.integer(8))};
+  if (!row.is_null(9)) facts.reference = static_cast<int>(row.integer(9));
+  facts.pinned = row.integer(10) != 0;
+  const auto verdict = night_verdict_named(row.text(11));
+  if (!verdict)
+    throw IoError(path.string(), fmt::format("night {}", facts.number),
+                  "unknown verdict \"" + printable(row.text(11)) + "\"");
+  facts.verdict = *verdict;
+  return facts;
+}
+
+/// Sets a damaged file aside, with the journal that belongs to it.
+fs::path set_aside(const fs::path& path) {
+  std::error_code error;
+  fs::path aside;
+  for (int i = 1; aside.empty() || fs::exists(aside, error); ++i)
+    aside = path.string() + ".damaged-" + std::to_string(i);
+  fs::rename(path, aside, error);
+  if (error) throw IoError(path.string(), "is damaged and cannot be set aside: " + error.message());
+  for (const char* journal : {"-journal", "-wal", "-shm"})
+    fs::rename(path.string() + journal, aside.string() + journal, error);
+  return aside;
+}
+
+/// The database if it is whole. @param damage  What is wrong if it is not.
+std::unique_ptr<Database> open_whole(const fs::path& path, Database::Access access,
+                                     std::string& damage) {
+  std::unique_ptr<Database> database;
+  try {
+    database = std::make_unique<Database>(path, access);
+  } catch (const IoError& error) {
+    // Only what has the wrong bytes is damaged; what may not be read or is in use is not.
+    if (std::string_view(error.what()).find("not a database") == std::string_view::npos) throw;
+    damage = error.what();
+    return nullptr;
+  }
+  damage = database->damage();
+  return damage.empty() ? std::move(database) : nullptr;
+}
+
+template <typename Row>
+std::int64_t id_of(Database& database, Statement& find, Statement& insert, const Row& bind) {
+  bind(find);
+  if (find.step()) {
+    const std::int64_t id = find.integer(0);
+    while (find.step()) {
+    }
+    return id;
+  }
+  bind(insert);
+  insert.run();
+  return database.last_row();
+}
+
+}  // namespace
+
+fs::path history_file(const fs::path& store) { return store / "history.sqlite"; }
+
+HistoryStore HistoryStore::open(const fs::path& store) {
+  const fs::path path = history_file(store);
+  std::vector<std::string> remarks;
+  std::string damage;
+  std::unique_ptr<Database> database = open_whole(path, Database::Access::kWrite, damage);
+  if (!database) {
+    const fs::path aside = set_aside(path);
+    remarks.push_back(fmt::format("{}: is damaged: {}; it is kept as {} and a new history begins",
+                                  path.string(), damage, aside.filename().string()));
+    database = std::make_unique<Database>(path, Database::Access::kWrite);
+  }
+  const int version = version_of(*database);
+  const fs::path backup = migrate(*database);
+  if (!backup.empty())
+    remarks.push_back(
+        fmt::format("{}: was of version {}; it is now of version {}, and kept as it "
+                    "was in {}",
+                    path.string(), version, schema_version(), backup.filename().string()));
+  HistoryStore opened(std::move(database));
+  opened.remarks_ = std::move(remarks);
+  return opened;
+}
+
+HistoryStore HistoryStore::open_existing(const fs::path& store) {
+  const fs::path path = history_file(store);
+  std::error_code error;
+  if (!fs::exists(path, error))
+    throw IoError(store.string(), "holds no history.sqlite; mapproof nightly makes one");
+  std::string damage;
+  std::unique_ptr<Database> database = open_whole(path, Database::Access::kRead, damage);
+  if (!database) throw IoError(path.string(), "is damaged: " + damage);
+  const int version = version_of(*database);
+  if (version != schema_version())
+    throw IoError(path.string(), fmt::format("is of version {}; the next mapproof nightly brings "
+                                             "it to version {}",
+                                             version, schema_version()));
+  return HistoryStore(std::move(database));
+}
+
+std::vector<NightFacts> HistoryStore::nights() {
+  Statement rows(*database_, fmt::format("SELECT {} FROM nights ORDER BY number", kNightColumns));
+  std::vector<NightFacts> nights;
+  while (rows.step()) nights.push_back(read_facts(rows, database_->path()));
+  return nights;
+}
+
+std::vector<NightFinding> HistoryStore::findings(int night) {
+  Statement rows(*database_,
+                 "SELECT study, kind, subject, quantity, since, sentence FROM findings "
+                 "WHERE night = ? ORDER BY id");
+  rows.bind(night);
+  std::vector<NightFinding> findings;
+  while (rows.step()) {
+    const auto rule = rule_named(rows.text(1));
+    if (!rule)
+      throw IoError(database_->path().string(), fmt::format("night {}", night),
+                    "unknown finding \"" + printable(rows.text(1)) + "\"");
+    findings.push_back({.study = rows.text(0),
+                        .rule = *rule,
+                        .subject = rows.text(2),
+                        .quantity = rows.text(3),
+                        .since = static_cast<int>(rows.integer(4)),
+                        .sentence = rows.text(5)});
+  }
+  return findings;
+}
+
+std::vector<StudyNight> HistoryStore::studies(int night) {
+  Statement rows(*database_,
+                 "SELECT id, name, kind, order_digest, runs, seconds, peak_memory_mib FROM studies "
+                 "WHERE night = ? ORDER BY id");
+  rows.bind(night);
+  std::vector<StudyNight> studies;
+  while (rows.step()) {
+    StudyNight study{.name = rows.text(1),
+                     .kind = rows.text(2),
+                     .order_digest = rows.text(3),
+                     .runs = static_cast<int>(rows.integer(4))};
+    if (!rows.is_null(5)) study.seconds = rows.real(5);
+    if (!rows.is_null(6)) study.peak_memory_mib = rows.real(6);
+    Statement files(*database_,
+                    "SELECT file, digest, bytes FROM figures WHERE study = ? ORDER BY file");
+    files.bind(rows.integer(0));
+    while (files.step()) study.figures.push_back({files.text(0), files.text(1), files.integer(2)});
+    studies.push_back(std::move(study));
+  }
+  return studies;
+}
+
+Scores HistoryStore::scores(int night, const std::string& study) {
+  Statement rows(*database_,
+                 "SELECT r.name, r.unit, s.sensor, s.method, s.step, s.quantity, v.value "
+                 "FROM studies t JOIN scores v ON v.study = t.id JOIN series s ON s.id = v.series "
+                 "JOIN runs r ON r.id = v.run WHERE t.night = ? AND t.name = ? ORDER BY r.name");
+  rows.bind(night).bind(study);
+  Scores scores;
+  while (rows.step())
+    scores[{rows.text(2), rows.text(3), static_cast<int>(rows.integer(4)), rows.text(5)}].push_back(
+        {rows.text(0), rows.text(1), rows.real(6)});
+  return scores;
+}
+
+StudyTrend HistoryStore::trend(const std::string& study, const std::string& order_digest, int most,
+                               int until) {
+  StudyTrend trend{.name = study};
+  std::map<std::int64_t, std::size_t> place;  // Of a row of studies.
+  Statement rows(*database_,
+                 fmt::format("SELECT {}, s.id, s.peak_memory_mib FROM nights n JOIN studies s ON "
+                             "s.night = n.number WHERE s.name = ? AND s.order_digest = ? AND "
+                             "n.number <= ? ORDER BY n.number DESC LIMIT ?",
+                             kNightColumns));
+  rows.bind(study).bind(order_digest).bind(until).bind(most);
+  std::vector<std::int64_t> ids;
+  while (rows.step()) {
+    trend.nights.push_back(read_facts(rows, database_->path()));
+    ids.push_back(rows.integer(12));
+    trend.peak_memory_mib.push_back(rows.real(13));
+  }
+  std::ranges::reverse(trend.nights);
+  std::ranges::reverse(ids);
+  std::ranges::reverse(trend.peak_memory_mib);
+  for (std::size_t i = 0; i < ids.size(); ++i) {
+    Statement medians(*database_,
+                      "SELECT s.sensor, s.method, s.step, s.quantity, t.median FROM trends t "
+                      "JOIN series s ON s.id = t.series WHERE t.study = ?");
+    medians.bind(ids[i]);
+    while (medians.step()) {
+      auto& values = trend.medians[{medians.text(0), medians.text(1),
+                                    static_cast<int>(medians.integer(2)), medians.text(3)}];
+      values.resize(ids.size(), std::numeric_limits<double>::quiet_NaN());
+      values[i] = medians.real(4);
+    }
+  }
+  return trend;
+}
+
+void HistoryStore::append(const Night& night) {
+  const NightFacts& facts = night.facts;
+  if (facts.number <= last_number())
+    throw InvalidInput(fmt::format("night {} is not after night {}", facts.number, last_number()));
+  Transaction transaction(*database_);
+  Statement insert(*database_, fmt::format("INSERT INTO nights ({}) VALUES "
+                                           "(?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?)",
+                                           kNightColumns));
+  insert.bind(facts.number).bind(facts.started_utc).bind(facts.ended_utc).bind(facts.command);
+  insert.bind(facts.provenance).bind(facts.host).bind(facts.processor);
+  insert.bind(facts.cores).bind(facts.jobs);
+  if (facts.reference)
+    insert.bind(*facts.reference);
+  else
+    insert.bind_null();
+  insert.bind(0).bind(name(facts.verdict)).run();
+  for (const StudyNight& study : night.studies) append_study(facts.number, study);
+  Statement found(*database_,
+                  "INSERT INTO findings (night, study, kind, subject, quantity, since, sentence) "
+                  "VALUES (?, ?, ?, ?, ?, ?, ?)");
+  for (const NightFinding& finding : night.findings)
+    found.bind(facts.number)
+        .bind(finding.study)
+        .bind(name(finding.rule))
+        .bind(finding.subject)
+        .bind(finding.quantity)
+        .bind(finding.since)
+        .bind(finding.sentence)
+        .run();
+  transaction.commit();
+}
+
+void HistoryStore::append_study(int night, const StudyNight& study) {
+  constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
+  Statement insert(*database_,
+                   "INSERT INTO studies (night, name, kind, order_digest, runs, seconds, "
+                   "peak_memory_mib) VALUES (?, ?, ?, ?, ?, ?, ?)");
+  insert.bind(night).bind(study.name).bind(study.kind).bind(study.order_digest).bind(study.runs);
+  insert.bind(study.seconds.value_or(kNone)).bind(study.peak_memory_mib.value_or(kNone)).run();
+  const std::int64_t id = database_->last_row();
+
+  Statement find_series(*database_,
+                        "SELECT id FROM series WHERE sensor = ? AND method = ? AND step = ? AND "
+                        "quantity = ?");
+  Statement add_series(*database_,
+                       "INSERT INTO series (sensor, method, step, quantity) VALUES (?, ?, ?, ?)");
+  Statement find_run(*database_, "SELECT id FROM runs WHERE name = ?1 AND ?2 = ?2");
+  Statement add_run(*database_, "INSERT INTO runs (name, unit) VALUES (?, ?)");
+  Statement score(*database_, "INSERT INTO scores (study, series, run, value) VALUES (?, ?, ?, ?)");
+  Statement median(*database_,
+                   "INSERT INTO trends (study, series, runs, median) VALUES (?, ?, ?, ?)");
+  std::map<std::string, std::int64_t> run_ids;
+  for (const auto& [key, values] : study.scores) {
+    const std::int64_t series =
+        id_of(*database_, find_series, add_series, [&key = key](Statement& statement) {
+          statement.bind(key.sensor).bind(key.method).bind(key.step).bind(key.quantity);
+        });
+    for (const RunValue& value : values) {
+      auto [run, is_new] = run_ids.try_emplace(value.run, 0);
+      if (is_new)
+        run->second = id_of(*database_, find_run, add_run, [&value](Statement& statement) {
+          statement.bind(value.run).bind(value.unit);
+        });
+      score.bind(id).bind(series).bind(run->second).bind(value.value).run();
+    }
+    median.bind(id).bind(series).bind(static_cast<int>(values.size()));
+    median.bind(known_median(values)).run();
+  }
+  Statement figure(*database_,
+                   "INSERT INTO figures (study, file, digest, bytes) VALUES (?, ?, ?, ?)");
+  for (const FigureFile& file : study.figures)
+    figure.bind(id).bind(file.file).bind(file.digest).bind(file.bytes).run();
+}
+
+void HistoryStore::pin(int night) {
+  Transaction transaction(*database_);
+  Statement find(*database_, "SELECT 1 FROM nights WHERE number = ?");
+  if (!find.bind(night).step()) throw InvalidInput(fmt::format("there is no night {}", night));
+  find.run();
+  Statement(*database_, "UPDATE nights SET pinned = (number = ?)").bind(night).run();
+  transaction.commit();
+}
+
+void HistoryStore::remove(const std::vector<int>& nights) {
+  Transaction transaction(*database_);
+  Statement gone(*database_, "DELETE FROM nights WHERE number = ?");
+  for (const int night : nights) gone.bind(night).run();
+  database_->execute(
+      "DELETE FROM series WHERE id NOT IN (SELECT series FROM trends);"
+      "DELETE FROM runs WHERE id NOT IN (SELECT run FROM scores);");
+  transaction.commit();
+  database_->execute("VACUUM");
+}
+
+std::vector<std::string> HistoryStore::digests() {
+  Statement rows(*database_, "SELECT DISTINCT digest FROM figures ORDER BY digest");
+  std::vector<std::string> digests;
+  while (rows.step()) digests.push_back(rows.text(0));
+  return digests;
+}
+
+int HistoryStore::last_number() {
+  Statement row(*database_,
+                "SELECT max(coalesce((SELECT max(number) FROM nights), 0), "
+                "coalesce((SELECT seq FROM sqlite_sequence WHERE name = 'nights'), 0))");
+  return row.step() ? static_cast<int>(row.integer(0)) : 0;
+}
+
+}  // namespace mapproof

@@ -1,0 +1,72 @@
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "reports/history/database.hpp"
+#include "reports/history/night.hpp"
+
+namespace mapproof {
+
+/// history.sqlite in the folder of a store.
+std::filesystem::path history_file(const std::filesystem::path& store);
+
+/// The nights that were finished (docs/file-formats.md lists the tables). Each is one transaction:
+/// after a kill or a full disk it is there whole or not at all, and those before it untouched.
+class HistoryStore {
+ public:
+  /// Opens or makes the store to append to it. One of an older version is migrated after a copy of
+  /// it was kept; one that is damaged is kept aside as history.sqlite.damaged-N and a new one
+  /// begun. Both are told of in remarks(). The folder should be locked (see FolderLock).
+  /// @throws IoError if it cannot be opened, or is not ours or of a later version.
+  static HistoryStore open(const std::filesystem::path& store);
+
+  /// To read it, and for prune and pin. @throws IoError if there is none, it is damaged, or of
+  /// another version than this program's.
+  static HistoryStore open_existing(const std::filesystem::path& store);
+
+  const std::vector<std::string>& remarks() const { return remarks_; }
+
+  /// All, in order of number. @throws IoError.
+  std::vector<NightFacts> nights();
+  /// Of one night, in the order they were found. @throws IoError.
+  std::vector<NightFinding> findings(int night);
+  /// Of one night, without its values. @throws IoError.
+  std::vector<StudyNight> studies(int night);
+  /// The values of a study of that night; empty if it has none of that name. @throws IoError.
+  Scores scores(int night, const std::string& study);
+
+  /// The study over the last `most` nights that had this order, up to and with `until`.
+  /// @throws IoError.
+  StudyTrend trend(const std::string& study, const std::string& order_digest, int most, int until);
+
+  /// Adds a night as its number says, in one transaction. @throws IoError; InvalidInput if the
+  /// number is taken or not above all others.
+  void append(const Night& night);
+
+  /// Pins one night and no other. @throws InvalidInput if it is not there; IoError.
+  void pin(int night);
+
+  /// Removes nights in one transaction. @throws IoError.
+  void remove(const std::vector<int>& nights);
+
+  /// The digests that figures of any night name. @throws IoError.
+  std::vector<std::string> digests();
+
+  /// The greatest number that was ever given to a night here.
+  int last_number();
+
+  /// What SQLite finds wrong; empty if nothing.
+  std::string damage() { return database_->damage(); }
+
+ private:
+  explicit HistoryStore(std::unique_ptr<Database> database) : database_(std::move(database)) {}
+  void append_study(int night, const StudyNight& study);
+
+  std::unique_ptr<Database> database_;
+  std::vector<std::string> remarks_;
+};
+
+}  // namespace mapproof

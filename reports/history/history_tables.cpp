@@ -1,0 +1,116 @@
+#include "reports/history/history_tables.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <ranges>
+
+#include <fmt/format.h>
+
+namespace mapproof {
+namespace {
+
+TextCell text(std::string words) { return {std::move(words), Emphasis::kPlain}; }
+
+Cell number(double value, int decimals) {
+  if (!std::isfinite(value)) return MissingCell{};
+  return NumberCell{value, decimals};
+}
+
+std::string words_of(NightVerdict verdict) {
+  switch (verdict) {
+    case NightVerdict::kGood:
+      return "good";
+    case NightVerdict::kCost:
+      return "slower or larger";
+    default:
+      return "accuracy worse";
+  }
+}
+
+/// The last step of each method that is compared.
+std::vector<SeriesId> last_steps(const StudyTrend& trend) {
+  std::vector<SeriesId> last;
+  for (const auto& [id, values] : trend.medians) {
+    const Compared compared = history_quantity(id.quantity).compared;
+    if (compared != Compared::kRatio && compared != Compared::kPoints) continue;
+    const auto later = std::ranges::find_if(last, [&](const SeriesId& other) {
+      return method_of(other) == method_of(id) && other.quantity == id.quantity;
+    });
+    if (later == last.end())
+      last.push_back(id);
+    else
+      *later = id;
+  }
+  return last;
+}
+
+}  // namespace
+
+Table nights_table(std::span<const NightFacts> nights, const NightFindings& findings) {
+  Table table{.id = "nights",
+              .caption = "Every night, the last one first.",
+              .columns = {{"Night", "", "", "Its number: the order of nights, whatever clocks say"},
+                          {"Started", "", "", "UTC"},
+                          {"Verdict", "", "", ""},
+                          {"Findings", "", "", "How many"},
+                          {"Against", "", "", "The night it was compared with"},
+                          {"Host", "", "", ""},
+                          {"Report", "", "", "The folder of that night's reports"}},
+              .rows = {},
+              .notes = {}};
+  for (const NightFacts& night : nights | std::views::reverse) {
+    const auto found = findings.find(night.number);
+    const std::size_t count = found == findings.end() ? 0 : found->second.size();
+    const Cell against = night.reference ? Cell{number(*night.reference, 0)} : Cell{MissingCell{}};
+    table.rows.push_back(
+        {{number(night.number, 0), text(night.started_utc),
+          text(words_of(night.verdict) + (night.pinned ? ", pinned" : "")),
+          number(static_cast<double>(count), 0), against, TextCell{night.host, Emphasis::kData},
+          TextCell{fmt::format("nights/{:04}", night.number), Emphasis::kCode}},
+         fmt::format("night {}", night.number)});
+  }
+  return table;
+}
+
+Table findings_table(const NightFindings& findings, const std::string& study) {
+  Table table{.id = "findings",
+              .caption = "What got worse, the last night first.",
+              .columns = {{"Night", "", "", ""},
+                          {"Since", "", "", "The night it began, as far as can be told"},
+                          {"NightRule", "", "", ""},
+                          {"Finding", "", "", ""}},
+              .rows = {},
+              .notes = {}};
+  for (const auto& [night, of_night] : findings | std::views::reverse)
+    for (const NightFinding& finding : of_night)
+      if (finding.study == study)
+        table.rows.push_back({{number(night, 0), number(finding.since, 0),
+                               text(std::string(name(finding.rule))), text(finding.sentence)},
+                              fmt::format("night {}", night)});
+  return table;
+}
+
+Table accuracy_table(const StudyTrend& trend) {
+  Table table{.id = "accuracy-now",
+              .caption = "Medians over the runs at the last step of each method.",
+              .columns = {{"Method", "", "", ""},
+                          {"Quantity", "", "", ""},
+                          {"Unit", "", "", ""},
+                          {"First", "", "", "The first of the nights shown"},
+                          {"Before", "", "", "The night before the last"},
+                          {"Last", "", "", "The last night"}},
+              .rows = {},
+              .notes = {}};
+  for (const SeriesId& id : last_steps(trend)) {
+    const HistoryQuantity& quantity = history_quantity(id.quantity);
+    const std::vector<double>& values = trend.medians.at(id);
+    const double before = values.size() > 1 ? values[values.size() - 2] : std::nan("");
+    table.rows.push_back(
+        {{text(subject_of(id)), text(std::string(quantity.label)), text(std::string(quantity.unit)),
+          number(values.front(), 4), number(before, 4), number(values.back(), 4)},
+         "medians over runs"});
+  }
+  return table;
+}
+
+}  // namespace mapproof

@@ -1,0 +1,18 @@
+#pragma once
+
+#include <span>
+
+#include "reports/history/history_pages.hpp"
+
+namespace mapproof {
+
+/// One row a night, the last one first.
+Table nights_table(std::span<const NightFacts> nights, const NightFindings& findings);
+
+/// One row a finding of those nights, the last night first.
+Table findings_table(const NightFindings& findings, const std::string& study);
+
+/// Where each method stands tonight beside the night before and the first.
+Table accuracy_table(const StudyTrend& trend);
+
+}  // namespace mapproof

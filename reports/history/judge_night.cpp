@@ -1,0 +1,129 @@
+#include "reports/history/judge_night.hpp"
+
+#include <algorithm>
+#include <iterator>
+#include <limits>
+
+#include <fmt/format.h>
+
+#include "core/base/errors.hpp"
+
+namespace mapproof {
+namespace {
+
+constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
+
+void append(RuleOutcome& all, RuleOutcome more) {
+  std::ranges::move(more.findings, std::back_inserter(all.findings));
+  std::ranges::move(more.remarks, std::back_inserter(all.remarks));
+}
+
+/// Whether the night has a study that was ordered just as one of tonight's.
+bool can_be_compared(HistoryStore& store, int night, const Night& tonight) {
+  const std::vector<StudyNight> studies = store.studies(night);
+  return std::ranges::any_of(tonight.studies, [&](const StudyNight& now) {
+    return std::ranges::any_of(studies, [&](const StudyNight& then) {
+      return then.name == now.name && then.order_digest == now.order_digest;
+    });
+  });
+}
+
+void drop_before(StudyTrend& trend, int night) {
+  const auto first = std::ranges::find_if(
+      trend.nights, [&](const NightFacts& facts) { return facts.number >= night; });
+  const auto count = std::distance(trend.nights.begin(), first);
+  trend.nights.erase(trend.nights.begin(), first);
+  trend.peak_memory_mib.erase(trend.peak_memory_mib.begin(), trend.peak_memory_mib.begin() + count);
+  for (auto& [series, values] : trend.medians) values.erase(values.begin(), values.begin() + count);
+}
+
+StudyEvidence evidence_of(HistoryStore& store, const Night& tonight, const StudyNight& study,
+                          int pinned) {
+  StudyEvidence evidence{
+      .trend = store.trend(study.name, study.order_digest, kTrendNights, tonight.facts.number - 1),
+      .tonight = study.scores};
+  drop_before(evidence.trend, pinned);
+  add_tonight(evidence.trend, tonight.facts, study);
+  if (!tonight.facts.reference) return evidence;
+  for (const StudyNight& then : store.studies(*tonight.facts.reference))
+    if (then.name == study.name && then.order_digest == study.order_digest)
+      evidence.reference = {*tonight.facts.reference,
+                            store.scores(*tonight.facts.reference, study.name)};
+  return evidence;
+}
+
+}  // namespace
+
+void add_tonight(StudyTrend& trend, const NightFacts& facts, const StudyNight& study) {
+  const std::size_t before = trend.nights.size();
+  trend.nights.push_back(facts);
+  trend.peak_memory_mib.push_back(study.peak_memory_mib.value_or(kNone));
+  for (const auto& [series, values] : study.scores)
+    trend.medians.try_emplace(series, before, kNone);
+  for (auto& [series, medians] : trend.medians) {
+    if (medians.size() != before)
+      throw InvalidInput("add_tonight: a series has another number of nights");
+    const auto found = study.scores.find(series);
+    medians.push_back(found == study.scores.end() ? kNone : known_median(found->second));
+  }
+}
+
+RuleOutcome judge_study(const StudyEvidence& evidence, const RegressionRules& rules,
+                        const std::vector<NightFinding>& yesterday) {
+  RuleOutcome outcome = judge_accuracy(evidence, rules);
+  append(outcome, judge_costs(evidence, rules));
+  append(outcome, judge_drifts(evidence, rules, outcome.findings));
+  for (NightFinding& finding : outcome.findings) {
+    const auto same = std::ranges::find_if(yesterday, [&](const NightFinding& old) {
+      return old.study == finding.study && old.subject == finding.subject &&
+             old.quantity == finding.quantity;
+    });
+    if (same == yesterday.end() || same->since >= finding.since) continue;
+    finding.since = same->since;
+    finding.sentence += fmt::format("; since night {}", same->since);
+  }
+  return outcome;
+}
+
+std::optional<int> reference_night(HistoryStore& store, const Night& tonight,
+                                   std::optional<int> asked) {
+  const std::vector<NightFacts> nights = store.nights();
+  if (asked) {
+    if (std::ranges::find(nights, *asked, &NightFacts::number) == nights.end())
+      throw InvalidInput(fmt::format("--reference: there is no night {}", *asked));
+    return asked;
+  }
+  for (const NightFacts& night : nights)
+    if (night.pinned) return night.number;
+  for (auto night = nights.rbegin(); night != nights.rend(); ++night)
+    if (night->verdict == NightVerdict::kGood && can_be_compared(store, night->number, tonight))
+      return night->number;
+  return std::nullopt;
+}
+
+std::vector<std::string> judge_night(HistoryStore& store, Night& tonight,
+                                     std::optional<int> asked_reference,
+                                     const RegressionRules& rules) {
+  tonight.facts.reference = reference_night(store, tonight, asked_reference);
+  const std::vector<NightFacts> nights = store.nights();
+  const std::vector<NightFinding> yesterday =
+      nights.empty() ? std::vector<NightFinding>{} : store.findings(nights.back().number);
+  int pinned = 0;
+  for (const NightFacts& night : nights)
+    if (night.pinned) pinned = night.number;
+  std::vector<std::string> remarks;
+  if (!nights.empty() && tonight.facts.started_utc < nights.back().ended_utc)
+    remarks.push_back(
+        fmt::format("the clock stands at {}, before the end of night {} at {}: nights are ordered "
+                    "by their number",
+                    tonight.facts.started_utc, nights.back().number, nights.back().ended_utc));
+  for (const StudyNight& study : tonight.studies) {
+    RuleOutcome outcome = judge_study(evidence_of(store, tonight, study, pinned), rules, yesterday);
+    std::ranges::move(outcome.findings, std::back_inserter(tonight.findings));
+    std::ranges::move(outcome.remarks, std::back_inserter(remarks));
+  }
+  tonight.facts.verdict = verdict_of(tonight.findings);
+  return remarks;
+}
+
+}  // namespace mapproof

@@ -1,0 +1,112 @@
+#include "reports/history/night.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "core/base/errors.hpp"
+#include "core/statistics/intervals.hpp"
+
+namespace mapproof {
+namespace {
+
+constexpr std::array kQuantities = {
+    HistoryQuantity{"mpe_m", "MPE", "m", Compared::kRatio},
+    HistoryQuantity{"moe_percent", "MOE", "%", Compared::kPoints},
+    HistoryQuantity{"mpe_all_fitted_m", "MPE, all fitted", "m", Compared::kNot},
+    HistoryQuantity{"moe_unmirrored_percent", "MOE, unmirrored", "%", Compared::kNot},
+    HistoryQuantity{"path_mean_m", "mean error of the path", "m", Compared::kRatio},
+    HistoryQuantity{"path_rmse_m", "RMS error of the path", "m", Compared::kNot},
+    HistoryQuantity{"landmarks_m", "mean error of landmarks", "m", Compared::kRatio},
+    HistoryQuantity{"positions_m", "mean error of positions", "m", Compared::kRatio},
+    HistoryQuantity{"observation", "error of the observation matrix", "", Compared::kRatio},
+    HistoryQuantity{"seconds", "seconds", "s", Compared::kDuration},
+};
+
+constexpr std::array kVerdictNames = {std::pair(NightVerdict::kGood, "good"),
+                                      std::pair(NightVerdict::kCost, "cost"),
+                                      std::pair(NightVerdict::kAccuracy, "accuracy")};
+
+constexpr std::array kRuleNames = {
+    std::pair(NightRule::kAccuracy, "accuracy"),
+    std::pair(NightRule::kLostMaps, "lost-maps"),
+    std::pair(NightRule::kSeconds, "seconds"),
+    std::pair(NightRule::kAllSeconds, "all-seconds"),
+    std::pair(NightRule::kMemory, "memory"),
+    std::pair(NightRule::kAccuracyDrift, "accuracy-drift"),
+    std::pair(NightRule::kCostDrift, "cost-drift"),
+};
+
+template <typename Value, std::size_t N>
+std::string_view name_in(const std::array<std::pair<Value, const char*>, N>& names, Value value) {
+  for (const auto& [known, text] : names)
+    if (known == value) return text;
+  throw InvalidInput("a value of an enumeration has no name");
+}
+
+template <typename Value, std::size_t N>
+std::optional<Value> value_in(const std::array<std::pair<Value, const char*>, N>& names,
+                              std::string_view name) {
+  for (const auto& [value, text] : names)
+    if (name == text) return value;
+  return std::nullopt;
+}
+
+}  // namespace
+
+std::string method_of(const SeriesId& series) { return series.sensor + ", " + series.method; }
+
+std::string subject_of(const SeriesId& series) {
+  return series.step == 0 ? method_of(series)
+                          : fmt::format("{}, {} steps", method_of(series), series.step);
+}
+
+const HistoryQuantity& history_quantity(std::string_view name) {
+  const auto* found = std::ranges::find(kQuantities, name, &HistoryQuantity::name);
+  if (found == kQuantities.end())
+    throw InvalidInput("history: no quantity \"" + printable(std::string(name)) + "\"");
+  return *found;
+}
+
+std::string_view name(NightVerdict verdict) { return name_in(kVerdictNames, verdict); }
+std::optional<NightVerdict> night_verdict_named(std::string_view name) {
+  return value_in(kVerdictNames, name);
+}
+
+std::string_view name(NightRule rule) { return name_in(kRuleNames, rule); }
+std::optional<NightRule> rule_named(std::string_view name) { return value_in(kRuleNames, name); }
+
+NightVerdict verdict_of(NightRule rule) {
+  switch (rule) {
+    case NightRule::kAccuracy:
+    case NightRule::kLostMaps:
+    case NightRule::kAccuracyDrift:
+      return NightVerdict::kAccuracy;
+    default:
+      return NightVerdict::kCost;
+  }
+}
+
+NightVerdict verdict_of(const std::vector<NightFinding>& findings) {
+  NightVerdict verdict = NightVerdict::kGood;
+  for (const NightFinding& finding : findings)
+    verdict = std::max(verdict, verdict_of(finding.rule));
+  return verdict;
+}
+
+bool same_machine(const NightFacts& a, const NightFacts& b) {
+  return a.host == b.host && a.processor == b.processor && a.cores == b.cores && a.jobs == b.jobs;
+}
+
+double known_median(const std::vector<RunValue>& values) {
+  std::vector<double> known;
+  for (const RunValue& value : values)
+    if (!std::isnan(value.value)) known.push_back(value.value);
+  return known.empty() ? std::numeric_limits<double>::quiet_NaN() : median(known);
+}
+
+}  // namespace mapproof

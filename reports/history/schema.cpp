@@ -1,0 +1,173 @@
+#include "reports/history/schema.hpp"
+
+#include <array>
+#include <string>
+
+#include <fmt/format.h>
+#include <sqlite3.h>
+
+#include "core/base/errors.hpp"
+
+namespace mapproof {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// "mppf": tells our stores from other SQLite files, in PRAGMA application_id.
+constexpr int kApplication = 0x6d707066;
+
+constexpr const char* kVersion1 = R"(
+CREATE TABLE nights (
+  number INTEGER PRIMARY KEY AUTOINCREMENT,
+  started_utc TEXT NOT NULL,
+  ended_utc TEXT NOT NULL,
+  command TEXT NOT NULL,
+  provenance TEXT NOT NULL,
+  host TEXT NOT NULL,
+  processor TEXT NOT NULL,
+  cores INTEGER NOT NULL,
+  jobs INTEGER NOT NULL,
+  reference INTEGER,
+  verdict TEXT NOT NULL
+);
+CREATE TABLE studies (
+  id INTEGER PRIMARY KEY,
+  night INTEGER NOT NULL REFERENCES nights(number) ON DELETE CASCADE,
+  name TEXT NOT NULL,
+  kind TEXT NOT NULL,
+  order_digest TEXT NOT NULL,
+  runs INTEGER NOT NULL,
+  seconds REAL,
+  peak_memory_mib REAL,
+  UNIQUE (night, name)
+);
+CREATE TABLE series (
+  id INTEGER PRIMARY KEY,
+  sensor TEXT NOT NULL,
+  method TEXT NOT NULL,
+  step INTEGER NOT NULL,
+  quantity TEXT NOT NULL,
+  UNIQUE (sensor, method, step, quantity)
+);
+CREATE TABLE runs (
+  id INTEGER PRIMARY KEY,
+  name TEXT NOT NULL UNIQUE,
+  unit TEXT NOT NULL
+);
+CREATE TABLE scores (
+  study INTEGER NOT NULL REFERENCES studies(id) ON DELETE CASCADE,
+  series INTEGER NOT NULL REFERENCES series(id),
+  run INTEGER NOT NULL REFERENCES runs(id),
+  value REAL,
+  PRIMARY KEY (study, series, run)
+) WITHOUT ROWID;
+CREATE TABLE trends (
+  study INTEGER NOT NULL REFERENCES studies(id) ON DELETE CASCADE,
+  series INTEGER NOT NULL REFERENCES series(id),
+  runs INTEGER NOT NULL,
+  median REAL,
+  PRIMARY KEY (study, series)
+) WITHOUT ROWID;
+CREATE TABLE figures (
+  study INTEGER NOT NULL REFERENCES studies(id) ON DELETE CASCADE,
+  file TEXT NOT NULL,
+  digest TEXT NOT NULL,
+  bytes INTEGER NOT NULL,
+  PRIMARY KEY (study, file)
+) WITHOUT ROWID;
+CREATE INDEX figures_by_digest ON figures(digest);
+)";
+
+/// Pins, and what was found, one by one: before, a night had its verdict alone.
+constexpr const char* kVersion2 = R"(
+ALTER TABLE nights ADD COLUMN pinned INTEGER NOT NULL DEFAULT 0;
+CREATE TABLE findings (
+  id INTEGER PRIMARY KEY,
+  night INTEGER NOT NULL REFERENCES nights(number) ON DELETE CASCADE,
+  study TEXT NOT NULL,
+  kind TEXT NOT NULL,
+  subject TEXT NOT NULL,
+  quantity TEXT NOT NULL,
+  since INTEGER NOT NULL,
+  sentence TEXT NOT NULL
+);
+CREATE INDEX findings_by_night ON findings(night);
+)";
+
+constexpr std::array kVersions = {kVersion1, kVersion2};
+
+int pragma(Database& database, const std::string& name) {
+  Statement statement(database, "PRAGMA " + name);
+  return statement.step() ? static_cast<int>(statement.integer(0)) : 0;
+}
+
+void make_tables_from(Database& database, int from, int version) {
+  Transaction transaction(database);
+  for (int next = from; next < version; ++next)
+    database.execute(kVersions.at(static_cast<std::size_t>(next)));
+  database.execute(
+      fmt::format("PRAGMA user_version = {}; PRAGMA application_id = {}", version, kApplication));
+  transaction.commit();
+}
+
+/// By SQLite's own copy, which is whole whatever a killed writer left.
+void copy_to(Database& database, const fs::path& path) {
+  fs::path beside = path;
+  beside += ".part";
+  std::error_code error;
+  fs::remove(beside, error);
+  {
+    Database copy(beside, Database::Access::kWrite);
+    sqlite3_backup* backup = sqlite3_backup_init(copy.handle(), "main", database.handle(), "main");
+    if (backup == nullptr) copy.fail();
+    const int code = sqlite3_backup_step(backup, -1);
+    sqlite3_backup_finish(backup);
+    if (code != SQLITE_DONE) copy.fail();
+  }
+  fs::rename(beside, path, error);
+  if (error) throw IoError(path.string(), "cannot be put in place: " + error.message());
+}
+
+fs::path free_name(const fs::path& path) {
+  fs::path candidate = path;
+  std::error_code error;
+  for (int i = 2; fs::exists(candidate, error); ++i)
+    candidate = path.string() + "-" + std::to_string(i);
+  return candidate;
+}
+
+}  // namespace
+
+int schema_version() { return static_cast<int>(kVersions.size()); }
+
+int version_of(Database& database) {
+  const int version = pragma(database, "user_version");
+  if (version == 0 && pragma(database, "schema_version") == 0) return 0;
+  if (pragma(database, "application_id") != kApplication)
+    throw IoError(database.path().string(), "is an SQLite file, but no history of mapproof's");
+  if (version > schema_version())
+    throw IoError(database.path().string(),
+                  fmt::format("is of version {}; this program knows versions up to {}", version,
+                              schema_version()));
+  return version;
+}
+
+void make_tables(Database& database, int version) {
+  if (version < 1 || version > schema_version())
+    throw InvalidInput("make_tables: there is no such version");
+  make_tables_from(database, version_of(database), version);
+}
+
+fs::path migrate(Database& database) {
+  const int version = version_of(database);
+  if (version == schema_version()) return {};
+  fs::path backup;
+  if (version > 0) {
+    backup = free_name(fmt::format("{}.v{}-backup", database.path().string(), version));
+    copy_to(database, backup);
+  }
+  make_tables_from(database, version, schema_version());
+  return backup;
+}
+
+}  // namespace mapproof

@@ -1,0 +1,27 @@
+#pragma once
+
+#include <filesystem>
+
+#include "reports/history/database.hpp"
+
+namespace mapproof {
+
+/// The version of the tables that this program writes, in PRAGMA user_version.
+int schema_version();
+
+/// The version of a file; 0: it has no tables yet. @throws IoError if it is no store of ours or of
+/// a later version than this program's.
+int version_of(Database& database);
+
+/// Makes the tables of a version of those there are (docs/file-formats.md lists them). For tests:
+/// stores are opened at the latest.
+/// @throws IoError; InvalidInput unless 1 <= version <= schema_version().
+void make_tables(Database& database, int version);
+
+/// Brings a store of an older version to the latest, in one transaction, after a copy of it was put
+/// beside it: history.sqlite.v1-backup, or with a number more if that is taken.
+/// @return The copy; empty if there was nothing to do.
+/// @throws IoError.
+std::filesystem::path migrate(Database& database);
+
+}  // namespace mapproof
