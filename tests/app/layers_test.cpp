@@ -61,6 +61,8 @@ const std::map<std::string, Modules>& allowed() {
       {"reports/diff",
        with_leaves({"reports/model", "core/json", "core/records", "core/align", "render/base",
                     "render/image", "render/plot", "render/theme", "render/scene"})},
+      {"reports/history", with_leaves({"reports/model", "core/json", "core/records",
+                                       "render/figures", "render/plot"})},
       {"reports/html", with_leaves({"reports/model", "reports/diff", "render/image"})},
       {"reports/tables", with_leaves({"reports/model"})},
   };
@@ -71,13 +73,17 @@ const std::map<std::string, Modules>& allowed() {
 const std::map<std::string, Modules>& kept_in() {
   static const std::map<std::string, Modules> table = {
       {"cairo", {"render/cairo"}},
-      {"nlohmann/", {"core/json", "core/records", "render/plot", "render/scene", "reports/diff"}},
+      {"nlohmann/",
+       {"core/json", "core/records", "render/plot", "render/scene", "reports/diff",
+        "reports/history"}},
       {"csdp/", {"core/embed"}},
       {"ceres/", {"core/range_slam"}},
       {"glog/", {"core/range_slam"}},
       {"expat", {"reports/diff"}},
       {"png.h", {"render/image"}},
       {"matio", {"core/records"}},
+      {"sqlite3", {"reports/history"}},
+      {"sha256.h", {"core/base"}},
       {"hb", {"render/theme", "render/cairo"}},
       {"ft2build", {"render/theme", "render/cairo"}},
       {"kainjow/", {"reports/html"}},

@@ -1,0 +1,25 @@
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <string>
+
+#include "reports/history/night.hpp"
+
+namespace mapproof::test {
+
+/// What a simulated night does to a method's values, as factors.
+struct Plant {
+  std::map<std::string, double> error = {};    ///< By method.
+  std::map<std::string, double> seconds = {};  ///< By method.
+  double all_seconds = 1.0;
+  double memory = 1.0;
+  double error_noise = 0.0;     ///< Of each run, standard deviation of the logarithm.
+  double seconds_noise = 0.05;  ///< Of each piece.
+  double night_noise = 0.05;    ///< Of a night, shared by all its seconds.
+};
+
+/// A night of one study: six methods, 5 layouts x 5 poses, one step; noise by `seed`.
+Night sample_night(int number, std::uint64_t seed, const Plant& plant = {});
+
+}  // namespace mapproof::test
