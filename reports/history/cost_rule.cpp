@@ -14,7 +14,6 @@ namespace {
 
 constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
 constexpr std::size_t kMethodsForCommon = 4;
-constexpr double kLeastError = 1e-9;
 
 double median_of(const std::vector<double>& values) {
   const RobustNoise noise = robust_noise(values);
@@ -59,11 +58,36 @@ struct Limit {
   int nights = 0;
 };
 
-Limit limit_of(const NightSeries& series, const std::vector<std::size_t>& usual, double p) {
+/// What is known of the noise of several series together.
+struct SharedNoise {
+  double sigma = 0.0;
+  int values = 0;
+};
+
+/// Of what each night lies off its own series' median.
+SharedNoise shared_noise(const std::vector<NightSeries>& all, NightRule rule,
+                         const std::vector<std::size_t>& usual) {
+  std::vector<double> off;
+  for (const NightSeries& series : all) {
+    if (series.rule != rule) continue;
+    const std::vector<double> values = picked(series.values, usual);
+    const double middle = robust_noise(values).median;
+    for (const double value : values) off.push_back(value - middle);
+  }
+  const RobustNoise noise = robust_noise(off);
+  return {noise.sigma, noise.values};
+}
+
+/// @param shared  A few nights say little of one method's noise, all methods together more: the
+///                greater of its own and theirs is believed, and is as sure as theirs.
+Limit limit_of(const NightSeries& series, const std::vector<std::size_t>& usual, double p,
+               const SharedNoise& shared = {}) {
   const std::vector<double> values = picked(series.values, usual);
-  const RobustNoise noise = robust_noise(values);
-  return {noise.median, std::max(noise.median + series.least, upper_limit(noise, p, series.floor)),
-          noise.values};
+  RobustNoise noise = robust_noise(values);
+  const Limit limit{noise.median, noise.median + series.least, noise.values};
+  noise.sigma = std::max(noise.sigma, shared.sigma);
+  noise.values = std::max(noise.values, shared.values);
+  return {limit.usual, std::max(limit.most, upper_limit(noise, p, series.floor)), limit.nights};
 }
 
 NightFinding finding_of(const NightSeries& series, const Limit& limit, const StudyTrend& trend,
@@ -98,7 +122,8 @@ void judge_sustained(const NightSeries& series, const StudyTrend& trend,
   // The night before is judged as well: it cannot say what is usual.
   std::vector<std::size_t> others = usual;
   std::erase(others, *before);
-  const Limit limit = limit_of(series, others, p);
+  // Both nights have to be beyond it, each by a chance of its own.
+  const Limit limit = limit_of(series, others, std::sqrt(p));
   if (limit.nights < least_nights || series.values.back() <= limit.most) return;
   const std::string word = series.rule == NightRule::kAllSeconds ? "slower" : "higher";
   const int since = trend.nights[*before].number;
@@ -192,7 +217,7 @@ std::vector<NightSeries> memory_series(const StudyTrend& trend, const Regression
 std::vector<NightSeries> accuracy_series(const StudyTrend& trend, const RegressionRules& rules) {
   // Series ascend by step: the last of each method and quantity stays.
   std::map<std::pair<std::string, std::string>, NightSeries> last;
-  for (const auto& [id, values] : trend.medians) {
+  for (const auto& [id, values] : trend.levels) {
     const Compared compared = history_quantity(id.quantity).compared;
     if (compared != Compared::kRatio && compared != Compared::kPoints) continue;
     const bool ratio = compared == Compared::kRatio;
@@ -202,9 +227,6 @@ std::vector<NightSeries> accuracy_series(const StudyTrend& trend, const Regressi
                        .ratio = ratio,
                        .least = ratio ? std::log1p(rules.least_ratio) : rules.least_points,
                        .values = values};
-    if (ratio)
-      for (double& value : series.values)
-        value = std::isnan(value) ? kNone : std::log(std::max(value, kLeastError));
     last[{series.subject, series.quantity}] = std::move(series);
   }
   std::vector<NightSeries> all;
@@ -224,12 +246,13 @@ RuleOutcome judge_costs(const StudyEvidence& evidence, const RegressionRules& ru
   }
   const std::vector<NightSeries> seconds = seconds_series(trend, usual, rules);
   const double p = rules.alpha / std::max<double>(1.0, static_cast<double>(seconds.size()));
+  const SharedNoise shared = shared_noise(seconds, NightRule::kSeconds, usual);
   for (const NightSeries& series : seconds) {
     if (series.rule == NightRule::kAllSeconds) {
       judge_sustained(series, trend, usual, p, rules.least_good_nights - 1, outcome);
       continue;
     }
-    const Limit limit = limit_of(series, usual, p);
+    const Limit limit = limit_of(series, usual, p, shared);
     if (limit.nights >= rules.least_good_nights && series.values.back() > limit.most)
       outcome.findings.push_back(
           finding_of(series, limit, trend, trend.nights.back().number, "slower"));

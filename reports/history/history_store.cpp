@@ -209,15 +209,21 @@ StudyTrend HistoryStore::trend(const std::string& study, const std::string& orde
   std::ranges::reverse(ids);
   std::ranges::reverse(trend.peak_memory_mib);
   for (std::size_t i = 0; i < ids.size(); ++i) {
-    Statement medians(*database_,
-                      "SELECT s.sensor, s.method, s.step, s.quantity, t.median FROM trends t "
-                      "JOIN series s ON s.id = t.series WHERE t.study = ?");
+    Statement medians(
+        *database_,
+        "SELECT s.sensor, s.method, s.step, s.quantity, t.median, t.level FROM trends t "
+        "JOIN series s ON s.id = t.series WHERE t.study = ?");
     medians.bind(ids[i]);
     while (medians.step()) {
-      auto& values = trend.medians[{medians.text(0), medians.text(1),
-                                    static_cast<int>(medians.integer(2)), medians.text(3)}];
-      values.resize(ids.size(), std::numeric_limits<double>::quiet_NaN());
-      values[i] = medians.real(4);
+      const SeriesId series{medians.text(0), medians.text(1), static_cast<int>(medians.integer(2)),
+                            medians.text(3)};
+      const auto put = [&](auto& all, double value) {
+        auto& values = all[series];
+        values.resize(ids.size(), std::numeric_limits<double>::quiet_NaN());
+        values[i] = value;
+      };
+      put(trend.medians, medians.real(4));
+      put(trend.levels, medians.real(5));
     }
   }
   return trend;
@@ -272,8 +278,8 @@ void HistoryStore::append_study(int night, const StudyNight& study) {
   Statement find_run(*database_, "SELECT id FROM runs WHERE name = ?1 AND ?2 = ?2");
   Statement add_run(*database_, "INSERT INTO runs (name, unit) VALUES (?, ?)");
   Statement score(*database_, "INSERT INTO scores (study, series, run, value) VALUES (?, ?, ?, ?)");
-  Statement median(*database_,
-                   "INSERT INTO trends (study, series, runs, median) VALUES (?, ?, ?, ?)");
+  Statement median(
+      *database_, "INSERT INTO trends (study, series, runs, median, level) VALUES (?, ?, ?, ?, ?)");
   std::map<std::string, std::int64_t> run_ids;
   for (const auto& [key, values] : study.scores) {
     const std::int64_t series =
@@ -289,7 +295,7 @@ void HistoryStore::append_study(int night, const StudyNight& study) {
       score.bind(id).bind(series).bind(run->second).bind(value.value).run();
     }
     median.bind(id).bind(series).bind(static_cast<int>(values.size()));
-    median.bind(known_median(values)).run();
+    median.bind(known_median(values)).bind(level_of(key, values)).run();
   }
   Statement figure(*database_,
                    "INSERT INTO figures (study, file, digest, bytes) VALUES (?, ?, ?, ?)");

@@ -34,7 +34,8 @@ void drop_before(StudyTrend& trend, int night) {
   const auto count = std::distance(trend.nights.begin(), first);
   trend.nights.erase(trend.nights.begin(), first);
   trend.peak_memory_mib.erase(trend.peak_memory_mib.begin(), trend.peak_memory_mib.begin() + count);
-  for (auto& [series, values] : trend.medians) values.erase(values.begin(), values.begin() + count);
+  for (auto* all : {&trend.medians, &trend.levels})
+    for (auto& [series, values] : *all) values.erase(values.begin(), values.begin() + count);
 }
 
 StudyEvidence evidence_of(HistoryStore& store, const Night& tonight, const StudyNight& study,
@@ -58,14 +59,17 @@ void add_tonight(StudyTrend& trend, const NightFacts& facts, const StudyNight& s
   const std::size_t before = trend.nights.size();
   trend.nights.push_back(facts);
   trend.peak_memory_mib.push_back(study.peak_memory_mib.value_or(kNone));
-  for (const auto& [series, values] : study.scores)
-    trend.medians.try_emplace(series, before, kNone);
-  for (auto& [series, medians] : trend.medians) {
-    if (medians.size() != before)
-      throw InvalidInput("add_tonight: a series has another number of nights");
-    const auto found = study.scores.find(series);
-    medians.push_back(found == study.scores.end() ? kNone : known_median(found->second));
-  }
+  const auto add = [&](auto& all, const auto& value_of) {
+    for (const auto& [series, values] : study.scores) all.try_emplace(series, before, kNone);
+    for (auto& [series, of_nights] : all) {
+      if (of_nights.size() != before)
+        throw InvalidInput("add_tonight: a series has another number of nights");
+      const auto found = study.scores.find(series);
+      of_nights.push_back(found == study.scores.end() ? kNone : value_of(series, found->second));
+    }
+  };
+  add(trend.medians, [](const SeriesId&, const auto& values) { return known_median(values); });
+  add(trend.levels, level_of);
 }
 
 RuleOutcome judge_study(const StudyEvidence& evidence, const RegressionRules& rules,

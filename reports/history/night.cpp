@@ -109,4 +109,17 @@ double known_median(const std::vector<RunValue>& values) {
   return known.empty() ? std::numeric_limits<double>::quiet_NaN() : median(known);
 }
 
+double level_of(const SeriesId& series, const std::vector<RunValue>& values) {
+  constexpr double kLeastError = 1e-9;
+  const bool ratio = history_quantity(series.quantity).compared == Compared::kRatio;
+  double sum = 0.0;
+  int count = 0;
+  for (const RunValue& value : values) {
+    if (!std::isfinite(value.value)) continue;
+    sum += ratio ? std::log(std::max(value.value, kLeastError)) : value.value;
+    ++count;
+  }
+  return count == 0 ? std::numeric_limits<double>::quiet_NaN() : sum / count;
+}
+
 }  // namespace mapproof

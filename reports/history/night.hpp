@@ -149,9 +149,16 @@ struct StudyTrend {
   std::vector<double> peak_memory_mib = {};  ///< One a night; NaN: not known.
   /// Medians over runs, one a night; NaN: none.
   std::map<SeriesId, std::vector<double>> medians = {};
+  /// Likewise, as change points are looked for in: see level_of().
+  std::map<SeriesId, std::vector<double>> levels = {};
 };
 
 /// The median of the values that are no NaN; NaN without any.
 double known_median(const std::vector<RunValue>& values);
+
+/// The mean over the runs of the logarithm of a quantity that is compared by ratio, 1e-9 for less;
+/// of any other its mean. Runs differ far more than nights do: a median would follow one of them.
+/// NaN without any.
+double level_of(const SeriesId& series, const std::vector<RunValue>& values);
 
 }  // namespace mapproof

@@ -83,7 +83,7 @@ std::vector<NightSeries> seconds_series(const StudyTrend& trend,
 /// Empty if no night knows it.
 std::vector<NightSeries> memory_series(const StudyTrend& trend, const RegressionRules& rules);
 
-/// Medians over runs at the last step of each method.
+/// Levels (see level_of) at the last step of each method.
 std::vector<NightSeries> accuracy_series(const StudyTrend& trend, const RegressionRules& rules);
 
 /// The nights before tonight that were good and on the same machine, the last ones.

@@ -66,6 +66,7 @@ CREATE TABLE trends (
   series INTEGER NOT NULL REFERENCES series(id),
   runs INTEGER NOT NULL,
   median REAL,
+  level REAL,
   PRIMARY KEY (study, series)
 ) WITHOUT ROWID;
 CREATE TABLE figures (
