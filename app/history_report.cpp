@@ -27,6 +27,7 @@ fs::path write_history_pages(HistoryStore& history, const fs::path& out,
                                 .in_company = {},
                                 .figures = std::move(trend.figures),
                                 .scenes = {},
+                                .films = {},
                                 .runs = 0,
                                 .missing = {}};
       write_report(report, page, jobs);
