@@ -7,8 +7,8 @@
 namespace mapproof {
 namespace {
 
-// Found on the mutations of tests/reports/diff: what must be told apart lies at least a third below
-// and above each.
+// Found on the mutations of tests/reports/diff, which lie on both sides of each: some a third away,
+// but of kMovedShare .58 must pass and .64 must fail.
 constexpr int kMostLocalGroups = 3;
 constexpr double kMostLocalShare = 0.12;  // Of the tiles with anything in them.
 constexpr double kLeftShare = 0.3;        // Of a group's difference, beyond a small movement.

@@ -93,11 +93,14 @@ class SceneComparer {
       return;
     }
     if (difference.count++ > 0) return;
-    difference.baseline =
-        a.is_structured() ? counted(static_cast<long long>(a.size()), "entry") : text_of(a);
-    difference.current =
-        b.is_structured() ? counted(static_cast<long long>(b.size()), "entry") : text_of(b);
+    difference.baseline = short_text(a);
+    difference.current = short_text(b);
     if (difference.baseline == difference.current) difference.current += ", others";
+  }
+
+  static std::string short_text(const Json& value) {
+    if (value.is_structured()) return counted(static_cast<long long>(value.size()), "value");
+    return value.is_number_float() ? fmt::format("{:.6g}", value.get<double>()) : text_of(value);
   }
 
   const FigureOptions& options_;
