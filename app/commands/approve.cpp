@@ -59,7 +59,7 @@ int approve(const Arguments& arguments, const Invocation& invocation) {
     object[removed ? "removed" : "written"].push_back(step.to.string());
     text += fmt::format("{}  {}\n", removed ? "removed" : "written", step.to.string());
   }
-  if (text.empty()) invocation.console.info(arguments.baseline + ": nothing differs");
+  if (text.empty()) invocation.console.info(arguments.baseline + ": nothing to take");
   invocation.console.result(text, object);
   return kDone;
 }

@@ -63,8 +63,8 @@ int check(const Arguments& arguments, const Invocation& invocation) {
   // new.
   if (!fs::exists(arguments.baseline, error)) {
     invocation.console.warning(fmt::format(
-        "{}: there is no baseline. The candidate is kept in {}; look at it, and if it is right:\n"
-        "  {}",
+        "{}: there is no baseline. The candidate is kept in {}; look at it, and if it is right: "
+        "{}",
         arguments.baseline, arguments.out,
         quoted_command({"mapproof", "approve", arguments.baseline, arguments.out, "--all"})));
     return kNo;

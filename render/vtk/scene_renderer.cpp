@@ -90,24 +90,31 @@ int side_samples(const SceneRequest& request) {
   return side;
 }
 
+/// The mean of `side` x `side` samples, the first of the lowest row at `first`.
+std::uint32_t mean_of(const unsigned char* first, vtkIdType row_bytes, int side) {
+  const auto count = static_cast<std::uint32_t>(side * side);
+  std::array<std::uint32_t, 3> sum{count / 2, count / 2, count / 2};
+  for (int i = 0; i < side; ++i)
+    for (int j = 0; j < side; ++j)
+      for (std::size_t c = 0; c < 3; ++c)
+        sum[c] += first[row_bytes * i + 3 * j + static_cast<vtkIdType>(c)];
+  return sum[0] / count << 16 | sum[1] / count << 8 | sum[2] / count;
+}
+
 /// Samples upside down, as OpenGL has them, to Image's rows, each pixel the mean of `side` x
 /// `side`.
 Image image_of(vtkUnsignedCharArray* bytes, int width, int height, int side) {
   Image image{width, height, std::vector<std::uint32_t>(static_cast<std::size_t>(width) * height)};
   const auto row_bytes = static_cast<vtkIdType>(3) * side * width;
   const unsigned char* all = bytes->GetPointer(0);
-  const std::uint32_t count = static_cast<std::uint32_t>(side * side);
   for (int y = 0; y < height; ++y) {
     const unsigned char* first = all + row_bytes * side * (height - 1 - y);
     std::uint32_t* row = image.row(y);
-    for (int x = 0; x < width; ++x, first += 3 * side) {
-      std::array<std::uint32_t, 3> sum{count / 2, count / 2, count / 2};
-      for (int i = 0; i < side; ++i)
-        for (int j = 0; j < side; ++j)
-          for (std::size_t c = 0; c < 3; ++c)
-            sum[c] += first[row_bytes * i + 3 * j + static_cast<vtkIdType>(c)];
-      row[x] = sum[0] / count << 16 | sum[1] / count << 8 | sum[2] / count;
-    }
+    if (side == 1)
+      for (int x = 0; x < width; ++x, first += 3)
+        row[x] = static_cast<std::uint32_t>(first[0]) << 16 | first[1] << 8 | first[2];
+    else
+      for (int x = 0; x < width; ++x, first += 3 * side) row[x] = mean_of(first, row_bytes, side);
   }
   return image;
 }

@@ -69,8 +69,23 @@ void compare_subjects(const RecordSet& a, const RecordSet& b, RecordDiff& diff) 
     if (!matched.contains(subject)) diff.new_subjects.push_back(subject);
 }
 
-/// Points of records on one side alone follow from runs, subjects or damaged files, which are told;
-/// files that are equal on both sides were not read.
+/// Whether a record is one that both sides ought to have: what follows from runs, subjects or
+/// damaged files on one side alone is told there.
+bool is_expected(const std::string& record, const RecordSet& a, const RecordSet& b) {
+  const RecordName name = subject_of(record);
+  const auto has = [&name](const RecordSet& set) {
+    const bool damaged = std::ranges::any_of(set.problems, [&name](const RecordProblem& problem) {
+      return problem.file.find(name.run + ".json") != std::string::npos;
+    });
+    return !damaged && set.runs.contains(name.run) &&
+           std::ranges::any_of(set.values, [&name](const auto& entry) {
+             return entry.first.subject == name.subject && entry.second.contains(name.run);
+           });
+  };
+  return has(a) && has(b);
+}
+
+/// Files that are equal on both sides were not read.
 void compare_points(const RecordSet& a, const RecordSet& b, const Tolerances& tolerances,
                     RecordDiff& diff) {
   std::vector<std::string> missing, added;
@@ -79,6 +94,11 @@ void compare_points(const RecordSet& a, const RecordSet& b, const Tolerances& to
           if (auto moved = points_diff(record, before, after, tolerances))
             diff.points.push_back(*std::move(moved));
         });
+  constexpr const char* kNoMap = "no map is kept";
+  for (const std::string& record : missing)
+    if (is_expected(record, a, b)) diff.statuses.push_back({record, "", kNoMap});
+  for (const std::string& record : added)
+    if (is_expected(record, a, b)) diff.statuses.push_back({record, kNoMap, ""});
 }
 
 void compare_rest(const RecordSet& a, const RecordSet& b, const RecordOptions& options,
@@ -93,7 +113,8 @@ void compare_rest(const RecordSet& a, const RecordSet& b, const RecordOptions& o
           if (before != after) diff.anchors.push_back(run);
         });
   const Tolerance tolerance = tolerance_of(*find_quantity("other"), options.tolerances);
-  match(a.others, b.others, missing, added,
+  std::vector<std::string> missing_files, added_files;
+  match(a.others, b.others, missing_files, added_files,
         [&](const std::string& name, const auto& before, const auto& after) {
           try {
             OtherDiff other = number_diff(name, before, after, tolerance);
@@ -103,6 +124,13 @@ void compare_rest(const RecordSet& a, const RecordSet& b, const RecordOptions& o
             diff.problems.push_back({name + ".json", error.what()});
           }
         });
+  // Of runs on both sides; a file that is equal was not listed on either.
+  for (const auto* names : {&missing_files, &added_files})
+    for (const std::string& name : *names) {
+      const std::string run = name.substr(name.find('/') + 1);
+      if (a.runs.contains(run) && b.runs.contains(run))
+        diff.others.push_back({.file = name, .shape = true});
+    }
   for (const RecordSet* side : {&a, &b})
     diff.problems.insert(diff.problems.end(), side->problems.begin(), side->problems.end());
 }

@@ -120,9 +120,11 @@ void judge_rest(const RecordDiff& diff, Judgement& whole, std::vector<std::strin
       whole.verdict = heavier(whole.verdict, Verdict::kWithinTolerance);
     else if (whole.verdict <= Verdict::kWithinTolerance)  // Else scores say what it is worth.
       whole.verdict = Verdict::kChanged;
-    if (beyond && causes.empty())
-      causes.push_back(fmt::format("{}: {} differ, the first at {}", other.file,
-                                   counted(other.beyond, "number"), other.first));
+    if (!beyond || !causes.empty()) continue;
+    causes.push_back(other.beyond == 0
+                         ? other.file + " is kept on one side alone, or is of another form"
+                         : fmt::format("{}: {} differ, the first at {}", other.file,
+                                       counted(other.beyond, "number"), other.first));
   }
 }
 

@@ -100,6 +100,27 @@ TEST(RecordDiff, TakesALostScoreForWorseAndAGainedOneForBetter) {
   EXPECT_EQ(record_diff(after, after).judgement.verdict, Verdict::kIdentical);
 }
 
+TEST(RecordDiff, TellsAMapAndAFileThatAreKeptOnOneSideAlone) {
+  RecordSet before = set_of(3);
+  const std::string record = "layout-2-pose-1/bearing/lpca/100";
+  before.points[record] = {.names = {"a"}, .points = Points::Zero(1, 2), .truth = {}};
+  RecordSet after = before;
+  after.points.clear();
+  for (const auto& [one, other] : {std::pair{before, after}, {after, before}}) {
+    const RecordDiff diff = record_diff(one, other);
+    EXPECT_EQ(diff.judgement.verdict, Verdict::kChanged);
+    EXPECT_NE(diff.judgement.cause.find(record), std::string::npos) << diff.judgement.cause;
+  }
+  after = set_of(3);
+  RecordSet detailed = after;
+  detailed.others["details/layout-1-pose-1"] = "details/layout-1-pose-1.json";
+  const RecordDiff diff = record_diff(detailed, after);
+  EXPECT_EQ(diff.judgement.verdict, Verdict::kChanged);
+  EXPECT_NE(diff.judgement.cause.find("kept on one side alone"), std::string::npos);
+  after.runs.erase("layout-1-pose-1");  // Then the missing run says it.
+  EXPECT_TRUE(record_diff(detailed, after).others.empty());
+}
+
 TEST(RecordDiff, NeverJudgesVersionsNorIterations) {
   RecordSet before = set_of(8);
   for (const auto& [run, layout] : before.runs)
