@@ -102,8 +102,8 @@ Pictures pictures_of(const FolderReport& report) {
   return pictures;
 }
 
-Drawn write_pictures(const Pictures& pictures, const Theme& theme, const fs::path& folder,
-                     int jobs) {
+Drawn write_pictures(const Pictures& pictures, const Theme& theme, const fs::path& folder, int jobs,
+                     SceneClient& client) {
   const tbb::global_control limit(tbb::global_control::max_allowed_parallelism,
                                   static_cast<std::size_t>(jobs));
   Drawn drawn;
@@ -115,7 +115,6 @@ Drawn write_pictures(const Pictures& pictures, const Theme& theme, const fs::pat
     });
   };
   const auto draw_scenes = [&] {
-    SceneClient client;
     try {
       for (const Scene* scene : pictures.scenes)
         drawn.svg.at(scene->id) = write_scene(*scene, theme, folder, client);
@@ -129,8 +128,9 @@ Drawn write_pictures(const Pictures& pictures, const Theme& theme, const fs::pat
 }
 
 fs::path write_report(const FolderReport& report, const Templates& page, int jobs) {
+  SceneClient client;
   const Drawn drawn =
-      write_pictures(pictures_of(report), report_theme(), report.folder / "figures", jobs);
+      write_pictures(pictures_of(report), report_theme(), report.folder / "figures", jobs, client);
   Report shown = report.report;
   if (!drawn.renderer.empty()) add_renderer(shown, drawn.renderer);
   write_tables(shown, report.folder / "tables");

@@ -9,6 +9,7 @@
 #include "render/plot/figure.hpp"
 #include "render/scene/film.hpp"
 #include "render/scene/scene.hpp"
+#include "render/scene_client/scene_client.hpp"
 #include "render/theme/theme.hpp"
 #include "reports/html/templates.hpp"
 #include "reports/model/report.hpp"
@@ -63,7 +64,7 @@ struct Drawn {
 /// Draws the pictures into `folder`: figures several at a time, scenes one by one beside them.
 /// @throws IoError.
 Drawn write_pictures(const Pictures& pictures, const Theme& theme,
-                     const std::filesystem::path& folder, int jobs);
+                     const std::filesystem::path& folder, int jobs, SceneClient& client);
 
 /// Writes figures/, tables/ and report.html, which names what drew the scenes, into the report's
 /// folder.

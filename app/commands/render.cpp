@@ -82,9 +82,9 @@ int render(const Arguments& arguments, const Invocation& invocation) {
                                            ? view.folder / (paper ? "figures-paper" : "figures")
                                            : std::filesystem::path(arguments.out);
   const Theme theme = paper ? paper_theme(arguments.width_in) : report_theme();
-  const Drawn drawn = write_pictures(pictures, theme, folder, arguments.jobs);
+  SceneClient client;  // One program draws scenes and films.
+  const Drawn drawn = write_pictures(pictures, theme, folder, arguments.jobs, client);
   if (!drawn.scene_error.empty()) throw SceneError(drawn.scene_error);
-  SceneClient client;
   for (const Film* film : films) write_animation(*film, theme, folder, client);
 
   nlohmann::ordered_json object{{"study", arguments.study},
