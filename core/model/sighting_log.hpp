@@ -1,0 +1,28 @@
+#pragma once
+
+#include <limits>
+#include <string>
+#include <vector>
+
+namespace mapproof {
+
+/// One landmark in one look: what was measured of it.
+struct Sighting {
+  int step = 0;                                                   ///< Which look, from 0.
+  int landmark = 0;                                               ///< Row among the log's names.
+  double range_m = std::numeric_limits<double>::quiet_NaN();      ///< NaN: not measured.
+  double bearing_rad = std::numeric_limits<double>::quiet_NaN();  ///< Relative to the heading,
+                                                                  ///< counter-clockwise; NaN: not.
+};
+
+/// What looks showed of M landmarks, range and bearing of each together: a history as sparse as the
+/// looks are. Who looked, and from where, is not in it: looks of several robots are pooled.
+struct SightingLog {
+  std::vector<std::string> names;  ///< Of the landmarks, M of them, all different.
+  std::vector<Sighting>
+      sightings;                ///< Ascending by step, then landmark; no (step, landmark) twice.
+  int steps = 0;                ///< Looks, those that showed nothing among them.
+  std::vector<double> times_s;  ///< Of each look, or empty; ascending within a robot's looks.
+};
+
+}  // namespace mapproof

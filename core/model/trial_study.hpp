@@ -1,0 +1,109 @@
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include <Eigen/Core>
+
+#include "core/model/experiment.hpp"
+#include "core/model/map_record.hpp"
+#include "core/model/study.hpp"
+
+namespace mapproof {
+
+/// One number that trials are judged by.
+struct TrialQuantity {
+  std::string id;     ///< [a-z][a-z0-9_]*, with its unit: "mpe_m".
+  std::string label;  ///< For tables and axes, without the unit: "MPE".
+  std::string unit;   ///< "m", "%"; empty: a count or a ratio.
+  bool lower_is_better = true;
+};
+
+/// One set of conditions with a figure and a table of its own.
+struct TrialSetup {
+  std::string id;              ///< [a-z][a-z0-9-]*: "sensor-range".
+  std::string title;           ///< "Distant landmarks not observed".
+  std::string level_label;     ///< What the levels are: "share missing, %"; empty: there is one.
+  std::vector<double> levels;  ///< Ascending, one or more.
+};
+
+/// One of what is held against each other: a method, a criterion, a sensor.
+struct TrialSeries {
+  std::string id;     ///< [a-z][a-z0-9-]*: "ppca-q10".
+  std::string label;  ///< "PPCA by EM, q = 10".
+};
+
+/// What a study of trials compares, in the order of its tables.
+struct TrialDesign {
+  std::string question;  ///< What is asked and how it is tried, two or three sentences.
+  std::vector<TrialSetup> setups;
+  std::vector<TrialSeries> series;
+  std::vector<TrialQuantity> quantities;
+};
+
+/// What one series came to at one level of one setup. Not every combination has to be tried.
+struct Trial {
+  std::string setup;
+  std::string series;
+  double level = 0.0;
+  std::vector<double> values;  ///< As many as the design has quantities; NaN: nothing came out.
+  std::vector<Status> statuses;
+};
+
+/// A pair of landmarks whose distance was measured.
+struct MeasuredPair {
+  Eigen::Index first = 0;  ///< Rows of the map, first < second.
+  Eigen::Index second = 0;
+  double distance_m = 0.0;
+  double precision = 1.0;  ///< Weight, 1 / variance, 1/m^2.
+  int looks = 0;           ///< That showed both.
+};
+
+/// A map to be looked at.
+struct TrialMap {
+  std::string id;     ///< [a-z][a-z0-9-]*, unique in the study: "ranged-dataset2".
+  std::string title;  ///< What it shows, a sentence for its caption.
+  MapRecord map;
+  std::vector<MeasuredPair> pairs;           ///< Drawn thin under the map; may be empty.
+  std::vector<Eigen::Matrix2d> covariances;  ///< Of each landmark's position, m^2; M or none.
+};
+
+/// What was tried in one simulated run, or on one data set.
+struct TrialPart {
+  std::string id;            ///< slug(run), or the data set's: "dataset2".
+  std::optional<RunId> run;  ///< Of a simulated one; means and intervals go over those alone.
+  std::vector<Trial> trials;
+  std::vector<TrialMap> maps;                           ///< Of few parts: the first run's.
+  std::vector<std::pair<std::string, double>> seconds;  ///< By series; vary from run to run.
+};
+
+/// A question put to simulated worlds or to data.
+struct TrialExperiment {
+  std::string name;  ///< Letters, digits, '-' and '_'.
+  std::string title;
+  std::string topic;  ///< Name of a Topic (core/trials/topic.hpp).
+  std::uint64_t seed = 0;
+  int layouts = 1;  ///< A run is one layout with one initial pose; a topic of data has none.
+  int poses = 1;
+  int steps = 2000;
+  WorldOptions world;
+  WalkOptions walk;
+  int anchors = 4;
+  std::map<std::string, std::vector<double>> options;  ///< Every one of the topic's.
+};
+
+/// A study of trials as its folder holds it.
+struct TrialStudy {
+  TrialExperiment experiment;
+  Provenance provenance;
+  TrialDesign design;
+  std::vector<TrialPart> parts;          ///< Runs in ascending order, or data sets by name.
+  std::vector<std::string> conclusions;  ///< What came out, with numbers, a sentence each.
+  std::vector<std::string> missing;      ///< Data asked for that are not there.
+};
+
+}  // namespace mapproof
