@@ -4,7 +4,7 @@
 #include <map>
 #include <optional>
 #include <string>
-#include <utility>
+#include <string_view>
 #include <vector>
 
 #include <Eigen/Core>
@@ -35,6 +35,16 @@ struct TrialSetup {
 struct TrialSeries {
   std::string id;     ///< [a-z][a-z0-9-]*: "ppca-q10".
   std::string label;  ///< "PPCA by EM, q = 10".
+};
+
+/// An option of a topic, as an experiment file may give it.
+struct TrialOption {
+  std::string_view name;      ///< "shares_missing".
+  std::vector<double> usual;  ///< One number, or the ascending ones of a list.
+  double minimum = 0.0;       ///< Inclusive.
+  double maximum = 0.0;       ///< Inclusive.
+  bool integer = false;
+  bool list = false;
 };
 
 /// What a study of trials compares, in the order of its tables.
@@ -72,13 +82,27 @@ struct TrialMap {
   std::vector<Eigen::Matrix2d> covariances;  ///< Of each landmark's position, m^2; M or none.
 };
 
+/// Seconds that one series took on one part.
+struct TrialSeconds {
+  std::string part;
+  std::string series;
+  double seconds = 0.0;
+};
+
 /// What was tried in one simulated run, or on one data set.
 struct TrialPart {
   std::string id;            ///< slug(run), or the data set's: "dataset2".
   std::optional<RunId> run;  ///< Of a simulated one; means and intervals go over those alone.
   std::vector<Trial> trials;
-  std::vector<TrialMap> maps;                           ///< Of few parts: the first run's.
-  std::vector<std::pair<std::string, double>> seconds;  ///< By series; vary from run to run.
+  std::vector<TrialMap> maps;         ///< Of few parts: the first run's.
+  std::vector<TrialSeconds> seconds;  ///< Vary from run to run; kept in timings.jsonl.
+};
+
+/// A data set that is no part of the program.
+struct TrialDataSet {
+  std::string id;      ///< [a-z0-9-]+, unique: "dataset2"; the id of its part.
+  std::string title;   ///< "MRCLAM dataset 2".
+  std::string digest;  ///< SHA-256 of its files.
 };
 
 /// A question put to simulated worlds or to data.
@@ -87,13 +111,14 @@ struct TrialExperiment {
   std::string title;
   std::string topic;  ///< Name of a Topic (core/trials/topic.hpp).
   std::uint64_t seed = 0;
-  int layouts = 1;  ///< A run is one layout with one initial pose; a topic of data has none.
+  int layouts = 1;  ///< A run is one layout with one initial pose; not of a topic of data.
   int poses = 1;
   int steps = 2000;
   WorldOptions world;
   WalkOptions walk;
   int anchors = 4;
   std::map<std::string, std::vector<double>> options;  ///< Every one of the topic's.
+  std::vector<TrialDataSet> data;                      ///< Of a topic of data: what was there.
 };
 
 /// A study of trials as its folder holds it.
@@ -102,8 +127,8 @@ struct TrialStudy {
   Provenance provenance;
   TrialDesign design;
   std::vector<TrialPart> parts;          ///< Runs in ascending order, or data sets by name.
-  std::vector<std::string> conclusions;  ///< What came out, with numbers, a sentence each.
-  std::vector<std::string> missing;      ///< Data asked for that are not there.
+  std::vector<std::string> conclusions;  ///< What came out, with numbers, a sentence each; of the
+                                         ///< topic that judges the parts, never on disk.
 };
 
 }  // namespace mapproof

@@ -11,14 +11,10 @@
 
 namespace mapproof {
 
-/// An option of a topic, as an experiment file may give it.
-struct TopicOption {
-  std::string_view name;      ///< "shares_missing".
-  std::vector<double> usual;  ///< One number, or ascending ones of a list.
-  double minimum = 0.0;       ///< Inclusive.
-  double maximum = 0.0;       ///< Inclusive.
-  bool integer = false;
-  bool list = false;
+/// A data set and where it lies.
+struct TrialData {
+  TrialDataSet set;
+  std::filesystem::path folder;
 };
 
 /// What a topic is given for one part of its study.
@@ -35,14 +31,17 @@ struct TrialContext {
 };
 
 /// A question that studies of trials can put: what it compares and how one part is made.
-/// All functions are pure: what they return depends on their arguments alone.
+/// What its functions return depends on their arguments alone, seconds apart.
 struct Topic {
   std::string_view name;  ///< In files: "missing".
-  bool of_data = false;   ///< Parts are data sets, not simulated runs.
-  std::vector<TopicOption> options;
+  bool of_data = false;   ///< Parts are data sets (data_sets), not simulated runs.
+  std::vector<TrialOption> options;
   TrialDesign (*design)(const TrialExperiment& experiment) = nullptr;
   TrialPart (*make)(const TrialContext& context) = nullptr;
   std::vector<std::string> (*conclude)(const TrialStudy& study) = nullptr;
+  /// Of a topic of data: the sets in a folder, by id; the folder may be one itself.
+  /// @throws IoError if there is none.
+  std::vector<TrialData> (*data_sets)(const std::filesystem::path& folder) = nullptr;
 };
 
 /// All topics, in the order of their studies. A new one is added to core/trials/topics.cpp.
