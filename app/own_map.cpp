@@ -9,6 +9,7 @@
 #include <fmt/ranges.h>
 
 #include "core/align/affine.hpp"
+#include "core/align/diagonal_anchors.hpp"
 #include "core/base/errors.hpp"
 #include "core/observe/proximities.hpp"
 #include "core/score/map_score.hpp"
@@ -202,28 +203,6 @@ void align_and_score(MapRecord& record, const Points& coordinates, const Referen
 }
 
 }  // namespace
-
-std::vector<Eigen::Index> diagonal_anchors(const Points& truth_m) {
-  std::vector<Eigen::Index> known;
-  for (Eigen::Index i = 0; i < truth_m.rows(); ++i)
-    if (truth_m.row(i).allFinite()) known.push_back(i);
-  const Points positions = truth_m(known, Eigen::all);
-  std::vector<Eigen::Index> chosen;
-  for (const Eigen::RowVector2d& diagonal : {Eigen::RowVector2d(-1, -1), Eigen::RowVector2d(1, -1),
-                                             Eigen::RowVector2d(1, 1), Eigen::RowVector2d(-1, 1)}) {
-    Eigen::VectorXd outward = positions * diagonal.transpose();
-    for (std::size_t k = 0; k < known.size(); ++k)
-      if (std::ranges::find(chosen, known[k]) != chosen.end())
-        outward(static_cast<Eigen::Index>(k)) = -HUGE_VAL;
-    Eigen::Index furthest = 0;
-    if (chosen.size() < known.size()) {
-      outward.maxCoeff(&furthest);
-      chosen.push_back(known[static_cast<std::size_t>(furthest)]);
-    }
-  }
-  std::ranges::sort(chosen);
-  return chosen;
-}
 
 OwnMap map_own(const ObservationSource& source, const std::optional<NamedPointsFile>& anchors,
                const std::optional<NamedPointsFile>& truth, const OwnMapOptions& options) {

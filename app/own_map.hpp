@@ -44,8 +44,4 @@ struct OwnMap {
 OwnMap map_own(const ObservationSource& source, const std::optional<NamedPointsFile>& anchors,
                const std::optional<NamedPointsFile>& truth, const OwnMapOptions& options);
 
-/// The four landmarks furthest out along the diagonals of the extent, all different, ascending;
-/// rows with NaN are none.
-std::vector<Eigen::Index> diagonal_anchors(const Points& truth_m);
-
 }  // namespace mapproof

@@ -4,6 +4,8 @@
 #include <string>
 #include <vector>
 
+#include "core/model/observation_history.hpp"
+
 namespace mapproof {
 
 /// One landmark in one look: what was measured of it.
@@ -24,5 +26,10 @@ struct SightingLog {
   int steps = 0;                ///< Looks, those that showed nothing among them.
   std::vector<double> times_s;  ///< Of each look, or empty; ascending within a robot's looks.
 };
+
+/// What one kind of sensor saw in those looks, as an array: visibility 0 where a landmark was not
+/// seen, bearing and range NaN.
+/// @note 8 M N bytes.
+ObservationHistory history_of(const SightingLog& log, Sensor sensor);
 
 }  // namespace mapproof

@@ -58,51 +58,49 @@ std::vector<fs::path> measurement_files(const fs::path& folder) {
   return ordered;
 }
 
-struct Sighting {
+/// One row of a robot's file.
+struct Row {
   double time_s;
-  int subject;
-  double value;
+  int subject;  ///< 0: nobody's barcode.
+  double range_m;
+  double bearing_rad;
 };
 
 /// Gathers the looks of all robots, and counts what is left out.
 class Looks {
  public:
-  Looks(const std::map<int, int>& subject_of, Sensor sensor)
-      : subject_of_(subject_of), sensor_(sensor) {
+  explicit Looks(const std::map<int, int>& subject_of) : subject_of_(subject_of) {
     for (const auto& [barcode, subject] : subject_of)
-      if (subject > kLastRobot) rows_.emplace(subject, 0);
-    Eigen::Index row = 0;
-    for (auto& [subject, index] : rows_) index = row++;
+      if (subject > kLastRobot) index_.emplace(subject, 0);
+    int landmark = 0;
+    for (auto& [subject, index] : index_) {
+      index = landmark++;
+      log_.names.push_back(fmt::format("{}", subject));
+    }
   }
 
-  const std::map<int, Eigen::Index>& rows() const { return rows_; }
+  const SightingLog& log() const { return log_; }
 
   void add_robot(const fs::path& path) {
     const std::string source = path.string();
     const std::string bytes = read_file(path);
-    std::vector<Sighting> sightings;
+    if (bytes.empty()) {
+      empty_files_.push_back(path.filename().string());
+      return;
+    }
+    std::vector<Row> sightings;
     NumberRows rows(checked_text(bytes, source), source, 4);
-    while (rows.next()) sightings.push_back(sighting(rows));
-    std::ranges::stable_sort(sightings, {}, &Sighting::time_s);
+    while (rows.next()) sightings.push_back(row_of(rows));
+    std::ranges::stable_sort(sightings, {}, &Row::time_s);
     for (auto first = sightings.begin(); first != sightings.end();) {
-      const auto last = std::find_if(first, sightings.end(), [&](const Sighting& other) {
-        return other.time_s != first->time_s;
-      });
+      const auto last = std::find_if(
+          first, sightings.end(), [&](const Row& other) { return other.time_s != first->time_s; });
       add_look({first, last});
       first = last;
     }
-    check_size(source, "as a whole", rows_.size(), looks_.size());
-  }
-
-  Eigen::MatrixXd values() const {
-    const bool is_visibility = sensor_ == Sensor::kVisibility;
-    Eigen::MatrixXd values = Eigen::MatrixXd::Constant(
-        static_cast<Eigen::Index>(rows_.size()), static_cast<Eigen::Index>(looks_.size()),
-        is_visibility ? 0.0 : std::numeric_limits<double>::quiet_NaN());
-    for (std::size_t step = 0; step < looks_.size(); ++step)
-      for (const auto& [row, value] : looks_[step])
-        values(row, static_cast<Eigen::Index>(step)) = is_visibility ? 1.0 : value;
-    return values;
+    if (log_.steps > kMostSteps)
+      throw IoError(source, "as a whole",
+                    fmt::format("{} steps; at most {}", log_.steps, kMostSteps));
   }
 
   std::vector<std::string> remarks() const {
@@ -110,6 +108,8 @@ class Looks {
     const auto add = [&](std::string_view what, std::size_t count, const std::string& detail = "") {
       if (count > 0) remarks.push_back(fmt::format("{}: {}{}", what, count, detail));
     };
+    if (!empty_files_.empty())
+      remarks.push_back(fmt::format("Empty files: {}", fmt::join(empty_files_, ", ")));
     add("Rows dropped with barcodes of nobody", of_nobody_, " (" + unknown_barcodes() + ")");
     add("Rows dropped that show other robots", of_robots_);
     add("Rows dropped that show a landmark a second time in one look", repeated_);
@@ -128,9 +128,7 @@ class Looks {
     return fmt::format("barcodes {}{}", fmt::join(shown, ", "), rest);
   }
 
-  using Look = std::map<Eigen::Index, double>;
-
-  Sighting sighting(const NumberRows& rows) {
+  Row row_of(const NumberRows& rows) {
     const int barcode = rows.id(1);
     for (const auto& [sensor, value] :
          {std::pair(Sensor::kRange, rows[2]), std::pair(Sensor::kBearing, rows[3])})
@@ -143,26 +141,37 @@ class Looks {
     }
     return {.time_s = rows[0],
             .subject = known == subject_of_.end() ? 0 : known->second,
-            .value = sensor_ == Sensor::kRange ? rows[2] : rows[3]};
+            .range_m = rows[2],
+            .bearing_rad = rows[3]};
   }
 
-  void add_look(std::span<const Sighting> sightings) {
-    Look look;
-    for (const Sighting& seen : sightings) {
-      const auto row = rows_.find(seen.subject);
-      if (row != rows_.end() && !look.emplace(row->second, seen.value).second) ++repeated_;
-      if (row == rows_.end() && seen.subject != 0) ++of_robots_;
+  void add_look(std::span<const Row> rows) {
+    std::map<int, Sighting> look;
+    for (const Row& seen : rows) {
+      const auto known = index_.find(seen.subject);
+      if (known == index_.end()) {
+        if (seen.subject != 0) ++of_robots_;
+      } else if (const Sighting sighting{.step = log_.steps,
+                                         .landmark = known->second,
+                                         .range_m = seen.range_m,
+                                         .bearing_rad = seen.bearing_rad};
+                 !look.emplace(known->second, sighting).second) {
+        ++repeated_;
+      }
     }
-    if (look.empty())
+    if (look.empty()) {
       ++empty_looks_;
-    else
-      looks_.push_back(std::move(look));
+      return;
+    }
+    for (const auto& [landmark, sighting] : look) log_.sightings.push_back(sighting);
+    log_.times_s.push_back(rows.front().time_s);
+    ++log_.steps;
   }
 
   const std::map<int, int>& subject_of_;
-  Sensor sensor_;
-  std::map<int, Eigen::Index> rows_;  ///< Of each landmark's subject number.
-  std::vector<Look> looks_;
+  std::map<int, int> index_;  ///< Among the landmarks, of each one's subject number.
+  SightingLog log_;
+  std::vector<std::string> empty_files_;
   std::set<int> unknown_barcodes_;
   std::size_t of_nobody_ = 0;
   std::size_t of_robots_ = 0;
@@ -212,30 +221,40 @@ NamedPoints parse_groundtruth(std::string_view text, const std::string& source) 
   return named_points(names, coordinates, source);
 }
 
-ObservationSource read_mrclam(const fs::path& folder, Sensor sensor) {
+SightingSource read_mrclam_sightings(const fs::path& folder) {
   const std::vector<fs::path> robots = measurement_files(folder);
   if (robots.empty())
     throw IoError(folder.string(), "is a folder without MRCLAM's RobotN_Measurement.dat");
   const fs::path barcodes = folder / "Barcodes.dat";
   const std::map<int, int> subject_of = read_barcodes(barcodes);
-  Looks looks(subject_of, sensor);
-  if (looks.rows().empty())
+  Looks looks(subject_of);
+  const std::size_t landmarks = looks.log().names.size();
+  if (landmarks == 0)
     throw IoError(barcodes.string(), fmt::format("names no landmark: none above {}", kLastRobot));
+  check_size(barcodes.string(), "as a whole", landmarks, 1);
   for (const fs::path& robot : robots) looks.add_robot(robot);
 
-  ObservationSource result{.history = {.sensor = sensor, .names = {}, .values = looks.values()},
-                           .truth_m = std::nullopt,
-                           .remarks = looks.remarks(),
-                           .places = {},
-                           .path = folder.string()};
-  if (result.history.steps() == 0) throw IoError(folder.string(), "no look shows a landmark");
-  for (const auto& [subject, row] : looks.rows()) {
-    result.history.names.push_back(fmt::format("{}", subject));
-    result.places.push_back(fmt::format("subject {}", subject));
-  }
+  SightingSource result{.log = looks.log(),
+                        .truth_m = std::nullopt,
+                        .remarks = looks.remarks(),
+                        .places = {},
+                        .path = folder.string()};
+  if (result.log.steps == 0) throw IoError(folder.string(), "no look shows a landmark");
+  for (const std::string& name : result.log.names) result.places.push_back("subject " + name);
   result.truth_m =
-      read_truth(folder / "Landmark_Groundtruth.dat", result.history.names, result.remarks);
+      read_truth(folder / "Landmark_Groundtruth.dat", result.log.names, result.remarks);
   return result;
+}
+
+ObservationSource read_mrclam(const fs::path& folder, Sensor sensor) {
+  SightingSource source = read_mrclam_sightings(folder);
+  check_size(source.path, "as a whole", source.log.names.size(),
+             static_cast<std::size_t>(source.log.steps));
+  return {.history = history_of(source.log, sensor),
+          .truth_m = std::move(source.truth_m),
+          .remarks = std::move(source.remarks),
+          .places = std::move(source.places),
+          .path = std::move(source.path)};
 }
 
 }  // namespace mapproof

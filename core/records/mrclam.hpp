@@ -4,6 +4,7 @@
 
 #include "core/records/landmarks_csv.hpp"
 #include "core/records/observations.hpp"
+#include "core/records/sightings.hpp"
 
 namespace mapproof {
 
@@ -14,9 +15,14 @@ namespace mapproof {
 /// one time stamp are one step. Landmarks are the subjects above 5, named by their number. Dropped
 /// and remarked: rows with barcodes of nobody, rows of robots (subjects 1 to 5), a landmark's
 /// second row in one look, and looks that then show no landmark, since a step at which nothing
-/// is seen tells nothing about any two landmarks.
-/// @return Visibility: 0 where a landmark was not seen. Bearing and range: NaN there.
+/// is seen tells nothing about any two landmarks. A robot's file that is empty is remarked, a truth
+/// that is not there as well.
 /// @throws IoError naming file and line.
+SightingSource read_mrclam_sightings(const std::filesystem::path& folder);
+
+/// What one kind of sensor of the set saw.
+/// @return Visibility: 0 where a landmark was not seen. Bearing and range: NaN there.
+/// @throws IoError as above.
 ObservationSource read_mrclam(const std::filesystem::path& folder, Sensor sensor);
 
 /// Whether the folder holds a RobotN_Measurement.dat.

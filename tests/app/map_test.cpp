@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "app/own_map.hpp"
+#include "core/align/diagonal_anchors.hpp"
 #include "core/records/observations.hpp"
 #include "tests/support/program.hpp"
 #include "tests/support/worlds.hpp"

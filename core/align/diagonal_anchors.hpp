@@ -1,0 +1,13 @@
+#pragma once
+
+#include <vector>
+
+#include "core/model/points.hpp"
+
+namespace mapproof {
+
+/// The four landmarks furthest out along the diagonals of the extent, all different, ascending;
+/// rows with NaN are none.
+std::vector<Eigen::Index> diagonal_anchors(const Points& truth_m);
+
+}  // namespace mapproof

@@ -1,0 +1,51 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "core/embed/smacof.hpp"
+#include "core/model/embedding.hpp"
+#include "core/pairs/pair_distances.hpp"
+
+namespace mapproof {
+
+/// How measured pairs become a map.
+struct PairMapOptions {
+  /// A pair seen in fewer looks is left out, unless one of its landmarks has fewer than three
+  /// better ones: a few looks may all be of wrong ids. >= 1.
+  int fewest_looks = 3;
+  /// Times that pairs are weighted anew by how well they fit the map of the others; 0: never.
+  int reweightings = 10;
+  /// A pair this many typical residuals off has a quarter of its weight left; > 0.
+  double tolerance = 2.0;
+  SmacofOptions smacof{.relative_fall = 1e-9, .max_iterations = 5000};
+};
+
+/// A map of measured pairs.
+struct PairMap {
+  Embedding embedding;  ///< In metres, place and turn arbitrary, and the mirror for pair_map.
+  std::vector<MeasuredPair> pairs;  ///< That it was made of, with the precision they had at last.
+};
+
+/// A metric map of landmarks some of whose distances were measured: classical scaling of the
+/// shortest paths over the measured pairs [tenenbaum2000], but for those that triangles speak
+/// against (see triangles.hpp), then least stress over the measured pairs alone [deleeuw1977], each
+/// weighted by its precision and, again and again, by how well it fits [geman1985].
+///
+/// @param pairs  first < second < landmarks, none twice; distances >= 0, precisions > 0, finite.
+/// @param names  Of the landmarks, M, for the statuses.
+/// @return M rows. The largest group of landmarks that pairs hold together is mapped; the others
+///         get NaN rows, and kLandmarkUnseen (not in any pair) or kTooFewObservations (in another
+///         group). kUndetermined names landmarks with too few pairs for one place. kFailed if no
+///         three hold together. Of the SMACOF: kNotConverged, kRankDeficient. Scale is kept.
+/// @throws InvalidInput if the bounds above are broken.
+/// @note O(M^3) time for the start, and reweightings + 1 runs of SMACOF.
+PairMap pair_map(const std::vector<MeasuredPair>& pairs, const std::vector<std::string>& names,
+                 const PairMapOptions& options = {});
+
+/// The pair map of what looks showed, mirrored so that landmarks turn the way round that the looks
+/// show them, bearings being counter-clockwise.
+PairMap sighted_map(const SightingLog& log, const PairNoise& noise = {},
+                    const PairMapOptions& options = {});
+
+}  // namespace mapproof
