@@ -17,7 +17,8 @@ enum Purpose : std::uint64_t {
   kSlamCost = 9,
   kSlamStart = 10,
   kSlamBootstrap = 11,
-  kSlamSpace = 12
+  kSlamSpace = 12,
+  kTrial = 13
 };
 
 }  // namespace mapproof

@@ -30,9 +30,23 @@ Json sensor_value(const SensorStudy& study) {
 
 }  // namespace
 
+Json world_value(const WorldOptions& world) {
+  return {{"side_m", world.side_m},
+          {"landmarks", world.landmarks},
+          {"landmark_diameter_m", world.landmark_diameter_m},
+          {"gap_m", world.gap_m},
+          {"wall_margin_m", world.wall_margin_m}};
+}
+
+Json walk_value(const WalkOptions& walk) {
+  return {{"step_m", walk.step_m},
+          {"turn_rad", walk.turn_rad},
+          {"substep_m", walk.substep_m},
+          {"clearance_m", walk.clearance_m},
+          {"wall_margin_m", walk.wall_margin_m}};
+}
+
 Json experiment_value(const Experiment& experiment) {
-  const WorldOptions& world = experiment.world;
-  const WalkOptions& walk = experiment.walk;
   Json sensors = Json::object();
   for (const SensorStudy& study : experiment.sensors)
     sensors[std::string(name(study.sensor.sensor))] = sensor_value(study);
@@ -42,18 +56,8 @@ Json experiment_value(const Experiment& experiment) {
                 {"seed", experiment.seed},
                 {"layouts", experiment.layouts},
                 {"poses", experiment.poses},
-                {"world",
-                 {{"side_m", world.side_m},
-                  {"landmarks", world.landmarks},
-                  {"landmark_diameter_m", world.landmark_diameter_m},
-                  {"gap_m", world.gap_m},
-                  {"wall_margin_m", world.wall_margin_m}}},
-                {"walk",
-                 {{"step_m", walk.step_m},
-                  {"turn_rad", walk.turn_rad},
-                  {"substep_m", walk.substep_m},
-                  {"clearance_m", walk.clearance_m},
-                  {"wall_margin_m", walk.wall_margin_m}}},
+                {"world", world_value(experiment.world)},
+                {"walk", walk_value(experiment.walk)},
                 {"anchors", experiment.anchors},
                 {"anchor_placement", name(experiment.anchor_placement)},
                 {"affine_fit", name(experiment.affine_fit)},

@@ -13,24 +13,6 @@ namespace {
 
 constexpr double kLongest_m = 1000.0;
 
-void read_world(const JsonCursor& object, WorldOptions& world) {
-  object.allow_only({"side_m", "landmarks", "landmark_diameter_m", "gap_m", "wall_margin_m"});
-  read_if_there(object, "side_m", 0.01, kLongest_m, world.side_m);
-  read_if_there(object, "landmarks", 4, kMostLandmarks, world.landmarks);
-  read_if_there(object, "landmark_diameter_m", 1e-6, kLongest_m, world.landmark_diameter_m);
-  read_if_there(object, "gap_m", 0.0, kLongest_m, world.gap_m);
-  read_if_there(object, "wall_margin_m", 0.0, kLongest_m, world.wall_margin_m);
-}
-
-void read_walk(const JsonCursor& object, WalkOptions& walk) {
-  object.allow_only({"step_m", "turn_rad", "substep_m", "clearance_m", "wall_margin_m"});
-  read_if_there(object, "step_m", 1e-4, kLongest_m, walk.step_m);
-  read_if_there(object, "turn_rad", 0.0, std::numbers::pi, walk.turn_rad);
-  read_if_there(object, "substep_m", 1e-4, kLongest_m, walk.substep_m);
-  read_if_there(object, "clearance_m", 0.0, kLongest_m, walk.clearance_m);
-  read_if_there(object, "wall_margin_m", 0.0, kLongest_m, walk.wall_margin_m);
-}
-
 void read_sensor_options(const JsonCursor& object, SensorOptions& options) {
   const bool is_visibility = options.sensor == Sensor::kVisibility;
   if (is_visibility) {
@@ -83,6 +65,28 @@ void read_solver(const JsonCursor& object, SolverOptions& solver) {
 
 }  // namespace
 
+WorldOptions read_world_options(const JsonCursor& object) {
+  object.allow_only({"side_m", "landmarks", "landmark_diameter_m", "gap_m", "wall_margin_m"});
+  WorldOptions world;
+  read_if_there(object, "side_m", 0.01, kLongest_m, world.side_m);
+  read_if_there(object, "landmarks", 4, kMostLandmarks, world.landmarks);
+  read_if_there(object, "landmark_diameter_m", 1e-6, kLongest_m, world.landmark_diameter_m);
+  read_if_there(object, "gap_m", 0.0, kLongest_m, world.gap_m);
+  read_if_there(object, "wall_margin_m", 0.0, kLongest_m, world.wall_margin_m);
+  return world;
+}
+
+WalkOptions read_walk_options(const JsonCursor& object) {
+  object.allow_only({"step_m", "turn_rad", "substep_m", "clearance_m", "wall_margin_m"});
+  WalkOptions walk;
+  read_if_there(object, "step_m", 1e-4, kLongest_m, walk.step_m);
+  read_if_there(object, "turn_rad", 0.0, std::numbers::pi, walk.turn_rad);
+  read_if_there(object, "substep_m", 1e-4, kLongest_m, walk.substep_m);
+  read_if_there(object, "clearance_m", 0.0, kLongest_m, walk.clearance_m);
+  read_if_there(object, "wall_margin_m", 0.0, kLongest_m, walk.wall_margin_m);
+  return walk;
+}
+
 Experiment read_experiment(const JsonCursor& document) {
   expect_schema(document, "mapproof.experiment");
   document.allow_only({"schema", "name", "title", "seed", "layouts", "poses", "world", "walk",
@@ -95,8 +99,8 @@ Experiment read_experiment(const JsonCursor& document) {
   if (const auto seed = document.find("seed")) experiment.seed = seed->unsigned_integer();
   read_if_there(document, "layouts", 1, kMostLayouts, experiment.layouts);
   read_if_there(document, "poses", 1, kMostPoses, experiment.poses);
-  if (const auto world = document.find("world")) read_world(*world, experiment.world);
-  if (const auto walk = document.find("walk")) read_walk(*walk, experiment.walk);
+  if (const auto world = document.find("world")) experiment.world = read_world_options(*world);
+  if (const auto walk = document.find("walk")) experiment.walk = read_walk_options(*walk);
   read_if_there(document, "anchors", 3, 1000, experiment.anchors);
   if (const auto fit = document.find("affine_fit")) experiment.affine_fit = read_affine_fit(*fit);
   if (const auto placement = document.find("anchor_placement"))

@@ -27,6 +27,7 @@ nlohmann::ordered_json published_value(const Published& published);
 /// That no two sensors' tables get one id, those that go with them included.
 /// @throws IoError with the place in `document`.
 void check_table_ids(const Experiment& experiment, const JsonCursor& document);
+
 /// Parts of an experiment, each with its counterpart for writing. Readers throw IoError with the
 /// place.
 std::vector<MethodGrid> read_methods(const JsonCursor& object);
@@ -34,6 +35,12 @@ nlohmann::ordered_json methods_value(const std::vector<MethodGrid>& grids);
 
 /// @param methods  What `grids` were read from. @throws IoError at a K of `landmarks` or more.
 void check_grids(const std::vector<MethodGrid>& grids, int landmarks, const JsonCursor& methods);
+
+WorldOptions read_world_options(const JsonCursor& object);
+nlohmann::ordered_json world_value(const WorldOptions& world);
+
+WalkOptions read_walk_options(const JsonCursor& object);
+nlohmann::ordered_json walk_value(const WalkOptions& walk);
 
 AnchorPlacement read_anchor_placement(const JsonCursor& value);
 

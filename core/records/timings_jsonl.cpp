@@ -45,6 +45,13 @@ FactorizationCost read_factorization(const JsonCursor& value) {
           .seconds = value.at("seconds").number(0.0, kLongest_s)};
 }
 
+TrialSeconds read_trial_seconds(const JsonCursor& value) {
+  value.allow_only({"kind", "part", "series", "seconds"});
+  return {.part = value.at("part").text(200),
+          .series = read_id(value.at("series")),
+          .seconds = value.at("seconds").number(0.0, kLongest_s)};
+}
+
 Session read_session(const JsonCursor& value) {
   value.allow_only(
       {"kind", "command", "started_utc", "host", "jobs", "seconds", "peak_memory_mib"});
@@ -73,10 +80,13 @@ void read_line(std::string_view line, const std::string& source, Timings& timing
     timings.slam.methods.push_back(read_slam_timing(root));
   else if (kind == "factorization")
     timings.slam.factorization.push_back(read_factorization(root));
+  else if (kind == "trial")
+    timings.trials.push_back(read_trial_seconds(root));
   else if (kind == "session")
     timings.sessions.push_back(read_session(root));
   else
-    root.at("kind").fail("expected map, slam, factorization or session, got " + in_quotes(kind));
+    root.at("kind").fail("expected map, slam, factorization, trial or session, got " +
+                         in_quotes(kind));
 }
 
 }  // namespace
@@ -106,6 +116,13 @@ std::string timing_line(const FactorizationCost& cost) {
                     {"landmarks", cost.landmarks},
                     {"steps", cost.steps},
                     {"seconds", cost.seconds}});
+}
+
+std::string timing_line(const TrialSeconds& timing) {
+  return json_line({{"kind", "trial"},
+                    {"part", timing.part},
+                    {"series", timing.series},
+                    {"seconds", timing.seconds}});
 }
 
 std::string session_line(const Session& session) {

@@ -7,11 +7,13 @@
 
 #include "core/model/slam_study.hpp"
 #include "core/model/study.hpp"
+#include "core/model/trial_study.hpp"
 
 namespace mapproof {
 
 /// timings.jsonl: one JSON object a line: the schema, then {"kind": "map", ...},
-/// {"kind": "slam", ...}, {"kind": "factorization", ...} or {"kind": "session", ...}.
+/// {"kind": "slam", ...}, {"kind": "factorization", ...}, {"kind": "trial", ...} or
+/// {"kind": "session", ...}.
 ///
 /// Lines are appended, a batch at a time, by append_file(): to rewrite the whole file for every run
 /// would cost the square of their number, and a kill can only tear the last line, which readers
@@ -19,6 +21,7 @@ namespace mapproof {
 struct Timings {
   std::vector<Timing> maps;
   SlamTimings slam;
+  std::vector<TrialSeconds> trials;
   std::vector<Session> sessions;
 };
 
@@ -28,6 +31,7 @@ std::string timings_header();
 std::string timing_line(const Timing& timing);
 std::string timing_line(const SlamTiming& timing);
 std::string timing_line(const FactorizationCost& cost);
+std::string timing_line(const TrialSeconds& timing);
 std::string session_line(const Session& session);
 
 /// All whole lines in their order. @throws IoError naming the line.

@@ -24,6 +24,8 @@
 #include "core/records/study_files.hpp"
 #include "core/records/study_store.hpp"
 #include "core/records/timings_jsonl.hpp"
+#include "core/records/trial_json.hpp"
+#include "core/records/trial_store.hpp"
 #include "core/records/validate_table.hpp"
 
 namespace mapproof {
@@ -65,6 +67,10 @@ constexpr std::array kSchemas = {
                 [](auto text, auto& source) { parse_slam_study(text, source); }},
     KnownSchema{"mapproof.space_run",
                 [](auto text, auto& source) { parse_space_run(text, source); }},
+    KnownSchema{"mapproof.trial_part",
+                [](auto text, auto& source) { parse_trial_part(text, source, nullptr); }},
+    KnownSchema{"mapproof.trial_study",
+                [](auto text, auto& source) { parse_trial_study(text, source); }},
     KnownSchema{"mapproof.study", [](auto text, auto& source) { parse_study(text, source); }},
 };
 
@@ -142,6 +148,10 @@ Finding check_study(const fs::path& folder) {
   try {
     if (is_slam_study(folder)) {
       read_slam_study(folder);
+      return finding;
+    }
+    if (is_trial_study(folder)) {
+      read_trial_study(folder);
       return finding;
     }
     for (const Run& run : read_study(folder).runs) {

@@ -290,7 +290,7 @@ TEST(Timings, NameTheLineThatIsDamaged) {
   folder.file("timings.jsonl", "{\"kind\": \"nap\"}\n");
   EXPECT_EQ(error_of([&] { read_timings(folder.path()); }),
             (folder / "timings.jsonl").string() +
-                ": line 1: /kind: expected map, slam, factorization or session, got \"nap\"");
+                ": line 1: /kind: expected map, slam, factorization, trial or session, got \"nap\"");
 }
 
 }  // namespace

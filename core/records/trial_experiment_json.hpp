@@ -1,0 +1,37 @@
+#pragma once
+
+#include <functional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include <nlohmann/json.hpp>
+
+#include "core/json/json_cursor.hpp"
+#include "core/model/trial_study.hpp"
+
+namespace mapproof {
+
+/// The options of a topic by its name; null if there is no such topic.
+using OptionsOfTopic = std::function<const std::vector<TrialOption>*(std::string_view topic)>;
+
+/// An experiment of trials from the text of its file, mapproof.trial_experiment
+/// (docs/file-formats.md), every bound checked, options that it leaves out at their usual values.
+/// @param source, profile  As parse_experiment().
+/// @throws IoError with the place if the text is no such experiment or lacks that profile.
+TrialExperiment parse_trial_experiment(std::string_view text, const std::string& source,
+                                       const OptionsOfTopic& options_of,
+                                       const std::string& profile = "");
+
+/// The names of the profiles in such a file, sorted. @throws IoError as above.
+std::vector<std::string> trial_profiles(std::string_view text, const std::string& source);
+
+/// Whether a JSON text says that it is such a file. @throws IoError if it is no JSON of ours.
+bool is_trial_experiment(std::string_view text, const std::string& source);
+
+/// The value in a study.json, with the data sets that the study is made of, and back. The options
+/// of a study are taken as they stand, of whatever topic.
+nlohmann::ordered_json trial_experiment_value(const TrialExperiment& experiment);
+TrialExperiment read_trial_experiment(const JsonCursor& document);
+
+}  // namespace mapproof

@@ -1,0 +1,147 @@
+#include "core/trials/run_trials.hpp"
+
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "core/base/errors.hpp"
+#include "core/base/random.hpp"
+#include "core/experiment/parallel.hpp"
+#include "core/experiment/seeds.hpp"
+#include "core/simulate/robot_walk.hpp"
+#include "core/simulate/world.hpp"
+
+namespace mapproof {
+namespace {
+
+const Topic& topic_of(const TrialExperiment& experiment) {
+  const Topic* topic = topic_named(experiment.topic);
+  if (topic == nullptr) throw InvalidInput("no topic " + printable(experiment.topic));
+  return *topic;
+}
+
+/// A part that has to be made.
+struct OpenPart {
+  RunId run;
+  const TrialData* data = nullptr;  ///< Null: simulated.
+};
+
+TrialPart named(TrialPart part, const std::string& id) {
+  part.id = id;
+  for (TrialSeconds& timing : part.seconds) timing.part = id;
+  return part;
+}
+
+/// One data set; its random numbers do not depend on the others that are there.
+TrialPart make_of_data(const TrialExperiment& experiment, const TrialData& data) {
+  const TrialContext context{
+      .experiment = experiment,
+      .part = data.set.id,
+      .run = {},
+      .world = nullptr,
+      .path = nullptr,
+      .anchors = {},
+      .seed = derive_seed(experiment.seed, {kTrial}),
+      .data = data.folder,
+      .with_maps = true,
+  };
+  return named(topic_of(experiment).make(context), data.set.id);
+}
+
+std::vector<OpenPart> open_parts(const TrialOrder& order, const TrialStore& store) {
+  std::vector<OpenPart> open;
+  for (const TrialData& data : order.data)
+    if (!store.has(data.set.id, data.set.digest)) open.push_back({.run = {}, .data = &data});
+  if (!order.data.empty()) return open;
+  for (int layout = 1; layout <= order.experiment.layouts; ++layout)
+    for (int pose = 1; pose <= order.experiment.poses; ++pose) {
+      const RunId run{.layout = layout, .pose = pose};
+      if (!store.has(slug(run), "")) open.push_back({.run = run, .data = nullptr});
+    }
+  return open;
+}
+
+}  // namespace
+
+OptionsOfTopic options_of_topics() {
+  return [](std::string_view name) {
+    const Topic* topic = topic_named(name);
+    return topic == nullptr ? nullptr : &topic->options;
+  };
+}
+
+TrialOrder with_data(TrialExperiment experiment,
+                     const std::optional<std::filesystem::path>& folder) {
+  const Topic& topic = topic_of(experiment);
+  if (!topic.of_data) {
+    if (folder)
+      throw InvalidInput(
+          fmt::format("--data: the experiment {} uses no data from outside", experiment.name));
+    return {.experiment = std::move(experiment), .data = {}};
+  }
+  if (!folder)
+    throw InvalidInput(fmt::format(
+        "the experiment {} is made of data: give their folder by --data DIR", experiment.name));
+  TrialOrder order{.experiment = std::move(experiment), .data = topic.data_sets(*folder)};
+  if (order.data.empty()) throw IoError(folder->string(), "holds no data of the experiment");
+  for (const TrialData& data : order.data) order.experiment.data.push_back(data.set);
+  return order;
+}
+
+TrialStudy planned_study(const TrialExperiment& experiment, const Provenance& provenance) {
+  return {.experiment = experiment,
+          .provenance = provenance,
+          .design = topic_of(experiment).design(experiment),
+          .parts = {},
+          .conclusions = {}};
+}
+
+TrialPart simulate_part(const TrialExperiment& experiment, const RunId& run) {
+  const auto layout = static_cast<std::uint64_t>(run.layout);
+  const auto pose = static_cast<std::uint64_t>(run.pose);
+  Random scatter(derive_seed(experiment.seed, {kLayout, layout}));
+  Random choice(derive_seed(experiment.seed, {kPlacement, layout}));
+  Random wander(derive_seed(experiment.seed, {kWalk, layout, pose}));
+  const World world = scatter_landmarks(experiment.world, scatter);
+  const Path path = random_walk(world, experiment.walk, experiment.steps, wander);
+  const TrialContext context{
+      .experiment = experiment,
+      .part = slug(run),
+      .run = run,
+      .world = &world,
+      .path = &path,
+      .anchors = place_anchors(world, experiment.anchors, AnchorPlacement::kWalls, choice),
+      .seed = derive_seed(experiment.seed, {kTrial, layout, pose}),
+      .data = {},
+      .with_maps = run == RunId{.layout = 1, .pose = 1},
+  };
+  TrialPart part = named(topic_of(experiment).make(context), context.part);
+  part.run = run;
+  return part;
+}
+
+void run_trials(const TrialOrder& order, TrialStore& store, int jobs,
+                const std::function<void(const Progress&)>& progress) {
+  if (jobs < 1) throw InvalidInput("at least one job is needed");
+  const std::vector<OpenPart> open = open_parts(order, store);
+  const int total = order.data.empty() ? order.experiment.layouts * order.experiment.poses
+                                       : static_cast<int>(order.data.size());
+  const int reused = total - static_cast<int>(open.size());
+  Progress state{.finished = reused, .reused = reused, .total = total, .noun = "parts"};
+  progress(state);
+  for_each_in_parallel(open, jobs, state, progress, [&](const OpenPart& part) {
+    if (part.data == nullptr)
+      store.write(simulate_part(order.experiment, part.run), "");
+    else
+      store.write(make_of_data(order.experiment, *part.data), part.data->set.digest);
+  });
+}
+
+TrialStudy read_concluded_study(const std::filesystem::path& folder) {
+  TrialStudy study = read_trial_study(folder);
+  const Topic* topic = topic_named(study.experiment.topic);
+  if (topic != nullptr && !study.parts.empty()) study.conclusions = topic->conclude(study);
+  return study;
+}
+
+}  // namespace mapproof

@@ -1,0 +1,51 @@
+#pragma once
+
+#include <filesystem>
+#include <functional>
+#include <optional>
+#include <vector>
+
+#include "core/experiment/run_experiment.hpp"
+#include "core/records/trial_experiment_json.hpp"
+#include "core/records/trial_store.hpp"
+#include "core/trials/topic.hpp"
+
+namespace mapproof {
+
+/// The options of every topic, for the reader of experiments.
+OptionsOfTopic options_of_topics();
+
+/// An experiment with the data sets that it is made of, if its topic wants any.
+struct TrialOrder {
+  TrialExperiment experiment;
+  std::vector<TrialData> data;
+};
+
+/// Looks up the data sets of an experiment's topic, and notes them in the experiment.
+/// @param folder  Of the data; must be given exactly if the topic is of data.
+/// @throws InvalidInput if it is not; IoError if it holds no set.
+TrialOrder with_data(TrialExperiment experiment,
+                     const std::optional<std::filesystem::path>& folder);
+
+/// A study of the experiment without any part yet. @throws InvalidInput if there is no such topic.
+TrialStudy planned_study(const TrialExperiment& experiment, const Provenance& provenance);
+
+/// One simulated run of an experiment: layout, walk and anchors are those that an experiment of
+/// the 2007 paper has with the same seed, world and walk.
+TrialPart simulate_part(const TrialExperiment& experiment, const RunId& run);
+
+/// Makes whatever of the experiment the store does not hold yet, `jobs` parts at a time.
+///
+/// The store ends up the same for any number of jobs and after any interruption.
+/// @param jobs      Threads, >= 1.
+/// @param progress  Called at the start and after each part, one call at a time.
+/// @throws IoError if data cannot be read or a record cannot be written; parts already written
+///         stay.
+void run_trials(const TrialOrder& order, TrialStore& store, int jobs,
+                const std::function<void(const Progress&)>& progress);
+
+/// The study in a folder with its topic's conclusions (none for a topic that is not known).
+/// @throws IoError as read_trial_study().
+TrialStudy read_concluded_study(const std::filesystem::path& folder);
+
+}  // namespace mapproof
