@@ -23,6 +23,23 @@ std::string quoted(const std::string& word) {
   return out + "'";
 }
 
+template <typename Simulated>
+void apply_all(const ExperimentChanges& changes, Simulated& experiment) {
+  experiment.seed = changes.seed.value_or(experiment.seed);
+  experiment.layouts = changes.layouts.value_or(experiment.layouts);
+  experiment.poses = changes.poses.value_or(experiment.poses);
+  if (static_cast<long>(experiment.layouts) * experiment.poses > kMostRuns)
+    throw CLI::ValidationError("--layouts",
+                               fmt::format("more than {} runs, with all poses", kMostRuns));
+}
+
+/// @throws InvalidInput if layouts or poses are to change where there are none.
+void refuse_runs(const ExperimentChanges& changes, const std::string& name) {
+  for (const auto& [option, given] :
+       {std::pair("--layouts", changes.layouts), std::pair("--poses", changes.poses)})
+    if (given) throw InvalidInput(std::string(option) + ": the experiment " + name + " has none");
+}
+
 }  // namespace
 
 std::string quoted_command(const std::vector<std::string>& words) {
@@ -55,32 +72,17 @@ void add_experiment_options(CLI::App& app, ExperimentChanges& changes) {
 }
 
 void apply(const ExperimentChanges& changes, Experiment& experiment) {
-  experiment.seed = changes.seed.value_or(experiment.seed);
-  experiment.layouts = changes.layouts.value_or(experiment.layouts);
-  experiment.poses = changes.poses.value_or(experiment.poses);
-  if (static_cast<long>(experiment.layouts) * experiment.poses > kMostRuns)
-    throw CLI::ValidationError("--layouts",
-                               fmt::format("more than {} runs, with all poses", kMostRuns));
+  apply_all(changes, experiment);
 }
 
 void apply(const ExperimentChanges& changes, SlamExperiment& experiment) {
   experiment.seed = changes.seed.value_or(experiment.seed);
-  for (const auto& [option, given] :
-       {std::pair("--layouts", changes.layouts), std::pair("--poses", changes.poses)})
-    if (given)
-      throw InvalidInput(std::string(option) + ": the experiment " + experiment.name + " has none");
+  refuse_runs(changes, experiment.name);
 }
 
-std::vector<std::string> words_of(const ExperimentChanges& changes, const Experiment& experiment) {
-  std::vector<std::string> words = {"--seed", std::to_string(experiment.seed)};
-  if (changes.layouts) words.insert(words.end(), {"--layouts", std::to_string(experiment.layouts)});
-  if (changes.poses) words.insert(words.end(), {"--poses", std::to_string(experiment.poses)});
-  return words;
-}
-
-void add_plaza_option(CLI::App& app, std::optional<std::string>& plaza) {
-  app.add_option("--plaza", plaza, "Folder of the Plaza data, for experiments on them")
-      ->check(CLI::ExistingDirectory);
+void apply(const ExperimentChanges& changes, TrialExperiment& experiment, bool of_data) {
+  if (of_data) refuse_runs(changes, experiment.name);
+  apply_all(changes, experiment);
 }
 
 CLI::Option* add_out_option(CLI::App& app, std::string& out, const std::string& what) {

@@ -11,6 +11,7 @@
 #include "app/console.hpp"
 #include "core/model/experiment.hpp"
 #include "core/model/slam_experiment.hpp"
+#include "core/model/trial_study.hpp"
 
 namespace mapproof {
 
@@ -49,11 +50,8 @@ void apply(const ExperimentChanges& changes, Experiment& experiment);
 /// The same of a range-only experiment, which has no layouts and poses.
 void apply(const ExperimentChanges& changes, SlamExperiment& experiment);
 
-/// The options that give the same experiment again.
-std::vector<std::string> words_of(const ExperimentChanges& changes, const Experiment& experiment);
-
-/// Adds --plaza to a verb: the folder of logs that are no part of the program.
-void add_plaza_option(CLI::App& app, std::optional<std::string>& plaza);
+/// The same of an experiment of trials; one that is made of data has no layouts and poses.
+void apply(const ExperimentChanges& changes, TrialExperiment& experiment, bool of_data);
 
 /// Adds --out to a verb: a folder, with a name.
 CLI::Option* add_out_option(CLI::App& app, std::string& out, const std::string& what);

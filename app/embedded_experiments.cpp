@@ -1,6 +1,7 @@
 #include "app/embedded_experiments.hpp"
 
 #include <algorithm>
+#include <tuple>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -10,14 +11,30 @@
 
 namespace mapproof {
 
+namespace {
+
+constexpr std::size_t kYear = 4;  ///< The names of papers' experiments end in so many digits.
+
+bool is_of_paper(const std::string& name) {
+  return name.size() > kYear &&
+         name.find_first_not_of("0123456789", name.size() - kYear) == std::string::npos;
+}
+
+}  // namespace
+
+std::vector<std::string> paper_names() {
+  std::vector<std::string> names = experiment_names();
+  std::erase_if(names, [](const std::string& name) { return !is_of_paper(name); });
+  return names;
+}
+
 std::vector<std::string> experiment_names() {
   std::vector<std::string> names;
   for (const Resource& resource : embedded_experiments())
     names.push_back(std::filesystem::path(resource.name).stem().string());
-  // Names end in the year of their paper.
-  constexpr std::size_t kYear = 4;
-  std::ranges::stable_sort(names, {}, [](const std::string& name) {
-    return name.size() < kYear ? name : name.substr(name.size() - kYear);
+  std::ranges::sort(names, {}, [](const std::string& name) {
+    const std::string year = is_of_paper(name) ? name.substr(name.size() - kYear) : "";
+    return std::tuple(!is_of_paper(name), year, name);
   });
   return names;
 }
@@ -35,6 +52,19 @@ ExperimentText experiment_text(const std::string& name,
   }
   throw InvalidInput(fmt::format("no experiment \"{}\"; there is {}", printable(name),
                                  fmt::join(experiment_names(), ", ")));
+}
+
+ExperimentText experiment_of(const std::string& file_or_name) {
+  std::error_code error;
+  if (std::filesystem::is_regular_file(file_or_name, error))
+    return {.text = read_file(file_or_name), .source = file_or_name};
+  const std::vector<std::string> known = experiment_names();
+  if (std::ranges::find(known, file_or_name) != known.end())
+    return experiment_text(file_or_name, std::nullopt);
+  // Names have no dot and no slash: what has one was meant to be a file.
+  if (file_or_name.find_first_of("./") != std::string::npos)
+    return {.text = read_file(file_or_name), .source = file_or_name};
+  return experiment_text(file_or_name, std::nullopt);
 }
 
 }  // namespace mapproof

@@ -19,7 +19,11 @@ struct ExperimentText {
   std::string source;
 };
 
-/// The names of the experiments that `reproduce` knows, by the year of their papers.
+/// The names of the papers' experiments, by the year that they end in.
+std::vector<std::string> paper_names();
+
+/// The names of all experiments that `reproduce` knows: the papers', then the others by the
+/// alphabet.
 std::vector<std::string> experiment_names();
 
 /// The experiment of that name: from DIR/experiments/NAME.json if `templates` holds it, else the
@@ -27,5 +31,9 @@ std::vector<std::string> experiment_names();
 /// @throws InvalidInput if there is none of that name; IoError if the file cannot be read.
 ExperimentText experiment_text(const std::string& name,
                                const std::optional<std::filesystem::path>& templates);
+
+/// The experiment in a file, or else the embedded one of that name.
+/// @throws InvalidInput, IoError as experiment_text().
+ExperimentText experiment_of(const std::string& file_or_name);
 
 }  // namespace mapproof

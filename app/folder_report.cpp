@@ -1,9 +1,11 @@
 #include "app/folder_report.hpp"
 
+#include <algorithm>
 #include <iterator>
 #include <system_error>
 #include <utility>
 
+#include <fmt/format.h>
 #include <tbb/global_control.h>
 #include <tbb/parallel_for_each.h>
 #include <tbb/parallel_invoke.h>
@@ -11,10 +13,12 @@
 #include "app/embedded_experiments.hpp"
 #include "app/slam_outputs.hpp"
 #include "app/study_outputs.hpp"
+#include "app/trial_outputs.hpp"
 #include "core/base/errors.hpp"
 #include "core/base/files.hpp"
 #include "core/records/slam_store.hpp"
 #include "core/records/study_store.hpp"
+#include "core/records/trial_store.hpp"
 #include "render/output/write_figure.hpp"
 #include "render/output/write_scene.hpp"
 #include "reports/html/report_html.hpp"
@@ -28,7 +32,8 @@ namespace fs = std::filesystem;
 
 /// What the reader of several papers' results sees first.
 Section contents_section(const std::vector<FolderReport>& parts) {
-  Section section{"papers", "Papers", {}};
+  const bool papers_alone = std::ranges::all_of(parts, &FolderReport::of_paper);
+  Section section{"papers", papers_alone ? "Papers" : "Studies", {}};
   BulletList papers;
   for (const FolderReport& part : parts) {
     for (const std::string& missing : part.missing)
@@ -66,12 +71,14 @@ FolderReport read_folder_report(const fs::path& folder, const std::optional<std:
     const std::vector<Session> sessions = read_sessions(folder);
     made_by = sessions.empty() ? fallback : sessions.back().command;
   }
+  if (is_trial_study(folder)) return trial_folder_report(folder, made_by);
   return is_slam_study(folder) ? slam_folder_report(folder, made_by)
                                : study_folder_report(view_study(folder), made_by);
 }
 
 FolderReport joined(const fs::path& folder, std::vector<FolderReport> parts) {
   FolderReport all{.folder = folder,
+                   .of_paper = true,
                    .report = {},
                    .in_company = {},
                    .figures = {},
@@ -80,7 +87,9 @@ FolderReport joined(const fs::path& folder, std::vector<FolderReport> parts) {
                    .runs = 0,
                    .missing = {}};
   all.report.title = "Maps from what a robot observed";
-  all.report.subtitle = "Two papers, made again";
+  all.report.subtitle = std::ranges::all_of(parts, &FolderReport::of_paper)
+                            ? "Two papers, made again"
+                            : fmt::format("{} studies", parts.size());
   all.report.sections.push_back(contents_section(parts));
   for (FolderReport& part : parts) {
     all.runs += part.runs;

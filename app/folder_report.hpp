@@ -19,6 +19,7 @@ namespace mapproof {
 /// The report of a folder of records and the figures in it, as values.
 struct FolderReport {
   std::filesystem::path folder;
+  bool of_paper = true;  ///< A paper's study, not one beyond them.
   Report report;
   std::vector<Section> in_company;  ///< Its sections as they stand beside those of other studies.
   std::vector<Figure> figures;      ///< In the order of the report.
@@ -29,7 +30,7 @@ struct FolderReport {
 };
 
 /// Reads the records of a folder and makes report and figures of them; no solver runs. The folder
-/// holds a study of either kind, or studies in folders below it (see study_folders()).
+/// holds a study of any kind, or studies in folders below it (see study_folders()).
 /// @param command  The one that makes it again; empty: that of the session which made the records,
 ///                 or `fallback`.
 /// @throws IoError.

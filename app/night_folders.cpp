@@ -20,9 +20,9 @@ namespace fs = std::filesystem;
 fs::path order_file(const fs::path& folder) { return folder / "order.txt"; }
 fs::path end_file(const fs::path& folder) { return folder / "night.json"; }
 
-std::string order_text(const std::vector<NightlyOrder>& orders) {
+std::string order_text(const std::vector<StudyOrder>& orders) {
   std::string text;
-  for (const NightlyOrder& order : orders) text += order.digest + "  " + order.name + "\n";
+  for (const StudyOrder& order : orders) text += order.digest + "  " + order.name + "\n";
   return text;
 }
 
@@ -47,7 +47,7 @@ int next_night(HistoryStore& history, const fs::path& store) {
   return last + 1;
 }
 
-void begin_night(const fs::path& folder, const std::vector<NightlyOrder>& orders,
+void begin_night(const fs::path& folder, const std::vector<StudyOrder>& orders,
                  const Console& console) {
   const std::string text = order_text(orders);
   std::error_code error;

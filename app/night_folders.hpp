@@ -16,7 +16,7 @@ int next_night(HistoryStore& history, const std::filesystem::path& store);
 
 /// Makes the folder of a night, or takes that of a night of the same orders that was killed, whose
 /// runs then need not be made again; what a night of other orders left is removed. @throws IoError.
-void begin_night(const std::filesystem::path& folder, const std::vector<NightlyOrder>& orders,
+void begin_night(const std::filesystem::path& folder, const std::vector<StudyOrder>& orders,
                  const Console& console);
 
 /// Notes in the folder what the night found; its presence says that the night was finished.

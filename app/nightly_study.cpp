@@ -14,68 +14,18 @@
 
 #include <fmt/format.h>
 
-#include "app/embedded_experiments.hpp"
-#include "app/study_run.hpp"
 #include "core/base/errors.hpp"
-#include "core/base/files.hpp"
-#include "core/base/sha256.hpp"
-#include "core/records/experiment_json.hpp"
-#include "core/records/slam_experiment_json.hpp"
 
 namespace mapproof {
 namespace {
 
 namespace fs = std::filesystem;
 
-ExperimentText text_of(const std::string& experiment) {
-  std::error_code error;
-  const std::vector<std::string> known = experiment_names();
-  if (std::ranges::find(known, experiment) != known.end() &&
-      !fs::is_regular_file(experiment, error))
-    return experiment_text(experiment, std::nullopt);
-  return {read_file(experiment), experiment};
-}
-
-/// The profile if the experiment has it.
-std::string usable(const std::string& profile, const std::vector<std::string>& known) {
-  return std::ranges::find(known, profile) == known.end() ? "" : profile;
-}
-
-NightlyOrder read_order(const std::string& experiment, const std::string& profile,
-                        const std::optional<std::string>& plaza) {
-  const ExperimentText file = text_of(experiment);
-  NightlyOrder order{
-      .name = "", .digest = sha256_hex(profile + "\n" + file.text), .experiment = {}};
-  if (is_slam_experiment(file.text, file.source)) {
-    NightlySlam slam{
-        .experiment = parse_slam_experiment(file.text, file.source,
-                                            usable(profile, slam_profiles(file.text, file.source))),
-        .data = {}};
-    slam.data = read_slam_data(slam.experiment, plaza);
-    order.name = slam.experiment.name;
-    order.experiment = std::move(slam);
-    return order;
-  }
-  Experiment parsed =
-      parse_experiment(file.text, file.source, usable(profile, profiles(file.text, file.source)));
-  order.name = parsed.name;
-  order.experiment = std::move(parsed);
-  return order;
-}
-
-void make(const NightlyOrder& order, const fs::path& folder, int jobs, const std::string& command,
-          const Console& console) {
-  if (const auto* slam = std::get_if<NightlySlam>(&order.experiment))
-    make_slam_records(slam->experiment, slam->data, folder, jobs, command, console);
-  else
-    make_records(std::get<Experiment>(order.experiment), folder, jobs, command, console);
-}
-
 /// What the process apart does; its errors are told here as the program tells them.
-int run_apart(const NightlyOrder& order, const fs::path& folder, int jobs,
-              const std::string& command, const Console& console) {
+int run_apart(const StudyOrder& order, const fs::path& folder, int jobs, const std::string& command,
+              const Console& console) {
   try {
-    make(order, folder, jobs, command, console);
+    make_study(order, folder, jobs, command, console);
     return kDone;
   } catch (const IoError& error) {
     console.warning(error.what());
@@ -94,21 +44,22 @@ int run_apart(const NightlyOrder& order, const fs::path& folder, int jobs,
 
 }  // namespace
 
-std::vector<NightlyOrder> read_nightly_orders(const std::vector<std::string>& experiments,
-                                              const std::string& profile,
-                                              const std::optional<std::string>& plaza) {
-  std::vector<NightlyOrder> orders;
+std::vector<StudyOrder> read_nightly_orders(const std::vector<std::string>& experiments,
+                                            OrderOptions options) {
+  options.profile_if_there = options.one_of_several = true;
+  std::vector<StudyOrder> orders;
   for (const std::string& experiment : experiments) {
-    NightlyOrder order = read_order(experiment, profile, plaza);
-    for (const NightlyOrder& other : orders)
+    StudyOrder order = read_study_order(experiment_of(experiment), options);
+    for (const StudyOrder& other : orders)
       if (other.name == order.name)
         throw InvalidInput("two experiments have the name " + printable(order.name));
     orders.push_back(std::move(order));
   }
+  check_data_used(orders, options);
   return orders;
 }
 
-int make_apart(const NightlyOrder& order, const fs::path& folder, int jobs,
+int make_apart(const StudyOrder& order, const fs::path& folder, int jobs,
                const std::string& command, const Console& console) {
   // Nothing buffered is to be written twice, and no thread runs yet that the copy would lack.
   std::fflush(nullptr);

@@ -111,6 +111,14 @@ void make_slam_records(const SlamExperiment& experiment, const SlamData& data,
   });
 }
 
+void make_trial_records(const TrialOrder& order, const std::filesystem::path& folder, int jobs,
+                        const std::string& command, const Console& console) {
+  const Stopwatch watch;
+  TrialStore store = TrialStore::open(folder, planned_study(order.experiment, build_provenance()));
+  finish(store, folder, jobs, command, console, watch,
+         [&](const auto& progress) { run_trials(order, store, jobs, progress); });
+}
+
 nlohmann::ordered_json study_result(const Study& study) {
   const StudyCounts counts = count(study);
   nlohmann::ordered_json object{{"experiment", study.experiment.name},

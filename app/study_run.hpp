@@ -10,6 +10,7 @@
 #include "core/experiment/run_slam_experiment.hpp"
 #include "core/model/experiment.hpp"
 #include "core/model/study.hpp"
+#include "core/trials/run_trials.hpp"
 
 namespace mapproof {
 
@@ -24,6 +25,10 @@ void make_records(const Experiment& experiment, const std::filesystem::path& fol
 void make_slam_records(const SlamExperiment& experiment, const SlamData& data,
                        const std::filesystem::path& folder, int jobs, const std::string& command,
                        const Console& console);
+
+/// The same of an experiment of trials.
+void make_trial_records(const TrialOrder& order, const std::filesystem::path& folder, int jobs,
+                        const std::string& command, const Console& console);
 
 /// The study in numbers, for --json: runs, records, and per sensor and method the mean errors at
 /// the last checkpoint.

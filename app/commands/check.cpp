@@ -5,13 +5,9 @@
 
 #include "app/commands/verbs.hpp"
 #include "app/diff_options.hpp"
-#include "app/embedded_experiments.hpp"
 #include "app/folder_report.hpp"
-#include "app/study_run.hpp"
+#include "app/study_order.hpp"
 #include "core/base/errors.hpp"
-#include "core/base/files.hpp"
-#include "core/records/experiment_json.hpp"
-#include "core/records/slam_experiment_json.hpp"
 #include "reports/diff/folder_diff.hpp"
 
 namespace mapproof {
@@ -23,34 +19,16 @@ struct Arguments {
   std::string experiment;
   std::string baseline;
   std::string out = "out/check";
-  std::string profile;
   int jobs = 1;
-  ExperimentChanges changes;
-  std::optional<std::string> plaza;
+  OrderOptions order;
   DiffOptions options;
 };
 
-/// A file, or else the name of an experiment that the program knows.
-ExperimentText text_of(const std::string& experiment) {
-  std::error_code error;
-  if (fs::is_regular_file(experiment, error))
-    return {.text = read_file(experiment), .source = experiment};
-  return experiment_text(experiment, std::nullopt);
-}
-
 /// Makes the records of the experiment, its figures and its report.
 void make_candidate(const Arguments& arguments, const Invocation& invocation) {
-  const ExperimentText file = text_of(arguments.experiment);
-  if (is_slam_experiment(file.text, file.source)) {
-    SlamExperiment experiment = parse_slam_experiment(file.text, file.source, arguments.profile);
-    apply(arguments.changes, experiment);
-    make_slam_records(experiment, read_slam_data(experiment, arguments.plaza), arguments.out,
-                      arguments.jobs, invocation.command, invocation.console);
-  } else {
-    Experiment experiment = parse_experiment(file.text, file.source, arguments.profile);
-    apply(arguments.changes, experiment);
-    make_records(experiment, arguments.out, arguments.jobs, invocation.command, invocation.console);
-  }
+  const StudyOrder order = read_study_order(experiment_of(arguments.experiment), arguments.order);
+  check_data_used({&order, 1}, arguments.order);
+  make_study(order, arguments.out, arguments.jobs, invocation.command, invocation.console);
   write_report(read_folder_report(arguments.out, invocation.command, ""),
                load_templates(arguments.options.templates), arguments.jobs);
 }
@@ -90,10 +68,10 @@ Action check_verb(CLI::App& app) {
   app.add_option("--baseline", arguments->baseline, "The study to compare with")->required();
   add_out_option(app, arguments->out, "Folder for records, figures and report")
       ->capture_default_str();
-  app.add_option("--profile", arguments->profile, "One of the profiles in the experiment");
+  app.add_option("--profile", arguments->order.profile, "One of the profiles in the experiment");
   add_jobs_option(app, arguments->jobs);
-  add_experiment_options(app, arguments->changes);
-  add_plaza_option(app, arguments->plaza);
+  add_experiment_options(app, arguments->order.changes);
+  add_data_options(app, arguments->order);
   app.add_option("--page", arguments->options.page,
                  "Write a page that shows what differs, diff.html for instance");
   add_diff_options(app, arguments->options);

@@ -41,10 +41,9 @@ struct Arguments {
   std::string store;
   std::string out;
   std::string reference = kLastGood;
-  std::string profile;
   int jobs = 1;
   std::optional<std::string> templates;
-  std::optional<std::string> plaza;
+  OrderOptions order;
 };
 
 std::string now_utc() {
@@ -76,21 +75,21 @@ NightFacts begun(int number, int jobs, const std::string& command) {
 }
 
 /// Makes the records of every study. @return The worst exit code.
-int make_all(const std::vector<NightlyOrder>& orders, const fs::path& folder, int jobs,
+int make_all(const std::vector<StudyOrder>& orders, const fs::path& folder, int jobs,
              const std::string& command, const Console& console) {
   int worst = kDone;
-  for (const NightlyOrder& order : orders)
+  for (const StudyOrder& order : orders)
     worst = std::max(worst, make_apart(order, folder / order.name, jobs, command, console));
   return worst;
 }
 
 /// What each study is, with its report drawn and its figures kept.
-std::vector<StudyNight> read_all(const std::vector<NightlyOrder>& orders, const fs::path& folder,
+std::vector<StudyNight> read_all(const std::vector<StudyOrder>& orders, const fs::path& folder,
                                  const fs::path& store, const Templates& page,
                                  const Arguments& arguments, const std::string& command) {
   const ObjectFolder objects(store / "objects");
   std::vector<StudyNight> studies;
-  for (const NightlyOrder& order : orders) {
+  for (const StudyOrder& order : orders) {
     const fs::path study = folder / order.name;
     write_report(read_folder_report(study, command, command), page, arguments.jobs);
     studies.push_back(read_study_night(study, order.name));
@@ -123,8 +122,8 @@ int nightly(const Arguments& arguments, const Invocation& invocation) {
   const Console& console = invocation.console;
   const Templates page = load_templates(arguments.templates);
   const std::optional<int> asked = asked_reference(arguments.reference);
-  const std::vector<NightlyOrder> orders =
-      read_nightly_orders(arguments.experiments, arguments.profile, arguments.plaza);
+  const std::vector<StudyOrder> orders =
+      read_nightly_orders(arguments.experiments, arguments.order);
   const fs::path store = arguments.store;
   make_folder(store);
   const FolderLock lock(store, [&] {
@@ -181,11 +180,12 @@ Action nightly_verb(CLI::App& app) {
   app.add_option("--reference", arguments->reference,
                  "Night to compare with: its number, or last-good (the pinned one if there is one)")
       ->capture_default_str();
-  app.add_option("--profile", arguments->profile, "Profile of those experiments that have it");
+  app.add_option("--profile", arguments->order.profile,
+                 "Profile of those experiments that have it");
   add_jobs_option(app, arguments->jobs);
   app.add_option("--templates", arguments->templates,
                  "Folder whose templates replace the embedded ones");
-  add_plaza_option(app, arguments->plaza);
+  add_data_options(app, arguments->order);
   return [arguments](const Invocation& invocation) { return nightly(*arguments, invocation); };
 }
 

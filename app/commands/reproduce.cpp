@@ -1,7 +1,6 @@
 #include <algorithm>
 #include <memory>
 #include <system_error>
-#include <variant>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -9,11 +8,8 @@
 #include "app/commands/verbs.hpp"
 #include "app/embedded_experiments.hpp"
 #include "app/folder_report.hpp"
-#include "app/study_run.hpp"
+#include "app/study_order.hpp"
 #include "core/base/errors.hpp"
-#include "core/records/experiment_json.hpp"
-#include "core/records/slam_experiment_json.hpp"
-#include "core/records/slam_store.hpp"
 #include "core/records/study_store.hpp"
 
 namespace mapproof {
@@ -21,57 +17,40 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr const char* kAll = "all";
+constexpr const char* kAll = "all";                ///< Both papers.
+constexpr const char* kExtensions = "extensions";  ///< The studies beyond them.
 
 struct Arguments {
   std::string name;
   std::string out = "out";
-  std::string profile = "full";
   int jobs = 1;
-  ExperimentChanges changes;
+  OrderOptions options{.profile = "full"};
   std::optional<std::string> templates;
-  std::optional<std::string> plaza;
 };
 
-/// A range-only experiment and the logs of it that are there.
-struct SlamOrder {
-  SlamExperiment experiment;
-  SlamData data;
-};
-
-/// One experiment and where its records go.
-struct Order {
-  fs::path folder;
-  std::variant<Experiment, SlamOrder> experiment;
-};
-
-/// @param is_alone  Changes that the experiment knows nothing of are then refused.
-Order read_order(const std::string& name, const Arguments& arguments, bool is_alone) {
-  const ExperimentText file = experiment_text(name, arguments.templates);
-  Order order{.folder = is_alone ? fs::path(arguments.out) : fs::path(arguments.out) / name,
-              .experiment = {}};
-  ExperimentChanges changes = arguments.changes;
-  if (is_slam_experiment(file.text, file.source)) {
-    if (!is_alone) changes.layouts = changes.poses = std::nullopt;
-    SlamOrder slam{.experiment = parse_slam_experiment(file.text, file.source, arguments.profile),
-                   .data = {}};
-    apply(changes, slam.experiment);
-    slam.data = read_slam_data(slam.experiment, arguments.plaza);
-    order.experiment = std::move(slam);
-    return order;
+/// The experiments that a name stands for.
+std::vector<std::string> names_of(const Arguments& arguments) {
+  if (arguments.name == kAll) return paper_names();
+  if (arguments.name != kExtensions) return {arguments.name};
+  const std::vector<std::string> papers = paper_names();
+  std::vector<std::string> names;
+  for (const std::string& name : experiment_names()) {
+    if (std::ranges::find(papers, name) != papers.end()) continue;
+    const bool of_data = is_made_of_data(experiment_text(name, arguments.templates));
+    if (!of_data || arguments.options.data) names.push_back(name);
   }
-  Experiment experiment = parse_experiment(file.text, file.source, arguments.profile);
-  apply(changes, experiment);
-  order.experiment = std::move(experiment);
-  return order;
+  return names;
 }
 
 /// All that is ordered, read and checked before anything is made.
-std::vector<Order> read_orders(const Arguments& arguments) {
-  if (arguments.name != kAll) return {read_order(arguments.name, arguments, true)};
-  std::vector<Order> orders;
-  for (const std::string& name : experiment_names())
-    orders.push_back(read_order(name, arguments, false));
+std::vector<StudyOrder> read_orders(const Arguments& arguments) {
+  const std::vector<std::string> names = names_of(arguments);
+  OrderOptions options = arguments.options;
+  options.one_of_several = options.profile_if_there = names.size() > 1;
+  std::vector<StudyOrder> orders;
+  for (const std::string& name : names)
+    orders.push_back(read_study_order(experiment_text(name, arguments.templates), options));
+  check_data_used(orders, options);
   return orders;
 }
 
@@ -93,63 +72,34 @@ void check_folder_of_all(const fs::path& folder) {
 }
 
 /// The command that makes the same studies and report again, wherever it was typed.
-std::string command_again(const Arguments& arguments, const std::vector<Order>& orders) {
-  std::vector<std::string> words = {"mapproof", "reproduce", arguments.name, "--profile",
-                                    arguments.profile};
-  if (const auto* experiment = std::get_if<Experiment>(&orders.front().experiment)) {
-    ExperimentChanges changes = arguments.changes;
-    const std::vector<std::string> more = words_of(changes, *experiment);
-    // Studies of several experiments have a seed each.
-    if (orders.size() == 1 || changes.seed)
-      words.insert(words.end(), more.begin(), more.end());
-    else
-      words.insert(words.end(), more.begin() + 2, more.end());
-  } else {
-    const std::uint64_t seed = std::get<SlamOrder>(orders.front().experiment).experiment.seed;
-    words.insert(words.end(), {"--seed", std::to_string(seed)});
-  }
-  if (arguments.plaza) words.insert(words.end(), {"--plaza", *arguments.plaza});
+std::string command_again(const Arguments& arguments, const std::vector<StudyOrder>& orders) {
+  std::vector<std::string> words = {"mapproof", "reproduce", arguments.name};
+  const std::vector<std::string> more = words_of(orders, arguments.options);
+  words.insert(words.end(), more.begin(), more.end());
   words.insert(words.end(), {"--out", arguments.out});
   return quoted_command(words);
-}
-
-/// Makes the records of one study; its numbers as text and as JSON.
-std::pair<std::string, nlohmann::ordered_json> make(const Order& order, int jobs,
-                                                    const std::string& command,
-                                                    const Console& console) {
-  if (const auto* experiment = std::get_if<Experiment>(&order.experiment)) {
-    make_records(*experiment, order.folder, jobs, command, console);
-    const Study study = read_study(order.folder);
-    return {study_text(study), study_result(study)};
-  }
-  const SlamOrder& slam = std::get<SlamOrder>(order.experiment);
-  make_slam_records(slam.experiment, slam.data, order.folder, jobs, command, console);
-  const SlamStudy study = read_slam_study(order.folder);
-  for (const std::string& missing : study.missing) console.warning(missing);
-  return {slam_study_text(study), slam_study_result(study)};
 }
 
 int reproduce(const Arguments& arguments, const Invocation& invocation) {
   // First of all, so that a template or data that cannot be used cost no study.
   const Templates page = load_templates(arguments.templates);
-  const std::vector<Order> orders = read_orders(arguments);
-  if (orders.size() > 1) check_folder_of_all(arguments.out);
-  const bool uses_data = std::ranges::any_of(orders, [](const Order& order) {
-    return std::holds_alternative<SlamOrder>(order.experiment);
-  });
-  if (arguments.plaza && !uses_data)
-    invocation.console.warning("--plaza: the experiment " + arguments.name +
-                               " uses no data from outside");
+  const std::vector<StudyOrder> orders = read_orders(arguments);
+  const bool is_alone = orders.size() == 1;
+  if (!is_alone) check_folder_of_all(arguments.out);
   const std::string command = command_again(arguments, orders);
   std::string text;
   nlohmann::ordered_json object;
-  for (const Order& order : orders) {
-    auto [lines, result] = make(order, arguments.jobs, command, invocation.console);
-    text += lines;
-    if (orders.size() == 1)
-      object = std::move(result);
+  for (const StudyOrder& order : orders) {
+    const fs::path folder =
+        is_alone ? fs::path(arguments.out) : arguments.out / fs::path(order.name);
+    make_study(order, folder, arguments.jobs, command, invocation.console);
+    StudyNumbers numbers = read_study_numbers(folder);
+    for (const std::string& missing : numbers.missing) invocation.console.warning(missing);
+    text += numbers.text;
+    if (is_alone)
+      object = std::move(numbers.object);
     else
-      object["studies"].push_back(std::move(result));
+      object["studies"].push_back(std::move(numbers.object));
   }
   const FolderReport report = read_folder_report(arguments.out, command, "");
   const fs::path path = write_report(report, page, arguments.jobs);
@@ -164,29 +114,32 @@ int reproduce(const Arguments& arguments, const Invocation& invocation) {
 
 Action reproduce_verb(CLI::App& app) {
   auto arguments = std::make_shared<Arguments>();
-  app.description("Run a paper's experiment and write its figures and report");
+  app.description("Run a known experiment and write its figures and report");
   app.footer(
       "Examples:\n"
       "  mapproof reproduce yairi2007\n"
       "  mapproof reproduce yairi2007 --profile quick --out out/quick --jobs 2\n"
       "  mapproof reproduce boots2013 --plaza plaza --out out/boots2013\n"
-      "  mapproof reproduce all --plaza plaza --out out\n\n"
+      "  mapproof reproduce all --plaza plaza --out out\n"
+      "  mapproof reproduce mrclam --data MRCLAM --out out/mrclam\n\n"
       "\"all\" makes each study in a folder of its own below DIR and puts them into one report.\n"
+      "\"extensions\" does so with the studies beyond the papers.\n"
       "The Plaza data are no part of the program: without --plaza the simulated part of boots2013\n"
       "is made, and the report says how to get them.\n"
       "A study that was stopped goes on where it was; a folder that holds another experiment is "
       "refused.\n");
   app.add_option("NAME", arguments->name,
-                 fmt::format("Experiment: {}, or all", fmt::join(experiment_names(), ", ")))
+                 fmt::format("Experiment: {}, all (both papers), or extensions",
+                             fmt::join(experiment_names(), ", ")))
       ->required();
   add_out_option(app, arguments->out, "Folder for records, figures and report")
       ->capture_default_str();
-  app.add_option("--profile", arguments->profile, "quick or full")->capture_default_str();
+  app.add_option("--profile", arguments->options.profile, "quick or full")->capture_default_str();
   add_jobs_option(app, arguments->jobs);
-  add_experiment_options(app, arguments->changes);
+  add_experiment_options(app, arguments->options.changes);
   app.add_option("--templates", arguments->templates,
                  "Folder whose templates and experiments replace the embedded ones");
-  add_plaza_option(app, arguments->plaza);
+  add_data_options(app, arguments->options);
   return [arguments](const Invocation& invocation) { return reproduce(*arguments, invocation); };
 }
 

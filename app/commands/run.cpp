@@ -1,13 +1,7 @@
 #include <memory>
 
 #include "app/commands/verbs.hpp"
-#include "app/study_run.hpp"
-#include "core/base/errors.hpp"
-#include "core/base/files.hpp"
-#include "core/records/experiment_json.hpp"
-#include "core/records/slam_experiment_json.hpp"
-#include "core/records/slam_store.hpp"
-#include "core/records/study_store.hpp"
+#include "app/study_order.hpp"
 
 namespace mapproof {
 namespace {
@@ -15,50 +9,27 @@ namespace {
 struct Arguments {
   std::string experiment;
   std::string out;
-  std::string profile;
   int jobs = 1;
-  ExperimentChanges changes;
-  std::optional<std::string> plaza;
+  OrderOptions options;
 };
 
 /// The two commands that make the same study and a report of it, wherever they are typed.
-/// @param changes  Words that change the experiment.
-std::string command_again(const Arguments& arguments, const std::vector<std::string>& changes) {
+std::string command_again(const Arguments& arguments, const StudyOrder& order) {
   std::vector<std::string> words = {"mapproof", "run", arguments.experiment};
-  if (!arguments.profile.empty()) words.insert(words.end(), {"--profile", arguments.profile});
-  words.insert(words.end(), changes.begin(), changes.end());
-  if (arguments.plaza) words.insert(words.end(), {"--plaza", *arguments.plaza});
+  const std::vector<std::string> more = words_of({&order, 1}, arguments.options);
+  words.insert(words.end(), more.begin(), more.end());
   words.insert(words.end(), {"--out", arguments.out});
   return quoted_command(words) + " && " + quoted_command({"mapproof", "report", arguments.out});
 }
 
-int run_slam(const Arguments& arguments, const std::string& text, const Invocation& invocation) {
-  SlamExperiment experiment = parse_slam_experiment(text, arguments.experiment, arguments.profile);
-  apply(arguments.changes, experiment);
-  const SlamData data = read_slam_data(experiment, arguments.plaza);
-  make_slam_records(experiment, data, arguments.out, arguments.jobs,
-                    command_again(arguments, {"--seed", std::to_string(experiment.seed)}),
-                    invocation.console);
-  const SlamStudy study = read_slam_study(arguments.out);
-  nlohmann::ordered_json object = slam_study_result(study);
-  object["study"] = arguments.out;
-  invocation.console.result(slam_study_text(study) + arguments.out + "\n", object);
-  return kDone;
-}
-
 int run(const Arguments& arguments, const Invocation& invocation) {
-  const std::string text = read_file(arguments.experiment);
-  if (is_slam_experiment(text, arguments.experiment)) return run_slam(arguments, text, invocation);
-  if (arguments.plaza) throw InvalidInput("--plaza: the experiment uses no data from outside");
-  Experiment experiment = parse_experiment(text, arguments.experiment, arguments.profile);
-  apply(arguments.changes, experiment);
-  make_records(experiment, arguments.out, arguments.jobs,
-               command_again(arguments, words_of(arguments.changes, experiment)),
-               invocation.console);
-  const Study study = read_study(arguments.out);
-  nlohmann::ordered_json object = study_result(study);
-  object["study"] = arguments.out;
-  invocation.console.result(study_text(study) + arguments.out + "\n", object);
+  const StudyOrder order = read_study_order(experiment_of(arguments.experiment), arguments.options);
+  check_data_used({&order, 1}, arguments.options);
+  make_study(order, arguments.out, arguments.jobs, command_again(arguments, order),
+             invocation.console);
+  StudyNumbers numbers = read_study_numbers(arguments.out);
+  numbers.object["study"] = arguments.out;
+  invocation.console.result(numbers.text + arguments.out + "\n", numbers.object);
   return kDone;
 }
 
@@ -72,12 +43,14 @@ Action run_verb(CLI::App& app) {
       "  mapproof run templates/experiments/yairi2007.json --profile quick --out out/study\n"
       "  mapproof run templates/experiments/boots2013.json --plaza plaza --out out/range\n\n"
       "docs/file-formats.md says what an experiment's file holds.\n");
-  app.add_option("EXPERIMENT", arguments->experiment, "The experiment's JSON file")->required();
+  app.add_option("EXPERIMENT", arguments->experiment,
+                 "The experiment's JSON file, or a name that reproduce takes")
+      ->required();
   add_out_option(app, arguments->out, "Folder for the records")->required();
-  app.add_option("--profile", arguments->profile, "One of the profiles in the file");
+  app.add_option("--profile", arguments->options.profile, "One of the profiles in the file");
   add_jobs_option(app, arguments->jobs);
-  add_experiment_options(app, arguments->changes);
-  add_plaza_option(app, arguments->plaza);
+  add_experiment_options(app, arguments->options.changes);
+  add_data_options(app, arguments->options);
   return [arguments](const Invocation& invocation) { return run(*arguments, invocation); };
 }
 

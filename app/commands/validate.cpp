@@ -5,19 +5,29 @@
 #include "app/commands/verbs.hpp"
 #include "app/output_files.hpp"
 #include "core/base/errors.hpp"
+#include "core/records/trial_experiment_json.hpp"
 #include "core/records/validate.hpp"
+#include "core/trials/run_trials.hpp"
 #include "render/plot/figure_json.hpp"
 #include "render/scene/scene_json.hpp"
 
 namespace mapproof {
 namespace {
 
-/// Reads the JSON formats that are not core's.
+void check_trial_experiment(std::string_view text, const std::string& source) {
+  parse_trial_experiment(text, source, options_of_topics());
+  for (const std::string& profile : trial_profiles(text, source))
+    parse_trial_experiment(text, source, options_of_topics(), profile);
+}
+
+/// Reads the JSON formats that rest on more than core's records.
 bool read_foreign(std::string_view schema, std::string_view text, const std::string& source) {
   if (schema == "mapproof.figure")
     figure_from_json(text, source);
   else if (schema == "mapproof.scene")
     scene_from_json(text, source);
+  else if (schema == "mapproof.trial_experiment")
+    check_trial_experiment(text, source);
   else
     return false;
   return true;

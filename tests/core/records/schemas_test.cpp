@@ -1,14 +1,8 @@
 #include <gtest/gtest.h>
 
 #include <map>
-#include <memory>
 
 #include <nlohmann/json.hpp>
-#include <valijson/adapters/nlohmann_json_adapter.hpp>
-#include <valijson/schema.hpp>
-#include <valijson/schema_parser.hpp>
-#include <valijson/validation_results.hpp>
-#include <valijson/validator.hpp>
 
 #include "core/base/errors.hpp"
 #include "core/base/files.hpp"
@@ -19,8 +13,10 @@
 #include "core/records/slam_run_json.hpp"
 #include "core/records/space_run_json.hpp"
 #include "core/records/timings_jsonl.hpp"
+#include "core/records/trial_experiment_json.hpp"
 #include "core/records/validate.hpp"
 #include "tests/core/records/samples.hpp"
+#include "tests/core/records/schema_problem.hpp"
 #include "tests/core/records/slam_samples.hpp"
 
 namespace mapproof {
@@ -28,32 +24,8 @@ namespace {
 
 namespace fs = std::filesystem;
 using nlohmann::json;
-using Adapter = valijson::adapters::NlohmannJsonAdapter;
-
-json schema_file(const std::string& name) {
-  return json::parse(read_file(fs::path(MAPPROOF_SOURCE_DIR) / "docs/schemas" / name));
-}
-
-/// What the schema of that name finds wrong; empty if nothing.
-std::string schema_problem(const std::string& name, const json& value) {
-  const json document = schema_file(name + ".schema.json");
-  valijson::Schema schema;
-  valijson::SchemaParser parser;
-  parser.populateSchema(
-      Adapter(document), schema,
-      [](const std::string& uri) {
-        return std::make_unique<json>(schema_file(fs::path(uri).filename())).release();
-      },
-      [](const json* fetched) { const std::unique_ptr<const json> owner(fetched); });
-  valijson::Validator validator;
-  valijson::ValidationResults results;
-  if (validator.validate(schema, Adapter(value), &results)) return {};
-  valijson::ValidationResults::Error error;
-  results.popError(error);
-  std::string problem;
-  for (const std::string& part : error.context) problem += part;
-  return problem + ": " + error.description;
-}
+using test::schema_file;
+using test::schema_problem;
 
 /// "mapproof.run" -> "run".
 std::string kind_of(const json& value) {
@@ -98,6 +70,10 @@ TEST(Schemas, HoldForEveryExperimentInTheTemplatesAndTheirProfiles) {
     for (const auto& entry : fs::directory_iterator(folder)) {
       const std::string text = read_file(entry.path());
       if (is_slam_experiment(text, entry.path().string())) continue;
+      if (is_trial_experiment(text, entry.path().string())) {
+        EXPECT_EQ(schema_problem("trial_experiment", json::parse(text)), "") << entry.path();
+        continue;
+      }
       EXPECT_EQ(schema_problem("experiment", json::parse(text)), "") << entry.path();
       for (const std::string& profile : profiles(text, entry.path().string())) {
         const Experiment experiment = parse_experiment(text, entry.path().string(), profile);

@@ -288,9 +288,10 @@ TEST(Timings, NameTheLineThatIsDamaged) {
   const TemporaryFolder folder;
   open(folder.path());
   folder.file("timings.jsonl", "{\"kind\": \"nap\"}\n");
-  EXPECT_EQ(error_of([&] { read_timings(folder.path()); }),
-            (folder / "timings.jsonl").string() +
-                ": line 1: /kind: expected map, slam, factorization, trial or session, got \"nap\"");
+  EXPECT_EQ(
+      error_of([&] { read_timings(folder.path()); }),
+      (folder / "timings.jsonl").string() +
+          ": line 1: /kind: expected map, slam, factorization, trial or session, got \"nap\"");
 }
 
 }  // namespace

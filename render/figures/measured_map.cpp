@@ -1,0 +1,81 @@
+#include "render/figures/measured_map.hpp"
+
+#include <fmt/format.h>
+
+#include "core/base/errors.hpp"
+#include "core/base/words.hpp"
+#include "render/figures/covariance_ellipse.hpp"
+#include "render/figures/map.hpp"
+#include "render/figures/parts.hpp"
+#include "render/figures/words.hpp"
+
+namespace mapproof {
+namespace {
+
+void require_consistent(const MeasuredMapSpec& spec) {
+  const Eigen::Index rows = spec.map.estimate.rows();
+  if (!spec.covariances.empty() && std::ssize(spec.covariances) != rows)
+    throw InvalidInput("figure " + printable(spec.id) + ": not one covariance a landmark");
+  for (const MeasuredPair& pair : spec.pairs)
+    if (pair.first < 0 || pair.second >= rows || pair.first >= pair.second)
+      throw InvalidInput("figure " + printable(spec.id) + ": a pair of rows that are not there");
+}
+
+Segments pair_lines(const MeasuredMapSpec& spec) {
+  Segments lines{.label = "measured pair", .ink = Ink::kMuted, .width = 0.4};
+  for (const MeasuredPair& pair : spec.pairs) {
+    const auto from = spec.map.estimate.row(pair.first), to = spec.map.estimate.row(pair.second);
+    if (!from.allFinite() || !to.allFinite()) continue;
+    add_line(lines, point_of(from), point_of(to));
+    Mark mark{fmt::format("pair-{}-{}", pair.first + 1, pair.second + 1), {}};
+    mark.data = {{"first", spec.map.names[static_cast<std::size_t>(pair.first)]},
+                 {"second", spec.map.names[static_cast<std::size_t>(pair.second)]},
+                 {"distance", data_number(pair.distance_m)},
+                 {"looks", std::to_string(pair.looks)}};
+    lines.marks.push_back(std::move(mark));
+  }
+  return lines;
+}
+
+Ellipses scatter_ellipses(const MeasuredMapSpec& spec) {
+  Ellipses ellipses{
+      .label = "95 % of the estimator", .ink = Ink::kSeries1, .fill = Fill::kTint, .width = 0.6};
+  for (std::size_t i = 0; i < spec.covariances.size(); ++i) {
+    const auto place = spec.map.estimate.row(static_cast<Eigen::Index>(i));
+    if (!spec.covariances[i].allFinite() || !place.allFinite()) continue;
+    const CovarianceEllipse axes = covariance_ellipse(spec.covariances[i]);
+    ellipses.x.push_back(place(0)), ellipses.y.push_back(place(1));
+    ellipses.a.push_back(axes.a), ellipses.b.push_back(axes.b);
+    ellipses.turn_rad.push_back(axes.turn_rad);
+    ellipses.marks.push_back({fmt::format("ellipse-{}", i + 1),
+                              {{"landmark", spec.map.names[i]},
+                               {"a", data_number(axes.a)},
+                               {"b", data_number(axes.b)}}});
+  }
+  return ellipses;
+}
+
+}  // namespace
+
+Figure measured_map_figure(const MeasuredMapSpec& spec) {
+  require_consistent(spec);
+  Figure figure = map_figure(spec.map, spec.id);
+  if (!spec.title.empty()) figure.title = spec.title;
+  std::vector<Layer>& layers = figure.panels.front().layers;
+  const Ellipses ellipses = scatter_ellipses(spec);
+  const Segments lines = pair_lines(spec);
+  if (!ellipses.x.empty()) {
+    layers.insert(layers.begin(), ellipses);
+    figure.caption += " Ellipses hold 95 % of a normal scatter of the estimator.";
+  }
+  if (!lines.x0.empty()) {
+    layers.insert(layers.begin(), lines);
+    figure.caption += fmt::format(" Thin lines: {} whose distance was measured.",
+                                  counted(lines.x0.size(), "pair"));
+    figure.alt += fmt::format(" {} measured.", counted(lines.x0.size(), "pair"));
+  }
+  require_valid(figure);
+  return figure;
+}
+
+}  // namespace mapproof

@@ -1,0 +1,90 @@
+#include "reports/sections/trials/trial_figures.hpp"
+
+#include <algorithm>
+#include <limits>
+
+#include <fmt/format.h>
+
+#include "render/figures/level_curve.hpp"
+#include "render/figures/measured_map.hpp"
+#include "reports/sections/method_summary.hpp"
+#include "reports/sections/trials/trial_means.hpp"
+
+namespace mapproof {
+namespace {
+
+constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
+
+/// One series over the levels; a line a data set if there are several.
+std::vector<ErrorLine> lines_of(const TrialStudy& study, const TrialSeries& series,
+                                std::size_t place, const std::vector<const TrialCell*>& cells,
+                                std::size_t quantity) {
+  std::vector<ErrorLine> lines;
+  for (const TrialCell* cell : cells) {
+    const bool is_set = !cell->part.empty() && study.parts.size() > 1;
+    const std::string key = is_set ? series.id + "-" + cell->part : series.id;
+    auto line = std::ranges::find(lines, key, &ErrorLine::key);
+    if (line == lines.end()) {
+      ErrorLine fresh;
+      fresh.label = is_set ? series.label + ", " + cell->part : series.label;
+      fresh.key = key;
+      if (!is_set) fresh.series = place;
+      line = lines.insert(line, std::move(fresh));
+    }
+    const std::optional<MeanEstimate>& mean = cell->means[quantity];
+    const auto interval = interval_of(mean);
+    line->x.push_back(cell->level);
+    line->mean.push_back(mean ? mean->mean : kNan);
+    line->low.push_back(interval ? interval->low : kNan);
+    line->high.push_back(interval ? interval->high : kNan);
+  }
+  return lines;
+}
+
+std::optional<Figure> curve_figure(const TrialStudy& study, const TrialSetup& setup,
+                                   const std::vector<TrialCell>& cells, std::size_t quantity) {
+  const TrialQuantity& what = study.design.quantities[quantity];
+  LevelCurveSpec spec;
+  spec.id = fmt::format("{}-{}-{}", id_prefix(study), setup.id, what.id);
+  std::ranges::replace(spec.id, '_', '-');
+  spec.title = setup.title + ": " + what.label;
+  spec.x_label = setup.level_label;
+  spec.y_label = label_with_unit(what);
+  spec.quantity = what.label;
+  bool any = false;
+  for (std::size_t i = 0; i < study.design.series.size(); ++i) {
+    const TrialSeries& series = study.design.series[i];
+    for (ErrorLine& line :
+         lines_of(study, series, i, cells_of(cells, setup.id, series.id), quantity)) {
+      any |= std::ranges::any_of(line.mean, [](double mean) { return mean == mean; });
+      spec.methods.push_back(std::move(line));
+    }
+  }
+  if (!any) return std::nullopt;
+  spec.record_ids = {fmt::format("{}, setup {}", study.experiment.name, setup.id)};
+  return level_curve_figure(spec);
+}
+
+}  // namespace
+
+StudyFigures trial_figures(const TrialStudy& study) {
+  StudyFigures figures;
+  const std::vector<TrialCell> cells = trial_cells(study);
+  for (const TrialSetup& setup : study.design.setups) {
+    if (setup.levels.size() < 2) continue;
+    FigureGroup group{id_prefix(study) + "-" + setup.id, setup.title, "", {}};
+    for (std::size_t i = 0; i < study.design.quantities.size(); ++i)
+      if (auto figure = curve_figure(study, setup, cells, i))
+        group.figures.push_back(*std::move(figure));
+    if (!group.empty()) figures.groups.push_back(std::move(group));
+  }
+  FigureGroup maps{id_prefix(study) + "-maps", "Maps", "", {}};
+  for (const TrialPart& part : study.parts)
+    for (const TrialMap& map : part.maps)
+      maps.figures.push_back(measured_map_figure(
+          {id_prefix(study) + "-map-" + map.id, map.title, map.map, map.pairs, map.covariances}));
+  if (!maps.empty()) figures.groups.push_back(std::move(maps));
+  return figures;
+}
+
+}  // namespace mapproof

@@ -1,0 +1,173 @@
+#include "core/records/trial_store.hpp"
+
+#include <cmath>
+#include <limits>
+
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+#include "core/base/files.hpp"
+#include "core/records/study_store.hpp"
+#include "core/records/trial_experiment_json.hpp"
+#include "core/records/trial_json.hpp"
+#include "core/records/validate.hpp"
+#include "tests/core/records/samples.hpp"
+#include "tests/core/records/schema_problem.hpp"
+
+namespace mapproof {
+namespace {
+
+constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
+
+TrialStudy small_trials() {
+  TrialStudy study;
+  study.experiment.name = "gaps";
+  study.experiment.title = "Gaps";
+  study.experiment.topic = "missing";
+  study.experiment.seed = 7;
+  study.experiment.layouts = 2;
+  study.experiment.options = {{"dimensions", {10.0}}, {"shares", {0.1, 0.5}}};
+  study.design = {
+      .question = "How much may be missing?",
+      .setups =
+          {{.id = "random", .title = "At random", .level_label = "share", .levels = {0.1, 0.5}}},
+      .series = {{.id = "ppca", .label = "PPCA"}, {.id = "fill", .label = "Mean fill"}},
+      .quantities = {{.id = "mpe_m", .label = "MPE", .unit = "m"},
+                     {.id = "found", .label = "found", .unit = "%", .lower_is_better = false}}};
+  study.provenance = test::made_up_provenance();
+  return study;
+}
+
+TrialPart made_up_part(const RunId& run) {
+  TrialPart part;
+  part.id = slug(run);
+  part.run = run;
+  part.trials = {{.setup = "random",
+                  .series = "ppca",
+                  .level = 0.1,
+                  .values = {0.05, 100.0},
+                  .statuses = {{StatusCode::kNotConverged, "after 9 steps"}}},
+                 {.setup = "random", .series = "fill", .level = 0.5, .values = {kNan, 0.0}}};
+  TrialMap map{.id = "ppca", .title = "PPCA", .map = test::made_up_result({1, 1}).maps[0]};
+  map.pairs = {{.first = 0, .second = 1, .distance_m = 2.0, .precision = 4.0, .looks = 9}};
+  map.covariances.assign(map.map.names.size(), Eigen::Matrix2d::Identity());
+  map.covariances.back().setConstant(kNan);
+  part.maps = {map};
+  part.seconds = {{.part = part.id, .series = "ppca", .seconds = 1.0},
+                  {.part = part.id, .series = "ppca", .seconds = 0.5}};
+  return part;
+}
+
+const std::vector<TrialOption>* known_options(std::string_view topic) {
+  static const std::vector<TrialOption> options = {
+      {.name = "dimensions", .usual = {10.0}, .minimum = 1.0, .maximum = 50.0, .integer = true},
+      {.name = "shares", .usual = {0.1, 0.3}, .minimum = 0.0, .maximum = 0.9, .list = true}};
+  return topic == "missing" ? &options : nullptr;
+}
+
+TrialExperiment parsed(const std::string& more, const std::string& profile = "") {
+  const std::string text =
+      R"({"schema": {"name": "mapproof.trial_experiment", "version": 1}, "name": "gaps", )"
+      R"("topic": "missing")" +
+      more + "}";
+  return parse_trial_experiment(text, "gaps.json", known_options, profile);
+}
+
+std::string refusal(const std::string& more) {
+  return test::error_of([&] { parsed(more); });
+}
+
+TEST(TrialStudy, IsReadBackAsItWasWritten) {
+  const test::TemporaryFolder folder;
+  const TrialStudy written = small_trials();
+  {
+    TrialStore store = TrialStore::open(folder.path(), written);
+    store.write(made_up_part({2, 1}), "");
+    store.write(made_up_part({1, 1}), "");
+    EXPECT_TRUE(store.has("layout-1-pose-1", ""));
+    EXPECT_FALSE(store.has("layout-1-pose-1", "of another data set"));
+  }
+  const TrialStudy study = read_trial_study(folder.path());
+  EXPECT_EQ(trial_study_json(study), trial_study_json(written));
+  ASSERT_EQ(study.parts.size(), 2U);
+  EXPECT_EQ(study.parts[0].id, "layout-1-pose-1");
+  EXPECT_EQ(trial_part_json(study.parts[1], ""), trial_part_json(made_up_part({2, 1}), ""));
+  EXPECT_TRUE(std::isnan(study.parts[0].trials[1].values[0]));
+  EXPECT_FALSE(study.parts[0].maps[0].covariances.back().allFinite());
+  ASSERT_EQ(study.parts[0].seconds.size(), 1U);
+  EXPECT_EQ(study.parts[0].seconds[0].seconds, 0.5) << "the later of two";
+  EXPECT_TRUE(is_trial_study(folder.path()));
+}
+
+TEST(TrialStudy, IsValidAndKeepsToItsSchemas) {
+  const test::TemporaryFolder folder;
+  {
+    TrialStore store = TrialStore::open(folder.path(), small_trials());
+    store.write(made_up_part({1, 1}), "");
+  }
+  for (const Finding& finding : validate(folder.path(), {})) EXPECT_EQ(finding.problem, "");
+  const auto json_of = [&](const char* file) {
+    return nlohmann::json::parse(read_file(folder / file));
+  };
+  EXPECT_EQ(test::schema_problem("trial_study", json_of("study.json")), "");
+  EXPECT_EQ(test::schema_problem("trial_part", json_of("parts/layout-1-pose-1.json")), "");
+}
+
+TEST(TrialStudy, MakesADamagedPartAgainAndNamesItToReaders) {
+  const test::TemporaryFolder folder;
+  TrialStore store = TrialStore::open(folder.path(), small_trials());
+  TrialPart part = made_up_part({1, 1});
+  part.trials[0].series = "other";
+  store.write(part, "");
+  EXPECT_FALSE(store.has("layout-1-pose-1", ""));
+  EXPECT_EQ(test::error_of([&] { read_trial_study(folder.path()); }),
+            (folder / "parts/layout-1-pose-1.json").string() +
+                ": /trials/0/series: the study has no such series");
+}
+
+TEST(TrialStudy, RefusesAFolderOfAnotherExperiment) {
+  const test::TemporaryFolder folder;
+  { TrialStore::open(folder.path(), small_trials()); }
+  TrialStudy other = small_trials();
+  other.experiment.options["dimensions"] = {9.0};
+  EXPECT_EQ(test::error_of([&] { TrialStore::open(folder.path(), other); }),
+            folder.path().string() +
+                ": holds another experiment (/options/dimensions/0 is 10 there and 9 here); choose "
+                "another folder or remove it");
+}
+
+TEST(TrialExperiment, TakesTheUsualValuesOfOptionsThatAreLeftOut) {
+  const TrialExperiment experiment = parsed(R"(, "options": {"shares": [0.2, 0.7]})");
+  EXPECT_EQ(experiment.options.at("dimensions"), std::vector{10.0});
+  EXPECT_EQ(experiment.options.at("shares"), (std::vector{0.2, 0.7}));
+  EXPECT_EQ(experiment.world.landmarks, 50);
+}
+
+TEST(TrialExperiment, TakesAProfile) {
+  const TrialExperiment experiment =
+      parsed(R"(, "profiles": {"quick": {"layouts": 3, "options": {"dimensions": 4}}})", "quick");
+  EXPECT_EQ(experiment.layouts, 3);
+  EXPECT_EQ(experiment.options.at("dimensions"), std::vector{4.0});
+}
+
+TEST(TrialExperiment, NamesThePlaceOfWhatIsWrong) {
+  EXPECT_EQ(refusal(R"(, "options": {"dimensions": 0})"),
+            "gaps.json: /options/dimensions: expected a number from 1 to 50, got 0");
+  EXPECT_EQ(refusal(R"(, "options": {"dimensions": 2.5})"),
+            "gaps.json: /options/dimensions: expected an integer");
+  EXPECT_EQ(refusal(R"(, "options": {"share": [0.5]})"),
+            "gaps.json: /options: unknown key \"share\": did you mean \"shares\"?");
+  EXPECT_EQ(refusal(R"(, "anchors": 51)"), "gaps.json: /anchors: 51 anchors of 50 landmarks");
+  EXPECT_EQ(refusal(R"(, "world": {"landmarks": 5000}, "steps": 100000)"),
+            "gaps.json: /steps: 5000 landmarks at 100000 steps are more than 2e+08 entries");
+  EXPECT_EQ(test::error_of([] {
+              parse_trial_experiment(
+                  R"({"schema": {"name": "mapproof.trial_experiment", "version": 1},)"
+                  R"("name": "a", "topic": "mising"})",
+                  "a.json", known_options);
+            }),
+            "a.json: /topic: no topic \"mising\"");
+}
+
+}  // namespace
+}  // namespace mapproof
