@@ -77,7 +77,7 @@ TrialExperiment read_frame(const JsonCursor& document) {
   if (const auto walk = document.find("walk")) experiment.walk = read_walk_options(*walk);
   read_if_there(document, "anchors", 3, 1000, experiment.anchors);
   if (experiment.anchors > experiment.world.landmarks)
-    document.fail(
+    document.find("anchors").value_or(document).fail(
         fmt::format("{} anchors of {} landmarks", experiment.anchors, experiment.world.landmarks));
   const double entries = static_cast<double>(experiment.world.landmarks) * experiment.steps;
   if (entries > kMostEntries)
