@@ -83,15 +83,29 @@ int make_all(const std::vector<StudyOrder>& orders, const fs::path& folder, int 
   return worst;
 }
 
+/// Draws a study's report. @return Whether all of its scenes could be drawn; said if not.
+bool draw(const fs::path& study, const Templates& page, int jobs, const std::string& command,
+          const Console& console) {
+  try {
+    write_report(read_folder_report(study, command, command), page, jobs);
+    return true;
+  } catch (const SceneError& error) {
+    console.warning(error.what());
+    return false;
+  }
+}
+
 /// What each study is, with its report drawn and its figures kept.
+/// @param scenes_drawn  Set to false if some could not be.
 std::vector<StudyNight> read_all(const std::vector<StudyOrder>& orders, const fs::path& folder,
                                  const fs::path& store, const Templates& page,
-                                 const Arguments& arguments, const std::string& command) {
+                                 const Arguments& arguments, const Invocation& invocation,
+                                 bool& scenes_drawn) {
   const ObjectFolder objects(store / "objects");
   std::vector<StudyNight> studies;
   for (const StudyOrder& order : orders) {
     const fs::path study = folder / order.name;
-    write_report(read_folder_report(study, command, command), page, arguments.jobs);
+    scenes_drawn &= draw(study, page, arguments.jobs, invocation.command, invocation.console);
     studies.push_back(read_study_night(study, order.name));
     studies.back().figures = objects.keep(study / "figures");
   }
@@ -144,7 +158,8 @@ int nightly(const Arguments& arguments, const Invocation& invocation) {
         fmt::format("night {}: not recorded, since a study was not finished", night.facts.number));
     return made;
   }
-  night.studies = read_all(orders, folder, store, page, arguments, invocation.command);
+  bool scenes_drawn = true;
+  night.studies = read_all(orders, folder, store, page, arguments, invocation, scenes_drawn);
   night.facts.ended_utc = now_utc();
   const std::vector<std::string> remarks = judge_night(history, night, asked);
   history.append(night);
@@ -157,7 +172,7 @@ int nightly(const Arguments& arguments, const Invocation& invocation) {
   object["remarks"] = remarks;
   object["index"] = index.string();
   console.result(night_text(night, remarks) + index.string() + "\n", object);
-  return exit_code(night.facts.verdict);
+  return scenes_drawn ? exit_code(night.facts.verdict) : kInternal;
 }
 
 }  // namespace

@@ -25,6 +25,7 @@ constexpr std::array kQuantities = {
     HistoryQuantity{"positions_m", "mean error of positions", "m", Compared::kRatio},
     HistoryQuantity{"observation", "error of the observation matrix", "", Compared::kRatio},
     HistoryQuantity{"seconds", "seconds", "s", Compared::kDuration},
+    HistoryQuantity{"other", "other", "", Compared::kNot},
 };
 
 constexpr std::array kVerdictNames = {std::pair(NightVerdict::kGood, "good"),
@@ -63,6 +64,10 @@ std::string method_of(const SeriesId& series) { return series.sensor + ", " + se
 std::string subject_of(const SeriesId& series) {
   return series.step == 0 ? method_of(series)
                           : fmt::format("{}, {} steps", method_of(series), series.step);
+}
+
+bool is_history_quantity(std::string_view name) {
+  return std::ranges::find(kQuantities, name, &HistoryQuantity::name) != kQuantities.end();
 }
 
 const HistoryQuantity& history_quantity(std::string_view name) {

@@ -45,6 +45,9 @@ struct HistoryQuantity {
 /// @throws InvalidInput if the store knows none of that name.
 const HistoryQuantity& history_quantity(std::string_view name);
 
+/// Whether the store knows a quantity of that name.
+bool is_history_quantity(std::string_view name);
+
 /// One value of one run.
 struct RunValue {
   std::string run = {};   ///< "layout-1-pose-2", "plaza-1".

@@ -15,6 +15,7 @@
 #include "core/records/experiment_json.hpp"
 #include "core/records/slam_store.hpp"
 #include "core/records/study_store.hpp"
+#include "core/records/trial_store.hpp"
 
 namespace mapproof {
 namespace {
@@ -142,6 +143,25 @@ Scores night_scores(const SlamStudy& study, const SlamTimings& timings) {
   return scores;
 }
 
+Scores night_scores(const TrialStudy& study) {
+  Scores scores;
+  for (const TrialPart& part : study.parts) {
+    const std::string unit = part.run ? unit_of(*part.run) : part.id;
+    for (const Trial& trial : part.trials)
+      for (std::size_t i = 0; i < trial.values.size(); ++i) {
+        const std::string& quantity = study.design.quantities[i].id;
+        SeriesId series{trial.setup, fmt::format("{} {:.6g}", trial.series, trial.level), 0, ""};
+        series.quantity = is_history_quantity(quantity) ? quantity : "other";
+        if (series.quantity == "other") series.method += " " + quantity;
+        scores[std::move(series)].push_back({part.id, unit, trial.values[i]});
+      }
+    for (const TrialSeconds& timing : part.seconds)
+      scores[{"all", timing.series, 0, "seconds"}].push_back({part.id, unit, timing.seconds});
+  }
+  sort_runs(scores);
+  return scores;
+}
+
 StudyNight read_study_night(const std::filesystem::path& folder, const std::string& name) {
   StudyNight night{.name = name, .order_digest = order_digest(folder)};
   if (is_slam_study(folder)) {
@@ -149,6 +169,11 @@ StudyNight read_study_night(const std::filesystem::path& folder, const std::stri
     night.kind = "mapproof.slam_study";
     night.runs = static_cast<int>(study.runs.size());
     night.scores = night_scores(study, read_slam_timings(folder));
+  } else if (is_trial_study(folder)) {
+    const TrialStudy study = read_trial_study(folder);
+    night.kind = "mapproof.trial_study";
+    night.runs = static_cast<int>(study.parts.size());
+    night.scores = night_scores(study);
   } else {
     const Study study = read_study(folder);
     night.kind = "mapproof.study";

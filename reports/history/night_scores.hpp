@@ -6,6 +6,7 @@
 
 #include "core/model/slam_study.hpp"
 #include "core/model/study.hpp"
+#include "core/model/trial_study.hpp"
 #include "reports/history/night.hpp"
 
 namespace mapproof {
@@ -17,6 +18,7 @@ Scores night_scores(const Study& study, std::span<const Timing> timings);
 /// Every score of a range-only study: paths and landmarks of each log, convergence, maps of ranges;
 /// seconds of each method.
 Scores night_scores(const SlamStudy& study, const SlamTimings& timings);
+Scores night_scores(const TrialStudy& study);
 
 /// The study in a folder as a night keeps it, its figures apart. @throws IoError.
 StudyNight read_study_night(const std::filesystem::path& folder, const std::string& name);

@@ -1,0 +1,161 @@
+#include <sys/wait.h>
+
+#include <chrono>
+#include <csignal>
+#include <thread>
+
+#include <gtest/gtest.h>
+#include <sqlite3.h>
+#include <nlohmann/json.hpp>
+
+#include "core/base/files.hpp"
+#include "tests/support/program.hpp"
+
+namespace mapproof::test {
+namespace {
+
+namespace fs = std::filesystem;
+using nlohmann::json;
+
+const std::string kSmall = std::string(MAPPROOF_SOURCE_DIR) + "/tests/data/experiments/small.json";
+
+Outcome night(const fs::path& store, const std::vector<std::string>& more = {},
+              const std::string& experiment = kSmall, const Limits& limits = {}) {
+  std::vector<std::string> arguments = {"nightly", experiment, "--profile", "tiny",  "--store",
+                                        store,     "--jobs",   "1",         "--json"};
+  arguments.insert(arguments.end(), more.begin(), more.end());
+  return mapproof(arguments, limits);
+}
+
+json history(const fs::path& store) {
+  const Outcome outcome = mapproof({"history", store, "--json"});
+  EXPECT_EQ(outcome.exit_code, 0) << outcome.error;
+  return json::parse(outcome.out);
+}
+
+/// Makes the errors of the nights in the history smaller, as if the program had been better then.
+void make_better(const fs::path& store, double factor) {
+  sqlite3* database = nullptr;
+  ASSERT_EQ(sqlite3_open((store / "history.sqlite").c_str(), &database), SQLITE_OK);
+  const std::string statements =
+      "UPDATE scores SET value = value * " + std::to_string(factor) +
+      " WHERE series IN (SELECT id FROM series WHERE quantity = 'mpe_m')";
+  EXPECT_EQ(sqlite3_exec(database, statements.c_str(), nullptr, nullptr, nullptr), SQLITE_OK);
+  sqlite3_close(database);
+}
+
+TEST(Nightly, RecordsANightAndItsReportAndFindsNothingWorseInTheNext) {
+  const TemporaryFolder folder;
+  const fs::path store = folder / "history";
+  const Outcome first = night(store);
+  ASSERT_EQ(first.exit_code, 0) << first.error;
+  const Outcome second = night(store);
+  ASSERT_EQ(second.exit_code, 0) << second.error << second.out;
+  EXPECT_EQ(history(store).at("nights").size(), 2U);
+  for (const char* file : {"index.html", "trends/small/report.html",
+                           "nights/0001/small/report.html", "nights/0002/small/study.json"})
+    EXPECT_TRUE(fs::exists(store / file)) << file;
+  EXPECT_GT(fs::hard_link_count(store / "nights/0002/small/figures/fig-2.svg"), 2U)
+      << "figures of both nights are one file";
+  EXPECT_EQ(mapproof({"history", store, "--verify"}).exit_code, 0);
+}
+
+TEST(Nightly, OfARangeOnlyExperimentIsRecordedToo) {
+  const TemporaryFolder folder;
+  const Outcome outcome =
+      mapproof({"nightly", "boots2013", "--profile", "quick", "--store", folder / "h", "--json"});
+  ASSERT_EQ(outcome.exit_code, 0) << outcome.error;
+  const json nights = history(folder / "h").at("nights");
+  ASSERT_EQ(nights.size(), 1U);
+  const Outcome csv = mapproof({"history", folder / "h", "--export", "csv"});
+  EXPECT_NE(csv.out.find("path_mean_m"), std::string::npos);
+}
+
+TEST(Nightly, RefusesANightToCompareWithThatIsNotThereBeforeAnyWork) {
+  const TemporaryFolder folder;
+  const Outcome outcome = night(folder / "h", {"--reference", "7"});
+  EXPECT_EQ(outcome.exit_code, 2);
+  EXPECT_NE(outcome.error.find("7"), std::string::npos) << outcome.error;
+  EXPECT_FALSE(fs::exists(folder / "h/nights/0001/small"));
+}
+
+TEST(Nightly, OnAFullDiskSaysSoAndLosesNoNight) {
+  const TemporaryFolder folder;
+  const fs::path store = folder / "history";
+  ASSERT_EQ(night(store).exit_code, 0);
+  const std::string before = mapproof({"history", store, "--export", "csv"}).out;
+  for (const std::size_t bytes : {2'000U, 20'000U, 60'000U}) {
+    const Outcome outcome = night(store, {}, kSmall, Limits{.file_bytes = bytes});
+    EXPECT_TRUE(outcome.exit_code == 2 || outcome.exit_code == 3)
+        << bytes << ": " << outcome.exit_code << outcome.error;
+    EXPECT_FALSE(outcome.error.empty());
+    EXPECT_EQ(mapproof({"history", store, "--export", "csv"}).out, before) << bytes;
+  }
+  EXPECT_EQ(night(store).exit_code, 0) << "goes on once there is room";
+}
+
+TEST(Nightly, KilledAtAnyTimeLosesNoFinishedNight) {
+  const TemporaryFolder folder;
+  const fs::path store = folder / "history";
+  ASSERT_EQ(night(store).exit_code, 0);
+  for (const int milliseconds : {20, 90, 200, 450, 900}) {
+    const pid_t child =
+        start_mapproof({"nightly", kSmall, "--profile", "tiny", "--store", store, "--jobs", "1"});
+    std::this_thread::sleep_for(std::chrono::milliseconds(milliseconds));
+    ::kill(child, SIGKILL);
+    int status = 0;
+    ::waitpid(child, &status, 0);
+    EXPECT_GE(history(store).at("nights").size(), 1U) << milliseconds;
+  }
+  const std::size_t before = history(store).at("nights").size();
+  ASSERT_EQ(night(store).exit_code, 0);
+  EXPECT_EQ(history(store).at("nights").size(), before + 1);
+  EXPECT_EQ(mapproof({"history", store, "--verify"}).exit_code, 0);
+}
+
+TEST(Nightly, TwoAtOnceAreBothRecorded) {
+  const TemporaryFolder folder;
+  const fs::path store = folder / "history";
+  const pid_t other =
+      start_mapproof({"nightly", kSmall, "--profile", "tiny", "--store", store, "--jobs", "1"});
+  const Outcome outcome = night(store);
+  int status = 0;
+  ::waitpid(other, &status, 0);
+  EXPECT_EQ(outcome.exit_code, 0) << outcome.error;
+  EXPECT_TRUE(WIFEXITED(status) && WEXITSTATUS(status) == 0);
+  EXPECT_EQ(history(store).at("nights").size(), 2U);
+}
+
+TEST(Nightly, KeepsADamagedHistoryAndBeginsANewOne) {
+  const TemporaryFolder folder;
+  const fs::path store = folder / "history";
+  ASSERT_EQ(night(store).exit_code, 0);
+  const std::string damaged(40'000, 'x');
+  write_file(store / "history.sqlite", damaged);
+  const Outcome outcome = night(store);
+  EXPECT_EQ(outcome.exit_code, 0) << outcome.error;
+  EXPECT_NE(outcome.error.find("damaged"), std::string::npos) << outcome.error;
+  EXPECT_EQ(read_file(store / "history.sqlite.damaged-1"), damaged);
+  EXPECT_EQ(history(store).at("nights").size(), 1U);
+}
+
+TEST(Nightly, AWorseNightIsOneAndNamesWhatGotWorse) {
+  const TemporaryFolder folder;
+  const fs::path store = folder / "history";
+  std::string text = read_file(kSmall);
+  text.replace(text.find("\"layouts\": 2"), 12, "\"layouts\": 8");
+  write_file(folder / "more.json", text);
+  const auto tonight = [&] {
+    return mapproof({"nightly", folder / "more.json", "--store", store, "--json"});
+  };
+  ASSERT_EQ(tonight().exit_code, 0);
+  make_better(store, 0.9);
+  const Outcome outcome = tonight();
+  EXPECT_EQ(outcome.exit_code, 1) << outcome.out << outcome.error;
+  const json result = json::parse(outcome.out);
+  ASSERT_FALSE(result.at("findings").empty());
+  EXPECT_EQ(result.at("findings").at(0).at("quantity"), "mpe_m");
+}
+
+}  // namespace
+}  // namespace mapproof::test
