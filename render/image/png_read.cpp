@@ -52,57 +52,6 @@ void leave(png_structp png, png_const_charp why) {
 
 void no_warning(png_structp, png_const_charp) {}
 
-/// Rows of red, green, blue and alpha, of 8 or 16 bits each, the same for every kind of PNG.
-struct Samples {
-  std::size_t bytes_a_row = 0;
-  bool is_deep = false;
-  std::vector<unsigned char> bytes = {};
-  std::vector<png_bytep> rows = {};
-};
-
-/// Nothing with a destructor may live here: libpng leaves by longjmp.
-bool decode(png_structp png, png_infop info, Samples& samples) {
-  if (setjmp(png_jmpbuf(png))) return false;
-  png_set_benign_errors(png, 0);
-  png_set_crc_action(png, PNG_CRC_QUIET_USE, PNG_CRC_QUIET_USE);
-  png_set_user_limits(png, 0x7FFFFFFF, 0x7FFFFFFF);
-  png_read_info(png, info);
-  png_set_expand(png);
-  png_set_gray_to_rgb(png);
-  png_set_add_alpha(png, 0xFFFF, PNG_FILLER_AFTER);
-  png_set_interlace_handling(png);
-  png_read_update_info(png, info);
-  samples.bytes_a_row = png_get_rowbytes(png, info);
-  samples.is_deep = png_get_bit_depth(png, info) == 16;
-  const std::size_t height = png_get_image_height(png, info);
-  samples.bytes.resize(samples.bytes_a_row * height);
-  samples.rows.resize(height);
-  for (std::size_t y = 0; y < height; ++y)
-    samples.rows[y] = samples.bytes.data() + y * samples.bytes_a_row;
-  png_read_image(png, samples.rows.data());
-  png_read_end(png, nullptr);
-  return true;
-}
-
-Samples all_samples(std::string_view bytes, const std::vector<PngChunk>& chunks) {
-  Source source{bytes.substr(0, 8), &chunks};
-  png_structp png = png_create_read_struct(PNG_LIBPNG_VER_STRING, &source, leave, no_warning);
-  png_infop info = png ? png_create_info_struct(png) : nullptr;
-  if (!info) throw std::bad_alloc();
-  png_set_read_fn(png, &source, take);
-  Samples samples;
-  bool is_done = false;
-  try {
-    is_done = decode(png, info, samples);
-  } catch (...) {
-    png_destroy_read_struct(&png, &info, nullptr);
-    throw;
-  }
-  png_destroy_read_struct(&png, &info, nullptr);
-  if (!is_done) throw InvalidInput("its pixels cannot be decoded: " + source.reason);
-  return samples;
-}
-
 /// Lays `colour` of `most` over white, as 0 to 255.
 std::uint32_t over_white(std::uint32_t colour, std::uint32_t alpha, std::uint32_t most) {
   const std::uint64_t sum = std::uint64_t{colour} * alpha + std::uint64_t{most} * (most - alpha);
@@ -115,31 +64,85 @@ void mix(std::uint64_t& digest, std::uint64_t value) {
   digest ^= digest >> 29;
 }
 
-/// Fills image and digest. Samples of 16 bits that repeat a byte are those of 8 bits.
-void flatten(const Samples& samples, PngFile& file) {
-  const std::size_t step = samples.is_deep ? 8 : 4;
-  const std::uint32_t most = samples.is_deep ? 0xFFFF : 0xFF;
-  for (int y = 0; y < file.image.height; ++y) {
-    const unsigned char* p = samples.rows[y];
-    for (int x = 0; x < file.image.width; ++x, p += step) {
-      std::uint32_t value[4];
-      std::uint64_t exact = 0;
-      for (int c = 0; c < 4; ++c) {
-        value[c] = samples.is_deep ? p[2 * c] << 8u | p[2 * c + 1] : p[c];
-        exact = exact << 16 | (samples.is_deep ? value[c] : value[c] * 0x101u);
-      }
-      std::uint32_t pixel = 0;
-      for (int c = 0; c < 3; ++c) pixel = pixel << 8 | over_white(value[c], value[3], most);
-      file.image.row(y)[x] = pixel;
-      std::uint64_t told = 0xFFFF;
-      for (const int shift : {0, 8, 16})
-        told |= std::uint64_t{((pixel >> shift) & 0xFF) * 0x101u} << (16 + 2 * shift);
-      if (exact != told) {
-        mix(file.finer_digest, static_cast<std::uint64_t>(y) << 32 | static_cast<unsigned>(x));
-        mix(file.finer_digest, exact);
-      }
+/// Rows of red, green, blue and alpha, of 8 or 16 bits each, the same for every kind of PNG: one
+/// after the other, all of them only if they are interlaced.
+struct Samples {
+  std::size_t bytes_a_row = 0;
+  bool is_deep = false;
+  std::vector<unsigned char> bytes = {};
+  std::vector<png_bytep> rows = {};
+};
+
+/// Fills a row of the image, and the digest. Samples of 16 bits that repeat a byte are those of 8.
+void flatten(const unsigned char* p, bool is_deep, int y, PngFile& file) {
+  const std::uint32_t most = is_deep ? 0xFFFF : 0xFF;
+  for (int x = 0; x < file.image.width; ++x, p += is_deep ? 8 : 4) {
+    std::uint32_t value[4];
+    std::uint64_t exact = 0;
+    for (int c = 0; c < 4; ++c) {
+      value[c] = is_deep ? p[2 * c] << 8u | p[2 * c + 1] : p[c];
+      exact = exact << 16 | (is_deep ? value[c] : value[c] * 0x101u);
+    }
+    std::uint32_t pixel = 0;
+    for (int c = 0; c < 3; ++c) pixel = pixel << 8 | over_white(value[c], value[3], most);
+    file.image.row(y)[x] = pixel;
+    std::uint64_t told = 0xFFFF;
+    for (const int shift : {0, 8, 16})
+      told |= std::uint64_t{((pixel >> shift) & 0xFF) * 0x101u} << (16 + 2 * shift);
+    if (exact != told) {
+      mix(file.finer_digest, static_cast<std::uint64_t>(y) << 32 | static_cast<unsigned>(x));
+      mix(file.finer_digest, exact);
     }
   }
+}
+
+/// Nothing with a destructor may live here: libpng leaves by longjmp.
+bool decode(png_structp png, png_infop info, Samples& samples, PngFile& file) {
+  if (setjmp(png_jmpbuf(png))) return false;
+  png_set_benign_errors(png, 0);
+  png_set_crc_action(png, PNG_CRC_QUIET_USE, PNG_CRC_QUIET_USE);
+  png_set_user_limits(png, 0x7FFFFFFF, 0x7FFFFFFF);
+  png_read_info(png, info);
+  png_set_expand(png);
+  png_set_gray_to_rgb(png);
+  png_set_add_alpha(png, 0xFFFF, PNG_FILLER_AFTER);
+  const bool is_interlaced = png_set_interlace_handling(png) > 1;
+  png_read_update_info(png, info);
+  samples.bytes_a_row = png_get_rowbytes(png, info);
+  samples.is_deep = png_get_bit_depth(png, info) == 16;
+  const int height = file.image.height;
+  samples.bytes.resize(samples.bytes_a_row * (is_interlaced ? height : 1));
+  if (is_interlaced) {
+    samples.rows.resize(height);
+    for (int y = 0; y < height; ++y)
+      samples.rows[y] = samples.bytes.data() + y * samples.bytes_a_row;
+    png_read_image(png, samples.rows.data());
+  }
+  for (int y = 0; y < height; ++y) {
+    if (!is_interlaced) png_read_row(png, samples.bytes.data(), nullptr);
+    flatten(is_interlaced ? samples.rows[y] : samples.bytes.data(), samples.is_deep, y, file);
+  }
+  png_read_end(png, nullptr);
+  return true;
+}
+
+/// Fills the image, which has its size, and the digest.
+void decode(std::string_view bytes, const std::vector<PngChunk>& chunks, PngFile& file) {
+  Source source{bytes.substr(0, 8), &chunks};
+  png_structp png = png_create_read_struct(PNG_LIBPNG_VER_STRING, &source, leave, no_warning);
+  png_infop info = png ? png_create_info_struct(png) : nullptr;
+  if (!info) throw std::bad_alloc();
+  png_set_read_fn(png, &source, take);
+  Samples samples;
+  bool is_done = false;
+  try {
+    is_done = decode(png, info, samples, file);
+  } catch (...) {
+    png_destroy_read_struct(&png, &info, nullptr);
+    throw;
+  }
+  png_destroy_read_struct(&png, &info, nullptr);
+  if (!is_done) throw InvalidInput("its pixels cannot be decoded: " + source.reason);
 }
 
 void read_words(const PngChunk& chunk, PngFile& file) {
@@ -161,9 +164,10 @@ void read_words(const PngChunk& chunk, PngFile& file) {
 
 void check_size(const PngHeader& header, std::size_t compressed) {
   const std::uint64_t pixels = std::uint64_t{header.width} * header.height;
-  if (pixels > static_cast<std::uint64_t>(kMostPngPixels))
+  const std::uint64_t samples = header.interlace == 0 ? 0 : header.depth == 16 ? 8 : 4;
+  if (pixels > kMostPngBytes / (4 + samples))
     throw InvalidInput(fmt::format("{} x {} pixels are more than the {} that are read",
-                                   header.width, header.height, kMostPngPixels));
+                                   header.width, header.height, kMostPngBytes / (4 + samples)));
   // Deflate makes at most 1032 bytes of one.
   const std::uint64_t bits = std::uint64_t{header.width} * header.channels() * header.depth;
   if (header.height * (bits / 8) > 1032 * static_cast<std::uint64_t>(compressed))
@@ -224,10 +228,9 @@ PngFile read_png(std::string_view bytes) {
       file.image = std::move(*image);
       return file;
     }
-  const Samples samples = all_samples(bytes, parts.chunks);
   file.image = {static_cast<int>(parts.header.width), static_cast<int>(parts.header.height), {}};
   file.image.pixels.resize(static_cast<std::size_t>(file.image.width) * file.image.height);
-  flatten(samples, file);
+  decode(bytes, parts.chunks, file);
   return file;
 }
 

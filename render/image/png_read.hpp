@@ -20,14 +20,15 @@ struct PngFile {
   bool has_time = false;
 };
 
-inline constexpr std::int64_t kMostPngPixels = std::int64_t{1} << 28;
+/// Memory that the pixels of a PNG may take: 2^26 pixels of 4 bytes, so that a file of nothing that
+/// unpacks to a great deal does no harm. Interlaced ones take 8 bytes a pixel, 12 if of 16 bits.
+inline constexpr std::uint64_t kMostPngBytes = std::uint64_t{1} << 28;
 
 /// Reads any kind of PNG: grey, RGB or palette, alpha, 1 to 16 bits, interlaced. Gamma and colour
 /// profiles are not applied. Nothing is allocated for pixels that so few bytes cannot hold.
-/// @throws InvalidInput with the reason if png_problem has one, the pixels exceed kMostPngPixels,
-/// or
+/// @throws InvalidInput with the reason if png_problem has one, the pixels exceed kMostPngBytes, or
 ///         the compressed rows are damaged or not exactly as long as the header says.
-/// @note Linear; 4 bytes a pixel, up to 12 where it is interlaced or has 16 bits.
+/// @note Linear; as much memory as kMostPngBytes says.
 PngFile read_png(std::string_view bytes);
 
 /// All but the pixels, which are not decoded. @throws InvalidInput as read_png, as far as can be

@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 #include <tbb/parallel_invoke.h>
+#include <tbb/task_arena.h>
 
 #include "core/base/errors.hpp"
 #include "core/base/files.hpp"
@@ -17,7 +18,7 @@
 namespace mapproof {
 namespace {
 
-constexpr std::size_t kMostBytes = std::size_t{1} << 30;
+constexpr std::size_t kMostBytes = std::size_t{1} << 28;
 
 /// A PNG file, or why there is none.
 struct Side {
@@ -95,9 +96,8 @@ bool are_same_pngs(std::string_view before, std::string_view after, PictureDiff&
   return true;
 }
 
-void compare_pngs(std::string_view before, std::string_view after, const PictureOptions& options,
-                  Image* heat, PictureDiff& diff) {
-  if (are_same_pngs(before, after, diff)) return;
+void compare_decoded(std::string_view before, std::string_view after, const PictureOptions& options,
+                     Image* heat, PictureDiff& diff) {
   Side baseline, current;
   tbb::parallel_invoke([&] { read_side(before, baseline); }, [&] { read_side(after, current); });
   diff.baseline_renderer = renderer(baseline.png);
@@ -113,6 +113,13 @@ void compare_pngs(std::string_view before, std::string_view after, const Picture
   diff.reason = words(found.pixels, finer_differs);
   if (heat && found.pixels.baseline == found.pixels.current && found.pixels.differing > 0)
     *heat = heat_map(std::move(baseline.png.image), found.marks);
+}
+
+void compare_pngs(std::string_view before, std::string_view after, const PictureOptions& options,
+                  Image* heat, PictureDiff& diff) {
+  if (are_same_pngs(before, after, diff)) return;
+  // A thread that waits takes no other pair meanwhile: it would hold the pixels of both.
+  tbb::this_task_arena::isolate([&] { compare_decoded(before, after, options, heat, diff); });
 }
 
 enum class PictureKind { kPng, kSvg, kEmpty, kOther };

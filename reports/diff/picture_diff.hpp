@@ -101,7 +101,7 @@ struct PictureDiff {
 ///
 /// @param heat  If given, gets heat_map of two PNGs of one size that are not identical, else
 /// nothing.
-/// @throws IoError if a file cannot be opened or exceeds 2^30 bytes.
+/// @throws IoError if a file cannot be opened or exceeds 2^28 bytes.
 /// @throws InvalidInput if the options cannot be used.
 /// @note Files of the same bytes, and PNGs that differ in their texts alone, are not decoded. Else
 ///       two pictures of 4 bytes a pixel are held, and a byte a pixel where they differ. Uses

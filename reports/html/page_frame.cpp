@@ -13,14 +13,21 @@ std::string policy(const std::string& style, const std::string& script) {
          policy_hash(script) + "'; img-src data:; base-uri 'none'; form-action 'none'";
 }
 
+/// common.EXT, the parts NAME_*.EXT in the order of their names, NAME.EXT.
+std::string joined(const std::string& name, const std::string& extension,
+                   const Templates& templates) {
+  std::string all = templates.files.at("common" + extension);
+  for (const auto& [file, text] : templates.files)
+    if (file.starts_with(name + "_") && file.ends_with(extension)) all += "\n" + text;
+  return all + "\n" + templates.files.at(name + extension);
+}
+
 }  // namespace
 
 void set_page_frame(kainjow::mustache::data& page, const std::string& name,
                     const Templates& templates) {
-  const auto both = [&](const std::string& extension) {
-    return templates.files.at("common" + extension) + "\n" + templates.files.at(name + extension);
-  };
-  const std::string style = both(".css"), script = both(".js");
+  const std::string style = joined(name, ".css", templates);
+  const std::string script = joined(name, ".js", templates);
   page.set("policy", policy(style, script));
   page.set("style_element", "<style>" + style + "</style>");
   page.set("script_element", "<script>" + script + "</script>");

@@ -54,6 +54,7 @@ std::vector<Bad> bad_pictures() {
   std::string wrong_sum = good;
   wrong_sum[good.size() - 20] ^= 1;
   const std::string bomb = deflated(std::string(std::size_t{1} << 24, '\0'));
+  const std::string nothing = deflated(std::string(std::size_t{14000} * 14001, '\0'));
   std::string deep = "<svg xmlns='http://www.w3.org/2000/svg'>";
   for (int i = 0; i < 100000; ++i) deep += "<g>";
   return {
@@ -64,7 +65,8 @@ std::vector<Bad> bad_pictures() {
       {"checksum", wrong_sum, "checksum"},
       {"trailing", good + "x", "nothing may follow IEND"},
       {"huge header", png_of(100000, 100000, deflated("")), "more than"},
-      {"large header, few bytes", png_of(16000, 16000, deflated("ab")), "cannot be in"},
+      {"large header, few bytes", png_of(8000, 8000, deflated("ab")), "cannot be in"},
+      {"bomb of nothing", png_of(14000, 14000, nothing), "more than"},
       {"no pixels", png_of(0, 5, deflated("")), "no PNG header"},
       {"bomb behind a small header", png_of(4, 2, bomb), "more than its header says"},
       {"too few rows", png_of(4, 2, deflated(std::string(7, '\0'))), "fewer"},

@@ -1,0 +1,98 @@
+// Ticks, the file of approvals and the command that does the same.
+
+// Names travel byte by byte; one that is no UTF-8 cannot stand in a file of JSON.
+function decoded(text) {
+  try {
+    return decodeURIComponent(text);
+  } catch {
+    return null;
+  }
+}
+
+// One word of a POSIX shell; control characters, which a terminal might act on, by $'…'.
+function quoted(word) {
+  if (/^[A-Za-z0-9_.\/=,:+@%-]+$/.test(word)) return word;
+  if (!/[\u0000-\u001f\u007f-\u009f]/.test(word)) return `'${word.replaceAll("'", "'\\''")}'`;
+  const bytes = Array.from(new TextEncoder().encode(word), (byte) =>
+    byte >= 0x20 && byte < 0x7f && byte !== 0x27 && byte !== 0x5c ? String.fromCharCode(byte)
+      : `\\${byte.toString(8).padStart(3, "0")}`);
+  return `$'${bytes.join("")}'`;
+}
+
+// A folder whose name looks like an option.
+const path = (text) => quoted(text.startsWith("-") ? `./${text}` : text);
+
+const tickOf = (item) => item.querySelector(".tick input");
+const tickedItems = () => items.filter((item) => tickOf(item)?.checked);
+
+function command() {
+  const ids = tickedItems().map((item) => decoded(item.dataset.code));
+  const sides = [main.dataset.baseline, main.dataset.current].map(decoded);
+  if (sides.includes(null)) return "";
+  const words = ["mapproof approve", ...sides.map(path)];
+  if ("files" in main.dataset) return words.join(" ");
+  if (ids.length > 20) return [...words, "--from mapproof-approvals.json"].join(" ");
+  const dashed = ids.some((id) => id.startsWith("-"));
+  return [...words, ...(dashed ? ["--"] : []), ...ids.map(quoted)].join(" ");
+}
+
+function tellTicks() {
+  const count = tickedItems().length;
+  by("ticked").value = String(count);
+  document.querySelector(".approvals").hidden = items.every((item) => !tickOf(item));
+  by("download").hidden = "files" in main.dataset;
+  for (const id of ["download", "copy", "untick"]) by(id).disabled = count === 0;
+  by("command").textContent = count === 0 ? "" : command();
+  by("command").hidden = by("command").textContent === "";
+  document.querySelector(".approvals").classList.toggle("some", count > 0);
+  by("told").textContent = "";
+}
+
+function approvals() {
+  return JSON.stringify({
+    schema: { name: "mapproof.approvals", version: 1 },
+    baseline: decoded(main.dataset.baseline) ?? "",
+    current: decoded(main.dataset.current) ?? "",
+    ids: tickedItems().map((item) => decoded(item.dataset.code)),
+  }, null, 2) + "\n";
+}
+
+function download() {
+  const link = document.createElement("a");
+  link.href = URL.createObjectURL(new Blob([approvals()], { type: "application/json" }));
+  link.download = "mapproof-approvals.json";
+  link.click();
+  setTimeout(() => URL.revokeObjectURL(link.href), 10000);
+  by("told").textContent = "Then: mapproof approve BASELINE CURRENT --from mapproof-approvals.json";
+}
+
+async function copy() {
+  try {
+    await navigator.clipboard.writeText(by("command").textContent);
+    by("told").textContent = "Copied.";
+  } catch {
+    getSelection().selectAllChildren(by("command"));
+    by("told").textContent = "Selected: press Ctrl+C.";
+  }
+}
+
+function tickAll(all, value) {
+  for (const item of all) if (tickOf(item) && !tickOf(item).disabled) tickOf(item).checked = value;
+  tellTicks();
+}
+
+function makeTicks() {
+  for (const item of items) {
+    const tick = tickOf(item);
+    if (!tick) continue;
+    tick.closest("label").hidden = false;
+    tick.disabled = decoded(item.dataset.code) === null;
+    if (tick.disabled) tick.title = "Its name is no UTF-8: approve it by hand";
+    tick.addEventListener("change", tellTicks);
+  }
+  by("tick-shown").addEventListener("click", () => tickAll(items.filter(shown), true));
+  by("untick").addEventListener("click", () => tickAll(items, false));
+  by("download").addEventListener("click", download);
+  by("copy").addEventListener("click", copy);
+  tellTicks();
+}

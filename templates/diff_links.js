@@ -1,0 +1,60 @@
+// The item at hand, and links to it.
+
+const linkTo = (item) => item.id + (root.dataset.mode === "side" ? "" : `:${root.dataset.mode}`);
+
+function setAtHand(item) {
+  if (!item || item === atHand && item.classList.contains("at-hand")) return;
+  atHand?.classList.remove("at-hand");
+  entryOf.get(atHand?.id)?.querySelector("a").removeAttribute("aria-current");
+  atHand = item;
+  item.classList.add("at-hand");
+  const link = entryOf.get(item.id)?.querySelector("a");
+  link?.setAttribute("aria-current", "true");
+  link?.scrollIntoView({ block: "nearest" });
+  const stage = item.querySelector(".stage");
+  by("zoom").value = `${Math.round(100 * (stage ? viewOf(stage).zoom : 1))} %`;
+}
+
+let held = false;  // Scrolling by a program says nothing about what is read.
+
+function show(item) {
+  if (!shown(item)) clearFilter();
+  if (item.matches("article")) setAtHand(item);
+  held = true;
+  item.scrollIntoView({ block: "start" });
+  // What lies above is laid out only now, and may have another height than was guessed.
+  requestAnimationFrame(() => item.scrollIntoView({ block: "start" }));
+  (item.querySelector("h2") ?? item).focus({ preventScroll: true });
+}
+
+function followHash() {
+  const [anchor, mode] = location.hash.slice(1).split(":");
+  const item = anchor === "" ? null : by(anchor);
+  if (!item?.matches("article.item, .identical li")) return;
+  if (items.length > 0) setMode(modes.includes(mode) ? mode : "side");
+  show(item);
+}
+
+function step(count) {
+  const visible = items.filter(shown);
+  const at = visible.indexOf(atHand);
+  // From above the first item, "next" is the first one.
+  const above = count > 0 && at === 0 && location.hash === "" && !held;
+  const target = at < 0 || above ? visible[0] : visible[at + count];
+  if (!target) return;
+  const hash = `#${linkTo(target)}`;
+  if (location.hash === hash) show(target);
+  else location.hash = hash;
+}
+
+function followReading() {
+  for (const name of ["wheel", "touchmove", "pointerdown"]) {
+    addEventListener(name, () => { held = false; }, { passive: true });
+  }
+  const observer = new IntersectionObserver((entries) => {
+    if (held) return;
+    const read = entries.find((entry) => entry.isIntersecting);
+    if (read) setAtHand(read.target);
+  }, { rootMargin: "-20% 0px -75% 0px" });
+  for (const item of items) observer.observe(item);
+}
