@@ -15,11 +15,19 @@ constexpr double kLeftShare = 0.3;        // Of a group's difference, beyond a s
 constexpr double kLostShare = 0.1;        // Of the pixels beyond noise.
 constexpr double kMovedShare = 0.61;      // Of the difference, one way.
 constexpr double kRecolouredShare = 0.2;  // Of the difference.
+constexpr double kOneSidedShare = 0.6;    // Of the difference and of tiles.
+constexpr double kBoldShare = 0.1;        // Of the pixels beyond noise.
+constexpr double kLeftSquare = 0.14;      // Of the squares of slopes: .37 px unexplained.
+constexpr double kInStepShare = 0.75;     // Of tiles that differ,
+constexpr double kTouchedShare = 0.4;     // which must be so many of those with anything in them;
+constexpr double kMostOutShare = 0.2;     // the others.
+constexpr std::size_t kMostOutOfStep = 12;
+constexpr int kFewPixels = 4;  // That tell little of a tile.
 
 bool is_moved(const TileEvidence& tile, const PictureOptions& options) {
   // Smoothing puts a line on whole pixels, up to half of one away.
   return tile.moved_share > 0.7 && tile.displacement_px() > options.displacement_px + 0.45 &&
-         tile.displacement_px() < 3.0;
+         tile.displacement_px() < 3.0 && tile.left_by_whole < 0.3;
 }
 
 bool is_recoloured(const TileEvidence& tile) {
@@ -44,11 +52,11 @@ struct GroupEvidence {
   std::array<double, 3> sum{}, absolute_sum{};
 
   void add(const TileEvidence& tile) {
-    energy += tile.energy;
-    left += tile.energy * tile.left_share;
+    energy += tile.fit.energy;
+    left += tile.fit.energy * tile.left_share;
     beyond_noise += tile.beyond_noise;
     bold += tile.bold;
-    if (tile.recolouring > 2.5) recoloured += tile.energy * tile.recoloured_share;
+    if (tile.recolouring > 2.5) recoloured += tile.fit.energy * tile.recoloured_share;
     for (int c = 0; c < 3; ++c) sum[c] += tile.sum[c], absolute_sum[c] += tile.absolute_sum[c];
   }
 
@@ -65,7 +73,7 @@ struct GroupEvidence {
   /// become a bit stronger or weaker where one thing peeps out from under another.
   bool is_a_small_movement() const {
     return left <= kLeftShare * energy ||
-           (bold <= 0.1 * beyond_noise && recoloured <= 0.4 * energy && !is_one_sided());
+           (bold <= kBoldShare * beyond_noise && recoloured <= 0.4 * energy && !is_one_sided());
   }
 };
 
@@ -81,27 +89,90 @@ void judge_locally(const std::vector<std::vector<int>>& groups,
 }
 
 /// What differs all over.
-void judge_overall(std::span<const int> tiles, std::span<const TileEvidence> evidence,
-                   const PictureOptions& options, ChangeMap& marks) {
-  double energy = 0.0, right = 0.0, down = 0.0, recoloured = 0.0, beyond = 0.0, lost = 0.0;
-  for (const TileEvidence& tile : evidence) {
-    energy += tile.energy;
+struct OverallEvidence {
+  double energy = 0.0, recoloured = 0.0, beyond = 0.0, lost = 0.0;
+  double sided = 0.0, one_sided = 0.0;  ///< Energies of tiles that can tell, and of those that do.
+  double right = 0.0, down = 0.0;       ///< Sums of movements' directions, by energy.
+  int tiles = 0, one_sided_tiles = 0;
+
+  void add(const TileEvidence& tile, const PictureOptions& options) {
+    energy += tile.fit.energy;
     if (is_moved(tile, options)) {
-      right += tile.energy * tile.right_px / tile.displacement_px();
-      down += tile.energy * tile.down_px / tile.displacement_px();
+      right += tile.fit.energy * tile.right_px / tile.displacement_px();
+      down += tile.fit.energy * tile.down_px / tile.displacement_px();
     }
-    if (is_recoloured(tile)) recoloured += tile.energy;
+    if (is_recoloured(tile)) recoloured += tile.fit.energy;
     beyond += tile.beyond_noise;
     lost += tile.lost;
+    if (tile.beyond_noise < kFewPixels) return;
+    ++tiles;
+    sided += tile.fit.energy;
+    if (!tile.is_one_sided()) return;
+    ++one_sided_tiles;
+    one_sided += tile.fit.energy;
   }
-  const bool any_lost = lost > kLostShare * beyond;
-  // Other hints move letters apart; what is moved goes one way.
-  const bool any_moved = std::hypot(right, down) > kMovedShare * energy;
-  const bool any_recoloured = recoloured > kRecolouredShare * energy;
+  bool any_lost() const { return lost > kLostShare * beyond; }
+  /// Other hints move letters apart; what is moved goes one way.
+  bool any_moved() const { return std::hypot(right, down) > kMovedShare * energy; }
+  bool any_recoloured() const { return recoloured > kRecolouredShare * energy; }
+  /// A line that is thicker, or a pale grid lost: smoothing takes as much as it gives.
+  bool is_one_sided() const {
+    return one_sided > kOneSidedShare * sided && one_sided_tiles > kOneSidedShare * tiles;
+  }
+};
+
+void judge_overall(std::span<const int> tiles, std::span<const TileEvidence> evidence,
+                   const PictureOptions& options, ChangeMap& marks) {
+  OverallEvidence all;
+  for (const TileEvidence& tile : evidence) all.add(tile, options);
   for (std::size_t i = 0; i < tiles.size(); ++i)
-    if ((any_lost && evidence[i].lost > 0) || (any_moved && is_moved(evidence[i], options)) ||
-        (any_recoloured && is_recoloured(evidence[i])))
+    if ((all.any_lost() && evidence[i].lost > 0) ||
+        (all.any_moved() && is_moved(evidence[i], options)) ||
+        (all.any_recoloured() && is_recoloured(evidence[i])) ||
+        (all.is_one_sided() && evidence[i].is_one_sided()))
       change_edges(*marks.tile(tiles[i]));
+}
+
+/// The movement of everything, by least squares over tiles, those that it does not explain weighing
+/// less and less.
+std::array<double, 2> common_movement(std::span<const TileEvidence> evidence) {
+  std::array<double, 2> movement{};
+  for (int round = 0; round < 8; ++round) {
+    MovementFit all;
+    for (const TileEvidence& tile : evidence) {
+      if (tile.fit.energy == 0.0) continue;
+      const double left = round == 0 ? 0.0 : tile.fit.left(movement[0], movement[1]);
+      const double share = left / (kLeftShare * tile.fit.energy);
+      // Each tile alike, whatever its contrast: one thing lost outweighs a small shift of all.
+      all.add(tile.fit, 1.0 / (tile.fit.energy * (1.0 + share * share)));
+    }
+    movement = all.movement();
+  }
+  return movement;
+}
+
+/// The tiles that a small movement of everything does not explain, if there are few: none if they
+/// are many, or there is no such movement.
+std::vector<bool> out_of_step(std::span<const int> tiles, std::span<const TileEvidence> evidence,
+                              int textured, const PictureOptions& options, const ChangeMap& marks) {
+  const auto [right, down] = common_movement(evidence);
+  std::vector<bool> is_out(static_cast<std::size_t>(marks.across()) * marks.down(), false);
+  int out = 0, all = 0, explained = 0;
+  for (std::size_t i = 0; i < tiles.size(); ++i) {
+    const TileEvidence& tile = evidence[i];
+    if (tile.beyond_noise < kFewPixels) continue;
+    ++all;
+    const double left = tile.fit.left(right, down), slopes = tile.fit.gxx + tile.fit.gyy;
+    explained += left < 0.5 * tile.fit.energy;
+    is_out[tiles[i]] = left > kLeftShare * tile.fit.energy && left > kLeftSquare * slopes;
+    out += is_out[tiles[i]];
+  }
+  const bool is_in_step = std::hypot(right, down) <= options.displacement_px &&
+                          explained > kInStepShare * all && all > kTouchedShare * textured;
+  if (!is_in_step || out > kMostOutShare * all ||
+      tile_groups(marks.across(), is_out).size() > kMostOutOfStep)
+    is_out.assign(is_out.size(), false);
+  return is_out;
 }
 
 }  // namespace
@@ -146,8 +217,12 @@ void judge(std::span<const int> tiles, std::span<const TileEvidence> evidence, i
       change(*marks.tile(tiles[i]), [](PixelMark mark) { return mark != PixelMark::kEqual; });
   if (is_local)
     judge_locally(groups, of_tile, marks);
-  else
+  else {
     judge_overall(tiles, evidence, options, marks);
+    const std::vector<bool> is_out = out_of_step(tiles, evidence, textured, options, marks);
+    for (std::size_t i = 0; i < tiles.size(); ++i)
+      if (is_out[tiles[i]]) change_edges(*marks.tile(tiles[i]));
+  }
 }
 
 }  // namespace mapproof

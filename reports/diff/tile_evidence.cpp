@@ -64,39 +64,51 @@ double slope(const Plane& plane, int i, int step) {
          (12.0 * kSmootherScale);
 }
 
-/// The movement that explains the smoothed difference best by least squares [lucas1981].
-void find_displacement(const PatchPair& pair, const EvidenceBounds& bounds, TileEvidence& found) {
-  const double noise = bounds.is_noisy ? bounds.noise : 0.25;
-  double gxx = 0, gxy = 0, gyy = 0, gxd = 0, gyd = 0;
-  constexpr int kAround = kPatchMargin - 4;
-  for (int y = -kAround; y < kTile + kAround; ++y)
-    for (int x = -kAround; x < kTile + kAround; ++x) {
-      const int i = cell_at(x, y);
+/// @param offset  In cells: the baseline is taken as moved by so much.
+/// @param around  Pixels around the tile that are looked at too.
+MovementFit movement_fit(const PatchPair& pair, double noise, int offset, int around) {
+  MovementFit fit;
+  for (int y = -around; y < kTile + around; ++y)
+    for (int x = -around; x < kTile + around; ++x) {
+      const int i = cell_at(x, y), j = i - offset;
       for (int c = 0; c < 3; ++c) {
         const Plane &a = pair.before.smoother[c], &b = pair.after.smoother[c];
-        const double d = static_cast<double>(b[i] - a[i]) / kSmootherScale;
+        const double d = static_cast<double>(b[i] - a[j]) / kSmootherScale;
         if (std::abs(d) <= noise) continue;
-        const double gx = (slope(a, i, 1) + slope(b, i, 1)) / 2.0;
-        const double gy = (slope(a, i, kPatchSide) + slope(b, i, kPatchSide)) / 2.0;
-        gxx += gx * gx, gxy += gx * gy, gyy += gy * gy;
-        gxd += gx * d, gyd += gy * d, found.energy += d * d;
+        const double gx = (slope(a, j, 1) + slope(b, i, 1)) / 2.0;
+        const double gy = (slope(a, j, kPatchSide) + slope(b, i, kPatchSide)) / 2.0;
+        fit.gxx += gx * gx, fit.gxy += gx * gy, fit.gyy += gy * gy;
+        fit.gxd += gx * d, fit.gyd += gy * d, fit.energy += d * d;
       }
     }
-  if (found.energy == 0.0) return;
-  // Along a straight edge nothing tells how far it moved: the ridge takes that as not at all.
-  const double ridge = 0.01 * (gxx + gyy) + 1e-9;
-  gxx += ridge, gyy += ridge;
-  const double determinant = gxx * gyy - gxy * gxy;
-  const double mx = -(gyy * gxd - gxy * gyd) / determinant;
-  const double my = -(gxx * gyd - gxy * gxd) / determinant;
-  found.right_px = mx, found.down_px = my;
-  found.moved_share = -(mx * gxd + my * gyd) / found.energy;
+  return fit;
+}
+
+/// What is left of the difference if the baseline is moved by whole pixels and then by less.
+double left_by_whole(const PatchPair& pair, double noise, double right_px, double down_px) {
+  const auto whole = [](double px) {
+    return static_cast<int>(std::lround(std::clamp(px, -2.0, 2.0)));
+  };
+  const int right = whole(right_px), down = whole(down_px);
+  if (right == 0 && down == 0) return 1.0;
+  const double before = movement_fit(pair, noise, 0, 0).energy;
+  const MovementFit after = movement_fit(pair, noise, down * kPatchSide + right, 0);
+  const auto [x, y] = after.movement();
+  return before > 0.0 ? after.left(x, y) / before : 1.0;
+}
+
+void find_displacement(const PatchPair& pair, const EvidenceBounds& bounds, TileEvidence& found) {
+  const double noise = bounds.is_noisy ? bounds.noise : 0.25;
+  found.fit = movement_fit(pair, noise, 0, kPatchMargin - 4);
+  const double energy = found.fit.energy;
+  if (energy == 0.0) return;
+  const auto [right, down] = found.fit.movement();
+  found.right_px = right, found.down_px = down;
+  found.moved_share = 1.0 - found.fit.left(right, down) / energy;
   const double part =
       std::min(1.0, bounds.displacement_px / std::max(found.displacement_px(), 1e-9));
-  const double sx = part * mx, sy = part * my;
-  found.left_share =
-      1.0 + (2 * (sx * gxd + sy * gyd) + sx * sx * gxx + 2 * sx * sy * gxy + sy * sy * gyy) /
-                found.energy;
+  found.left_share = found.fit.left(part * right, part * down) / energy;
+  found.left_by_whole = left_by_whole(pair, noise, right, down);
 }
 
 /// Sums of the differences of flat pixels: those around which neither picture has an edge.
@@ -194,6 +206,30 @@ double colour_difference(const PatchPair& pair, int i) {
 }
 
 }  // namespace
+
+void MovementFit::add(const MovementFit& other, double weight) {
+  energy += weight * other.energy;
+  gxx += weight * other.gxx, gxy += weight * other.gxy, gyy += weight * other.gyy;
+  gxd += weight * other.gxd, gyd += weight * other.gyd;
+}
+
+std::array<double, 2> MovementFit::movement() const {
+  const double ridge = 0.01 * (gxx + gyy) + 1e-9;
+  const double xx = gxx + ridge, yy = gyy + ridge;
+  const double determinant = xx * yy - gxy * gxy;
+  return {-(yy * gxd - gxy * gyd) / determinant, -(xx * gyd - gxy * gxd) / determinant};
+}
+
+double MovementFit::left(double x, double y) const {
+  const double left =
+      energy + 2 * (x * gxd + y * gyd) + x * x * gxx + 2 * x * y * gxy + y * y * gyy;
+  return std::max(left, 0.0);
+}
+
+bool TileEvidence::is_one_sided() const {
+  const auto most = std::ranges::max_element(absolute_sum) - absolute_sum.begin();
+  return std::abs(sum[most]) > 0.9 * absolute_sum[most];
+}
 
 TileEvidence tile_evidence(const Image& baseline, const Image& current, int x0, int y0,
                            const EvidenceBounds& bounds, TileMarks& marks) {

@@ -9,6 +9,18 @@
 
 namespace mapproof {
 
+/// Normal equations of the movement that explains a difference best by least squares [lucas1981].
+struct MovementFit {
+  double energy = 0.0;  ///< Sum of squares of the difference.
+  double gxx = 0.0, gxy = 0.0, gyy = 0.0, gxd = 0.0, gyd = 0.0;
+
+  void add(const MovementFit& other, double weight);
+  /// The movement, right and down. Along a straight edge nothing tells it: it is taken as none.
+  std::array<double, 2> movement() const;
+  /// The energy that a movement leaves.
+  double left(double right_px, double down_px) const;
+};
+
 /// What a tile's difference looks like.
 struct TileEvidence {
   int differing = 0;     ///< Pixels that differ at all.
@@ -21,10 +33,13 @@ struct TileEvidence {
   double flat_shift_in_noise = -1.0;     ///< The same, if there were noise all over.
   std::array<double, 3> sum{};           ///< Of the differences beyond noise, a channel.
   std::array<double, 3> absolute_sum{};  ///< Of their sizes.
-  double energy = 0.0;                   ///< Sum of squares of the smoothed difference.
+  MovementFit fit;                       ///< Of the smoothed difference.
   double right_px = 0.0, down_px = 0.0;  ///< The movement that explains most of it.
   double moved_share = 0.0;              ///< Of the energy, what that movement explains.
   double left_share = 1.0;               ///< What a movement of at most 0.35 px leaves.
+  /// The same of whole pixels and what they leave to explain; 1 if the movement is below half of
+  /// one.
+  double left_by_whole = 1.0;
   double recoloured_share = 0.0;  ///< Of the raw energy, what a change of inks alone explains.
   double recolouring = 0.0;       ///< Of 255: how far inks leave the line from the paper to them.
   int edge_pixels = 0;            ///< That recoloured_share is told by.
@@ -33,6 +48,8 @@ struct TileEvidence {
   double largest_colour_difference = 0.0;  ///< 0 to 1 [kotsarenko2010].
 
   double displacement_px() const { return std::hypot(right_px, down_px); }
+  /// Whether pixels beyond noise go one way in the channel that changes most: more ink or less.
+  bool is_one_sided() const;
 };
 
 /// What evidence is weighed by.

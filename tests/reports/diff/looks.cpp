@@ -15,25 +15,25 @@
 namespace mapproof::test {
 namespace {
 
-/// The embedded font with its own hints, for this thread; the face the back end draws with has
-/// none.
-cairo_font_face_t* hinted_face() {
+/// The embedded font with hints, for this thread; the face the back end draws with has none.
+cairo_font_face_t* hinted_face(bool own_hints) {
   struct Faces {
     FT_Library library = nullptr;
     FT_Face face = nullptr;
-    FontFaceHandle made;
+    FontFaceHandle own, automatic;
     Faces() {
       const std::string_view bytes = font_bytes();
       if (FT_Init_FreeType(&library) != 0 ||
           FT_New_Memory_Face(library, reinterpret_cast<const FT_Byte*>(bytes.data()),
                              static_cast<FT_Long>(bytes.size()), 0, &face) != 0)
         throw std::runtime_error("the font cannot be read");
-      made.reset(cairo_ft_font_face_create_for_ft_face(face, FT_LOAD_DEFAULT));
+      own.reset(cairo_ft_font_face_create_for_ft_face(face, FT_LOAD_DEFAULT));
+      automatic.reset(cairo_ft_font_face_create_for_ft_face(face, FT_LOAD_FORCE_AUTOHINT));
     }
   };
   // Cairo keeps the face in its caches for longer than a thread lives.
   thread_local const Faces* const faces = new Faces();
-  return faces->made.get();
+  return own_hints ? faces->own.get() : faces->automatic.get();
 }
 
 void draw_text(const TextLine& line, bool outlined, cairo_t* context) {
@@ -85,7 +85,8 @@ Image drawn(const Drawing& drawing, const Look& look) {
   cairo_font_options_set_antialias(options.get(), look.text);
   cairo_font_options_set_hint_style(options.get(), look.hinting);
   cairo_set_font_options(context.get(), options.get());
-  cairo_set_font_face(context.get(), look.outlined ? thread_font_face() : hinted_face());
+  cairo_set_font_face(context.get(),
+                      look.outlined ? thread_font_face() : hinted_face(look.own_hints));
   for (const Item& item : drawing.items)
     if (const auto* line = std::get_if<TextLine>(&item.what))
       draw_text(*line, look.outlined, context.get());

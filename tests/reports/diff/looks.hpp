@@ -15,6 +15,7 @@ struct Look {
   /// Text as filled outlines. Otherwise `text` and `hinting` say how, and glyphs stand on whole
   /// pixels.
   bool outlined = true;
+  bool own_hints = true;  ///< Of the font, else FreeType's.
   double right_px = 0.0, down_px = 0.0;  ///< All of it is moved by so much.
 };
 

@@ -22,6 +22,10 @@ struct Mutation {
 /// Everything that can be mutated in a drawing, one thing at a time.
 std::vector<Mutation> mutations_of(const Drawing& drawing, const std::string& picture);
 
+/// Those that are hardest to see: thicker lines, grids of pale dots, curves through fewer points,
+/// one change while all is moved by a tenth of a pixel; and other hints of text, which are no change.
+std::vector<Mutation> subtle_mutations_of(const Drawing& drawing, const std::string& picture);
+
 /// Sample figures at several sizes and themes, thick lines and thin.
 std::vector<std::pair<std::string, Drawing>> mutable_drawings();
 
