@@ -283,7 +283,7 @@ constexpr Eigen::Index kFewestSteps = 3;
 }  // namespace
 
 HistoryEmbedder::HistoryEmbedder(const ObservationHistory& history, Eigen::Index steps,
-                                 EmbedderOptions options)
+                                 EmbedderOptions options, const ProximityRule& rule)
     : landmarks_(history.landmarks()) {
   const std::vector<Eigen::Index> unseen = unseen_landmarks(history, steps);
   for (Eigen::Index i = 0; i < landmarks_; ++i)
@@ -300,8 +300,8 @@ HistoryEmbedder::HistoryEmbedder(const ObservationHistory& history, Eigen::Index
   if (seen_.empty()) {
     embedder_.emplace(Proximities{}, options);
   } else {
-    embedder_.emplace(proximities(unseen.empty() ? history : with_rows(history, seen_), steps),
-                      options);
+    const ObservationHistory seen = unseen.empty() ? history : with_rows(history, seen_);
+    embedder_.emplace(rule ? rule(seen, steps) : proximities(seen, steps), options);
   }
 }
 

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
@@ -74,13 +75,18 @@ class Embedder {
   std::optional<Embedding> equal_weights_;
 };
 
+/// Another way from observations to proximities than proximities(): takes a history of landmarks
+/// that were all observed, and how many steps to use.
+using ProximityRule = std::function<Proximities(const ObservationHistory&, Eigen::Index)>;
+
 /// Maps the landmarks seen in the first `steps` observations of a history; the others get NaN rows
 /// and the status kLandmarkUnseen, which names the first ten.
 class HistoryEmbedder {
  public:
+  /// @param rule  Empty: proximities(). Not called if no landmark was seen.
   /// @throws InvalidInput unless 1 <= steps <= history.steps().
   HistoryEmbedder(const ObservationHistory& history, Eigen::Index steps,
-                  EmbedderOptions options = {});
+                  EmbedderOptions options = {}, const ProximityRule& rule = {});
 
   /// @return M rows, as many as the history has landmarks.
   Embedding embed(const MethodSetting& setting);

@@ -1,17 +1,12 @@
 #include "core/observe/proximities.hpp"
 
 #include <limits>
+#include <utility>
 
 #include "core/linalg/gram.hpp"
 
 namespace mapproof {
 namespace {
-
-/// Q(i, j): sum of i's squared values over the steps that i and j have in common.
-Eigen::MatrixXd common_squares(const Features& observed, const Eigen::MatrixXd& G) {
-  if (observed.observed.size() == 0) return G.diagonal().replicate(1, G.cols());
-  return observed.values.cwiseAbs2() * observed.observed.transpose();
-}
 
 /// |a|^2 + |b|^2 - 2 a'b, where every entry was observed.
 Eigen::MatrixXd squared_distances(const Eigen::MatrixXd& G) {
@@ -37,27 +32,31 @@ Proximities proximities(const ObservationHistory& history, Eigen::Index steps) {
 }
 
 Proximities proximities(const Features& rows, Sensor sensor) {
+  if (rows.observed.size() == 0) return proximities_of_products(gram(rows.values), sensor);
   Proximities result{.inner_products = gram(rows.values), .squared_distances = {}};
-  const bool complete = rows.observed.size() == 0;
+  // Q(i, j): sum of i's squared values over the steps that i and j have in common.
+  const Eigen::MatrixXd Q = rows.values.cwiseAbs2() * rows.observed.transpose();
+  const Eigen::ArrayXXd common = gram(rows.observed).array();
   if (sensor == Sensor::kVisibility) {
-    normalise(result, common_squares(rows, result.inner_products));
-  } else if (complete) {
-    result.squared_distances = squared_distances(result.inner_products);
+    normalise(result, Q);
   } else {
-    const Eigen::MatrixXd Q = common_squares(rows, result.inner_products);
-    result.squared_distances = (Q + Q.transpose() - 2.0 * result.inner_products).cwiseMax(0.0);
+    const Eigen::ArrayXXd scale = static_cast<double>(rows.values.cols()) / common.max(1.0);
+    result.squared_distances =
+        scale * (Q + Q.transpose() - 2.0 * result.inner_products).cwiseMax(0.0).array();
+    result.inner_products.array() *= scale;
   }
+  result.squared_distances = (common > 0.0).select(result.squared_distances,
+                                                   std::numeric_limits<double>::infinity());
+  result.squared_distances.diagonal().setZero();
+  return result;
+}
 
-  if (!complete) {
-    const Eigen::ArrayXXd common = gram(rows.observed).array();
-    const double infinity = std::numeric_limits<double>::infinity();
-    if (sensor != Sensor::kVisibility) {
-      const Eigen::ArrayXXd scale = static_cast<double>(rows.values.cols()) / common.max(1.0);
-      result.squared_distances.array() *= scale;
-      result.inner_products.array() *= scale;
-    }
-    result.squared_distances = (common > 0.0).select(result.squared_distances, infinity);
-  }
+Proximities proximities_of_products(Eigen::MatrixXd inner_products, Sensor sensor) {
+  Proximities result{.inner_products = std::move(inner_products), .squared_distances = {}};
+  if (sensor == Sensor::kVisibility)
+    normalise(result, result.inner_products.diagonal().replicate(1, result.inner_products.cols()));
+  else
+    result.squared_distances = squared_distances(result.inner_products);
   result.squared_distances.diagonal().setZero();
   return result;
 }

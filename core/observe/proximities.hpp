@@ -32,6 +32,10 @@ Proximities proximities(const ObservationHistory& history, Eigen::Index steps);
 /// The same of vectors at hand (see features).
 Proximities proximities(const Features& rows, Sensor sensor);
 
+/// The same of vectors of which only the inner products are known, M x M; their diagonal is > 0 for
+/// visibility.
+Proximities proximities_of_products(Eigen::MatrixXd inner_products, Sensor sensor);
+
 /// Rows without any information in the first `steps` observations: nothing but missing entries or,
 /// for visibility, nothing but "not seen". Ascending.
 /// @throws InvalidInput if `steps` is out of bounds.
