@@ -29,6 +29,13 @@ Eigen::MatrixXd visibility_distances(const Eigen::MatrixXd& common, int least_co
   return distances;
 }
 
+Embedding failed(Eigen::Index landmarks, const char* why) {
+  Embedding result;
+  result.coordinates.setConstant(landmarks, 2, std::numeric_limits<double>::quiet_NaN());
+  result.statuses.push_back({StatusCode::kFailed, why});
+  return result;
+}
+
 Graph graph_of(const Eigen::MatrixXd& squared_distances) {
   Graph graph(static_cast<std::size_t>(squared_distances.rows()));
   for (Eigen::Index i = 0; i < squared_distances.rows(); ++i)
@@ -61,8 +68,7 @@ Proximities covisible_proximities(const ObservationHistory& history, Eigen::Inde
   const Eigen::MatrixXd apart = visibility_distances(gram(seen), options.least_common);
   if (M < 2) return result;
   Graph graph = neighbour_graph(
-      apart,
-      {.neighbours = static_cast<int>(std::min<Eigen::Index>(options.neighbours, M - 1))});
+      apart, {.neighbours = static_cast<int>(std::min<Eigen::Index>(options.neighbours, M - 1))});
   bridge_components(graph, apart);
   Eigen::MatrixXd joined = Eigen::MatrixXd::Constant(M, M, kInfinite);
   joined.diagonal().setZero();
@@ -77,18 +83,12 @@ Embedding relative_stress_map(const Proximities& proximities, const SmacofOption
   const Graph graph = graph_of(proximities.squared_distances);
   const Eigen::MatrixXd distances = shortest_paths(graph);
   const Eigen::Index M = distances.rows();
-  if (!distances.allFinite()) {
-    Embedding failed;
-    failed.coordinates.setConstant(M, 2, std::numeric_limits<double>::quiet_NaN());
-    failed.statuses.push_back(
-        {StatusCode::kFailed,
-         "The pairs of landmarks that can be trusted leave the map in pieces."});
-    return failed;
-  }
+  if (M < 3) return failed(M, "A map needs 3 landmarks or more.");
+  if (!distances.allFinite())
+    return failed(M, "The pairs of landmarks that can be trusted leave the map in pieces.");
   const Embedding start = isomap(graph);
   if (distances.maxCoeff() <= 0.0) return start;
-  Embedding result =
-      smacof(distances, relative_weights(distances), start.coordinates, options);
+  Embedding result = smacof(distances, relative_weights(distances), start.coordinates, options);
   result.statuses.insert(result.statuses.begin(), start.statuses.begin(), start.statuses.end());
   return result;
 }

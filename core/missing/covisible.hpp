@@ -31,8 +31,9 @@ Proximities covisible_proximities(const ObservationHistory& history, Eigen::Inde
 /// The map of that graph: ISOMAP's, then least stress of its shortest paths d with weights d^-2,
 /// which is that of relative errors.
 ///
-/// @param proximities  Those of covisible_proximities(), or others with infinite pairs, n >= 3.
-/// @return kFailed, with NaN coordinates, if the pairs leave the landmarks in pieces.
+/// @param proximities  Those of covisible_proximities(), or others with infinite pairs.
+/// @return kFailed, with NaN coordinates, if the pairs leave the landmarks in pieces, or there
+///         are fewer than 3.
 Embedding relative_stress_map(const Proximities& proximities, const SmacofOptions& options = {});
 
 }  // namespace mapproof

@@ -54,31 +54,28 @@ Filled fill(const Features& matrix, const LowRankModel& model, bool with_covaria
 
 /// Of each row's observed entries.
 LowRankModel means_alone(const Features& matrix) {
-  LowRankModel model{.loadings = Eigen::MatrixXd::Zero(matrix.values.rows(), 1),
-                     .mean = matrix.values.rowwise().sum().cwiseQuotient(
-                         matrix.observed.rowwise().sum()),
-                     .ridge = 1.0};
-  return model;
+  return {.loadings = Eigen::MatrixXd::Zero(matrix.values.rows(), 1),
+          .mean = matrix.values.rowwise().sum().cwiseQuotient(matrix.observed.rowwise().sum()),
+          .ridge = 1.0};
 }
 
-Filled filled_matrix(const Features& matrix, const FillingOptions& options,
-                     FilledProximities& result) {
+/// The model that a filling fits, and how that went.
+LowRankModel fitted_model(const Features& matrix, const FillingOptions& options,
+                          std::vector<Status>& statuses) {
+  if (options.filling == Filling::kMean) return means_alone(matrix);
   const auto most = static_cast<int>(matrix.values.rows() - 1);
   if (options.filling == Filling::kPpca) {
     PpcaOptions fitting = options.ppca;
-    result.dimensions = fitting.dimensions = std::min(fitting.dimensions, most);
+    fitting.dimensions = std::min(fitting.dimensions, most);
     Ppca fitted = ppca(matrix, fitting);
-    result.statuses = std::move(fitted.statuses);
-    return fill(matrix, fitted.model, options.expected_squares);
+    statuses = std::move(fitted.statuses);
+    return std::move(fitted.model);
   }
-  if (options.filling == Filling::kPca) {
-    RegularisedPcaOptions fitting = options.pca;
-    result.dimensions = fitting.dimensions = std::min(fitting.dimensions, most);
-    RegularisedPca fitted = regularised_pca(matrix, fitting);
-    result.statuses = std::move(fitted.statuses);
-    return fill(matrix, fitted.model, false);
-  }
-  return fill(matrix, means_alone(matrix), false);
+  RegularisedPcaOptions fitting = options.pca;
+  fitting.dimensions = std::min(fitting.dimensions, most);
+  RegularisedPca fitted = regularised_pca(matrix, fitting);
+  statuses = std::move(fitted.statuses);
+  return std::move(fitted.model);
 }
 
 }  // namespace
@@ -99,13 +96,18 @@ FilledProximities filled_proximities(const ObservationHistory& history, Eigen::I
     result.proximities = proximities(matrix, history.sensor);
     return result;
   }
-  Filled filled = filled_matrix(matrix, options, result);
-  // Squared ranges count from their mean over time, which gaps had moved.
-  if (history.sensor == Sensor::kRange)
-    filled.values.colwise() -= Eigen::VectorXd(filled.values.rowwise().mean());
-  result.proximities =
-      proximities_of_products(gram(filled.values) + filled.covariance, history.sensor);
+  result.model = fitted_model(matrix, options, result.statuses);
+  result.proximities = filled_from(matrix, history.sensor, result.model, GapDistances::kOfFilled);
   return result;
+}
+
+Proximities filled_from(const Features& matrix, Sensor sensor, const LowRankModel& model,
+                        GapDistances distances) {
+  Filled filled = fill(matrix, model, distances == GapDistances::kExpected);
+  // Squared ranges count from their mean over time, which gaps had moved.
+  if (sensor == Sensor::kRange)
+    filled.values.colwise() -= Eigen::VectorXd(filled.values.rowwise().mean());
+  return proximities_of_products(gram(filled.values) + filled.covariance, sensor);
 }
 
 }  // namespace mapproof

@@ -13,7 +13,7 @@ namespace mapproof {
 /// What becomes of missing entries before distances are taken.
 enum class Filling {
   kCommonSteps,  ///< Nothing: sums run over common steps (see proximities).
-  kPpca,         ///< Their expectation under probabilistic PCA, and its variance.
+  kPpca,         ///< Their expectation under probabilistic PCA.
   kPca,          ///< Their place in the plane of PCA with missing data.
   kMean,         ///< The landmark's mean. Fails: it is here to be compared with.
 };
@@ -29,18 +29,28 @@ struct FillingOptions {
   Filling filling = Filling::kPpca;
   PpcaOptions ppca;
   RegularisedPcaOptions pca;
-  /// kPpca: distances are the expectation of squared distances under the posterior, whose variance
-  /// lengthens those of landmarks with many gaps; false: distances of the filled values, which
-  /// stand closer together than true ones.
-  bool expected_squares = true;
 };
 
 /// Proximities with what their filling ended in.
 struct FilledProximities {
   Proximities proximities;
   std::vector<Status> statuses;
-  int dimensions = 0;  ///< Used: those asked for, or one fewer than landmarks.
+  LowRankModel model;  ///< That the gaps were filled from; empty for kCommonSteps and without gaps.
 };
+
+/// Which squared distances a model of the gaps gives.
+enum class GapDistances {
+  kOfFilled,  ///< Those of the filled values.
+  /// PPCA: their expectation under the posterior, longer by the variance of what was filled in.
+  /// Worse maps came of it: the noise of the model is what its few dimensions leave over, and
+  /// that is much the same for near landmarks, so that short distances become too long.
+  kExpected,
+};
+
+/// Proximities of histories whose gaps are filled from a model of them (see features).
+/// @note O(E q^2 + C q^3) for E observed entries; kExpected O(M^2 q) for each column beside it.
+Proximities filled_from(const Features& matrix, Sensor sensor, const LowRankModel& model,
+                        GapDistances distances);
 
 /// Proximities of all pairs of landmarks, common steps or none, from histories whose gaps are
 /// filled. Without gaps, and for kCommonSteps, they are those of proximities().
@@ -48,7 +58,7 @@ struct FilledProximities {
 /// @param history  Of landmarks that were all observed (see unseen_landmarks), two or more.
 /// @param steps    How many observations to use, from the first.
 /// @throws InvalidInput if `steps` or the options are out of bounds.
-/// @note kPpca, kPca: see there; and O(M^2 q) for each step, with expected squares.
+/// @note kPpca, kPca: see there.
 FilledProximities filled_proximities(const ObservationHistory& history, Eigen::Index steps,
                                      const FillingOptions& options);
 

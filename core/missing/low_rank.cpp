@@ -131,17 +131,16 @@ LowRankModel pairwise_start(const Features& matrix, Eigen::Index dimensions) {
       complete ? Eigen::MatrixXd::Ones(M, matrix.values.cols()) : matrix.observed;
   LowRankModel start;
   start.mean = matrix.values.rowwise().sum().cwiseQuotient(observed.rowwise().sum().cwiseMax(1.0));
-  const Eigen::MatrixXd centred =
-      (matrix.values.colwise() - start.mean).cwiseProduct(observed);
-  const Eigen::MatrixXd covariance =
-      gram(centred).cwiseQuotient(gram(observed).cwiseMax(1.0));
+  const Eigen::MatrixXd centred = (matrix.values.colwise() - start.mean).cwiseProduct(observed);
+  const Eigen::MatrixXd covariance = gram(centred).cwiseQuotient(gram(observed).cwiseMax(1.0));
   const EigenPairs pairs = largest_eigenpairs(covariance, dimensions);
   const double all = covariance.trace();
   const double beyond =
       (all - pairs.values.cwiseMax(0.0).sum()) / static_cast<double>(M - dimensions);
   start.ridge = std::max(beyond, least_noise(matrix));
   start.loadings =
-      pairs.vectors * (pairs.values.array() - start.ridge).max(1e-3 * start.ridge).sqrt().matrix().asDiagonal();
+      pairs.vectors *
+      (pairs.values.array() - start.ridge).max(1e-3 * start.ridge).sqrt().matrix().asDiagonal();
   return start;
 }
 

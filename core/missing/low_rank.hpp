@@ -30,8 +30,8 @@ std::vector<ColumnGroup> column_groups(const Features& matrix);
 
 /// What one group's columns are in the plane, given the rows observed of them.
 struct GroupFit {
-  Eigen::MatrixXd x;        ///< q x columns.
-  Eigen::MatrixXd inverse;  ///< (W_o' W_o + ridge I)^-1 with W_o of the observed rows.
+  Eigen::MatrixXd x;             ///< q x columns.
+  Eigen::MatrixXd inverse;       ///< (W_o' W_o + ridge I)^-1 with W_o of the observed rows.
   double log_determinant = 0.0;  ///< Of the matrix inverted.
   double squared_left = 0.0;     ///< |y|^2 - y' W_o x over the centred observed entries.
 };

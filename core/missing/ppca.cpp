@@ -81,10 +81,9 @@ Ppca ppca(const Features& matrix, const PpcaOptions& options) {
     whiten(moments, next);
   }
   if (!settled)
-    result.statuses.push_back(
-        {StatusCode::kNotConverged,
-         fmt::format("The likelihood of PPCA still rose after {} iterations.",
-                     options.max_iterations)});
+    result.statuses.push_back({StatusCode::kNotConverged,
+                               fmt::format("The likelihood of PPCA still rose after {} iterations.",
+                                           options.max_iterations)});
   return result;
 }
 

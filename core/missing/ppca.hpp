@@ -18,9 +18,9 @@ struct PpcaOptions {
 
 /// Columns y = W x + mean + noise with x ~ N(0, I_q) and noise ~ N(0, noise I).
 struct Ppca {
-  LowRankModel model;           ///< Its ridge is the variance of the noise.
-  double log_likelihood = 0.0;  ///< Of the observed entries, under `model`, nats.
-  std::vector<double> rises;    ///< Of the log likelihood, an iteration each.
+  LowRankModel model;            ///< Its ridge is the variance of the noise.
+  double log_likelihood = 0.0;   ///< Of the observed entries, under `model`, nats.
+  std::vector<double> rises;     ///< Of the log likelihood, an iteration each.
   std::vector<Status> statuses;  ///< kNotConverged if the limit of iterations came first.
 };
 

@@ -18,11 +18,10 @@ LowRankModel balanced_start(const Features& matrix, const RegularisedPcaOptions&
   const double largest = std::sqrt(columns) * norms.maxCoeff();
   start.ridge = std::max(options.penalty_share * largest, least_noise(matrix));
   // |W_k| = sqrt(s_k) for a singular value s_k = |w_k| sqrt(C).
-  start.loadings *= (std::sqrt(std::sqrt(columns)) * norms.max(1e-6 * norms.maxCoeff() + 1e-150)
-                                                         .sqrt()
-                                                         .inverse())
-                        .matrix()
-                        .asDiagonal();
+  start.loadings *=
+      (std::sqrt(std::sqrt(columns)) * norms.max(1e-6 * norms.maxCoeff() + 1e-150).sqrt().inverse())
+          .matrix()
+          .asDiagonal();
   return start;
 }
 

@@ -34,15 +34,14 @@ Losses range_losses(const World& world, const Path& path) {
 
 Losses occlusion_losses(const World& world, const Path& path) {
   const Eigen::MatrixXd distances = range_losses(world, path);
-  Losses losses =
-      Losses::Constant(distances.rows(), distances.cols(), -std::numeric_limits<double>::infinity());
+  Losses losses = Losses::Constant(distances.rows(), distances.cols(),
+                                   -std::numeric_limits<double>::infinity());
   for (Eigen::Index t = 0; t < losses.cols(); ++t) {
     const Points offsets = world.landmarks_m.rowwise() - path.positions_m.row(t);
     for (Eigen::Index i = 0; i < losses.rows(); ++i)
       for (Eigen::Index j = 0; j < losses.rows(); ++j)
         if (distances(j, t) < distances(i, t))
-          losses(i, t) =
-              std::max(losses(i, t), -distance_to_ray(offsets.row(j), offsets.row(i)));
+          losses(i, t) = std::max(losses(i, t), -distance_to_ray(offsets.row(j), offsets.row(i)));
   }
   return losses;
 }

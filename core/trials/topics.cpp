@@ -4,12 +4,13 @@
 #include <fmt/format.h>
 
 #include "core/base/errors.hpp"
+#include "core/trials/missing.hpp"
 #include "core/trials/topic.hpp"
 
 namespace mapproof {
 
 std::span<const Topic* const> all_topics() {
-  static const std::vector<const Topic*> kTopics = {};
+  static const std::vector<const Topic*> kTopics = {&kMissingTopic};
   return kTopics;
 }
 

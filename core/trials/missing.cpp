@@ -1,0 +1,251 @@
+#include "core/trials/missing.hpp"
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <string>
+
+#include <fmt/format.h>
+
+#include "core/embed/embedder.hpp"
+#include "core/experiment/scored_map.hpp"
+#include "core/missing/covisible.hpp"
+#include "core/missing/filled.hpp"
+#include "core/simulate/gaps.hpp"
+#include "core/simulate/sensors.hpp"
+#include "core/trials/trial_means.hpp"
+
+namespace mapproof {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+constexpr const char* kAtRandom = "at-random";
+constexpr const char* kLimitedRange = "sensor-range";
+constexpr const char* kOcclusion = "occlusion";
+
+/// The fillings in the order of the tables, with their words.
+constexpr std::pair<Filling, const char*> kFillings[] = {{Filling::kCommonSteps, "Common steps"},
+                                                         {Filling::kPpca, "PPCA"},
+                                                         {Filling::kPca, "PCA with missing data"},
+                                                         {Filling::kMean, "Means"}};
+constexpr const char* kExpected = "ppca-expected";
+constexpr const char* kCovisible = "covisible";
+
+MethodSetting smacof_of(const TrialExperiment& experiment) {
+  return {Method::kSmacofKnn, number_option(experiment, "smacof_neighbours")};
+}
+
+/// The methods that every filling is tried with.
+std::vector<MethodSetting> settings_of(const TrialExperiment& experiment) {
+  return {smacof_of(experiment), {Method::kIsomap, number_option(experiment, "isomap_neighbours")}};
+}
+
+std::string series_id(Filling filling, const MethodSetting& setting) {
+  return fmt::format("{}-{}", name(filling), info(setting.method).name);
+}
+
+std::vector<double> percent(const std::vector<double>& shares) {
+  std::vector<double> levels;
+  for (const double share : shares) levels.push_back(std::round(1e4 * share) / 100.0);
+  return levels;
+}
+
+TrialDesign design(const TrialExperiment& experiment) {
+  TrialDesign design;
+  design.question = fmt::format(
+      "Bearings of all landmarks are simulated and a share of them is taken away: at random, those "
+      "of the most distant landmarks, or those that wide landmarks hide. PPCA and PCA of {:g} "
+      "dimensions fill the gaps, the landmarks' means fill them, or distances are taken over "
+      "common "
+      "steps; covisible pairs are the {:g} landmarks that each is most often observed with. Maps "
+      "are aligned to the anchors in least squares.",
+      number_option(experiment, "dimensions"), number_option(experiment, "covisible_neighbours"));
+  const std::string label = "share missing, %";
+  design.setups = {{kAtRandom, "Entries missing at random", label,
+                    percent(list_option(experiment, "shares_at_random"))},
+                   {kLimitedRange, "Distant landmarks not observed", label,
+                    percent(list_option(experiment, "shares_sensor_range"))},
+                   {kOcclusion, "Landmarks hidden by others", label,
+                    percent(list_option(experiment, "shares_occlusion"))}};
+  for (const auto& [filling, words] : kFillings)
+    for (const MethodSetting& setting : settings_of(experiment))
+      design.series.push_back(
+          {series_id(filling, setting), fmt::format("{}, {}", words, mapproof::label(setting))});
+  design.series.push_back(
+      {kExpected, "PPCA, expected squares, " + mapproof::label(smacof_of(experiment))});
+  design.series.push_back({kCovisible, "Covisible pairs, SMACOF of relative errors"});
+  design.quantities = {{"mpe_m", "MPE", "m", true},
+                       {"moe_percent", "MOE", "%", true},
+                       {"mapped_percent", "Landmarks mapped", "%", false}};
+  return design;
+}
+
+std::vector<double> values_of(const ScoredMap& map) {
+  const auto mapped = (map.positions_m.array().col(0).isNaN() == false).count();
+  const double share = 100.0 * static_cast<double>(mapped) /
+                       static_cast<double>(std::max<Eigen::Index>(map.positions_m.rows(), 1));
+  if (!map.score) return {std::nan(""), std::nan(""), share};
+  return {map.score->mpe_m, map.score->moe_unmirrored_percent, share};
+}
+
+/// One history with gaps, mapped in every way.
+class GappedHistory {
+ public:
+  GappedHistory(const TrialContext& context, const ObservationHistory& history,
+                const TrialSetup& setup, double level, TrialPart& part)
+      : context_(context), setup_(setup), level_(level), part_(part), all_(history.landmarks()) {
+    const std::vector<Eigen::Index> unseen = unseen_landmarks(history, history.steps());
+    for (Eigen::Index i = 0; i < all_; ++i)
+      if (!std::ranges::binary_search(unseen, i)) seen_.push_back(i);
+    history_ = with_rows(history, seen_);
+    options_.ppca.dimensions = options_.pca.dimensions =
+        static_cast<int>(number_option(context.experiment, "dimensions"));
+  }
+
+  void map() {
+    if (seen_.size() < 3) return;
+    for (const auto& [filling, words] : kFillings)
+      if (filling == Filling::kCommonSteps || !history_.values.array().isFinite().all())
+        map_filled(filling);
+    const CovisibleOptions options{
+        .neighbours = static_cast<int>(number_option(context_.experiment, "covisible_neighbours"))};
+    add(kCovisible, relative_stress_map(covisible_proximities(history_, steps(), options)), {});
+  }
+
+ private:
+  void map_filled(Filling filling) {
+    options_.filling = filling;
+    const Clock::time_point start = Clock::now();
+    const FilledProximities filled = filled_proximities(history_, steps(), options_);
+    const double seconds = std::chrono::duration<double>(Clock::now() - start).count();
+    const MethodSetting smacof = smacof_of(context_.experiment);
+    part_.seconds.push_back({part_.id, series_id(filling, smacof), seconds});
+    Embedder embedder(filled.proximities);
+    for (const MethodSetting& setting : settings_of(context_.experiment)) {
+      const ScoredMap map =
+          add(series_id(filling, setting), embedder.embed(setting), filled.statuses);
+      if (shown(filling) && setting == smacof) show(series_id(filling, setting), setting, map);
+    }
+    if (filling != Filling::kPpca) return;
+    Embedder expected(filled_from(features(history_, steps()), history_.sensor, filled.model,
+                                  GapDistances::kExpected));
+    add(kExpected, expected.embed(smacof), filled.statuses);
+  }
+
+  /// Adds what came of one series; returns its map.
+  ScoredMap add(const std::string& series, Embedding embedding,
+                const std::vector<Status>& statuses) {
+    const Points mapped = std::move(embedding.coordinates);
+    embedding.coordinates.setConstant(all_, 2, std::nan(""));
+    embedding.coordinates(seen_, Eigen::all) = mapped;
+    embedding.statuses.insert(embedding.statuses.begin(), statuses.begin(), statuses.end());
+    ScoredMap map = scored_map(embedding, context_.world->landmarks_m, context_.anchors,
+                               AffineFit::kLeastSquares);
+    part_.trials.push_back({setup_.id, series, level_, values_of(map), map.statuses});
+    return map;
+  }
+
+  /// Maps at the highest level of each setup: with gaps left, and filled by PPCA.
+  bool shown(Filling filling) const {
+    return context_.with_maps && level_ == setup_.levels.back() &&
+           (filling == Filling::kCommonSteps || filling == Filling::kPpca);
+  }
+
+  void show(const std::string& series, const MethodSetting& setting, const ScoredMap& map) {
+    const std::string id = fmt::format("{}-{}", setup_.id, series);
+    part_.maps.push_back(
+        {.id = id,
+         .title = fmt::format("{}, {:g} % of the entries: {}.", setup_.title, level_, series),
+         .map = {.id = id,
+                 .sensor = history_.sensor,
+                 .setting = setting,
+                 .step = static_cast<int>(steps()),
+                 .frame = map.frame,
+                 .names = landmark_names(all_),
+                 .estimate = map.positions_m,
+                 .truth_m = context_.world->landmarks_m,
+                 .anchors = context_.anchors,
+                 .statuses = map.statuses,
+                 .certificate = std::nullopt,
+                 .score = map.score},
+         .pairs = {},
+         .covariances = {}});
+  }
+
+  Eigen::Index steps() const { return history_.steps(); }
+
+  const TrialContext& context_;
+  const TrialSetup& setup_;
+  double level_;
+  TrialPart& part_;
+  Eigen::Index all_;
+  std::vector<Eigen::Index> seen_;
+  ObservationHistory history_;  ///< Of the landmarks seen alone.
+  FillingOptions options_;
+};
+
+Losses losses_of(const TrialSetup& setup, const TrialContext& context, Random& random) {
+  if (setup.id == kLimitedRange) return range_losses(*context.world, *context.path);
+  if (setup.id == kOcclusion) return occlusion_losses(*context.world, *context.path);
+  return random_losses(context.world->landmarks_m.rows(), context.path->positions_m.rows(), random);
+}
+
+TrialPart make(const TrialContext& context) {
+  TrialPart part{.id = context.part, .run = context.run, .trials = {}, .maps = {}, .seconds = {}};
+  Random random(context.seed);
+  const ObservationHistory history =
+      observe(*context.world, *context.path, {.sensor = Sensor::kBearing}, random);
+  const TrialDesign plan = design(context.experiment);
+  for (const TrialSetup& setup : plan.setups) {
+    const Losses losses = losses_of(setup, context, random);
+    for (const double level : setup.levels)
+      GappedHistory(context, with_gaps(history, losses, level / 100.0), setup, level, part).map();
+  }
+  return part;
+}
+
+/// "PPCA, SMACOF 0.057 m, ...": every series at one level, the best first.
+std::string ranking(const TrialStudy& study, const TrialSetup& setup, double level) {
+  std::vector<std::pair<double, std::string>> means;
+  for (const TrialSeries& series : study.design.series) {
+    const double mean = trial_mean(study, setup.id, series.id, level, "mpe_m");
+    if (!std::isnan(mean)) means.emplace_back(mean, series.label);
+  }
+  std::ranges::sort(means);
+  std::string words;
+  for (const auto& [mean, label] : means)
+    words += fmt::format("{}{} {:.3f} m", words.empty() ? "" : "; ", label, mean);
+  return words;
+}
+
+std::vector<std::string> conclude(const TrialStudy& study) {
+  std::vector<std::string> sentences;
+  for (const TrialSetup& setup : study.design.setups)
+    for (const double level : setup.levels) {
+      const std::string words = ranking(study, setup, level);
+      if (words.empty() || (level != setup.levels.back() && level != 50.0)) continue;
+      sentences.push_back(
+          fmt::format("{}, {:g} % of the entries, mean MPE: {}.", setup.title, level, words));
+    }
+  return sentences;
+}
+
+}  // namespace
+
+const Topic kMissingTopic = {
+    .name = "missing",
+    .of_data = false,
+    .options = {{"shares_at_random", {0, 0.1, 0.3, 0.5, 0.7}, 0, 0.95, false, true},
+                {"shares_sensor_range", {0.1, 0.3, 0.5, 0.7, 0.89}, 0, 0.95, false, true},
+                {"shares_occlusion", {0.1, 0.3, 0.5, 0.7}, 0, 0.95, false, true},
+                {"dimensions", {10}, 1, 100, true, false},
+                {"smacof_neighbours", {8}, 1, 1000, true, false},
+                {"isomap_neighbours", {9}, 1, 1000, true, false},
+                {"covisible_neighbours", {8}, 1, 1000, true, false}},
+    .design = design,
+    .make = make,
+    .conclude = conclude,
+    .data_sets = nullptr};
+
+}  // namespace mapproof
