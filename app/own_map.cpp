@@ -217,7 +217,10 @@ OwnMap map_own(const ObservationSource& source, const std::optional<NamedPointsF
 
   EmbedderOptions fitting;
   fitting.only_seen_together = options.only_seen_together;
-  HistoryEmbedder embedder(source.history, steps, fitting);
+  MissingOutcome missing;
+  HistoryEmbedder embedder(source.history, steps, fitting,
+                           proximity_rule(options.missing, source.history.sensor, missing));
+  result.remarks.insert(result.remarks.end(), missing.remarks.begin(), missing.remarks.end());
   const MethodSetting setting =
       options.setting.parameter ? options.setting : embedder.usual_setting(options.setting.method);
   const Embedding embedding = embedder.embed(setting);
@@ -227,7 +230,9 @@ OwnMap map_own(const ObservationSource& source, const std::optional<NamedPointsF
   record.setting = setting;
   record.step = static_cast<int>(steps);
   record.names = source.history.names;
-  record.statuses = embedding.statuses;
+  record.statuses = std::move(missing.statuses);
+  record.statuses.insert(record.statuses.end(), embedding.statuses.begin(),
+                         embedding.statuses.end());
   record.certificate = embedding.certificate;
   align_and_score(record, embedding.coordinates, reference, options.fit);
   return result;

@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "app/own_missing.hpp"
 #include "core/embed/embedder.hpp"
 #include "core/model/experiment.hpp"
 #include "core/model/map_record.hpp"
@@ -25,6 +26,7 @@ struct OwnMapOptions {
   AffineFit fit = AffineFit::kLeastDistances;
   bool drop_unseen = false;         ///< Map the others where a landmark was never observed.
   bool only_seen_together = false;  ///< See EmbedderOptions.
+  MissingChoice missing;
 };
 
 /// A map and what has to be said about how it came to be.
@@ -40,7 +42,7 @@ struct OwnMap {
 /// @throws IoError naming file and line for anchors that cannot serve (fewer than three, on one
 ///         line, unknown, unobserved), a truth about other landmarks, landmarks never observed
 ///         (unless dropped or read from a log, where no row can be removed), K >= M, too few
-///         landmarks.
+///         landmarks. @throws InvalidInput as proximity_rule().
 OwnMap map_own(const ObservationSource& source, const std::optional<NamedPointsFile>& anchors,
                const std::optional<NamedPointsFile>& truth, const OwnMapOptions& options);
 

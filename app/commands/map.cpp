@@ -264,6 +264,14 @@ Action map_verb(CLI::App& app) {
                "Leave landmarks out that were never observed");
   app.add_flag("--only-seen-together", arguments->options.only_seen_together,
                "Visibility: no graph edge between landmarks never seen together");
+  app.add_option("--missing", arguments->options.missing.way,
+                 "Missing entries: distances over common steps, filled in by PPCA or PCA, or of "
+                 "covisible landmarks alone")
+      ->check(CLI::IsMember(missing_ways()))
+      ->capture_default_str();
+  app.add_option("--dimensions", arguments->options.missing.dimensions,
+                 "Of PPCA and PCA (default: 10, or one fewer than landmarks)")
+      ->check(CLI::Range(1, 1000));
   app.add_option("--templates", arguments->templates,
                  "Folder whose templates replace the embedded ones");
   return [arguments](const Invocation& invocation) { return make_map(*arguments, invocation); };

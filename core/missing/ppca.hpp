@@ -24,7 +24,7 @@ struct Ppca {
   std::vector<Status> statuses;  ///< kNotConverged if the limit of iterations came first.
 };
 
-/// Probabilistic PCA of a matrix with missing entries by EM [tipping1999; ilin2010]: each column
+/// Probabilistic PCA of a matrix with missing entries by EM [tipping1999] [ilin2010]: each column
 /// is a sample of M variables, of which it shows some. Missing entries count as missing at random.
 ///
 /// Every iteration is followed by the change of coordinates that makes the x of all columns white,

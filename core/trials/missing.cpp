@@ -105,9 +105,7 @@ class GappedHistory {
 
   void map() {
     if (seen_.size() < 3) return;
-    for (const auto& [filling, words] : kFillings)
-      if (filling == Filling::kCommonSteps || !history_.values.array().isFinite().all())
-        map_filled(filling);
+    for (const auto& [filling, words] : kFillings) map_filled(filling);
     const CovisibleOptions options{
         .neighbours = static_cast<int>(number_option(context_.experiment, "covisible_neighbours"))};
     add(kCovisible, relative_stress_map(covisible_proximities(history_, steps(), options)), {});
@@ -205,7 +203,7 @@ TrialPart make(const TrialContext& context) {
   return part;
 }
 
-/// "PPCA, SMACOF 0.057 m, ...": every series at one level, the best first.
+/// "PPCA, SMACOF 0.057 m; ...": the three best at one level, and the worst.
 std::string ranking(const TrialStudy& study, const TrialSetup& setup, double level) {
   std::vector<std::pair<double, std::string>> means;
   for (const TrialSeries& series : study.design.series) {
@@ -213,9 +211,17 @@ std::string ranking(const TrialStudy& study, const TrialSetup& setup, double lev
     if (!std::isnan(mean)) means.emplace_back(mean, series.label);
   }
   std::ranges::sort(means);
+  constexpr std::size_t kBest = 3;
   std::string words;
-  for (const auto& [mean, label] : means)
-    words += fmt::format("{}{} {:.3f} m", words.empty() ? "" : "; ", label, mean);
+  for (std::size_t k = 0; k < means.size(); ++k) {
+    const bool last = k + 1 == means.size();
+    if (k >= kBest && !last) continue;
+    words += fmt::format("{}{} {:.3f} m",
+                         k == 0               ? ""
+                         : last && k >= kBest ? "; worst: "
+                                              : "; ",
+                         means[k].second, means[k].first);
+  }
   return words;
 }
 

@@ -101,6 +101,23 @@ TEST(Ppca, EndsWhereNoStepRaisesTheLikelihood) {
   EXPECT_NEAR(slope([&](LowRankModel& model, double by) { model.ridge += by; }), 0.0, 0.02);
 }
 
+TEST(Ppca, FindsTheLikelihoodThatScipyFindsFromManyStarts) {
+  // tests/bench/ppca_numpy.py
+  Features matrix{.values = Eigen::MatrixXd(6, 40), .observed = Eigen::MatrixXd(6, 40)};
+  for (int i = 0; i < 6; ++i)
+    for (int c = 0; c < 40; ++c) {
+      matrix.observed(i, c) = (7 * i + 3 * c) % 5 != 0 ? 1.0 : 0.0;
+      matrix.values(i, c) = matrix.observed(i, c) * (std::sin(0.7 * i + 0.3 * c) +
+                                                     0.5 * std::cos(0.11 * i * c) +
+                                                     0.1 * std::sin(1.7 * i * c + c));
+    }
+  const Ppca fitted = ppca(matrix, kExact);
+  EXPECT_NEAR(fitted.log_likelihood, -155.596239, 1e-5);
+  EXPECT_NEAR(fitted.model.ridge, 0.091578, 1e-5);
+  EXPECT_NEAR(fitted.model.mean(0), 0.52837, 1e-3);
+  EXPECT_NEAR(fitted.model.loadings.row(3).squaredNorm(), 0.98857, 1e-3);
+}
+
 TEST(Ppca, FollowsAPermutationOfItsRows) {
   const Features matrix = test::gappy_matrix(7, 120, 2, 0.3, 0.4, 5);
   const std::vector<Eigen::Index> order = {3, 6, 0, 2, 5, 1, 4};
