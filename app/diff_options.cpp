@@ -1,5 +1,7 @@
 #include "app/diff_options.hpp"
 
+#include <algorithm>
+#include <array>
 #include <cstdlib>
 #include <system_error>
 
@@ -18,6 +20,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
+constexpr const char* kStandardOutput = "-";
 constexpr std::size_t kLargestSettings = std::size_t{1} << 24;  // Bytes.
 
 std::vector<Verdict> verdicts_in(const std::string& list) {
@@ -47,6 +50,13 @@ fs::path settings_beside(const std::string& baseline) {
   return fs::is_regular_file(file, error) ? file : fs::path();
 }
 
+/// How many of the outputs take the place of the text.
+std::ptrdiff_t to_standard_output(const DiffOptions& options) {
+  const std::array places = {&options.page, &options.json, &options.junit, &options.markdown};
+  return std::ranges::count_if(places,
+                               [](const std::string* place) { return *place == kStandardOutput; });
+}
+
 bool is_run_by_ctest() {
   return std::getenv("DASHBOARD_TEST_FROM_CTEST") != nullptr ||
          std::getenv("CTEST_INTERACTIVE_DEBUG_MODE") != nullptr;
@@ -59,8 +69,9 @@ void add_diff_options(CLI::App& app, DiffOptions& options) {
   app.add_option("--json", options.json, "Write all that was found as JSON; - to standard output");
   app.add_option("--templates", options.templates,
                  "Folder whose templates replace those of the page");
-  app.add_option("--junit", options.junit, "Write the verdicts as JUnit XML");
-  app.add_option("--markdown", options.markdown, "Write a summary for a comment on a change");
+  app.add_option("--junit", options.junit, "Write the verdicts as JUnit XML; - to standard output");
+  app.add_option("--markdown", options.markdown,
+                 "Write a summary for a comment on a change; - to standard output");
   app.add_option("--allow", options.allow, "Verdicts that pass as well: better,style,new");
   app.add_option("--settings", options.settings,
                  "Tolerances and ignored regions (default: mapproof-diff.json of the baseline)");
@@ -69,6 +80,8 @@ void add_diff_options(CLI::App& app, DiffOptions& options) {
 DiffSettings diff_settings(const DiffOptions& options, const std::string& baseline) {
   const fs::path file =
       options.settings.empty() ? settings_beside(baseline) : fs::path(options.settings);
+  if (to_standard_output(options) > 1)
+    throw InvalidInput("only one of --out, --json, --junit and --markdown can be \"-\"");
   DiffSettings settings;
   if (!file.empty())
     settings = parse_diff_settings(read_file(file, kLargestSettings), file.string());
@@ -79,14 +92,23 @@ DiffSettings diff_settings(const DiffOptions& options, const std::string& baseli
 
 int hand_out(const DiffResult& result, const DiffSettings& settings, const DiffOptions& options,
              const Console& console) {
-  if (!options.page.empty())
-    write_file(options.page, diff_html(result, settings, load_templates(options.templates)));
   const nlohmann::ordered_json object = diff_json(result);
-  if (!options.json.empty() && options.json != "-") write_file(options.json, json_text(object));
-  if (!options.junit.empty()) write_file(options.junit, diff_junit(result));
-  if (!options.markdown.empty()) write_file(options.markdown, diff_markdown(result));
-  std::string text = options.json == "-" ? json_text(object) : diff_text(result);
-  if (options.json != "-" && is_run_by_ctest()) text += ctest_lines(result);
+  std::string text;
+  const auto hand = [&](const std::string& place, const auto& make) {
+    if (place == kStandardOutput)
+      text = make();
+    else if (!place.empty())
+      write_file(place, make());
+  };
+  hand(options.page,
+       [&] { return diff_html(result, settings, load_templates(options.templates)); });
+  hand(options.json, [&] { return json_text(object); });
+  hand(options.junit, [&] { return diff_junit(result); });
+  hand(options.markdown, [&] { return diff_markdown(result); });
+  if (to_standard_output(options) == 0) {
+    text = diff_text(result);
+    if (is_run_by_ctest()) text += ctest_lines(result);
+  }
   console.result(text, object);
   return result.passes ? kDone : kNo;
 }

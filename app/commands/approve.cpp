@@ -26,7 +26,7 @@ struct Arguments {
 /// Two files need no ids.
 bool are_files(const Arguments& arguments) {
   std::error_code error;
-  return fs::is_regular_file(arguments.current, error);
+  return fs::exists(arguments.current, error) && !fs::is_directory(arguments.current, error);
 }
 
 ApprovalOrder order_of(const Arguments& arguments) {
@@ -53,15 +53,18 @@ int approve(const Arguments& arguments, const Invocation& invocation) {
                                 {"written", nlohmann::ordered_json::array()},
                                 {"removed", nlohmann::ordered_json::array()}};
   std::string text;
-  for (const ApprovalStep& step : approval_steps(arguments.baseline, arguments.current, order)) {
+  const ApprovalPlan plan = approval_plan(arguments.baseline, arguments.current, order);
+  for (const ApprovalStep& step : plan.steps) {
     apply(step);
     const bool removed = step.from.empty();
     object[removed ? "removed" : "written"].push_back(step.to.string());
     text += fmt::format("{}  {}\n", removed ? "removed" : "written", step.to.string());
   }
+  object["refused"] = plan.refused;
+  for (const std::string& refusal : plan.refused) invocation.console.warning(refusal);
   if (text.empty()) invocation.console.info(arguments.baseline + ": nothing to take");
   invocation.console.result(text, object);
-  return kDone;
+  return plan.refused.empty() ? kDone : kNo;
 }
 
 }  // namespace
@@ -75,7 +78,9 @@ Action approve_verb(CLI::App& app) {
       "  mapproof approve baseline out --from approvals.json\n"
       "  mapproof approve baseline out --all\n\n"
       "Records, ID.figure.json, SVG, PNG and PDF of a figure go together. Stopped at any moment,\n"
-      "every file is the old or the new one.\n");
+      "every file is the old or the new one. With --all the baseline holds what the current "
+      "holds;\n"
+      "what cannot be read is named and left as it was, and the exit code is 1.\n");
   app.add_option("BASELINE", arguments->baseline, "The folder or file that is replaced")
       ->required();
   app.add_option("CURRENT", arguments->current, "The one that is taken")->required();

@@ -18,15 +18,40 @@ namespace fs = std::filesystem;
 
 std::string reason() { return std::strerror(errno); }
 
+/// What has no end, or none that can be waited for; empty for files.
+const char* endless_kind(mode_t mode) {
+  if (S_ISFIFO(mode)) return "a pipe";
+  if (S_ISSOCK(mode)) return "a socket";
+  return S_ISCHR(mode) || S_ISBLK(mode) ? "a device" : "";
+}
+
+/// Whether the path is a stream that this process was handed, as by a shell's <(...).
+bool is_handed_in(const fs::path& path) {
+  const std::string text = path.string();
+  return text == "/dev/stdin" || text.starts_with("/dev/fd/") || text.starts_with("/proc/self/fd/");
+}
+
+/// Refuses what is no file, without waiting for anybody to write to it.
+Descriptor open_file(const fs::path& path, struct stat& facts) {
+  Descriptor file(::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK));
+  if (file.get() < 0) throw IoError(path.string(), "cannot be opened: " + reason());
+  if (::fstat(file.get(), &facts) != 0) throw IoError(path.string(), reason());
+  if (S_ISDIR(facts.st_mode)) throw IoError(path.string(), "is a folder, a file was expected");
+  if (S_ISREG(facts.st_mode)) return file;
+  if (!is_handed_in(path))
+    throw IoError(path.string(),
+                  std::string("is ") + endless_kind(facts.st_mode) + ", a file was expected");
+  const int flags = ::fcntl(file.get(), F_GETFL);
+  if (flags < 0 || ::fcntl(file.get(), F_SETFL, flags & ~O_NONBLOCK) < 0)
+    throw IoError(path.string(), reason());
+  return file;
+}
+
 }  // namespace
 
 std::string read_file(const fs::path& path, std::size_t limit) {
-  const Descriptor file(::open(path.c_str(), O_RDONLY | O_CLOEXEC));
-  if (file.get() < 0) throw IoError(path.string(), "cannot be opened: " + reason());
   struct stat facts {};
-  if (::fstat(file.get(), &facts) != 0) throw IoError(path.string(), reason());
-  if (S_ISDIR(facts.st_mode)) throw IoError(path.string(), "is a folder, a file was expected");
-
+  const Descriptor file = open_file(path, facts);
   std::string bytes;
   if (facts.st_size > 0 && static_cast<std::size_t>(facts.st_size) <= limit)
     bytes.reserve(static_cast<std::size_t>(facts.st_size) + 1);
@@ -40,6 +65,11 @@ std::string read_file(const fs::path& path, std::size_t limit) {
     if (bytes.size() > limit)
       throw IoError(path.string(), "is larger than " + std::to_string(limit) + " bytes");
   }
+}
+
+void require_file(const fs::path& path) {
+  struct stat facts {};
+  open_file(path, facts);
 }
 
 void make_folder(const fs::path& path) {

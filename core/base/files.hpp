@@ -6,8 +6,13 @@
 
 namespace mapproof {
 
-/// The whole file. @throws IoError if it cannot be read or holds more than `limit` bytes.
+/// The whole file. Named pipes and devices are refused at once; what a shell hands in under
+/// /dev/fd or as /dev/stdin is read to its end.
+/// @throws IoError if it cannot be read or holds more than `limit` bytes.
 std::string read_file(const std::filesystem::path& path, std::size_t limit = std::size_t{1} << 31);
+
+/// @throws IoError if read_file() would refuse the path without reading it.
+void require_file(const std::filesystem::path& path);
 
 /// Makes the folder and those above it. @throws IoError if that cannot be done.
 void make_folder(const std::filesystem::path& path);

@@ -42,6 +42,7 @@ Enum named(const JsonCursor& json, const std::array<const char*, N>& names) {
 }
 
 Mark read_mark(const JsonCursor& json) {
+  json.allow_only({"id", "data"});
   Mark mark{text(json.at("id")), {}};
   for (const JsonCursor& pair : json.at("data").elements()) {
     const std::vector<JsonCursor> parts = pair.elements(2, 2);
@@ -57,6 +58,7 @@ std::vector<Mark> read_marks(const JsonCursor& json) {
 }
 
 Polyline read_polyline(const JsonCursor& json) {
+  json.allow_only({"kind", "label", "x", "y", "ink", "dash", "width", "marker", "mark"});
   return {text(json.at("label")),
           numbers(json.at("x")),
           numbers(json.at("y")),
@@ -68,6 +70,7 @@ Polyline read_polyline(const JsonCursor& json) {
 }
 
 Band read_band(const JsonCursor& json) {
+  json.allow_only({"kind", "label", "x", "low", "high", "ink", "mark"});
   return {text(json.at("label")),
           numbers(json.at("x")),
           numbers(json.at("low")),
@@ -77,6 +80,7 @@ Band read_band(const JsonCursor& json) {
 }
 
 Scatter read_scatter(const JsonCursor& json) {
+  json.allow_only({"kind", "label", "x", "y", "ink", "marker", "filled", "size", "marks"});
   return {text(json.at("label")),
           numbers(json.at("x")),
           numbers(json.at("y")),
@@ -88,6 +92,8 @@ Scatter read_scatter(const JsonCursor& json) {
 }
 
 Segments read_segments(const JsonCursor& json) {
+  json.allow_only(
+      {"kind", "label", "x0", "y0", "x1", "y1", "ink", "dash", "width", "arrow", "marks"});
   return {text(json.at("label")),
           numbers(json.at("x0")),
           numbers(json.at("y0")),
@@ -101,6 +107,7 @@ Segments read_segments(const JsonCursor& json) {
 }
 
 PointLabels read_labels(const JsonCursor& json) {
+  json.allow_only({"kind", "x", "y", "text", "ink"});
   return {numbers(json.at("x")), numbers(json.at("y")), texts(json.at("text")),
           named<Ink>(json.at("ink"), kInks)};
 }
@@ -111,6 +118,7 @@ Range read_range(const JsonCursor& json) {
 }
 
 Area read_area(const JsonCursor& json) {
+  json.allow_only({"kind", "label", "x", "y", "ink", "fill", "outlined", "dash", "width", "mark"});
   return {text(json.at("label")),
           numbers(json.at("x")),
           numbers(json.at("y")),
@@ -123,6 +131,8 @@ Area read_area(const JsonCursor& json) {
 }
 
 Ellipses read_ellipses(const JsonCursor& json) {
+  json.allow_only(
+      {"kind", "label", "x", "y", "a", "b", "turn_rad", "ink", "fill", "dash", "width", "marks"});
   return {text(json.at("label")),
           numbers(json.at("x")),
           numbers(json.at("y")),
@@ -137,6 +147,8 @@ Ellipses read_ellipses(const JsonCursor& json) {
 }
 
 Cells read_cells(const JsonCursor& json) {
+  json.allow_only(
+      {"kind", "label", "x", "y", "columns", "values", "limits", "ramp", "ink", "mark"});
   return {text(json.at("label")),
           read_range(json.at("x")),
           read_range(json.at("y")),
@@ -149,11 +161,13 @@ Cells read_cells(const JsonCursor& json) {
 }
 
 Texts read_texts(const JsonCursor& json) {
+  json.allow_only({"kind", "x", "y", "text", "align", "ink"});
   return {numbers(json.at("x")), numbers(json.at("y")), texts(json.at("text")),
           named<Align>(json.at("align"), kAligns), named<Ink>(json.at("ink"), kInks)};
 }
 
 Picture read_picture(const JsonCursor& json) {
+  json.allow_only({"kind", "x", "y", "source", "clear_x", "clear_y", "clear_by"});
   return {read_range(json.at("x")),    read_range(json.at("y")),    count(json.at("source")),
           numbers(json.at("clear_x")), numbers(json.at("clear_y")), numbers(json.at("clear_by"))};
 }
@@ -174,6 +188,7 @@ Layer read_layer(const JsonCursor& json) {
 }
 
 Axis read_axis(const JsonCursor& json) {
+  json.allow_only({"label", "scale", "whole", "limits"});
   Axis axis{text(json.at("label")), named<Scale>(json.at("scale"), kScales)};
   if (json.find("whole")) axis.whole = json.at("whole").boolean();
   if (!json.at("limits").is_null()) axis.limits = read_range(json.at("limits"));
@@ -181,6 +196,7 @@ Axis read_axis(const JsonCursor& json) {
 }
 
 Panel read_panel(const JsonCursor& json) {
+  json.allow_only({"title", "x", "y", "equal_aspect", "bare", "layers"});
   Panel panel{text(json.at("title")),
               read_axis(json.at("x")),
               read_axis(json.at("y")),
@@ -192,8 +208,20 @@ Panel read_panel(const JsonCursor& json) {
   return panel;
 }
 
+Note read_note(const JsonCursor& json) {
+  json.allow_only({"text", "ink"});
+  return {text(json.at("text")), named<Ink>(json.at("ink"), kInks)};
+}
+
+PanelArrow read_arrow(const JsonCursor& json) {
+  json.allow_only({"from", "label"});
+  return {count(json.at("from")), text(json.at("label"))};
+}
+
 Figure read_figure(const JsonCursor& json) {
   expect_schema(json, "mapproof.figure");
+  json.allow_only({"schema", "id", "title", "caption", "alt", "records", "varies", "notes",
+                   "panels", "columns", "shared_x", "shared_y", "arrows"});
   Figure figure;
   figure.id = text(json.at("id"));
   figure.title = text(json.at("title"));
@@ -202,7 +230,7 @@ Figure read_figure(const JsonCursor& json) {
   figure.record_ids = texts(json.at("records"));
   figure.varies = json.at("varies").boolean();
   for (const JsonCursor& note : json.at("notes").elements())
-    figure.notes.push_back({text(note.at("text")), named<Ink>(note.at("ink"), kInks)});
+    figure.notes.push_back(read_note(note));
   for (const JsonCursor& panel : json.at("panels").elements())
     figure.panels.push_back(read_panel(panel));
   // Figures written before there were grids of panels have none of these.
@@ -211,7 +239,7 @@ Figure read_figure(const JsonCursor& json) {
   if (json.find("shared_y")) figure.shared_y = json.at("shared_y").boolean();
   if (json.find("arrows"))
     for (const JsonCursor& arrow : json.at("arrows").elements())
-      figure.arrows.push_back({count(arrow.at("from")), text(arrow.at("label"))});
+      figure.arrows.push_back(read_arrow(arrow));
   if (const std::string what = problem(figure); !what.empty()) json.fail(what);
   return figure;
 }

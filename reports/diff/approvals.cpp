@@ -1,7 +1,6 @@
 #include "reports/diff/approvals.hpp"
 
 #include <algorithm>
-#include <array>
 #include <map>
 #include <set>
 #include <system_error>
@@ -12,11 +11,15 @@
 #include "core/json/json_cursor.hpp"
 #include "core/records/study_files.hpp"
 #include "core/records/study_store.hpp"
+#include "core/records/validate.hpp"
 #include "render/image/png_read.hpp"
 #include "render/plot/figure_json.hpp"
+#include "render/scene/scene_json.hpp"
 #include "reports/diff/item_files.hpp"
+#include "reports/diff/record_files.hpp"
 #include "reports/diff/record_set.hpp"
 #include "reports/diff/record_set_parts.hpp"
+#include "reports/diff/svg_tree.hpp"
 
 namespace mapproof {
 namespace {
@@ -26,25 +29,15 @@ namespace fs = std::filesystem;
 constexpr const char* kRecords = "records";
 constexpr std::size_t kMostIds = 100'000;
 
-/// What the records of a study or of a map are kept in; maps and details before runs, since a run's
-/// file says that they are there.
-constexpr std::array kRecordParts = {
-    "study.json", "maps",    "details",   "paths",         "convergence", "histories.json", "runs",
-    "map.json",   "map.csv", "slam.json", "landmarks.csv", "path.csv",    "path.tum"};
-
 /// Files of the items on one side, below its folder: id, and the paths of it.
 using Files = std::map<std::string, std::set<fs::path>>;
 
 void add_records(Files& files, const std::string& id, const fs::path& place, const fs::path& root) {
+  for (const fs::path& file : record_files(place))
+    files[id].insert((place / file).lexically_relative(root));
   std::error_code error;
-  for (const char* part : kRecordParts) {
-    const fs::path path = place / part;
-    if (fs::is_regular_file(path, error)) files[id].insert(path.lexically_relative(root));
-    if (!fs::is_directory(path, error)) continue;
-    for (fs::recursive_directory_iterator entry(path, error), end; !error && entry != end;
-         entry.increment(error))
-      if (entry->is_regular_file(error)) files[id].insert(entry->path().lexically_relative(root));
-  }
+  if (fs::is_regular_file(place / "timings.jsonl", error))
+    files[id].insert((place / "timings.jsonl").lexically_relative(root));
 }
 
 Files files_of(const fs::path& root) {
@@ -59,7 +52,8 @@ Files files_of(const fs::path& root) {
         holds_records(entry->path()))
       add_records(files, std::string(kRecords) + "/" + entry->path().filename().string(),
                   entry->path(), root);
-    if (!entry->is_regular_file(error)) continue;
+    std::error_code unknown;
+    if (entry->is_directory(unknown)) continue;
     const ItemName name = item_name(entry->path(), root);
     if (!name.kind.empty()) files[name.id].insert(entry->path().lexically_relative(root));
   }
@@ -89,16 +83,33 @@ std::vector<std::string> chosen_ids(const ApprovalOrder& order, const Files& bef
   return order.ids;
 }
 
+void read_as_what_it_is(const fs::path& file) {
+  const std::string name = file.filename().string();
+  require_file(file);
+  if (name.ends_with(".figure.json")) {
+    figure_from_json(read_file(file), file.string());
+  } else if (name.ends_with(".scene.json")) {
+    scene_from_json(read_file(file), file.string());
+  } else if (name.ends_with(".json")) {
+    for (const Finding& finding : validate(file))
+      if (!finding.problem.empty()) throw InvalidInput(finding.problem);
+  } else if (name.ends_with(".png")) {
+    read_png(read_file(file));
+  } else if (name.ends_with(".svg")) {
+    parse_svg(read_file(file));
+  }
+}
+
 /// What cannot be read is never made a baseline.
 void require_readable(const fs::path& file) {
-  const std::string name = file.filename().string();
   try {
-    if (name.ends_with(".figure.json")) figure_from_json(read_file(file), file.string());
-    if (name.ends_with(".png")) read_png(read_file(file));
+    read_as_what_it_is(file);
   } catch (const IoError& error) {
     throw InvalidInput(std::string("not approved: ") + error.what());
   } catch (const InvalidInput& error) {
-    throw InvalidInput("not approved: " + file.string() + ": " + error.what());
+    const std::string what = error.what();
+    const bool is_named = what.find(file.string()) != std::string::npos;
+    throw InvalidInput("not approved: " + (is_named ? what : file.string() + ": " + what));
   }
 }
 
@@ -123,25 +134,36 @@ class Planner {
         before_(files_of(baseline)),
         after_(files_of(current)) {}
 
-  std::vector<ApprovalStep> plan(const ApprovalOrder& order) {
+  ApprovalPlan plan(const ApprovalOrder& order) {
     std::vector<std::string> ids = chosen_ids(order, before_, after_);
     const auto is_records = [](const std::string& id) {
       return id == kRecords || id.starts_with("records/");
     };
     std::ranges::stable_partition(ids, is_records);
     const bool whole = !ids.empty() && is_records(ids.front());
+    ApprovalPlan plan;
     for (const std::string& id : ids) {
-      if (!order.key.empty()) {
-        add_keyed(id, order.key);
-        continue;
+      const std::size_t before = steps_.size();
+      try {
+        add_id(id, order.key, whole);
+      } catch (const InvalidInput& error) {
+        if (!order.all) throw;
+        steps_.resize(before);
+        plan.refused.push_back(id + ": " + error.what());
       }
-      if (!whole) add_records_of(id);
-      add_item(id);
     }
-    return std::move(steps_);
+    plan.steps = std::move(steps_);
+    return plan;
   }
 
  private:
+  /// @param whole  The records go as a whole.
+  void add_id(const std::string& id, const std::string& key, bool whole) {
+    if (!key.empty()) return add_keyed(id, key);
+    if (!whole) add_records_of(id);
+    add_item(id);
+  }
+
   /// Whether the file is another one than the baseline's.
   bool add(const fs::path& relative) {
     const fs::path from = current_ / relative, to = baseline_ / relative;
@@ -223,17 +245,17 @@ bool is_key(const std::string& key) {
 
 }  // namespace
 
-std::vector<ApprovalStep> approval_steps(const fs::path& baseline, const fs::path& current,
-                                         const ApprovalOrder& order) {
+ApprovalPlan approval_plan(const fs::path& baseline, const fs::path& current,
+                           const ApprovalOrder& order) {
   if (!is_key(order.key))
     throw InvalidInput("the key \"" + printable(order.key) +
                        "\" may hold letters, digits, '.', '_' and '-' alone");
   std::error_code error;
-  if (fs::is_regular_file(current, error)) {
+  if (!fs::exists(current, error)) throw IoError(current.string(), "is not there");
+  if (!fs::is_directory(current, error)) {
     require_readable(current);
-    return {{current, baseline}};
+    return {.steps = {{current, baseline}}};
   }
-  if (!fs::is_directory(current, error)) throw IoError(current.string(), "is not there");
   return Planner(baseline, current).plan(order);
 }
 
@@ -256,6 +278,7 @@ std::vector<std::string> parse_approvals(std::string_view text, const std::strin
     if (const auto value = root.find(side)) value->text();
   std::vector<std::string> ids;
   for (const JsonCursor& id : root.at("ids").elements(0, kMostIds)) ids.push_back(id.text());
+  if (ids.empty()) root.at("ids").fail("names nothing that is to be approved");
   return ids;
 }
 

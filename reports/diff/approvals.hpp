@@ -20,16 +20,21 @@ struct ApprovalOrder {
   std::string key;               ///< Pictures become further baselines ID@KEY; [A-Za-z0-9._-]*.
 };
 
+struct ApprovalPlan {
+  std::vector<ApprovalStep> steps;
+  std::vector<std::string> refused = {};  ///< Items that cannot be taken, and why.
+};
+
 /// The files that belong to the items, those that are the same on both sides left out: of a figure
-/// its records, ID.figure.json, ID.scene.json, SVG, PNG and PDF; of "records" all of the study.
-/// Records come before what is drawn of them.
+/// its records, ID.figure.json, ID.scene.json, SVG, PNG and PDF; of a table its formats; of
+/// "records" all of the study with its timings. Records come before what is drawn of them. Items
+/// are taken whole or not at all: of all together those that cannot be are refused, else it throws.
 /// @throws InvalidInput for an id that is on neither side, a key that cannot be part of a name, a
 ///         current file that cannot be read, or a figure whose records are of another experiment
 ///         than the baseline's: these go as a whole.
 /// @throws IoError if a folder cannot be listed.
-std::vector<ApprovalStep> approval_steps(const std::filesystem::path& baseline,
-                                         const std::filesystem::path& current,
-                                         const ApprovalOrder& order);
+ApprovalPlan approval_plan(const std::filesystem::path& baseline,
+                           const std::filesystem::path& current, const ApprovalOrder& order);
 
 /// Does one step: after a kill at any moment the file is the old or the new one, whole.
 /// @throws IoError.

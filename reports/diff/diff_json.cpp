@@ -79,6 +79,13 @@ Json setting_json(const SettingChange& change) {
   return {{"pointer", change.pointer}, {"baseline", change.baseline}, {"current", change.current}};
 }
 
+Json other_json(const OtherDiff& other) {
+  return {
+      {"file", other.file},         {"presence", name(other.presence)}, {"numbers", other.numbers},
+      {"within", other.within},     {"beyond", other.beyond},           {"first", other.first},
+      {"baseline", other.baseline}, {"current", other.current},         {"shape", other.shape}};
+}
+
 Json records_json(const RecordDiff& diff) {
   return {{"same_seeds", diff.same_seeds},
           {"values", diff.values},
@@ -97,12 +104,7 @@ Json records_json(const RecordDiff& diff) {
                                            {"current", change.current}};
                              })},
           {"anchors", diff.anchors},
-          {"others", array(diff.others,
-                           [](const OtherDiff& other) {
-                             return Json{{"file", other.file},     {"numbers", other.numbers},
-                                         {"within", other.within}, {"beyond", other.beyond},
-                                         {"first", other.first},   {"shape", other.shape}};
-                           })},
+          {"others", array(diff.others, other_json)},
           {"problems", array(diff.problems, [](const RecordProblem& problem) {
              return Json{{"file", problem.file}, {"what", problem.what}};
            })}};
@@ -133,6 +135,7 @@ Json figure_json(const FigureDiff& diff) {
                          {"baseline", point(move.baseline)},
                          {"current", point(move.current)},
                          {"distance", number(move.distance)},
+                         {"unit", move.unit},
                          {"distance_px", optional(move.distance_px)}};
            })}};
 }
@@ -199,6 +202,7 @@ Json item_json(const DiffItem& item) {
   json["records"] = item.records ? records_json(*item.records) : Json(nullptr);
   json["figure"] = item.figure ? figure_json(*item.figure) : Json(nullptr);
   json["pictures"] = array(item.pictures, picture_json);
+  json["documents"] = array(item.documents, other_json);
   return json;
 }
 
@@ -213,6 +217,7 @@ Json diff_json(const DiffResult& result) {
   json["passes"] = result.passes;
   json["cause"] = result.judgement.cause;
   json["allowed"] = array(result.allowed, [](Verdict verdict) { return name(verdict); });
+  json["remarks"] = result.remarks;
   const std::vector<int> counts = counts_of(result);
   for (std::size_t v = 0; v < kVerdicts.size(); ++v)
     json["counts"][std::string(name(kVerdicts[v]))] = counts[v];

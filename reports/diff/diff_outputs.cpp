@@ -80,6 +80,7 @@ std::string diff_text(const DiffResult& result) {
     text +=
         fmt::format("{:<22}  {}\n", label(told.verdict), printable(head + told.cause, kLongest));
   }
+  for (const std::string& remark : result.remarks) text += printable(remark, kLongest) + "\n";
   return text +
          fmt::format("{}: {}\n", result.passes ? "passes" : "does not pass", counts_text(result));
 }
@@ -115,6 +116,7 @@ std::string diff_junit(const DiffResult& result) {
 std::string diff_markdown(const DiffResult& result) {
   std::string out = fmt::format("### mapproof diff: {}\n\n{}\n",
                                 result.passes ? "passes" : "does not pass", counts_text(result));
+  for (const std::string& remark : result.remarks) out += "\n" + cell(remark) + "\n";
   std::size_t rows = 0, left = 0;
   for (const DiffItem& item : result.items) {
     if (item.judgement.verdict == Verdict::kIdentical) continue;

@@ -14,19 +14,20 @@ namespace mapproof {
 
 /// A picture file of an item.
 struct PictureFile {
-  std::string format;        ///< "png", "svg".
+  std::string format;        ///< "png", "svg", "pdf".
   std::string baseline_key;  ///< Of several valid baselines, which; empty: the plain one.
   std::filesystem::path baseline, current;  ///< Empty: not there.
   PictureDiff diff;                         ///< If both are there.
 };
 
 enum class ItemKind {
-  kRecords,  ///< The records of a study, or of one map.
-  kFigure,   ///< A figure with its value, and its pictures.
-  kPicture,  ///< Pictures without a value.
+  kRecords,   ///< The records of a study, or of one map.
+  kFigure,    ///< A figure with its value, and its pictures.
+  kPicture,   ///< Pictures without a value.
+  kDocument,  ///< A table or a report's page: what follows from records and figures.
 };
 
-/// "records", "figure", "picture".
+/// "records", "figure", "picture", "document".
 std::string_view name(ItemKind kind);
 
 /// One thing that was compared.
@@ -41,6 +42,7 @@ struct DiffItem {
   /// name what they show.
   std::filesystem::path baseline_figure, current_figure;
   std::vector<PictureFile> pictures;
+  std::vector<OtherDiff> documents;  ///< Of a document, its files whose bytes differ.
 };
 
 /// The comparison of two studies, two folders or two files.
@@ -49,7 +51,8 @@ struct DiffResult {
   Judgement judgement;            ///< Of the whole: the heaviest verdict and how often.
   bool passes = false;
   std::vector<Verdict> allowed;
-  std::vector<DiffItem> items;  ///< By weight of verdict, then records first, then by id.
+  std::vector<std::string> remarks;  ///< On what was not compared; a sentence each.
+  std::vector<DiffItem> items;       ///< By weight of verdict, then records first, then by id.
 };
 
 /// Items of each verdict, in the order of kVerdicts.

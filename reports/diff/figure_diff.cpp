@@ -10,6 +10,7 @@
 #include "reports/diff/figure_match.hpp"
 #include "reports/diff/figure_places.hpp"
 #include "reports/diff/layer_diff.hpp"
+#include "reports/diff/number_words.hpp"
 
 namespace mapproof {
 namespace {
@@ -31,12 +32,15 @@ void compare_words(const Figure& a, const Figure& b, FigureLog& log) {
   if (a.record_ids != b.record_ids) {
     const std::string before = listed(a.record_ids, kMostNames);
     const std::string after = listed(b.record_ids, kMostNames);
-    log.change(ChangeKind::kData, "figure", "records", before, before == after ? "others" : after);
+    log.change(ChangeKind::kData, "figure", kRecordsWord, before,
+               before == after ? "others" : after);
   }
   for (std::size_t i = 0; i < std::max(a.notes.size(), b.notes.size()); ++i) {
     const bool before = i < a.notes.size(), after = i < b.notes.size();
-    log.change(ChangeKind::kStyle, "figure", "note", before ? a.notes[i].text : "",
-               after ? b.notes[i].text : "");
+    const std::string first = before ? a.notes[i].text : "", second = after ? b.notes[i].text : "";
+    const bool other_words = without_numbers(first) != without_numbers(second);
+    log.change(other_words ? ChangeKind::kStyle : ChangeKind::kData, "figure", "note", first,
+               second);
     if (before && after)
       log.change(ChangeKind::kStyle, "figure", "colour of a note",
                  std::string(name(a.notes[i].ink)), std::string(name(b.notes[i].ink)));

@@ -39,6 +39,7 @@ struct MarkMove {
   std::size_t point = 0;              ///< Which of its layer, counted from 0.
   Point baseline, current;            ///< In the units of the axes.
   double distance = 0.0;              ///< In the units of the axes; NaN: a place on one side alone.
+  std::string unit;                   ///< Of the axes that it moved along; empty: none, or two.
   std::optional<double> distance_px;  ///< On the page of the report's theme.
 };
 
@@ -73,7 +74,7 @@ FigureDiff figure_diff(const Figure& baseline, const Figure& current,
 /// data better, worse (by the errors of their marks) or changed; with its cause.
 Judgement judge(const FigureDiff& diff);
 
-/// "landmark L17 moved 0.041 (9.1 px)".
+/// "landmark L17 moved 0.041 m (9.1 px)".
 std::string move_text(const MarkMove& move);
 
 }  // namespace mapproof

@@ -3,23 +3,12 @@
 #include <algorithm>
 #include <utility>
 
+#include "reports/diff/number_words.hpp"
+
 namespace mapproof {
 namespace {
 
 constexpr std::size_t kMost = 200;
-
-/// With every number as "#": what is left of words that hold varying numbers.
-std::string without_numbers(const std::string& text) {
-  std::string words;
-  for (const char c : text) {
-    const bool digit = c >= '0' && c <= '9';
-    if (!digit)
-      words += c;
-    else if (words.empty() || words.back() != '#')
-      words += '#';
-  }
-  return words;
-}
 
 void keep_farthest(std::vector<MarkMove>& moves) {
   const auto far = [](const MarkMove& move) {
@@ -34,8 +23,7 @@ void keep_farthest(std::vector<MarkMove>& moves) {
 void FigureLog::change(ChangeKind kind, const std::string& place, std::string_view what,
                        const std::string& baseline, const std::string& current) {
   if (baseline == current) return;
-  if (varies_ &&
-      (kind != ChangeKind::kStyle || without_numbers(baseline) == without_numbers(current))) {
+  if (varies_ && what != kRecordsWord && without_numbers(baseline) == without_numbers(current)) {
     ++diff_.masked;
     return;
   }

@@ -7,10 +7,14 @@
 
 namespace mapproof {
 
+/// FigureChange::what of a figure that was made of other records.
+inline constexpr std::string_view kRecordsWord = "records";
+
 /// Gathers what two figures differ in, within bounds.
 class FigureLog {
  public:
-  /// @param varies  Data are counted as masked, and so are words that differ in numbers alone.
+  /// @param varies  Places and numbers are counted as masked; other words, layers, numbers of
+  ///                points and records are told of such figures too.
   explicit FigureLog(bool varies) : varies_(varies) {}
 
   /// Notes nothing if both values are the same.

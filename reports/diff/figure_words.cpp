@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <cmath>
 
 #include <fmt/format.h>
@@ -5,6 +6,7 @@
 #include "core/base/errors.hpp"
 #include "core/base/words.hpp"
 #include "reports/diff/figure_diff.hpp"
+#include "reports/diff/figure_log.hpp"
 
 namespace mapproof {
 namespace {
@@ -26,7 +28,7 @@ std::string first_of(const FigureDiff& diff, ChangeKind kind) {
   const FigureChange* first = nullptr;
   long count = 0;
   for (const FigureChange& change : diff.changes)
-    if (change.kind == kind && change.what != "records" && count++ == 0) first = &change;
+    if (change.kind == kind && change.what != kRecordsWord && count++ == 0) first = &change;
   if (first == nullptr) return "";
   return change_sentence(*first) +
          (count > 1 ? fmt::format(", and {} more", counted(count - 1, "change")) : "");
@@ -47,6 +49,9 @@ std::string data_cause(const FigureDiff& diff) {
   }
   const std::string more = first_of(diff, ChangeKind::kData);
   if (!more.empty()) text += (text.empty() ? "" : "; ") + more;
+  const auto records = std::ranges::find(diff.changes, kRecordsWord, &FigureChange::what);
+  if (text.empty() && records != diff.changes.end())
+    text = "made of other records, " + records->baseline + " \u2192 " + records->current;
   if (direction(diff) != Verdict::kChanged)
     text +=
         fmt::format("; mean error {}", change_text(*diff.baseline_error, *diff.current_error, ""));
@@ -64,7 +69,8 @@ std::string move_text(const MarkMove& move) {
           ? fmt::format(
                 "{} {}", who,
                 std::isnan(move.current.x + move.current.y) ? "lost its place" : "gained a place")
-          : fmt::format("{} moved {:.3g}", who, move.distance);
+          : fmt::format("{} moved {:.3g}{}{}", who, move.distance, move.unit.empty() ? "" : " ",
+                        move.unit);
   if (move.distance_px) text += fmt::format(" ({:.1f} px)", *move.distance_px);
   return text;
 }

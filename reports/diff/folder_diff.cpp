@@ -9,7 +9,9 @@
 #include <tbb/parallel_for.h>
 
 #include "core/base/errors.hpp"
+#include "core/base/files.hpp"
 #include "core/base/words.hpp"
+#include "reports/diff/document_diff.hpp"
 #include "reports/diff/item_diff.hpp"
 #include "reports/diff/item_files.hpp"
 #include "reports/diff/record_set.hpp"
@@ -80,6 +82,7 @@ void check_there(const fs::path& path) {
   std::error_code error;
   if (!fs::exists(path, error))
     throw IoError(path.string(), error ? error.message() : "is not there");
+  if (!fs::is_directory(path, error)) require_file(path);
 }
 
 /// Two files of one kind, each the item "".
@@ -96,6 +99,8 @@ void check_kinds(const ItemList& baseline, const ItemList& current, const fs::pa
   const ItemFiles& y = current.begin()->second;
   const bool same_kind =
       x.figure.empty() == y.figure.empty() && x.pictures.size() == y.pictures.size() &&
+      std::ranges::equal(x.documents, y.documents, {}, &decltype(x.documents)::value_type::first,
+                         &decltype(x.documents)::value_type::first) &&
       std::ranges::equal(x.pictures, y.pictures, {}, &decltype(x.pictures)::value_type::first,
                          &decltype(x.pictures)::value_type::first);
   if (!same_kind)
@@ -112,7 +117,8 @@ std::vector<DiffItem> picture_items(ItemList baseline, const ItemList& current,
   join_keyed(baseline, current);
   std::set<std::string> ids;
   for (const ItemList* side : {static_cast<const ItemList*>(&baseline), &current})
-    for (const auto& [id, files] : *side) ids.insert(id);
+    for (const auto& [id, files] : *side)
+      if (files.documents.empty()) ids.insert(id);
   const std::vector<std::string> order(ids.begin(), ids.end());
   std::vector<DiffItem> items(order.size());
   tbb::parallel_for(std::size_t{0}, order.size(), [&](std::size_t i) {
@@ -125,6 +131,13 @@ std::vector<DiffItem> picture_items(ItemList baseline, const ItemList& current,
   return items;
 }
 
+/// Whether a baseline is a study that nothing was drawn of yet, as `mapproof run` leaves it.
+bool holds_records_alone(const ItemList& baseline, const std::vector<DiffItem>& records) {
+  return baseline.empty() && std::ranges::any_of(records, [](const DiffItem& item) {
+           return item.judgement.verdict != Verdict::kNew;
+         });
+}
+
 /// "1 worse, 2 style, 51 identical; first …".
 Judgement judge_whole(const DiffResult& result) {
   Judgement whole;
@@ -133,7 +146,7 @@ Judgement judge_whole(const DiffResult& result) {
   const std::vector<int> all = counts_of(result);
   for (std::size_t v = kVerdicts.size(); v-- > 0;)
     if (all[v] > 0) {
-      counts += fmt::format("{}{} {}", counts.empty() ? "" : ", ", all[v], name(kVerdicts[v]));
+      counts += fmt::format("{}{} {}", counts.empty() ? "" : ", ", all[v], label(kVerdicts[v]));
       whole.verdict = heavier(whole.verdict, kVerdicts[v]);
     }
   for (const DiffItem& item : result.items) whole.visible |= item.judgement.visible;
@@ -152,6 +165,8 @@ std::string_view name(ItemKind kind) {
       return "figure";
     case ItemKind::kPicture:
       return "picture";
+    case ItemKind::kDocument:
+      return "document";
   }
   return "";
 }
@@ -171,16 +186,23 @@ DiffResult folder_diff(const fs::path& baseline, const fs::path& current,
   result.baseline = baseline.string();
   result.current = current.string();
   result.allowed = settings.allowed;
-  const ItemList before = list_items(baseline), after = list_items(current);
+  ItemList before = list_items(baseline), after = list_items(current);
   check_kinds(before, after, baseline, current);
   result.items = record_items(baseline, current, settings);
   RecordContext context;
   for (const DiffItem& item : result.items)
     if (item.records) context.records.push_back(&*item.records);
+  if (holds_records_alone(before, result.items) && !after.empty()) {
+    result.remarks.push_back(fmt::format(
+        "The baseline was made without figures, tables and report: {} of the current not compared.",
+        after.size() == 1 ? "one is" : fmt::format("{} are", after.size())));
+    after.clear();
+  }
   std::vector<DiffItem> pictures =
       picture_items(before, after, file_id(current), context, settings);
   name_swapped(pictures);
   std::ranges::move(pictures, std::back_inserter(result.items));
+  add_documents(result.items, before, after, settings);
   if (result.items.empty())
     throw InvalidInput(baseline.string() + " and " + current.string() +
                        " hold no records, figures or pictures to compare");

@@ -1,7 +1,6 @@
 #include "reports/diff/item_diff.hpp"
 
 #include <algorithm>
-#include <set>
 
 #include <fmt/format.h>
 
@@ -9,6 +8,7 @@
 #include "core/base/files.hpp"
 #include "core/base/words.hpp"
 #include "render/plot/figure_json.hpp"
+#include "reports/diff/pdf_diff.hpp"
 #include "reports/diff/scene_diff.hpp"
 
 namespace mapproof {
@@ -18,6 +18,19 @@ constexpr std::size_t kLargestFigure = std::size_t{1} << 28;  // Bytes.
 
 Figure read_figure(const std::filesystem::path& path) {
   return figure_from_json(read_file(path, kLargestFigure), path.string());
+}
+
+/// A file that cannot be read is what its picture is about; the rest goes on.
+PictureDiff readable_diff(const std::string& format, const std::filesystem::path& baseline,
+                          const std::filesystem::path& current, const PictureOptions& options) {
+  try {
+    return format == "pdf" ? pdf_diff(baseline, current) : picture_diff(baseline, current, options);
+  } catch (const IoError& error) {
+    PictureDiff diff;
+    diff.state = PictureState::kUnreadable;
+    diff.reason = error.what();
+    return diff;
+  }
 }
 
 /// The plain baseline or another valid one: that whose picture differs least.
@@ -31,7 +44,7 @@ PictureFile compare_picture(const std::string& format,
                      .baseline_key = key,
                      .baseline = baseline,
                      .current = current,
-                     .diff = picture_diff(baseline, current, options)};
+                     .diff = readable_diff(format, baseline, current, options)};
     if (first || file.diff.state < best.diff.state) best = std::move(file);
     first = false;
     if (best.diff.state == PictureState::kIdentical) break;
@@ -43,17 +56,14 @@ PictureFile compare_picture(const std::string& format,
 std::vector<PictureFile> compare_pictures(const ItemFiles& baseline, const ItemFiles& current,
                                           const PictureOptions& options) {
   std::vector<PictureFile> files;
-  std::set<std::string> formats;
-  for (const ItemFiles* side : {&baseline, &current})
-    for (const auto& [format, paths] : side->pictures) formats.insert(format);
-  for (const std::string& format : formats) {
+  for (const std::string format : {"png", "svg", "pdf"}) {
     const auto before = baseline.pictures.find(format), after = current.pictures.find(format);
     if (before != baseline.pictures.end() && after != current.pictures.end())
       files.push_back(
           compare_picture(format, before->second, after->second.begin()->second, options));
     else if (before != baseline.pictures.end())
       files.push_back({format, "", before->second.begin()->second, {}, {}});
-    else
+    else if (after != current.pictures.end())
       files.push_back({format, "", {}, after->second.begin()->second, {}});
   }
   return files;
@@ -90,8 +100,8 @@ std::vector<PixelBox> masks(const Figure& a, const Figure& b, const PictureFile&
 void mask(const Figure& a, const Figure& b, std::vector<PictureFile>& pictures,
           PictureOptions options) {
   std::erase_if(pictures, [](const PictureFile& file) {
-    return file.format == "svg" && !file.baseline.empty() && !file.current.empty() &&
-           file.diff.state != PictureState::kUnreadable;
+    return (file.format == "svg" || file.format == "pdf") && !file.baseline.empty() &&
+           !file.current.empty() && file.diff.state != PictureState::kUnreadable;
   });
   for (PictureFile& file : pictures) {
     if (file.format != "png" || file.diff.state != PictureState::kDifferent) continue;
@@ -142,6 +152,14 @@ void compare_values(DiffItem& item, const RecordContext& context, const DiffSett
     mask(a, b, item.pictures, settings.pictures_of(item.id));
 }
 
+/// A PDF's bytes follow from a value that is another one, however little.
+void leave_pdf_to_value(DiffItem& item) {
+  for (PictureFile& file : item.pictures)
+    if (item.figure && !item.figure->equal && file.format == "pdf" &&
+        file.diff.state == PictureState::kDifferent)
+      file.diff.state = PictureState::kWithinTolerance;
+}
+
 }  // namespace
 
 DiffItem item_diff(const std::string& id, const ItemFiles* baseline, const ItemFiles* current,
@@ -159,6 +177,7 @@ DiffItem item_diff(const std::string& id, const ItemFiles* baseline, const ItemF
     item.kind = some ? ItemKind::kFigure : ItemKind::kPicture;
     item.pictures = compare_pictures(*baseline, *current, settings.pictures_of(id));
     if (both) compare_values(item, context, settings);
+    leave_pdf_to_value(item);
     if (item.judgement.verdict != Verdict::kUnreadable)
       item.judgement = judge_pictures(item.judgement, both, item.pictures, context);
     if (some && !both)

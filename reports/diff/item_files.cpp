@@ -18,8 +18,18 @@ constexpr std::array<std::string_view, 5> kKinds = {"figure.json", "scene.json",
 void add(ItemList& items, const ItemName& name, const fs::path& file) {
   if (name.kind == "figure.json" || name.kind == "scene.json")
     items[name.id].figure = file;
-  else if (name.kind == "png" || name.kind == "svg")
+  else if (name.kind == "png" || name.kind == "svg" || name.kind == "pdf")
     items[name.id].pictures[name.kind][""] = file;
+  else
+    items[name.id].documents[name.kind] = file;
+}
+
+/// The kind of a file that tells in words what records say; empty for others.
+std::string document_kind(const fs::path& file) {
+  if (file.filename() == "report.html") return "html";
+  const std::string extension = file.extension().string();
+  const bool is_table = extension == ".csv" || extension == ".md" || extension == ".tex";
+  return is_table && file.parent_path().filename() == "tables" ? extension.substr(1) : "";
 }
 
 }  // namespace
@@ -32,7 +42,9 @@ ItemName item_name(const fs::path& file, const fs::path& folder) {
     if (path.size() > kind.size() + 1 && path.ends_with(kind) &&
         path[path.size() - kind.size() - 1] == '.')
       return {path.substr(0, path.size() - kind.size() - 1), std::string(kind)};
-  return {path, ""};
+  const std::string kind = document_kind(file);
+  if (kind.empty() || kind == "html") return {path, kind};
+  return {path.substr(0, path.size() - kind.size() - 1), kind};
 }
 
 ItemList list_items(const fs::path& path) {
@@ -47,7 +59,8 @@ ItemList list_items(const fs::path& path) {
   std::size_t files = 0;
   fs::recursive_directory_iterator entry(path, error), end;
   for (; !error && entry != end; entry.increment(error)) {
-    if (!entry->is_regular_file(error)) continue;
+    std::error_code unknown;  // Of a link to nowhere: then reading it says so.
+    if (entry->is_directory(unknown)) continue;
     const ItemName name = item_name(entry->path(), path);
     if (name.kind.empty()) continue;
     if (++files > kMostFiles)

@@ -10,15 +10,18 @@ namespace mapproof {
 /// The files of one item on one side.
 struct ItemFiles {
   std::filesystem::path figure;  ///< ID.figure.json or ID.scene.json; empty: none.
-  /// By format ("png", "svg") and baseline key; the plain file has the key "".
+  /// By format ("png", "svg", "pdf") and baseline key; the plain file has the key "".
   std::map<std::string, std::map<std::string, std::filesystem::path>> pictures;
+  /// Of a table or a page, by format: "csv", "md", "tex", "html". Then it has nothing else.
+  std::map<std::string, std::filesystem::path> documents;
 };
 
 /// Items by id.
 using ItemList = std::map<std::string, ItemFiles>;
 
-/// The pictures and figures of a folder and of those below it, or a single file as the item "".
-/// The id is the path below the folder without "figures/" at its head and without its extension.
+/// The pictures, figures, tables and reports of a folder and of those below it, or a single file as
+/// the item "". The id is the path below the folder without "figures/" at its head and without its
+/// extension; a report's is whole: "report.html".
 /// @throws IoError if the folder cannot be listed, or holds more than 100,000 such files.
 ItemList list_items(const std::filesystem::path& path);
 
@@ -26,8 +29,9 @@ ItemList list_items(const std::filesystem::path& path);
 /// "ID@KEY".
 void join_keyed(ItemList& baseline, const ItemList& current);
 
-/// The id of a file below `folder` and its kind: "png", "svg", "figure.json", "pdf", "scene.json";
-/// an empty kind: no file of an item.
+/// The id of a file below `folder` and its kind: "png", "svg", "figure.json", "pdf", "scene.json",
+/// of tables (in a folder "tables") "csv", "md", "tex", of reports "html"; an empty kind: no file
+/// of an item.
 struct ItemName {
   std::string id, kind;
 };

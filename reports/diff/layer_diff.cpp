@@ -25,6 +25,20 @@ std::string point_text(const LayerView& layer, std::size_t point) {
   return fmt::format("point {}", point + 1);
 }
 
+/// "m" of "x [m]"; empty if the label names no unit.
+std::string unit_of(const Axis& axis) {
+  const std::size_t open = axis.label.rfind('['), close = axis.label.rfind(']');
+  if (open == std::string::npos || close == std::string::npos || close < open) return "";
+  return printable(axis.label.substr(open + 1, close - open - 1));
+}
+
+/// The unit of the axis that a point moved along, or of both.
+std::string unit_of_move(const Panel& panel, Point before, Point after) {
+  const std::string x = unit_of(panel.x), y = unit_of(panel.y);
+  if (before.x == after.x) return y;
+  return before.y == after.y || x == y ? x : "";
+}
+
 /// The whole text as a number.
 std::optional<double> number_of(const std::string& text) {
   char* end = nullptr;
@@ -120,6 +134,7 @@ MarkMove LayerDiff::mark_move(const LayerView& layer, std::size_t point, Point b
                 .baseline = before,
                 .current = after,
                 .distance = std::hypot(after.x - before.x, after.y - before.y),
+                .unit = unit_of_move(figure_.panels[panel_], before, after),
                 .distance_px = places_.distance_px(panel_, before, after)};
   if (layer.has_mark_a_point() || layer.is_whole) {
     const Mark& mark = layer.is_whole ? layer.marks[0] : layer.marks[point];

@@ -9,6 +9,7 @@
 
 #include "core/base/errors.hpp"
 #include "core/base/files.hpp"
+#include "core/base/words.hpp"
 #include "render/image/png_check.hpp"
 #include "render/image/png_chunks.hpp"
 #include "render/image/png_read.hpp"
@@ -124,10 +125,18 @@ void compare_pngs(std::string_view before, std::string_view after, const Picture
 
 enum class PictureKind { kPng, kSvg, kEmpty, kOther };
 
+/// Whether the bytes begin as UTF-16 does, with its mark or with "<" in two bytes.
+bool is_utf16(std::string_view bytes) {
+  using namespace std::string_view_literals;
+  return bytes.starts_with("\xFF\xFE"sv) || bytes.starts_with("\xFE\xFF"sv) ||
+         bytes.starts_with("<\0"sv) || bytes.starts_with("\0<"sv);
+}
+
 /// By how the content begins; names of files are not asked.
 PictureKind kind_of(std::string_view bytes) {
   if (bytes.empty()) return PictureKind::kEmpty;
   if (bytes.starts_with("\x89PNG")) return PictureKind::kPng;
+  if (is_utf16(bytes)) return PictureKind::kSvg;
   if (bytes.starts_with("\xEF\xBB\xBF")) bytes.remove_prefix(3);
   const std::size_t start = bytes.find_first_not_of(" \t\r\n");
   return start != std::string_view::npos && bytes[start] == '<' ? PictureKind::kSvg
@@ -159,7 +168,7 @@ std::string words(const SvgDiff& found) {
   if (changed == 0)
     return fmt::format("{} values differ within tolerance or are remarks", found.total);
   const SvgChange& first = found.changes.front();
-  return fmt::format("{} changes, the first: {} {}", changed, first.element, first.what);
+  return fmt::format("{}, the first: {} {}", counted(changed, "change"), first.element, first.what);
 }
 
 void compare_svgs(std::string_view before, std::string_view after, const PictureOptions& options,

@@ -73,7 +73,11 @@ std::optional<Judgement> judge_presence(const std::vector<PictureFile>& files) {
 Judgement judge_alone(const std::vector<PictureFile>& files) {
   if (const PictureFile* different = first_with(files, is_visible))
     return {Verdict::kChanged, true,
-            different->format + ", by its pixels alone: " + different->diff.reason};
+            fmt::format("{}, by its {} alone: {}", different->format,
+                        different->format == "svg"   ? "elements"
+                        : different->format == "pdf" ? "bytes"
+                                                     : "pixels",
+                        different->diff.reason)};
   if (const PictureFile* near = first_with(files, [](const PictureFile& f) {
         return f.diff.state == PictureState::kWithinTolerance;
       }))

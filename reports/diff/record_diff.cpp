@@ -14,6 +14,8 @@
 namespace mapproof {
 namespace {
 
+namespace fs = std::filesystem;
+
 /// What both have is given to `both`, the rest listed.
 template <typename Map, typename Both>
 void match(const Map& a, const Map& b, std::vector<std::string>& missing,
@@ -101,8 +103,7 @@ void compare_points(const RecordSet& a, const RecordSet& b, const Tolerances& to
     if (is_expected(record, a, b)) diff.statuses.push_back({record, kNoMap, ""});
 }
 
-void compare_rest(const RecordSet& a, const RecordSet& b, const RecordOptions& options,
-                  RecordDiff& diff) {
+void compare_rest(const RecordSet& a, const RecordSet& b, RecordDiff& diff) {
   std::vector<std::string> missing, added;
   match(a.statuses, b.statuses, missing, added,
         [&](const std::string& record, const std::string& before, const std::string& after) {
@@ -112,30 +113,65 @@ void compare_rest(const RecordSet& a, const RecordSet& b, const RecordOptions& o
         [&](const std::string& run, const std::string& before, const std::string& after) {
           if (before != after) diff.anchors.push_back(run);
         });
-  const Tolerance tolerance = tolerance_of(*find_quantity("other"), options.tolerances);
-  std::vector<std::string> missing_files, added_files;
-  match(a.others, b.others, missing_files, added_files,
-        [&](const std::string& name, const auto& before, const auto& after) {
-          try {
-            OtherDiff other = number_diff(name, before, after, tolerance);
-            if (other.within + other.beyond > 0 || other.shape)
-              diff.others.push_back(std::move(other));
-          } catch (const IoError& error) {
-            diff.problems.push_back({name + ".json", error.what()});
-          }
-        });
-  // Of runs on both sides; a file that is equal was not listed on either.
-  for (const auto* names : {&missing_files, &added_files})
-    for (const std::string& name : *names) {
-      const std::string run = name.substr(name.find('/') + 1);
-      if (a.runs.contains(run) && b.runs.contains(run))
-        diff.others.push_back({.file = name, .shape = true});
-    }
   for (const RecordSet* side : {&a, &b})
     diff.problems.insert(diff.problems.end(), side->problems.begin(), side->problems.end());
 }
 
+/// The run that a file is of: "layout-1-pose-2" of "maps/layout-1-pose-2.json", "plaza-1" of
+/// "paths/plaza-1/ekf.tum"; empty for others.
+std::string run_of(const fs::path& file) {
+  const fs::path folder = file.has_parent_path() ? *file.begin() : fs::path();
+  if (folder == "paths") return std::next(file.begin())->string();
+  return folder == "runs" || folder == "maps" || folder == "details" ? file.stem().string() : "";
+}
+
+/// Files of runs that one side alone has are told as runs.
+bool is_told_apart(const std::string& file, const RecordDiff& diff) {
+  const std::string run = run_of(file);
+  const auto is_run = [&](const std::vector<std::string>& runs) {
+    return std::ranges::find(runs, run) != runs.end();
+  };
+  return !is_run(diff.missing_runs) && !is_run(diff.new_runs);
+}
+
+/// What no quantity, position or status says of the files that are not equal.
+void compare_others(const RecordSet& a, const RecordSet& b, const Tolerances& tolerances,
+                    RecordDiff& diff) {
+  std::vector<std::string> missing, added;
+  match(a.others, b.others, missing, added,
+        [&](const std::string& name, const fs::path& before, const fs::path& after) {
+          const bool damaged =
+              std::ranges::find(diff.problems, name, &RecordProblem::file) != diff.problems.end();
+          if (damaged) return;
+          try {
+            OtherDiff other = number_diff(name, before, after, tolerances);
+            if (other.within + other.beyond > 0 || other.shape)
+              diff.others.push_back(std::move(other));
+          } catch (const IoError& error) {
+            diff.problems.push_back({name, error.what()});
+          }
+        });
+  for (const std::string& name : missing)
+    if (is_told_apart(name, diff))
+      diff.others.push_back({.file = name, .presence = Presence::kBaseline});
+  for (const std::string& name : added)
+    if (is_told_apart(name, diff))
+      diff.others.push_back({.file = name, .presence = Presence::kCurrent});
+}
+
 }  // namespace
+
+std::string_view name(Presence presence) {
+  switch (presence) {
+    case Presence::kBoth:
+      return "both";
+    case Presence::kBaseline:
+      return "baseline";
+    case Presence::kCurrent:
+      return "current";
+  }
+  return "";
+}
 
 std::string_view name(Outcome outcome) {
   switch (outcome) {
@@ -166,7 +202,8 @@ RecordDiff record_diff(const RecordSet& a, const RecordSet& b, const RecordOptio
   compare_subjects(a, b, diff);
   diff.comparisons = compare_series(a, b, diff.same_seeds, options, diff.values);
   compare_points(a, b, options.tolerances, diff);
-  compare_rest(a, b, options, diff);
+  compare_rest(a, b, diff);
+  compare_others(a, b, options.tolerances, diff);
   diff.judgement = judge(diff);
   return diff;
 }

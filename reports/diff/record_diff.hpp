@@ -25,6 +25,12 @@ enum class Outcome { kEqual, kWithinTolerance, kBetter, kWorse, kChanged };
 /// "equal", "within-tolerance", "better", "worse", "changed".
 std::string_view name(Outcome outcome);
 
+/// Which side has a file.
+enum class Presence { kBoth, kBaseline, kCurrent };
+
+/// "both", "baseline", "current".
+std::string_view name(Presence presence);
+
 /// The value of one run on both sides; NaN: none.
 struct PairedValue {
   std::string run;
@@ -92,14 +98,16 @@ struct StatusChange {
   std::string baseline, current;  ///< Codes, in order.
 };
 
-/// Numbers of a file that are compared in bulk.
+/// A file of the records, compared value by value.
 struct OtherDiff {
   std::string file;
+  Presence presence = Presence::kBoth;
   long numbers = 0;
   long within = 0;
   long beyond = 0;
-  std::string first;   ///< JSON pointer of the first that is beyond tolerance.
-  bool shape = false;  ///< Keys, texts or lengths differ as well.
+  std::string first;              ///< JSON pointer or line of the first that is beyond tolerance.
+  std::string baseline, current;  ///< Its values.
+  bool shape = false;             ///< Keys, words or lengths differ as well.
 };
 
 /// What two sets of records differ in.

@@ -13,6 +13,7 @@
 #include "core/records/slam_run_json.hpp"
 #include "core/records/slam_store.hpp"
 #include "core/records/study_store.hpp"
+#include "reports/diff/record_files.hpp"
 #include "reports/diff/record_set_parts.hpp"
 
 namespace mapproof {
@@ -150,15 +151,27 @@ bool holds_records(const fs::path& path) {
   }
 }
 
+void add_others(RecordSet& set, const fs::path& folder, const fs::path& beside) {
+  for (const fs::path& file : record_files(folder))
+    if (file != "study.json" && !same_bytes(folder / file, beside / file))
+      set.others[file.generic_string()] = folder / file;
+}
+
 RecordSet read_records(const fs::path& path, const fs::path& beside) {
   std::error_code error;
-  if (!fs::is_directory(path, error)) return read_single(path);
-  if (!is_study(path)) {
+  RecordSet set;
+  if (is_study(path)) {
+    set = is_slam_study(path) ? read_slam_records(path) : read_study_records(path, beside);
+  } else {
     const fs::path file = single_file(path);
     if (file.empty()) throw IoError(path.string(), "holds no records");
-    return read_single(file);
+    set = read_single(file);
   }
-  return is_slam_study(path) ? read_slam_records(path) : read_study_records(path, beside);
+  if (fs::is_directory(path, error))
+    add_others(set, path, beside);
+  else if (!same_bytes(path, beside))
+    set.others[""] = path;
+  return set;
 }
 
 }  // namespace mapproof

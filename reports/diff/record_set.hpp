@@ -59,7 +59,9 @@ struct RecordSet {
   std::map<SeriesKey, std::map<std::string, double>> values;
   std::map<std::string, std::string> statuses;  ///< Of a record: its codes, in order.
   std::map<std::string, PlacedPoints> points;   ///< By record: "layout-1-pose-2/bearing/lpca/2000".
-  std::map<std::string, std::filesystem::path> others;  ///< Files compared number by number.
+  /// All files but study.json that are not the same on the other side, below the folder: what no
+  /// other member holds is compared value by value.
+  std::map<std::string, std::filesystem::path> others;
   std::vector<RecordProblem> problems;
 };
 

@@ -33,4 +33,8 @@ RecordSet read_study_records(const std::filesystem::path& folder,
                              const std::filesystem::path& beside);
 RecordSet read_slam_records(const std::filesystem::path& folder);
 
+/// Lists the files that are others than those of the other side.
+void add_others(RecordSet& set, const std::filesystem::path& folder,
+                const std::filesystem::path& beside);
+
 }  // namespace mapproof

@@ -79,11 +79,9 @@ RecordSet read_study_records(const fs::path& folder, const fs::path& beside) {
       if (run.id != id) throw IoError(file.string(), "/run", "says that it is " + slug(run.id));
       add_run(set, study.experiment, run);
     });
-    if (!same_bytes(files.map(id), other.map(id)))
-      try_file(set, folder, files.map(id), [&] { add_maps(set, files.map(id)); });
     std::error_code error;
-    if (fs::exists(files.detail(id), error) && !same_bytes(files.detail(id), other.detail(id)))
-      set.others["details/" + slug(id)] = files.detail(id);
+    if (fs::exists(files.map(id), error) && !same_bytes(files.map(id), other.map(id)))
+      try_file(set, folder, files.map(id), [&] { add_maps(set, files.map(id)); });
   }
   return set;
 }

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include "core/base/words.hpp"
+#include "reports/diff/figure_log.hpp"
 #include "reports/diff/item_diff.hpp"
 #include "reports/diff/record_words.hpp"
 
@@ -62,7 +63,7 @@ std::string what_moved(const FigureDiff& diff, const Ties& ties, const Judgement
 }
 
 const FigureChange* other_records(const FigureDiff& diff) {
-  const auto found = std::ranges::find(diff.changes, "records", &FigureChange::what);
+  const auto found = std::ranges::find(diff.changes, kRecordsWord, &FigureChange::what);
   return found == diff.changes.end() ? nullptr : &*found;
 }
 

@@ -14,14 +14,26 @@ namespace {
 
 constexpr std::size_t kMostNames = 3;
 
-/// Heavier first, then the order of all_quantities(), then the least p, then the largest change.
+constexpr double kSignificant = 0.05;
+
+/// Of a test that says something the size of its effect, else 0.
+double told_effect(const Comparison& c) {
+  return c.test && c.test->p < kSignificant ? std::abs(c.test->test.effect) : 0.0;
+}
+
+/// Heavier first, then the order of all_quantities(), then the largest significant effect, then
+/// the best method where there is no direction and no test, else the largest change.
 bool tells_more(const Comparison& a, const Comparison& b) {
   const Verdict first = verdict_of(a.outcome), second = verdict_of(b.outcome);
   if (first != second) return first > second;
   const auto place = [](const Comparison& c) { return find_quantity(c.quantity); };
   if (place(a) != place(b)) return place(a) < place(b);
+  if (told_effect(a) != told_effect(b)) return told_effect(a) > told_effect(b);
   const double p = a.test ? a.test->p : 1.0, q = b.test ? b.test->p : 1.0;
   if (p != q) return p < q;
+  if (first == Verdict::kChanged && !a.test && !b.test &&
+      place(a)->direction == Direction::kLowerIsBetter && a.baseline_mean != b.baseline_mean)
+    return a.baseline_mean < b.baseline_mean || std::isnan(b.baseline_mean);
   const auto change = [](const Comparison& c) {
     const double ratio =
         std::abs(c.current_mean - c.baseline_mean) / std::max(std::abs(c.baseline_mean), 1e-300);
@@ -38,16 +50,16 @@ std::string names_text(const std::vector<std::string>& names) {
 
 /// One side of the records has what the other lacks.
 void judge_presence(const RecordDiff& diff, Judgement& whole, std::vector<std::string>& causes) {
-  const auto add = [&](const std::vector<std::string>& names, Verdict verdict, const char* what) {
+  const auto add = [&](const std::vector<std::string>& names, Verdict verdict, const char* noun) {
     if (names.empty()) return;
     whole.verdict = heavier(whole.verdict, verdict);
-    causes.push_back(
-        fmt::format("{} {}: {}", what, names.size() == 1 ? "is" : "are", names_text(names)));
+    causes.push_back(fmt::format("{}{}{}: {}", verdict == Verdict::kMissing ? "missing " : "new ",
+                                 noun, names.size() == 1 ? "" : "s", names_text(names)));
   };
-  add(diff.missing_runs, Verdict::kMissing, "missing runs");
-  add(diff.missing_subjects, Verdict::kMissing, "missing records");
-  add(diff.new_runs, Verdict::kNew, "new runs");
-  add(diff.new_subjects, Verdict::kNew, "new records");
+  add(diff.missing_runs, Verdict::kMissing, "run");
+  add(diff.missing_subjects, Verdict::kMissing, "record");
+  add(diff.new_runs, Verdict::kNew, "run");
+  add(diff.new_subjects, Verdict::kNew, "record");
 }
 
 void judge_comparisons(const RecordDiff& diff, Judgement& whole, std::vector<std::string>& causes) {
@@ -114,17 +126,34 @@ void judge_rest(const RecordDiff& diff, Judgement& whole, std::vector<std::strin
     whole.verdict = heavier(whole.verdict, Verdict::kChanged);
     causes.push_back("other anchors in " + names_text(diff.anchors));
   }
+}
+
+/// "space.json is missing"; "maps/layout-1-pose-2.json: 2 numbers differ, the first at …".
+std::string other_text(const OtherDiff& other) {
+  if (other.presence == Presence::kBaseline) return printable(other.file) + " is missing";
+  if (other.presence == Presence::kCurrent) return printable(other.file) + " is new";
+  const std::string file = other.file.empty() ? "the file" : printable(other.file);
+  const std::string what = other.beyond == 0
+                               ? std::string("its keys, words or lengths differ")
+                               : fmt::format("{} {}", counted(other.beyond, "number"),
+                                             other.beyond == 1 ? "differs" : "differ");
+  return fmt::format("{}: {}, the first at {} {} \u2192 {}", file, what, printable(other.first),
+                     printable(other.baseline), printable(other.current));
+}
+
+void judge_others(const RecordDiff& diff, Judgement& whole, std::vector<std::string>& causes) {
   for (const OtherDiff& other : diff.others) {
-    const bool beyond = other.beyond > 0 || other.shape;
-    if (!beyond)
+    const bool lone = other.presence != Presence::kBoth;
+    const bool beyond = lone || other.beyond > 0 || other.shape;
+    if (lone)
+      whole.verdict = heavier(
+          whole.verdict, other.presence == Presence::kBaseline ? Verdict::kMissing : Verdict::kNew);
+    else if (!beyond)
       whole.verdict = heavier(whole.verdict, Verdict::kWithinTolerance);
     else if (whole.verdict <= Verdict::kWithinTolerance)  // Else scores say what it is worth.
       whole.verdict = Verdict::kChanged;
-    if (!beyond || !causes.empty()) continue;
-    causes.push_back(other.beyond == 0
-                         ? other.file + " is kept on one side alone, or is of another form"
-                         : fmt::format("{}: {} differ, the first at {}", other.file,
-                                       counted(other.beyond, "number"), other.first));
+    if (beyond && (causes.empty() || (lone && causes.size() < kMostNames)))
+      causes.push_back(other_text(other));
   }
 }
 
@@ -218,6 +247,7 @@ Judgement judge(const RecordDiff& diff) {
   judge_comparisons(diff, whole, causes);
   judge_points(diff, whole, causes);
   judge_rest(diff, whole, causes);
+  judge_others(diff, whole, causes);
   if (!diff.problems.empty()) {
     whole.verdict = Verdict::kUnreadable;
     causes.insert(causes.begin(), diff.problems[0].what);

@@ -125,7 +125,7 @@ FigureDiff scene_diff(std::string_view baseline, const std::string& baseline_nam
   const Json b = parse(current, current_name, words);
   FigureLog log(a.value("varies", false) && b.value("varies", false));
   if (a.at("records") != b.at("records"))
-    log.change(ChangeKind::kData, "figure", "records",
+    log.change(ChangeKind::kData, "figure", kRecordsWord,
                listed(a.at("records").get<std::vector<std::string>>(), kMostNames),
                "others: " + listed(b.at("records").get<std::vector<std::string>>(), kMostNames));
   SceneComparer(options, log).compare(a, b, "scene");

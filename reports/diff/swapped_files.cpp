@@ -29,10 +29,12 @@ void add(BySize& files, const DiffItem& item, const fs::path& path) {
   if (!error && size > 0) files.emplace(size, BaselineFile{&item, path});
 }
 
-/// The item whose baseline file has these bytes; null if there is none.
-const DiffItem* owner_of(const fs::path& current, const DiffItem& self, const BySize& files) {
+/// The item whose baseline file has these bytes; null if there is none, or if the item's own has
+/// them too: a file that did not change was not swapped, whoever else has its like.
+const DiffItem* owner_of(const fs::path& own, const fs::path& current, const DiffItem& self,
+                         const BySize& files) {
   std::error_code error;
-  if (current.empty()) return nullptr;
+  if (current.empty() || (!own.empty() && same_bytes(own, current))) return nullptr;
   const auto [first, last] = files.equal_range(fs::file_size(current, error));
   if (error) return nullptr;
   for (auto file = first; file != last; ++file)
@@ -44,9 +46,11 @@ const DiffItem* owner_of(const fs::path& current, const DiffItem& self, const By
 
 /// The first file of the item that belongs to another one.
 const DiffItem* owner_of(const DiffItem& item, const BySize& files) {
-  if (const DiffItem* owner = owner_of(item.current_figure, item, files)) return owner;
+  if (const DiffItem* owner = owner_of(item.baseline_figure, item.current_figure, item, files))
+    return owner;
   for (const PictureFile& picture : item.pictures)
-    if (const DiffItem* owner = owner_of(picture.current, item, files)) return owner;
+    if (const DiffItem* owner = owner_of(picture.baseline, picture.current, item, files))
+      return owner;
   return nullptr;
 }
 
@@ -68,16 +72,15 @@ void name_swapped(std::vector<DiffItem>& items) {
     const bool is_rename =
         item.judgement.verdict == Verdict::kNew && owner->judgement.verdict == Verdict::kMissing;
     words.emplace_back(
-        &item, is_rename
-                   ? fmt::format("it is {} of the baseline, renamed", owner->id)
-                   : fmt::format("its file is that of {} in the baseline: swapped", owner->id));
+        &item, is_rename ? fmt::format("the baseline has it as {}: renamed", owner->id)
+                         : fmt::format("its file is the baseline's {}: swapped", owner->id));
     if (is_rename) renamed[owner->id] = item.id;
   }
   for (auto& [item, text] : words) item->judgement.cause += "; " + text;
   for (DiffItem& item : items)
     if (const auto to = renamed.find(item.id);
         to != renamed.end() && item.judgement.verdict == Verdict::kMissing)
-      item.judgement.cause += fmt::format("; it is {} of the current, renamed", to->second);
+      item.judgement.cause += fmt::format("; the current has it as {}: renamed", to->second);
 }
 
 }  // namespace mapproof

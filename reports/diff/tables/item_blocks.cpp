@@ -85,6 +85,7 @@ std::vector<Block> item_blocks(const DiffItem& item, const DiffResult& all, std:
                       tied_scores(item, all));
   }
   if (item.records) add_record_tables(blocks, *item.records, suffix);
+  add_others_table(blocks, item.documents, suffix);
   add_picture_tables(blocks, item.pictures, suffix);
   return blocks;
 }

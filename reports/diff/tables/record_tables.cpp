@@ -82,26 +82,32 @@ void add_presence(std::vector<Block>& blocks, const RecordDiff& diff) {
   blocks.emplace_back(std::move(facts));
 }
 
-void add_others_table(std::vector<Block>& blocks, const RecordDiff& diff,
+}  // namespace
+
+void add_others_table(std::vector<Block>& blocks, const std::vector<OtherDiff>& others,
                       const std::string& suffix) {
-  Table table{"others-" + suffix, "Other numbers", {}, {}, {}};
+  Table table{"others-" + suffix, "Other values", {}, {}, {}};
   table.columns = {{"File", "", "", ""},
                    {"Numbers", "", "", ""},
                    {"Within tolerance", "", "", ""},
                    {"Beyond", "", "", ""},
-                   {"First at", "", "", "JSON pointer"}};
-  for (const OtherDiff& other : diff.others) {
+                   {"First at", "", "", "JSON pointer or line"},
+                   {"Baseline", "", "", ""},
+                   {"Current", "", "", ""}};
+  for (const OtherDiff& other : others) {
     if (table.rows.size() == kMostTableRows) break;
     const auto count = [](long value) { return NumberCell{static_cast<double>(value), 0}; };
-    table.rows.push_back({{user_text(other.file), count(other.numbers), count(other.within),
-                           count(other.beyond), user_text(other.first)},
-                          "",
-                          false});
+    const std::string place = other.presence == Presence::kBaseline  ? "missing"
+                              : other.presence == Presence::kCurrent ? "new"
+                                                                     : other.first;
+    table.rows.push_back(
+        {{user_text(other.file), count(other.numbers), count(other.within), count(other.beyond),
+          user_text(place), user_text(other.baseline), user_text(other.current)},
+         "",
+         false});
   }
-  add_table(blocks, std::move(table), std::ssize(diff.others));
+  add_table(blocks, std::move(table), std::ssize(others));
 }
-
-}  // namespace
 
 void add_record_tables(std::vector<Block>& blocks, const RecordDiff& diff,
                        const std::string& suffix) {
@@ -118,7 +124,7 @@ void add_record_tables(std::vector<Block>& blocks, const RecordDiff& diff,
             changes_table("statuses-" + suffix, "Statuses", "Record", diff.statuses,
                           [](const auto& change) { return change.record; }),
             std::ssize(diff.statuses));
-  add_others_table(blocks, diff, suffix);
+  add_others_table(blocks, diff.others, suffix);
   add_table(blocks,
             changes_table("versions-" + suffix, "Versions, which are not judged", "What",
                           diff.provenance, [](const auto& change) { return change.pointer; }),

@@ -14,4 +14,8 @@ namespace mapproof {
 void add_record_tables(std::vector<Block>& blocks, const RecordDiff& diff,
                        const std::string& suffix);
 
+/// Adds files that are compared value by value, where there are some.
+void add_others_table(std::vector<Block>& blocks, const std::vector<OtherDiff>& others,
+                      const std::string& suffix);
+
 }  // namespace mapproof

@@ -7,6 +7,7 @@
 
 #include <fmt/format.h>
 
+#include "reports/diff/record_words.hpp"
 #include "reports/diff/tables/table_parts.hpp"
 
 namespace mapproof {
@@ -56,7 +57,7 @@ Row row_of(const Comparison& c) {
                              : Cell(MissingCell{}));
   row.cells.push_back(c.test ? Cell(NumberCell{c.test->test.effect, 2, true})
                              : Cell(MissingCell{}));
-  row.cells.emplace_back(TextCell{std::string(name(c.outcome))});
+  row.cells.emplace_back(TextCell{std::string(label(verdict_of(c.outcome)))});
   return row;
 }
 

@@ -2,7 +2,9 @@
 #include <cmath>
 
 #include <fmt/format.h>
+#include <nlohmann/json.hpp>
 
+#include "core/base/files.hpp"
 #include "tests/reports/diff/small_study.hpp"
 #include "tests/reports/diff/value_cases.hpp"
 
@@ -125,6 +127,30 @@ void add_curve_looks(const Figure& figure, std::vector<ValueCase>& cases) {
   });
 }
 
+/// What a figure says that it is made of, whether or not it varies, and numbers in its words.
+void add_records(std::vector<ValueCase>& cases) {
+  for (const Figure& figure : figures())
+    cases.push_back(changed_figure(figure, "other records", Verdict::kChanged,
+                                   {"it shows other records", "layout-9"},
+                                   [](Figure& f) { f.record_ids[0] = "layout-9-pose-1/x/y/1"; }));
+}
+
+ValueCase unknown_key(const Figure& figure, const std::string& place) {
+  return {.name = figure.id + ": an unknown key in " + place,
+          .id = figure.id,
+          .verdict = Verdict::kUnreadable,
+          .cause = {figure.id + ".figure.json", "colour"},
+          .passes = false,
+          .change =
+              [=](const fs::path& folder) {
+                const fs::path file = folder / "figures" / (figure.id + ".figure.json");
+                auto root = nlohmann::ordered_json::parse(read_file(file));
+                root[nlohmann::ordered_json::json_pointer(place)]["colour"] = 1;
+                write_file(file, root.dump(1));
+              },
+          .alone = true};
+}
+
 /// Data that change in the figure alone: its records say that they did not.
 void add_data(std::vector<ValueCase>& cases) {
   const Figure& map = figures()[1];
@@ -179,6 +205,9 @@ std::vector<ValueCase> figure_cases() {
   add_map_looks(figures()[1], cases);
   add_curve_looks(figures()[2], cases);
   add_data(cases);
+  add_records(cases);
+  for (const char* place : {"", "/panels/0", "/panels/0/x", "/panels/0/layers/0"})
+    cases.push_back(unknown_key(figures()[1], place));
   return cases;
 }
 

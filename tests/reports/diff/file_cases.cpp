@@ -73,15 +73,15 @@ void add_whole(Files& files, const std::string& id, const std::string& other) {
       fs::rename(in / (id + extension), in / ("renamed" + extension));
     });
   };
-  files.add(id + " renamed", id, Verdict::kMissing, {"it is renamed of the current, renamed"},
+  files.add(id + " renamed", id, Verdict::kMissing, {"the current has it as renamed: renamed"},
             false, rename);
   files.add(id + " renamed, as the other", "renamed", Verdict::kNew,
-            {"it is " + id + " of the baseline, renamed"}, false, rename);
-  files.add(id + ".png swapped", id, Verdict::kRenderer, {"that of " + other, "swapped"}, false,
-            [=](const fs::path& folder) {
+            {"the baseline has it as " + id + ": renamed"}, false, rename);
+  files.add(id + ".png swapped", id, Verdict::kRenderer, {"the baseline's " + other, "swapped"},
+            false, [=](const fs::path& folder) {
               swap(folder / "figures" / (id + ".png"), folder / "figures" / (other + ".png"));
             });
-  files.add(id + " swapped", id, Verdict::kChanged, {"that of " + other, "swapped"}, false,
+  files.add(id + " swapped", id, Verdict::kChanged, {"the baseline's " + other, "swapped"}, false,
             [=](const fs::path& folder) {
               each(folder, [&](const fs::path& in, const std::string& extension) {
                 swap(in / (id + extension), in / (other + extension));
@@ -96,7 +96,7 @@ void add_records(Files& files) {
     files.add(name + " emptied", "records", Verdict::kUnreadable, {name}, true,
               [=](const fs::path& folder) { fs::resize_file(folder / name, 0); });
   }
-  files.add("a run deleted", "records", Verdict::kMissing, {"missing runs", "layout-3-pose-1"},
+  files.add("a run deleted", "records", Verdict::kMissing, {"missing run:", "layout-3-pose-1"},
             true, [](const fs::path& folder) { fs::remove(folder / "runs/layout-3-pose-1.json"); });
   files.add("study.json truncated", "records", Verdict::kUnreadable, {"study.json"}, true,
             [](const fs::path& folder) { truncate(folder / "study.json"); });

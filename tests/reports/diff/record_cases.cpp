@@ -164,7 +164,7 @@ void add_runs(std::vector<ValueCase>& cases) {
         {.name = fmt::format("{} layouts", layouts),
          .id = "records",
          .verdict = layouts < 8 ? Verdict::kMissing : Verdict::kNew,
-         .cause = {"layouts 8", layouts < 8 ? "missing runs" : "new runs"},
+         .cause = {"layouts 8", layouts < 8 ? "missing run" : "new run"},
          .passes = false,
          .change = [=](const fs::path& folder) { write_changed(SmallStudy(7, layouts), folder); },
          .alone = false});

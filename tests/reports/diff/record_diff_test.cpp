@@ -113,10 +113,11 @@ TEST(RecordDiff, TellsAMapAndAFileThatAreKeptOnOneSideAlone) {
   }
   after = set_of(3);
   RecordSet detailed = after;
-  detailed.others["details/layout-1-pose-1"] = "details/layout-1-pose-1.json";
+  detailed.others["details/layout-1-pose-1.json"] = "details/layout-1-pose-1.json";
   const RecordDiff diff = record_diff(detailed, after);
-  EXPECT_EQ(diff.judgement.verdict, Verdict::kChanged);
-  EXPECT_NE(diff.judgement.cause.find("kept on one side alone"), std::string::npos);
+  EXPECT_EQ(diff.judgement.verdict, Verdict::kMissing);
+  EXPECT_EQ(diff.judgement.cause, "details/layout-1-pose-1.json is missing");
+  EXPECT_EQ(record_diff(after, detailed).judgement.verdict, Verdict::kNew);
   after.runs.erase("layout-1-pose-1");  // Then the missing run says it.
   EXPECT_TRUE(record_diff(detailed, after).others.empty());
 }

@@ -24,7 +24,15 @@ struct ValueCase {
 /// Writes the study that all cases begin from.
 void write_base_study(const std::filesystem::path& folder);
 
+/// Tables, a report's page and a PDF, to stand beside it.
+void write_base_documents(const std::filesystem::path& folder);
+/// A range-only study with something in every field.
+void write_base_slam_study(const std::filesystem::path& folder);
+
 std::vector<ValueCase> record_cases();
+std::vector<ValueCase> field_cases();     ///< Single values of the records' files.
+std::vector<ValueCase> slam_cases();      ///< Of the range-only study.
+std::vector<ValueCase> document_cases();  ///< With the documents beside the study.
 std::vector<ValueCase> figure_cases();
 std::vector<ValueCase> drawing_cases();
 std::vector<ValueCase> file_cases();

@@ -33,25 +33,28 @@ class Mutations : public ::testing::Test {
   static void SetUpTestSuite() {
     folder_ = new TemporaryFolder;
     write_base_study(*folder_ / "base");
+    write_base_documents(*folder_ / "base");
+    write_base_slam_study(*folder_ / "slam");
   }
   static void TearDownTestSuite() {
     delete folder_;
     folder_ = nullptr;
   }
 
-  static void run(const std::string& name, const std::vector<ValueCase>& cases) {
+  static void run(const std::string& name, const std::vector<ValueCase>& cases,
+                  const std::string& base = "base") {
     Confusion confusion;
-    for (const ValueCase& one : cases) run(one, confusion);
+    for (const ValueCase& one : cases) run(one, *folder_ / base, confusion);
     print(name + fmt::format(": {} pairs", cases.size()), confusion);
   }
 
-  static void run(const ValueCase& one, Confusion& confusion) {
+  static void run(const ValueCase& one, const fs::path& base, Confusion& confusion) {
     SCOPED_TRACE(one.name);
     const fs::path changed = *folder_ / "changed";
     fs::remove_all(changed);
-    fs::copy(*folder_ / "base", changed, fs::copy_options::recursive);
+    fs::copy(base, changed, fs::copy_options::recursive);
     one.change(changed);
-    const DiffResult result = folder_diff(*folder_ / "base", changed);
+    const DiffResult result = folder_diff(base, changed);
     const auto item = std::ranges::find(result.items, one.id, &DiffItem::id);
     ASSERT_NE(item, result.items.end());
     ++confusion[one.verdict][item->judgement.verdict];
@@ -74,6 +77,14 @@ class Mutations : public ::testing::Test {
 TemporaryFolder* Mutations::folder_ = nullptr;
 
 TEST_F(Mutations, OfRecordsAreAllToldWithTheirCause) { run("records", record_cases()); }
+
+TEST_F(Mutations, OfAnyFieldOfTheRecordsAreTold) { run("fields", field_cases()); }
+
+TEST_F(Mutations, OfRangeOnlyStudiesAreToldWithTheirCause) {
+  run("range-only", slam_cases(), "slam");
+}
+
+TEST_F(Mutations, OfTablesPagesAndPdfsAreTold) { run("documents", document_cases()); }
 
 TEST_F(Mutations, OfFiguresAreAllToldWithTheirCause) { run("figures", figure_cases()); }
 

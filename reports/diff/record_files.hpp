@@ -1,0 +1,12 @@
+#pragma once
+
+#include <filesystem>
+#include <vector>
+
+namespace mapproof {
+
+/// The files that records are kept in, seconds apart: those of a study of either kind, of a map or
+/// of one log's result. Paths below `place`, ascending; what cannot be listed is left out.
+std::vector<std::filesystem::path> record_files(const std::filesystem::path& place);
+
+}  // namespace mapproof

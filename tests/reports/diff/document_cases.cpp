@@ -1,0 +1,109 @@
+#include <fmt/format.h>
+
+#include "core/base/files.hpp"
+#include "reports/tables/write_tables.hpp"
+#include "tests/reports/diff/value_cases.hpp"
+
+namespace mapproof::test {
+namespace {
+
+namespace fs = std::filesystem;
+
+Table made_up_table(const std::string& id) {
+  Table table{id, "How it came out", {}, {}, {"A note."}};
+  table.columns = {{"Method", "", "", ""}, {"MPE", "m", "", ""}, {"Runs", "", "", ""}};
+  table.rows = {{{TextCell{"LPCA"}, NumberCell{0.2361, 3}, NumberCell{8, 0}}, "", false},
+                {{TextCell{"ISOMAP"}, NumberCell{0.1284, 3}, NumberCell{8, 0}}, "", true}};
+  return table;
+}
+
+const std::string kPage =
+    "<!DOCTYPE html><html><style>p {}</style><body><p>ISOMAP is best: 0.128 m.</p>"
+    "<figure id=\"figure-map-isomap\"><svg><path d=\"M0 0\"/></svg></figure>"
+    "<table aria-labelledby=\"caption-accuracy\"><td>0.128</td></table>"
+    "<section id=\"section-provenance\"><p>Made 2026-01-01.</p></section></body></html>\n";
+
+ValueCase edit(const std::string& file, const std::string& id, const std::string& from,
+               const std::string& to, Verdict verdict, std::vector<std::string> cause) {
+  return {.name = file + ": " + from + " -> " + to,
+          .id = id,
+          .verdict = verdict,
+          .cause = std::move(cause),
+          .passes = verdict <= Verdict::kWithinTolerance,
+          .change =
+              [=](const fs::path& folder) {
+                std::string text = read_file(folder / file);
+                const std::size_t at = text.find(from);
+                if (at == std::string::npos) throw std::out_of_range(from);
+                write_file(folder / file, text.replace(at, from.size(), to));
+              },
+          .alone = true};
+}
+
+void add_files(std::vector<ValueCase>& cases) {
+  for (const auto& [file, id] : {std::pair{"tables/accuracy.csv", "tables/accuracy"},
+                                 {"tables/accuracy.md", "tables/accuracy"},
+                                 {"tables/accuracy.tex", "tables/accuracy"},
+                                 {"report.html", "report.html"},
+                                 {"plan.pdf", "plan"}}) {
+    const auto add = [&, file = std::string(file)](const char* what, Verdict verdict,
+                                                   const auto& change) {
+      cases.push_back({.name = file + " " + what,
+                       .id = id,
+                       .verdict = verdict,
+                       .cause = {},
+                       .passes = false,
+                       .change = [=](const fs::path& folder) { change(folder / file); },
+                       .alone = true});
+    };
+    add("deleted", Verdict::kMissing, [](const fs::path& path) { fs::remove(path); });
+    add("emptied", Verdict::kUnreadable, [](const fs::path& path) { fs::resize_file(path, 0); });
+    if (!std::string(file).ends_with(".csv"))  // Every beginning of one is a CSV.
+      add("truncated", Verdict::kUnreadable,
+          [](const fs::path& path) { fs::resize_file(path, fs::file_size(path) / 2); });
+  }
+}
+
+}  // namespace
+
+void write_base_documents(const fs::path& folder) {
+  Report report;
+  report.sections = {{"accuracy", "Accuracy", {made_up_table("accuracy")}},
+                     {"cost", "Cost", {made_up_table("durations")}}};
+  write_tables(report, folder / "tables");
+  write_file(folder / "report.html", kPage);
+  write_file(folder / "plan.pdf", "%PDF-1.5\n/Producer (cairo 1.16.0 (x))\n1 0 obj\n%%EOF\n");
+}
+
+std::vector<ValueCase> document_cases() {
+  const std::string csv = "tables/accuracy.csv", md = "tables/accuracy.md";
+  const std::string tex = "tables/accuracy.tex", id = "tables/accuracy", page = "report.html";
+  using enum Verdict;
+  std::vector<ValueCase> cases = {
+      edit(csv, id, "0.1284", "0.1294", kChanged,
+           {"row 3 (ISOMAP), MPE [m]: 0.1284 \u2192 0.1294", "its records did not change"}),
+      edit(csv, id, "0.1284", "0.12840000001", kWithinTolerance, {"1 cell differs within"}),
+      edit(csv, id, "ISOMAP", "LLE", kChanged, {"row 3, Method: ISOMAP"}),
+      edit(csv, id, "MPE", "Error", kStyle, {"row 1, MPE [m]"}),
+      edit(csv, id, "LPCA,0.2361,8\r\n", "", kChanged, {"3 rows \u2192 2 rows"}),
+      edit(md, id, "0.128", "0.129", kChanged, {"accuracy.md, row", "MPE"}),
+      edit(md, id, "How it came out", "Outcome", kStyle, {"How it came out"}),
+      edit(tex, id, "0.128", "0.129", kChanged, {"accuracy.tex, row", "cell 2"}),
+      edit(tex, id, "\\caption{How", "\\caption{Why", kStyle, {"accuracy.tex"}),
+      edit("tables/durations.csv", "tables/durations", "0.1284", "9", kWithinTolerance, {"vary"}),
+      edit("tables/durations.md", "tables/durations", "0.128", "9", kWithinTolerance, {"vary"}),
+      edit("tables/durations.csv", "tables/durations", "MPE", "Error", kStyle, {"row 1"}),
+      edit(page, page, "best: 0.128", "best: 0.129", kChanged,
+           {"ISOMAP is best: 0.128 m. \u2192 ISOMAP is best: 0.129 m."}),
+      edit(page, page, "best", "worst", kStyle, {"other words", "ISOMAP is worst"}),
+      edit(page, page, "p {}", "p { color: red }", kStyle, {"its words are equal"}),
+      edit(page, page, "M0 0", "M9 9", kStyle, {"its words are equal"}),
+      edit(page, page, "2026-01-01", "2027-02-03", kWithinTolerance, {"provenance"}),
+      edit("plan.pdf", "plan", "1 0 obj", "2 0 obj", kChanged, {"pdf, by its bytes alone"}),
+      edit("plan.pdf", "plan", "1.16.0", "1.18.0", kWithinTolerance,
+           {"cairo 1.16.0 \u2192 cairo 1.18.0"})};
+  add_files(cases);
+  return cases;
+}
+
+}  // namespace mapproof::test
