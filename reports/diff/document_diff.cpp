@@ -1,6 +1,7 @@
 #include "reports/diff/document_diff.hpp"
 
 #include <algorithm>
+#include <map>
 #include <set>
 
 #include <fmt/format.h>
@@ -21,7 +22,7 @@ namespace fs = std::filesystem;
 constexpr std::size_t kLargestPage = std::size_t{1} << 28;  // Bytes.
 constexpr std::size_t kMostWords = 80;
 
-bool is_page(const std::string& id) { return id.ends_with(".html"); }
+bool is_page(const ItemFiles& files) { return files.documents.contains("html"); }
 
 Tolerance tolerance_of_numbers(const DiffSettings& settings) {
   return tolerance_of(*find_quantity("other"), settings.records.tolerances);
@@ -176,7 +177,7 @@ DiffItem document_item(const std::string& id, const ItemFiles* baseline, const I
     item.judgement = {Verdict::kMissing, true, "is not in the current"};
   } else {
     try {
-      if (is_page(id))
+      if (is_page(*baseline))
         compare_pages(item, baseline->documents.begin()->second, current->documents.begin()->second,
                       told, settings);
       else
@@ -191,20 +192,17 @@ DiffItem document_item(const std::string& id, const ItemFiles* baseline, const I
 }
 
 void add_documents(std::vector<DiffItem>& items, const ItemList& baseline, const ItemList& current,
-                   const DiffSettings& settings) {
-  std::set<std::string> ids;
-  for (const ItemList* side : {&baseline, &current})
-    for (const auto& [id, files] : *side)
-      if (!files.documents.empty()) ids.insert(id);
-  const auto files_of = [](const ItemList& side, const std::string& id) {
-    const auto found = side.find(id);
-    return found == side.end() ? nullptr : &found->second;
-  };
+                   const std::string& sole, const DiffSettings& settings) {
+  std::map<std::string, std::pair<const ItemFiles*, const ItemFiles*>> all;
+  for (const auto& [id, files] : baseline)
+    if (!files.documents.empty()) all[id].first = &files;
+  for (const auto& [id, files] : current)
+    if (!files.documents.empty()) all[id].second = &files;
   for (const bool pages : {false, true})
-    for (const std::string& id : ids)
-      if (is_page(id) == pages)
+    for (const auto& [id, sides] : all)
+      if (is_page(*(sides.first ? sides.first : sides.second)) == pages)
         items.push_back(
-            document_item(id, files_of(baseline, id), files_of(current, id), items, settings));
+            document_item(id.empty() ? sole : id, sides.first, sides.second, items, settings));
 }
 
 }  // namespace mapproof

@@ -17,7 +17,8 @@ DiffItem document_item(const std::string& id, const ItemFiles* baseline, const I
                        const std::vector<DiffItem>& told, const DiffSettings& settings);
 
 /// All tables, then all pages of two lists. Appended to `items`, which hold all else.
+/// @param sole  What a single file is called.
 void add_documents(std::vector<DiffItem>& items, const ItemList& baseline, const ItemList& current,
-                   const DiffSettings& settings);
+                   const std::string& sole, const DiffSettings& settings);
 
 }  // namespace mapproof

@@ -202,7 +202,7 @@ DiffResult folder_diff(const fs::path& baseline, const fs::path& current,
       picture_items(before, after, file_id(current), context, settings);
   name_swapped(pictures);
   std::ranges::move(pictures, std::back_inserter(result.items));
-  add_documents(result.items, before, after, settings);
+  add_documents(result.items, before, after, file_id(current), settings);
   if (result.items.empty())
     throw InvalidInput(baseline.string() + " and " + current.string() +
                        " hold no records, figures or pictures to compare");

@@ -10,21 +10,27 @@
 namespace mapproof {
 namespace {
 
+/// "VTK 9.1, llvmpipe 15.0 → 15.1": words that both begin with stand once.
+std::string change_of_words(const std::string& a, const std::string& b) {
+  if (a.empty() || b.empty())
+    return fmt::format("{} \u2192 {}", a.empty() ? "unknown" : a, b.empty() ? "unknown" : b);
+  std::size_t shared = 0;
+  for (std::size_t i = 0; i < std::min(a.size(), b.size()) && a[i] == b[i]; ++i)
+    if (a[i] == ' ') shared = i + 1;
+  return fmt::format("{} \u2192 {}", a, b.substr(shared));
+}
+
 /// "Cairo 1.16.0 → 1.18.0": what drew the two, by the files or else by the studies.
 std::string renderers_text(const PictureDiff& diff, const RecordContext& context) {
-  if (!diff.baseline_renderer.empty() || !diff.current_renderer.empty()) {
-    if (diff.baseline_renderer == diff.current_renderer)
-      return "both drawn by " + diff.current_renderer;
-    const auto shown = [](const std::string& text) { return text.empty() ? "unknown" : text; };
-    return fmt::format("drawn by {} \u2192 {}", shown(diff.baseline_renderer),
-                       shown(diff.current_renderer));
-  }
+  if (diff.baseline_renderer != diff.current_renderer)
+    return "drawn by " + change_of_words(diff.baseline_renderer, diff.current_renderer);
   for (const RecordDiff* records : context.records)
     for (const SettingChange& change : records->provenance)
       for (const char* library : {"Cairo", "FreeType", "HarfBuzz"})
         if (change.pointer == library)
           return fmt::format("{} {} \u2192 {}", library, change.baseline, change.current);
-  return "versions unknown";
+  return diff.current_renderer.empty() ? "versions unknown"
+                                       : "both drawn by " + diff.current_renderer;
 }
 
 /// Whether both were drawn by the same, as far as files and studies say.

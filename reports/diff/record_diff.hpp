@@ -105,9 +105,9 @@ struct OtherDiff {
   long numbers = 0;
   long within = 0;
   long beyond = 0;
-  std::string first;              ///< JSON pointer or line of the first that is beyond tolerance.
-  std::string baseline, current;  ///< Its values.
-  bool shape = false;             ///< Keys, words or lengths differ as well.
+  std::string first = {};  ///< JSON pointer or line of the first that is beyond tolerance.
+  std::string baseline = {}, current = {};  ///< Its values.
+  bool shape = false;                       ///< Keys, words or lengths differ as well.
 };
 
 /// What two sets of records differ in.

@@ -42,6 +42,12 @@ void flatten(const nlohmann::json& value, const std::string& pointer,
   for (const auto& [key, item] : value.items()) flatten(item, pointer + "/" + key, out);
 }
 
+/// Whether a study.json is there, be it readable or not.
+bool has_study(const fs::path& folder) {
+  std::error_code error;
+  return fs::exists(fs::symlink_status(folder / "study.json", error));
+}
+
 /// The JSON file of a map or of one log's result: the path itself, or the file in its folder.
 fs::path single_file(const fs::path& path) {
   std::error_code error;
@@ -139,7 +145,7 @@ void add_statuses(RecordSet& set, const std::string& id, const std::vector<Statu
 
 bool holds_records(const fs::path& path) {
   std::error_code error;
-  if (fs::is_directory(path, error)) return is_study(path) || !single_file(path).empty();
+  if (fs::is_directory(path, error)) return has_study(path) || !single_file(path).empty();
   const std::string file = path.filename().string();
   if (!file.ends_with(".json") || file.ends_with(".figure.json") || file.ends_with(".scene.json"))
     return false;
@@ -160,7 +166,7 @@ void add_others(RecordSet& set, const fs::path& folder, const fs::path& beside) 
 RecordSet read_records(const fs::path& path, const fs::path& beside) {
   std::error_code error;
   RecordSet set;
-  if (is_study(path)) {
+  if (has_study(path)) {
     set = is_slam_study(path) ? read_slam_records(path) : read_study_records(path, beside);
   } else {
     const fs::path file = single_file(path);

@@ -1,6 +1,8 @@
+#include <sys/stat.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <chrono>
 #include <csignal>
 #include <map>
@@ -89,6 +91,42 @@ TEST(DiffVerb, WritesWhatIsAskedFor) {
   EXPECT_NE(read_file(out + ".md").find("map-usual"), std::string::npos);
   const Outcome printed = mapproof({"diff", two.before, two.after, "--json", "-"});
   EXPECT_EQ(json::parse(printed.out), found);
+}
+
+TEST(DiffVerb, WritesOneOfItsOutputsToStandardOutput) {
+  const TwoStudies two;
+  two.change_picture();
+  for (const auto& [option, begin] : {std::pair{"--junit", "<?xml"},
+                                      {"--markdown", "### mapproof diff"},
+                                      {"--out", "<!DOCTYPE html>"}}) {
+    const Outcome outcome = mapproof({"diff", two.before, two.after, option, "-"});
+    EXPECT_EQ(outcome.exit_code, 1) << outcome.error;
+    EXPECT_TRUE(outcome.out.starts_with(begin)) << outcome.out.substr(0, 100);
+    EXPECT_FALSE(fs::exists("-"));
+  }
+  EXPECT_EQ(mapproof({"diff", two.before, two.after, "--json", "-", "--junit", "-"}).exit_code, 2);
+}
+
+TEST(DiffVerb, NeverWaitsForWhatHasNoEnd) {
+  const TwoStudies two;
+  const std::string picture = two.after + "/figures/map-usual.png";
+  const std::string run = two.after + "/runs/layout-1-pose-1.json";
+  for (const std::string& file : {picture, run}) {
+    fs::remove(file);
+    ASSERT_EQ(::mkfifo(file.c_str(), 0600), 0);
+  }
+  fs::remove(two.after + "/figures/pair-usual.png");
+  fs::create_symlink("/dev/zero", two.after + "/figures/pair-usual.png");
+  const Outcome outcome = mapproof({"diff", two.before, two.after});
+  EXPECT_EQ(outcome.exit_code, 1) << outcome.error;
+  EXPECT_NE(outcome.out.find("3 unreadable, 1 identical"), std::string::npos) << outcome.out;
+  EXPECT_NE(outcome.out.find("is a pipe"), std::string::npos) << outcome.out;
+  EXPECT_NE(outcome.out.find("is a device"), std::string::npos) << outcome.out;
+  for (const std::string& sole : {picture, std::string("/dev/zero")}) {
+    const Outcome alone = mapproof({"diff", two.before + "/figures/map-usual.png", sole});
+    EXPECT_EQ(alone.exit_code, 2);
+    EXPECT_EQ(std::ranges::count(alone.error, '\n'), 1) << alone.error;
+  }
 }
 
 TEST(DiffVerb, EndsWithTwoWhereNothingCanBeCompared) {
@@ -180,6 +218,11 @@ TEST(ApproveVerb, TakesAFileOfApprovals) {
   const fs::path bad = two.folder.file(
       "b.json", R"({"schema": {"name": "mapproof.approvals", "version": 1}, "id": []})");
   EXPECT_EQ(mapproof({"approve", two.before, two.after, "--from", bad}).exit_code, 2);
+  const fs::path none = two.folder.file(
+      "c.json", R"({"schema": {"name": "mapproof.approvals", "version": 1}, "ids": []})");
+  const Outcome outcome = mapproof({"approve", two.before, two.after, "--from", none});
+  EXPECT_EQ(outcome.exit_code, 2);
+  EXPECT_NE(outcome.error.find("/ids: names nothing"), std::string::npos) << outcome.error;
 }
 
 TEST(ApproveVerb, NeverTakesWhatCannotBeRead) {
@@ -187,8 +230,31 @@ TEST(ApproveVerb, NeverTakesWhatCannotBeRead) {
   fs::resize_file(two.after + "/figures/map-usual.png", 100);
   const std::string before = read_file(two.before + "/figures/map-usual.png");
   EXPECT_EQ(mapproof({"approve", two.before, two.after, "map-usual"}).exit_code, 2);
-  EXPECT_EQ(mapproof({"approve", two.before, two.after, "--all"}).exit_code, 2);
   EXPECT_EQ(read_file(two.before + "/figures/map-usual.png"), before);
+}
+
+TEST(ApproveVerb, TakesAllThatCanBeTakenAndNamesTheRest) {
+  const TwoStudies two;
+  two.change_score();
+  fs::resize_file(two.after + "/figures/map-usual.png", 100);
+  fs::copy_file(two.after + "/figures/curve-usual.png", two.after + "/figures/another.png");
+  const std::string before = read_file(two.before + "/figures/map-usual.png");
+  const Outcome outcome = mapproof({"approve", two.before, two.after, "--all"});
+  EXPECT_EQ(outcome.exit_code, 1) << outcome.out;
+  EXPECT_NE(outcome.error.find("map-usual: not approved: "), std::string::npos) << outcome.error;
+  EXPECT_EQ(read_file(two.before + "/figures/map-usual.png"), before);
+  EXPECT_TRUE(fs::exists(two.before + "/figures/another.png"));
+  EXPECT_EQ(read_file(two.before + "/runs/layout-1-pose-1.json"),
+            read_file(two.after + "/runs/layout-1-pose-1.json"));
+}
+
+TEST(ApproveVerb, NeverTakesRecordsThatCannotBeRead) {
+  const TwoStudies two;
+  fs::resize_file(two.after + "/runs/layout-1-pose-1.json", 100);
+  const std::string before = read_file(two.before + "/runs/layout-1-pose-1.json");
+  EXPECT_EQ(mapproof({"approve", two.before, two.after, "records"}).exit_code, 2);
+  EXPECT_EQ(mapproof({"approve", two.before, two.after, "--all"}).exit_code, 1);
+  EXPECT_EQ(read_file(two.before + "/runs/layout-1-pose-1.json"), before);
 }
 
 TEST(ApproveVerb, KeepsPicturesOfAnotherRendererBesideTheOthers) {
@@ -258,7 +324,12 @@ TEST(CheckVerb, FailsWithoutABaselineAndKeepsTheCandidate) {
   EXPECT_NE(first.error.find("there is no baseline"), std::string::npos) << first.error;
   EXPECT_TRUE(fs::exists(out + "/study.json"));
   EXPECT_FALSE(fs::exists(baseline));
+  write_file(baseline + "/tables/of-yore.csv", "a,b\n1,2\n");
+  write_file(baseline + "/notes.txt", "Not of mapproof.");
   EXPECT_EQ(mapproof({"approve", baseline, out, "--all"}).exit_code, 0);
+  fs::remove(baseline + "/notes.txt");
+  EXPECT_EQ(contents(baseline), contents(out)) << "nothing old is left, nothing new is missing";
+  EXPECT_NE(mapproof({"diff", baseline, out}).out.find("passes: "), std::string::npos);
   const Outcome second =
       mapproof({"check", experiment, "--baseline", baseline, "--out", folder / "again"});
   EXPECT_EQ(second.exit_code, 0) << second.out << second.error;
@@ -266,6 +337,17 @@ TEST(CheckVerb, FailsWithoutABaselineAndKeepsTheCandidate) {
       {"check", experiment, "--baseline", baseline, "--out", folder / "other", "--seed", "77"});
   EXPECT_EQ(other.exit_code, 1);
   EXPECT_NE(other.out.find("\u2192 77: other worlds"), std::string::npos) << other.out;
+}
+
+TEST(CheckVerb, PassesAgainstAStudyOfRecordsAlone) {
+  const TemporaryFolder folder;
+  const std::string experiment = std::string(MAPPROOF_TEST_DATA) + "/experiments/small.json";
+  const std::string baseline = folder / "baseline", out = folder / "out";
+  ASSERT_EQ(mapproof({"run", experiment, "--out", baseline}).exit_code, 0);
+  const Outcome outcome = mapproof({"check", experiment, "--baseline", baseline, "--out", out});
+  EXPECT_EQ(outcome.exit_code, 0) << outcome.out << outcome.error;
+  EXPECT_NE(outcome.out.find("without figures, tables and report"), std::string::npos);
+  EXPECT_EQ(mapproof({"diff", out, baseline}).exit_code, 1) << "what is drawn must stay";
 }
 
 }  // namespace
