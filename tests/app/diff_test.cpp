@@ -1,60 +1,19 @@
 #include <sys/stat.h>
-#include <sys/wait.h>
-#include <unistd.h>
 
 #include <algorithm>
-#include <chrono>
-#include <csignal>
-#include <map>
 
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
 #include "core/base/files.hpp"
+#include "tests/app/two_studies.hpp"
 #include "tests/support/environment.hpp"
 #include "tests/support/program.hpp"
 
 namespace mapproof::test {
 namespace {
 
-namespace fs = std::filesystem;
 using nlohmann::json;
-
-const std::string kStudy = std::string(MAPPROOF_TEST_DATA) + "/study";
-const std::string kPictures = std::string(MAPPROOF_SOURCE_DIR) + "/tests/baselines";
-
-/// Writes `to` for the first `from` in a file.
-void replace_in(const fs::path& file, const std::string& from, const std::string& to) {
-  std::string text = read_file(file);
-  const std::size_t at = text.find(from);
-  ASSERT_NE(at, std::string::npos) << from;
-  write_file(file, text.replace(at, from.size(), to));
-}
-
-/// A baseline and a copy of it, for one to be changed.
-struct TwoStudies {
-  TemporaryFolder folder;
-  std::string before = folder / "before";
-  std::string after = folder / "after";
-
-  TwoStudies() {
-    for (const std::string& copy : {before, after}) {
-      fs::copy(kStudy, copy, fs::copy_options::recursive);
-      fs::create_directory(fs::path(copy) / "figures");
-      for (const char* picture : {"curve-usual", "map-usual", "pair-usual"})
-        fs::copy_file(fs::path(kPictures) / (std::string(picture) + ".png"),
-                      fs::path(copy) / "figures" / (std::string(picture) + ".png"));
-    }
-  }
-  void change_picture() const {
-    fs::copy_file(fs::path(kPictures) / "curve-log.png", fs::path(after) / "figures/map-usual.png",
-                  fs::copy_options::overwrite_existing);
-  }
-  /// In one run alone, so that it has no direction.
-  void change_score() const {
-    replace_in(fs::path(after) / "runs/layout-1-pose-1.json", "\"mpe_m\": 0.", "\"mpe_m\": 0.9");
-  }
-};
 
 TEST(DiffVerb, PassesAStudyAndItsCopy) {
   const TwoStudies two;
@@ -190,164 +149,6 @@ TEST(DiffVerb, HandsItsPicturesToCtest) {
       outcome.out.find("<CTestMeasurementFile type=\"image/png\" name=\"map-usual current\">"),
       std::string::npos)
       << outcome.out;
-}
-
-TEST(ApproveVerb, TakesWhatIsNamedAndNothingElse) {
-  const TwoStudies two;
-  two.change_picture();
-  fs::remove(two.after + "/figures/pair-usual.png");
-  EXPECT_EQ(mapproof({"approve", two.before, two.after}).exit_code, 2);
-  EXPECT_EQ(mapproof({"approve", two.before, two.after, "map-usul"}).exit_code, 2);
-  EXPECT_EQ(mapproof({"approve", two.before, two.after, "map-usual"}).exit_code, 0);
-  EXPECT_EQ(read_file(two.before + "/figures/map-usual.png"),
-            read_file(two.after + "/figures/map-usual.png"));
-  EXPECT_TRUE(fs::exists(two.before + "/figures/pair-usual.png"));
-  EXPECT_EQ(mapproof({"diff", two.before, two.after}).exit_code, 1);
-  EXPECT_EQ(mapproof({"approve", two.before, two.after, "--all"}).exit_code, 0);
-  EXPECT_EQ(mapproof({"diff", two.before, two.after}).exit_code, 0);
-}
-
-TEST(ApproveVerb, TakesAFileOfApprovals) {
-  const TwoStudies two;
-  two.change_picture();
-  const fs::path approvals = two.folder.file(
-      "a.json",
-      R"({"schema": {"name": "mapproof.approvals", "version": 1}, "ids": ["map-usual"]})");
-  EXPECT_EQ(mapproof({"approve", two.before, two.after, "--from", approvals}).exit_code, 0);
-  EXPECT_EQ(mapproof({"diff", two.before, two.after}).exit_code, 0);
-  const fs::path bad = two.folder.file(
-      "b.json", R"({"schema": {"name": "mapproof.approvals", "version": 1}, "id": []})");
-  EXPECT_EQ(mapproof({"approve", two.before, two.after, "--from", bad}).exit_code, 2);
-  const fs::path none = two.folder.file(
-      "c.json", R"({"schema": {"name": "mapproof.approvals", "version": 1}, "ids": []})");
-  const Outcome outcome = mapproof({"approve", two.before, two.after, "--from", none});
-  EXPECT_EQ(outcome.exit_code, 2);
-  EXPECT_NE(outcome.error.find("/ids: names nothing"), std::string::npos) << outcome.error;
-}
-
-TEST(ApproveVerb, NeverTakesWhatCannotBeRead) {
-  const TwoStudies two;
-  fs::resize_file(two.after + "/figures/map-usual.png", 100);
-  const std::string before = read_file(two.before + "/figures/map-usual.png");
-  EXPECT_EQ(mapproof({"approve", two.before, two.after, "map-usual"}).exit_code, 2);
-  EXPECT_EQ(read_file(two.before + "/figures/map-usual.png"), before);
-}
-
-TEST(ApproveVerb, TakesAllThatCanBeTakenAndNamesTheRest) {
-  const TwoStudies two;
-  two.change_score();
-  fs::resize_file(two.after + "/figures/map-usual.png", 100);
-  fs::copy_file(two.after + "/figures/curve-usual.png", two.after + "/figures/another.png");
-  const std::string before = read_file(two.before + "/figures/map-usual.png");
-  const Outcome outcome = mapproof({"approve", two.before, two.after, "--all"});
-  EXPECT_EQ(outcome.exit_code, 1) << outcome.out;
-  EXPECT_NE(outcome.error.find("map-usual: not approved: "), std::string::npos) << outcome.error;
-  EXPECT_EQ(read_file(two.before + "/figures/map-usual.png"), before);
-  EXPECT_TRUE(fs::exists(two.before + "/figures/another.png"));
-  EXPECT_EQ(read_file(two.before + "/runs/layout-1-pose-1.json"),
-            read_file(two.after + "/runs/layout-1-pose-1.json"));
-}
-
-TEST(ApproveVerb, NeverTakesRecordsThatCannotBeRead) {
-  const TwoStudies two;
-  fs::resize_file(two.after + "/runs/layout-1-pose-1.json", 100);
-  const std::string before = read_file(two.before + "/runs/layout-1-pose-1.json");
-  EXPECT_EQ(mapproof({"approve", two.before, two.after, "records"}).exit_code, 2);
-  EXPECT_EQ(mapproof({"approve", two.before, two.after, "--all"}).exit_code, 1);
-  EXPECT_EQ(read_file(two.before + "/runs/layout-1-pose-1.json"), before);
-}
-
-TEST(ApproveVerb, KeepsPicturesOfAnotherRendererBesideTheOthers) {
-  const TwoStudies two;
-  two.change_picture();
-  EXPECT_EQ(mapproof({"approve", two.before, two.after, "map-usual", "--key", "../x"}).exit_code,
-            2);
-  EXPECT_EQ(
-      mapproof({"approve", two.before, two.after, "map-usual", "--key", "cairo-1.18"}).exit_code,
-      0);
-  EXPECT_EQ(mapproof({"diff", two.before, two.after}).exit_code, 0);
-  EXPECT_EQ(mapproof({"diff", two.before, two.before}).exit_code, 0);
-  const std::string keyed = two.before + "/figures/map-usual@cairo-1.18.png";
-  EXPECT_TRUE(fs::exists(keyed));
-  EXPECT_EQ(mapproof({"approve", two.before, two.before, "--all"}).exit_code, 0);
-  EXPECT_TRUE(fs::exists(keyed));
-  EXPECT_EQ(mapproof({"approve", two.before, two.after, "--all"}).exit_code, 0);
-  EXPECT_FALSE(fs::exists(keyed)) << "it is of the picture that was replaced";
-}
-
-TEST(ApproveVerb, LeavesEveryFileOldOrNewWhenItIsKilled) {
-  const TemporaryFolder folder;
-  const std::string current = folder / "current", before = folder / "before";
-  constexpr int kFiles = 300;
-  for (int i = 0; i < kFiles; ++i) {
-    const std::string name = "/p" + std::to_string(i) + ".png";
-    write_file(before + name, read_file(fs::path(kPictures) / "map-usual.png"));
-    write_file(current + name, read_file(fs::path(kPictures) / "curve-usual.png"));
-  }
-  const auto files_of = [](const std::string& path) {
-    std::map<std::string, std::string> files;
-    for (auto& [name, bytes] : contents(path)) files[name] = bytes;
-    return files;
-  };
-  const auto old_files = files_of(before), new_files = files_of(current);
-  int some_new = 0;
-  for (const char* watched : {"/p0.png", "/p120.png", "/p200.png", "/p40.png"}) {
-    const std::string baseline = folder / "baseline";
-    fs::remove_all(baseline);
-    fs::copy(before, baseline);
-    const pid_t child = start_mapproof({"approve", baseline, current, "--all"});
-    const auto size = fs::file_size(current + watched);
-    const auto end = std::chrono::steady_clock::now() + std::chrono::seconds(60);
-    while (fs::file_size(baseline + watched) != size && std::chrono::steady_clock::now() < end) {
-    }
-    ::kill(child, SIGKILL);
-    ::waitpid(child, nullptr, 0);
-    int taken = 0;
-    for (const auto& [name, bytes] : files_of(baseline)) {
-      if (name.find(".part-") != std::string::npos) continue;  // Beside its place, never in it.
-      EXPECT_TRUE(bytes == old_files.at(name) || bytes == new_files.at(name)) << name;
-      taken += bytes == new_files.at(name) ? 1 : 0;
-    }
-    some_new += taken > 0 && taken < kFiles ? 1 : 0;
-    EXPECT_EQ(mapproof({"approve", baseline, current, "--all"}).exit_code, 0);
-    EXPECT_EQ(files_of(baseline), new_files);  // Leftovers are gone too.
-  }
-  EXPECT_GT(some_new, 0) << "no kill came in between";
-}
-
-TEST(CheckVerb, FailsWithoutABaselineAndKeepsTheCandidate) {
-  const TemporaryFolder folder;
-  const std::string experiment = std::string(MAPPROOF_TEST_DATA) + "/experiments/small.json";
-  const std::string baseline = folder / "baseline", out = folder / "out";
-  const Outcome first = mapproof({"check", experiment, "--baseline", baseline, "--out", out});
-  EXPECT_EQ(first.exit_code, 1) << first.error;
-  EXPECT_NE(first.error.find("there is no baseline"), std::string::npos) << first.error;
-  EXPECT_TRUE(fs::exists(out + "/study.json"));
-  EXPECT_FALSE(fs::exists(baseline));
-  write_file(baseline + "/tables/of-yore.csv", "a,b\n1,2\n");
-  write_file(baseline + "/notes.txt", "Not of mapproof.");
-  EXPECT_EQ(mapproof({"approve", baseline, out, "--all"}).exit_code, 0);
-  fs::remove(baseline + "/notes.txt");
-  EXPECT_EQ(contents(baseline), contents(out)) << "nothing old is left, nothing new is missing";
-  EXPECT_NE(mapproof({"diff", baseline, out}).out.find("passes: "), std::string::npos);
-  const Outcome second =
-      mapproof({"check", experiment, "--baseline", baseline, "--out", folder / "again"});
-  EXPECT_EQ(second.exit_code, 0) << second.out << second.error;
-  const Outcome other = mapproof(
-      {"check", experiment, "--baseline", baseline, "--out", folder / "other", "--seed", "77"});
-  EXPECT_EQ(other.exit_code, 1);
-  EXPECT_NE(other.out.find("\u2192 77: other worlds"), std::string::npos) << other.out;
-}
-
-TEST(CheckVerb, PassesAgainstAStudyOfRecordsAlone) {
-  const TemporaryFolder folder;
-  const std::string experiment = std::string(MAPPROOF_TEST_DATA) + "/experiments/small.json";
-  const std::string baseline = folder / "baseline", out = folder / "out";
-  ASSERT_EQ(mapproof({"run", experiment, "--out", baseline}).exit_code, 0);
-  const Outcome outcome = mapproof({"check", experiment, "--baseline", baseline, "--out", out});
-  EXPECT_EQ(outcome.exit_code, 0) << outcome.out << outcome.error;
-  EXPECT_NE(outcome.out.find("without figures, tables and report"), std::string::npos);
-  EXPECT_EQ(mapproof({"diff", out, baseline}).exit_code, 1) << "what is drawn must stay";
 }
 
 }  // namespace
