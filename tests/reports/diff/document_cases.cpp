@@ -40,6 +40,38 @@ ValueCase edit(const std::string& file, const std::string& id, const std::string
           .alone = true};
 }
 
+const std::string kMark =
+    "<svg xmlns=\"http://www.w3.org/2000/svg\"><path d=\"M1 1L5 5\"/></svg>\n";
+
+/// As UTF-16 with its mark, little or big end first; ASCII alone.
+std::string utf16(const std::string& text, bool big) {
+  std::string bytes = big ? "\xFE\xFF" : "\xFF\xFE";
+  for (const char c : text) bytes += big ? std::string{'\0', c} : std::string{c, '\0'};
+  return bytes;
+}
+
+/// A drawing of others whose bytes are UTF-16.
+void add_utf16(std::vector<ValueCase>& cases) {
+  const std::string other = std::string(kMark).replace(kMark.find("5 5"), 3, "9 5");
+  const auto add = [&](const std::string& name, const std::string& bytes, Verdict verdict,
+                       std::vector<std::string> cause) {
+    cases.push_back(
+        {.name = name,
+         .id = "mark",
+         .verdict = verdict,
+         .cause = std::move(cause),
+         .passes = verdict == Verdict::kIdentical,
+         .change = [=](const fs::path& folder) { write_file(folder / "mark.svg", bytes); },
+         .alone = true});
+  };
+  for (const bool big : {false, true}) {
+    add("SVG in UTF-16", utf16(kMark, big), Verdict::kIdentical, {});
+    add("another SVG in UTF-16", utf16(other, big), Verdict::kChanged,
+        {"svg, by its elements alone: 1 change, the first"});
+    add("SVG in half of UTF-16", utf16(kMark, big).substr(0, 81), Verdict::kUnreadable, {"line 1"});
+  }
+}
+
 void add_files(std::vector<ValueCase>& cases) {
   for (const auto& [path, id] : {std::pair{"tables/accuracy.csv", "tables/accuracy"},
                                  {"tables/accuracy.md", "tables/accuracy"},
@@ -73,6 +105,7 @@ void write_base_documents(const fs::path& folder) {
                      {"cost", "Cost", {made_up_table("durations")}}};
   write_tables(report, folder / "tables");
   write_file(folder / "report.html", kPage);
+  write_file(folder / "mark.svg", kMark);
   write_file(folder / "plan.pdf", "%PDF-1.5\n/Producer (cairo 1.16.0 (x))\n1 0 obj\n%%EOF\n");
 }
 
@@ -104,6 +137,7 @@ std::vector<ValueCase> document_cases() {
       edit("plan.pdf", "plan", "1.16.0", "1.18.0", kWithinTolerance,
            {"cairo 1.16.0 \u2192 cairo 1.18.0"})};
   add_files(cases);
+  add_utf16(cases);
   return cases;
 }
 

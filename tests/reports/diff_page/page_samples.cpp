@@ -85,7 +85,13 @@ RecordDiff records(Trap& text) {
   points.moves = {{"L1", {0, 0}, {1, 1}, 0.041, {}, {}}};
   diff.points = {points};
   diff.statuses = {{text(), text(), text()}};
-  diff.others = {{text(), 3, 1, 2, text(), false}};
+  diff.others = {{.file = text(),
+                  .numbers = 3,
+                  .within = 1,
+                  .beyond = 2,
+                  .first = text(),
+                  .baseline = text(),
+                  .current = text()}};
   diff.problems = {{text(), text()}};
   return diff;
 }
