@@ -11,6 +11,7 @@ namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr auto kLower = Direction::kLowerIsBetter;
+constexpr auto kHigher = Direction::kHigherIsBetter;
 constexpr auto kNeither = Direction::kNeither;
 
 constexpr std::array kQuantities = {
@@ -35,6 +36,8 @@ constexpr std::array kQuantities = {
     QuantityFacts{"observation_error", "error of the observations", "", kLower, {1e-9, 1e-6}},
     QuantityFacts{"positions_m", "mean error of positions", "m", kLower, {1e-6, 1e-6}},
     QuantityFacts{"sine", "sine of the canonical angle", "", kLower, {1e-9, 1e-6}},
+    QuantityFacts{"loss", "value (less is better)", "", kLower, {1e-9, 1e-6}},
+    QuantityFacts{"gain", "value (more is better)", "", kHigher, {1e-9, 1e-6}},
     QuantityFacts{"other", "other numbers of the records", "", kNeither, {1e-9, 1e-6}},
 };
 

@@ -19,7 +19,7 @@ struct Tolerance {
 };
 
 /// Which way a quantity improves.
-enum class Direction { kLowerIsBetter, kNeither };
+enum class Direction { kLowerIsBetter, kHigherIsBetter, kNeither };
 
 /// Everything about a compared quantity that its readers ask.
 struct QuantityFacts {

@@ -153,13 +153,16 @@ Outcome outcome_of(const Open& open, bool same_seeds, const QuantityFacts& quant
   if (c.beyond + c.lost + c.gained == 0)
     return c.within > 0 ? Outcome::kWithinTolerance : Outcome::kEqual;
   if (quantity.direction == Direction::kNeither || !same_seeds) return Outcome::kChanged;
+  const bool up_is_worse = quantity.direction == Direction::kLowerIsBetter;
   if (c.test && c.lost + c.gained == 0) {
     const bool decides =
         c.test->p < options.significance && std::abs(c.test->test.effect) >= options.least_effect;
     if (!decides) return Outcome::kChanged;
-    return c.test->test.effect > 0.0 ? Outcome::kWorse : Outcome::kBetter;
+    return (c.test->test.effect > 0.0) == up_is_worse ? Outcome::kWorse : Outcome::kBetter;
   }
-  const int worse = open.differences.up + c.lost, better = open.differences.down + c.gained;
+  const auto [up, down] = std::pair(open.differences.up, open.differences.down);
+  const int worse = (up_is_worse ? up : down) + c.lost;
+  const int better = (up_is_worse ? down : up) + c.gained;
   if (worse > 0 && better > 0) return Outcome::kChanged;
   return worse > 0 ? Outcome::kWorse : Outcome::kBetter;
 }

@@ -13,6 +13,7 @@
 #include "core/records/slam_run_json.hpp"
 #include "core/records/slam_store.hpp"
 #include "core/records/study_store.hpp"
+#include "core/records/trial_store.hpp"
 #include "reports/diff/record_files.hpp"
 #include "reports/diff/record_set_parts.hpp"
 
@@ -167,7 +168,9 @@ RecordSet read_records(const fs::path& path, const fs::path& beside) {
   std::error_code error;
   RecordSet set;
   if (has_study(path)) {
-    set = is_slam_study(path) ? read_slam_records(path) : read_study_records(path, beside);
+    set = is_slam_study(path)    ? read_slam_records(path)
+          : is_trial_study(path) ? read_trial_records(path, beside)
+                                 : read_study_records(path, beside);
   } else {
     const fs::path file = single_file(path);
     if (file.empty()) throw IoError(path.string(), "holds no records");

@@ -44,8 +44,8 @@ struct RecordProblem {
 
 /// The records of one side of a comparison, whatever kind they are of.
 struct RecordSet {
-  std::string
-      kind;  ///< "mapproof.study", "mapproof.slam_study", "mapproof.map", "mapproof.slam_run".
+  std::string kind;  ///< "mapproof.study", "mapproof.slam_study", "mapproof.trial_study",
+                     ///< "mapproof.map", "mapproof.slam_run".
   std::string seed;  ///< Of the experiment; empty: none.
   /// The experiment, value by value: JSON pointer and text.
   std::map<std::string, std::string> settings;
@@ -65,7 +65,7 @@ struct RecordSet {
   std::vector<RecordProblem> problems;
 };
 
-/// Whether there are records that read_records() reads: the folder of a study of either kind or of
+/// Whether there are records that read_records() reads: the folder of a study of any kind or of
 /// a map, a map.json or a slam.json.
 bool holds_records(const std::filesystem::path& path);
 

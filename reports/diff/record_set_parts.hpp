@@ -32,6 +32,10 @@ bool same_bytes(const std::filesystem::path& a, const std::filesystem::path& b);
 RecordSet read_study_records(const std::filesystem::path& folder,
                              const std::filesystem::path& beside);
 RecordSet read_slam_records(const std::filesystem::path& folder);
+/// Of trials: quantities other than those of a map's score are `loss` or `gain`, their name in the
+/// subject.
+RecordSet read_trial_records(const std::filesystem::path& folder,
+                             const std::filesystem::path& beside);
 
 /// Lists the files that are others than those of the other side.
 void add_others(RecordSet& set, const std::filesystem::path& folder,

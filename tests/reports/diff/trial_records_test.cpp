@@ -1,0 +1,75 @@
+#include <gtest/gtest.h>
+
+#include "core/records/trial_store.hpp"
+#include "reports/diff/record_diff.hpp"
+#include "reports/diff/record_set.hpp"
+#include "tests/support/temporary_folder.hpp"
+
+namespace mapproof {
+namespace {
+
+TrialStudy two_runs() {
+  TrialStudy study;
+  study.experiment.name = "labels";
+  study.experiment.topic = "labels";
+  study.experiment.layouts = 2;
+  study.design = {
+      .question = "?",
+      .setups = {{.id = "all", .title = "All", .level_label = "", .levels = {0.0}}},
+      .series = {{.id = "joint", .label = "Joint"}},
+      .quantities = {{.id = "mpe_m", .label = "MPE", .unit = "m"},
+                     {.id = "found", .label = "found", .unit = "%", .lower_is_better = false}}};
+  return study;
+}
+
+/// A study whose runs all came to these values.
+void write_study(const std::filesystem::path& folder, double mpe_m, double found) {
+  TrialStore store = TrialStore::open(folder, two_runs());
+  for (const int layout : {1, 2}) {
+    TrialPart part;
+    part.run = RunId{.layout = layout, .pose = 1};
+    part.id = slug(*part.run);
+    part.trials = {{.setup = "all", .series = "joint", .level = 0.0, .values = {mpe_m, found}}};
+    store.write(part, "");
+  }
+}
+
+RecordDiff diff_of(double mpe_m, double found) {
+  const test::TemporaryFolder folder;
+  write_study(folder / "a", 0.1, 90.0);
+  write_study(folder / "b", mpe_m, found);
+  return record_diff(read_records(folder / "a", folder / "b"),
+                     read_records(folder / "b", folder / "a"));
+}
+
+TEST(TrialRecords, OfEqualStudiesAreIdentical) {
+  EXPECT_EQ(diff_of(0.1, 90.0).judgement.verdict, Verdict::kIdentical);
+}
+
+TEST(TrialRecords, AreWorseWhereAnErrorRoseOrAShareFell) {
+  const RecordDiff error = diff_of(0.2, 90.0);
+  EXPECT_EQ(error.judgement.verdict, Verdict::kWorse);
+  EXPECT_NE(error.judgement.cause.find("MPE"), std::string::npos) << error.judgement.cause;
+  const RecordDiff share = diff_of(0.1, 80.0);
+  EXPECT_EQ(share.judgement.verdict, Verdict::kWorse);
+  EXPECT_NE(share.judgement.cause.find("found"), std::string::npos) << share.judgement.cause;
+}
+
+TEST(TrialRecords, AreBetterWhereAnErrorFellOrAShareRose) {
+  EXPECT_EQ(diff_of(0.05, 90.0).judgement.verdict, Verdict::kBetter);
+  EXPECT_EQ(diff_of(0.1, 95.0).judgement.verdict, Verdict::kBetter);
+}
+
+TEST(TrialRecords, ThatAreDamagedAreAProblemAndTheRestGoesOn) {
+  const test::TemporaryFolder folder;
+  write_study(folder / "a", 0.1, 90.0);
+  write_study(folder / "b", 0.1, 90.0);
+  folder.file("b/parts/layout-2-pose-1.json", "{");
+  const RecordSet set = read_records(folder / "b", folder / "a");
+  ASSERT_EQ(set.problems.size(), 1U);
+  EXPECT_EQ(set.problems[0].file, "parts/layout-2-pose-1.json");
+  EXPECT_EQ(set.values.at({"all/joint/0", "mpe_m"}).size(), 1U);
+}
+
+}  // namespace
+}  // namespace mapproof
