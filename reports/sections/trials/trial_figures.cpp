@@ -1,6 +1,7 @@
 #include "reports/sections/trials/trial_figures.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 
 #include <fmt/format.h>
@@ -41,8 +42,22 @@ std::vector<ErrorLine> lines_of(const TrialStudy& study, const TrialSeries& seri
   return lines;
 }
 
+/// Whether a quantity tells any two cells of a setup apart: what is the same everywhere needs no
+/// picture.
+bool tells_apart(const std::vector<TrialCell>& cells, const std::string& setup,
+                 std::size_t quantity) {
+  double least = HUGE_VAL, greatest = -HUGE_VAL;
+  for (const TrialCell& cell : cells) {
+    if (cell.setup != setup || !cell.means[quantity]) continue;
+    least = std::min(least, cell.means[quantity]->mean);
+    greatest = std::max(greatest, cell.means[quantity]->mean);
+  }
+  return greatest > least;
+}
+
 std::optional<Figure> curve_figure(const TrialStudy& study, const TrialSetup& setup,
                                    const std::vector<TrialCell>& cells, std::size_t quantity) {
+  if (!tells_apart(cells, setup.id, quantity)) return std::nullopt;
   const TrialQuantity& what = study.design.quantities[quantity];
   LevelCurveSpec spec;
   spec.id = fmt::format("{}-{}-{}", id_prefix(study), setup.id, what.id);
@@ -51,16 +66,12 @@ std::optional<Figure> curve_figure(const TrialStudy& study, const TrialSetup& se
   spec.x_label = setup.level_label;
   spec.y_label = label_with_unit(what);
   spec.quantity = what.label;
-  bool any = false;
   for (std::size_t i = 0; i < study.design.series.size(); ++i) {
     const TrialSeries& series = study.design.series[i];
     for (ErrorLine& line :
-         lines_of(study, series, i, cells_of(cells, setup.id, series.id), quantity)) {
-      any |= std::ranges::any_of(line.mean, [](double mean) { return mean == mean; });
+         lines_of(study, series, i, cells_of(cells, setup.id, series.id), quantity))
       spec.methods.push_back(std::move(line));
-    }
   }
-  if (!any) return std::nullopt;
   spec.record_ids = {fmt::format("{}, setup {}", study.experiment.name, setup.id)};
   return level_curve_figure(spec);
 }
