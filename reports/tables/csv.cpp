@@ -1,3 +1,4 @@
+#include <string_view>
 #include <variant>
 #include <vector>
 
@@ -14,13 +15,19 @@ bool is_interval(const Table& table, std::size_t column) {
   return false;
 }
 
+/// A spreadsheet would take such a text for a formula; the sign in front makes it a text.
+std::string harmless(const std::string& text) {
+  constexpr std::string_view kBegins = "=+-@\t\r\n";
+  const std::string shown = displayable(text);
+  const bool acts = !shown.empty() && kBegins.find(shown.front()) != std::string_view::npos;
+  return csv_field(acts ? "'" + shown : shown);
+}
+
 struct Writer {
   bool interval;  ///< The column takes two fields.
 
   std::string one(const std::string& text) const { return interval ? text + "," : text; }
-  std::string operator()(const TextCell& cell) const {
-    return one(csv_field(displayable(cell.text)));
-  }
+  std::string operator()(const TextCell& cell) const { return one(harmless(cell.text)); }
   std::string operator()(const NumberCell& cell) const { return one(csv_number(cell.value)); }
   std::string operator()(const IntervalCell& cell) const {
     return csv_number(cell.low) + "," + csv_number(cell.high);
@@ -30,23 +37,26 @@ struct Writer {
 
 }  // namespace
 
-std::string table_csv(const Table& table) {
-  std::string text;
+TableLines csv_lines(const Table& table) {
+  TableLines lines;
   std::vector<bool> intervals;
   for (std::size_t i = 0; i < table.columns.size(); ++i) {
     intervals.push_back(is_interval(table, i));
     const std::string title = full_heading(table.columns[i]);
-    if (i > 0) text += ',';
-    text += intervals[i] ? csv_field(title + ", low") + "," + csv_field(title + ", high")
-                         : csv_field(title);
+    if (i > 0) lines.head += ',';
+    lines.head += intervals[i] ? harmless(title + ", low") + "," + harmless(title + ", high")
+                               : harmless(title);
   }
-  text += "\r\n";
+  lines.head += "\r\n";
   for (const Row& row : table.rows) {
+    std::string text;
     for (std::size_t i = 0; i < row.cells.size(); ++i)
       text += (i > 0 ? "," : "") + std::visit(Writer{intervals[i]}, row.cells[i]);
-    text += "\r\n";
+    lines.rows.push_back(text + "\r\n");
   }
-  return text;
+  return lines;
 }
+
+std::string table_csv(const Table& table) { return joined(csv_lines(table)); }
 
 }  // namespace mapproof

@@ -140,7 +140,7 @@ std::string group_line(const Table& table) {
 
 }  // namespace
 
-std::string table_latex(const Table& table) {
+TableLines latex_lines(const Table& table) {
   std::string format;
   std::string titles;
   for (std::size_t i = 0; i < table.columns.size(); ++i) {
@@ -148,7 +148,8 @@ std::string table_latex(const Table& table) {
     titles += (i > 0 ? " & " : "") + heading(table, i);
   }
   const bool tight = table.columns.size() >= kManyColumns;
-  std::string text =
+  TableLines lines;
+  lines.head =
       fmt::format("\\begin{{table}}\n  \\centering\n  \\{}\n  \\setlength{{\\tabcolsep}}{{{}pt}}\n",
                   tight ? "scriptsize" : "footnotesize", tight ? 2 : 3) +
       "  \\caption{" + escaped(table.caption) + "}\n  \\label{tab:" + table.id +
@@ -160,12 +161,15 @@ std::string table_latex(const Table& table) {
       const std::string cell = escaped(format_cell(row.cells[i]));
       line += (i > 0 ? " & " : "") + (row.marked ? "\\textbf{" + cell + "}" : cell);
     }
-    text += "  " + line + " \\\\\n";
+    lines.rows.push_back("  " + line + " \\\\\n");
   }
-  text += "  \\bottomrule\n  \\end{tabular}}\n";
+  lines.tail = "  \\bottomrule\n  \\end{tabular}}\n";
   for (const std::string& note : table.notes)
-    text += "  \\par\\smallskip{\\footnotesize\\raggedright " + escaped(note) + "\\par}\n";
-  return text + "\\end{table}\n";
+    lines.tail += "  \\par\\smallskip{\\footnotesize\\raggedright " + escaped(note) + "\\par}\n";
+  lines.tail += "\\end{table}\n";
+  return lines;
 }
+
+std::string table_latex(const Table& table) { return joined(latex_lines(table)); }
 
 }  // namespace mapproof

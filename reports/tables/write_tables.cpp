@@ -6,6 +6,12 @@
 
 namespace mapproof {
 
+std::string joined(const TableLines& lines) {
+  std::string text = lines.head;
+  for (const std::string& row : lines.rows) text += row;
+  return text + lines.tail;
+}
+
 std::vector<std::string> write_tables(const Report& report, const std::filesystem::path& folder) {
   check(report);  // The ids become file names.
   std::vector<std::string> written;

@@ -8,8 +8,23 @@
 
 namespace mapproof {
 
+/// A table as text, line by line, so that some of its rows can stand in another order.
+struct TableLines {
+  std::string head;
+  std::vector<std::string> rows;  ///< One a row of the table, with its line's end.
+  std::string tail = {};
+};
+
+/// All of it.
+std::string joined(const TableLines& lines);
+
+/// Lines of table_csv and table_latex.
+TableLines csv_lines(const Table& table);
+TableLines latex_lines(const Table& table);
+
 /// Comma-separated values [rfc4180], numbers unrounded, an interval as two columns, a missing value
-/// as an empty field.
+/// as an empty field. A text that a spreadsheet would take for a formula has an apostrophe in
+/// front.
 std::string table_csv(const Table& table);
 
 /// A LaTeX table in booktabs style, to be \input; needs \usepackage{booktabs} alone. One of many

@@ -39,6 +39,23 @@ TEST(CsvTable, KeepsALineBreakWithinItsField) {
   EXPECT_EQ(table_csv(with_name("a\nb")), "Name\r\n\"a\nb\"\r\n");
 }
 
+TEST(CsvTable, HoldsNothingThatASpreadsheetTakesForAFormula) {
+  for (const char* name : {"=1+1", "+1", "-1", "@SUM(A1)", "\tx"}) {
+    const std::string csv = table_csv(with_name(name));
+    const std::size_t at = csv.find_first_not_of('"', csv.find("\r\n") + 2);
+    EXPECT_EQ(csv[at], '\'') << csv;
+  }
+  EXPECT_EQ(table_csv(with_name("a=1")), "Name\r\na=1\r\n");
+}
+
+TEST(TableLines, AreTheWholeTableRowByRow) {
+  for (const TableLines& lines : {csv_lines(sample()), latex_lines(sample())}) {
+    ASSERT_EQ(lines.rows.size(), 2u);
+    EXPECT_NE(lines.rows[1].find("plain"), std::string::npos);
+  }
+  EXPECT_EQ(joined(latex_lines(sample())), table_latex(sample()));
+}
+
 TEST(LatexTable, IsABooktabsTableWithGroupRulesAndBoldBest) {
   const std::string text = table_latex(sample());
   for (const char* part :
