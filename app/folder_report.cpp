@@ -10,6 +10,7 @@
 #include <tbb/parallel_for_each.h>
 #include <tbb/parallel_invoke.h>
 
+#include "app/command_line.hpp"
 #include "app/embedded_experiments.hpp"
 #include "app/slam_outputs.hpp"
 #include "app/study_outputs.hpp"
@@ -46,6 +47,23 @@ Section contents_section(const std::vector<FolderReport>& parts) {
   return section;
 }
 
+std::string figure_command(const fs::path& folder) {
+  return quoted_command({"mapproof", "render", folder.string(), "--figure"});
+}
+
+/// Each part's findings under its title, and as many of its figures as leave room for the others'.
+void add_opening(const Report& part, std::size_t parts, Opening& all) {
+  constexpr std::size_t kMostThumbnails = 8;
+  for (Paragraph finding : part.opening.findings) {
+    finding.phrases.insert(finding.phrases.begin(), {part.title + ". ", Emphasis::kStrong});
+    all.findings.push_back(std::move(finding));
+  }
+  const std::vector<std::string>& ids = part.opening.figure_ids;
+  const std::size_t count = std::min(ids.size(), kMostThumbnails / parts);
+  all.figure_ids.insert(all.figure_ids.end(), ids.begin(),
+                        ids.begin() + static_cast<std::ptrdiff_t>(count));
+}
+
 }  // namespace
 
 std::vector<fs::path> study_folders(const fs::path& folder) {
@@ -71,9 +89,11 @@ FolderReport read_folder_report(const fs::path& folder, const std::optional<std:
     const std::vector<Session> sessions = read_sessions(folder);
     made_by = sessions.empty() ? fallback : sessions.back().command;
   }
-  if (is_trial_study(folder)) return trial_folder_report(folder, made_by);
-  return is_slam_study(folder) ? slam_folder_report(folder, made_by)
-                               : study_folder_report(view_study(folder), made_by);
+  FolderReport report = is_trial_study(folder)  ? trial_folder_report(folder, made_by)
+                        : is_slam_study(folder) ? slam_folder_report(folder, made_by)
+                                                : study_folder_report(view_study(folder), made_by);
+  report.report.figure_command = figure_command(folder);
+  return report;
 }
 
 FolderReport joined(const fs::path& folder, std::vector<FolderReport> parts) {
@@ -91,7 +111,9 @@ FolderReport joined(const fs::path& folder, std::vector<FolderReport> parts) {
                             ? "Two papers, made again"
                             : fmt::format("{} studies", parts.size());
   all.report.sections.push_back(contents_section(parts));
+  all.report.figure_command = figure_command(folder);
   for (FolderReport& part : parts) {
+    add_opening(part.report, parts.size(), all.report.opening);
     all.runs += part.runs;
     std::ranges::move(part.figures, std::back_inserter(all.figures));
     std::ranges::move(part.scenes, std::back_inserter(all.scenes));

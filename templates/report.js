@@ -1,4 +1,4 @@
-// The table of contents of a report follows its reader.
+// Starts what the parts of the script (report_*.js) do; the table of contents follows its reader.
 
 // The entry of the section being read stands out in the table of contents.
 function followReading() {
@@ -16,7 +16,15 @@ function followReading() {
   for (const section of document.querySelectorAll("main > section")) observer.observe(section);
 }
 
+const figures = document.querySelectorAll("figure[data-id]");
+const held = Array.from(figures).filter((figure) => figure.querySelector(".drawing"));
+whenPutIn.push(addTools, addSteps, followLandmarks);
 for (const table of document.querySelectorAll("main table")) makeSortable(table);
+for (const table of document.querySelectorAll("main .table")) addTableTools(table);
+for (const figure of figures) linkFiles(figure);
+addThumbnails();
+addCommandButtons();
 addThemeSwitch(document.querySelector(".masthead"));
+putInWhenNear(held);
 followReading();
 foldOnScreen();

@@ -18,7 +18,6 @@ using kainjow::mustache::list;
 
 /// Longer texts scroll in a box of their own.
 constexpr std::size_t kLong = 200;
-constexpr std::size_t kLongCaption = 800;
 
 data phrase_data(const Phrase& phrase) {
   data out;
@@ -31,33 +30,21 @@ data phrase_data(const Phrase& phrase) {
   return out;
 }
 
+}  // namespace
+
 data phrases_data(const Paragraph& paragraph) {
   list phrases;
   for (const Phrase& phrase : paragraph.phrases) phrases.push_back(phrase_data(phrase));
   return phrases;
 }
 
-data figure_data(const FigureBlock& figure, const SvgLookup& svg, const HtmlOptions& options) {
-  data out;
-  out.set("id", figure.id);
-  out.set("title", figure.title);
-  out.set("caption", figure.caption);
-  out.set("alt", figure.alt);
-  out.set("value", figure.value);
-  out.set("long", figure.caption.size() > kLongCaption);
-  const std::string drawing = svg ? svg(figure.id) : "";
-  out.set("svg", text_or_false(drawing));
-  out.set("folder", text_or_false(options.figure_folder));
-  std::string records;
-  for (const std::string& id : figure.record_ids) records += (records.empty() ? "" : "; ") + id;
-  out.set("records", text_or_false(records));
-  return out;
-}
+namespace {
 
 /// Makes the data of each kind of block, under the name of its template.
 class BlockVisitor {
  public:
-  BlockVisitor(const SvgLookup& svg, const HtmlOptions& options) : svg_(svg), options_(options) {
+  BlockVisitor(const FigureContext& drawn, const HtmlOptions& options)
+      : drawn_(drawn), options_(options) {
     for (const char* kind : {"paragraph", "bullet_list", "highlights", "callout", "table", "figure",
                              "gallery", "key_values", "status_list"})
       block_.set(kind, false);
@@ -101,13 +88,13 @@ class BlockVisitor {
   void operator()(const Table& table) { block_.set("table", table_data(table, options_)); }
 
   void operator()(const FigureBlock& figure) {
-    block_.set("figure", figure_data(figure, svg_, options_));
+    block_.set("figure", figure_data(figure, drawn_, options_));
   }
 
   void operator()(const Gallery& gallery) {
     list figures;
     for (const FigureBlock& figure : gallery.figures)
-      figures.push_back(figure_data(figure, svg_, options_));
+      figures.push_back(figure_data(figure, drawn_, options_));
     block_.set("gallery", data("figures", figures));
   }
 
@@ -152,15 +139,15 @@ class BlockVisitor {
     return out;
   }
 
-  const SvgLookup& svg_;
+  const FigureContext& drawn_;
   const HtmlOptions& options_;
   data block_;
 };
 
 }  // namespace
 
-data block_data(const Block& block, const SvgLookup& svg, const HtmlOptions& options) {
-  BlockVisitor visitor(svg, options);
+data block_data(const Block& block, const FigureContext& drawn, const HtmlOptions& options) {
+  BlockVisitor visitor(drawn, options);
   std::visit(visitor, block);
   return visitor.take();
 }

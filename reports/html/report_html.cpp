@@ -1,9 +1,15 @@
 #include "reports/html/report_html.hpp"
 
+#include <iterator>
+
+#include <fmt/format.h>
 #include <kainjow/mustache.hpp>
 
+#include "core/base/words.hpp"
 #include "reports/html/block_data.hpp"
 #include "reports/html/page_frame.hpp"
+#include "reports/html/table_data.hpp"
+#include "reports/model/format.hpp"
 
 namespace mapproof {
 namespace {
@@ -11,14 +17,64 @@ namespace {
 using kainjow::mustache::data;
 using kainjow::mustache::list;
 
-data section_data(const Section& section, const SvgLookup& svg, const HtmlOptions& options) {
+data section_data(const Section& section, const FigureContext& drawn, const HtmlOptions& options) {
   data out;
   out.set("id", section.id);
   out.set("title", section.title);
   list blocks;
-  for (const Block& block : section.blocks) blocks.push_back(block_data(block, svg, options));
+  for (const Block& block : section.blocks) blocks.push_back(block_data(block, drawn, options));
   out.set("blocks", blocks);
   return out;
+}
+
+data standing_data(const Standing& standing) {
+  data out;
+  out.set("worse", data(standing.worse));
+  out.set("title", standing.title);
+  list sentences;
+  for (const std::string& sentence : standing.sentences)
+    sentences.push_back(data("sentence", sentence));
+  out.set("sentences", sentences);
+  return out;
+}
+
+/// Links to figures; the script puts small drawings of those that the page holds beside the words.
+list thumbnails(const Report& report) {
+  list shown;
+  for (const std::string& id : report.opening.figure_ids)
+    for (const FigureBlock* figure : figures(report))
+      if (figure->id == id) {
+        data entry;
+        entry.set("id", id);
+        entry.set("title", figure->title);
+        shown.push_back(std::move(entry));
+      }
+  return shown;
+}
+
+/// "12 of 340 figures are not in this page …"; empty if all are.
+std::string linked_words(const Report& report, std::size_t linked, const HtmlOptions& options) {
+  if (linked == 0) return "";
+  const std::string where = options.figure_folder.empty()
+                                ? "They are left out."
+                                : "They are linked, in " + options.figure_folder + "/ beside it.";
+  return fmt::format("{} of {} are not in this page, which holds {} MB of drawings at most. {}",
+                     linked, counted(std::ssize(figures(report)), "figure"),
+                     format_number(static_cast<double>(options.drawing_bytes) / 1e6, 1), where);
+}
+
+void set_opening(data& page, const Report& report, const std::string& linked) {
+  const Opening& opening = report.opening;
+  list findings;
+  for (const Paragraph& finding : opening.findings)
+    findings.push_back(data("phrases", phrases_data(finding)));
+  page.set("any_opening", data(!opening.findings.empty() || !opening.figure_ids.empty() ||
+                               opening.standing || !linked.empty()));
+  page.set("standing", opening.standing ? standing_data(*opening.standing) : data(false));
+  page.set("findings", findings);
+  page.set("any_thumbnails", data(!opening.figure_ids.empty()));
+  page.set("thumbnails", thumbnails(report));
+  page.set("linked_words", text_or_false(linked));
 }
 
 }  // namespace
@@ -31,9 +87,13 @@ std::string report_html(const Report& report, const Templates& templates, const 
   page.set("subtitle", report.subtitle);
   page.set("footer", report.footer);
   set_page_frame(page, "report", templates);
+  const FigureContext drawn{.svg = svg,
+                            .linked = linked_figures(report, svg, options.drawing_bytes),
+                            .command = report.figure_command};
+  set_opening(page, report, linked_words(report, drawn.linked.size(), options));
   list sections;
   for (const Section& section : report.sections)
-    sections.push_back(section_data(section, svg, options));
+    sections.push_back(section_data(section, drawn, options));
   page.set("sections", sections);
   return rendered("report", templates, page);
 }

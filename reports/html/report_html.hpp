@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <functional>
 #include <string>
 
@@ -14,10 +15,15 @@ using SvgLookup = std::function<std::string(const std::string& figure_id)>;
 struct HtmlOptions {
   std::string figure_folder = "figures";  ///< Links to files beside the page; empty: no links.
   std::string table_folder = "tables";
+  bool copies_tables = true;  ///< Tables can be copied as CSV and as LaTeX.
+  /// Bytes of drawings that the page holds at most; what does not fit is linked, and counted in
+  /// words. Drawings of the opening go first, then figures, then scenes, in their order.
+  std::size_t drawing_bytes = 9'000'000;
 };
 
 /// One self-contained page: nothing is fetched, and its content security policy forbids it.
-/// @throws IoError if a template fails; InvalidInput if the report breaks its rules (see check).
+/// @throws IoError if a template fails; InvalidInput if the report breaks its rules (see check), or
+///         a drawing could end the element that holds it.
 std::string report_html(const Report& report, const Templates& templates, const SvgLookup& svg,
                         const HtmlOptions& options = {});
 

@@ -6,6 +6,7 @@
 
 #include "core/base/words.hpp"
 #include "reports/model/format.hpp"
+#include "reports/tables/write_tables.hpp"
 
 namespace mapproof {
 namespace {
@@ -110,6 +111,39 @@ data row_data(const Table& table, const Row& row) {
   return out;
 }
 
+std::string without_line_end(std::string text) {
+  text.erase(text.find_last_not_of("\r\n") + 1);
+  return text;
+}
+
+/// The rows, each with the lines that stand for it where the table is copied as text.
+list rows_data(const Table& table, bool copies) {
+  TableLines csv, latex;
+  if (copies) {
+    csv = csv_lines(table);
+    latex = latex_lines(table);
+  }
+  list rows;
+  rows.reserve(table.rows.size());
+  for (std::size_t i = 0; i < table.rows.size(); ++i) {
+    data row = row_data(table, table.rows[i]);
+    row.set("lines", data(copies));
+    row.set("csv", copies ? without_line_end(csv.rows[i]) : "");
+    row.set("latex", copies ? without_line_end(latex.rows[i]) : "");
+    rows.push_back(std::move(row));
+  }
+  return rows;
+}
+
+/// What stands before and after the rows in a text.
+void add_frames(const Table& table, bool copies, data& out) {
+  out.set("copies", data(copies));
+  out.set("csv_head", copies ? without_line_end(csv_lines(table).head) : "");
+  const TableLines latex = copies ? latex_lines(table) : TableLines{};
+  out.set("latex_head", latex.head);
+  out.set("latex_tail", latex.tail);
+}
+
 }  // namespace
 
 data table_data(const Table& table, const HtmlOptions& options) {
@@ -118,9 +152,8 @@ data table_data(const Table& table, const HtmlOptions& options) {
   out.set("caption", table.caption);
   out.set("folder", text_or_false(options.table_folder));
   add_headings(table, out);
-  list rows;
-  rows.reserve(table.rows.size());
-  for (const Row& row : table.rows) rows.push_back(row_data(table, row));
+  const list rows = rows_data(table, options.copies_tables);
+  add_frames(table, options.copies_tables, out);
   out.set("any_rows", !rows.empty());
   out.set("folded", data(table.rows.size() > kMostRowsOpen));
   out.set("row_count", counted(std::ssize(table.rows), "row"));

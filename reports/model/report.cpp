@@ -21,6 +21,8 @@ class IdCheck {
     if (!seen_.insert(id).second) throw InvalidInput("report: the id \"" + id + "\" stands twice");
   }
 
+  bool has(const std::string& id) const { return seen_.contains(id); }
+
  private:
   std::set<std::string> seen_;
 };
@@ -43,6 +45,8 @@ void check(const Report& report) {
   }
   IdCheck figure_ids;
   for (const FigureBlock* figure : figures(report)) figure_ids.add(figure->id);
+  for (const std::string& id : report.opening.figure_ids)
+    if (!figure_ids.has(id)) throw InvalidInput("report: there is no figure \"" + id + "\"");
 }
 
 bool holds_text(const Table& table, std::size_t column) {

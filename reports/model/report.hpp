@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <optional>
 #include <string>
 #include <variant>
 #include <vector>
@@ -99,6 +100,7 @@ struct FigureBlock {
   std::string alt;  ///< What the figure shows, in words.
   std::vector<std::string> record_ids;
   std::string value = "figure";  ///< What it is as a value, in ID.VALUE.json: "figure", "scene".
+  std::vector<std::string> steps = {};  ///< Its panels, where they are one thing at several times.
 };
 
 /// Figures of one kind, side by side.
@@ -141,16 +143,32 @@ struct Section {
   std::vector<Block> blocks;
 };
 
+/// How what is reported stands against something earlier.
+struct Standing {
+  bool worse = false;
+  std::string title;                   ///< "Night 12: accuracy got worse".
+  std::vector<std::string> sentences;  ///< What, with numbers.
+};
+
+/// What the reader is to see before anything else; what is empty is left out.
+struct Opening {
+  std::vector<Paragraph> findings;      ///< Two or three sentences with numbers.
+  std::vector<std::string> figure_ids;  ///< Shown small, each leading to its figure.
+  std::optional<Standing> standing = std::nullopt;
+};
+
 /// What a report says; how it looks is another matter.
 struct Report {
   std::string title;
   std::string subtitle;
   std::vector<Section> sections;
   std::string footer;
+  Opening opening = {};
+  std::string figure_command = {};  ///< Draws a figure again, its id to follow; empty: none does.
 };
 
-/// Throws unless every id is [a-z0-9-]+, unique among sections, tables or figures, and every row
-/// has a cell a column.
+/// Throws unless every id is [a-z0-9-]+, unique among sections, tables or figures, every row has a
+/// cell a column, and the opening's figures are among the report's.
 /// @throws InvalidInput naming the id.
 void check(const Report& report);
 

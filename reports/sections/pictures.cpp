@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <iterator>
+#include <string_view>
 
 #include "core/base/words.hpp"
 #include "reports/sections/study_report.hpp"
@@ -7,9 +8,18 @@
 #include "reports/sections/wording.hpp"
 
 namespace mapproof {
+namespace {
+
+/// How the ids of film strips begin (docs/figures.md).
+constexpr std::string_view kForming = "forming-";
+
+}  // namespace
 
 FigureBlock figure_block(const Figure& figure) {
-  return {figure.id, figure.title, figure.caption, figure.alt, figure.record_ids};
+  FigureBlock block{figure.id, figure.title, figure.caption, figure.alt, figure.record_ids};
+  if (!figure.id.starts_with(kForming)) return block;
+  for (const Panel& panel : figure.panels) block.steps.push_back(panel.title);
+  return block;
 }
 
 FigureBlock figure_block(const Scene& scene) {

@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include "core/base/words.hpp"
+#include "reports/sections/opening.hpp"
 #include "reports/sections/proofs.hpp"
 
 namespace mapproof {
@@ -35,6 +36,7 @@ Report study_report(const StudyReportInput& input) {
   if (auto proofs = proofs_section(input.study)) report.sections.push_back(*std::move(proofs));
   report.sections.push_back(
       provenance_section(input.study, input.sessions, input.timings, input.command));
+  report.opening = study_opening(input.study, input.figures);
   report.footer = fmt::format("Made by mapproof {} ({}).", input.study.provenance.version,
                               input.study.provenance.commit);
   return report;

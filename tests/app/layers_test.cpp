@@ -82,7 +82,8 @@ const std::map<std::string, Modules>& allowed() {
                     "render/image", "render/plot", "render/theme", "render/scene"})},
       {"reports/history", with_leaves({"reports/model", "core/json", "core/records",
                                        "render/figures", "render/plot"})},
-      {"reports/html", with_leaves({"reports/model", "reports/diff", "render/image"})},
+      {"reports/html",
+       with_leaves({"reports/model", "reports/diff", "reports/tables", "render/image"})},
       {"reports/tables", with_leaves({"reports/model"})},
   };
   return table;

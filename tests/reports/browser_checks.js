@@ -27,6 +27,22 @@ function checkTraps(page) {
   say("fetched", page.defaultView.performance.getEntriesByType("resource").length);
 }
 
+// Every landmark of every map is named by the tip as its mark has it.
+function checkLandmarks(page) {
+  const view = page.defaultView;
+  page.querySelectorAll("figure[data-id]").forEach((figure) => view.putIn(figure));
+  const named = new Set();
+  for (const box of page.querySelectorAll(".drawing")) {
+    const marks = Array.from(box.querySelectorAll("[data-landmark]"), (mark) => mark.dataset.landmark);
+    for (let i = 0; i < new Set(marks).size; ++i) {
+      box.dispatchEvent(new view.KeyboardEvent("keydown", { key: "n" }));
+      const name = box.querySelector(".tip bdi")?.textContent;
+      if (marks.includes(name)) named.add(name);
+    }
+  }
+  say("landmarks-named", named.size);
+}
+
 const keys = (table, column) => Array.from(table.tBodies[0].rows,
   (row) => row.cells[column].dataset.sort ?? row.cells[column].textContent.trim());
 
@@ -110,6 +126,7 @@ function checkLooks(frame) {
 function check(frame, expected) {
   const page = frame.contentDocument;
   checkTexts(page, expected);
+  checkLandmarks(page);
   checkTraps(page);
   checkSorting(page);
   checkFolding(page);

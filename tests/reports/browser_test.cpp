@@ -20,8 +20,9 @@ class Browser : public ::testing::Test {
   }
 
   static Findings look_at(const Report& report, const std::vector<std::string>& texts = {},
-                          const std::vector<std::string>& attributes = {}) {
-    return test::browse(report_html(report, load_templates(), {}), texts, attributes);
+                          const std::vector<std::string>& attributes = {},
+                          const SvgLookup& svg = {}) {
+    return test::browse(report_html(report, load_templates(), svg), texts, attributes);
   }
 
   static void expect_readable(Findings found) {
@@ -101,12 +102,13 @@ TEST_F(Browser, PrintsEveryRowOfATableWithItsScriptAndWithout) {
 
 TEST_F(Browser, ShowsHostileTextsAsTextAndRunsNoneOfThem) {
   const auto hostile = test::hostile_report();
-  Findings found = look_at(hostile.report, hostile.texts, hostile.attributes);
+  Findings found = look_at(hostile.report, hostile.texts, hostile.attributes, hostile.svg);
   EXPECT_EQ(found["texts"], std::to_string(hostile.texts.size()));
   EXPECT_EQ(found["missing-texts"], "0");
   EXPECT_EQ(found["missing-attributes"], "0");
   EXPECT_EQ(found["scripts"], "1");
-  EXPECT_EQ(found["images"], "0");
+  EXPECT_EQ(found["images"], "1");  // The small drawing at the head.
+  EXPECT_EQ(found["landmarks-named"], std::to_string(hostile.landmarks.size()));
   EXPECT_EQ(found["handlers"], "0");
   EXPECT_EQ(found["pwned"], "false");
   EXPECT_EQ(found["fetched"], "0");

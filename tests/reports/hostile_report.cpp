@@ -2,6 +2,11 @@
 
 #include <fmt/format.h>
 
+#include "core/model/map_record.hpp"
+#include "render/figures/map.hpp"
+#include "render/plot/layout.hpp"
+#include "render/svg/svg.hpp"
+
 namespace mapproof::test {
 namespace {
 
@@ -41,6 +46,25 @@ StatusList statuses(Trap& text) {
   return {{item}};
 }
 
+/// A map by our own writers whose landmarks have such names.
+std::string drawn_map(std::vector<std::string>& names) {
+  Trap name(names);
+  MapRecord record;
+  record.id = "map/x";
+  record.truth_m = Points(5, 2);
+  *record.truth_m << 0, 0, 2, 0, 0, 2, 2, 2, 1, 1;
+  record.estimate = record.truth_m->array() + 0.1;
+  record.anchors = {0, 1};
+  for (int i = 0; i < 5; ++i) record.names.push_back(name());
+  return to_svg(lay_out(map_figure(record, "drawn"), report_theme()));
+}
+
+Opening opening(Trap& text) {
+  return {.findings = {{{{text(), Emphasis::kPlain}, {text(), Emphasis::kStrong}}}},
+          .figure_ids = {"drawn", "figure"},
+          .standing = Standing{true, text(), {text(), text()}}};
+}
+
 }  // namespace
 
 HostileReport hostile_report() {
@@ -58,11 +82,15 @@ HostileReport hostile_report() {
       Callout{Callout::Tone::kWarning, text(), {{{text(), Emphasis::kPlain}}}});
   section.blocks.emplace_back(table(text, attribute));
   section.blocks.emplace_back(FigureBlock{"figure", text(), text(), text(), {}});
+  section.blocks.emplace_back(
+      FigureBlock{"drawn", text(), text(), "", {}, "figure", {text(), text()}});
   section.blocks.emplace_back(Gallery{{{"in-gallery", text(), text(), text(), {}}}});
   section.blocks.emplace_back(
       KeyValues{{{text(), {text(), Emphasis::kCode}}, {text(), {text(), Emphasis::kData}}}});
   section.blocks.emplace_back(statuses(text));
-  out.report = {text(), text(), {section}, text()};
+  out.report = {text(), text(), {section}, text(), opening(text), text()};
+  const std::string drawing = drawn_map(out.landmarks);
+  out.svg = [drawing](const std::string& id) { return id == "drawn" ? drawing : ""; };
   return out;
 }
 

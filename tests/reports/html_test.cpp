@@ -81,7 +81,7 @@ TEST(ReportHtml, IsTheSameBytesEachTime) { EXPECT_EQ(study_page(), study_page())
 
 TEST(ReportHtml, LetsNoTextBecomeATag) {
   const auto hostile = test::hostile_report();
-  const std::string page = report_html(hostile.report, load_templates(), {});
+  const std::string page = report_html(hostile.report, load_templates(), hostile.svg);
   EXPECT_EQ(all_matches(page, "(<script)").size(), 1u);
   EXPECT_EQ(all_matches(page, "(<style)").size(), 1u);
   EXPECT_TRUE(all_matches(page, "(<img)").empty());
@@ -101,6 +101,64 @@ TEST(ReportHtml, StandsAloneWithoutFoldersBesideIt) {
   const auto hostile = test::hostile_report();
   const std::string page = report_html(hostile.report, load_templates(), {}, {"", ""});
   EXPECT_TRUE(all_matches(page, "href=\"([^#d][^\"]*)\"").empty());
+}
+
+Report with_figures(int count) {
+  Section section{"s", "S", {}};
+  for (int i = 0; i < count; ++i)
+    section.blocks.emplace_back(
+        FigureBlock{"f-" + std::to_string(i), "", "", "", {}, i % 2 == 0 ? "scene" : "figure"});
+  Report report{"t", "", {section}, ""};
+  report.opening.figure_ids = {"f-4"};
+  return report;
+}
+
+std::string ten_bytes(const std::string&) { return "<svg></svg"; }
+
+TEST(ReportHtml, HoldsDrawingsUpToItsBudgetTheOpeningsFirstThenFiguresThenScenes) {
+  HtmlOptions options;
+  options.drawing_bytes = 35;
+  const std::string page = report_html(with_figures(6), load_templates(), ten_bytes, options);
+  std::vector<std::string> held;
+  for (const std::string& id :
+       all_matches(page, "data-id=\"([^\"]*)\">\\s*<div class=\"drawing\">"))
+    held.push_back(id);
+  EXPECT_EQ(held, (std::vector<std::string>{"f-1", "f-3", "f-4"}));
+  EXPECT_NE(page.find("3 of 6 figures are not in this page"), std::string::npos);
+}
+
+TEST(ReportHtml, SaysNothingOfABudgetThatSuffices) {
+  const std::string page = report_html(with_figures(6), load_templates(), ten_bytes);
+  EXPECT_EQ(page.find("not in this page"), std::string::npos);
+  EXPECT_EQ(all_matches(page, "(class=\"drawing\")").size(), 6u);
+}
+
+TEST(ReportHtml, RefusesADrawingThatCouldEndTheElementThatHoldsIt) {
+  const auto svg = [](const std::string&) { return "<svg></NoScript ><b></svg>"; };
+  EXPECT_THROW(report_html(with_figures(5), load_templates(), svg), InvalidInput);
+}
+
+TEST(ReportHtml, RefusesAnOpeningWithAFigureThatIsNotThere) {
+  Report report = with_figures(2);
+  EXPECT_THROW(report_html(report, load_templates(), {}), InvalidInput);
+}
+
+TEST(ReportHtml, SaysHowItStandsOnlyWhereThatIsKnown) {
+  Report report{"t", "", {}, ""};
+  EXPECT_EQ(report_html(report, load_templates(), {}).find("class=\"standing"), std::string::npos);
+  report.opening.standing =
+      Standing{true, "Night 5: 1 thing got worse", {"LLE is 5 % less accurate."}};
+  const std::string page = report_html(report, load_templates(), {});
+  EXPECT_NE(page.find("class=\"standing worse\""), std::string::npos);
+  EXPECT_NE(page.find("LLE is 5 % less accurate."), std::string::npos);
+}
+
+TEST(ReportHtml, GivesEachFigureTheCommandThatDrawsItAgain) {
+  Report report = with_figures(5);
+  report.figure_command = "mapproof render 'a b' --figure";
+  const std::string page = report_html(report, load_templates(), {});
+  EXPECT_NE(page.find("<code>mapproof render &#39;a b&#39; --figure f-3</code>"),
+            std::string::npos);
 }
 
 TEST(ReportHtml, RefusesAReportWithAnIdThatIsNone) {

@@ -91,7 +91,8 @@ data item_data(const DiffItem& item, const DiffResult& all, const ShownPictures&
   out.set("absent", text_or_false(shown.absent));
   list blocks;
   for (const Block& block : item_blocks(item, all, number))
-    blocks.push_back(block_data(block, {}, {.figure_folder = "", .table_folder = ""}));
+    blocks.push_back(
+        block_data(block, {}, {.figure_folder = "", .table_folder = "", .copies_tables = false}));
   out.set("blocks", blocks);
   return out;
 }

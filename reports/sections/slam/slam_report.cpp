@@ -118,6 +118,7 @@ Report slam_report(const SlamReportInput& input) {
   report.subtitle = subtitle(input.study);
   report.sections = slam_sections(input);
   for (Section& section : report.sections) section.title = alone(section.title);
+  report.opening = slam_opening(input.study, input.figures);
   report.footer = fmt::format("Made by mapproof {} ({}).", input.study.provenance.version,
                               input.study.provenance.commit);
   return report;

@@ -28,6 +28,8 @@ std::vector<Section> slam_sections(const SlamReportInput& input);
 
 /// The parts, each a pure function of the values.
 Section slam_summary_section(const SlamStudy& study);
+/// What the reader is to see first.
+Opening slam_opening(const SlamStudy& study, const StudyFigures& figures);
 /// Errors of all methods on all logs of real robots; empty without such a log.
 std::optional<Section> slam_accuracy_section(const SlamStudy& study);
 /// One log of a real robot.

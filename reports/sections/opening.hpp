@@ -1,0 +1,20 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "core/model/study.hpp"
+#include "reports/model/report.hpp"
+#include "reports/sections/study_figures.hpp"
+
+namespace mapproof {
+
+/// What a study's reader is to see first: the best method of each sensor beside the paper's value,
+/// how the maps ended, and a figure of each kind.
+Opening study_opening(const Study& study, const StudyFigures& figures);
+
+/// Those of the ids that are among the figures and scenes, each once, the first `most`.
+std::vector<std::string> present_ids(const std::vector<std::string>& ids,
+                                     const StudyFigures& figures, std::size_t most);
+
+}  // namespace mapproof

@@ -1,0 +1,90 @@
+// What is in the page can be saved and copied from it; the rest lies beside it.
+
+function save(name, blob) {
+  const link = document.createElement("a");
+  link.href = URL.createObjectURL(blob);
+  link.download = name;
+  link.click();
+  setTimeout(() => URL.revokeObjectURL(link.href), 10000);
+}
+
+function svgUrl(text) {
+  return `data:image/svg+xml;charset=utf-8,${encodeURIComponent(text)}`;
+}
+
+// As many pixels as the file beside the page has: two for each point.
+async function pngOf(text) {
+  const image = new Image();
+  image.src = svgUrl(text);
+  await image.decode();
+  const [, width, height] = /viewBox="0 0 ([\d.]+) ([\d.]+)"/.exec(text);
+  const canvas = document.createElement("canvas");
+  canvas.width = Math.round(2 * Number(width));
+  canvas.height = Math.round(2 * Number(height));
+  canvas.getContext("2d").drawImage(image, 0, 0, canvas.width, canvas.height);
+  return new Promise((resolve) => canvas.toBlob(resolve, "image/png"));
+}
+
+async function saveDrawing(figure, format) {
+  const text = sourceOf(figure);
+  const blob = format === "png" ? await pngOf(text) : new Blob([text], { type: "image/svg+xml" });
+  save(`${figure.dataset.id}.${format}`, blob);
+}
+
+// The links to files that the page can make itself give them from there.
+function linkFiles(figure) {
+  const links = figure.querySelectorAll("a[data-format]");
+  if (links.length === 0 || sourceOf(figure) === "") return;
+  const where = figure.querySelector(".files .where");
+  where.textContent = `SVG and PNG from this page; PDF and data lie ${where.textContent.trim()}`;
+  for (const link of links) {
+    link.download = `${figure.dataset.id}.${link.dataset.format}`;
+    link.addEventListener("click", (event) => {
+      event.preventDefault();
+      saveDrawing(figure, link.dataset.format);
+    });
+  }
+}
+
+// Where a page may not reach the clipboard, the older way may still work.
+function copyByHand(text) {
+  const area = document.createElement("textarea");
+  area.value = text;
+  area.className = "visually-hidden";
+  document.body.append(area);
+  area.select();
+  const done = document.execCommand("copy");
+  area.remove();
+  return done;
+}
+
+async function copyText(text, button) {
+  let done = true;
+  try {
+    await navigator.clipboard.writeText(text);
+  } catch {
+    done = copyByHand(text);
+  }
+  button.dataset.label ??= button.textContent;
+  button.textContent = done ? "Copied" : "Not allowed here";
+  announce(done ? `${button.dataset.label}: copied` : "The browser does not allow copying here");
+  button.focus();
+  setTimeout(() => { button.textContent = button.dataset.label; }, 2000);
+}
+
+function addCopyButton(place, text, label) {
+  addButton(place, "Copy", label, (button) => copyText(text, button));
+}
+
+// Commands beside figures, and the one that makes the whole report again.
+function addCommandButtons() {
+  for (const command of document.querySelectorAll("p.command")) {
+    const id = command.closest("figure").dataset.id;
+    addCopyButton(command, command.querySelector("code").textContent, `Copy the command of ${id}`);
+  }
+  for (const fact of document.querySelectorAll(".facts > div")) {
+    const code = fact.querySelector("dd > code");
+    if (!code || fact.querySelector("dt").textContent !== "Command") continue;
+    addCopyButton(fact.querySelector("dd"), code.textContent, "Copy the command of this report");
+  }
+}

@@ -1,0 +1,13 @@
+// Small drawings beside the links at the head of the page, made of those that it holds.
+
+function addThumbnails() {
+  for (const link of document.querySelectorAll(".thumbnails a")) {
+    const figure = document.getElementById(link.hash.slice(1));
+    const text = figure ? sourceOf(figure) : "";
+    if (text === "") continue;
+    const image = new Image();
+    image.alt = "";  // The link says it in words.
+    image.src = svgUrl(text);
+    link.prepend(image);
+  }
+}
