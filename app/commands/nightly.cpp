@@ -83,11 +83,18 @@ int make_all(const std::vector<StudyOrder>& orders, const fs::path& folder, int 
   return worst;
 }
 
+/// What each study is, from its records.
+std::vector<StudyNight> read_all(const std::vector<StudyOrder>& orders, const fs::path& folder) {
+  std::vector<StudyNight> studies;
+  for (const StudyOrder& order : orders)
+    studies.push_back(read_study_night(folder / order.name, order.name));
+  return studies;
+}
+
 /// Draws a study's report. @return Whether all of its scenes could be drawn; said if not.
-bool draw(const fs::path& study, const Templates& page, int jobs, const std::string& command,
-          const Console& console) {
+bool draw(const FolderReport& report, const Templates& page, int jobs, const Console& console) {
   try {
-    write_report(read_folder_report(study, command, command), page, jobs);
+    write_report(report, page, jobs);
     return true;
   } catch (const SceneError& error) {
     console.warning(error.what());
@@ -95,21 +102,22 @@ bool draw(const fs::path& study, const Templates& page, int jobs, const std::str
   }
 }
 
-/// What each study is, with its report drawn and its figures kept.
-/// @param scenes_drawn  Set to false if some could not be.
-std::vector<StudyNight> read_all(const std::vector<StudyOrder>& orders, const fs::path& folder,
-                                 const fs::path& store, const Templates& page,
-                                 const Arguments& arguments, const Invocation& invocation,
-                                 bool& scenes_drawn) {
-  const ObjectFolder objects(store / "objects");
-  std::vector<StudyNight> studies;
-  for (const StudyOrder& order : orders) {
-    const fs::path study = folder / order.name;
-    scenes_drawn &= draw(study, page, arguments.jobs, invocation.command, invocation.console);
-    studies.push_back(read_study_night(study, order.name));
-    studies.back().figures = objects.keep(study / "figures");
+/// Draws the report of each study of a night that has been judged, and keeps its figures.
+/// @return Whether all scenes could be drawn.
+bool write_all(Night& night, HistoryStore& history, const fs::path& folder, const Templates& page,
+               const Arguments& arguments, const Invocation& invocation) {
+  const ObjectFolder objects(fs::path(arguments.store) / "objects");
+  bool scenes_drawn = true;
+  for (StudyNight& study : night.studies) {
+    FolderReport report =
+        read_folder_report(folder / study.name, invocation.command, invocation.command);
+    const bool is_compared =
+        night.facts.reference && has_study(history, *night.facts.reference, study);
+    report.report.opening.standing = standing(night, study.name, is_compared);
+    scenes_drawn &= draw(report, page, arguments.jobs, invocation.console);
+    study.figures = objects.keep(folder / study.name / "figures");
   }
-  return studies;
+  return scenes_drawn;
 }
 
 int exit_code(NightVerdict verdict) {
@@ -158,10 +166,10 @@ int nightly(const Arguments& arguments, const Invocation& invocation) {
         fmt::format("night {}: not recorded, since a study was not finished", night.facts.number));
     return made;
   }
-  bool scenes_drawn = true;
-  night.studies = read_all(orders, folder, store, page, arguments, invocation, scenes_drawn);
-  night.facts.ended_utc = now_utc();
+  night.studies = read_all(orders, folder);
   const std::vector<std::string> remarks = judge_night(history, night, asked);
+  const bool scenes_drawn = write_all(night, history, folder, page, arguments, invocation);
+  night.facts.ended_utc = now_utc();
   history.append(night);
   end_night(folder, night);
   const fs::path index =

@@ -192,6 +192,23 @@ std::string verdict_sentence(const NightFacts& night, std::size_t findings) {
   }
 }
 
+Standing standing(const Night& night, const std::string& study, bool is_compared) {
+  Standing result;
+  for (const NightFinding& finding : night.findings)
+    if (finding.study == study) result.sentences.push_back(finding.sentence + ".");
+  const std::string tonight = fmt::format("Night {}: ", night.facts.number);
+  result.worse = !result.sentences.empty();
+  if (result.worse)
+    result.title =
+        tonight + counted(static_cast<long long>(result.sentences.size()), "thing") + " got worse";
+  else if (is_compared && night.facts.reference)
+    result.title =
+        tonight + fmt::format("nothing got worse than on night {}", *night.facts.reference);
+  else
+    result.title = tonight + "there was nothing to compare with";
+  return result;
+}
+
 Report index_page(std::span<const NightFacts> nights, const NightFindings& findings,
                   std::span<const std::string> studies, std::span<const std::string> remarks) {
   Report report{.title = "Nights", .subtitle = "", .sections = {}, .footer = ""};

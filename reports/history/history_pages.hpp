@@ -30,6 +30,10 @@ HistoryPage trend_page(const StudyTrend& trend, const NightFindings& findings);
 Report index_page(std::span<const NightFacts> nights, const NightFindings& findings,
                   std::span<const std::string> studies, std::span<const std::string> remarks);
 
+/// How a study of a judged night stands.
+/// @param is_compared  Whether the night of reference has the study, ordered in the same way.
+Standing standing(const Night& night, const std::string& study, bool is_compared);
+
 /// Figures of a trend: one a sensor and quantity of accuracy, seconds, memory.
 std::vector<Figure> trend_figures(const StudyTrend& trend);
 

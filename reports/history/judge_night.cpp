@@ -20,12 +20,8 @@ void append(RuleOutcome& all, RuleOutcome more) {
 
 /// Whether the night has a study that was ordered just as one of tonight's.
 bool can_be_compared(HistoryStore& store, int night, const Night& tonight) {
-  const std::vector<StudyNight> studies = store.studies(night);
-  return std::ranges::any_of(tonight.studies, [&](const StudyNight& now) {
-    return std::ranges::any_of(studies, [&](const StudyNight& then) {
-      return then.name == now.name && then.order_digest == now.order_digest;
-    });
-  });
+  return std::ranges::any_of(
+      tonight.studies, [&](const StudyNight& study) { return has_study(store, night, study); });
 }
 
 void drop_before(StudyTrend& trend, int night) {
@@ -87,6 +83,12 @@ RuleOutcome judge_study(const StudyEvidence& evidence, const RegressionRules& ru
     finding.sentence += fmt::format("; since night {}", same->since);
   }
   return outcome;
+}
+
+bool has_study(HistoryStore& store, int night, const StudyNight& tonight) {
+  return std::ranges::any_of(store.studies(night), [&](const StudyNight& then) {
+    return then.name == tonight.name && then.order_digest == tonight.order_digest;
+  });
 }
 
 std::optional<int> reference_night(HistoryStore& store, const Night& tonight,

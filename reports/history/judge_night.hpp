@@ -14,6 +14,9 @@ namespace mapproof {
 RuleOutcome judge_study(const StudyEvidence& evidence, const RegressionRules& rules,
                         const std::vector<NightFinding>& yesterday);
 
+/// Whether a night of the store has the study, ordered just as tonight. @throws IoError.
+bool has_study(HistoryStore& store, int night, const StudyNight& tonight);
+
 /// The night that tonight is compared with.
 /// @param asked  Its number; empty: the pinned night, or else the last good one that has a study of
 ///               tonight's.
