@@ -1,0 +1,183 @@
+import assert from "node:assert/strict";
+import { readFileSync } from "node:fs";
+import { test } from "node:test";
+import { figure, open, study, textOf } from "./support.mjs";
+
+const kMap = "map-bearing-isomap";
+const kFilm = "forming-bearing";
+
+const viewBox = async (shown) =>
+  (await shown.locator("svg").getAttribute("viewBox")).split(" ").map(Number);
+
+test("drawings are put in only when the reader comes near, and all of them for paper", async () => {
+  const { page, close } = await open();
+  const held = await page.locator("figure .drawing").count();
+  assert.ok(held > 50);
+  assert.ok(await page.locator(".drawing > svg").count() < 10);
+  await figure(page, kMap);
+  await page.evaluate(() => dispatchEvent(new Event("beforeprint")));
+  assert.equal(await page.locator(".drawing > svg").count(), held);
+  await close();
+});
+
+test("nothing moves when a drawing comes into its place", async () => {
+  const { page, close } = await open();
+  const before = await page.evaluate(() => {
+    const box = document.querySelector("#figure-map-bearing-isomap .drawing");
+    return [box.clientWidth, box.clientHeight];
+  });
+  const shown = await figure(page, kMap);
+  const after = await shown.locator(".drawing").evaluate((box) => [box.clientWidth, box.clientHeight]);
+  assert.ok(Math.abs(before[0] - after[0]) <= 1 && Math.abs(before[1] - after[1]) <= 2,
+    `${before} became ${after}`);
+  await close();
+});
+
+test("buttons and keys zoom, arrows move, and Fit shows the whole", async () => {
+  const { page, close } = await open();
+  const shown = await figure(page, kMap);
+  const whole = await viewBox(shown);
+  await shown.getByRole("button", { name: "Zoom in" }).click();
+  assert.ok((await viewBox(shown))[2] < whole[2]);
+  await shown.getByRole("button", { name: "Zoom out" }).click();
+  assert.deepEqual(await viewBox(shown), whole);
+  await shown.locator(".drawing").focus();
+  await page.keyboard.press("+");
+  const zoomed = await viewBox(shown);
+  await page.keyboard.press("ArrowRight");
+  assert.ok((await viewBox(shown))[0] > zoomed[0]);
+  await page.keyboard.press("0");
+  assert.deepEqual(await viewBox(shown), whole);
+  await page.keyboard.press("+");
+  await shown.getByRole("button", { name: "Fit the whole figure" }).click();
+  assert.deepEqual(await viewBox(shown), whole);
+  await close();
+});
+
+test("the wheel zooms where it is with Ctrl or after a click, and else scrolls the page", async () => {
+  const { page, close } = await open();
+  const shown = await figure(page, kMap);
+  const box = await shown.locator(".drawing").boundingBox();
+  await page.mouse.move(box.x + box.width / 4, box.y + box.height / 4);
+  const whole = await viewBox(shown);
+  const at = await page.evaluate(() => scrollY);
+  await page.mouse.wheel(0, -120);
+  await page.waitForFunction((from) => scrollY !== from, at);
+  assert.deepEqual(await viewBox(shown), whole);
+  await page.mouse.wheel(0, 120);
+  await page.waitForFunction((from) => scrollY === from, at);
+  await shown.locator(".drawing").focus();
+  await page.mouse.wheel(0, -240);
+  await page.waitForFunction(() => document.querySelector("#figure-map-bearing-isomap .zoomed"));
+  const [x, y, width, height] = await viewBox(shown);
+  // What was under the pointer still is.
+  assert.ok(Math.abs(x + width / 4 - whole[2] / 4) < 3, `${x} ${width}`);
+  assert.ok(Math.abs(y + height / 4 - whole[3] / 4) < 3, `${y} ${height}`);
+  await close();
+});
+
+test("a drag moves what is zoomed, and two fingers pinch", async () => {
+  const { page, close } = await open({ hasTouch: true });
+  const shown = await figure(page, kMap);
+  const box = await shown.locator(".drawing").boundingBox();
+  const whole = await viewBox(shown);
+  await shown.getByRole("button", { name: "Zoom in" }).click();
+  const zoomed = await viewBox(shown);
+  await page.mouse.move(box.x + 200, box.y + 150);
+  await page.mouse.down();
+  await page.mouse.move(box.x + 140, box.y + 120, { steps: 3 });
+  await page.mouse.up();
+  const moved = await viewBox(shown);
+  assert.ok(moved[0] > zoomed[0] && moved[1] > zoomed[1], `${zoomed} became ${moved}`);
+  await shown.getByRole("button", { name: "Fit the whole figure" }).click();
+  await shown.locator(".drawing").evaluate((drawing) => {
+    const frame = drawing.getBoundingClientRect();
+    const finger = (type, pointerId, x) => drawing.dispatchEvent(new PointerEvent(type, {
+      pointerId, pointerType: "touch", bubbles: true, button: 0, buttons: 1,
+      clientX: frame.x + x, clientY: frame.y + 100 }));
+    drawing.setPointerCapture = () => {};
+    finger("pointerdown", 11, 150);
+    finger("pointerdown", 12, 200);
+    finger("pointermove", 12, 300);
+    finger("pointerup", 11, 150);
+    finger("pointerup", 12, 300);
+  });
+  assert.ok((await viewBox(shown))[2] < whole[2] / 2);
+  await close();
+});
+
+test("a figure fills the screen and comes back, also where the browser refuses", async () => {
+  const { page, close } = await open();
+  const shown = await figure(page, kMap);
+  const button = shown.getByRole("button", { name: "Full screen" });
+  await button.click();
+  await page.waitForFunction(() => document.fullscreenElement?.dataset.id === "map-bearing-isomap");
+  await button.click();
+  await page.waitForFunction(() => !document.fullscreenElement);
+  await shown.evaluate((each) => { each.requestFullscreen = () => Promise.reject(new Error("no")); });
+  await button.click();
+  await shown.and(page.locator(".filling")).waitFor();
+  const { width } = await shown.boundingBox();
+  assert.equal(width, 1400);
+  await page.keyboard.press("Escape");
+  assert.equal(await page.locator(".filling").count(), 0);
+  await close();
+});
+
+test("the step slider forms the map in one place", async () => {
+  const { page, close } = await open();
+  const shown = await figure(page, kFilm);
+  const slider = shown.getByRole("slider");
+  const height = await shown.locator(".drawing").evaluate((box) => box.clientHeight);
+  assert.equal(await shown.locator(".step output").textContent(), "All side by side");
+  const seen = [];
+  await slider.focus();
+  for (let step = 1; step <= 3; ++step) {
+    await page.keyboard.press("ArrowRight");
+    seen.push(`${await shown.locator(".step output").textContent()}`);
+    const [, , width] = await viewBox(shown);
+    assert.ok(width < 300, `step ${step}: ${width}`);
+  }
+  assert.ok(seen[0].startsWith("500 steps") && seen[2].startsWith("2000 steps"), seen.join());
+  assert.equal(await shown.locator(".drawing").evaluate((box) => box.clientHeight), height);
+  // The landmarks stand still while it forms: their true places are the same in every panel.
+  await close();
+});
+
+test("SVG and PNG are saved from the page, PDF and data lead to the files beside it", async () => {
+  const { page, close } = await open();
+  const shown = await figure(page, kMap);
+  await shown.locator("summary").click();
+  const saved = async (name) => {
+    const [download] = await Promise.all([
+      page.waitForEvent("download"), shown.getByRole("link", { name, exact: true }).click()]);
+    return { name: download.suggestedFilename(), bytes: readFileSync(await download.path()) };
+  };
+  const svg = await saved("SVG");
+  assert.equal(svg.name, `${kMap}.svg`);
+  assert.equal(svg.bytes.toString().trim(), textOf(`figures/${kMap}.svg`).trim());
+  const png = await saved("PNG");
+  assert.equal(png.name, `${kMap}.png`);
+  assert.equal(png.bytes.subarray(1, 4).toString(), "PNG");
+  const beside = readFileSync(`${study}/figures/${kMap}.png`);
+  assert.deepEqual(png.bytes.subarray(16, 24), beside.subarray(16, 24));  // Width and height.
+  for (const [name, end] of [["PDF", "pdf"], ["data", "figure.json"]]) {
+    const href = await shown.getByRole("link", { name, exact: true }).getAttribute("href");
+    assert.equal(href, `figures/${kMap}.${end}`);
+    assert.ok(textOf(href).length > 1000);
+  }
+  assert.match(await shown.locator(".where").textContent(), /beside this page, in figures/);
+  await close();
+});
+
+test("the command of a figure is shown, copied, and draws it again", async () => {
+  const { page, close } = await open({ permissions: ["clipboard-read", "clipboard-write"] });
+  const shown = await figure(page, kMap);
+  await shown.locator("summary").click();
+  const command = await shown.locator(".command code").textContent();
+  assert.match(command, /^mapproof render .*--figure map-bearing-isomap$/);
+  await shown.getByRole("button", { name: `Copy the command of ${kMap}` }).click();
+  await page.waitForFunction(() => document.querySelector("#status")?.textContent.includes("copied"));
+  assert.equal(await page.evaluate(() => navigator.clipboard.readText()), command);
+  await close();
+});

@@ -1,0 +1,86 @@
+import assert from "node:assert/strict";
+import { test } from "node:test";
+import { figure, open } from "./support.mjs";
+
+const rings = (page) => page.evaluate(() => Array.from(document.querySelectorAll("g.lit"),
+  (layer) => layer.closest("figure").dataset.id));
+
+// A landmark of the map that is no anchor, with what its marks hold.
+const sample = (shown) => shown.locator("svg").evaluate((svg) => {
+  const mark = svg.querySelector("use[data-kind=estimate]");
+  const truth = svg.querySelector(`use[data-kind=true][data-landmark="${mark.dataset.landmark}"]`);
+  const at = mark.getBoundingClientRect();
+  return { name: mark.dataset.landmark, error: Number(mark.dataset.error), x: Number(truth.dataset.x),
+    left: at.x + at.width / 2, top: at.y + at.height / 2 };
+});
+
+test("a landmark under the pointer is named with truth, estimate and error", async () => {
+  const { page, close } = await open();
+  const shown = await figure(page, "map-bearing-isomap");
+  const landmark = await sample(shown);
+  await page.mouse.move(landmark.left, landmark.top);
+  const tip = shown.locator(".tip");
+  await tip.waitFor();
+  const words = await tip.innerText();
+  assert.ok(words.startsWith(landmark.name), words);
+  assert.ok(words.includes(`true (${landmark.x.toFixed(3)}`), words);
+  assert.match(words, /estimate \(/);
+  const said = Number(/error ([\d.]+) m/.exec(words)[1]);
+  assert.ok(Math.abs(said - landmark.error) < 0.005 * landmark.error, `${said} ${landmark.error}`);
+  await page.mouse.move(5, 5);
+  await tip.waitFor({ state: "detached" });
+  assert.deepEqual(await rings(page), []);
+  await close();
+});
+
+test("the same landmark lights up in all maps of its world and in no other", async () => {
+  const { page, close } = await open();
+  await page.evaluate(() => dispatchEvent(new Event("beforeprint")));
+  const shown = await figure(page, "map-bearing-isomap");
+  const landmark = await sample(shown);
+  await page.mouse.move(landmark.left, landmark.top);
+  await shown.locator(".tip").waitFor();
+  const lit = await rings(page);
+  assert.ok(lit.includes("map-bearing-isomap"));
+  const expected = await page.evaluate(({ name, x }) => {
+    const found = new Set();
+    for (const mark of document.querySelectorAll("use[data-landmark]")) {
+      const { landmark, kind } = mark.dataset;
+      const is = landmark === name && (kind === "true" || kind === "anchor") &&
+        Number(mark.dataset.x) === x;
+      if (is) found.add(mark.closest("figure").dataset.id);
+    }
+    return [...found];
+  }, landmark);
+  assert.deepEqual(lit, expected);
+  assert.ok(lit.length > 3, lit.join());
+  await close();
+});
+
+test("n and p go through the landmarks and say them, Escape ends it", async () => {
+  const { page, close } = await open();
+  const shown = await figure(page, "map-bearing-isomap");
+  await shown.locator(".drawing").focus();
+  await page.keyboard.press("n");
+  const first = await shown.locator(".tip bdi").textContent();
+  await page.keyboard.press("n");
+  assert.notEqual(await shown.locator(".tip bdi").textContent(), first);
+  await page.keyboard.press("p");
+  assert.equal(await shown.locator(".tip bdi").textContent(), first);
+  assert.ok((await page.locator("#status").textContent()).startsWith(first));
+  await page.keyboard.press("Escape");
+  assert.equal(await page.locator(".tip").count(), 0);
+  await close();
+});
+
+test("a landmark can be chosen by its name, and drawings put in later have it lit", async () => {
+  const { page, close } = await open();
+  const shown = await figure(page, "map-bearing-isomap");
+  const { name } = await sample(shown);
+  await shown.getByRole("combobox").selectOption({ label: name });
+  assert.equal(await shown.locator(".tip bdi").textContent(), name);
+  const count = (await rings(page)).length;
+  await page.evaluate(() => dispatchEvent(new Event("beforeprint")));
+  assert.ok((await rings(page)).length > count);
+  await close();
+});

@@ -1,0 +1,123 @@
+import assert from "node:assert/strict";
+import { statSync } from "node:fs";
+import { join } from "node:path";
+import { test } from "node:test";
+import { comparison, figure, open, study, violations } from "./support.mjs";
+
+// Some of every kind: axe-core looks at each element of each.
+const putSomeIn = (page) => page.evaluate(() =>
+  document.querySelectorAll("figure[data-id]").forEach((figure, i) => { if (i % 6 === 0) putIn(figure); }));
+
+const putAllIn = (page) => page.evaluate(() => dispatchEvent(new Event("beforeprint")));
+
+test("the first screen says what was run and found, and leads to figures", async () => {
+  const { page, errors, requests, close } = await open();
+  const opening = page.locator("#opening");
+  assert.match(await opening.innerText(), /maps best, MPE [\d.]+ m/);
+  const links = opening.locator(".thumbnails a");
+  assert.ok(await links.count() >= 4);
+  const { y, height } = await links.first().boundingBox();
+  assert.ok(y + height < 900, `${y} ${height}`);
+  for (const image of await links.locator("img").all()) {
+    assert.ok(await image.evaluate((each) => each.decode().then(() => each.naturalWidth > 0)));
+  }
+  // No earlier night is known: nothing is said about one.
+  assert.equal(await page.locator(".standing").count(), 0);
+  const target = (await links.nth(1).getAttribute("href")).slice(1);
+  await links.nth(1).click();
+  await page.locator(`#${target} svg`).waitFor();
+  assert.deepEqual(errors, []);
+  assert.deepEqual(requests, []);
+  await close();
+});
+
+test("every entry of the contents leads to its section", async () => {
+  const { page, close } = await open();
+  const links = await page.locator(".contents a").evaluateAll(
+    (all) => all.map((link) => link.getAttribute("href").slice(1)));
+  assert.ok(links.length > 8);
+  for (const id of links) assert.equal(await page.locator(`section[id="${id}"]`).count(), 1, id);
+  await close();
+});
+
+for (const [name, options] of [["light", {}], ["dark", { colorScheme: "dark" }],
+  ["phone", { viewport: { width: 390, height: 844 } }]]) {
+  test(`axe-core finds nothing against the report: ${name}`, async () => {
+    const { page, close } = await open(options);
+    await putSomeIn(page);
+    assert.deepEqual(await violations(page), []);
+    await close();
+  });
+}
+
+test("axe-core finds nothing against a figure that is zoomed, lit and steps", async () => {
+  const { page, close } = await open();
+  const film = await figure(page, "forming-bearing");
+  await film.getByRole("slider").fill("2");
+  const map = await figure(page, "map-bearing-isomap");
+  await map.locator("summary").click();
+  await map.getByRole("button", { name: "Zoom in" }).click();
+  await map.locator(".drawing").focus();
+  await page.keyboard.press("n");
+  assert.deepEqual(await violations(page), []);
+  await close();
+});
+
+test("axe-core finds nothing against the page of a comparison", { skip: !comparison }, async () => {
+  for (const options of [{}, { colorScheme: "dark" }]) {
+    const { page, close } = await open(options, comparison, "diff.html");
+    assert.deepEqual(await violations(page), []);
+    await close();
+  }
+});
+
+test("the page is no wider than a phone", async () => {
+  const { page, close } = await open({ viewport: { width: 390, height: 844 } });
+  await putAllIn(page);
+  assert.ok(await page.evaluate(() => document.documentElement.scrollWidth) <= 390);
+  await close();
+});
+
+test("without a script every figure still shows", async () => {
+  const { page, close } = await open({ javaScriptEnabled: false });
+  const shown = await page.locator(".drawing noscript > svg").count();
+  assert.ok(shown > 50);
+  assert.equal(shown, await page.locator("figure .drawing").count());
+  assert.ok((await page.locator("#figure-map-bearing-isomap svg").boundingBox()).height > 200);
+  assert.equal(await page.locator(".tools").count(), 0);
+  await close();
+});
+
+test("every control can be reached by Tab and has a name", async () => {
+  const { page, close } = await open();
+  await figure(page, "map-bearing-isomap");
+  const nameless = await page.evaluate(() => Array.from(
+    document.querySelectorAll("button, input, select, a[href], summary")).filter((each) =>
+    each.tabIndex < 0 || !(each.textContent.trim() || each.ariaLabel || each.labels?.length)).length);
+  assert.equal(nameless, 0);
+  const drawing = page.locator("#figure-map-bearing-isomap .drawing");
+  await drawing.focus();
+  await page.keyboard.press("Tab");
+  assert.equal(await page.evaluate(() => document.activeElement.getAttribute("aria-label")), "Zoom out");
+  await close();
+});
+
+test("on paper all figures are there, and none is cut", async () => {
+  const { page, close } = await open();
+  const held = await page.locator("figure .drawing").count();
+  const pdf = (await page.pdf({ format: "A4" })).toString("latin1");
+  assert.equal(await page.locator(".drawing > svg").count(), held);
+  const pages = (pdf.match(/\/Type\s*\/Page[^s]/g) ?? []).length;
+  assert.ok(pages > 15 && pages < 120, `${pages} pages`);
+  await close();
+});
+
+test("the report is one file of at most 10 MB that asks for nothing", async () => {
+  assert.ok(statSync(join(study, "report.html")).size <= 10e6);
+  const { page, requests, errors, close } = await open();
+  await putAllIn(page);
+  await page.waitForTimeout(500);
+  assert.deepEqual(requests, []);
+  assert.deepEqual(errors, []);
+  await close();
+});

@@ -1,0 +1,56 @@
+// What the tests share: one Chromium a file, a fresh page a test, on the report of a real study.
+import { readFileSync } from "node:fs";
+import { join } from "node:path";
+import { after, before } from "node:test";
+import { pathToFileURL } from "node:url";
+import axe from "axe-core";
+import { chromium } from "playwright-core";
+
+/// The folder of `mapproof reproduce yairi2007 --profile quick`, and that of a comparison's page.
+export const study = process.env.MAPPROOF_REPORT;
+export const comparison = process.env.MAPPROOF_DIFF_PAGE;
+
+export const textOf = (name) => readFileSync(join(study, name), "utf8");
+
+let browser;
+before(async () => {
+  browser = await chromium.launch({
+    executablePath: process.env.MAPPROOF_CHROMIUM,
+    args: ["--no-sandbox", "--disable-gpu", "--disable-quic", "--disable-background-networking"],
+  });
+});
+after(() => browser.close());
+
+/// Opens a file of a folder, by default the report; what it asks for beyond itself, and what goes
+/// wrong in it, is kept.
+export async function open(options = {}, folder = study, file = "report.html", hash = "") {
+  const context = await browser.newContext({ viewport: { width: 1400, height: 900 }, ...options });
+  const page = await context.newPage();
+  page.setDefaultTimeout(30000);
+  const requests = [], errors = [];
+  const own = pathToFileURL(join(folder, file)).href;
+  page.on("request", (request) => {
+    const url = request.url();
+    if (!url.startsWith("data:") && !url.startsWith("blob:") && url.split("#")[0] !== own) requests.push(url);
+  });
+  page.on("pageerror", (error) => errors.push(String(error)));
+  page.on("console", (message) => { if (message.type() === "error") errors.push(message.text()); });
+  await page.goto(own + hash);
+  return { page, requests, errors, context, close: () => context.close() };
+}
+
+/// A figure of the report, put in.
+export async function figure(page, id) {
+  const found = page.locator(`#figure-${id}`);
+  await found.scrollIntoViewIfNeeded();
+  await found.locator(".drawing > svg").waitFor();
+  return found;
+}
+
+/// What axe-core holds against the page, in words; it is run beside the page's own policy.
+export async function violations(page) {
+  await page.evaluate(axe.source);
+  const result = await page.evaluate(() => window.axe.run(document, { resultTypes: ["violations"] }));
+  return result.violations.map(({ id, nodes }) =>
+    `${id}: ${nodes.length}: ${nodes[0].html.slice(0, 160)} ${nodes[0].failureSummary}`);
+}
