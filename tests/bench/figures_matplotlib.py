@@ -75,4 +75,5 @@ def main():
         print(f"{what} matplotlib {seconds:.3f} {size:.0f}", flush=True)
 
 
-main()
+if __name__ == "__main__":
+    main()
