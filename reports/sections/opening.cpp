@@ -16,7 +16,7 @@ namespace {
 
 constexpr std::size_t kMostThumbnails = 6;
 
-/// "Bearing: SMACOF, K = 8 is best, MPE 0.0615 m (paper 0.0609 m). "
+/// "Bearing: SMACOF, K = 8 maps best, mean position error 0.0615 m (the paper: 0.0609 m). "
 void add_best(const SensorStudy& sensor, const SettingSummary* best, Paragraph& text) {
   text.phrases.push_back({title_of(sensor.sensor.sensor), Emphasis::kStrong});
   if (best == nullptr) {
@@ -24,7 +24,7 @@ void add_best(const SensorStudy& sensor, const SettingSummary* best, Paragraph& 
     return;
   }
   text.phrases.push_back({": " + label(best->setting) + " maps best, "});
-  text.phrases.push_back({"MPE " + metres(best->mpe_m->mean), Emphasis::kStrong});
+  text.phrases.push_back({"mean position error " + metres(best->mpe_m->mean), Emphasis::kStrong});
   text.phrases.push_back(
       {best->published ? " (the paper: " + metres(best->published->mpe_m) + "). " : ". "});
 }

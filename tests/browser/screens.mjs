@@ -1,0 +1,51 @@
+// screens.mjs FOLDER: how the report looks, as PNG files, and in made-by.txt by which browser and
+// fonts; without these two the pictures of two machines cannot be compared.
+import { execFileSync } from "node:child_process";
+import { mkdirSync, writeFileSync } from "node:fs";
+import { join } from "node:path";
+import { pathToFileURL } from "node:url";
+import { chromium } from "playwright-core";
+
+const folder = process.argv[2];
+mkdirSync(folder, { recursive: true });
+const browser = await chromium.launch({
+  executablePath: process.env.MAPPROOF_CHROMIUM,
+  args: ["--no-sandbox", "--disable-gpu", "--hide-scrollbars", "--font-render-hinting=none"],
+});
+const report = pathToFileURL(join(process.env.MAPPROOF_REPORT, "report.html")).href;
+
+async function take(name, options, prepare = () => {}) {
+  const context = await browser.newContext({ viewport: { width: 1400, height: 1000 }, ...options });
+  const page = await context.newPage();
+  await page.goto(report);
+  await page.evaluate(() => Promise.all(Array.from(document.images, (image) => image.decode())));
+  await prepare(page);
+  await page.evaluate(() => document.fonts.ready);
+  await page.screenshot({ path: join(folder, `${name}.png`), animations: "disabled" });
+  await context.close();
+}
+
+async function showMap(page) {
+  const map = page.locator("#figure-map-bearing-isomap");
+  await map.scrollIntoViewIfNeeded();
+  await map.locator("svg").waitFor();
+  await map.evaluate((figure) => figure.scrollIntoView({ block: "start" }));
+  await page.waitForTimeout(500);  // Those beside it come in, too.
+  await map.getByRole("combobox").selectOption({ label: "L10" });
+}
+
+const showTable = (page) => page.locator("#section-accuracy-bearing, section:has(.table)").first()
+  .evaluate((section) => section.scrollIntoView({ block: "start" }));
+
+await take("wide", {});
+await take("dark", { colorScheme: "dark" }, showTable);
+await take("landmark", {}, showMap);
+await take("phone", { viewport: { width: 390, height: 844 } });
+// As on A4, 180 mm between its margins.
+await take("print", { viewport: { width: 680, height: 990 } }, async (page) => {
+  await page.emulateMedia({ media: "print" });
+  await page.evaluate(() => dispatchEvent(new Event("beforeprint")));
+});
+const fonts = execFileSync("fc-match", ["system-ui", "family", "file"]).toString().trim();
+writeFileSync(join(folder, "made-by.txt"), `Chromium ${browser.version()}\n${fonts}\n`);
+await browser.close();
