@@ -58,6 +58,13 @@ TEST(Nightly, RecordsANightAndItsReportAndFindsNothingWorseInTheNext) {
   EXPECT_GT(fs::hard_link_count(store / "nights/0002/small/figures/fig-2.svg"), 2U)
       << "figures of both nights are one file";
   EXPECT_EQ(mapproof({"history", store, "--verify"}).exit_code, 0);
+  const auto report_of = [&](const char* number) {
+    return read_file(store / "nights" / number / "small/report.html");
+  };
+  EXPECT_NE(report_of("0001").find("Night 1: there was nothing to compare with"),
+            std::string::npos);
+  EXPECT_NE(report_of("0002").find("Night 2: nothing got worse than on night 1"),
+            std::string::npos);
 }
 
 TEST(Nightly, OfARangeOnlyExperimentIsRecordedToo) {
@@ -155,6 +162,8 @@ TEST(Nightly, AWorseNightIsOneAndNamesWhatGotWorse) {
   const json result = json::parse(outcome.out);
   ASSERT_FALSE(result.at("findings").empty());
   EXPECT_EQ(result.at("findings").at(0).at("quantity"), "mpe_m");
+  const std::string report = read_file(store / "nights/0002/small/report.html");
+  EXPECT_NE(report.find("class=\"standing worse\""), std::string::npos);
 }
 
 }  // namespace
