@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include "app/own_submaps.hpp"
 #include "core/align/affine.hpp"
 #include "core/align/diagonal_anchors.hpp"
 #include "core/base/errors.hpp"
@@ -211,23 +212,24 @@ OwnMap map_own(const ObservationSource& source, const std::optional<NamedPointsF
     throw IoError(source.path, fmt::format("--steps {}: it holds {} observations", steps,
                                            source.history.steps()));
   check_method(source, options);
-  OwnMap result{.record = {}, .remarks = source.remarks};
+  OwnMap result{.record = {}, .remarks = source.remarks, .joined = {}};
   check_unseen(source, steps, options, result.remarks);
   const Reference reference = reference_of(source, anchors, truth, steps, result.remarks);
 
   EmbedderOptions fitting;
   fitting.only_seen_together = options.only_seen_together;
   MissingOutcome missing;
-  HistoryEmbedder embedder(source.history, steps, fitting,
-                           proximity_rule(options.missing, source.history.sensor, missing));
+  OwnEmbedding made = own_embedding(source.history, steps, options.setting, fitting,
+                                    proximity_rule(options.missing, source.history.sensor, missing),
+                                    options.submaps);
   result.remarks.insert(result.remarks.end(), missing.remarks.begin(), missing.remarks.end());
-  const MethodSetting setting =
-      options.setting.parameter ? options.setting : embedder.usual_setting(options.setting.method);
-  const Embedding embedding = embedder.embed(setting);
+  result.remarks.insert(result.remarks.end(), made.remarks.begin(), made.remarks.end());
+  result.joined = std::move(made.joined);
+  const Embedding& embedding = made.embedding;
   MapRecord& record = result.record;
   record.id = "map";
   record.sensor = source.history.sensor;
-  record.setting = setting;
+  record.setting = made.setting;
   record.step = static_cast<int>(steps);
   record.names = source.history.names;
   record.statuses = std::move(missing.statuses);

@@ -8,6 +8,7 @@
 #include "core/embed/embedder.hpp"
 #include "core/model/experiment.hpp"
 #include "core/model/map_record.hpp"
+#include "core/model/submaps.hpp"
 #include "core/records/landmarks_csv.hpp"
 #include "core/records/observations.hpp"
 
@@ -27,12 +28,14 @@ struct OwnMapOptions {
   bool drop_unseen = false;         ///< Map the others where a landmark was never observed.
   bool only_seen_together = false;  ///< See EmbedderOptions.
   MissingChoice missing;
+  int submaps = 0;  ///< Most landmarks of a sub-map, 6 or more; 0: one map.
 };
 
 /// A map and what has to be said about how it came to be.
 struct OwnMap {
   MapRecord record;
   std::vector<std::string> remarks;
+  std::optional<JoinedSubmaps> joined;  ///< What the map was joined from, in a frame of its own.
 };
 
 /// Maps observations, aligned to the anchors if there are any, scored if there is a truth.

@@ -1,5 +1,7 @@
 #include "app/own_missing.hpp"
 
+#include <algorithm>
+
 #include <fmt/format.h>
 
 #include "core/base/errors.hpp"
@@ -15,10 +17,12 @@ constexpr const char* kCovisible = "covisible";
 ProximityRule covisible_rule(MissingOutcome& outcome) {
   return [&outcome](const ObservationHistory& history, Eigen::Index steps) {
     const CovisibleOptions options;
-    outcome.remarks.push_back(fmt::format(
-        "Distances are those of landmarks often observed together: the {} of each that share most "
-        "of its steps, {} or more of them; others take the shortest path.",
-        options.neighbours, options.least_common));
+    if (outcome.remarks.empty())
+      outcome.remarks.push_back(
+          fmt::format("Distances are those of landmarks often observed together: the {} of each "
+                      "that share most "
+                      "of its steps, {} or more of them; others take the shortest path.",
+                      options.neighbours, options.least_common));
     return covisible_proximities(history, steps, options);
   };
 }
@@ -29,9 +33,11 @@ ProximityRule filling_rule(Filling filling, int dimensions, MissingOutcome& outc
     options.filling = filling;
     options.ppca.dimensions = options.pca.dimensions = dimensions;
     FilledProximities filled = filled_proximities(history, steps, options);
-    outcome.statuses = std::move(filled.statuses);
+    for (const Status& status : filled.statuses)
+      if (std::ranges::find(outcome.statuses, status) == outcome.statuses.end())
+        outcome.statuses.push_back(status);
     const auto missing = history.values.leftCols(steps).array().isNaN().count();
-    if (filled.model.loadings.size() > 0)
+    if (filled.model.loadings.size() > 0 && outcome.remarks.empty())
       outcome.remarks.push_back(fmt::format(
           "Entries filled in by {2} of {1}: {0}. They count as missing at random; where "
           "distant landmarks alone are missing, common steps give better maps.",

@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <memory>
 
 #include <fmt/format.h>
@@ -15,6 +16,7 @@
 #include "core/records/map_files.hpp"
 #include "render/figures/map.hpp"
 #include "render/figures/score_words.hpp"
+#include "render/figures/submaps.hpp"
 #include "render/output/write_figure.hpp"
 #include "reports/html/report_html.hpp"
 #include "reports/sections/map_report.hpp"
@@ -172,13 +174,17 @@ std::string map_text(const OwnMap& map, const fs::path& out) {
 
 void write_outputs(const Arguments& arguments, const ObservationSource& source, const OwnMap& map,
                    const Templates& page, const Invocation& invocation) {
-  const Figure figure = map_figure(map.record, "map");
+  std::vector<Figure> figures = {map_figure(map.record, "map")};
+  if (map.joined) figures.push_back(submaps_figure(*map.joined, map.record.names, "submaps"));
+  std::vector<FigureBlock> more;
+  for (std::size_t k = 1; k < figures.size(); ++k) more.push_back(figure_block(figures[k]));
   const Report report =
       map_report({.record = map.record,
                   .title = "Map of " + fs::path(arguments.observations).filename().string(),
                   .facts = facts(arguments, source, map.record),
                   .remarks = map.remarks,
-                  .figure = figure_block(figure),
+                  .figure = figure_block(figures.front()),
+                  .more_figures = std::move(more),
                   .provenance = build_provenance(),
                   .command = invocation.command});
   const MapFolder folder(arguments.out, map.record);
@@ -186,10 +192,17 @@ void write_outputs(const Arguments& arguments, const ObservationSource& source, 
   // The file that marks the folder as a map's comes first: a killed command can then be repeated.
   write_file(out / kMapFile, map_json(map.record));
   write_file(out / "map.csv", map_csv(map.record));
-  const std::string svg = write_figure(figure, report_theme(), out / "figures");
+  if (!map.joined)  // of an earlier map in this folder
+    for (const char* ending : {".svg", ".png", ".pdf", ".figure.json"})
+      fs::remove(out / "figures" / (std::string("submaps") + ending));
+  std::map<std::string, std::string> drawn;
+  for (const Figure& figure : figures)
+    drawn[figure.id] = write_figure(figure, report_theme(), out / "figures");
   write_tables(report, out / "tables");
-  const std::string html = report_html(
-      report, page, [&](const std::string& id) { return id == figure.id ? svg : std::string(); });
+  const std::string html = report_html(report, page, [&](const std::string& id) {
+    const auto found = drawn.find(id);
+    return found == drawn.end() ? std::string() : found->second;
+  });
   write_file(out / "report.html", html);
 }
 
@@ -272,6 +285,9 @@ Action map_verb(CLI::App& app) {
   app.add_option("--dimensions", arguments->options.missing.dimensions,
                  "Of PPCA and PCA (default: 10, or one fewer than landmarks)")
       ->check(CLI::Range(1, 1000));
+  app.add_option("--submaps", arguments->options.submaps,
+                 "Map overlapping groups of at most so many landmarks apart, and join them")
+      ->check(CLI::Range(6, 5000));
   app.add_option("--templates", arguments->templates,
                  "Folder whose templates replace the embedded ones");
   return [arguments](const Invocation& invocation) { return make_map(*arguments, invocation); };

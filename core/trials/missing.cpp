@@ -55,12 +55,15 @@ TrialDesign design(const TrialExperiment& experiment) {
   TrialDesign design;
   design.question = fmt::format(
       "Bearings of all landmarks are simulated and a share of them is taken away: at random, those "
-      "of the most distant landmarks, or those that wide landmarks hide. PPCA and PCA of {:g} "
+      "of the most distant landmarks, or those that wide landmarks hide. PPCA and PCA of {0:g} "
       "dimensions fill the gaps, the landmarks' means fill them, or distances are taken over "
       "common "
-      "steps; covisible pairs are the {:g} landmarks that each is most often observed with. Maps "
-      "are aligned to the anchors in least squares.",
-      number_option(experiment, "dimensions"), number_option(experiment, "covisible_neighbours"));
+      "steps; covisible pairs are the {1:g} landmarks that each is most often observed with. "
+      "kNN-SMACOF (K = {2:g}) and ISOMAP (K = {3:g}) map the distances; maps are aligned to the "
+      "anchors in least squares.",
+      number_option(experiment, "dimensions"), number_option(experiment, "covisible_neighbours"),
+      number_option(experiment, "smacof_neighbours"),
+      number_option(experiment, "isomap_neighbours"));
   const std::string label = "share missing, %";
   design.setups = {{kAtRandom, "Entries missing at random", label,
                     percent(list_option(experiment, "shares_at_random"))},
@@ -69,11 +72,10 @@ TrialDesign design(const TrialExperiment& experiment) {
                    {kOcclusion, "Landmarks hidden by others", label,
                     percent(list_option(experiment, "shares_occlusion"))}};
   for (const auto& [filling, words] : kFillings)
-    for (const MethodSetting& setting : settings_of(experiment))
+    for (const MethodSetting& setting : settings_of(experiment, filling))
       design.series.push_back(
-          {series_id(filling, setting), fmt::format("{}, {}", words, mapproof::label(setting))});
-  design.series.push_back(
-      {kExpected, "PPCA, expected squares, " + mapproof::label(smacof_of(experiment))});
+          {series_id(filling, setting), fmt::format("{}, {}", words, method_words(setting))});
+  design.series.push_back({kExpected, "PPCA, expected squares, kNN-SMACOF"});
   design.series.push_back({kCovisible, "Covisible pairs, SMACOF of relative errors"});
   design.quantities = {{"mpe_m", "MPE", "m", true},
                        {"moe_percent", "MOE", "%", true},
@@ -106,6 +108,7 @@ class GappedHistory {
   void map() {
     if (seen_.size() < 3) return;
     for (const auto& [filling, words] : kFillings) map_filled(filling);
+    if (setup_.id == kAtRandom) return;  // such gaps do not tell what is near
     const CovisibleOptions options{
         .neighbours = static_cast<int>(number_option(context_.experiment, "covisible_neighbours"))};
     add(kCovisible, relative_stress_map(covisible_proximities(history_, steps(), options)), {});
@@ -120,7 +123,7 @@ class GappedHistory {
     const MethodSetting smacof = smacof_of(context_.experiment);
     part_.seconds.push_back({part_.id, series_id(filling, smacof), seconds});
     Embedder embedder(filled.proximities);
-    for (const MethodSetting& setting : settings_of(context_.experiment)) {
+    for (const MethodSetting& setting : settings_of(context_.experiment, filling)) {
       const ScoredMap map =
           add(series_id(filling, setting), embedder.embed(setting), filled.statuses);
       if (shown(filling) && setting == smacof) show(series_id(filling, setting), setting, map);

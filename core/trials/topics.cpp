@@ -5,12 +5,13 @@
 
 #include "core/base/errors.hpp"
 #include "core/trials/missing.hpp"
+#include "core/trials/submaps.hpp"
 #include "core/trials/topic.hpp"
 
 namespace mapproof {
 
 std::span<const Topic* const> all_topics() {
-  static const std::vector<const Topic*> kTopics = {&kMissingTopic};
+  static const std::vector<const Topic*> kTopics = {&kMissingTopic, &kSubmapsTopic};
   return kTopics;
 }
 

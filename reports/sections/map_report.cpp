@@ -217,6 +217,8 @@ Report map_report(const MapReportInput& input) {
                   counted(input.record.step, "observation"));
   report.sections.push_back(summary(input));
   report.sections.push_back({"map", "Map", {input.figure}});
+  for (const FigureBlock& figure : input.more_figures)
+    report.sections.back().blocks.emplace_back(figure);
   Section landmarks{"positions", "Landmarks", {}};
   if (!input.record.anchors.empty()) landmarks.blocks.emplace_back(anchors_table(input.record));
   landmarks.blocks.emplace_back(landmarks_table(input.record));

@@ -16,8 +16,9 @@ struct MapReportInput {
   std::string title;  ///< "Map of observations.csv".
   /// What was read, in words: {"File", "observations.csv"}, {"Landmarks", "50"}, …
   std::vector<std::pair<std::string, std::string>> facts;
-  std::vector<std::string> remarks;  ///< "line 7: no bearing, row dropped", …
-  FigureBlock figure;                ///< figure_block(map_figure(record, id)).
+  std::vector<std::string> remarks;       ///< "line 7: no bearing, row dropped", …
+  FigureBlock figure;                     ///< figure_block(map_figure(record, id)).
+  std::vector<FigureBlock> more_figures;  ///< Below it.
   Provenance provenance;
   std::string command;  ///< The one that makes it again, ready to be typed.
 };

@@ -70,6 +70,22 @@ TEST(MapMissing, FilledInByPpcaOrPcaIsBetterThanCommonStepsWhereMostIsMissingAtR
   EXPECT_LT(mpe("ppca"), 0.12);
 }
 
+TEST(MapMissing, OfSubmapsShowsThemAndIsNearTheTruth) {
+  const TemporaryFolder folder;
+  const GappedSurvey survey(folder, 0.0);
+  const Outcome outcome = survey.mapped({"--submaps", "24"}, folder / "map");
+  ASSERT_EQ(outcome.exit_code, 0) << outcome.error;
+  const auto result = nlohmann::json::parse(outcome.out);
+  EXPECT_LT(result["score"]["mpe_m"], 0.25);
+  ASSERT_EQ(result["remarks"].size(), 1U);
+  EXPECT_EQ(result["remarks"][0].get<std::string>().substr(0, 11), "Joined from");
+  EXPECT_TRUE(std::filesystem::exists(folder / "map" / "figures" / "submaps.svg"));
+  // Mapped as a whole into the same folder, nothing tells of sub-maps any more.
+  EXPECT_EQ(survey.mapped({}, folder / "map").exit_code, 0);
+  EXPECT_FALSE(std::filesystem::exists(folder / "map" / "figures" / "submaps.svg"));
+  EXPECT_EQ(survey.mapped({"--submaps", "5"}, folder / "small").exit_code, 2);
+}
+
 TEST(MapMissing, RefusesWhatDoesNotFitTogether) {
   const TemporaryFolder folder;
   const GappedSurvey survey(folder, 0.1);

@@ -38,7 +38,8 @@ TEST(MissingTopic, TriesEverySeriesAndConcludesWithNumbers) {
                              .with_maps = true};
   study.parts.push_back(kMissingTopic.make(context));
   const TrialPart& part = study.parts.front();
-  EXPECT_EQ(part.trials.size(), 4 * study.design.series.size());
+  // Covisible pairs are not tried at the two levels of gaps at random.
+  EXPECT_EQ(part.trials.size(), 4 * study.design.series.size() - 2);
   for (const Trial& trial : part.trials) {
     EXPECT_EQ(trial.values.size(), study.design.quantities.size());
     EXPECT_TRUE(std::isfinite(trial.values.back())) << trial.series;

@@ -1,0 +1,27 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "core/embed/embedder.hpp"
+#include "core/model/submaps.hpp"
+
+namespace mapproof {
+
+/// A person's map, and the sub-maps that it was joined from, if it was.
+struct OwnEmbedding {
+  Embedding embedding;
+  MethodSetting setting;  ///< With its parameter.
+  std::optional<JoinedSubmaps> joined;
+  std::vector<std::string> remarks;
+};
+
+/// Maps a history as a whole, or in overlapping groups.
+/// @param submaps  Most landmarks of a group, 6 or more; 0: as a whole.
+/// @param rule     See HistoryEmbedder; of each group by itself.
+OwnEmbedding own_embedding(const ObservationHistory& history, Eigen::Index steps,
+                           MethodSetting setting, const EmbedderOptions& options,
+                           const ProximityRule& rule, int submaps);
+
+}  // namespace mapproof

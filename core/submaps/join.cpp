@@ -1,0 +1,293 @@
+#include "core/submaps/join.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <optional>
+#include <span>
+
+#include <fmt/format.h>
+#include <Eigen/Cholesky>
+#include <Eigen/LU>
+#include <Eigen/QR>
+
+#include "core/base/errors.hpp"
+#include "core/base/words.hpp"
+#include "core/statistics/intervals.hpp"
+#include "core/submaps/overlaps.hpp"
+
+namespace mapproof {
+namespace {
+
+Affine after(const Affine& second, const Affine& first) {
+  return {.linear = first.linear * second.linear,
+          .offset = first.offset * second.linear + second.offset};
+}
+
+/// Where each map goes; empty: it is in no tree with the root.
+using Places = std::vector<std::optional<Affine>>;
+
+/// From one map outward along the tree.
+Places placed_from(int root, const std::vector<Overlap>& overlaps,
+                   const std::vector<std::size_t>& tree, std::size_t maps) {
+  Places places(maps);
+  places[static_cast<std::size_t>(root)] = Affine{};
+  for (bool grew = true; grew;) {
+    grew = false;
+    for (const std::size_t k : tree) {
+      auto& first = places[static_cast<std::size_t>(overlaps[k].first)];
+      auto& second = places[static_cast<std::size_t>(overlaps[k].second)];
+      if (first.has_value() == second.has_value()) continue;
+      if (first)
+        second = after(*first, overlaps[k].to_first);
+      else
+        first = after(*second, overlaps[k].to_second);
+      grew = true;
+    }
+  }
+  return places;
+}
+
+/// The tree that holds most landmarks, from its largest map.
+Places largest_tree(const std::vector<Submap>& maps, const std::vector<Overlap>& overlaps,
+                    const std::vector<std::size_t>& tree) {
+  Places best;
+  std::size_t most = 0;
+  std::vector<bool> tried(maps.size(), false);
+  for (std::size_t g = 0; g < maps.size(); ++g) {
+    if (tried[g]) continue;
+    Places places = placed_from(static_cast<int>(g), overlaps, tree, maps.size());
+    std::size_t landmarks = 0;
+    for (std::size_t h = 0; h < maps.size(); ++h)
+      if (places[h]) {
+        tried[h] = true;
+        landmarks += maps[h].landmarks.size();
+      }
+    if (landmarks <= most) continue;
+    most = landmarks;
+    best = std::move(places);
+  }
+  return best;
+}
+
+double scale_of(const Affine& map) { return std::sqrt(std::abs(map.linear.determinant())); }
+
+/// Gives the maps the scales that agree best with those of all overlaps.
+void even_scales(const std::vector<Overlap>& overlaps, std::vector<Submap>& maps) {
+  const auto n = std::ssize(maps);
+  Eigen::MatrixXd A = Eigen::MatrixXd::Zero(n, n);
+  Eigen::VectorXd b = Eigen::VectorXd::Zero(n);
+  A.diagonal().setConstant(1e-9);  // the mean of the logarithms is free
+  for (const Overlap& overlap : overlaps) {
+    const double ratio = 0.5 * std::log(scale_of(overlap.to_first) / scale_of(overlap.to_second));
+    if (!std::isfinite(ratio)) continue;
+    const double weight = 1.0 / (1e-6 + overlap.cost * overlap.cost);
+    A(overlap.first, overlap.first) += weight;
+    A(overlap.second, overlap.second) += weight;
+    A(overlap.first, overlap.second) -= weight;
+    A(overlap.second, overlap.first) -= weight;
+    b(overlap.second) += weight * ratio;
+    b(overlap.first) -= weight * ratio;
+  }
+  const Eigen::VectorXd logarithms = A.completeOrthogonalDecomposition().solve(b);
+  for (std::ptrdiff_t g = 0; g < n; ++g)
+    maps[static_cast<std::size_t>(g)].positions *= std::exp(logarithms(g));
+}
+
+/// Mean places of all landmarks, and how far the maps are from them.
+class Consensus {
+ public:
+  Consensus(std::vector<Submap>& maps, Eigen::Index landmarks)
+      : maps_(maps), means_(landmarks, 2), counts_(landmarks) {
+    for (const Submap& map : maps)
+      weights_.push_back(Eigen::VectorXd::Ones(static_cast<Eigen::Index>(map.landmarks.size())));
+  }
+
+  void take_means() {
+    means_.setZero();
+    counts_.setZero();
+    Eigen::VectorXd sums = Eigen::VectorXd::Zero(counts_.size());
+    for (std::size_t g = 0; g < maps_.size(); ++g) {
+      if (!maps_[g].placed) continue;
+      for (std::size_t k = 0; k < maps_[g].landmarks.size(); ++k) {
+        const Eigen::Index landmark = maps_[g].landmarks[k];
+        const double weight = weights_[g](static_cast<Eigen::Index>(k));
+        means_.row(landmark) += weight * maps_[g].positions.row(static_cast<Eigen::Index>(k));
+        sums(landmark) += weight;
+        counts_(landmark) += 1.0;
+      }
+    }
+    means_.array().colwise() /= sums.array();  // 0 / 0, NaN, where no map has the landmark
+  }
+
+  /// Less weight for places that are far from their landmark's mean.
+  void take_weights() {
+    std::vector<double> distances;
+    for (const Submap& map : maps_)
+      for (std::size_t k = 0; map.placed && k < map.landmarks.size(); ++k)
+        if (counts_(map.landmarks[k]) > 1.0) distances.push_back(distance(map, k));
+    if (distances.empty()) return;
+    const double middle = median(distances);
+    for (std::size_t g = 0; g < maps_.size(); ++g) {
+      if (!maps_[g].placed) continue;
+      Eigen::VectorXd residuals(weights_[g].size());
+      for (std::size_t k = 0; k < maps_[g].landmarks.size(); ++k)
+        residuals(static_cast<Eigen::Index>(k)) = distance(maps_[g], k);
+      weights_[g] = huber_weights(residuals, middle);
+    }
+  }
+
+  /// Fits each map to the means of what it shares; returns the largest shift of a landmark.
+  double refit(JoinKind kind) {
+    double shift = 0.0;
+    for (std::size_t g = 0; g < maps_.size(); ++g) {
+      Submap& map = maps_[g];
+      if (!map.placed) continue;
+      Eigen::VectorXd weights = weights_[g];
+      for (std::size_t k = 0; k < map.landmarks.size(); ++k)
+        if (counts_(map.landmarks[k]) < 2.0) weights(static_cast<Eigen::Index>(k)) = 0.0;
+      if (!(weights.sum() > 0.0)) continue;
+      const Points moved =
+          fit_join(map.positions, means_(map.landmarks, Eigen::all), weights, kind)(map.positions);
+      shift = std::max(shift, (moved - map.positions).rowwise().norm().maxCoeff());
+      map.positions = moved;
+    }
+    return shift;
+  }
+
+  const Points& means() const { return means_; }
+
+ private:
+  double distance(const Submap& map, std::size_t k) const {
+    return (map.positions.row(static_cast<Eigen::Index>(k)) - means_.row(map.landmarks[k])).norm();
+  }
+
+  std::vector<Submap>& maps_;
+  Points means_;
+  Eigen::VectorXd counts_;                ///< Placed maps that have the landmark.
+  std::vector<Eigen::VectorXd> weights_;  ///< Of each map's landmarks.
+};
+
+/// Gives all maps together back the covariance that they had: affine fits to means lose some of it
+/// each time, and would end in a point.
+class KeptSpread {
+ public:
+  explicit KeptSpread(const std::vector<Submap>& maps) : factor_(factor_of(maps)) {}
+
+  void restore(std::vector<Submap>& maps) const {
+    const Eigen::Matrix2d now = factor_of(maps);
+    const Eigen::Matrix2d back =
+        now.transpose().triangularView<Eigen::Upper>().solve(Eigen::Matrix2d(factor_.transpose()));
+    if (!back.allFinite()) return;
+    for (Submap& map : maps) map.positions = map.positions * back;
+  }
+
+ private:
+  /// L with L L' the covariance of all places of placed maps.
+  static Eigen::Matrix2d factor_of(const std::vector<Submap>& maps) {
+    Eigen::Matrix2d squares = Eigen::Matrix2d::Zero();
+    Eigen::RowVector2d sum = Eigen::RowVector2d::Zero();
+    double count = 0.0;
+    for (const Submap& map : maps) {
+      if (!map.placed) continue;
+      squares += map.positions.transpose() * map.positions;
+      sum += map.positions.colwise().sum();
+      count += static_cast<double>(map.positions.rows());
+    }
+    const Eigen::Matrix2d covariance = squares / count - sum.transpose() * sum / (count * count);
+    return covariance.llt().matrixL();
+  }
+
+  Eigen::Matrix2d factor_;
+};
+
+double radius_of(const Points& points) {
+  const Points centred = points.rowwise() - points.colwise().mean();
+  return std::sqrt(centred.squaredNorm() / static_cast<double>(points.rows()));
+}
+
+/// Lowers the distances of all maps to the mean places of what they share.
+Points refined(std::vector<Submap>& maps, JoinKind kind, Eigen::Index landmarks) {
+  constexpr int kMostRounds = 500;
+  Consensus consensus(maps, landmarks);
+  const KeptSpread spread(maps);
+  for (int round = 0; round < kMostRounds; ++round) {
+    consensus.take_means();
+    consensus.take_weights();
+    consensus.take_means();
+    const double shift = consensus.refit(kind);
+    if (kind == JoinKind::kAffine) spread.restore(maps);
+    if (shift <= 1e-7 * radius_of(maps.front().positions)) break;
+  }
+  consensus.take_means();
+  return consensus.means();
+}
+
+SubmapJoin join_of(const Overlap& overlap, const std::vector<Submap>& maps) {
+  const Submap& first = maps[static_cast<std::size_t>(overlap.first)];
+  const Submap& second = maps[static_cast<std::size_t>(overlap.second)];
+  SubmapJoin join{.first = overlap.first,
+                  .second = overlap.second,
+                  .shared = static_cast<int>(overlap.shared.size()),
+                  .residual = std::numeric_limits<double>::quiet_NaN(),
+                  .in_tree = false};
+  if (!first.placed || !second.placed) return join;
+  Points places(join.shared, 2);
+  double squares = 0.0;
+  for (int k = 0; k < join.shared; ++k) {
+    const auto& [i, j] = overlap.shared[static_cast<std::size_t>(k)];
+    places.row(k) = first.positions.row(i);
+    squares += (first.positions.row(i) - second.positions.row(j)).squaredNorm();
+  }
+  join.residual = std::sqrt(squares / join.shared) / std::max(radius_of(places), 1e-300);
+  return join;
+}
+
+void check(const std::vector<Submap>& maps, JoinKind kind, Eigen::Index landmarks) {
+  if (maps.empty() || kind == JoinKind::kRigid)
+    throw InvalidInput("sub-maps are joined by similarities or affine maps, one or more of them");
+  for (const Submap& map : maps) {
+    if (map.landmarks.empty() || std::ssize(map.landmarks) != map.positions.rows() ||
+        !map.positions.allFinite())
+      throw InvalidInput("a sub-map needs a finite position for each of its landmarks");
+    if (std::ranges::adjacent_find(map.landmarks, std::greater_equal<>()) != map.landmarks.end())
+      throw InvalidInput("a sub-map's landmarks are not ascending");
+    if (map.landmarks.front() < 0 || map.landmarks.back() >= landmarks)
+      throw InvalidInput("a sub-map of landmarks that there are not");
+  }
+}
+
+}  // namespace
+
+JoinResult join_submaps(std::vector<Submap> maps, JoinKind kind, Eigen::Index landmarks) {
+  check(maps, kind, landmarks);
+  // Scales are settled first: fitted together with the rest, they would shrink.
+  if (kind == JoinKind::kSimilarity) even_scales(overlaps_of(maps, kind), maps);
+  const JoinKind left = kind == JoinKind::kAffine ? kind : JoinKind::kRigid;
+  const std::vector<Overlap> overlaps = overlaps_of(maps, left);
+  const std::vector<std::size_t> tree = spanning_tree(overlaps, maps.size());
+  const Places places = largest_tree(maps, overlaps, tree);
+
+  JoinResult result;
+  int left_out = 0;
+  for (std::size_t g = 0; g < maps.size(); ++g) {
+    maps[g].placed = places[g].has_value();
+    if (places[g]) maps[g].positions = (*places[g])(maps[g].positions);
+    left_out += places[g] ? 0 : 1;
+  }
+  result.joined.positions = refined(maps, left, landmarks);
+  for (std::size_t k = 0; k < overlaps.size(); ++k) {
+    result.joined.joins.push_back(join_of(overlaps[k], maps));
+    result.joined.joins.back().in_tree = std::ranges::binary_search(tree, k);
+  }
+  if (left_out > 0)
+    result.statuses.push_back(
+        {StatusCode::kTooFewObservations,
+         fmt::format("{} of {} sub-maps share fewer than 3 landmarks, or 3 on one line, with the "
+                     "others and are left out.",
+                     left_out, maps.size())});
+  result.joined.submaps = std::move(maps);
+  return result;
+}
+
+}  // namespace mapproof

@@ -1,0 +1,138 @@
+#include "core/submaps/submap_embedding.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <map>
+
+#include <fmt/format.h>
+
+#include "core/base/words.hpp"
+#include "core/statistics/intervals.hpp"
+#include "core/submaps/join.hpp"
+
+namespace mapproof {
+namespace {
+
+constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
+
+/// Of some rows, without the steps that show none of them.
+ObservationHistory seen_by(const ObservationHistory& history, Eigen::Index steps,
+                           const std::vector<Eigen::Index>& rows) {
+  ObservationHistory part = with_rows(history, rows);
+  std::vector<Eigen::Index> kept;
+  for (Eigen::Index t = 0; t < steps; ++t)
+    if (!part.values.col(t).array().isNaN().all()) kept.push_back(t);
+  if (kept.empty()) kept.push_back(0);
+  part.values = Eigen::MatrixXd(part.values(Eigen::all, kept));
+  return part;
+}
+
+/// The setting with a number of neighbours that a group of that size has.
+MethodSetting fitting(MethodSetting setting, std::size_t size) {
+  if (on_graph(setting.method) && setting.parameter)
+    setting.parameter = std::min(*setting.parameter, static_cast<double>(size) - 1.0);
+  return setting;
+}
+
+/// Sub-maps with a place for every landmark that got one, and how often each status came up.
+struct Mapped {
+  std::vector<Submap> maps;
+  std::map<StatusCode, int> codes;
+  std::map<StatusCode, std::string> examples;
+  int failed = 0;
+};
+
+void add_map(const Embedding& embedding, const std::vector<Eigen::Index>& members, Mapped& mapped) {
+  for (const Status& status : embedding.statuses) {
+    ++mapped.codes[status.code];
+    mapped.examples.try_emplace(status.code, status.detail);
+  }
+  Submap map;
+  std::vector<Eigen::Index> rows;
+  for (std::size_t k = 0; k < members.size(); ++k)
+    if (embedding.coordinates.row(static_cast<Eigen::Index>(k)).allFinite()) {
+      map.landmarks.push_back(members[k]);
+      rows.push_back(static_cast<Eigen::Index>(k));
+    }
+  if (rows.empty()) {
+    ++mapped.failed;
+    return;
+  }
+  map.positions = embedding.coordinates(rows, Eigen::all);
+  mapped.maps.push_back(std::move(map));
+}
+
+std::vector<Status> statuses_of(const Mapped& mapped, std::size_t groups) {
+  std::vector<Status> statuses;
+  for (const auto& [code, count] : mapped.codes) {
+    // A sub-map that came to nothing does not fail the whole.
+    const bool all_failed = mapped.maps.empty();
+    statuses.push_back(
+        {code == StatusCode::kFailed && !all_failed ? StatusCode::kTooFewObservations : code,
+         fmt::format("{} of {} sub-maps: {}", count, groups, mapped.examples.at(code))});
+  }
+  return statuses;
+}
+
+double median_residual(const std::vector<SubmapJoin>& joins) {
+  std::vector<double> residuals;
+  for (const SubmapJoin& join : joins)
+    if (std::isfinite(join.residual)) residuals.push_back(join.residual);
+  return residuals.empty() ? kUnknown : median(residuals);
+}
+
+}  // namespace
+
+bool joined_by_affine(Method method) {
+  return method == Method::kLle || method == Method::kLaplacianEigenmap ||
+         method == Method::kHessianLle || method == Method::kKpcaGaussian ||
+         method == Method::kKpcaPolynomial;
+}
+
+SubmapEmbedding embed_submaps(const ObservationHistory& history, Eigen::Index steps,
+                              const MethodSetting& setting, const SubmapOptions& options) {
+  const Eigen::Index M = history.landmarks();
+  const std::vector<Eigen::Index> unseen = unseen_landmarks(history, steps);
+  std::vector<Eigen::Index> seen;
+  for (Eigen::Index i = 0; i < M; ++i)
+    if (!std::ranges::binary_search(unseen, i)) seen.push_back(i);
+  SubmapEmbedding result;
+  result.embedding.coordinates.setConstant(M, 2, kUnknown);
+  result.median_residual = kUnknown;
+  Mapped mapped;
+  std::vector<LandmarkGroup> groups;
+  if (seen.size() > 1) {
+    const Proximities all = proximities(with_rows(history, seen), steps);
+    groups = overlapping_groups(all.squared_distances.cwiseSqrt(), options.groups);
+  }
+  for (const LandmarkGroup& group : groups) {
+    std::vector<Eigen::Index> rows;
+    for (const Eigen::Index member : group.members)
+      rows.push_back(seen[static_cast<std::size_t>(member)]);
+    const ObservationHistory part = seen_by(history, steps, rows);
+    HistoryEmbedder embedder(part, part.steps(), options.embedder, options.rule);
+    add_map(embedder.embed(fitting(setting, rows.size())), rows, mapped);
+  }
+  result.embedding.statuses = statuses_of(mapped, groups.size());
+  if (!unseen.empty())
+    result.embedding.statuses.push_back(
+        {StatusCode::kLandmarkUnseen,
+         fmt::format("{} of {} landmarks were never observed and are not on the map.",
+                     unseen.size(), M)});
+  if (mapped.maps.empty()) {
+    result.embedding.statuses.push_back({StatusCode::kFailed, "No sub-map came out."});
+    return result;
+  }
+  JoinResult joined =
+      join_submaps(std::move(mapped.maps),
+                   joined_by_affine(setting.method) ? JoinKind::kAffine : JoinKind::kSimilarity, M);
+  result.joined = std::move(joined.joined);
+  result.embedding.coordinates = result.joined.positions;
+  result.embedding.statuses.insert(result.embedding.statuses.end(), joined.statuses.begin(),
+                                   joined.statuses.end());
+  result.median_residual = median_residual(result.joined.joins);
+  return result;
+}
+
+}  // namespace mapproof

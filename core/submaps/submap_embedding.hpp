@@ -1,0 +1,41 @@
+#pragma once
+
+#include <vector>
+
+#include "core/embed/embedder.hpp"
+#include "core/model/submaps.hpp"
+#include "core/submaps/groups.hpp"
+
+namespace mapproof {
+
+/// How a map is made of sub-maps.
+struct SubmapOptions {
+  GroupOptions groups;
+  EmbedderOptions embedder;
+  ProximityRule rule;  ///< Of each group's observations alone; empty: proximities().
+};
+
+/// A whole map made of sub-maps.
+struct SubmapEmbedding {
+  Embedding embedding;  ///< M rows; its statuses tell of sub-maps and joins too.
+  JoinedSubmaps joined;
+  double median_residual = 0.0;  ///< Of the joins, relative; NaN without any.
+};
+
+/// Maps overlapping groups of landmarks apart, by any method, and joins the maps [yairi2007,
+/// sections 5.1 and 5.2]. LLE, LEM, HLLE and KPCA are joined by affine maps, the others by
+/// similarities.
+///
+/// A step that shows none of a group's landmarks is left out of its observations. A method's
+/// parameter is taken as it is, K at most one below a group's size.
+/// @param history  Landmarks never observed get NaN rows and a status.
+/// @throws InvalidInput if `steps` or the options are out of bounds.
+/// @note O(M^2 N) time for the distances that groups are made by, and a method's own for each group
+///       of n instead of M.
+SubmapEmbedding embed_submaps(const ObservationHistory& history, Eigen::Index steps,
+                              const MethodSetting& setting, const SubmapOptions& options = {});
+
+/// What a method's sub-maps are joined by.
+bool joined_by_affine(Method method);
+
+}  // namespace mapproof

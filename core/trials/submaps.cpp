@@ -1,0 +1,190 @@
+#include "core/trials/submaps.hpp"
+
+#include <chrono>
+#include <cmath>
+#include <string>
+
+#include <fmt/format.h>
+
+#include "core/experiment/scored_map.hpp"
+#include "core/missing/filled.hpp"
+#include "core/simulate/gaps.hpp"
+#include "core/simulate/sensors.hpp"
+#include "core/submaps/submap_embedding.hpp"
+#include "core/trials/trial_means.hpp"
+
+namespace mapproof {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+constexpr const char* kSize = "size";
+constexpr const char* kOverlap = "overlap";
+constexpr const char* kLimitedRange = "sensor-range";
+constexpr const char* kFilled = "-filled";  ///< Ends the series whose gaps PPCA fills.
+
+std::vector<MethodSetting> settings_of(const TrialExperiment& experiment) {
+  const double K = number_option(experiment, "neighbours");
+  return {{Method::kSmacofKnn, K}, {Method::kIsomap, K}, {Method::kSde, K}};
+}
+
+std::string series_id(bool whole, const MethodSetting& setting) {
+  return fmt::format("{}-{}", whole ? "whole" : "parts", info(setting.method).name);
+}
+
+TrialDesign design(const TrialExperiment& experiment) {
+  TrialDesign design;
+  design.question = fmt::format(
+      "Bearings are mapped as a whole, and in overlapping groups of landmarks whose maps are "
+      "joined "
+      "by similarities: with groups of several sizes, with overlaps of several shares of groups of "
+      "{0:g}, and in groups of {0:g} where a share of the entries, those of distant landmarks, is "
+      "missing. Maps are aligned to the anchors in least squares.",
+      number_option(experiment, "usual_size"));
+  const auto percent = [&](const char* option) {
+    std::vector<double> levels;
+    for (const double share : list_option(experiment, option))
+      levels.push_back(std::round(1e4 * share) / 100.0);
+    return levels;
+  };
+  design.setups = {
+      {kSize, "Sub-maps by size", "most landmarks of a sub-map", list_option(experiment, "sizes")},
+      {kOverlap, "Sub-maps by overlap", "share borrowed, %", percent("overlaps")},
+      {kLimitedRange, "Distant landmarks not observed", "share missing, %",
+       percent("shares_sensor_range")}};
+  for (const bool whole : {true, false})
+    for (const MethodSetting& setting : settings_of(experiment))
+      design.series.push_back({series_id(whole, setting),
+                               fmt::format("{}, {}", whole ? "Whole" : "Parts", label(setting))});
+  for (const bool whole : {true, false}) {
+    const MethodSetting setting = settings_of(experiment).front();
+    design.series.push_back(
+        {series_id(whole, setting) + kFilled,
+         fmt::format("{}, PPCA, {}", whole ? "Whole" : "Parts", label(setting))});
+  }
+  design.quantities = {{"mpe_m", "MPE", "m", true},
+                       {"moe_percent", "MOE", "%", true},
+                       {"mapped_percent", "Landmarks mapped", "%", false},
+                       {"residual_percent", "Residual of the joins", "%", true}};
+  return design;
+}
+
+/// What is tried at one level: whole or in parts of some size and overlap.
+struct Way {
+  SubmapOptions parts;
+  bool whole = false;
+};
+
+ProximityRule filled_by_ppca() {
+  return [](const ObservationHistory& history, Eigen::Index steps) {
+    return filled_proximities(history, steps, {}).proximities;
+  };
+}
+
+class Trials {
+ public:
+  Trials(const TrialContext& context, TrialPart& part) : context_(context), part_(part) {}
+
+  void add(const std::string& setup, double level, const ObservationHistory& history,
+           const MethodSetting& setting, const Way& way) {
+    const Clock::time_point start = Clock::now();
+    SubmapEmbedding made;
+    made.median_residual = std::nan("");
+    if (way.whole)
+      made.embedding = HistoryEmbedder(history, history.steps(), {}, way.parts.rule).embed(setting);
+    else
+      made = embed_submaps(history, history.steps(), setting, way.parts);
+    const double seconds = std::chrono::duration<double>(Clock::now() - start).count();
+    const std::string series = series_id(way.whole, setting) + (way.parts.rule ? kFilled : "");
+    part_.seconds.push_back({part_.id, series, seconds});
+    const ScoredMap map = scored_map(made.embedding, context_.world->landmarks_m, context_.anchors,
+                                     AffineFit::kLeastSquares);
+    const double mapped = 100.0 * map.positions_m.array().col(0).isFinite().cast<double>().mean();
+    const double unknown = std::nan("");
+    part_.trials.push_back({setup,
+                            series,
+                            level,
+                            {map.score ? map.score->mpe_m : unknown,
+                             map.score ? map.score->moe_unmirrored_percent : unknown, mapped,
+                             100.0 * made.median_residual},
+                            map.statuses});
+  }
+
+ private:
+  const TrialContext& context_;
+  TrialPart& part_;
+};
+
+/// All methods at one level of size or overlap.
+void add_level(const TrialContext& context, const TrialSetup& setup, double level,
+               const ObservationHistory& history, Trials& trials) {
+  Way way;
+  way.parts.groups.size = static_cast<int>(number_option(context.experiment, "usual_size"));
+  if (setup.id == kSize) way.parts.groups.size = static_cast<int>(level);
+  if (setup.id == kOverlap) way.parts.groups.overlap_share = level / 100.0;
+  for (const bool whole : {true, false})
+    for (const MethodSetting& setting : settings_of(context.experiment)) {
+      way.whole = whole;
+      trials.add(setup.id, level, history, setting, way);
+    }
+}
+
+TrialPart make(const TrialContext& context) {
+  TrialPart part{.id = context.part, .run = context.run, .trials = {}, .maps = {}, .seconds = {}};
+  Random random(context.seed);
+  const ObservationHistory history =
+      observe(*context.world, *context.path, {.sensor = Sensor::kBearing}, random);
+  const Losses losses = range_losses(*context.world, *context.path);
+  Trials trials(context, part);
+  for (const TrialSetup& setup : design(context.experiment).setups)
+    for (const double level : setup.levels) {
+      if (setup.id != kLimitedRange) {
+        add_level(context, setup, level, history, trials);
+        continue;
+      }
+      const ObservationHistory gapped = with_gaps(history, losses, level / 100.0);
+      add_level(context, setup, level, gapped, trials);
+      Way way{.parts = {.groups = {}, .embedder = {}, .rule = filled_by_ppca()}, .whole = true};
+      way.parts.groups.size = static_cast<int>(number_option(context.experiment, "usual_size"));
+      trials.add(setup.id, level, gapped, settings_of(context.experiment).front(), way);
+      way.whole = false;
+      trials.add(setup.id, level, gapped, settings_of(context.experiment).front(), way);
+    }
+  return part;
+}
+
+std::vector<std::string> conclude(const TrialStudy& study) {
+  std::vector<std::string> sentences;
+  for (const TrialSetup& setup : study.design.setups)
+    for (const MethodSetting& setting : settings_of(study.experiment)) {
+      std::string words;
+      for (const double level : setup.levels) {
+        const double whole = trial_mean(study, setup.id, series_id(true, setting), level, "mpe_m");
+        const double parts = trial_mean(study, setup.id, series_id(false, setting), level, "mpe_m");
+        if (std::isnan(whole) || std::isnan(parts)) continue;
+        words += fmt::format("{}{:g}: {:.3f} m for {:.3f} m{}", words.empty() ? "" : "; ", level,
+                             parts, whole, parts > whole ? " (worse)" : " (better)");
+      }
+      if (words.empty()) continue;
+      sentences.push_back(fmt::format("{}, {}, mean MPE of parts for that of the whole, by {}: {}.",
+                                      setup.title, label(setting), setup.level_label, words));
+    }
+  return sentences;
+}
+
+}  // namespace
+
+const Topic kSubmapsTopic = {
+    .name = "submaps",
+    .of_data = false,
+    .options = {{"sizes", {12, 16, 20, 30, 40}, 6, 5000, true, true},
+                {"overlaps", {0.2, 0.35, 0.5, 0.65}, 0, 0.8, false, true},
+                {"shares_sensor_range", {0.5, 0.7, 0.89}, 0, 0.95, false, true},
+                {"usual_size", {24}, 6, 5000, true, false},
+                {"neighbours", {8}, 1, 1000, true, false}},
+    .design = design,
+    .make = make,
+    .conclude = conclude,
+    .data_sets = nullptr};
+
+}  // namespace mapproof

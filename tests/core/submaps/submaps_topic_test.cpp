@@ -1,0 +1,51 @@
+#include <cmath>
+
+#include <gtest/gtest.h>
+
+#include "core/trials/submaps.hpp"
+#include "tests/support/gappy.hpp"
+
+namespace mapproof {
+namespace {
+
+TEST(SubmapsTopic, HoldsPartsAgainstTheWholeAndSaysWhichIsWorse) {
+  TrialExperiment experiment;
+  experiment.topic = kSubmapsTopic.name;
+  for (const TrialOption& option : kSubmapsTopic.options)
+    experiment.options[std::string(option.name)] = option.usual;
+  experiment.options["sizes"] = {16, 100};
+  experiment.options["overlaps"] = {0.5};
+  experiment.options["shares_sensor_range"] = {0.5};
+  experiment.options["usual_size"] = {16};
+  const test::WalkedRoom room = test::walked_room(1, 400, 30);
+  TrialStudy study;
+  study.experiment = experiment;
+  study.design = kSubmapsTopic.design(experiment);
+  study.parts.push_back(kSubmapsTopic.make({.experiment = experiment,
+                                            .part = "layout-1-pose-1",
+                                            .run = {1, 1},
+                                            .world = &room.world,
+                                            .path = &room.path,
+                                            .anchors = room.anchors,
+                                            .seed = 3,
+                                            .data = {},
+                                            .with_maps = false}));
+  // Six series at each of four levels, and two more where there are gaps.
+  EXPECT_EQ(study.parts.front().trials.size(), 26U);
+  for (const Trial& trial : study.parts.front().trials) {
+    ASSERT_EQ(trial.values.size(), 4U);
+    EXPECT_EQ(trial.values[2], 100.0) << trial.series;
+    // Parts that hold all landmarks are the whole.
+    if (trial.setup == "size" && trial.level == 100.0) {
+      EXPECT_TRUE(std::isnan(trial.values[3]));
+    }
+  }
+  const auto sentences = kSubmapsTopic.conclude(study);
+  ASSERT_FALSE(sentences.empty());
+  EXPECT_NE(sentences.front().find("(worse)") != std::string::npos ||
+                sentences.front().find("(better)") != std::string::npos,
+            false);
+}
+
+}  // namespace
+}  // namespace mapproof
