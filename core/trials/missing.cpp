@@ -36,9 +36,15 @@ MethodSetting smacof_of(const TrialExperiment& experiment) {
   return {Method::kSmacofKnn, number_option(experiment, "smacof_neighbours")};
 }
 
-/// The methods that every filling is tried with.
-std::vector<MethodSetting> settings_of(const TrialExperiment& experiment) {
+/// The methods that a filling is tried with.
+std::vector<MethodSetting> settings_of(const TrialExperiment& experiment, Filling filling) {
+  if (filling == Filling::kMean) return {smacof_of(experiment)};
   return {smacof_of(experiment), {Method::kIsomap, number_option(experiment, "isomap_neighbours")}};
+}
+
+/// Without the parameter, which the question tells.
+std::string method_words(const MethodSetting& setting) {
+  return setting.method == Method::kSmacofKnn ? "kNN-SMACOF" : "ISOMAP";
 }
 
 std::string series_id(Filling filling, const MethodSetting& setting) {
