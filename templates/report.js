@@ -23,7 +23,7 @@ for (const table of document.querySelectorAll("main table")) makeSortable(table)
 for (const table of document.querySelectorAll("main .table")) addTableTools(table);
 for (const figure of figures) linkFiles(figure);
 addThumbnails();
-addCommandButtons();
+addCommands(figures);
 addThemeSwitch(document.querySelector(".masthead"));
 putInWhenNear(held);
 followReading();

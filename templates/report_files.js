@@ -76,15 +76,32 @@ function addCopyButton(place, text, label) {
   addButton(place, "Copy", label, (button) => copyText(text, button));
 }
 
-// Commands beside figures, and the one that makes the whole report again.
-function addCommandButtons() {
-  for (const command of document.querySelectorAll("p.command")) {
-    const id = command.closest("figure").dataset.id;
-    addCopyButton(command, command.querySelector("code").textContent, `Copy the command of ${id}`);
-  }
-  for (const fact of document.querySelectorAll(".facts > div")) {
+// The command of a figure is that of "A figure alone", with its id.
+function addCommand(figure, command) {
+  const files = figure.querySelector("details.files");
+  if (!files) return;
+  const id = figure.dataset.id;
+  files.querySelector("summary").firstChild.data = "Files and command";
+  files.addEventListener("toggle", () => {
+    const line = document.createElement("p"), code = document.createElement("code");
+    line.className = "command";
+    code.textContent = command.replace(/ID$/, () => id);
+    line.append(code);
+    addCopyButton(line, code.textContent, `Copy the command of ${id}`);
+    files.append(line);
+  }, { once: true });
+}
+
+// The commands among the facts that a section lists, and those beside figures.
+function addCommands(figures) {
+  const names = new Map([["Command", "of this report"], ["A figure alone", "of a figure"]]);
+  let single = "";
+  for (const fact of document.querySelectorAll('[id$="provenance"] .facts > div')) {
     const code = fact.querySelector("dd > code");
-    if (!code || fact.querySelector("dt").textContent !== "Command") continue;
-    addCopyButton(fact.querySelector("dd"), code.textContent, "Copy the command of this report");
+    const name = fact.querySelector("dt").textContent;
+    if (!code || !names.has(name)) continue;
+    if (name === "A figure alone") single ||= code.textContent;
+    addCopyButton(fact.querySelector("dd"), code.textContent, `Copy the command ${names.get(name)}`);
   }
+  if (single) figures.forEach((figure) => addCommand(figure, single));
 }

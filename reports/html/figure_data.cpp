@@ -66,7 +66,6 @@ data figure_data(const FigureBlock& figure, const FigureContext& drawn,
   out.set("svg", text_or_false(drawing));
   out.set("linked", data(linked));
   out.set("folder", text_or_false(options.figure_folder));
-  out.set("command", drawn.command.empty() ? data(false) : data(drawn.command + " " + figure.id));
   std::string records;
   for (const std::string& id : figure.record_ids) records += (records.empty() ? "" : "; ") + id;
   out.set("records", text_or_false(records));

@@ -14,7 +14,6 @@ namespace mapproof {
 struct FigureContext {
   SvgLookup svg = {};
   std::set<std::string> linked = {};  ///< Have a drawing that the page only links to.
-  std::string command = {};           ///< See Report::figure_command.
 };
 
 /// Which figures of the report `drawn` has no room for, by HtmlOptions::drawing_bytes.

@@ -17,12 +17,21 @@ namespace {
 using kainjow::mustache::data;
 using kainjow::mustache::list;
 
-data section_data(const Section& section, const FigureContext& drawn, const HtmlOptions& options) {
+/// Stands with the provenance, since it names a folder: reports that say the same stay the same.
+/// The script makes each figure's command of it.
+Block figure_command(const Report& report) {
+  return KeyValues{{{"A figure alone", {report.figure_command + " ID", Emphasis::kCode}}}};
+}
+
+data section_data(const Section& section, const Report& report, const FigureContext& drawn,
+                  const HtmlOptions& options) {
   data out;
   out.set("id", section.id);
   out.set("title", section.title);
   list blocks;
   for (const Block& block : section.blocks) blocks.push_back(block_data(block, drawn, options));
+  if (section.id.ends_with("provenance") && !report.figure_command.empty())
+    blocks.push_back(block_data(figure_command(report), drawn, options));
   out.set("blocks", blocks);
   return out;
 }
@@ -88,12 +97,11 @@ std::string report_html(const Report& report, const Templates& templates, const 
   page.set("footer", report.footer);
   set_page_frame(page, "report", templates);
   const FigureContext drawn{.svg = svg,
-                            .linked = linked_figures(report, svg, options.drawing_bytes),
-                            .command = report.figure_command};
+                            .linked = linked_figures(report, svg, options.drawing_bytes)};
   set_opening(page, report, linked_words(report, drawn.linked.size(), options));
   list sections;
   for (const Section& section : report.sections)
-    sections.push_back(section_data(section, drawn, options));
+    sections.push_back(section_data(section, report, drawn, options));
   page.set("sections", sections);
   return rendered("report", templates, page);
 }

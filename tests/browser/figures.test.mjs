@@ -174,6 +174,7 @@ test("the command of a figure is shown, copied, and draws it again", async () =>
   const { page, close } = await open({ permissions: ["clipboard-read", "clipboard-write"] });
   const shown = await figure(page, kMap);
   await shown.locator("summary").click();
+  await shown.locator(".command code").waitFor();
   const command = await shown.locator(".command code").textContent();
   assert.match(command, /^mapproof render .*--figure map-bearing-isomap$/);
   await shown.getByRole("button", { name: `Copy the command of ${kMap}` }).click();

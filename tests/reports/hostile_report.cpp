@@ -71,7 +71,7 @@ HostileReport hostile_report() {
   HostileReport out;
   Trap text(out.texts);
   Trap attribute(out.attributes);
-  Section section{"s", text(), {}};
+  Section section{"provenance", text(), {}};
   section.blocks.emplace_back(Paragraph{{{text(), Emphasis::kPlain},
                                          {text(), Emphasis::kStrong},
                                          {text(), Emphasis::kCode},

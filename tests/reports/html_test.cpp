@@ -153,12 +153,14 @@ TEST(ReportHtml, SaysHowItStandsOnlyWhereThatIsKnown) {
   EXPECT_NE(page.find("LLE is 5 % less accurate."), std::string::npos);
 }
 
-TEST(ReportHtml, GivesEachFigureTheCommandThatDrawsItAgain) {
+TEST(ReportHtml, NamesTheCommandOfAFigureWithTheProvenanceAlone) {
   Report report = with_figures(5);
+  report.sections.push_back({"slam-provenance", "P", {}});
   report.figure_command = "mapproof render 'a b' --figure";
   const std::string page = report_html(report, load_templates(), {});
-  EXPECT_NE(page.find("<code>mapproof render &#39;a b&#39; --figure f-3</code>"),
-            std::string::npos);
+  const std::size_t at = page.find("<code>mapproof render &#39;a b&#39; --figure ID</code>");
+  EXPECT_GT(at, page.find("section-slam-provenance"));
+  EXPECT_EQ(page.find("mapproof render", at + 10), std::string::npos);
 }
 
 TEST(ReportHtml, RefusesAReportWithAnIdThatIsNone) {
