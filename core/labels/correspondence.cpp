@@ -1,0 +1,222 @@
+#include "core/labels/correspondence.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+#include <Eigen/Cholesky>
+
+#include "core/base/errors.hpp"
+#include "core/labels/assignment.hpp"
+#include "core/linalg/symmetric_eigen.hpp"
+
+namespace mapproof {
+namespace {
+
+using Mask = Eigen::Array<bool, Eigen::Dynamic, Eigen::Dynamic>;
+
+/// What a reading is in the model: M x channels of one step, without the mean of the landmarks,
+/// which no permutation changes.
+Eigen::MatrixXd step_values(const ObservationHistory& history, Eigen::Index step) {
+  const Eigen::ArrayXd values = history.values.col(step).array();
+  Eigen::MatrixXd Y;
+  if (history.sensor == Sensor::kBearing) {
+    Y.resize(values.size(), 2);
+    Y << values.cos().matrix(), values.sin().matrix();
+  } else if (history.sensor == Sensor::kRange) {
+    Y = values.square().matrix();  // affine in the position, but for what all steps share
+  } else {
+    Y = values.matrix();
+  }
+  return Y.rowwise() - Y.colwise().mean();
+}
+
+/// The history as the model sees it: labels are which row of a step's readings a landmark has.
+struct Labelled {
+  std::vector<Eigen::MatrixXd> readings;              ///< Of each step, in the rows they came in.
+  std::vector<std::vector<Eigen::Index>> doubtful;    ///< Rows of each step.
+  std::vector<std::vector<Eigen::Index>> reading_of;  ///< Of each landmark, in each step.
+
+  Eigen::MatrixXd values(std::size_t step) const {
+    return readings[step](reading_of[step], Eigen::all);
+  }
+};
+
+/// The spread of the values that the components leave, and the components.
+struct Model {
+  Eigen::MatrixXd components;  ///< M x q, orthonormal.
+  double loss = 0.0;
+};
+
+Model model_of(const Eigen::MatrixXd& gram, Eigen::Index rank) {
+  const EigenPairs pairs = largest_eigenpairs(gram, rank);
+  return {pairs.vectors, std::max(0.0, gram.trace() - pairs.values.sum())};
+}
+
+Model model_of(const Labelled& labelled, Eigen::Index rank) {
+  const Eigen::Index M = labelled.readings.front().rows();
+  Eigen::MatrixXd gram = Eigen::MatrixXd::Zero(M, M);
+  for (std::size_t step = 0; step < labelled.readings.size(); ++step) {
+    const Eigen::MatrixXd Y = labelled.values(step);
+    gram.noalias() += Y * Y.transpose();
+  }
+  return model_of(gram, rank);
+}
+
+/// Gives the doubtful landmarks of a step the readings nearest to what is expected of them.
+/// @return Whether a label changed.
+bool assign(Labelled& labelled, std::size_t step, const Eigen::MatrixXd& expected) {
+  const std::vector<Eigen::Index>& rows = labelled.doubtful[step];
+  const auto d = static_cast<Eigen::Index>(rows.size());
+  if (d < 2) return false;
+  Eigen::MatrixXd costs(d, d);
+  for (Eigen::Index i = 0; i < d; ++i)
+    for (Eigen::Index k = 0; k < d; ++k)
+      costs(i, k) = (expected.row(rows[static_cast<std::size_t>(i)]) -
+                     labelled.readings[step].row(rows[static_cast<std::size_t>(k)]))
+                        .squaredNorm();
+  const std::vector<Eigen::Index> columns = least_assignment(costs);
+  // Equal sums must not go back and forth.
+  std::vector<Eigen::Index>& reading_of = labelled.reading_of[step];
+  double found = 0.0;
+  double present = 0.0;
+  for (Eigen::Index i = 0; i < d; ++i) {
+    const Eigen::Index row = rows[static_cast<std::size_t>(i)];
+    found += costs(i, columns[static_cast<std::size_t>(i)]);
+    present +=
+        (expected.row(row) - labelled.readings[step].row(reading_of[static_cast<std::size_t>(row)]))
+            .squaredNorm();
+  }
+  if (found >= present - 1e-12 * (1.0 + present)) return false;
+  for (Eigen::Index i = 0; i < d; ++i)
+    reading_of[static_cast<std::size_t>(rows[static_cast<std::size_t>(i)])] =
+        rows[static_cast<std::size_t>(columns[static_cast<std::size_t>(i)])];
+  return true;
+}
+
+/// Labels and components in turn until no label changes.
+struct Descent {
+  Labelled labelled;
+  double loss = 0.0;
+  int rounds = 0;
+  bool settled = false;
+};
+
+Descent lowered(Labelled labelled, Eigen::Index rank, int most_rounds) {
+  Descent descent{std::move(labelled), 0.0, 0, false};
+  Model model = model_of(descent.labelled, rank);
+  while (!descent.settled && descent.rounds < most_rounds) {
+    ++descent.rounds;
+    bool changed = false;
+    for (std::size_t step = 0; step < descent.labelled.readings.size(); ++step) {
+      const Eigen::MatrixXd Y = descent.labelled.values(step);
+      const Eigen::MatrixXd expected = model.components * (model.components.transpose() * Y);
+      changed = assign(descent.labelled, step, expected) || changed;
+    }
+    if (changed) model = model_of(descent.labelled, rank);
+    descent.settled = !changed;
+  }
+  descent.loss = model.loss;
+  return descent;
+}
+
+/// What the components make of a step by its certain entries alone, drawn towards the mean so that
+/// few entries do not run wild.
+Eigen::MatrixXd expected_from_certain(const Eigen::MatrixXd& Y, const std::vector<char>& certain,
+                                      const Eigen::MatrixXd& components) {
+  const Eigen::Index q = components.cols();
+  Eigen::MatrixXd A = 1e-2 * Eigen::MatrixXd::Identity(q, q);
+  Eigen::MatrixXd b = Eigen::MatrixXd::Zero(q, Y.cols());
+  for (Eigen::Index row = 0; row < Y.rows(); ++row) {
+    if (certain[static_cast<std::size_t>(row)] == 0) continue;
+    A.noalias() += components.row(row).transpose() * components.row(row);
+    b.noalias() += components.row(row).transpose() * Y.row(row);
+  }
+  return components * A.ldlt().solve(b);
+}
+
+/// Labels from the components of the certain entries: the doubtful ones are filled with what the
+/// components say of them, again and again [yairi2007, section 5.1].
+Labelled from_certain(Labelled labelled, Eigen::Index rank) {
+  constexpr int kFillings = 15;
+  const Eigen::Index M = labelled.readings.front().rows();
+  std::vector<Eigen::MatrixXd> filled = labelled.readings;
+  std::vector<std::vector<char>> certain(filled.size(),
+                                         std::vector<char>(static_cast<std::size_t>(M), 1));
+  for (std::size_t step = 0; step < filled.size(); ++step)
+    for (const Eigen::Index row : labelled.doubtful[step]) {
+      certain[step][static_cast<std::size_t>(row)] = 0;
+      filled[step].row(row).setZero();
+    }
+  for (int round = 0; round < kFillings; ++round) {
+    Eigen::MatrixXd gram = Eigen::MatrixXd::Zero(M, M);
+    for (const Eigen::MatrixXd& Y : filled) gram.noalias() += Y * Y.transpose();
+    const Eigen::MatrixXd components = model_of(gram, rank).components;
+    for (std::size_t step = 0; step < filled.size(); ++step) {
+      if (labelled.doubtful[step].empty()) continue;
+      const Eigen::MatrixXd expected =
+          expected_from_certain(labelled.readings[step], certain[step], components);
+      for (const Eigen::Index row : labelled.doubtful[step])
+        filled[step].row(row) = expected.row(row);
+    }
+  }
+  for (std::size_t step = 0; step < filled.size(); ++step) assign(labelled, step, filled[step]);
+  return labelled;
+}
+
+Labelled labelled_history(const ObservationHistory& history, const Mask& doubtful) {
+  Labelled labelled;
+  for (Eigen::Index step = 0; step < history.steps(); ++step) {
+    labelled.readings.push_back(step_values(history, step));
+    std::vector<Eigen::Index> rows;
+    std::vector<Eigen::Index> reading_of;
+    for (Eigen::Index row = 0; row < history.landmarks(); ++row) {
+      reading_of.push_back(row);
+      if (doubtful(row, step)) rows.push_back(row);
+    }
+    labelled.doubtful.push_back(std::move(rows));
+    labelled.reading_of.push_back(std::move(reading_of));
+  }
+  return labelled;
+}
+
+void check(const ObservationHistory& history, const Mask& doubtful,
+           const CorrespondenceOptions& options) {
+  if (history.landmarks() < 3 || history.steps() < 1)
+    throw InvalidInput("labels need three landmarks and a step");
+  if (doubtful.rows() != history.landmarks() || doubtful.cols() != history.steps())
+    throw InvalidInput("which entries are doubtful is asked of every entry");
+  if (!history.values.allFinite())
+    throw InvalidInput("labels are estimated of histories without missing entries");
+  if (options.rank < 1 || options.most_rounds < 1)
+    throw InvalidInput("labels need a rank and a round of 1 or more");
+}
+
+}  // namespace
+
+Correspondence estimated_correspondence(const ObservationHistory& history, const Mask& doubtful,
+                                        const CorrespondenceOptions& options) {
+  check(history, doubtful, options);
+  const Eigen::Index rank = std::min(options.rank, history.landmarks() - 1);
+  const Labelled given = labelled_history(history, doubtful);
+  double spread = 0.0;
+  for (const Eigen::MatrixXd& Y : given.readings) spread += Y.squaredNorm();
+  Descent best = lowered(given, rank, options.most_rounds);
+  // Where nothing is certain, filling has nothing to start from.
+  if (!doubtful.all()) {
+    Descent other = lowered(from_certain(given, rank), rank, options.most_rounds);
+    if (other.loss < best.loss) best = std::move(other);
+  }
+  Correspondence result{history, 0.0, 0.0, best.rounds, best.settled};
+  if (spread > 0.0) {
+    result.loss_before = model_of(given, rank).loss / spread;
+    result.loss_after = best.loss / spread;
+  }
+  for (Eigen::Index step = 0; step < history.steps(); ++step) {
+    const auto& reading_of = best.labelled.reading_of[static_cast<std::size_t>(step)];
+    result.history.values.col(step) = history.values.col(step)(reading_of);
+  }
+  return result;
+}
+
+}  // namespace mapproof

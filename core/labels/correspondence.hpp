@@ -1,0 +1,39 @@
+#pragma once
+
+#include <Eigen/Core>
+
+#include "core/model/observation_history.hpp"
+
+namespace mapproof {
+
+/// How labels of a history are estimated.
+struct CorrespondenceOptions {
+  Eigen::Index rank = 10;  ///< Of the observation vectors' model, >= 1; at most M - 1 are used.
+  int most_rounds = 60;    ///< >= 1.
+};
+
+/// A history under the labels found.
+struct Correspondence {
+  ObservationHistory history;
+  double loss_before = 0.0;  ///< Share of the observation vectors' spread over the landmarks that
+  double loss_after = 0.0;   ///< the model does not explain, under the labels given and found.
+  int rounds = 0;
+  bool settled = true;  ///< False: labels still changed when the rounds were used up.
+};
+
+/// Which of its entries a step's doubtful readings are, estimated together with the map by lowering
+/// the loss of LPCA [yairi2007, section 5.1]: what the leading principal components of the
+/// observation vectors leave. In turn components from labels, and at each step the assignment of
+/// the doubtful readings to the doubtful landmarks that is nearest to what the components say.
+///
+/// Both turns lower the loss. It is started from the given labels and from the components of the
+/// certain entries alone; the start that ends lower is taken.
+/// @param doubtful  M x N, true: the reading may be of any landmark that is doubtful in this step.
+/// @throws InvalidInput for missing entries, sizes that differ, or options out of bounds.
+/// @note O(M^2 N + sum of d^3) a round, d the doubtful entries of a step.
+Correspondence estimated_correspondence(
+    const ObservationHistory& history,
+    const Eigen::Array<bool, Eigen::Dynamic, Eigen::Dynamic>& doubtful,
+    const CorrespondenceOptions& options = {});
+
+}  // namespace mapproof

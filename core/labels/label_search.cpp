@@ -1,0 +1,108 @@
+#include "core/labels/label_search.hpp"
+
+#include <algorithm>
+#include <functional>
+
+#include "core/labels/place_costs.hpp"
+
+namespace mapproof {
+namespace {
+
+constexpr std::size_t kMostLabels = 40;
+constexpr int kMostPartners = 60;  ///< Of the distances' search: for more it would be slow.
+constexpr int kDistances = 32;     ///< Values of a distance that are tried.
+
+/// The mapped labels whose items cost most, ascending.
+std::vector<int> costly_labels(const std::vector<PairItem>& items, const RobustMap& map) {
+  const Eigen::Index M = map.positions_m.rows();
+  Eigen::VectorXd costs = Eigen::VectorXd::Zero(M);
+  for (const PairItem& item : items) {
+    const double cost = map_cost({item}, map.positions_m, map.width_m);
+    costs(item.first) += cost;
+    costs(item.second) += cost;
+  }
+  std::vector<int> labels;
+  for (int k = 0; k < M; ++k)
+    if (map.positions_m.row(k).allFinite()) labels.push_back(k);
+  std::ranges::stable_sort(labels, std::greater<>(), [&](int k) { return costs(k); });
+  labels.resize(std::min(labels.size(), kMostLabels));
+  std::ranges::sort(labels);
+  return labels;
+}
+
+/// The best stretch of each fault of each two labels, the best ones of all.
+/// @param placed  Fills in where both landmarks are.
+template <typename Placed>
+std::vector<LabelHypothesis> best_stretches(const StretchCosts& costs, const LogBlocks& blocks,
+                                            std::size_t most, const Placed& placed) {
+  std::vector<LabelHypothesis> found;
+  for (std::size_t order = 0; order < blocks.block_orders.size(); ++order) {
+    StretchSearch search(costs, blocks.block_orders[order], static_cast<int>(order));
+    for (std::size_t a = 0; a < costs.labels.size(); ++a)
+      for (std::size_t b = 0; b < costs.labels.size(); ++b)
+        for (const LabelFault fault : {LabelFault::kSwapped, LabelFault::kWrong}) {
+          if (a == b || (fault == LabelFault::kSwapped && a > b)) continue;
+          LabelHypothesis best = search.best(fault, a, b);
+          if (!(best.gain > 0.0)) continue;
+          placed(best, search.costs(fault, a, b, best.begin, best.end));
+          found.push_back(best);
+        }
+  }
+  std::ranges::stable_sort(found, std::greater<>(), &LabelHypothesis::gain);
+  if (found.size() > most) found.resize(most);
+  return found;
+}
+
+/// What the items of each label cost if its distance to each partner were this or that.
+StretchCosts distance_costs(const std::vector<PairItem>& items, const RobustMap& map,
+                            const LogBlocks& blocks) {
+  StretchCosts result{costly_labels(items, map), {}, kDistances};
+  const Eigen::Index M = map.positions_m.rows();
+  std::vector<int> place(static_cast<std::size_t>(M), -1);
+  for (std::size_t k = 0; k < result.labels.size(); ++k)
+    place[static_cast<std::size_t>(result.labels[k])] = static_cast<int>(k);
+  result.costs.assign(result.labels.size(), Eigen::MatrixXf::Zero(M * kDistances, blocks.count));
+  double longest = 0.0;
+  for (const PairItem& item : items) longest = std::max(longest, item.distance_m);
+  for (const PairItem& item : items)
+    for (const auto& [own, partner] :
+         {std::pair(item.first, item.second), std::pair(item.second, item.first)}) {
+      const int at = place[static_cast<std::size_t>(own)];
+      if (at < 0) continue;
+      for (int k = 0; k < kDistances; ++k)
+        result.costs[static_cast<std::size_t>(at)](partner * kDistances + k, item.block) +=
+            static_cast<float>(
+                item.weight *
+                huber_cost(item.distance_m - longest * k / (kDistances - 1), map.width_m));
+    }
+  return result;
+}
+
+}  // namespace
+
+std::vector<LabelHypothesis> hypotheses_in_map(const std::vector<PairItem>& items,
+                                               const RobustMap& map, const LogBlocks& blocks,
+                                               std::size_t most) {
+  const PlaceCosts places =
+      place_costs(items, map.positions_m, blocks.count, costly_labels(items, map), map.width_m);
+  return best_stretches(places.costs, blocks, most, [&](LabelHypothesis& one, const auto& costs) {
+    Eigen::Index point = 0;
+    costs.first.minCoeff(&point);
+    one.first_m = places.grid_m.row(point);
+    costs.second.minCoeff(&point);
+    one.second_m = places.grid_m.row(point);
+  });
+}
+
+std::vector<LabelHypothesis> hypotheses_of_distances(const std::vector<PairItem>& items,
+                                                     const RobustMap& map, const LogBlocks& blocks,
+                                                     std::size_t most) {
+  if (map.positions_m.rows() > kMostPartners) return {};
+  return best_stretches(distance_costs(items, map, blocks), blocks, most,
+                        [&](LabelHypothesis& one, const auto&) {
+                          one.first_m = map.positions_m.row(one.first);
+                          one.second_m = map.positions_m.row(one.second);
+                        });
+}
+
+}  // namespace mapproof

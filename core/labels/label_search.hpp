@@ -1,0 +1,28 @@
+#pragma once
+
+#include <vector>
+
+#include "core/labels/robust_map.hpp"
+#include "core/labels/stretch_search.hpp"
+
+namespace mapproof {
+
+/// The most promising ways in which labels may be wrong over one stretch of blocks, judged in a
+/// map: all pairs of the 40 labels that cost most, all stretches, both landmarks where on a grid
+/// they cost least while the others stay.
+/// @param most  How many hypotheses, of different labels or kind or order.
+/// @return Descending by gain, all gains > 0.
+/// @note Of L labels: O(L^2 blocks^2) grids of 400 points.
+std::vector<LabelHypothesis> hypotheses_in_map(const std::vector<PairItem>& items,
+                                               const RobustMap& map, const LogBlocks& blocks,
+                                               std::size_t most);
+
+/// The same judged by the distances alone, each label's to each other one as nearly the same in all
+/// blocks as may be. For maps that wrong labels have folded; it needs pairs seen both within the
+/// stretch and outside.
+/// @note Of L labels: O(L^2 blocks^2) rows of 32 distances for each of M landmarks.
+std::vector<LabelHypothesis> hypotheses_of_distances(const std::vector<PairItem>& items,
+                                                     const RobustMap& map, const LogBlocks& blocks,
+                                                     std::size_t most);
+
+}  // namespace mapproof

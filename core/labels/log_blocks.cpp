@@ -1,0 +1,86 @@
+#include "core/labels/log_blocks.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <numeric>
+#include <utility>
+
+#include "core/base/errors.hpp"
+
+namespace mapproof {
+namespace {
+
+constexpr int kMostRobots = 64;
+
+/// What stands for the time of each step: the log's own, or the step.
+std::vector<double> clock_of(const SightingLog& log) {
+  const auto steps = static_cast<std::size_t>(log.steps);
+  if (!log.times_s.empty() && log.times_s.size() != steps)
+    throw InvalidInput("a log needs no times, or one of each step");
+  if (!std::ranges::all_of(log.times_s, [](double time) { return std::isfinite(time); }))
+    throw InvalidInput("a log's times must be finite");
+  std::vector<double> clock = log.times_s;
+  const auto falls = [&](std::size_t step) { return step > 0 && clock[step] < clock[step - 1]; };
+  int robots = 1;
+  for (std::size_t step = 1; step < clock.size(); ++step) robots += falls(step) ? 1 : 0;
+  if (clock.empty() || robots > kMostRobots) {
+    clock.resize(steps);
+    std::iota(clock.begin(), clock.end(), 0.0);
+  }
+  return clock;
+}
+
+/// The first times of all slices but the first: quantiles of the pairs' times.
+std::vector<double> cuts_of(const std::vector<double>& clock, const std::vector<LookPair>& pairs,
+                            int slices) {
+  std::vector<double> times;
+  for (const LookPair& pair : pairs) times.push_back(clock[static_cast<std::size_t>(pair.step)]);
+  std::ranges::sort(times);
+  std::vector<double> cuts;
+  for (int k = 1; k < slices && !times.empty(); ++k) {
+    const std::size_t at =
+        times.size() * static_cast<std::size_t>(k) / static_cast<std::size_t>(slices);
+    const double cut = times[at];
+    if (cut > times.front() && (cuts.empty() || cut > cuts.back())) cuts.push_back(cut);
+  }
+  return cuts;
+}
+
+}  // namespace
+
+LogBlocks cut_in_blocks(const SightingLog& log, const std::vector<LookPair>& pairs, int slices) {
+  if (slices < 1) throw InvalidInput("a log is cut into one slice or more");
+  const std::vector<double> clock = clock_of(log);
+  const std::vector<double> cuts = cuts_of(clock, pairs, slices);
+  LogBlocks blocks;
+  std::map<std::pair<int, int>, int> numbers;  // (robot, slice) as they come: robot by robot
+  int robot = 0;
+  for (std::size_t step = 0; step < clock.size(); ++step) {
+    if (step > 0 && clock[step] < clock[step - 1]) ++robot;
+    const auto slice = static_cast<int>(std::ranges::upper_bound(cuts, clock[step]) - cuts.begin());
+    const auto [found, is_new] = numbers.try_emplace({robot, slice}, blocks.count);
+    if (is_new) {
+      ++blocks.count;
+      blocks.slice.push_back(slice);
+    }
+    blocks.of_step.push_back(found->second);
+  }
+  std::vector<int> steps(clock.size());
+  std::iota(steps.begin(), steps.end(), 0);
+  std::vector<int> order(static_cast<std::size_t>(blocks.count));
+  std::iota(order.begin(), order.end(), 0);
+  blocks.step_orders.push_back(steps);
+  blocks.block_orders.push_back(order);
+  if (robot > 0) {
+    std::ranges::stable_sort(steps, {},
+                             [&](int step) { return clock[static_cast<std::size_t>(step)]; });
+    std::ranges::stable_sort(
+        order, {}, [&](int block) { return blocks.slice[static_cast<std::size_t>(block)]; });
+    blocks.step_orders.push_back(std::move(steps));
+    blocks.block_orders.push_back(std::move(order));
+  }
+  return blocks;
+}
+
+}  // namespace mapproof

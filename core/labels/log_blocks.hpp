@@ -1,0 +1,28 @@
+#pragma once
+
+#include <vector>
+
+#include "core/labels/look_pairs.hpp"
+
+namespace mapproof {
+
+/// A log cut into stretches within which errors hang together, and labels are taken to be right or
+/// wrong all together.
+struct LogBlocks {
+  int count = 0;
+  std::vector<int> of_step;  ///< The block of each step of the log.
+  /// The steps in orders in which labels may be wrong from one place to another: as they stand
+  /// (robot by robot) and, if that differs, by time. Each a permutation of all steps.
+  std::vector<std::vector<int>> step_orders;
+  std::vector<std::vector<int>> block_orders;  ///< The blocks in the same orders.
+  std::vector<int> slice;  ///< Of each block: its place in time, 0 first; robots share slices.
+};
+
+/// Cuts a log: where times fall back another robot begins (up to 64, else the times are not
+/// believed), and all robots are cut at common times, so that the slices hold pairs in about equal
+/// numbers. Without times steps are cut.
+/// @param slices  Of time, >= 1; fewer where there are fewer looks.
+/// @throws InvalidInput if the times are neither none nor one a step and finite.
+LogBlocks cut_in_blocks(const SightingLog& log, const std::vector<LookPair>& pairs, int slices);
+
+}  // namespace mapproof

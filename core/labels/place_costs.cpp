@@ -1,0 +1,87 @@
+#include "core/labels/place_costs.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/base/errors.hpp"
+
+namespace mapproof {
+namespace {
+
+Points grid_over(const Points& map, int side) {
+  Eigen::RowVector2d low(HUGE_VAL, HUGE_VAL);
+  Eigen::RowVector2d high = -low;
+  for (Eigen::Index i = 0; i < map.rows(); ++i)
+    if (map.row(i).allFinite()) {
+      low = low.cwiseMin(map.row(i));
+      high = high.cwiseMax(map.row(i));
+    }
+  Points grid = Points::Zero(static_cast<Eigen::Index>(side) * side, 2);
+  if (!(low.array() <= high.array()).all()) return grid;
+  const double margin = 0.25 * (high - low).maxCoeff();
+  low.array() -= margin;
+  high.array() += margin;
+  for (int k = 0; k < side * side; ++k) {
+    const Eigen::RowVector2d share(static_cast<double>(k % side) / (side - 1),
+                                   static_cast<double>(k / side) / (side - 1));
+    grid.row(k) = low.array() + share.array() * (high - low).array();
+  }
+  return grid;
+}
+
+/// Adds what an item costs if its landmark stands on each point.
+void add_costs(const Points& grid, const Eigen::RowVector2d& partner, const PairItem& item,
+               double width_m, Eigen::Ref<Eigen::VectorXf> costs) {
+  const Eigen::ArrayXd residuals =
+      ((grid.rowwise() - partner).rowwise().norm().array() - item.distance_m).abs();
+  costs.array() +=
+      (item.weight * (residuals <= width_m)
+                         .select(0.5 * residuals.square(), width_m * (residuals - 0.5 * width_m)))
+          .cast<float>();
+}
+
+}  // namespace
+
+PlaceCosts place_costs(const std::vector<PairItem>& items, const Points& map, int blocks,
+                       const std::vector<int>& labels, double width_m, int side) {
+  if (side < 2) throw InvalidInput("a grid needs two points a side");
+  PlaceCosts result{grid_over(map, side), {labels, {}, 0}};
+  result.costs.segment = result.grid_m.rows();
+  std::vector<int> place(static_cast<std::size_t>(map.rows()), -1);
+  for (std::size_t k = 0; k < labels.size(); ++k) {
+    place[static_cast<std::size_t>(labels[k])] = static_cast<int>(k);
+    result.costs.costs.emplace_back(Eigen::MatrixXf::Zero(result.grid_m.rows(), blocks));
+  }
+  for (const PairItem& item : items)
+    for (const auto& [own, partner] :
+         {std::pair(item.first, item.second), std::pair(item.second, item.first)}) {
+      const int at = place[static_cast<std::size_t>(own)];
+      if (at >= 0 && map.row(partner).allFinite())
+        add_costs(result.grid_m, map.row(partner), item, width_m,
+                  result.costs.costs[static_cast<std::size_t>(at)].col(item.block));
+    }
+  return result;
+}
+
+RobustMap unfolded_map(const std::vector<PairItem>& items, RobustMap map, int blocks) {
+  for (int k = 0; k < map.positions_m.rows(); ++k) {
+    if (!map.positions_m.row(k).allFinite()) continue;
+    const PlaceCosts places = place_costs(items, map.positions_m, blocks, {k}, map.width_m);
+    const Eigen::VectorXd costs = places.costs.costs.front().cast<double>().rowwise().sum();
+    Eigen::Index best = 0;
+    const double least = costs.minCoeff(&best);
+    // Another place on the coarse grid may be better than the present one only by much.
+    double present = 0.0;
+    for (const PairItem& item : items)
+      if (item.first == k || item.second == k)
+        present += map_cost({item}, map.positions_m, map.width_m);
+    if (least >= present) continue;
+    Points start = map.positions_m;
+    start.row(k) = places.grid_m.row(best);
+    RobustMap other = lowered_map(items, start, map.width_m);
+    if (other.cost < map.cost) map = std::move(other);
+  }
+  return map;
+}
+
+}  // namespace mapproof

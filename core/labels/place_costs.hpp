@@ -1,0 +1,31 @@
+#pragma once
+
+#include <vector>
+
+#include <Eigen/Core>
+
+#include "core/labels/robust_map.hpp"
+#include "core/labels/stretch_search.hpp"
+
+namespace mapproof {
+
+/// What the sightings under one label cost in each block, were their landmark anywhere on a grid
+/// while the others stay: whose sightings they are can then be asked of any stretch of blocks by
+/// sums alone.
+struct PlaceCosts {
+  Points grid_m;       ///< G x 2, over the map and a quarter of its extent around.
+  StretchCosts costs;  ///< Values are the grid's points.
+};
+
+/// @param map  M x 2, NaN rows: unmapped, and partners of nobody.
+/// @param labels  Which to ask of, each a row of the map.
+/// @param side  Of the grid, points, >= 2.
+/// @note O(items * side^2) time; 4 * side^2 * blocks * labels bytes.
+PlaceCosts place_costs(const std::vector<PairItem>& items, const Points& map, int blocks,
+                       const std::vector<int>& labels, double width_m, int side = 20);
+
+/// Puts each landmark in turn where it costs least while the others stay, and lowers the cost of
+/// the whole again, as long as that helps: out of folds that majorisation alone stays in.
+RobustMap unfolded_map(const std::vector<PairItem>& items, RobustMap map, int blocks);
+
+}  // namespace mapproof

@@ -1,0 +1,212 @@
+#include "core/labels/robust_map.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <tuple>
+
+#include "core/base/errors.hpp"
+#include "core/embed/lpca.hpp"
+#include "core/embed/smacof.hpp"
+#include "core/graph/components.hpp"
+#include "core/graph/shortest_paths.hpp"
+
+namespace mapproof {
+namespace {
+
+constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
+constexpr double kInfinite = std::numeric_limits<double>::infinity();
+constexpr int kMostLandmarks = 2000;
+
+double median(std::vector<double>& values) {
+  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+  std::ranges::nth_element(values, middle);
+  return *middle;
+}
+
+/// The landmarks that a map can hold, and their rows in it.
+struct Mapped {
+  std::vector<int> row;  ///< Of each landmark; -1: not mapped.
+  std::vector<int> landmarks;
+};
+
+/// The landmarks of the largest group that pairs hold together.
+Mapped largest_group(const std::vector<PairItem>& items, int landmarks) {
+  Graph graph(static_cast<std::size_t>(landmarks));
+  for (const PairItem& item : items) {
+    graph[static_cast<std::size_t>(item.first)].push_back({item.second, item.distance_m});
+    graph[static_cast<std::size_t>(item.second)].push_back({item.first, item.distance_m});
+  }
+  const std::vector<int> piece = components(graph);
+  std::vector<int> sizes(graph.size() + 1, 0);
+  for (const int number : piece) ++sizes[static_cast<std::size_t>(number)];
+  const auto largest = static_cast<int>(std::ranges::max_element(sizes) - sizes.begin());
+  Mapped mapped{std::vector<int>(graph.size(), -1), {}};
+  for (int k = 0; k < landmarks; ++k)
+    if (piece[static_cast<std::size_t>(k)] == largest) {
+      mapped.row[static_cast<std::size_t>(k)] = static_cast<int>(mapped.landmarks.size());
+      mapped.landmarks.push_back(k);
+    }
+  return mapped;
+}
+
+/// Medians over the blocks, infinite for pairs never seen.
+Eigen::MatrixXd median_distances(const std::vector<PairItem>& items, const Mapped& mapped) {
+  const std::size_t n = mapped.landmarks.size();
+  std::vector<std::vector<std::pair<double, double>>> values(n * n);
+  for (const PairItem& item : items) {
+    const int i = mapped.row[static_cast<std::size_t>(item.first)];
+    const int j = mapped.row[static_cast<std::size_t>(item.second)];
+    if (i >= 0 && j >= 0)
+      values[static_cast<std::size_t>(i) * n + static_cast<std::size_t>(j)].emplace_back(
+          item.distance_m, item.weight);
+  }
+  const auto size = static_cast<Eigen::Index>(n);
+  Eigen::MatrixXd D = Eigen::MatrixXd::Constant(size, size, kInfinite);
+  D.diagonal().setZero();
+  for (Eigen::Index i = 0; i < size; ++i)
+    for (Eigen::Index j = i + 1; j < size; ++j) {
+      auto& pair = values[static_cast<std::size_t>(i) * n + static_cast<std::size_t>(j)];
+      if (pair.empty()) continue;
+      std::ranges::sort(pair);
+      double half = 0.0;
+      for (const auto& [distance, weight] : pair) half += weight / 2.0;
+      std::size_t at = 0;
+      while (at + 1 < pair.size() && (half -= pair[at].second) > 0.0) ++at;
+      D(i, j) = D(j, i) = pair[at].first;
+    }
+  return D;
+}
+
+/// 1.5 standard deviations of the residuals by their weighted-out median, never nothing.
+double width_of(const std::vector<PairItem>& items, const Points& map) {
+  std::vector<double> residuals;
+  std::vector<double> distances;
+  for (const PairItem& item : items) {
+    const double distance = (map.row(item.first) - map.row(item.second)).norm();
+    if (std::isnan(distance)) continue;
+    residuals.push_back(std::abs(item.distance_m - distance));
+    distances.push_back(item.distance_m);
+  }
+  if (residuals.empty()) return 1.0;
+  const double floor = std::max(1e-3 * median(distances), 1e-9);
+  return std::max(1.5 * 1.4826 * median(residuals), floor);
+}
+
+/// Weights and distances of one round: what the cost's majorising parabolas add up to.
+void majorise(const std::vector<PairItem>& items, const Mapped& mapped, const Points& Z,
+              double width_m, Eigen::MatrixXd& W, Eigen::MatrixXd& D) {
+  W.setZero();
+  D.setZero();
+  for (const PairItem& item : items) {
+    const int i = mapped.row[static_cast<std::size_t>(item.first)];
+    const int j = mapped.row[static_cast<std::size_t>(item.second)];
+    if (i < 0 || j < 0) continue;
+    const double residual = std::abs(item.distance_m - (Z.row(i) - Z.row(j)).norm());
+    const double weight = item.weight * (residual > width_m ? width_m / residual : 1.0);
+    W(i, j) += weight;
+    D(i, j) += weight * item.distance_m;
+  }
+  for (Eigen::Index i = 0; i < W.rows(); ++i)
+    for (Eigen::Index j = i + 1; j < W.cols(); ++j) {
+      if (W(i, j) > 0.0) D(i, j) /= W(i, j);
+      W(j, i) = W(i, j);
+      D(j, i) = D(i, j);
+    }
+}
+
+RobustMap finished(const std::vector<PairItem>& items, Points map, double width_m) {
+  RobustMap result{std::move(map), width_m, 0.0, 0.0};
+  double weights = 0.0;
+  for (const PairItem& item : items) weights += item.weight;
+  result.cost = map_cost(items, result.positions_m, width_m);
+  result.loss_m = weights > 0.0 ? std::sqrt(2.0 * result.cost / weights) : 0.0;
+  return result;
+}
+
+}  // namespace
+
+double huber_cost(double residual, double width) {
+  const double size = std::abs(residual);
+  return size <= width ? 0.5 * size * size : width * (size - 0.5 * width);
+}
+
+std::vector<PairItem> pair_items(const std::vector<LookPair>& pairs, const std::vector<int>& labels,
+                                 const LogBlocks& blocks, double most_looks) {
+  std::vector<std::tuple<int, int, int, double>> sorted;
+  sorted.reserve(pairs.size());
+  for (const LookPair& pair : pairs) {
+    const auto [a, b] = std::minmax(labels[pair.first], labels[pair.second]);
+    if (a != b)
+      sorted.emplace_back(a, b, blocks.of_step[static_cast<std::size_t>(pair.step)],
+                          pair.distance_m);
+  }
+  std::ranges::sort(sorted);
+  std::vector<PairItem> items;
+  for (std::size_t begin = 0, end = 0; begin < sorted.size(); begin = end) {
+    const auto [a, b, block, distance] = sorted[begin];
+    while (end < sorted.size() && std::get<0>(sorted[end]) == a && std::get<1>(sorted[end]) == b &&
+           std::get<2>(sorted[end]) == block)
+      ++end;
+    // Sorted by distance at last: the middle one is the median.
+    items.push_back({a, b, block, std::get<3>(sorted[(begin + end - 1) / 2]),
+                     std::min(static_cast<double>(end - begin), most_looks)});
+  }
+  return items;
+}
+
+double map_cost(const std::vector<PairItem>& items, const Points& map, double width_m) {
+  double cost = 0.0;
+  for (const PairItem& item : items) {
+    const double distance = (map.row(item.first) - map.row(item.second)).norm();
+    if (!std::isnan(distance))
+      cost += item.weight * huber_cost(item.distance_m - distance, width_m);
+  }
+  return cost;
+}
+
+RobustMap lowered_map(const std::vector<PairItem>& items, const Points& start, double width_m,
+                      int rounds) {
+  Mapped mapped = largest_group(items, static_cast<int>(start.rows()));
+  std::erase_if(mapped.landmarks, [&](int k) { return !start.row(k).allFinite(); });
+  std::ranges::fill(mapped.row, -1);
+  for (std::size_t k = 0; k < mapped.landmarks.size(); ++k)
+    mapped.row[static_cast<std::size_t>(mapped.landmarks[k])] = static_cast<int>(k);
+  Points map = Points::Constant(start.rows(), 2, kUnknown);
+  const auto n = static_cast<Eigen::Index>(mapped.landmarks.size());
+  if (n < 3) return finished(items, std::move(map), width_m);
+  Points Z = start(mapped.landmarks, Eigen::all);
+  Eigen::MatrixXd W(n, n);
+  Eigen::MatrixXd D(n, n);
+  map(mapped.landmarks, Eigen::all) = Z;
+  double cost = map_cost(items, map, width_m);
+  for (int round = 0; round < rounds; ++round) {
+    majorise(items, mapped, Z, width_m, W, D);
+    Z = smacof(D, W, Z, {.relative_fall = 1e-4, .max_iterations = 20}).coordinates;
+    map(mapped.landmarks, Eigen::all) = Z;
+    const double next = map_cost(items, map, width_m);
+    const bool settled = cost - next <= 1e-5 * cost;
+    cost = next;
+    if (settled) break;
+  }
+  return finished(items, std::move(map), width_m);
+}
+
+RobustMap robust_map(const std::vector<PairItem>& items, int landmarks) {
+  if (landmarks > kMostLandmarks) throw InvalidInput("labels of more than 2000 landmarks");
+  for (const PairItem& item : items)
+    if (item.first < 0 || item.second >= landmarks)
+      throw InvalidInput("a pair of landmarks that are not there");
+  const Mapped mapped = largest_group(items, landmarks);
+  Points start = Points::Constant(landmarks, 2, kUnknown);
+  if (mapped.landmarks.size() < 3) return finished(items, std::move(start), 1.0);
+  const Eigen::MatrixXd D = completed_distances(median_distances(items, mapped));
+  start(mapped.landmarks, Eigen::all) = lpca(D.cwiseAbs2()).coordinates;
+  const double wide = 0.1 * D.mean();
+  RobustMap map = lowered_map(items, start, std::max(wide, 1e-9), 10);
+  for (int k = 0; k < 2; ++k)
+    map = lowered_map(items, map.positions_m, width_of(items, map.positions_m));
+  return map;
+}
+
+}  // namespace mapproof

@@ -1,0 +1,112 @@
+#include "core/labels/mislabelled.hpp"
+
+#include <algorithm>
+
+#include <gtest/gtest.h>
+
+#include "core/base/errors.hpp"
+#include "noisy_looks.hpp"
+
+namespace mapproof::test {
+namespace {
+
+TEST(LabelCheck, NamesNothingInCleanLooks) {
+  for (std::uint64_t seed = 1; seed <= 5; ++seed)
+    EXPECT_TRUE(check_labels(noisy_looks(600, seed)).findings.empty()) << seed;
+}
+
+TEST(LabelCheck, FindsTwoLabelsSwappedFromSomeStepOn) {
+  const SightingLog clean = noisy_looks(600, 1);
+  for (const auto& [a, b] :
+       {std::pair(0, 14), std::pair(2, 7), std::pair(6, 7), std::pair(3, 11)}) {
+    const SightingLog wrong = swapped(clean, a, b, [](int step) { return step >= 380; });
+    const LabelCheck check = check_labels(wrong);
+    ASSERT_FALSE(check.findings.empty()) << a << ' ' << b;
+    for (const LabelFinding& finding : check.findings)
+      EXPECT_EQ(std::minmax(finding.first, finding.second), std::minmax(a, b));
+    EXPECT_NEAR(check.findings.front().first_step, 380, 20);
+    EXPECT_LT(check.loss_after_m, 0.75 * check.loss_before_m);
+    EXPECT_LE(wrong_labels(check.repaired, clean), 4);
+  }
+}
+
+TEST(LabelCheck, FindsAStretchInTheMiddle) {
+  const SightingLog clean = noisy_looks(600, 2);
+  const auto middle = [](int step) { return step >= 200 && step < 330; };
+  const LabelCheck check = check_labels(swapped(clean, 4, 9, middle));
+  ASSERT_EQ(check.findings.size(), 1U);
+  EXPECT_NEAR(check.findings.front().first_step, 200, 25);
+  EXPECT_NEAR(check.findings.front().last_step, 329, 25);
+  EXPECT_LE(wrong_labels(check.repaired, clean), 6);
+}
+
+TEST(LabelCheck, FindsSwapsOfSeveralPairs) {
+  const SightingLog clean = noisy_looks(900, 3);
+  SightingLog wrong = swapped(clean, 1, 12, [](int step) { return step >= 600; });
+  wrong = swapped(wrong, 5, 8, [](int step) { return step < 300; });
+  const LabelCheck check = check_labels(wrong);
+  EXPECT_EQ(check.findings.size(), 2U);
+  EXPECT_LE(wrong_labels(check.repaired, clean), 8);
+}
+
+TEST(LabelCheck, FindsSightingsUnderTheLabelOfAnother) {
+  const SightingLog clean = noisy_looks(600, 4);
+  for (const auto& [landmark, other] : {std::pair(13, 7), std::pair(0, 6)}) {
+    const SightingLog wrong = called(clean, landmark, other, [](int step) { return step < 150; });
+    ASSERT_GT(wrong_labels(wrong, clean), 15);
+    const LabelCheck check = check_labels(wrong);
+    ASSERT_EQ(check.findings.size(), 1U);
+    EXPECT_EQ(check.findings.front().first, other);
+    EXPECT_EQ(check.findings.front().second, landmark);
+    EXPECT_LE(wrong_labels(check.repaired, clean), 2);
+  }
+}
+
+TEST(LabelCheck, CannotKnowOfASwapInAllSightings) {
+  const SightingLog renamed = swapped(noisy_looks(600, 5), 3, 10, [](int) { return true; });
+  EXPECT_TRUE(check_labels(renamed).findings.empty());
+}
+
+TEST(LabelCheck, NamesTheFewerSightingsOfASwap) {
+  const SightingLog clean = noisy_looks(600, 6);
+  const LabelCheck check = check_labels(swapped(clean, 2, 12, [](int step) { return step < 450; }));
+  ASSERT_EQ(check.findings.size(), 1U);
+  EXPECT_NEAR(check.findings.front().first_step, 450, 20);
+  EXPECT_TRUE(check.findings.front().to_the_end);
+}
+
+TEST(LabelCheck, TellsOneRobotsLooksFromTheOthers) {
+  SightingLog log = noisy_looks(900, 7);
+  for (int step = 0; step < log.steps; ++step) log.times_s.push_back(step % 300);
+  const SightingLog wrong = swapped(log, 6, 8, [](int step) { return step >= 300 && step < 600; });
+  const LabelCheck check = check_labels(wrong);
+  ASSERT_EQ(check.findings.size(), 1U);
+  EXPECT_FALSE(check.findings.front().by_time);
+  EXPECT_LE(wrong_labels(check.repaired, log), 4);
+}
+
+TEST(LabelCheck, SaysWhatItFound) {
+  const SightingLog log = noisy_looks(10, 1);
+  LabelFinding finding{.fault = LabelFault::kSwapped,
+                       .first = 0,
+                       .second = 2,
+                       .first_step = 4,
+                       .last_step = 9,
+                       .to_the_end = true,
+                       .sightings = 6,
+                       .loss_before_m = 0.41,
+                       .loss_after_m = 0.13};
+  EXPECT_EQ(described(finding, log),
+            "A and C look swapped from step 5 on (6 sightings): loss 0.410 -> 0.130 m");
+}
+
+TEST(LabelCheck, TakesALogWithoutAnyPair) {
+  EXPECT_TRUE(check_labels({}).findings.empty());
+  SightingLog lonely{{"A", "B"}, {{0, 0, 1.0, 0.0}, {1, 1, 2.0, 0.0}}, 2, {}};
+  EXPECT_TRUE(check_labels(lonely).findings.empty());
+  lonely.sightings[1].landmark = 2;
+  EXPECT_THROW(check_labels(lonely), InvalidInput);
+}
+
+}  // namespace
+}  // namespace mapproof::test

@@ -1,0 +1,29 @@
+#pragma once
+
+#include <cstdint>
+#include <functional>
+
+#include "core/model/points.hpp"
+#include "core/model/sighting_log.hpp"
+
+namespace mapproof::test {
+
+/// Looks at 5 x 3 landmarks about 2 m apart, each at the four nearest, with errors of 3 % of the
+/// range and 1 degree.
+SightingLog noisy_looks(int looks, std::uint64_t seed);
+
+/// The true places of these landmarks.
+Points noisy_landmarks();
+
+/// The log with the labels of two landmarks exchanged in some steps.
+SightingLog swapped(SightingLog log, int first, int second,
+                    const std::function<bool(int)>& in_step);
+
+/// The log with sightings of one landmark called another, unless that is in the same look.
+SightingLog called(SightingLog log, int landmark, int other,
+                   const std::function<bool(int)>& in_step);
+
+/// How many sightings of `log` bear another label than in `truth`.
+int wrong_labels(const SightingLog& log, const SightingLog& truth);
+
+}  // namespace mapproof::test
