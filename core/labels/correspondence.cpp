@@ -63,35 +63,80 @@ Model model_of(const Labelled& labelled, Eigen::Index rank) {
   return model_of(gram, rank);
 }
 
-/// Gives the doubtful landmarks of a step the readings nearest to what is expected of them.
+/// How the labels of a stretch of steps are dealt.
+struct Dealing {
+  Eigen::Index stretch = 1;
+  double change_cost = 0.0;  ///< For each step and label that is not the given one.
+};
+
+/// Gives the doubtful landmarks of the stretch that begins at a step the readings nearest to what
+/// is expected of them.
+/// @param expected  Of each step of the stretch.
 /// @return Whether a label changed.
-bool assign(Labelled& labelled, std::size_t step, const Eigen::MatrixXd& expected) {
+bool assign(Labelled& labelled, std::size_t step, const std::vector<Eigen::MatrixXd>& expected,
+            double change_cost) {
   const std::vector<Eigen::Index>& rows = labelled.doubtful[step];
   const auto d = static_cast<Eigen::Index>(rows.size());
   if (d < 2) return false;
-  Eigen::MatrixXd costs(d, d);
-  for (Eigen::Index i = 0; i < d; ++i)
-    for (Eigen::Index k = 0; k < d; ++k)
-      costs(i, k) = (expected.row(rows[static_cast<std::size_t>(i)]) -
-                     labelled.readings[step].row(rows[static_cast<std::size_t>(k)]))
-                        .squaredNorm();
+  Eigen::MatrixXd costs =
+      Eigen::MatrixXd::Constant(d, d, change_cost * static_cast<double>(expected.size()));
+  costs.diagonal().setZero();
+  for (std::size_t k = 0; k < expected.size(); ++k) {
+    const Eigen::MatrixXd wanted = expected[k](rows, Eigen::all);
+    const Eigen::MatrixXd read = labelled.readings[step + k](rows, Eigen::all);
+    costs.noalias() -= 2.0 * wanted * read.transpose();
+    costs.colwise() += wanted.rowwise().squaredNorm();
+    costs.rowwise() += read.rowwise().squaredNorm().transpose();
+  }
   const std::vector<Eigen::Index> columns = least_assignment(costs);
   // Equal sums must not go back and forth.
-  std::vector<Eigen::Index>& reading_of = labelled.reading_of[step];
+  std::vector<Eigen::Index> place(labelled.reading_of[step].size(), 0);
+  for (Eigen::Index k = 0; k < d; ++k)
+    place[static_cast<std::size_t>(rows[static_cast<std::size_t>(k)])] = k;
   double found = 0.0;
   double present = 0.0;
   for (Eigen::Index i = 0; i < d; ++i) {
-    const Eigen::Index row = rows[static_cast<std::size_t>(i)];
+    const auto row = static_cast<std::size_t>(rows[static_cast<std::size_t>(i)]);
     found += costs(i, columns[static_cast<std::size_t>(i)]);
-    present +=
-        (expected.row(row) - labelled.readings[step].row(reading_of[static_cast<std::size_t>(row)]))
-            .squaredNorm();
+    present += costs(i, place[static_cast<std::size_t>(labelled.reading_of[step][row])]);
   }
-  if (found >= present - 1e-12 * (1.0 + present)) return false;
-  for (Eigen::Index i = 0; i < d; ++i)
-    reading_of[static_cast<std::size_t>(rows[static_cast<std::size_t>(i)])] =
-        rows[static_cast<std::size_t>(columns[static_cast<std::size_t>(i)])];
+  if (found >= present - 1e-12 * (1.0 + std::abs(present))) return false;
+  for (std::size_t k = 0; k < expected.size(); ++k)
+    for (Eigen::Index i = 0; i < d; ++i)
+      labelled.reading_of[step + k][static_cast<std::size_t>(rows[static_cast<std::size_t>(i)])] =
+          rows[static_cast<std::size_t>(columns[static_cast<std::size_t>(i)])];
   return true;
+}
+
+/// Deals the labels of all stretches. @return Whether one changed.
+/// @param expected  What is expected of a step: M x channels.
+template <typename Expected>
+bool assign_all(Labelled& labelled, const Dealing& dealing, const Expected& expected) {
+  bool changed = false;
+  const std::size_t steps = labelled.readings.size();
+  const auto stretch = static_cast<std::size_t>(dealing.stretch);
+  for (std::size_t step = 0; step < steps; step += stretch) {
+    std::vector<Eigen::MatrixXd> wanted;
+    for (std::size_t k = step; k < std::min(step + stretch, steps); ++k)
+      wanted.push_back(expected(k));
+    changed = assign(labelled, step, wanted, dealing.change_cost) || changed;
+  }
+  return changed;
+}
+
+/// The median of what readings under the given labels are off the components, squared.
+double median_residual(const Labelled& labelled, Eigen::Index rank) {
+  const Eigen::MatrixXd components = model_of(labelled, rank).components;
+  std::vector<double> squares;
+  for (std::size_t step = 0; step < labelled.readings.size(); ++step) {
+    const Eigen::MatrixXd Y = labelled.values(step);
+    const Eigen::VectorXd off =
+        (Y - components * (components.transpose() * Y)).rowwise().squaredNorm();
+    squares.insert(squares.end(), off.begin(), off.end());
+  }
+  const auto middle = squares.begin() + static_cast<std::ptrdiff_t>(squares.size() / 2);
+  std::ranges::nth_element(squares, middle);
+  return *middle;
 }
 
 /// Labels and components in turn until no label changes.
@@ -102,17 +147,15 @@ struct Descent {
   bool settled = false;
 };
 
-Descent lowered(Labelled labelled, Eigen::Index rank, int most_rounds) {
+Descent lowered(Labelled labelled, Eigen::Index rank, int most_rounds, const Dealing& dealing) {
   Descent descent{std::move(labelled), 0.0, 0, false};
   Model model = model_of(descent.labelled, rank);
   while (!descent.settled && descent.rounds < most_rounds) {
     ++descent.rounds;
-    bool changed = false;
-    for (std::size_t step = 0; step < descent.labelled.readings.size(); ++step) {
+    const bool changed = assign_all(descent.labelled, dealing, [&](std::size_t step) {
       const Eigen::MatrixXd Y = descent.labelled.values(step);
-      const Eigen::MatrixXd expected = model.components * (model.components.transpose() * Y);
-      changed = assign(descent.labelled, step, expected) || changed;
-    }
+      return Eigen::MatrixXd(model.components * (model.components.transpose() * Y));
+    });
     if (changed) model = model_of(descent.labelled, rank);
     descent.settled = !changed;
   }
@@ -137,7 +180,7 @@ Eigen::MatrixXd expected_from_certain(const Eigen::MatrixXd& Y, const std::vecto
 
 /// Labels from the components of the certain entries: the doubtful ones are filled with what the
 /// components say of them, again and again [yairi2007, section 5.1].
-Labelled from_certain(Labelled labelled, Eigen::Index rank) {
+Labelled from_certain(Labelled labelled, Eigen::Index rank, const Dealing& dealing) {
   constexpr int kFillings = 15;
   const Eigen::Index M = labelled.readings.front().rows();
   std::vector<Eigen::MatrixXd> filled = labelled.readings;
@@ -160,19 +203,22 @@ Labelled from_certain(Labelled labelled, Eigen::Index rank) {
         filled[step].row(row) = expected.row(row);
     }
   }
-  for (std::size_t step = 0; step < filled.size(); ++step) assign(labelled, step, filled[step]);
+  assign_all(labelled, dealing, [&](std::size_t step) { return filled[step]; });
   return labelled;
 }
 
-Labelled labelled_history(const ObservationHistory& history, const Mask& doubtful) {
+Labelled labelled_history(const ObservationHistory& history, const Mask& doubtful,
+                          Eigen::Index stretch) {
   Labelled labelled;
   for (Eigen::Index step = 0; step < history.steps(); ++step) {
+    const Eigen::Index begin = step / stretch * stretch;
+    const Eigen::Index count = std::min(stretch, history.steps() - begin);
     labelled.readings.push_back(step_values(history, step));
     std::vector<Eigen::Index> rows;
     std::vector<Eigen::Index> reading_of;
     for (Eigen::Index row = 0; row < history.landmarks(); ++row) {
       reading_of.push_back(row);
-      if (doubtful(row, step)) rows.push_back(row);
+      if (doubtful.row(row).segment(begin, count).any()) rows.push_back(row);
     }
     labelled.doubtful.push_back(std::move(rows));
     labelled.reading_of.push_back(std::move(reading_of));
@@ -188,8 +234,10 @@ void check(const ObservationHistory& history, const Mask& doubtful,
     throw InvalidInput("which entries are doubtful is asked of every entry");
   if (!history.values.allFinite())
     throw InvalidInput("labels are estimated of histories without missing entries");
-  if (options.rank < 1 || options.most_rounds < 1)
-    throw InvalidInput("labels need a rank and a round of 1 or more");
+  if (options.rank < 1 || options.most_rounds < 1 || options.stretch < 1)
+    throw InvalidInput("labels need a rank, a round and a stretch of 1 or more");
+  if (!(options.change_cost >= 0.0 && std::isfinite(options.change_cost)))
+    throw InvalidInput("what a change of labels costs must be finite and not below 0");
 }
 
 }  // namespace
@@ -198,13 +246,16 @@ Correspondence estimated_correspondence(const ObservationHistory& history, const
                                         const CorrespondenceOptions& options) {
   check(history, doubtful, options);
   const Eigen::Index rank = std::min(options.rank, history.landmarks() - 1);
-  const Labelled given = labelled_history(history, doubtful);
+  const Labelled given = labelled_history(history, doubtful, options.stretch);
+  Dealing dealing{options.stretch, 0.0};
+  if (options.change_cost > 0.0)
+    dealing.change_cost = options.change_cost * median_residual(given, rank);
   double spread = 0.0;
   for (const Eigen::MatrixXd& Y : given.readings) spread += Y.squaredNorm();
-  Descent best = lowered(given, rank, options.most_rounds);
+  Descent best = lowered(given, rank, options.most_rounds, dealing);
   // Where nothing is certain, filling has nothing to start from.
   if (!doubtful.all()) {
-    Descent other = lowered(from_certain(given, rank), rank, options.most_rounds);
+    Descent other = lowered(from_certain(given, rank, dealing), rank, options.most_rounds, dealing);
     if (other.loss < best.loss) best = std::move(other);
   }
   Correspondence result{history, 0.0, 0.0, best.rounds, best.settled};

@@ -10,6 +10,11 @@ namespace mapproof {
 struct CorrespondenceOptions {
   Eigen::Index rank = 10;  ///< Of the observation vectors' model, >= 1; at most M - 1 are used.
   int most_rounds = 60;    ///< >= 1.
+  /// What it costs to depart from a given label, in medians of what readings under the given labels
+  /// are off, squared, >= 0; 0: the given labels of doubtful readings mean nothing.
+  double change_cost = 0.0;
+  /// So many steps on end have the same labels right and wrong, >= 1.
+  Eigen::Index stretch = 1;
 };
 
 /// A history under the labels found.
@@ -26,9 +31,11 @@ struct Correspondence {
 /// observation vectors leave. In turn components from labels, and at each step the assignment of
 /// the doubtful readings to the doubtful landmarks that is nearest to what the components say.
 ///
-/// Both turns lower the loss. It is started from the given labels and from the components of the
-/// certain entries alone; the start that ends lower is taken.
-/// @param doubtful  M x N, true: the reading may be of any landmark that is doubtful in this step.
+/// Both turns lower the loss and what is paid for changes. It is started from the given labels and
+/// from the components of the certain entries alone; the start that ends lower is taken.
+/// @param doubtful  M x N, true: the reading may be of any landmark that is doubtful in this
+/// stretch
+///                  of steps; it is then doubtful in all of them.
 /// @throws InvalidInput for missing entries, sizes that differ, or options out of bounds.
 /// @note O(M^2 N + sum of d^3) a round, d the doubtful entries of a step.
 Correspondence estimated_correspondence(

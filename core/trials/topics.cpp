@@ -4,14 +4,21 @@
 #include <fmt/format.h>
 
 #include "core/base/errors.hpp"
+#include "core/trials/labels.hpp"
 #include "core/trials/missing.hpp"
+#include "core/trials/moved.hpp"
 #include "core/trials/submaps.hpp"
 #include "core/trials/topic.hpp"
 
 namespace mapproof {
 
 std::span<const Topic* const> all_topics() {
-  static const std::vector<const Topic*> kTopics = {&kMissingTopic, &kSubmapsTopic};
+  static const std::vector<const Topic*> kTopics = {
+      &kMissingTopic,  //
+      &kSubmapsTopic,
+      &kLabelsTopic,
+      &kMovedTopic,
+  };
   return kTopics;
 }
 

@@ -1,0 +1,240 @@
+#include "core/trials/labels.hpp"
+
+#include <chrono>
+#include <cmath>
+#include <limits>
+
+#include <fmt/format.h>
+
+#include "core/base/random.hpp"
+#include "core/embed/embedder.hpp"
+#include "core/experiment/scored_map.hpp"
+#include "core/labels/correspondence.hpp"
+#include "core/simulate/sensors.hpp"
+#include "core/trials/trial_means.hpp"
+
+namespace mapproof {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+using Mask = Eigen::Array<bool, Eigen::Dynamic, Eigen::Dynamic>;
+
+constexpr const char* kUnlabelled = "unlabelled";
+constexpr const char* kConfused = "confused";
+constexpr const char* kStretches = "stretches";
+
+constexpr const char* kGiven = "given";
+constexpr const char* kLeftOut = "left-out";
+constexpr const char* kEstimated = "estimated";
+
+TrialDesign design(const TrialExperiment& experiment) {
+  TrialDesign design;
+  std::vector<double> percent;
+  for (const double share : list_option(experiment, "shares")) percent.push_back(100.0 * share);
+  design.question = fmt::format(
+      "A share of the labels is dealt out anew: among single readings of a step that are known to "
+      "be without a label, the same without that knowledge, or among whole rows over stretches of "
+      "{:g} steps. What does mapping the labels as given cost, what leaving doubtful readings out, "
+      "and what is won by estimating the correspondence? Maps are of SMACOF over K = {:g} "
+      "neighbours.",
+      number_option(experiment, "stretch"), number_option(experiment, "neighbours"));
+  const std::string label = "share of labels confused, %";
+  design.setups = {
+      {kUnlabelled, "Readings without a label", label, percent},
+      {kConfused, "Readings under a wrong label, not known which", label, percent},
+      {kStretches, "Landmarks confused over stretches, not known which", label, percent}};
+  design.series = {{kGiven, "Labels as given"},
+                   {kLeftOut, "Doubtful readings left out"},
+                   {kEstimated, "Correspondence estimated"}};
+  design.quantities = {{"correct_percent", "Confused labels set right", "%", false},
+                       {"mpe_m", "MPE", "m", true},
+                       {"moe_percent", "MOE", "%", true}};
+  return design;
+}
+
+/// A history some of whose labels were dealt out anew.
+struct Confused {
+  ObservationHistory history;
+  Mask confused;  ///< M x N: took part in the dealing.
+};
+
+/// Deals the readings of the marked rows of one step.
+void deal(Confused& to, Eigen::Index step, const std::vector<Eigen::Index>& order) {
+  const Eigen::VectorXd before = to.history.values.col(step);
+  std::size_t next = 0;
+  for (Eigen::Index row = 0; row < before.size(); ++row)
+    if (to.confused(row, step)) to.history.values(row, step) = before(order[next++]);
+}
+
+/// The rows that are dealt, at random, in a random order.
+std::vector<Eigen::Index> drawn(Eigen::Index rows, double share, Random& random,
+                                std::vector<char>& marked) {
+  std::vector<Eigen::Index> order;
+  marked.assign(static_cast<std::size_t>(rows), 0);
+  for (Eigen::Index row = 0; row < rows; ++row)
+    if (random.uniform() < share) {
+      marked[static_cast<std::size_t>(row)] = 1;
+      order.push_back(row);
+    }
+  for (std::size_t k = order.size(); k-- > 1;)
+    std::swap(order[k],
+              order[static_cast<std::size_t>(random.uniform() * static_cast<double>(k + 1))]);
+  return order;
+}
+
+/// @param stretch  So many steps are dealt alike.
+Confused confused_history(const ObservationHistory& truth, double share, Eigen::Index stretch,
+                          Random& random) {
+  Confused result{truth, Mask::Constant(truth.landmarks(), truth.steps(), false)};
+  std::vector<Eigen::Index> order;
+  std::vector<char> marked;
+  for (Eigen::Index step = 0; step < truth.steps(); ++step) {
+    if (step % stretch == 0) order = drawn(truth.landmarks(), share, random, marked);
+    for (Eigen::Index row = 0; row < truth.landmarks(); ++row)
+      result.confused(row, step) = marked[static_cast<std::size_t>(row)] != 0;
+    deal(result, step, order);
+  }
+  return result;
+}
+
+/// The share of confused readings that are where they belong; NaN without any.
+double correct_percent(const ObservationHistory& found, const ObservationHistory& truth,
+                       const Mask& confused) {
+  const auto all = confused.count();
+  if (all == 0) return std::numeric_limits<double>::quiet_NaN();
+  const auto right = (confused && (found.values.array() == truth.values.array())).count();
+  return 100.0 * static_cast<double>(right) / static_cast<double>(all);
+}
+
+/// One confused history, mapped in every way.
+class ConfusedMaps {
+ public:
+  ConfusedMaps(const TrialContext& context, const ObservationHistory& truth,
+               const TrialSetup& setup, double level, TrialPart& part)
+      : context_(context), truth_(truth), setup_(setup), level_(level), part_(part) {}
+
+  void map(const Confused& confused) {
+    const bool known = setup_.id == kUnlabelled;
+    add(kGiven, confused.history, confused);
+    if (known) {
+      ObservationHistory left = confused.history;
+      left.values = confused.confused.select(std::numeric_limits<double>::quiet_NaN(), left.values);
+      add(kLeftOut, left, confused);
+    }
+    const Clock::time_point start = Clock::now();
+    const Mask all = Mask::Constant(truth_.landmarks(), truth_.steps(), true);
+    CorrespondenceOptions options{
+        .rank = static_cast<Eigen::Index>(number_option(context_.experiment, "dimensions")),
+        .most_rounds = static_cast<int>(number_option(context_.experiment, "rounds"))};
+    if (!known) options.change_cost = number_option(context_.experiment, "change_cost");
+    if (setup_.id == kStretches)
+      options.stretch = std::llround(number_option(context_.experiment, "assumed_stretch"));
+    const Correspondence found =
+        estimated_correspondence(confused.history, known ? confused.confused : all, options);
+    part_.seconds.push_back(
+        {part_.id, kEstimated, std::chrono::duration<double>(Clock::now() - start).count()});
+    add(kEstimated, found.history, confused);
+  }
+
+ private:
+  void add(const char* series, const ObservationHistory& history, const Confused& confused) {
+    HistoryEmbedder embedder(history, history.steps());
+    const MethodSetting setting{Method::kSmacofKnn,
+                                number_option(context_.experiment, "neighbours")};
+    const ScoredMap map = scored_map(embedder.embed(setting), context_.world->landmarks_m,
+                                     context_.anchors, AffineFit::kLeastSquares);
+    const double none = std::numeric_limits<double>::quiet_NaN();
+    part_.trials.push_back({setup_.id,
+                            series,
+                            level_,
+                            {series == std::string_view(kLeftOut)
+                                 ? none
+                                 : correct_percent(history, truth_, confused.confused),
+                             map.score ? map.score->mpe_m : none,
+                             map.score ? map.score->moe_unmirrored_percent : none},
+                            map.statuses});
+    if (context_.with_maps && level_ == setup_.levels.back() &&
+        series != std::string_view(kLeftOut))
+      show(series, setting, map);
+  }
+
+  void show(const char* series, const MethodSetting& setting, const ScoredMap& map) {
+    const std::string id = fmt::format("{}-{}", setup_.id, series);
+    TrialMap shown;
+    shown.id = id;
+    shown.title = fmt::format("{}, {:g} %: {}.", setup_.title, level_, series);
+    shown.map.id = id;
+    shown.map.sensor = truth_.sensor;
+    shown.map.setting = setting;
+    shown.map.step = static_cast<int>(truth_.steps());
+    shown.map.frame = map.frame;
+    shown.map.names = truth_.names;
+    shown.map.estimate = map.positions_m;
+    shown.map.truth_m = context_.world->landmarks_m;
+    shown.map.anchors = context_.anchors;
+    shown.map.statuses = map.statuses;
+    shown.map.score = map.score;
+    part_.maps.push_back(std::move(shown));
+  }
+
+  const TrialContext& context_;
+  const ObservationHistory& truth_;
+  const TrialSetup& setup_;
+  double level_;
+  TrialPart& part_;
+};
+
+TrialPart make(const TrialContext& context) {
+  TrialPart part{.id = context.part, .run = context.run, .trials = {}, .maps = {}, .seconds = {}};
+  Random random(context.seed);
+  const ObservationHistory truth =
+      observe(*context.world, *context.path, {.sensor = Sensor::kBearing}, random);
+  const TrialDesign plan = design(context.experiment);
+  for (const TrialSetup& setup : plan.setups)
+    for (const double level : setup.levels) {
+      const auto stretch =
+          setup.id == kStretches ? std::llround(number_option(context.experiment, "stretch")) : 1;
+      ConfusedMaps(context, truth, setup, level, part)
+          .map(confused_history(truth, level / 100.0, stretch, random));
+    }
+  return part;
+}
+
+std::vector<std::string> conclude(const TrialStudy& study) {
+  std::vector<std::string> sentences;
+  for (const TrialSetup& setup : study.design.setups)
+    for (const double level : setup.levels) {
+      if (level == 0.0) continue;
+      const auto mean = [&](const char* series, const char* quantity) {
+        return trial_mean(study, setup.id, series, level, quantity);
+      };
+      const double given = mean(kGiven, "mpe_m");
+      const double estimated = mean(kEstimated, "mpe_m");
+      if (std::isnan(given) || std::isnan(estimated)) continue;
+      sentences.push_back(fmt::format(
+          "{}, {:g} %: {:.1f} % of the confused labels are set right; the MPE is {:.3f} m with "
+          "labels as given and {:.3f} m with those estimated{}.",
+          setup.title, level, mean(kEstimated, "correct_percent"), given, estimated,
+          estimated < given ? "" : ", which is no better"));
+    }
+  return sentences;
+}
+
+}  // namespace
+
+const Topic kLabelsTopic = {
+    .name = "labels",
+    .of_data = false,
+    .options = {{"shares", {0, 0.05, 0.1, 0.2, 0.4, 0.6}, 0, 1, false, true},
+                {"stretch", {50}, 1, 1e6, true, false},
+                {"dimensions", {10}, 1, 50, true, false},
+                {"assumed_stretch", {10}, 1, 1e6, true, false},
+                {"change_cost", {10}, 0, 1e6, false, false},
+                {"rounds", {20}, 1, 1000, true, false},
+                {"neighbours", {8}, 1, 1000, true, false}},
+    .design = design,
+    .make = make,
+    .conclude = conclude,
+    .data_sets = nullptr};
+
+}  // namespace mapproof

@@ -1,0 +1,167 @@
+#include "core/trials/moved.hpp"
+
+#include <chrono>
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+#include <fmt/format.h>
+
+#include "core/base/random.hpp"
+#include "core/labels/moved.hpp"
+#include "core/trials/simulated_sightings.hpp"
+#include "core/trials/trial_means.hpp"
+
+namespace mapproof {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+constexpr const char* kDistance = "distance";
+constexpr const char* kNoise = "noise";
+constexpr const char* kTest = "permutations";
+constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
+
+TrialDesign design(const TrialExperiment& experiment) {
+  TrialDesign design;
+  design.question = fmt::format(
+      "Landmarks seen with range and bearing from up to {:g} m; one of them stands elsewhere from "
+      "a "
+      "random step in the middle half on. Is it named, is another one named, and how far off is "
+      "the "
+      "step? Each run tries {:g} landmarks, one at a time.",
+      number_option(experiment, "reach_m"), number_option(experiment, "tried"));
+  design.setups = {
+      {kDistance, "Moves of several lengths", "moved by, m",
+       list_option(experiment, "distances_m")},
+      {kNoise, fmt::format("A move of {:g} m under noise", number_option(experiment, "distance_m")),
+       "noise of the range, share", list_option(experiment, "noises")}};
+  design.series = {{kTest, "Permutation test of the place over time"}};
+  design.quantities = {{"named_percent", "Moved landmark named", "%", false},
+                       {"false_percent", "Logs in which another is named", "%", true},
+                       {"step_error", "Error of the step", "", true},
+                       {"length_error_m", "Error of the length of the move", "m", true}};
+  return design;
+}
+
+/// What came of several logs.
+struct Tally {
+  int tried = 0;
+  int named = 0;
+  int wrong = 0;
+  double step_error = 0.0;
+  double length_error_m = 0.0;
+
+  void add(const MovedCheck& check, const SimulatedMove& move) {
+    const double length = move.by_m.norm();
+    bool other = false;
+    ++tried;
+    for (const MovedLandmark& moved : check.moved) {
+      if (length == 0.0 || moved.landmark != move.landmark) {
+        other = true;
+        continue;
+      }
+      ++named;
+      step_error += std::abs(static_cast<double>(moved.step) - static_cast<double>(move.from_step));
+      length_error_m += std::abs(moved.distance_m - length);
+    }
+    wrong += other ? 1 : 0;
+  }
+
+  /// @param moves  False: nothing moved, so that nothing could be named.
+  std::vector<double> values(bool moves) const {
+    return {moves ? 100.0 * named / tried : kNone, 100.0 * wrong / tried,
+            named > 0 ? step_error / named : kNone, named > 0 ? length_error_m / named : kNone};
+  }
+};
+
+SimulatedMove drawn_move(const TrialContext& context, double length, Random& random) {
+  const double angle = random.uniform(0.0, 2.0 * std::numbers::pi);
+  const auto M = static_cast<double>(context.world->landmarks_m.rows());
+  const auto N = static_cast<double>(context.path->positions_m.rows());
+  const auto landmark = static_cast<Eigen::Index>(random.uniform() * M);
+  return {landmark,
+          {length * std::cos(angle), length * std::sin(angle)},
+          static_cast<Eigen::Index>(random.uniform(0.25, 0.75) * N)};
+}
+
+Tally tallied(const TrialContext& context, double length, double noise, Random& random,
+              TrialPart& part) {
+  Tally tally;
+  const auto tried = static_cast<int>(number_option(context.experiment, "tried"));
+  for (int k = 0; k < tried; ++k) {
+    const SimulatedMove move = drawn_move(context, length, random);
+    const SightingLog log = simulated_sightings(
+        *context.world, *context.path,
+        {.reach_m = number_option(context.experiment, "reach_m"), .range_share = noise}, move,
+        random);
+    const Clock::time_point start = Clock::now();
+    tally.add(find_moved(log, {.least_move = number_option(context.experiment, "least_move"),
+                               .seed = random.next()}),
+              move);
+    part.seconds.push_back(
+        {part.id, kTest, std::chrono::duration<double>(Clock::now() - start).count()});
+  }
+  return tally;
+}
+
+TrialPart make(const TrialContext& context) {
+  TrialPart part{.id = context.part, .run = context.run, .trials = {}, .maps = {}, .seconds = {}};
+  Random random(context.seed);
+  const double usual = number_option(context.experiment, "noise");
+  for (const double length : list_option(context.experiment, "distances_m"))
+    part.trials.push_back({kDistance,
+                           kTest,
+                           length,
+                           tallied(context, length, usual, random, part).values(length > 0.0),
+                           {}});
+  const double length = number_option(context.experiment, "distance_m");
+  for (const double noise : list_option(context.experiment, "noises"))
+    part.trials.push_back({kNoise,
+                           kTest,
+                           noise,
+                           tallied(context, length, noise, random, part).values(length > 0.0),
+                           {}});
+  return part;
+}
+
+std::vector<std::string> conclude(const TrialStudy& study) {
+  std::vector<std::string> sentences;
+  for (const TrialSetup& setup : study.design.setups)
+    for (const double level : setup.levels) {
+      const auto mean = [&](const char* quantity) {
+        return trial_mean(study, setup.id, kTest, level, quantity);
+      };
+      if (std::isnan(mean("false_percent"))) continue;
+      const bool moved = setup.id != kDistance || level > 0.0;
+      sentences.push_back(
+          moved
+              ? fmt::format("{}, {:g}: named in {:.0f} % of the logs, the step {:.0f} steps off on "
+                            "the average; another landmark named in {:.1f} %.",
+                            setup.title, level, mean("named_percent"), mean("step_error"),
+                            mean("false_percent"))
+              : fmt::format("Where nothing moves, a landmark is named in {:.1f} % of the logs; the "
+                            "level is 5 %.",
+                            mean("false_percent")));
+    }
+  return sentences;
+}
+
+}  // namespace
+
+const Topic kMovedTopic = {
+    .name = "moved",
+    .of_data = false,
+    .options = {{"distances_m", {0, 0.005, 0.01, 0.02, 0.05, 0.1, 0.5}, 0, 100, false, true},
+                {"noises", {0.02, 0.05, 0.1, 0.2}, 0, 1, false, true},
+                {"distance_m", {0.02}, 0, 100, false, false},
+                {"noise", {0.02}, 0, 1, false, false},
+                {"reach_m", {0.8}, 1e-3, 1e3, false, false},
+                {"least_move", {0}, 0, 100, false, false},
+                {"tried", {8}, 1, 1000, true, false}},
+    .design = design,
+    .make = make,
+    .conclude = conclude,
+    .data_sets = nullptr};
+
+}  // namespace mapproof
