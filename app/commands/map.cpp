@@ -8,6 +8,7 @@
 #include "app/build_facts.hpp"
 #include "app/commands/verbs.hpp"
 #include "app/map_folder.hpp"
+#include "app/own_labels.hpp"
 #include "app/own_map.hpp"
 #include "app/result_json.hpp"
 #include "core/base/errors.hpp"
@@ -42,6 +43,7 @@ struct Arguments {
   std::optional<double> variance;
   std::optional<double> degree;
   std::optional<std::string> templates;
+  LabelChoice labels;
   OwnMapOptions options;
 };
 
@@ -214,7 +216,8 @@ int make_map(Arguments arguments, const Invocation& invocation) {
   const Layout layout = arguments.layout == "wide"   ? Layout::kWide
                         : arguments.layout == "long" ? Layout::kLong
                                                      : Layout::kAuto;
-  const ObservationSource source = read_observations(arguments.observations, kind, layout);
+  ObservationSource source = read_observations(arguments.observations, kind, layout);
+  check_labels_of(source, arguments.labels);
   arguments.options.setting = chosen_setting(arguments);
   arguments.options.fit =
       arguments.fit == "least-squares" ? AffineFit::kLeastSquares : AffineFit::kLeastDistances;
@@ -288,6 +291,11 @@ Action map_verb(CLI::App& app) {
   app.add_option("--submaps", arguments->options.submaps,
                  "Map overlapping groups of at most so many landmarks apart, and join them")
       ->check(CLI::Range(6, 5000));
+  app.add_flag("--check-labels", arguments->labels.check,
+               "Sightings of range and bearing: name labels that contradict the others");
+  app.add_flag("--repair-labels", arguments->labels.repair, "And mend them before mapping");
+  app.add_flag("--find-moved", arguments->labels.find_moved,
+               "Sightings of range and bearing: name landmarks that moved, map both places");
   app.add_option("--templates", arguments->templates,
                  "Folder whose templates replace the embedded ones");
   return [arguments](const Invocation& invocation) { return make_map(*arguments, invocation); };
