@@ -133,16 +133,18 @@ std::vector<std::string> conclude(const TrialStudy& study) {
         return trial_mean(study, setup.id, kTest, level, quantity);
       };
       if (std::isnan(mean("false_percent"))) continue;
-      const bool moved = setup.id != kDistance || level > 0.0;
+      if (setup.id == kDistance && level == 0.0) {
+        sentences.push_back(fmt::format(
+            "Where nothing moves, a landmark is named in {:.1f} % of the logs; the level is 5 %.",
+            mean("false_percent")));
+        continue;
+      }
+      std::string sentence = fmt::format("{}, {:g}: named in {:.0f} % of the logs", setup.title,
+                                         level, mean("named_percent"));
+      if (!std::isnan(mean("step_error")))
+        sentence += fmt::format(", the step {:.0f} steps off on the average", mean("step_error"));
       sentences.push_back(
-          moved
-              ? fmt::format("{}, {:g}: named in {:.0f} % of the logs, the step {:.0f} steps off on "
-                            "the average; another landmark named in {:.1f} %.",
-                            setup.title, level, mean("named_percent"), mean("step_error"),
-                            mean("false_percent"))
-              : fmt::format("Where nothing moves, a landmark is named in {:.1f} % of the logs; the "
-                            "level is 5 %.",
-                            mean("false_percent")));
+          sentence + fmt::format("; another landmark named in {:.1f} %.", mean("false_percent")));
     }
   return sentences;
 }

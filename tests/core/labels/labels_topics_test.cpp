@@ -1,0 +1,75 @@
+#include <algorithm>
+
+#include <gtest/gtest.h>
+
+#include "core/base/random.hpp"
+#include "core/simulate/robot_walk.hpp"
+#include "core/simulate/world.hpp"
+#include "core/trials/labels.hpp"
+#include "core/trials/moved.hpp"
+
+namespace mapproof::test {
+namespace {
+
+/// A study of a topic in one small room, its other options the usual ones.
+TrialStudy small_study(const Topic& topic, std::map<std::string, std::vector<double>> options) {
+  TrialStudy study;
+  TrialExperiment& experiment = study.experiment;
+  experiment.topic = topic.name;
+  experiment.steps = 300;
+  experiment.world.landmarks = 20;
+  experiment.options = std::move(options);
+  for (const TrialOption& option : topic.options)
+    experiment.options.try_emplace(std::string(option.name), option.usual);
+  Random random(5);
+  const World world = scatter_landmarks(experiment.world, random);
+  const Path path = random_walk(world, experiment.walk, experiment.steps, random);
+  study.design = topic.design(experiment);
+  study.parts.push_back(
+      topic.make({.experiment = experiment,
+                  .part = "layout-1-pose-1",
+                  .run = {},
+                  .world = &world,
+                  .path = &path,
+                  .anchors = place_anchors(world, 4, AnchorPlacement::kWalls, random),
+                  .seed = 9,
+                  .data = {}}));
+  return study;
+}
+
+const Trial& trial(const TrialStudy& study, std::string_view setup, std::string_view series,
+                   double level) {
+  const auto found = std::ranges::find_if(study.parts.front().trials, [&](const Trial& one) {
+    return one.setup == setup && one.series == series && one.level == level;
+  });
+  EXPECT_NE(found, study.parts.front().trials.end());
+  return *found;
+}
+
+TEST(LabelsTopic, EstimatesBetterThanLabelsAsGiven) {
+  const TrialStudy study = small_study(kLabelsTopic, {{"shares", {0.0, 0.2}}, {"neighbours", {6}}});
+  for (const Trial& one : study.parts.front().trials)
+    EXPECT_EQ(one.values.size(), study.design.quantities.size());
+  EXPECT_EQ(trial(study, "unlabelled", "given", 0.0).values[1],
+            trial(study, "unlabelled", "estimated", 0.0).values[1]);
+  for (const char* setup : {"unlabelled", "confused"})
+    EXPECT_GT(trial(study, setup, "estimated", 20.0).values[0],
+              trial(study, setup, "given", 20.0).values[0] + 15.0)
+        << setup;
+  EXPECT_EQ(kLabelsTopic.conclude(study).size(), 3U);
+}
+
+TEST(MovedTopic, NamesWhatMovedFarAndNothingElse) {
+  const TrialStudy study = small_study(kMovedTopic, {{"distances_m", {0.0, 0.3}},
+                                                     {"noises", {0.02}},
+                                                     {"reach_m", {1.2}},
+                                                     {"least_move", {1.5}},
+                                                     {"tried", {3}}});
+  EXPECT_EQ(trial(study, "distance", "permutations", 0.0).values[1], 0.0);
+  EXPECT_EQ(trial(study, "distance", "permutations", 0.3).values[0], 100.0);
+  EXPECT_LT(trial(study, "distance", "permutations", 0.3).values[3], 0.03);
+  EXPECT_EQ(kMovedTopic.conclude(study).size(), 3U);
+}
+
+}  // namespace
+}  // namespace mapproof::test
