@@ -2,23 +2,18 @@
 
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "app/own_missing.hpp"
+#include "app/own_reference.hpp"
 #include "core/embed/embedder.hpp"
 #include "core/model/experiment.hpp"
 #include "core/model/map_record.hpp"
 #include "core/model/submaps.hpp"
-#include "core/records/landmarks_csv.hpp"
 #include "core/records/observations.hpp"
 
 namespace mapproof {
-
-/// Positions read from a file, with its name for messages.
-struct NamedPointsFile {
-  std::string path;
-  NamedPoints points;
-};
 
 /// How a person's own observations are to be mapped.
 struct OwnMapOptions {
@@ -35,7 +30,12 @@ struct OwnMapOptions {
 struct OwnMap {
   MapRecord record;
   std::vector<std::string> remarks;
-  std::optional<JoinedSubmaps> joined;  ///< What the map was joined from, in a frame of its own.
+  std::optional<JoinedSubmaps> joined =
+      {};  ///< What the map was joined from, in a frame of its own.
+  std::vector<std::pair<std::string, std::string>> read;  ///< Facts of the observations.
+  /// What was mapped and how, where the record's sensor and method do not say it.
+  std::string observed = {};
+  std::string made_by = {};
 };
 
 /// Maps observations, aligned to the anchors if there are any, scored if there is a truth.

@@ -8,8 +8,7 @@
 #include "app/build_facts.hpp"
 #include "app/commands/verbs.hpp"
 #include "app/map_folder.hpp"
-#include "app/own_labels.hpp"
-#include "app/own_map.hpp"
+#include "app/own_input.hpp"
 #include "app/result_json.hpp"
 #include "core/base/errors.hpp"
 #include "core/base/files.hpp"
@@ -30,11 +29,11 @@ namespace {
 namespace fs = std::filesystem;
 
 struct Arguments {
-  std::string observations;
   std::string out;
-  std::string method = "isomap";
-  std::string kind;
+  std::string method;  ///< Empty: isomap, or pairs of range and bearing.
+  OwnInput input;
   std::string layout = "auto";
+  bool degrees = false;
   std::string anchors;
   std::string truth;
   std::string fit = "least-distances";
@@ -43,7 +42,6 @@ struct Arguments {
   std::optional<double> variance;
   std::optional<double> degree;
   std::optional<std::string> templates;
-  LabelChoice labels;
   OwnMapOptions options;
 };
 
@@ -85,9 +83,31 @@ std::optional<GivenParameter> given_parameter(const Arguments& arguments,
   return given;
 }
 
+/// The way that range and bearing are mapped has no parameter and no use for other kinds.
+void require_pairs(const Arguments& arguments) {
+  const bool of_both = arguments.input.kind == kRangeBearing;
+  if (of_both && !arguments.method.empty() && arguments.method != kPairs)
+    throw InvalidInput(fmt::format(
+        "--method {}: range and bearing together are mapped by pairs; for others say --kind range, "
+        "bearing or visibility",
+        printable(arguments.method)));
+  if (!of_both && arguments.method == kPairs)
+    throw InvalidInput("--method pairs: it maps observations of --kind range-bearing");
+  if (of_both &&
+      (arguments.parameter || arguments.neighbours || arguments.variance || arguments.degree))
+    throw InvalidInput("the method pairs has no parameter");
+  if (of_both && arguments.options.missing.way != MissingChoice().way)
+    throw InvalidInput("--missing: pairs that were not measured are not filled in");
+  if (of_both && arguments.options.submaps > 0)
+    throw InvalidInput("--submaps: a map of pairs is made as a whole");
+  if (!of_both && arguments.input.rigid)
+    throw InvalidInput("--fit rigid: only a map of range and bearing has a scale of its own");
+}
+
 /// The method, and its parameter if one was given.
 MethodSetting chosen_setting(const Arguments& arguments) {
-  const std::optional<Method> method = method_named(lower_case(arguments.method));
+  const std::string name = arguments.method.empty() ? "isomap" : lower_case(arguments.method);
+  const std::optional<Method> method = method_named(name);
   if (!method)
     throw InvalidInput(fmt::format("--method: unknown method \"{}\"; did you mean \"{}\"?",
                                    printable(arguments.method),
@@ -108,20 +128,26 @@ std::optional<NamedPointsFile> read_points(const std::string& path) {
   return NamedPointsFile{.path = path, .points = read_landmarks(path)};
 }
 
+std::string observed_words(const OwnMap& map) {
+  return map.observed.empty() ? std::string(name(map.record.sensor)) : map.observed;
+}
+
+std::string method_words(const OwnMap& map) {
+  return map.made_by.empty() ? label(map.record.setting) : map.made_by;
+}
+
+/// What the record does not say; empty if it does.
+std::string what_words(const OwnMap& map) {
+  return map.made_by.empty() ? std::string() : map.made_by + ", " + map.observed;
+}
+
 std::vector<std::pair<std::string, std::string>> facts(const Arguments& arguments,
-                                                       const ObservationSource& source,
-                                                       const MapRecord& record) {
-  const auto missing = source.history.values.array().isNaN().count();
-  std::vector<std::pair<std::string, std::string>> items = {
-      {"Observations", arguments.observations},
-      {"Sensor", std::string(name(record.sensor))},
-      {"Landmarks", std::to_string(source.history.landmarks())},
-      {"Steps used", fmt::format("{} of {}", record.step, source.history.steps())},
-      {"Missing entries",
-       fmt::format("{:.1f} %", 100.0 * static_cast<double>(missing) /
-                                   static_cast<double>(source.history.values.size()))},
-      {"Method", label(record.setting)},
-  };
+                                                       const OwnMap& map) {
+  const MapRecord& record = map.record;
+  std::vector<std::pair<std::string, std::string>> items = {{"Observations", arguments.input.path},
+                                                            {"Sensor", observed_words(map)}};
+  items.insert(items.end(), map.read.begin(), map.read.end());
+  items.emplace_back("Method", method_words(map));
   if (record.anchors.empty()) {
     items.emplace_back("Anchors", "none");
   } else {
@@ -131,7 +157,8 @@ std::vector<std::pair<std::string, std::string>> facts(const Arguments& argument
     items.emplace_back(
         "Anchors",
         names + (arguments.anchors.empty() ? " (the furthest out along the diagonals)" : ""));
-    items.emplace_back("Affine fit to the anchors", arguments.fit);
+    items.emplace_back(arguments.input.rigid ? "Fit to the anchors" : "Affine fit to the anchors",
+                       arguments.fit);
   }
   return items;
 }
@@ -139,11 +166,12 @@ std::vector<std::pair<std::string, std::string>> facts(const Arguments& argument
 nlohmann::ordered_json map_result(const OwnMap& map, const fs::path& out) {
   const MapRecord& record = map.record;
   const bool metric = record.frame == Frame::kTruth;
-  nlohmann::ordered_json object{{"sensor", name(record.sensor)},
-                                {"method", info(record.setting.method).name},
+  const bool of_pairs = !map.made_by.empty();
+  nlohmann::ordered_json object{{"sensor", of_pairs ? kRangeBearing : name(record.sensor)},
+                                {"method", of_pairs ? kPairs : info(record.setting.method).name},
                                 {"parameter", parameter_json(record.setting)},
                                 {"steps", record.step},
-                                {"frame", metric ? "truth" : "similarity"},
+                                {"frame", name(record.frame)},
                                 {"score", nullptr},
                                 {"landmarks", nlohmann::ordered_json::array()},
                                 {"statuses", nlohmann::ordered_json::array()},
@@ -168,27 +196,28 @@ nlohmann::ordered_json map_result(const OwnMap& map, const fs::path& out) {
 std::string map_text(const OwnMap& map, const fs::path& out) {
   const MapRecord& record = map.record;
   std::string text =
-      fmt::format("{}, {}, {} steps", label(record.setting), name(record.sensor), record.step);
+      fmt::format("{}, {}, {} steps", method_words(map), observed_words(map), record.step);
   if (record.score)
     if (const std::string score = score_words(*record.score); !score.empty()) text += ": " + score;
   return text + "\n" + (out / "report.html").string() + "\n";
 }
 
-void write_outputs(const Arguments& arguments, const ObservationSource& source, const OwnMap& map,
-                   const Templates& page, const Invocation& invocation) {
-  std::vector<Figure> figures = {map_figure(map.record, "map")};
+void write_outputs(const Arguments& arguments, const OwnMap& map, const Templates& page,
+                   const Invocation& invocation) {
+  std::vector<Figure> figures = {map_figure(map.record, "map", what_words(map))};
   if (map.joined) figures.push_back(submaps_figure(*map.joined, map.record.names, "submaps"));
   std::vector<FigureBlock> more;
   for (std::size_t k = 1; k < figures.size(); ++k) more.push_back(figure_block(figures[k]));
   const Report report =
       map_report({.record = map.record,
-                  .title = "Map of " + fs::path(arguments.observations).filename().string(),
-                  .facts = facts(arguments, source, map.record),
+                  .title = "Map of " + fs::path(arguments.input.path).filename().string(),
+                  .facts = facts(arguments, map),
                   .remarks = map.remarks,
                   .figure = figure_block(figures.front()),
                   .more_figures = std::move(more),
                   .provenance = build_provenance(),
-                  .command = invocation.command});
+                  .command = invocation.command,
+                  .what = what_words(map)});
   const MapFolder folder(arguments.out, map.record);
   const fs::path& out = folder.path();
   // The file that marks the folder as a map's comes first: a killed command can then be repeated.
@@ -211,25 +240,26 @@ void write_outputs(const Arguments& arguments, const ObservationSource& source, 
 int make_map(Arguments arguments, const Invocation& invocation) {
   const Templates page = load_templates(arguments.templates);
   check_map_folder(arguments.out);
-  const std::optional<Sensor> kind =
-      arguments.kind.empty() ? std::nullopt : sensor_named(arguments.kind);
-  const Layout layout = arguments.layout == "wide"   ? Layout::kWide
-                        : arguments.layout == "long" ? Layout::kLong
-                                                     : Layout::kAuto;
-  ObservationSource source = read_observations(arguments.observations, kind, layout);
-  check_labels_of(source, arguments.labels);
-  arguments.options.setting = chosen_setting(arguments);
+  OwnInput& input = arguments.input;
+  input.layout = arguments.layout == "wide"   ? Layout::kWide
+                 : arguments.layout == "long" ? Layout::kLong
+                                              : Layout::kAuto;
+  input.unit = arguments.degrees ? AngleUnit::kDegrees : AngleUnit::kRadians;
+  input.rigid = arguments.fit == "rigid";
+  if (input.kind.empty() && arguments.method == kPairs) input.kind = kRangeBearing;
+  input.kind = kind_of(input);
+  require_pairs(arguments);
+  if (input.kind != kRangeBearing) arguments.options.setting = chosen_setting(arguments);
   arguments.options.fit =
       arguments.fit == "least-squares" ? AffineFit::kLeastSquares : AffineFit::kLeastDistances;
-  const OwnMap map = map_own(source, read_points(arguments.anchors), read_points(arguments.truth),
-                             arguments.options);
-  invocation.console.detail(fmt::format(
-      "{}: {} landmarks, {} steps, {} missing entries", source.path, source.history.landmarks(),
-      source.history.steps(), source.history.values.array().isNaN().count()));
+  const OwnMap map = map_input(input, read_points(arguments.anchors), read_points(arguments.truth),
+                               arguments.options);
+  for (const auto& [what, value] : map.read)
+    invocation.console.detail(fmt::format("{}: {}: {}", input.path, what, value));
   for (const std::string& remark : map.remarks) invocation.console.info(remark);
   for (const Status& status : map.record.statuses)
     invocation.console.warning(fmt::format("{}: {}", name(status.code), status.detail));
-  write_outputs(arguments, source, map, page, invocation);
+  write_outputs(arguments, map, page, invocation);
   invocation.console.result(map_text(map, arguments.out), map_result(map, arguments.out));
   return map.record.estimate.array().isNaN().all() ? kNo : kDone;
 }
@@ -243,14 +273,19 @@ Action map_verb(CLI::App& app) {
       "Examples:\n"
       "  mapproof map bearings.csv --kind bearing --anchors anchors.csv --out out/map\n"
       "  mapproof map seen.csv --kind visibility --method lpca --out out/shape\n"
-      "  mapproof map MRCLAM_Dataset2 --method isomap -K 5 --out out/mrclam\n\n"
+      "  mapproof map MRCLAM_Dataset2 --method isomap -K 5 --out out/mrclam\n"
+      "  mapproof map MRCLAM_Dataset2 --kind range-bearing --out out/pairs\n\n"
       "OBSERVATIONS: wide CSV (a row a landmark, a column a step; empty or nan: missing), long "
       "CSV\n"
-      "(step, landmark, value), JSON of mapproof.observations, or a folder of MRCLAM files.\n"
+      "(step, landmark, value), sightings (step or time, landmark, range, bearing), JSON of\n"
+      "mapproof.observations or mapproof.sightings, or a folder of MRCLAM files; all of them may "
+      "be\ngzip'ed. Bearings are relative to the robot's heading, counter-clockwise, in radians.\n"
+      "Range and bearing seen together measure distances: their map is in metres without anchors.\n"
       "Exit code 1 if no map came out; the report then says why.\n");
-  app.add_option("OBSERVATIONS", arguments->observations, "File or folder")->required();
+  app.add_option("OBSERVATIONS", arguments->input.path, "File or folder")->required();
   add_out_option(app, arguments->out, "Folder for map, figure and report")->required();
-  app.add_option("--method", arguments->method, "See \"mapproof methods\"")->capture_default_str();
+  app.add_option("--method", arguments->method,
+                 "See \"mapproof methods\" (default: isomap); of range-bearing: pairs");
   CLI::Option_group* parameter =
       app.add_option_group("Parameter of the method", "One of these, see \"mapproof methods\"");
   parameter->require_option(0, 1);
@@ -261,10 +296,12 @@ Action map_verb(CLI::App& app) {
                         "Variance of the Gaussian kernel (default: the median squared distance)");
   parameter->add_option("--degree", arguments->degree,
                         "Degree of the polynomial kernel (default: 2)");
-  app.add_option("--kind", arguments->kind,
-                 "What the values are: visibility (0/1), bearing [rad], "
-                 "range [m]; needed for CSV")
-      ->check(CLI::IsMember({"visibility", "bearing", "range"}));
+  app.add_option(
+         "--kind", arguments->input.kind,
+         "What the values are: visibility (0/1), bearing [rad], range [m], or range-bearing; "
+         "needed for CSV but sightings")
+      ->check(CLI::IsMember({"visibility", "bearing", "range", "range-bearing"}));
+  app.add_flag("--degrees", arguments->degrees, "Bearings in a CSV file are in degrees");
   app.add_option("--layout", arguments->layout, "Of a CSV file")
       ->check(CLI::IsMember({"auto", "wide", "long"}))
       ->capture_default_str();
@@ -273,8 +310,10 @@ Action map_verb(CLI::App& app) {
   app.add_option("--truth", arguments->truth, "True positions, for the errors: as --anchors");
   app.add_option("--steps", arguments->options.steps, "Use the first so many observations alone")
       ->check(CLI::Range(1, 1000000));
-  app.add_option("--fit", arguments->fit, "How the affine map to the anchors is fitted")
-      ->check(CLI::IsMember({"least-distances", "least-squares"}))
+  app.add_option("--fit", arguments->fit,
+                 "How the affine map to the anchors is fitted; rigid: a map of range-bearing is "
+                 "turned and shifted alone")
+      ->check(CLI::IsMember({"least-distances", "least-squares", "rigid"}))
       ->capture_default_str();
   app.add_flag("--drop-unseen", arguments->options.drop_unseen,
                "Leave landmarks out that were never observed");
@@ -291,10 +330,10 @@ Action map_verb(CLI::App& app) {
   app.add_option("--submaps", arguments->options.submaps,
                  "Map overlapping groups of at most so many landmarks apart, and join them")
       ->check(CLI::Range(6, 5000));
-  app.add_flag("--check-labels", arguments->labels.check,
+  app.add_flag("--check-labels", arguments->input.labels.check,
                "Sightings of range and bearing: name labels that contradict the others");
-  app.add_flag("--repair-labels", arguments->labels.repair, "And mend them before mapping");
-  app.add_flag("--find-moved", arguments->labels.find_moved,
+  app.add_flag("--repair-labels", arguments->input.labels.repair, "And mend them before mapping");
+  app.add_flag("--find-moved", arguments->input.labels.find_moved,
                "Sightings of range and bearing: name landmarks that moved, map both places");
   app.add_option("--templates", arguments->templates,
                  "Folder whose templates replace the embedded ones");

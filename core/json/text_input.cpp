@@ -38,24 +38,26 @@ std::size_t first_bad_byte(std::string_view text) {
 
 }  // namespace
 
-std::string_view checked_text(std::string_view text, const std::string& source) {
+std::string_view checked_text(std::string_view text, const std::string& source,
+                              std::size_t first_line) {
   if (text.starts_with("\xFF\xFE") || text.starts_with("\xFE\xFF"))
     throw IoError(source, "is UTF-16; save it as UTF-8");
   if (text.starts_with("\xEF\xBB\xBF")) text.remove_prefix(3);
   if (text.empty()) throw IoError(source, "is empty");
   const std::size_t nul = text.find('\0');
   if (nul != std::string_view::npos)
-    throw IoError(source, line_of(text, nul), "holds a NUL byte: not a text file");
+    throw IoError(source, line_of(text, nul, first_line), "holds a NUL byte: not a text file");
   const std::size_t bad = first_bad_byte(text);
   if (bad < text.size())
-    throw IoError(source, line_of(text, bad),
+    throw IoError(source, line_of(text, bad, first_line),
                   fmt::format("byte 0x{:02X} is not UTF-8", byte_at(text, bad)));
   return text;
 }
 
-std::string line_of(std::string_view text, std::size_t offset) {
+std::string line_of(std::string_view text, std::size_t offset, std::size_t first_line) {
   const std::string_view before = text.substr(0, offset);
-  return fmt::format("line {}", 1 + std::ranges::count(before, '\n'));
+  const auto ends = static_cast<std::size_t>(std::ranges::count(before, '\n'));
+  return fmt::format("line {}", first_line + ends);
 }
 
 std::string place_of(std::string_view text, std::size_t offset) {

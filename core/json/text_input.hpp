@@ -7,11 +7,13 @@
 namespace mapproof {
 
 /// The text without its byte order mark, fit to be read as UTF-8.
+/// @param first_line  Number of the text's first line, for what is a part of a file.
 /// @throws IoError with the line for a NUL byte, UTF-16, or bytes that are not UTF-8; or if empty.
-std::string_view checked_text(std::string_view text, const std::string& source);
+std::string_view checked_text(std::string_view text, const std::string& source,
+                              std::size_t first_line = 1);
 
-/// "line 7": of the byte at `offset`, counted from 1.
-std::string line_of(std::string_view text, std::size_t offset);
+/// "line 7": of the byte at `offset`, counted from `first_line`.
+std::string line_of(std::string_view text, std::size_t offset, std::size_t first_line = 1);
 
 /// "line 7, column 12": columns count bytes.
 std::string place_of(std::string_view text, std::size_t offset);

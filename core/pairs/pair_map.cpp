@@ -192,6 +192,7 @@ Embedding solve(Problem& problem, const PairMapOptions& options) {
     left.push_back(is_against ? kLeastWeight : 1.0);
   weigh(problem, left);
   const Embedding start = isomap(starting_graph(problem.pairs, left, static_cast<std::size_t>(n)));
+  if (!options.refined) return start;
   Embedding map = smacof(problem.distances, problem.weights, start.coordinates, options.smacof);
   for (int round = 0; round < options.reweightings; ++round) {
     left = shares(residuals(problem, map.coordinates), options.tolerance);

@@ -18,6 +18,7 @@ struct PairMapOptions {
   int reweightings = 10;
   /// A pair this many typical residuals off has a quarter of its weight left; > 0.
   double tolerance = 2.0;
+  bool refined = true;  ///< False: the start, the map of shortest paths, is all.
   SmacofOptions smacof{.relative_fall = 1e-9, .max_iterations = 5000};
 };
 

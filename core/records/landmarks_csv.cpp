@@ -9,7 +9,7 @@
 #include <fmt/format.h>
 
 #include "core/base/errors.hpp"
-#include "core/base/files.hpp"
+#include "core/base/packed_file.hpp"
 #include "core/json/text_input.hpp"
 #include "core/records/limits.hpp"
 #include "core/records/mrclam.hpp"
@@ -96,7 +96,7 @@ bool is_groundtruth(std::string_view text, const std::string& source) {
 
 NamedPoints read_landmarks(const std::filesystem::path& path) {
   const std::string source = path.string();
-  const std::string bytes = read_file(path);
+  const std::string bytes = read_packed_file(path);
   return parse_landmarks(checked_text(bytes, source), source);
 }
 

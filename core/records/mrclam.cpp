@@ -12,7 +12,7 @@
 #include <fmt/format.h>
 
 #include "core/base/errors.hpp"
-#include "core/base/files.hpp"
+#include "core/base/packed_file.hpp"
 #include "core/json/text_input.hpp"
 #include "core/records/limits.hpp"
 #include "core/records/name_list.hpp"
@@ -28,13 +28,20 @@ constexpr int kLastRobot = 5;
 
 std::map<int, int> read_barcodes(const fs::path& path) {
   const std::string source = path.string();
-  const std::string bytes = read_file(path);
+  const std::string bytes = read_packed_file(path);
   std::map<int, int> subject_of;
   NumberRows rows(checked_text(bytes, source), source, 2);
   while (rows.next())
     if (!subject_of.emplace(rows.id(1), rows.id(0)).second)
       rows.fail(fmt::format("barcode {} is there twice", rows.id(1)));
   return subject_of;
+}
+
+/// The file of that name, or the gzip'ed one beside its place.
+fs::path perhaps_packed(const fs::path& path) {
+  const fs::path packed = path.string() + ".gz";
+  std::error_code error;
+  return !fs::exists(path, error) && fs::exists(packed, error) ? packed : path;
 }
 
 /// RobotN_Measurement.dat of every N, ascending.
@@ -45,7 +52,7 @@ std::vector<fs::path> measurement_files(const fs::path& folder) {
   std::error_code error;
   for (fs::directory_iterator entry(folder, error), end; !error && entry != end;
        entry.increment(error)) {
-    const std::string name = entry->path().filename().string();
+    const std::string name = unpacked_name(entry->path().filename()).string();
     if (!name.starts_with(kStart) || !name.ends_with(kEnd)) continue;
     int robot = 0;
     const char* digits_end = name.data() + name.size() - kEnd.size();
@@ -83,7 +90,7 @@ class Looks {
 
   void add_robot(const fs::path& path) {
     const std::string source = path.string();
-    const std::string bytes = read_file(path);
+    const std::string bytes = read_packed_file(path);
     if (bytes.empty()) {
       empty_files_.push_back(path.filename().string());
       return;
@@ -188,7 +195,7 @@ std::optional<Points> read_truth(const fs::path& path, const std::vector<std::st
     return std::nullopt;
   }
   const std::string source = path.string();
-  const std::string bytes = read_file(path);
+  const std::string bytes = read_packed_file(path);
   const NamedPoints truth = parse_groundtruth(checked_text(bytes, source), source);
   Points positions = Points::Constant(static_cast<Eigen::Index>(names.size()), 2,
                                       std::numeric_limits<double>::quiet_NaN());
@@ -225,7 +232,7 @@ SightingSource read_mrclam_sightings(const fs::path& folder) {
   const std::vector<fs::path> robots = measurement_files(folder);
   if (robots.empty())
     throw IoError(folder.string(), "is a folder without MRCLAM's RobotN_Measurement.dat");
-  const fs::path barcodes = folder / "Barcodes.dat";
+  const fs::path barcodes = perhaps_packed(folder / "Barcodes.dat");
   const std::map<int, int> subject_of = read_barcodes(barcodes);
   Looks looks(subject_of);
   const std::size_t landmarks = looks.log().names.size();
@@ -241,20 +248,13 @@ SightingSource read_mrclam_sightings(const fs::path& folder) {
                         .path = folder.string()};
   if (result.log.steps == 0) throw IoError(folder.string(), "no look shows a landmark");
   for (const std::string& name : result.log.names) result.places.push_back("subject " + name);
-  result.truth_m =
-      read_truth(folder / "Landmark_Groundtruth.dat", result.log.names, result.remarks);
+  result.truth_m = read_truth(perhaps_packed(folder / "Landmark_Groundtruth.dat"), result.log.names,
+                              result.remarks);
   return result;
 }
 
 ObservationSource read_mrclam(const fs::path& folder, Sensor sensor) {
-  SightingSource source = read_mrclam_sightings(folder);
-  check_size(source.path, "as a whole", source.log.names.size(),
-             static_cast<std::size_t>(source.log.steps));
-  return {.history = history_of(source.log, sensor),
-          .truth_m = std::move(source.truth_m),
-          .remarks = std::move(source.remarks),
-          .places = std::move(source.places),
-          .path = std::move(source.path)};
+  return observations_of(read_mrclam_sightings(folder), sensor);
 }
 
 }  // namespace mapproof

@@ -21,8 +21,10 @@ void check_size(const std::string& source, const std::string& place, std::size_t
                 std::size_t steps);
 
 /// The readers of the several forms; `text` is from checked_text().
-ObservationSource read_wide(std::string_view text, const std::string& source, Sensor sensor);
-ObservationSource read_long(std::string_view text, const std::string& source, Sensor sensor);
+ObservationSource read_wide(std::string_view text, const std::string& source, Sensor sensor,
+                            AngleUnit unit = AngleUnit::kRadians);
+ObservationSource read_long(std::string_view text, const std::string& source, Sensor sensor,
+                            AngleUnit unit = AngleUnit::kRadians);
 ObservationSource parse_observations(std::string_view text, const std::string& source,
                                      std::optional<Sensor> kind);
 

@@ -1,17 +1,19 @@
 #include "core/records/observations.hpp"
 
 #include <cmath>
+#include <numbers>
 #include <system_error>
 
 #include <fmt/format.h>
 
 #include "core/base/errors.hpp"
-#include "core/base/files.hpp"
+#include "core/base/packed_file.hpp"
 #include "core/json/json_text.hpp"
 #include "core/json/text_input.hpp"
 #include "core/records/json_values.hpp"
 #include "core/records/mrclam.hpp"
 #include "core/records/observation_values.hpp"
+#include "core/records/sighting_values.hpp"
 
 namespace mapproof {
 namespace {
@@ -27,7 +29,7 @@ ObservationSource parse_observations(std::string_view text, const std::string& s
   const JsonDocument document = parse_json(text, source);
   const JsonCursor root = document.cursor();
   expect_schema(root, "mapproof.observations");
-  root.allow_only({"schema", "sensor", "landmarks", "values"});
+  root.allow_only({"schema", "sensor", "unit", "landmarks", "values"});
   ObservationSource result{.history = {.sensor = read_sensor(root.at("sensor")),
                                        .names = read_names(root.at("landmarks")),
                                        .values = {}},
@@ -38,6 +40,8 @@ ObservationSource parse_observations(std::string_view text, const std::string& s
   const Sensor sensor = result.history.sensor;
   if (kind && *kind != sensor)
     root.at("sensor").fail(fmt::format("the file holds {}, not {}", name(sensor), name(*kind)));
+  const bool is_degrees =
+      sensor == Sensor::kBearing && read_angle_unit(root) == AngleUnit::kDegrees;
   const std::size_t landmarks = result.history.names.size();
   if (landmarks == 0) root.at("landmarks").fail("expected at least one landmark");
   const JsonCursor rows = root.at("values");
@@ -48,8 +52,9 @@ ObservationSource parse_observations(std::string_view text, const std::string& s
   result.history.values.resize(static_cast<Eigen::Index>(landmarks),
                                static_cast<Eigen::Index>(steps));
   for (std::size_t i = 0; i < landmarks; ++i) {
-    const std::vector<double> row = rows.element(i).numbers_or_null(-INFINITY, INFINITY, steps);
+    std::vector<double> row = rows.element(i).numbers_or_null(-INFINITY, INFINITY, steps);
     for (std::size_t j = 0; j < steps; ++j) {
+      if (is_degrees) row[j] *= std::numbers::pi / 180.0;
       const std::string problem = observation_problem(sensor, row[j]);
       if (!problem.empty()) throw IoError(source, value_place(rows, i, j), problem);
       result.history.values(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(j)) = row[j];
@@ -71,23 +76,44 @@ std::string observations_json(const ObservationHistory& history) {
                     {"values", std::move(rows)}});
 }
 
+ObservationSource observations_of(SightingSource source, Sensor sensor) {
+  check_size(source.path, "as a whole", source.log.names.size(),
+             static_cast<std::size_t>(source.log.steps));
+  ObservationHistory history = history_of(source.log, sensor);
+  if (history.values.array().isNaN().all())
+    throw IoError(source.path, fmt::format("holds no {}", name(sensor)));
+  return {.history = std::move(history),
+          .truth_m = std::move(source.truth_m),
+          .remarks = std::move(source.remarks),
+          .places = std::move(source.places),
+          .path = std::move(source.path)};
+}
+
 ObservationSource read_observations(const std::filesystem::path& path, std::optional<Sensor> kind,
-                                    Layout layout) {
+                                    Layout layout, AngleUnit unit) {
   std::error_code error;
   if (std::filesystem::is_directory(path, error))
     return read_mrclam(path, kind.value_or(Sensor::kVisibility));
   const std::string source = path.string();
-  const std::string bytes = read_file(path);
+  if (layout == Layout::kAuto && is_sightings(path)) {
+    if (!kind)
+      throw IoError(source,
+                    "holds sightings: range-bearing, range, bearing or visibility has to be given");
+    return observations_of(read_sightings(path, {.unit = unit, .value = std::nullopt}), *kind);
+  }
+  const std::string bytes = read_packed_file(path);
   const std::string_view text = checked_text(bytes, source);
   const std::size_t start = text.find_first_not_of(" \t\r\n");
-  if (path.extension() == ".json" || (start != std::string_view::npos && text[start] == '{'))
+  if (unpacked_name(path).extension() == ".json" ||
+      (start != std::string_view::npos && text[start] == '{'))
     return parse_observations(text, source, kind);
   if (!kind)
     throw IoError(source,
                   "does not say what it holds: visibility, bearing or range has to be given");
   if (layout == Layout::kAuto)
     layout = has_long_header(text, source) ? Layout::kLong : Layout::kWide;
-  return layout == Layout::kLong ? read_long(text, source, *kind) : read_wide(text, source, *kind);
+  return layout == Layout::kLong ? read_long(text, source, *kind, unit)
+                                 : read_wide(text, source, *kind, unit);
 }
 
 }  // namespace mapproof

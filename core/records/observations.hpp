@@ -8,6 +8,7 @@
 #include "core/model/observation_history.hpp"
 #include "core/model/points.hpp"
 #include "core/model/sensor.hpp"
+#include "core/records/sightings.hpp"
 
 namespace mapproof {
 
@@ -27,18 +28,25 @@ struct ObservationSource {
   std::string path;                  ///< For errors: the file or folder that was read.
 };
 
-/// Observations from CSV (wide or long), mapproof's JSON or a folder of MRCLAM [leung2011].
+/// Observations from CSV (wide or long), mapproof's JSON or a folder of MRCLAM [leung2011], files
+/// gzip'ed or not. Of sightings (see sightings.hpp), what one kind of sensor saw.
 ///
 /// Rows without any observation are kept: whether they are trouble is for the caller to say.
 ///
 /// @param kind  What the values are. Required for CSV; must agree with a JSON file; for MRCLAM
 ///              visibility if empty.
+/// @param unit  Of bearings in CSV; JSON says it itself.
 /// @throws IoError naming file and place if the source cannot be read as such, breaks the bounds of
 ///         its kind (0 or 1; |rad| <= 2 pi; 0 <= m <= 1e6), repeats a name or a (step, landmark),
 ///         or exceeds 5000 landmarks, 1e6 steps or 2e8 entries.
 /// @note Linear in the size of the file; about 0.2 s for 50 x 100,000 entries.
 ObservationSource read_observations(const std::filesystem::path& path, std::optional<Sensor> kind,
-                                    Layout layout = Layout::kAuto);
+                                    Layout layout = Layout::kAuto,
+                                    AngleUnit unit = AngleUnit::kRadians);
+
+/// What one kind of sensor saw of sightings.
+/// @throws IoError if that were more than 2e8 entries, or there is nothing of that kind.
+ObservationSource observations_of(SightingSource source, Sensor sensor);
 
 /// mapproof's own JSON (mapproof.observations), NaN as null.
 std::string observations_json(const ObservationHistory& history);

@@ -10,6 +10,7 @@
 #include "core/records/limits.hpp"
 #include "core/records/name_list.hpp"
 #include "core/records/observation_values.hpp"
+#include "core/records/sighting_values.hpp"
 #include "core/records/table_reader.hpp"
 
 namespace mapproof {
@@ -72,7 +73,7 @@ double read_step(std::string_view cell, const std::string& source, const std::st
   return *step;
 }
 
-Entry read_entry(const TableRow& row, const Columns& columns, Sensor sensor,
+Entry read_entry(const TableRow& row, const Columns& columns, Sensor sensor, AngleUnit unit,
                  const std::string& source, NameList& names) {
   const auto place = [&] { return fmt::format("line {}", row.line); };
   if (row.cells.size() != kWords.size())
@@ -80,8 +81,9 @@ Entry read_entry(const TableRow& row, const Columns& columns, Sensor sensor,
                   fmt::format("has {} cells, expected step, landmark, value", row.cells.size()));
   const std::optional<double> step = number_in(row.cells[columns.step]);
   const bool is_step = step && *step >= 0.0 && *step <= 0x1p53 && *step == std::trunc(*step);
-  const std::optional<double> value = observation_in(row.cells[columns.value], sensor);
-  if (!value) throw IoError(source, place(), cell_problem(row.cells[columns.value], sensor));
+  const std::optional<double> value = sighting_value(row.cells[columns.value], sensor, unit);
+  if (!value)
+    throw IoError(source, place(), sighting_problem(row.cells[columns.value], sensor, unit));
   return {.landmark = names.find_or_add(row.cells[columns.landmark], row.line),
           .step = is_step ? *step : read_step(row.cells[columns.step], source, place()),
           .line = row.line,
@@ -154,7 +156,8 @@ bool starts_as_long(std::string_view text, const std::string& source) {
   return number_in(row.cells[0]) && !is_value(row.cells[1]) && is_value(row.cells[2]);
 }
 
-ObservationSource read_long(std::string_view text, const std::string& source, Sensor sensor) {
+ObservationSource read_long(std::string_view text, const std::string& source, Sensor sensor,
+                            AngleUnit unit) {
   TableReader reader(text, source);
   TableRow row;
   NameList names(source);
@@ -165,7 +168,7 @@ ObservationSource read_long(std::string_view text, const std::string& source, Se
       columns = columns_of(row, source);
       continue;
     }
-    entries.push_back(read_entry(row, columns, sensor, source, names));
+    entries.push_back(read_entry(row, columns, sensor, unit, source, names));
     if (static_cast<double>(entries.size()) > kMostEntries)
       throw IoError(source, fmt::format("more than {:.0f} rows", kMostEntries));
   }

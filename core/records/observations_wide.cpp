@@ -7,6 +7,7 @@
 #include "core/json/text_input.hpp"
 #include "core/records/name_list.hpp"
 #include "core/records/observation_values.hpp"
+#include "core/records/sighting_values.hpp"
 #include "core/records/table_reader.hpp"
 
 namespace mapproof {
@@ -39,8 +40,8 @@ bool is_header(const TableRow& row) {
 /// Reads the rows one by one into a row-major array.
 class WideTable {
  public:
-  WideTable(const std::string& source, Sensor sensor)
-      : source_(source), sensor_(sensor), names_(source) {}
+  WideTable(const std::string& source, Sensor sensor, AngleUnit unit)
+      : source_(source), sensor_(sensor), unit_(unit), names_(source) {}
 
   void add_header(const TableRow& row) {
     set_width(row);
@@ -95,16 +96,17 @@ class WideTable {
 
   void add_values(Cells cells, const std::string& place) {
     for (std::size_t i = 0; i < cells.size(); ++i) {
-      const std::optional<double> value = observation_in(cells[i], sensor_);
+      const std::optional<double> value = sighting_value(cells[i], sensor_, unit_);
       if (!value)
         throw IoError(source_, fmt::format("{}, column {}", place, i + (has_names_ ? 2 : 1)),
-                      cell_problem(cells[i], sensor_));
+                      sighting_problem(cells[i], sensor_, unit_));
       values_.push_back(*value);
     }
   }
 
   const std::string& source_;
   Sensor sensor_;
+  AngleUnit unit_;
   NameList names_;
   std::vector<double> values_;
   std::size_t width_ = 0;
@@ -115,9 +117,10 @@ class WideTable {
 
 }  // namespace
 
-ObservationSource read_wide(std::string_view text, const std::string& source, Sensor sensor) {
+ObservationSource read_wide(std::string_view text, const std::string& source, Sensor sensor,
+                            AngleUnit unit) {
   TableReader reader(text, source);
-  WideTable table(source, sensor);
+  WideTable table(source, sensor, unit);
   TableRow row;
   bool is_first = true;
   while (reader.next(row)) {

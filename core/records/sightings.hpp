@@ -1,13 +1,19 @@
 #pragma once
 
+#include <filesystem>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "core/model/points.hpp"
+#include "core/model/sensor.hpp"
 #include "core/model/sighting_log.hpp"
 
 namespace mapproof {
+
+/// Unit of the bearings of a file. They are relative to the heading, counter-clockwise.
+enum class AngleUnit { kRadians, kDegrees };
 
 /// What looks showed, with what is needed to talk about the file that it came from.
 struct SightingSource {
@@ -17,5 +23,40 @@ struct SightingSource {
   std::vector<std::string> places;   ///< M; where a landmark stands: "line 7".
   std::string path;                  ///< For errors: the file or folder that was read.
 };
+
+/// How a file of sightings is to be understood.
+struct SightingFormat {
+  AngleUnit unit = AngleUnit::kRadians;  ///< Where the file does not say it.
+  /// What a column `value` holds; visibility: 1, seen.
+  std::optional<Sensor> value;
+};
+
+/// Sightings from long CSV, mapproof's JSON (mapproof.sightings) or a folder of MRCLAM [leung2011],
+/// files gzip'ed or not.
+///
+/// A row of CSV is a landmark in a look: step or time, landmark, range, bearing, where a look's
+/// rows have one step or time; a robot's name too, whose looks are then its own. The columns are
+/// told by their names, in any case and order; without a header they are step, landmark, range,
+/// bearing. Columns of other names are not read, and remarked. The looks are pooled robot by robot
+/// in order of step or time. Cells may be empty: not measured.
+/// @throws IoError naming file and line if a number is out of its bounds (|rad| <= 2 pi or |deg| <=
+///         360; 0 <= m <= 1e6), a landmark is twice in one look, or for more than 5000 landmarks,
+///         1e6 looks or 5e7 rows.
+/// @note A row takes 24 bytes while it is read and after; the text is never held as a whole.
+SightingSource read_sightings(const std::filesystem::path& path, const SightingFormat& format = {});
+
+/// Whether a file or folder holds sightings: MRCLAM, JSON of that schema, or a table whose header
+/// names a landmark and a range or bearing. @throws IoError if it cannot be read.
+bool is_sightings(const std::filesystem::path& path);
+
+/// Whether a file is a long table, of sightings or of values, and its text larger than some 64 MB.
+/// @throws IoError if it cannot be read.
+bool is_large_long_table(const std::filesystem::path& path);
+
+/// mapproof.sightings from the text of a file.
+SightingSource parse_sightings(std::string_view text, const std::string& source);
+
+/// mapproof's own JSON (mapproof.sightings), bearings in radians, NaN as null.
+std::string sightings_json(const SightingLog& log);
 
 }  // namespace mapproof

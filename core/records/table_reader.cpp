@@ -47,10 +47,13 @@ std::string_view bare(std::string_view cell, char separator) {
 }  // namespace
 
 TableReader::TableReader(std::string_view text, const std::string& source)
-    : TableReader(text, source, separator_of(first_row(text))) {}
+    : TableReader(text, source, separator_in(text)) {}
 
-TableReader::TableReader(std::string_view text, const std::string& source, char separator)
-    : text_(text), source_(source), separator_(separator) {}
+TableReader::TableReader(std::string_view text, const std::string& source, char separator,
+                         std::size_t first_line)
+    : text_(text), source_(source), separator_(separator), line_(first_line) {}
+
+char TableReader::separator_in(std::string_view text) { return separator_of(first_row(text)); }
 
 std::string_view TableReader::rest_of_line() const {
   return text_.substr(at_, std::min(text_.find('\n', at_), text_.size()) - at_);

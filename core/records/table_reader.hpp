@@ -24,7 +24,12 @@ class TableReader {
   TableReader(std::string_view text, const std::string& source);
 
   static constexpr char kBlanks = ' ';  ///< A separator: any number of spaces and tabs.
-  TableReader(std::string_view text, const std::string& source, char separator);
+  /// @param first_line  Number of the text's first line, for what is a part of a file.
+  TableReader(std::string_view text, const std::string& source, char separator,
+              std::size_t first_line = 1);
+
+  /// What separates the cells of the text's first row.
+  static char separator_in(std::string_view text);
 
   /// @return Whether there was a row. @throws IoError with the line for broken quotes.
   bool next(TableRow& row);

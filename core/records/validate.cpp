@@ -7,7 +7,7 @@
 #include <fmt/format.h>
 
 #include "core/base/errors.hpp"
-#include "core/base/files.hpp"
+#include "core/base/packed_file.hpp"
 #include "core/json/json_cursor.hpp"
 #include "core/json/text_input.hpp"
 #include "core/records/experiment_json.hpp"
@@ -17,6 +17,7 @@
 #include "core/records/observation_values.hpp"
 #include "core/records/range_log_files.hpp"
 #include "core/records/run_json.hpp"
+#include "core/records/sightings.hpp"
 #include "core/records/slam_experiment_json.hpp"
 #include "core/records/slam_run_json.hpp"
 #include "core/records/slam_store.hpp"
@@ -59,6 +60,8 @@ constexpr std::array kSchemas = {
     KnownSchema{"mapproof.range_histories",
                 [](auto text, auto& source) { parse_range_histories(text, source); }},
     KnownSchema{"mapproof.run", [](auto text, auto& source) { parse_run(text, source); }},
+    KnownSchema{"mapproof.sightings",
+                [](auto text, auto& source) { parse_sightings(text, source); }},
     KnownSchema{"mapproof.slam_convergence",
                 [](auto text, auto& source) { parse_convergence(text, source); }},
     KnownSchema{"mapproof.slam_experiment", check_slam_experiment_file},
@@ -93,7 +96,7 @@ bool is_table(const fs::path& path) {
 }
 
 void check_file(const fs::path& path, const ForeignReader& foreign, Finding& finding) {
-  const std::string bytes = read_file(path);
+  const std::string bytes = read_packed_file(path);
   if (path.filename() == "timings.jsonl") {
     finding.kind = "timings";
     parse_timings(bytes, finding.path);
@@ -102,9 +105,9 @@ void check_file(const fs::path& path, const ForeignReader& foreign, Finding& fin
   const std::string_view text = checked_text(bytes, finding.path);
   const std::size_t start = text.find_first_not_of(" \t\r\n");
   const bool is_json = start != std::string_view::npos && text[start] == '{';
-  if (is_json || path.extension() == ".json")
+  if (is_json || unpacked_name(path).extension() == ".json")
     check_json(text, foreign, finding);
-  else if (is_table(path))
+  else if (is_table(unpacked_name(path)))
     check_table(text, path, finding.kind);
   else
     throw IoError(finding.path, "is no file that mapproof reads or writes");

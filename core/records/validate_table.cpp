@@ -6,26 +6,29 @@
 #include <fmt/format.h>
 
 #include "core/base/errors.hpp"
+#include "core/base/packed_file.hpp"
 #include "core/json/text_input.hpp"
 #include "core/records/landmarks_csv.hpp"
 #include "core/records/observation_values.hpp"
+#include "core/records/sighting_columns.hpp"
+#include "core/records/sighting_values.hpp"
 #include "core/records/table_reader.hpp"
 
 namespace mapproof {
 namespace {
 
-using Reader = ObservationSource (*)(std::string_view, const std::string&, Sensor);
+using Reader = ObservationSource (*)(std::string_view, const std::string&, Sensor, AngleUnit);
 
 /// Of the three kinds the bearings' error says most: values that fit none are often degrees.
 void check_observations(std::string_view text, const std::string& source, Reader reader) {
   for (const Sensor sensor : {Sensor::kVisibility, Sensor::kRange}) {
     try {
-      reader(text, source, sensor);
+      reader(text, source, sensor, AngleUnit::kRadians);
       return;
     } catch (const IoError&) {
     }
   }
-  reader(text, source, Sensor::kBearing);
+  reader(text, source, Sensor::kBearing, AngleUnit::kRadians);
 }
 
 bool is_map(const TableRow& header) {
@@ -48,7 +51,7 @@ void check_map(TableReader& reader, const TableRow& header, const std::string& s
 }
 
 bool is_part_of_mrclam(const std::filesystem::path& path) {
-  const std::string name = path.filename().string();
+  const std::string name = unpacked_name(path.filename()).string();
   return name == "Barcodes.dat" || name.ends_with("_Measurement.dat");
 }
 
@@ -63,6 +66,11 @@ void check_table(std::string_view text, const std::filesystem::path& path, std::
   if (reader.next(first) && is_map(first)) {
     kind = "map CSV";
     return check_map(reader, first, source);
+  }
+  if (names_sighting_columns(first)) {
+    kind = "sightings";
+    read_long_sightings(path, {});
+    return;
   }
   if (has_long_header(text, source) || starts_as_long(text, source)) {
     kind = "long CSV observations";

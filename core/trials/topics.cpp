@@ -7,6 +7,7 @@
 #include "core/trials/labels.hpp"
 #include "core/trials/missing.hpp"
 #include "core/trials/moved.hpp"
+#include "core/trials/mrclam.hpp"
 #include "core/trials/submaps.hpp"
 #include "core/trials/topic.hpp"
 
@@ -15,9 +16,7 @@ namespace mapproof {
 std::span<const Topic* const> all_topics() {
   static const std::vector<const Topic*> kTopics = {
       &kMissingTopic,  //
-      &kSubmapsTopic,
-      &kLabelsTopic,
-      &kMovedTopic,
+      &kSubmapsTopic, &kLabelsTopic, &kMovedTopic, &kMrclamTopic,
   };
   return kTopics;
 }

@@ -35,10 +35,10 @@ std::string names_of(const MapRecord& record, const std::vector<Eigen::Index>& r
 
 class MapFigure {
  public:
-  MapFigure(const MapRecord& record, const std::string& id)
-      : record_(record), view_(view_of(record)) {
+  MapFigure(const MapRecord& record, const std::string& id, const std::string& what)
+      : record_(record), view_(view_of(record)), what_(what) {
     figure_.id = id;
-    figure_.title = subject(record, " · ");
+    figure_.title = what.empty() ? subject(record, " · ") : what;
     figure_.record_ids = {record.id};
   }
 
@@ -91,12 +91,14 @@ class MapFigure {
 
   void add_words() {
     std::string& caption = figure_.caption;
-    caption = subject(record_, ", ");
+    caption = what_.empty() ? subject(record_, ", ") : what_;
     const std::string score = score_text(record_);
     if (!score.empty()) caption += ": " + score;
     caption += ".";
     if (record_.frame == Frame::kSimilarity)
       caption += " Dots: estimates; place, turn, scale and mirror are arbitrary.";
+    else if (record_.anchors.empty() && !record_.truth_m)
+      caption += " Dots: estimates; place and turn are arbitrary.";
     else
       caption +=
           " Open circles: true positions; dots: estimates, joined by their errors; squares: "
@@ -110,7 +112,7 @@ class MapFigure {
     const std::size_t mapped = record_.names.size() - view_.unmapped.size();
     figure_.alt =
         fmt::format("Map of {} of {} by {}, {}.", mapped, counted(record_.names.size(), "landmark"),
-                    label(record_.setting),
+                    what_.empty() ? label(record_.setting) : what_,
                     record_.frame == Frame::kTruth ? "in metres" : "in an arbitrary frame");
     if (!score.empty()) figure_.alt += " " + score + ".";
     if (!view_.worst.empty()) figure_.alt += " The largest errors: " + worst_text() + ".";
@@ -229,17 +231,18 @@ class MapFigure {
 
   const MapRecord& record_;
   MapView view_;
+  std::string what_;
   Figure figure_;
 };
 
 }  // namespace
 
-Figure map_figure(const MapRecord& record, const std::string& id) {
-  return MapFigure(record, id).make();
+Figure map_figure(const MapRecord& record, const std::string& id, const std::string& what) {
+  return MapFigure(record, id, what).make();
 }
 
 Panel map_panel(const MapRecord& record, const std::string& prefix) {
-  Panel panel = MapFigure(record, "panel").panel();
+  Panel panel = MapFigure(record, "panel", "").panel();
   for (Layer& layer : panel.layers)
     std::visit(
         [&prefix](auto& one) {

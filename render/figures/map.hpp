@@ -11,10 +11,12 @@ namespace mapproof {
 /// worst landmarks labelled. Estimates far outside the room become arrows at the frame, and the
 /// figure says so. Statuses are drawn below the title.
 ///
-/// @param id  Of the figure, [a-z][a-z0-9-]*.
+/// @param id    Of the figure, [a-z][a-z0-9-]*.
+/// @param what  What it shows, where method, sensor and steps of the record do not say it: its
+///              title, and the start of its caption. Empty: they do.
 /// @throws InvalidInput if the record's parts disagree in size.
 /// @note Pure: O(landmarks).
-Figure map_figure(const MapRecord& record, const std::string& id);
+Figure map_figure(const MapRecord& record, const std::string& id, const std::string& what = "");
 
 /// The panel of map_figure, for figures of several maps: each mark's id begins with `prefix`.
 /// @throws InvalidInput as map_figure.

@@ -59,8 +59,7 @@ Ellipses scatter_ellipses(const MeasuredMapSpec& spec) {
 
 Figure measured_map_figure(const MeasuredMapSpec& spec) {
   require_consistent(spec);
-  Figure figure = map_figure(spec.map, spec.id);
-  if (!spec.title.empty()) figure.title = spec.title;
+  Figure figure = map_figure(spec.map, spec.id, spec.title);
   std::vector<Layer>& layers = figure.panels.front().layers;
   const Ellipses ellipses = scatter_ellipses(spec);
   const Segments lines = pair_lines(spec);

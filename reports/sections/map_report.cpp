@@ -99,8 +99,9 @@ Highlights highlights(const MapRecord& record) {
           {error.name, error.value,
            fmt::format("{}{}{}", error.meaning, error.limit.empty() ? "" : ", ", error.limit)});
   out.items.push_back({"Anchors", fmt::format("{}", record.anchors.size()),
-                       record.frame == Frame::kTruth ? "map in metres, in their frame"
-                                                     : "shape alone, without scale"});
+                       record.frame != Frame::kTruth ? "shape alone, without scale"
+                       : record.anchors.empty()      ? "map in metres, in a frame of its own"
+                                                     : "map in metres, in their frame"});
   return out;
 }
 
@@ -137,9 +138,12 @@ Section summary(const MapReportInput& input) {
   Section section{"summary", "Summary", {}};
   section.blocks.emplace_back(highlights(record));
   BulletList findings;
-  findings.items.push_back(plain(fmt::format(
-      "{} from {} observations of {}: {}.", label(record.setting), name(record.sensor),
-      counted(record.estimate.rows(), "landmark"), info(record.setting.method).summary)));
+  const std::string landmarks = counted(record.estimate.rows(), "landmark");
+  findings.items.push_back(
+      plain(input.what.empty()
+                ? fmt::format("{} from {} observations of {}: {}.", label(record.setting),
+                              name(record.sensor), landmarks, info(record.setting.method).summary)
+                : fmt::format("{}, of {}.", input.what, landmarks)));
   if (record.frame == Frame::kTruth && any_truth(record))
     if (Paragraph worst = worst_finding(record); !worst.phrases.empty())
       findings.items.push_back(std::move(worst));
@@ -169,7 +173,7 @@ Section input_section(const MapReportInput& input) {
   return section;
 }
 
-Section statuses(const MapRecord& record) {
+Section statuses(const MapRecord& record, const std::string& what) {
   Section section{"statuses", "What went other than well", {}};
   if (record.statuses.empty()) {
     section.blocks.emplace_back(plain("Nothing: the solve ended well."));
@@ -179,7 +183,7 @@ Section statuses(const MapRecord& record) {
   for (const Status& status : record.statuses)
     list.items.push_back({std::string(name(status.code)),
                           std::string(meaning(status.code)),
-                          label(record.setting),
+                          what.empty() ? label(record.setting) : what,
                           1,
                           1,
                           status.code == StatusCode::kFailed,
@@ -212,9 +216,10 @@ Report map_report(const MapReportInput& input) {
   require_sizes(input.record);
   Report report;
   report.title = input.title;
-  report.subtitle =
-      fmt::format("{}, {}, {}", label(input.record.setting), name(input.record.sensor),
-                  counted(input.record.step, "observation"));
+  const std::string what = input.what.empty() ? fmt::format("{}, {}", label(input.record.setting),
+                                                            name(input.record.sensor))
+                                              : input.what;
+  report.subtitle = fmt::format("{}, {}", what, counted(input.record.step, "observation"));
   report.sections.push_back(summary(input));
   report.sections.push_back({"map", "Map", {input.figure}});
   for (const FigureBlock& figure : input.more_figures)
@@ -226,7 +231,7 @@ Report map_report(const MapReportInput& input) {
   report.sections.push_back(input_section(input));
   if (input.record.certificate)
     report.sections.push_back(certificate_section(*input.record.certificate));
-  report.sections.push_back(statuses(input.record));
+  report.sections.push_back(statuses(input.record, input.what));
   report.sections.push_back(provenance(input));
   report.footer =
       fmt::format("Made by mapproof {} ({}).", input.provenance.version, input.provenance.commit);

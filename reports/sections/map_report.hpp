@@ -21,6 +21,9 @@ struct MapReportInput {
   std::vector<FigureBlock> more_figures;  ///< Below it.
   Provenance provenance;
   std::string command;  ///< The one that makes it again, ready to be typed.
+  /// What was mapped and how, where the record's method and sensor do not say it: "SMACOF of
+  /// measured pairs, range and bearing". Empty: they do.
+  std::string what = {};
 };
 
 /// Summary, figure, landmarks (with errors where the truth is known), remarks, statuses,

@@ -104,6 +104,7 @@ const std::map<std::string, Modules>& kept_in() {
       {"matio", {"core/records"}},
       {"sqlite3", {"reports/history"}},
       {"sha256.h", {"core/base"}},
+      {"zlib", {"core/base"}},
       {"hb", {"render/theme", "render/cairo"}},
       {"ft2build", {"render/theme", "render/cairo"}},
       {"kainjow/", {"reports/html"}},

@@ -8,6 +8,7 @@
 
 #include "render/figures/level_curve.hpp"
 #include "render/figures/measured_map.hpp"
+#include "render/figures/pair_distances.hpp"
 #include "reports/sections/method_summary.hpp"
 #include "reports/sections/trials/trial_means.hpp"
 
@@ -91,9 +92,14 @@ StudyFigures trial_figures(const TrialStudy& study) {
   }
   FigureGroup maps{id_prefix(study) + "-maps", "Maps", "", {}};
   for (const TrialPart& part : study.parts)
-    for (const TrialMap& map : part.maps)
+    for (const TrialMap& map : part.maps) {
       maps.figures.push_back(measured_map_figure(
           {id_prefix(study) + "-map-" + map.id, map.title, map.map, map.pairs, map.covariances}));
+      if (!map.pairs.empty())
+        maps.figures.push_back(pair_distances_figure({id_prefix(study) + "-pairs-" + map.id,
+                                                      map.title + ", measured pairs", map.map,
+                                                      map.pairs}));
+    }
   if (!maps.empty()) figures.groups.push_back(std::move(maps));
   return figures;
 }

@@ -61,6 +61,8 @@ TEST(Schemas, HoldForMapsAndObservations) {
   const auto history =
       read_observations(test::data_file("observations/wide_named.csv"), Sensor::kVisibility);
   EXPECT_EQ(schema_problem("observations", json::parse(observations_json(history.history))), "");
+  const SightingSource seen = read_sightings(test::data_file("mrclam"));
+  EXPECT_EQ(schema_problem("sightings", json::parse(sightings_json(seen.log))), "");
 }
 
 TEST(Schemas, HoldForEveryExperimentInTheTemplatesAndTheirProfiles) {

@@ -1,0 +1,38 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <string_view>
+
+#include "app/own_labels.hpp"
+#include "app/own_map.hpp"
+
+namespace mapproof {
+
+/// The kind of observations that measure distances between landmarks in each look.
+inline constexpr std::string_view kRangeBearing = "range-bearing";
+/// The way that those are mapped.
+inline constexpr std::string_view kPairs = "pairs";
+
+/// A person's observations as the command line names them.
+struct OwnInput {
+  std::string path;
+  std::string kind;  ///< A sensor's name, kRangeBearing, or empty: as the file says.
+  Layout layout = Layout::kAuto;
+  AngleUnit unit = AngleUnit::kRadians;
+  bool rigid = false;  ///< Fit a metric map to the anchors without changing its scale.
+  LabelChoice labels;  ///< Of range and bearing seen together.
+};
+
+/// The kind of the input: what was given, or range-bearing for a file of sightings.
+/// @throws IoError if the file cannot be read.
+std::string kind_of(const OwnInput& input);
+
+/// Reads and maps observations of a kind from kind_of(), by options.setting or, of range and
+/// bearing, by pairs. Long tables of more than some 64 MB are never held as an array of landmarks
+/// times steps.
+/// @throws IoError as the readers and map_own().
+OwnMap map_input(const OwnInput& input, const std::optional<NamedPointsFile>& anchors,
+                 const std::optional<NamedPointsFile>& truth, const OwnMapOptions& options);
+
+}  // namespace mapproof

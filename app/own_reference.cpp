@@ -1,0 +1,162 @@
+#include "app/own_reference.hpp"
+
+#include <algorithm>
+#include <limits>
+#include <map>
+
+#include <fmt/format.h>
+
+#include "core/align/diagonal_anchors.hpp"
+#include "core/base/errors.hpp"
+#include "core/linalg/planarity.hpp"
+#include "core/score/map_score.hpp"
+
+namespace mapproof {
+namespace {
+
+constexpr double kFlat = 1e-6;  ///< Anchors flatter than this do not span the plane.
+constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
+
+std::string quoted(const std::string& name) { return "\"" + printable(name) + "\""; }
+
+/// The row of each landmark by its name.
+std::map<std::string, Eigen::Index> rows_of(const OwnLandmarks& source) {
+  std::map<std::string, Eigen::Index> rows;
+  for (std::size_t i = 0; i < source.names.size(); ++i)
+    rows[source.names[i]] = static_cast<Eigen::Index>(i);
+  return rows;
+}
+
+/// Positions by landmark, in the rows of the source; NaN where the file has none.
+Points matched_truth(const OwnLandmarks& source, const NamedPointsFile& truth,
+                     std::vector<std::string>& remarks) {
+  const auto rows = rows_of(source);
+  Points positions = Points::Constant(source.landmarks(), 2, kUnknown);
+  Eigen::Index matched = 0;
+  for (std::size_t i = 0; i < truth.points.names.size(); ++i) {
+    const auto row = rows.find(truth.points.names[i]);
+    if (row == rows.end()) continue;
+    positions.row(row->second) = truth.points.positions_m.row(static_cast<Eigen::Index>(i));
+    ++matched;
+  }
+  const auto given = std::ssize(truth.points.names);
+  if (matched == 0)
+    throw IoError(truth.path, fmt::format("none of its {} names is a landmark of {} ({}, ...)",
+                                          given, source.path, quoted(source.names.at(0))));
+  if (matched < given)
+    remarks.push_back(
+        fmt::format("{} positions of the truth are of landmarks that were not "
+                    "observed; they are not used.",
+                    given - matched));
+  if (matched < source.landmarks())
+    remarks.push_back(fmt::format("The true position of {} landmarks is not known.",
+                                  source.landmarks() - matched));
+  return positions;
+}
+
+/// The anchors' rows, ascending; their positions go into `positions`.
+std::vector<Eigen::Index> matched_anchors(const OwnLandmarks& source,
+                                          const NamedPointsFile& anchors, Points& positions) {
+  const auto rows = rows_of(source);
+  std::vector<Eigen::Index> chosen;
+  for (std::size_t i = 0; i < anchors.points.names.size(); ++i) {
+    const std::string& name = anchors.points.names[i];
+    const auto row = rows.find(name);
+    if (row == rows.end())
+      throw IoError(
+          anchors.path, anchors.points.places[i],
+          fmt::format("anchor {} is not among the {} landmarks of {} ({}, ...)", quoted(name),
+                      source.landmarks(), source.path, quoted(source.names.at(0))));
+    if (std::ranges::binary_search(source.unseen, row->second)) continue;
+    positions.row(row->second) = anchors.points.positions_m.row(static_cast<Eigen::Index>(i));
+    chosen.push_back(row->second);
+  }
+  if (chosen.size() < 3)
+    throw IoError(anchors.path,
+                  fmt::format("{} observed anchor{}; an affine map to the anchors needs 3 or more",
+                              chosen.size(), chosen.size() == 1 ? "" : "s"));
+  if (planarity(positions(chosen, Eigen::all)) <= kFlat)
+    throw IoError(
+        anchors.path,
+        fmt::format("its {} anchors lie on one line; they must span the plane", chosen.size()));
+  std::ranges::sort(chosen);
+  return chosen;
+}
+
+/// Errors of a map that no anchors tie to the truth: those that need none.
+std::optional<Score> anchor_free_score(const Points& coordinates, const Points& truth_m,
+                                       AffineFit fit) {
+  std::optional<Score> score = score_map(coordinates, truth_m, {}, fit);
+  if (score) score->mpe_m = score->moe_percent = kUnknown;
+  return score;
+}
+
+/// The anchors of a source that brings its truth, chosen among the landmarks that were observed;
+/// none, with a remark, if they lie on one line.
+std::vector<Eigen::Index> own_anchors(const OwnLandmarks& source, Points positions_m,
+                                      std::vector<std::string>& remarks) {
+  for (const Eigen::Index row : source.unseen) positions_m.row(row).setConstant(kUnknown);
+  std::vector<Eigen::Index> anchors = diagonal_anchors(positions_m);
+  if (planarity(positions_m(anchors, Eigen::all)) > kFlat) return anchors;
+  remarks.emplace_back("The observed landmarks lie on one line: none of them can be an anchor.");
+  return {};
+}
+
+/// Anchors that stand elsewhere in the truth than in their own file.
+void remark_disagreement(const Points& truth_m, const Reference& known,
+                         std::vector<std::string>& remarks) {
+  const auto moved = std::ranges::count_if(known.anchors, [&](Eigen::Index row) {
+    return (truth_m.row(row) - known.positions_m.row(row)).norm() > 1e-6;
+  });
+  if (moved > 0)
+    remarks.push_back(
+        fmt::format("Anchors that the truth puts elsewhere: {}. The anchors' own "
+                    "positions are used.",
+                    moved));
+}
+
+}  // namespace
+
+Reference reference_of(const OwnLandmarks& source, const std::optional<NamedPointsFile>& anchors,
+                       const std::optional<NamedPointsFile>& truth,
+                       std::vector<std::string>& remarks) {
+  Reference known{.positions_m = Points::Constant(source.landmarks(), 2, kUnknown),
+                  .has_truth = truth.has_value() || source.truth_m.has_value(),
+                  .anchors = {}};
+  if (truth) {
+    known.positions_m = matched_truth(source, *truth, remarks);
+  } else if (source.truth_m) {
+    known.positions_m = *source.truth_m;
+  }
+  if (anchors) {
+    const Points truth_m = known.positions_m;
+    known.anchors = matched_anchors(source, *anchors, known.positions_m);
+    remark_disagreement(truth_m, known, remarks);
+  } else if (source.truth_m) {
+    known.anchors = own_anchors(source, known.positions_m, remarks);
+  }
+  return known;
+}
+
+void align_and_score(MapRecord& record, const Points& coordinates, const Reference& reference,
+                     AffineFit fit) {
+  record.frame = Frame::kSimilarity;
+  record.estimate = coordinates;
+  record.anchors = reference.anchors;
+  if (reference.has_truth || !reference.anchors.empty()) record.truth_m = reference.positions_m;
+  if (!reference.anchors.empty()) {
+    AlignedMap aligned =
+        align_to_anchors(coordinates, reference.positions_m, reference.anchors, fit);
+    record.statuses.insert(record.statuses.end(), aligned.statuses.begin(), aligned.statuses.end());
+    if (aligned.aligned) {
+      record.frame = Frame::kTruth;
+      record.estimate = std::move(aligned.positions_m);
+    }
+  }
+  if (!reference.has_truth) return;
+  record.score = record.frame == Frame::kTruth
+                     ? score_map(record.estimate, reference.positions_m, reference.anchors, fit)
+                     : anchor_free_score(record.estimate, reference.positions_m, fit);
+}
+
+}  // namespace mapproof

@@ -1,0 +1,164 @@
+#include "app/own_sightings.hpp"
+
+#include <algorithm>
+#include <numeric>
+
+#include <fmt/format.h>
+
+#include "core/align/rigid.hpp"
+#include "core/base/errors.hpp"
+#include "core/base/words.hpp"
+#include "core/observe/sighted_proximities.hpp"
+#include "core/pairs/pair_map.hpp"
+#include "core/score/map_score.hpp"
+
+namespace mapproof {
+namespace {
+
+/// Leaves the first so many looks, and returns how many there were.
+int keep_first(SightingSource& source, int steps) {
+  SightingLog& log = source.log;
+  const int all = log.steps;
+  if (steps > log.steps)
+    throw IoError(source.path,
+                  fmt::format("--steps {}: it holds {} observations", steps, log.steps));
+  if (steps == 0) return all;
+  std::erase_if(log.sightings, [&](const Sighting& seen) { return seen.step >= steps; });
+  log.steps = steps;
+  return all;
+}
+
+std::vector<Eigen::Index> unseen_in(const SightingLog& log) {
+  std::vector<bool> seen(log.names.size(), false);
+  for (const Sighting& sighting : log.sightings)
+    seen[static_cast<std::size_t>(sighting.landmark)] = true;
+  std::vector<Eigen::Index> rows;
+  for (std::size_t i = 0; i < seen.size(); ++i)
+    if (!seen[i]) rows.push_back(static_cast<Eigen::Index>(i));
+  return rows;
+}
+
+void require_three(const SightingSource& source) {
+  const auto M = std::ssize(source.log.names);
+  if (M < 3)
+    throw IoError(source.path, fmt::format("{}; a map needs 3 or more", counted(M, "landmark")));
+}
+
+/// @param looks  That there were.
+OwnMap begun(const SightingSource& source, int looks) {
+  const SightingLog& log = source.log;
+  OwnMap result{.record = {}, .remarks = source.remarks, .joined = {}, .read = {}};
+  result.record.id = "map";
+  result.record.step = log.steps;
+  result.record.names = log.names;
+  result.read = {{"Landmarks", std::to_string(log.names.size())},
+                 {"Steps used", fmt::format("{} of {}", log.steps, looks)},
+                 {"Sightings", std::to_string(log.sightings.size())}};
+  return result;
+}
+
+Reference known_places(const SightingSource& source, const std::optional<NamedPointsFile>& anchors,
+                       const std::optional<NamedPointsFile>& truth, OwnMap& result) {
+  return reference_of({.path = source.path,
+                       .names = source.log.names,
+                       .unseen = unseen_in(source.log),
+                       .truth_m = source.truth_m},
+                      anchors, truth, result.remarks);
+}
+
+/// Turns, shifts and perhaps mirrors the map onto those of the rows that it holds.
+bool lay_rigidly(MapRecord& record, const Points& known_m, const std::vector<Eigen::Index>& rows) {
+  std::vector<Eigen::Index> both;
+  for (const Eigen::Index row : rows)
+    if (record.estimate.row(row).allFinite() && known_m.row(row).allFinite()) both.push_back(row);
+  if (both.size() < 3) {
+    record.statuses.push_back(
+        {StatusCode::kAnchorsMissing,
+         fmt::format("{} of known position mapped; a rigid fit takes 3 or more.",
+                     counted(std::ssize(both), "landmark"))});
+    return false;
+  }
+  record.estimate = fit_similarity(record.estimate(both, Eigen::all), known_m(both, Eigen::all),
+                                   Alignment::kRigidWithReflection)(record.estimate);
+  return true;
+}
+
+std::vector<Eigen::Index> all_rows(const SightingLog& log) {
+  std::vector<Eigen::Index> rows(log.names.size());
+  std::iota(rows.begin(), rows.end(), Eigen::Index{0});
+  return rows;
+}
+
+/// A map in metres is laid on the anchors as asked for; without any, on the truth for its errors.
+void place(OwnMap& result, const Reference& known, const SightingLog& log, AffineFit fit,
+           bool rigid) {
+  MapRecord& record = result.record;
+  const Points own = record.estimate;
+  if (!rigid && !known.anchors.empty()) align_and_score(record, own, known, fit);
+  if (record.frame == Frame::kTruth && !rigid && !known.anchors.empty()) return;
+  record.frame = Frame::kTruth;
+  record.anchors = known.anchors;
+  if (known.anchors.empty() && !known.has_truth) return;
+  if (!lay_rigidly(record, known.positions_m,
+                   known.anchors.empty() ? all_rows(log) : known.anchors))
+    return;
+  record.truth_m = known.positions_m;
+  if (known.anchors.empty())
+    result.remarks.push_back(
+        "No anchors: for its errors the map was turned and shifted onto the truth, its scale "
+        "kept.");
+  if (known.has_truth)
+    record.score = score_map(record.estimate, known.positions_m, known.anchors, fit);
+}
+
+}  // namespace
+
+OwnMap map_pairs(SightingSource source, const std::optional<NamedPointsFile>& anchors,
+                 const std::optional<NamedPointsFile>& truth, const OwnMapOptions& options,
+                 bool rigid) {
+  require_three(source);
+  const int looks = keep_first(source, options.steps);
+  const SightingLog& log = source.log;
+  OwnMap result = begun(source, looks);
+  const Reference known = known_places(source, anchors, truth, result);
+  const PairMap map = sighted_map(log);
+  MapRecord& record = result.record;
+  record.sensor = Sensor::kRange;
+  record.setting = {Method::kSmacof, std::nullopt};
+  result.observed = "range and bearing";
+  result.made_by = "SMACOF of measured pairs";
+  record.statuses = map.embedding.statuses;
+  result.read.emplace_back(
+      "Measured pairs",
+      fmt::format("{} of {}", map.pairs.size(), log.names.size() * (log.names.size() - 1) / 2));
+  record.estimate = map.embedding.coordinates;
+  place(result, known, log, options.fit, rigid);
+  return result;
+}
+
+OwnMap map_sparse(SightingSource source, Sensor sensor,
+                  const std::optional<NamedPointsFile>& anchors,
+                  const std::optional<NamedPointsFile>& truth, const OwnMapOptions& options) {
+  require_three(source);
+  const int looks = keep_first(source, options.steps);
+  const SightingLog& log = source.log;
+  OwnMap result = begun(source, looks);
+  const Reference known = known_places(source, anchors, truth, result);
+  if (const std::vector<Eigen::Index> unseen = unseen_in(log); !unseen.empty())
+    throw IoError(source.path, fmt::format("{} of {} landmarks are not in the first {} looks",
+                                           unseen.size(), log.names.size(), log.steps));
+  EmbedderOptions fitting;
+  fitting.only_seen_together = options.only_seen_together;
+  Embedder embedder(sighted_proximities(log, sensor), fitting);
+  MapRecord& record = result.record;
+  record.sensor = sensor;
+  record.setting =
+      options.setting.parameter ? options.setting : embedder.usual_setting(options.setting.method);
+  const Embedding embedding = embedder.embed(record.setting);
+  record.statuses = embedding.statuses;
+  record.certificate = embedding.certificate;
+  align_and_score(record, embedding.coordinates, known, options.fit);
+  return result;
+}
+
+}  // namespace mapproof

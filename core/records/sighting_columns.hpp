@@ -1,0 +1,43 @@
+#pragma once
+
+#include <array>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "core/records/sightings.hpp"
+#include "core/records/table_reader.hpp"
+
+namespace mapproof {
+
+/// What a column of a long table of sightings holds.
+enum class SightingColumn { kStep, kTime, kRobot, kLandmark, kRange, kBearing, kValue };
+
+/// Which cell of a row holds what.
+struct SightingColumns {
+  std::array<std::optional<std::size_t>, 7> cell;  ///< By SightingColumn.
+  std::size_t width = 0;                           ///< Cells of a row.
+  std::optional<AngleUnit> unit;                   ///< Of the bearings, if the header says it.
+  std::vector<std::string> unread;                 ///< Columns of other names.
+
+  std::optional<std::size_t> operator[](SightingColumn column) const {
+    return cell[static_cast<std::size_t>(column)];
+  }
+};
+
+/// Whether a row names columns of such a table: a landmark and something measured, by the words
+/// that are known for them, whatever their case and units ("Range [m]", "bearing_deg").
+bool names_sighting_columns(const TableRow& row);
+
+/// Whether a row names columns of a long table of observations: a landmark and a value.
+bool names_value_columns(const TableRow& row);
+
+/// @throws IoError at the header's line if two columns are the same, one that is needed is not
+///         there, or a unit is not known.
+SightingColumns sighting_columns(const TableRow& header, const std::string& source);
+
+/// Of a table without a header: step, landmark, range, bearing. @throws IoError if the first row
+/// has another number of cells.
+SightingColumns usual_sighting_columns(const TableRow& first, const std::string& source);
+
+}  // namespace mapproof

@@ -1,0 +1,281 @@
+#include "core/trials/mrclam.hpp"
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <limits>
+
+#include <fmt/format.h>
+
+#include "core/align/diagonal_anchors.hpp"
+#include "core/align/rigid.hpp"
+#include "core/base/errors.hpp"
+#include "core/base/words.hpp"
+#include "core/embed/embedder.hpp"
+#include "core/experiment/scored_map.hpp"
+#include "core/linalg/planarity.hpp"
+#include "core/observe/sighted_proximities.hpp"
+#include "core/pairs/pair_map.hpp"
+#include "core/records/mrclam.hpp"
+#include "core/statistics/intervals.hpp"
+#include "core/trials/mrclam_sets.hpp"
+#include "core/trials/pair_bootstrap.hpp"
+
+namespace mapproof {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
+constexpr AffineFit kFit = AffineFit::kLeastDistances;
+constexpr const char* kSetup = "sensors";
+
+/// One way from a set's looks to a map.
+struct Way {
+  const char* id;
+  const char* label;
+  Sensor sensor;                 ///< Of those that take one alone.
+  std::optional<Method> method;  ///< Empty: of measured pairs.
+  PairMapOptions pairs;
+};
+
+/// CMDS is what LPCA computes.
+const Way kWays[] = {
+    {"visibility-cmds", "Visibility, CMDS", Sensor::kVisibility, Method::kLpca, {}},
+    {"visibility-isomap", "Visibility, ISOMAP", Sensor::kVisibility, Method::kIsomap, {}},
+    {"bearing-cmds", "Bearing, CMDS", Sensor::kBearing, Method::kLpca, {}},
+    {"bearing-isomap", "Bearing, ISOMAP", Sensor::kBearing, Method::kIsomap, {}},
+    {"range-cmds", "Range, CMDS", Sensor::kRange, Method::kLpca, {}},
+    {"range-isomap", "Range, ISOMAP", Sensor::kRange, Method::kIsomap, {}},
+    {"paths", "Range and bearing, shortest paths", Sensor::kRange, {}, {.refined = false}},
+    {"pairs-once", "Range and bearing, SMACOF once", Sensor::kRange, {}, {.reweightings = 0}},
+    {"pairs", "Range and bearing, SMACOF reweighted", Sensor::kRange, {}, {}},
+};
+
+TrialDesign design(const TrialExperiment&) {
+  TrialDesign design;
+  design.question =
+      "Robots in a hall see landmarks by their barcodes, with range and bearing. How good a map "
+      "can be made of these looks alone, without poses or odometry: from which landmarks are seen "
+      "together, from bearings, from ranges, from range and bearing together? The looks of all "
+      "robots are pooled. Errors are of the landmarks that are no anchors, after the affine map to "
+      "the anchors: the four landmarks furthest out along the diagonals.";
+  design.setups = {{kSetup, "A map per sensor and method", "", {0.0}}};
+  for (const Way& way : kWays) design.series.push_back({way.id, way.label});
+  design.quantities = {{"mpe_m", "MPE", "m"},
+                       {"moe_percent", "MOE", "%"},
+                       {"mpe_all_fitted_m", "MPE, affine map to all", "m"},
+                       {"rigid_m", "Off after a rigid fit to all", "m"},
+                       {"pair_m", "Pairs off in the map (median)", "m"},
+                       {"mapped", "Landmarks mapped", "", false}};
+  return design;
+}
+
+/// A set as the ways take it.
+struct RealSet {
+  SightingSource source;
+  std::vector<Eigen::Index> anchors;  ///< Empty: without a truth, or none that serve.
+};
+
+std::vector<Eigen::Index> anchors_of(const SightingSource& source) {
+  if (!source.truth_m) return {};
+  Points known = Points::Constant(source.truth_m->rows(), 2, kNan);
+  for (const Sighting& seen : source.log.sightings)
+    known.row(seen.landmark) = source.truth_m->row(seen.landmark);
+  const std::vector<Eigen::Index> anchors = diagonal_anchors(known);
+  if (anchors.size() < 3 || planarity(known(anchors, Eigen::all)) <= kFlatPlanarity) return {};
+  return anchors;
+}
+
+/// Mean distance from the truth after the turn, mirror and shift that fit best.
+double rigid_error(const Points& map, const std::optional<Points>& truth_m) {
+  if (!truth_m) return kNan;
+  std::vector<Eigen::Index> both;
+  for (Eigen::Index i = 0; i < map.rows(); ++i)
+    if (map.row(i).allFinite() && truth_m->row(i).allFinite()) both.push_back(i);
+  if (both.size() < 3) return kNan;
+  const Points from = map(both, Eigen::all);
+  const Points to = (*truth_m)(both, Eigen::all);
+  return (fit_similarity(from, to, Alignment::kRigidWithReflection)(from) - to)
+      .rowwise()
+      .norm()
+      .mean();
+}
+
+double median_residual(const Points& map, const std::vector<MeasuredPair>& pairs) {
+  std::vector<double> residuals;
+  for (const MeasuredPair& pair : pairs)
+    residuals.push_back(
+        std::abs(pair.distance_m - (map.row(pair.first) - map.row(pair.second)).norm()));
+  return residuals.empty() ? kNan : median(residuals);
+}
+
+/// What one way makes of a set.
+struct Made {
+  Embedding embedding;
+  std::vector<MeasuredPair> pairs;
+  MethodSetting setting;
+};
+
+Made make_map(const Way& way, const RealSet& set, const TrialContext& context) {
+  if (!way.method) {
+    PairMap map = sighted_map(set.source.log, {}, way.pairs);
+    return {std::move(map.embedding), std::move(map.pairs), {Method::kSmacof, std::nullopt}};
+  }
+  MethodSetting setting{*way.method, std::nullopt};
+  if (on_graph(*way.method)) setting.parameter = number_option(context.experiment, "neighbours");
+  // Landmarks without a sighting would only make the others' map fail.
+  std::vector<bool> seen(set.source.log.names.size(), false);
+  for (const Sighting& sighting : set.source.log.sightings)
+    seen[static_cast<std::size_t>(sighting.landmark)] = true;
+  std::vector<Eigen::Index> rows;
+  for (std::size_t i = 0; i < seen.size(); ++i)
+    if (seen[i]) rows.push_back(static_cast<Eigen::Index>(i));
+  Proximities all = sighted_proximities(set.source.log, way.sensor);
+  all.inner_products = Eigen::MatrixXd(all.inner_products(rows, rows));
+  all.squared_distances = Eigen::MatrixXd(all.squared_distances(rows, rows));
+  const Embedding some = Embedder(std::move(all)).embed(setting);
+  Made made{some, {}, setting};
+  made.embedding.coordinates.setConstant(std::ssize(seen), 2, kNan);
+  made.embedding.coordinates(rows, Eigen::all) = some.coordinates;
+  return made;
+}
+
+MapRecord record_of(const Way& way, const RealSet& set, const Made& made) {
+  MapRecord map;
+  map.id = way.id;
+  map.sensor = way.sensor;
+  map.setting = made.setting;
+  map.step = set.source.log.steps;
+  map.names = set.source.log.names;
+  map.anchors = set.anchors;
+  map.estimate = made.embedding.coordinates;
+  map.statuses = made.embedding.statuses;
+  // In metres of its own, unless the anchors say better.
+  map.frame = way.method ? Frame::kSimilarity : Frame::kTruth;
+  if (set.anchors.empty()) return map;  // without a frame the truth cannot be shown
+  map.truth_m = set.source.truth_m;
+  ScoredMap scored = scored_map(made.embedding, *set.source.truth_m, set.anchors, kFit);
+  map.statuses = std::move(scored.statuses);
+  map.score = scored.score;
+  map.frame = scored.frame;
+  map.estimate = std::move(scored.positions_m);
+  return map;
+}
+
+Trial trial_of(const Way& way, const RealSet& set, const Made& made, const MapRecord& map) {
+  const Score score = map.score.value_or(Score{kNan, kNan, kNan, kNan});
+  const double mapped =
+      static_cast<double>((map.estimate.col(0).array() == map.estimate.col(0).array()).count());
+  const Points& own = made.embedding.coordinates;
+  return {.setup = kSetup,
+          .series = way.id,
+          .level = 0.0,
+          .values = {score.mpe_m, score.moe_percent, score.mpe_all_fitted_m,
+                     way.method ? kNan : rigid_error(own, set.source.truth_m),
+                     median_residual(own, made.pairs), mapped},
+          .statuses = map.statuses};
+}
+
+void add_way(const Way& way, const RealSet& set, const TrialContext& context, TrialPart& part) {
+  const Clock::time_point start = Clock::now();
+  const Made made = make_map(way, set, context);
+  part.seconds.push_back(
+      {context.part, way.id, std::chrono::duration<double>(Clock::now() - start).count()});
+  TrialMap shown{.id = fmt::format("{}-{}", way.id, context.part),
+                 .title = fmt::format("{}: {}", context.part, way.label),
+                 .map = record_of(way, set, made),
+                 .pairs = made.pairs,
+                 .covariances = {}};
+  part.trials.push_back(trial_of(way, set, made, shown.map));
+  // The last way is what pairs come to: its map shows them, and how sure it is.
+  const bool is_last = &way == &kWays[std::size(kWays) - 1];
+  if (!is_last) shown.pairs.clear();
+  const int replicates = static_cast<int>(number_option(context.experiment, "replicates"));
+  if (is_last && replicates > 0)
+    shown.covariances = pair_covariances(
+        set.source.log,
+        {.positions_m = set.anchors.empty() ? shown.map.estimate : *set.source.truth_m,
+         .anchors = set.anchors,
+         .replicates = replicates,
+         .block_looks = static_cast<int>(number_option(context.experiment, "block_looks")),
+         .seed = context.seed});
+  if (context.with_maps) part.maps.push_back(std::move(shown));
+}
+
+TrialPart make(const TrialContext& context) {
+  TrialPart part;
+  RealSet set;
+  try {
+    set.source = read_mrclam_sightings(context.data);
+  } catch (const IoError& error) {
+    // One set that cannot be read is no reason to do without the others.
+    for (const Way& way : kWays)
+      part.trials.push_back({.setup = kSetup,
+                             .series = way.id,
+                             .level = 0.0,
+                             .values = std::vector<double>(6, kNan),
+                             .statuses = {{StatusCode::kFailed, error.what()}}});
+    return part;
+  }
+  set.anchors = anchors_of(set.source);
+  for (const Way& way : kWays) add_way(way, set, context, part);
+  return part;
+}
+
+double value_of(const TrialPart& part, std::string_view series, std::size_t quantity) {
+  const auto trial = std::ranges::find(part.trials, series, &Trial::series);
+  return trial == part.trials.end() ? kNan : trial->values.at(quantity);
+}
+
+/// "Visibility, ISOMAP (1.46 m)": the best of some series on a set; empty if none has an error.
+std::string best_of(const TrialPart& part, std::string_view start) {
+  const Way* best = nullptr;
+  for (const Way& way : kWays) {
+    const double error = value_of(part, way.id, 0);
+    if (!std::string_view(way.id).starts_with(start) || std::isnan(error)) continue;
+    if (best == nullptr || error < value_of(part, best->id, 0)) best = &way;
+  }
+  return best == nullptr ? std::string()
+                         : fmt::format("{} ({:.3f} m)", best->label, value_of(part, best->id, 0));
+}
+
+std::vector<std::string> conclude(const TrialStudy& study) {
+  std::vector<std::string> sentences;
+  for (const TrialPart& part : study.parts) {
+    const double error = value_of(part, "pairs", 0);
+    if (std::isnan(error)) {
+      sentences.push_back(fmt::format(
+          "{}: no error can be told; {:.0f} landmarks are mapped from range and bearing.", part.id,
+          std::max(0.0, value_of(part, "pairs", 5))));
+      continue;
+    }
+    sentences.push_back(fmt::format(
+        "{}: range and bearing together put the landmarks {:.3f} m off (MPE), {:.3f} m after a "
+        "rigid fit; the distances of pairs say it, no pose.",
+        part.id, error, value_of(part, "pairs", 3)));
+    std::vector<std::string> others;
+    for (const char* start : {"visibility", "bearing", "range"})
+      if (const std::string best = best_of(part, start); !best.empty()) others.push_back(best);
+    if (!others.empty())
+      sentences.push_back(fmt::format("{}: the best of each sensor alone: {}.", part.id,
+                                      listed(others, others.size() + 1)));
+  }
+  return sentences;
+}
+
+}  // namespace
+
+const Topic kMrclamTopic = {
+    .name = "mrclam",
+    .of_data = true,
+    .options = {{"neighbours", {5}, 1, 100, true, false},
+                {"replicates", {200}, 0, 10'000, true, false},
+                {"block_looks", {100}, 1, 100'000, true, false}},
+    .design = design,
+    .make = make,
+    .conclude = conclude,
+    .data_sets = mrclam_sets,
+};
+
+}  // namespace mapproof

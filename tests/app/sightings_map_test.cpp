@@ -1,0 +1,144 @@
+#include <cmath>
+#include <numbers>
+
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+#include "core/base/files.hpp"
+#include "tests/support/gzip.hpp"
+#include "tests/support/looks.hpp"
+#include "tests/support/program.hpp"
+#include "tests/support/worlds.hpp"
+
+namespace mapproof::test {
+namespace {
+
+using nlohmann::json;
+
+/// Looks without error at landmarks in a hall of 6 x 6 m, as people write them down.
+struct Hall {
+  Points landmarks = 6.0 * scattered(10, 5);
+  SightingLog log = looks_at(landmarks, 300, 4, 5);
+
+  std::string csv(double unit = 1.0) const {
+    std::string text = "step,landmark,range,bearing\n";
+    for (const Sighting& seen : log.sightings)
+      text += fmt::format("{},{},{},{}\n", seen.step,
+                          log.names[static_cast<std::size_t>(seen.landmark)], seen.range_m,
+                          unit * seen.bearing_rad);
+    return text;
+  }
+  std::string positions(Eigen::Index count) const {
+    std::string text = "name,x,y\n";
+    for (Eigen::Index i = 0; i < count; ++i)
+      text += fmt::format("{},{},{}\n", log.names[static_cast<std::size_t>(i)], landmarks(i, 0),
+                          landmarks(i, 1));
+    return text;
+  }
+};
+
+Points places(const json& result, const char* x, const char* y) {
+  const json& rows = result.at("landmarks");
+  Points points(static_cast<Eigen::Index>(rows.size()), 2);
+  for (Eigen::Index i = 0; i < points.rows(); ++i)
+    points.row(i) << rows[static_cast<std::size_t>(i)].at(x).get<double>(),
+        rows[static_cast<std::size_t>(i)].at(y).get<double>();
+  return points;
+}
+
+TEST(MapOfSightings, WithoutAnchorsIsInMetres) {
+  const TemporaryFolder folder;
+  const Hall hall;
+  const std::string file = folder.file("seen.csv", hall.csv());
+  const Outcome run = mapproof({"map", file, "--out", folder / "map", "--json"});
+  ASSERT_EQ(run.exit_code, 0) << run.error;
+  const json result = json::parse(run.out);
+  EXPECT_EQ(result.at("method"), "pairs");
+  EXPECT_EQ(result.at("sensor"), "range-bearing");
+  EXPECT_LT(procrustes_gap(hall.landmarks, places(result, "x_m", "y_m")), 1e-8);
+  const std::string page = read_file(folder / "map/report.html");
+  EXPECT_NE(page.find("SMACOF of measured pairs"), std::string::npos);
+}
+
+TEST(MapOfSightings, GzippedInDegreesIsTheSame) {
+  const TemporaryFolder folder;
+  const Hall hall;
+  const std::string file = folder.file("seen.csv.gz", gzipped(hall.csv(180.0 / std::numbers::pi)));
+  const Outcome run = mapproof(
+      {"map", file, "--kind", "range-bearing", "--degrees", "--out", folder / "map", "--json"});
+  ASSERT_EQ(run.exit_code, 0) << run.error;
+  EXPECT_LT(procrustes_gap(hall.landmarks, places(json::parse(run.out), "x_m", "y_m")), 1e-8);
+}
+
+TEST(MapOfSightings, IsFittedToAnchorsAffinelyOrRigidly) {
+  const TemporaryFolder folder;
+  const Hall hall;
+  const std::string file = folder.file("seen.csv", hall.csv());
+  const std::string anchors = folder.file("anchors.csv", hall.positions(4));
+  const std::string truth = folder.file("truth.csv", hall.positions(10));
+  for (const char* fit : {"least-distances", "rigid"}) {
+    const Outcome run = mapproof({"map", file, "--anchors", anchors, "--truth", truth, "--fit", fit,
+                                  "--out", folder / fit, "--json"});
+    ASSERT_EQ(run.exit_code, 0) << run.error;
+    const json result = json::parse(run.out);
+    EXPECT_LT(result.at("score").at("mpe_m").get<double>(), 1e-8) << fit;
+    EXPECT_LT((places(result, "x_m", "y_m") - hall.landmarks).cwiseAbs().maxCoeff(), 1e-8);
+  }
+}
+
+TEST(MapOfSightings, OneKindOfThemCanBeMappedAlone) {
+  const TemporaryFolder folder;
+  const Hall hall;
+  const std::string file = folder.file("seen.csv", hall.csv());
+  for (const char* kind : {"visibility", "bearing", "range"}) {
+    const Outcome run = mapproof({"map", file, "--kind", kind, "--out", folder / kind, "--json"});
+    ASSERT_EQ(run.exit_code, 0) << run.error;
+    EXPECT_EQ(json::parse(run.out).at("sensor"), kind);
+  }
+}
+
+TEST(MapOfSightings, WhatDoesNotFitTogetherIsSaid) {
+  const TemporaryFolder folder;
+  const Hall hall;
+  const std::string file = folder.file("seen.csv", hall.csv());
+  const auto error = [&](std::vector<std::string> more) {
+    more.insert(more.begin(), {"map", file, "--out", folder / "map"});
+    const Outcome run = mapproof(more);
+    EXPECT_EQ(run.exit_code, 2);
+    return run.error;
+  };
+  EXPECT_NE(error({"--method", "isomap"}).find("range and bearing together are mapped by pairs"),
+            std::string::npos);
+  EXPECT_NE(error({"--method", "pairs", "--kind", "bearing"}).find("--kind range-bearing"),
+            std::string::npos);
+  EXPECT_NE(error({"-K", "5"}).find("has no parameter"), std::string::npos);
+  EXPECT_NE(error({"--kind", "range", "--fit", "rigid"}).find("--fit rigid"), std::string::npos);
+}
+
+TEST(MapOfSightings, ALongTableBeyondAllMemoryGivesTheMapOfItsPart) {
+  // The values of 30 landmarks at 200,000 steps, some 80 MB: read as a stream.
+  const TemporaryFolder folder;
+  const Points landmarks = 6.0 * scattered(30, 8);
+  const SightingLog log = looks_at(landmarks, 2000, 5, 8);
+  std::string text = "step,landmark,value\n";
+  for (int copy = 0; copy < 300; ++copy)
+    for (const Sighting& seen : log.sightings)
+      text += fmt::format("{},{},{:.17g}\n", copy * 2000 + seen.step,
+                          log.names[static_cast<std::size_t>(seen.landmark)], seen.bearing_rad);
+  ASSERT_GT(text.size(), 64'000'000U);
+  const std::string large = folder.file("large.csv", text);
+  const std::string small = folder.file("small.csv", text.substr(0, text.find("\n2000,") + 1));
+  Points maps[2];
+  for (const std::string& file : {small, large}) {
+    const Outcome run = mapproof(
+        {"map", file, "--kind", "bearing", "--method", "smacof", "--out", file + ".map", "--json"});
+    ASSERT_EQ(run.exit_code, 0) << run.error;
+    maps[file == large ? 1 : 0] = places(json::parse(run.out), "x", "y");
+  }
+  // Three hundred times the same looks: distances that many times longer, squared.
+  EXPECT_LT(procrustes_gap(std::sqrt(300.0) * maps[0], maps[1]), 1e-5 * maps[1].norm());
+}
+
+}  // namespace
+}  // namespace mapproof::test

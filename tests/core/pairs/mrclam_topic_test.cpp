@@ -1,0 +1,114 @@
+#include "core/trials/mrclam.hpp"
+
+#include <cmath>
+#include <cstdlib>
+
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include "tests/support/looks.hpp"
+#include "tests/support/temporary_folder.hpp"
+#include "tests/support/worlds.hpp"
+
+namespace mapproof {
+namespace {
+
+/// Files of a set whose robots measure without error.
+void write_set(const test::TemporaryFolder& folder, const std::string& name, bool with_truth) {
+  const Points landmarks = 6.0 * test::scattered(9, 3);
+  std::string barcodes = "# subject barcode\n1 5\n";
+  std::string truth;
+  for (int i = 0; i < 9; ++i) {
+    barcodes += fmt::format("{} {}\n", 6 + i, 60 + i);
+    truth += fmt::format("{} {} {} 0.001 0.001\n", 6 + i, landmarks(i, 0), landmarks(i, 1));
+  }
+  folder.file(name + "/Barcodes.dat", barcodes);
+  if (with_truth) folder.file(name + "/Landmark_Groundtruth.dat", truth);
+  for (const int robot : {1, 4}) {
+    std::string rows;
+    for (const Sighting& seen :
+         test::looks_at(landmarks, 150, 4, static_cast<std::uint64_t>(robot)).sightings)
+      rows += fmt::format("{} {} {} {}\n", 0.5 * seen.step, 60 + seen.landmark, seen.range_m,
+                          seen.bearing_rad);
+    folder.file(fmt::format("{}/Robot{}_Measurement.dat", name, robot), rows);
+  }
+  folder.file(name + "/Robot5_Measurement.dat", "");
+}
+
+TrialExperiment experiment() {
+  TrialExperiment experiment;
+  experiment.name = experiment.topic = "mrclam";
+  experiment.options = {{"neighbours", {5}}, {"replicates", {12}}, {"block_looks", {10}}};
+  return experiment;
+}
+
+TrialPart made(const TrialExperiment& experiment, const TrialData& data) {
+  const TrialContext context{.experiment = experiment,
+                             .part = data.set.id,
+                             .run = {},
+                             .anchors = {},
+                             .seed = 1,
+                             .data = data.folder,
+                             .with_maps = true};
+  return kMrclamTopic.make(context);
+}
+
+const Trial& trial(const TrialPart& part, const std::string& series) {
+  return *std::ranges::find(part.trials, series, &Trial::series);
+}
+
+TEST(MrclamSets, AreTheFoldersThatHoldRobotsOrTheFolderItself) {
+  const test::TemporaryFolder folder;
+  write_set(folder, "MRCLAM_Dataset2", true);
+  write_set(folder, "an other", true);
+  folder.file("notes/readme.txt", "no set");
+  const std::vector<TrialData> sets = kMrclamTopic.data_sets(folder.path());
+  ASSERT_EQ(sets.size(), 2U);
+  EXPECT_EQ(sets[0].set.id, "an-other");
+  EXPECT_EQ(sets[1].set.id, "mrclam-dataset2");
+  EXPECT_EQ(sets[0].set.digest, sets[1].set.digest);
+  EXPECT_EQ(kMrclamTopic.data_sets(folder / "an other").at(0).set.id, "an-other");
+  EXPECT_TRUE(kMrclamTopic.data_sets(folder / "notes").empty());
+}
+
+TEST(MrclamTopic, PairsOfPerfectRobotsGiveThePerfectMap) {
+  const test::TemporaryFolder folder;
+  write_set(folder, "set", true);
+  const TrialExperiment ordered = experiment();
+  const TrialPart part = made(ordered, kMrclamTopic.data_sets(folder.path()).at(0));
+  const TrialDesign design = kMrclamTopic.design(ordered);
+  ASSERT_EQ(part.trials.size(), design.series.size());
+  for (const Trial& one : part.trials) EXPECT_EQ(one.values.size(), design.quantities.size());
+  const Trial& pairs = trial(part, "pairs");
+  EXPECT_LT(pairs.values[0], 1e-8);
+  EXPECT_LT(pairs.values[3], 1e-8);
+  EXPECT_EQ(pairs.values[5], 9.0);
+  ASSERT_EQ(part.maps.size(), design.series.size());
+  EXPECT_EQ(part.maps.back().covariances.size(), 9U);
+  EXPECT_FALSE(part.maps.back().pairs.empty());
+}
+
+TEST(MrclamTopic, WithoutATruthThereAreMapsAndNoErrors) {
+  const test::TemporaryFolder folder;
+  write_set(folder, "set", false);
+  const TrialPart part = made(experiment(), kMrclamTopic.data_sets(folder.path()).at(0));
+  EXPECT_TRUE(std::isnan(trial(part, "pairs").values[0]));
+  EXPECT_LT(trial(part, "pairs").values[4], 1e-8);
+  EXPECT_TRUE(part.maps.back().map.estimate.allFinite());
+  TrialStudy study;
+  study.parts = {part};
+  study.parts[0].id = "set";
+  EXPECT_EQ(kMrclamTopic.conclude(study).size(), 1U);
+}
+
+TEST(MrclamTopic, ASetThatCannotBeReadIsSaidToBeSo) {
+  const test::TemporaryFolder folder;
+  write_set(folder, "set", true);
+  folder.file("set/Robot1_Measurement.dat", "1 2\n");
+  const TrialPart part = made(experiment(), kMrclamTopic.data_sets(folder.path()).at(0));
+  ASSERT_FALSE(trial(part, "pairs").statuses.empty());
+  EXPECT_NE(trial(part, "pairs").statuses[0].detail.find("line 1"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace mapproof

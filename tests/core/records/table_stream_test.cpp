@@ -1,0 +1,76 @@
+#include "core/records/table_stream.hpp"
+
+#include <gtest/gtest.h>
+
+#include "tests/core/records/samples.hpp"
+#include "tests/support/temporary_folder.hpp"
+
+namespace mapproof {
+namespace {
+
+using test::error_of;
+
+/// All cells with their lines, as text.
+std::string read_all(const std::filesystem::path& path) {
+  TableStream stream(path);
+  TableRow row;
+  std::string all;
+  while (stream.next(row)) {
+    all += std::to_string(row.line);
+    for (const std::string_view cell : row.cells) all += '|' + std::string(cell);
+    all += '\n';
+  }
+  return all;
+}
+
+/// The same by one reader over the whole text.
+std::string read_whole(const std::string& text) {
+  const std::string source = "whole";
+  TableReader reader(text, source);
+  TableRow row;
+  std::string all;
+  while (reader.next(row)) {
+    all += std::to_string(row.line);
+    for (const std::string_view cell : row.cells) all += '|' + std::string(cell);
+    all += '\n';
+  }
+  return all;
+}
+
+TEST(TableStream, GivesTheRowsThatOneReaderGives) {
+  const test::TemporaryFolder folder;
+  std::string text = "# a comment with one \" in it\r\nname;\"x\ny\";2\r\n";
+  for (int i = 0; i < 200'000; ++i) {
+    text += std::to_string(i) + ";\"a \"\"quoted\"\" one";
+    if (i % 1000 == 0) text += "\nover two lines";
+    text += "\";" + std::to_string(i % 97) + "\r\n";
+    if (i % 5000 == 0) text += "\n# \"\n";
+  }
+  EXPECT_TRUE(read_all(folder.file("a.csv", text)) == read_whole(text));
+}
+
+TEST(TableStream, NamesTheLineFarDownThatIsNoText) {
+  const test::TemporaryFolder folder;
+  std::string text;
+  for (int i = 0; i < 400'000; ++i) text += "12345,6\n";
+  text += "12345,\xFF\n";
+  const auto path = folder.file("a.csv", text);
+  EXPECT_EQ(error_of([&] { read_all(path); }),
+            path.string() + ": line 400001: byte 0xFF is not UTF-8");
+}
+
+TEST(TableStream, AQuoteThatNeverEndsIsFoundInBoundedMemory) {
+  const test::TemporaryFolder folder;
+  const auto path = folder.file("a.csv", "a,b\n1,\"" + std::string(std::size_t{20} << 20, 'x'));
+  EXPECT_EQ(error_of([&] { read_all(path); }),
+            path.string() + ": line 2: a row of more than 16 MB: do its quotes end?");
+}
+
+TEST(TableStream, AnEmptyFileIsAnError) {
+  const test::TemporaryFolder folder;
+  const auto path = folder.file("a.csv", "");
+  EXPECT_EQ(error_of([&] { read_all(path); }), path.string() + ": is empty");
+}
+
+}  // namespace
+}  // namespace mapproof

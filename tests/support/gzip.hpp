@@ -1,0 +1,11 @@
+#pragma once
+
+#include <string>
+#include <string_view>
+
+namespace mapproof::test {
+
+/// The bytes as a gzip file.
+std::string gzipped(std::string_view bytes);
+
+}  // namespace mapproof::test
