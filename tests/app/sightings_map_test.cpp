@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
@@ -38,12 +39,14 @@ struct Hall {
   }
 };
 
-Points places(const json& result, const char* x, const char* y) {
-  const json& rows = result.at("landmarks");
-  Points points(static_cast<Eigen::Index>(rows.size()), 2);
-  for (Eigen::Index i = 0; i < points.rows(); ++i)
-    points.row(i) << rows[static_cast<std::size_t>(i)].at(x).get<double>(),
-        rows[static_cast<std::size_t>(i)].at(y).get<double>();
+/// The landmarks' places in the order of `names`.
+Points places(const json& result, const std::vector<std::string>& names, const char* x,
+              const char* y) {
+  Points points(std::ssize(names), 2);
+  for (const json& row : result.at("landmarks")) {
+    const auto name = std::ranges::find(names, row.at("name").get<std::string>());
+    points.row(name - names.begin()) << row.at(x).get<double>(), row.at(y).get<double>();
+  }
   return points;
 }
 
@@ -56,7 +59,7 @@ TEST(MapOfSightings, WithoutAnchorsIsInMetres) {
   const json result = json::parse(run.out);
   EXPECT_EQ(result.at("method"), "pairs");
   EXPECT_EQ(result.at("sensor"), "range-bearing");
-  EXPECT_LT(procrustes_gap(hall.landmarks, places(result, "x_m", "y_m")), 1e-8);
+  EXPECT_LT(procrustes_gap(hall.landmarks, places(result, hall.log.names, "x_m", "y_m")), 1e-8);
   const std::string page = read_file(folder / "map/report.html");
   EXPECT_NE(page.find("SMACOF of measured pairs"), std::string::npos);
 }
@@ -68,7 +71,9 @@ TEST(MapOfSightings, GzippedInDegreesIsTheSame) {
   const Outcome run = mapproof(
       {"map", file, "--kind", "range-bearing", "--degrees", "--out", folder / "map", "--json"});
   ASSERT_EQ(run.exit_code, 0) << run.error;
-  EXPECT_LT(procrustes_gap(hall.landmarks, places(json::parse(run.out), "x_m", "y_m")), 1e-8);
+  EXPECT_LT(
+      procrustes_gap(hall.landmarks, places(json::parse(run.out), hall.log.names, "x_m", "y_m")),
+      1e-8);
 }
 
 TEST(MapOfSightings, IsFittedToAnchorsAffinelyOrRigidly) {
@@ -83,7 +88,8 @@ TEST(MapOfSightings, IsFittedToAnchorsAffinelyOrRigidly) {
     ASSERT_EQ(run.exit_code, 0) << run.error;
     const json result = json::parse(run.out);
     EXPECT_LT(result.at("score").at("mpe_m").get<double>(), 1e-8) << fit;
-    EXPECT_LT((places(result, "x_m", "y_m") - hall.landmarks).cwiseAbs().maxCoeff(), 1e-8);
+    EXPECT_LT((places(result, hall.log.names, "x_m", "y_m") - hall.landmarks).cwiseAbs().maxCoeff(),
+              1e-8);
   }
 }
 
@@ -134,7 +140,7 @@ TEST(MapOfSightings, ALongTableBeyondAllMemoryGivesTheMapOfItsPart) {
     const Outcome run = mapproof(
         {"map", file, "--kind", "bearing", "--method", "smacof", "--out", file + ".map", "--json"});
     ASSERT_EQ(run.exit_code, 0) << run.error;
-    maps[file == large ? 1 : 0] = places(json::parse(run.out), "x", "y");
+    maps[file == large ? 1 : 0] = places(json::parse(run.out), log.names, "x", "y");
   }
   // Three hundred times the same looks: distances that many times longer, squared.
   EXPECT_LT(procrustes_gap(std::sqrt(300.0) * maps[0], maps[1]), 1e-5 * maps[1].norm());
