@@ -185,7 +185,7 @@ MovedCheck find_moved(const SightingLog& log, const MovedOptions& options) {
     Tried split = splitter.split(tried, landmark, change.place);
     two = splitter.map_of(split, map);
     const double distance = (two.positions_m.row(landmark) - two.positions_m.bottomRows(1)).norm();
-    if (!(distance > options.least_move * map.width_m / 1.5)) break;
+    if (!(distance > options.least_move * std::sqrt(residual_variance(map)))) break;
     check.moved.push_back({landmark, steps[change.place], steps[change.earliest],
                            steps[change.latest], distance, p, map.loss_m, two.loss_m});
     tried = std::move(split);

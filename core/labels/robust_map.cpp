@@ -14,6 +14,7 @@
 namespace mapproof {
 namespace {
 
+constexpr double kWidths = 1.5;  ///< Standard deviations in RobustMap::width_m.
 constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
 constexpr double kInfinite = std::numeric_limits<double>::infinity();
 constexpr int kMostLandmarks = 2000;
@@ -90,7 +91,7 @@ double width_of(const std::vector<PairItem>& items, const Points& map) {
   }
   if (residuals.empty()) return 1.0;
   const double floor = std::max(1e-3 * median(distances), 1e-9);
-  return std::max(1.5 * 1.4826 * median(residuals), floor);
+  return std::max(kWidths * 1.4826 * median(residuals), floor);
 }
 
 /// Weights and distances of one round: what the cost's majorising parabolas add up to.
@@ -153,6 +154,10 @@ std::vector<PairItem> pair_items(const std::vector<LookPair>& pairs, const std::
                      std::min(static_cast<double>(end - begin), most_looks)});
   }
   return items;
+}
+
+double residual_variance(const RobustMap& map) {
+  return map.width_m * map.width_m / (kWidths * kWidths);
 }
 
 double map_cost(const std::vector<PairItem>& items, const Points& map, double width_m) {

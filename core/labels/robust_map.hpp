@@ -39,6 +39,9 @@ struct RobustMap {
                          ///< far ones drawn in.
 };
 
+/// The variance of a pair's residuals that the width of the map's cost stands for.
+double residual_variance(const RobustMap& map);
+
 /// From nothing: shortest paths over the medians, classical scaling, least Huber cost by majorised
 /// and reweighted stress. The width comes from the residuals' median.
 /// @throws InvalidInput if landmarks > 2000, or an item names none of them.

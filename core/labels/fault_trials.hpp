@@ -1,0 +1,26 @@
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "core/labels/labelled_looks.hpp"
+#include "core/labels/robust_map.hpp"
+
+namespace mapproof {
+
+/// A fault of labels that was tried, and what came of it.
+struct FaultTrial {
+  LabelHypothesis fault;
+  StepStretch stretch;
+  std::vector<int> labels;
+  RobustMap map;
+};
+
+/// The fault that lowers the cost of a map the most; empty if none does. The best of each kind is
+/// sharpened to the look before they are compared: whole blocks favour now one, now the other.
+/// @param labels  A landmark of each sighting, as they are so far.
+/// @param map  Of the pairs under these labels.
+std::optional<FaultTrial> best_trial(const LabelledLooks& looks, const std::vector<int>& labels,
+                                     const RobustMap& map);
+
+}  // namespace mapproof
