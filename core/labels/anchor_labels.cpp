@@ -1,0 +1,252 @@
+#include "core/labels/anchor_labels.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <complex>
+#include <functional>
+#include <limits>
+#include <numeric>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "core/base/errors.hpp"
+#include "core/labels/handedness.hpp"
+#include "core/labels/labelled_looks.hpp"
+#include "core/labels/place_costs.hpp"
+
+namespace mapproof {
+namespace {
+
+using Exchange = std::pair<int, int>;
+using Exchanges = std::vector<Exchange>;
+
+constexpr std::size_t kMostDoubted = 40;  ///< Known places whose labels are doubted.
+constexpr double kWidths = 2.0;           ///< Of Huber's cost, in standard deviations of a place.
+constexpr double kLeastEvidence = 30.0;   ///< Variances that an exchange has to explain,
+constexpr double kLeastLead = 10.0;       ///< and those by which it has to lead before any other.
+constexpr double kMostLeft = 5.0;         ///< Deviations that its landmarks may be off then.
+
+/// How well a map fits the known places.
+struct Fit {
+  std::vector<double> misses_m;  ///< Of each known place.
+  double cost = 0.0;             ///< Sum of Huber costs, m^2.
+};
+
+/// A map and the places that are known of it.
+class KnownPlaces {
+ public:
+  KnownPlaces(const Points& map_m, const Points& known_m) {
+    for (Eigen::Index k = 0; k < map_m.rows(); ++k) {
+      map_.emplace_back(map_m(k, 0), map_m(k, 1));
+      if (!known_m.row(k).allFinite() || !map_m.row(k).allFinite()) continue;
+      rows_.push_back(static_cast<int>(k));
+      known_.emplace_back(known_m(k, 0), known_m(k, 1));
+    }
+  }
+
+  const std::vector<int>& rows() const { return rows_; }
+  std::size_t landmarks() const { return map_.size(); }
+  bool mapped(int landmark) const {
+    return std::isfinite(map_[static_cast<std::size_t>(landmark)].real());
+  }
+
+  /// The similarity of least Huber cost, by reweighted least squares.
+  Fit fit(const Exchanges& exchanges, double deviation_m, bool mirrored = false) const {
+    std::vector<std::complex<double>> from = places(exchanges);
+    if (mirrored)
+      for (std::complex<double>& z : from) z = std::conj(z);
+    const double width = kWidths * deviation_m;
+    std::vector<double> weights(from.size(), 1.0);
+    Fit fit;
+    for (int round = 0; round < 12; ++round) {
+      fit = {misses(from, weights), 0.0};
+      for (std::size_t k = 0; k < from.size(); ++k) {
+        weights[k] = width / std::max(width, fit.misses_m[k]);
+        fit.cost += huber_cost(fit.misses_m[k], width);
+      }
+    }
+    return fit;
+  }
+
+ private:
+  std::vector<std::complex<double>> places(const Exchanges& exchanges) const {
+    std::vector<std::complex<double>> map = map_;
+    for (const auto& [a, b] : exchanges)
+      std::swap(map[static_cast<std::size_t>(a)], map[static_cast<std::size_t>(b)]);
+    std::vector<std::complex<double>> chosen;
+    for (const int row : rows_) chosen.push_back(map[static_cast<std::size_t>(row)]);
+    return chosen;
+  }
+
+  std::vector<double> misses(const std::vector<std::complex<double>>& from,
+                             const std::vector<double>& weights) const {
+    std::complex<double> from_mean;
+    std::complex<double> known_mean;
+    const double all = std::accumulate(weights.begin(), weights.end(), 0.0);
+    for (std::size_t k = 0; k < from.size(); ++k) {
+      from_mean += weights[k] / all * from[k];
+      known_mean += weights[k] / all * known_[k];
+    }
+    std::complex<double> product;
+    double square = 0.0;
+    for (std::size_t k = 0; k < from.size(); ++k) {
+      product += weights[k] * std::conj(from[k] - from_mean) * (known_[k] - known_mean);
+      square += weights[k] * std::norm(from[k] - from_mean);
+    }
+    const std::complex<double> turn = square > 0.0 ? product / square : 0.0;
+    std::vector<double> misses;
+    for (std::size_t k = 0; k < from.size(); ++k)
+      misses.push_back(std::abs(known_[k] - known_mean - turn * (from[k] - from_mean)));
+    return misses;
+  }
+
+  std::vector<std::complex<double>> map_;
+  std::vector<int> rows_;
+  std::vector<std::complex<double>> known_;
+};
+
+double root_mean_square(const Fit& fit) {
+  double sum = 0.0;
+  for (const double miss : fit.misses_m) sum += miss * miss;
+  return std::sqrt(sum / static_cast<double>(std::max<std::size_t>(1, fit.misses_m.size())));
+}
+
+/// The standard deviation of a place by the middle miss; a similarity hides four of 2 k misses.
+double deviation_of(const Fit& fit) {
+  std::vector<double> misses = fit.misses_m;
+  const auto middle = misses.begin() + std::ssize(misses) / 2;
+  std::ranges::nth_element(misses, middle);
+  const double places = static_cast<double>(misses.size());
+  return *middle / 1.18 * std::sqrt(places / (places - 2.0));
+}
+
+/// All exchanges that involve one of the known places that fit worst.
+Exchanges candidates(const KnownPlaces& places, const Fit& given) {
+  std::vector<std::size_t> order(places.rows().size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  std::ranges::stable_sort(order, std::greater<>(),
+                           [&](std::size_t k) { return given.misses_m[k]; });
+  order.resize(std::min(order.size(), kMostDoubted));
+  std::vector<char> done(places.landmarks(), 0);
+  Exchanges result;
+  for (const std::size_t k : order) {
+    const int a = places.rows()[k];
+    done[static_cast<std::size_t>(a)] = 1;
+    for (std::size_t b = 0; b < places.landmarks(); ++b)
+      if (done[b] == 0 && places.mapped(static_cast<int>(b)))
+        result.emplace_back(a, static_cast<int>(b));
+  }
+  return result;
+}
+
+/// The exchanges and one more, or nothing's cost if that shares a label with one of them.
+double cost_with(const KnownPlaces& places, Exchanges exchanges, const Exchange& one,
+                 double deviation_m) {
+  for (const auto& [a, b] : exchanges)
+    if (a == one.first || a == one.second || b == one.first || b == one.second)
+      return std::numeric_limits<double>::infinity();
+  exchanges.push_back(one);
+  return places.fit(exchanges, deviation_m).cost;
+}
+
+/// The exchanges that lower the cost the most, one after another.
+Exchanges lowest(const KnownPlaces& places, const Exchanges& tried, double deviation_m) {
+  const std::size_t most = (places.rows().size() - 2) / 2;
+  Exchanges chosen;
+  double cost = places.fit({}, deviation_m).cost;
+  while (chosen.size() < most) {
+    double best_cost = cost;
+    Exchange best;
+    for (const Exchange& one : tried)
+      if (const double other = cost_with(places, chosen, one, deviation_m); other < best_cost) {
+        best_cost = other;
+        best = one;
+      }
+    if (cost - best_cost < kLeastEvidence * deviation_m * deviation_m) break;
+    cost = best_cost;
+    chosen.push_back(best);
+  }
+  return chosen;
+}
+
+/// Whether the landmarks of the exchanges stand where they then should.
+bool in_place(const KnownPlaces& places, const Exchanges& chosen, const Fit& fit,
+              double deviation_m) {
+  for (std::size_t k = 0; k < places.rows().size(); ++k)
+    for (const auto& [a, b] : chosen)
+      if ((places.rows()[k] == a || places.rows()[k] == b) &&
+          fit.misses_m[k] > kMostLeft * deviation_m)
+        return false;
+  return true;
+}
+
+/// Whether each exchange is needed, and none could stand in its place.
+/// @param least_m  A place is not held to be surer than this.
+bool decided(const KnownPlaces& places, const Exchanges& chosen, const Exchanges& tried,
+             double least_m) {
+  const Fit fit = places.fit(chosen, least_m);
+  const double deviation = std::max(deviation_of(fit), least_m);
+  if (!in_place(places, chosen, fit, deviation)) return false;
+  const double variance = deviation * deviation;
+  const double cost = places.fit(chosen, deviation).cost;
+  // A map seen in a mirror, as with bearings of the other sign, is no fault of labels.
+  if (places.fit({}, deviation, true).cost < cost + kLeastEvidence * variance) return false;
+  for (std::size_t k = 0; k < chosen.size(); ++k) {
+    Exchanges others = chosen;
+    others.erase(others.begin() + static_cast<std::ptrdiff_t>(k));
+    if (places.fit(others, deviation).cost < cost + kLeastEvidence * variance) return false;
+    for (const Exchange& one : tried)
+      if (one != chosen[k] &&
+          cost_with(places, others, one, deviation) < cost + kLeastLead * variance)
+        return false;
+  }
+  return true;
+}
+
+SightingLog exchanged(SightingLog log, const Exchanges& exchanges) {
+  std::vector<int> labels = given_labels(log);
+  for (const auto& [a, b] : exchanges)
+    for (int& label : labels) label = label == a ? b : label == b ? a : label;
+  return relabelled(log, labels);
+}
+
+}  // namespace
+
+AnchorCheck check_anchor_labels(const SightingLog& log, const Points& known_m) {
+  if (known_m.rows() != std::ssize(log.names))
+    throw InvalidInput("known places have a row for each landmark");
+  const LabelledLooks looks = labelled_looks(log, 40);
+  const std::vector<PairItem> items = pair_items(looks.pairs, given_labels(log), looks.blocks);
+  const RobustMap map = unfolded_map(items, robust_map(items, static_cast<int>(log.names.size())),
+                                     looks.blocks.count);
+  const KnownPlaces places(with_hand_of_looks(log, map.positions_m), known_m);
+  AnchorCheck check{.places = static_cast<int>(places.rows().size()), .repaired = log};
+  if (check.places < kFewestKnownPlaces) return check;
+  const double deviation = std::max(map.loss_m, 1e-9);
+  const Fit given = places.fit({}, deviation);
+  check.misfit_before_m = check.misfit_after_m = root_mean_square(given);
+  const Exchanges tried = candidates(places, given);
+  Exchanges chosen = lowest(places, tried, deviation);
+  if (!chosen.empty() && !decided(places, chosen, tried, deviation)) chosen.clear();
+  Exchanges undone;
+  for (const Exchange& one : chosen) {
+    undone.push_back(one);
+    const double misfit = root_mean_square(places.fit(undone, deviation));
+    check.exchanges.push_back({one.first, one.second, check.misfit_after_m, misfit});
+    check.misfit_after_m = misfit;
+  }
+  check.repaired = exchanged(log, chosen);
+  return check;
+}
+
+std::string described(const AnchorExchange& exchange, const SightingLog& log) {
+  const auto label = [&](int k) { return printable(log.names[static_cast<std::size_t>(k)]); };
+  return fmt::format(
+      "{} and {} look exchanged in all sightings: known places missed by {:.3f} m, then by {:.3f} "
+      "m",
+      label(exchange.first), label(exchange.second), exchange.misfit_before_m,
+      exchange.misfit_after_m);
+}
+
+}  // namespace mapproof

@@ -1,0 +1,105 @@
+#include "core/labels/anchor_labels.hpp"
+
+#include <limits>
+#include <vector>
+
+#include <gtest/gtest.h>
+#include <Eigen/Geometry>
+
+#include "core/base/errors.hpp"
+#include "noisy_looks.hpp"
+
+namespace mapproof::test {
+namespace {
+
+bool always(int) { return true; }
+
+/// The places of some landmarks, in another frame than any map's.
+Points known(const std::vector<Eigen::Index>& landmarks) {
+  const Points truth = noisy_landmarks();
+  Points places = Points::Constant(truth.rows(), 2, std::numeric_limits<double>::quiet_NaN());
+  const Eigen::Rotation2Dd turn(1.1);
+  for (const Eigen::Index k : landmarks)
+    places.row(k) = (turn * truth.row(k).transpose()).transpose() + Eigen::RowVector2d(7.0, -3.0);
+  return places;
+}
+
+const std::vector<Eigen::Index> kCorners = {0, 2, 12, 14};
+const std::vector<Eigen::Index> kSix = {0, 2, 5, 9, 12, 14};
+
+TEST(AnchorLabels, NamesNothingWhereLabelsAreRight) {
+  for (std::uint64_t seed = 1; seed <= 5; ++seed)
+    for (const auto& anchors : {kCorners, kSix}) {
+      const AnchorCheck check = check_anchor_labels(noisy_looks(600, seed), known(anchors));
+      EXPECT_TRUE(check.exchanges.empty()) << seed;
+      EXPECT_EQ(check.places, std::ssize(anchors));
+      EXPECT_LT(check.misfit_before_m, 0.3);
+    }
+}
+
+TEST(AnchorLabels, FindsTwoAnchorsExchangedInAllSightings) {
+  const SightingLog clean = noisy_looks(600, 1);
+  for (const auto& [a, b] : {std::pair(0, 2), std::pair(0, 14), std::pair(2, 12)}) {
+    const AnchorCheck check = check_anchor_labels(swapped(clean, a, b, always), known(kCorners));
+    ASSERT_EQ(check.exchanges.size(), 1U) << a << ' ' << b;
+    EXPECT_EQ(std::minmax(check.exchanges[0].first, check.exchanges[0].second), std::minmax(a, b));
+    EXPECT_LT(check.misfit_after_m, 0.2 * check.misfit_before_m);
+    EXPECT_EQ(wrong_labels(check.repaired, clean), 0);
+  }
+}
+
+TEST(AnchorLabels, FindsAnAnchorExchangedWithAnyOtherLandmark) {
+  const SightingLog clean = noisy_looks(600, 2);
+  for (const auto& [a, b] : {std::pair(0, 8), std::pair(12, 4), std::pair(9, 3)}) {
+    const AnchorCheck check = check_anchor_labels(swapped(clean, a, b, always), known(kSix));
+    ASSERT_EQ(check.exchanges.size(), 1U) << a << ' ' << b;
+    EXPECT_EQ(check.exchanges[0].first, a);
+    EXPECT_EQ(check.exchanges[0].second, b);
+    EXPECT_EQ(wrong_labels(check.repaired, clean), 0);
+  }
+}
+
+TEST(AnchorLabels, FindsTwoExchangesAmongSixPlaces) {
+  const SightingLog clean = noisy_looks(600, 3);
+  const SightingLog wrong = swapped(swapped(clean, 0, 9, always), 14, 7, always);
+  const AnchorCheck check = check_anchor_labels(wrong, known(kSix));
+  EXPECT_EQ(check.exchanges.size(), 2U);
+  EXPECT_EQ(wrong_labels(check.repaired, clean), 0);
+}
+
+TEST(AnchorLabels, SaysNothingOfFewerThanFourPlaces) {
+  const SightingLog wrong = swapped(noisy_looks(600, 1), 0, 2, always);
+  const AnchorCheck check = check_anchor_labels(wrong, known({0, 2, 12}));
+  EXPECT_EQ(check.places, 3);
+  EXPECT_TRUE(check.exchanges.empty());
+  EXPECT_EQ(wrong_labels(check.repaired, wrong), 0);
+}
+
+TEST(AnchorLabels, DoesNotBlameLabelsForASurveyThatIsWrong) {
+  Points places = known(kSix);
+  places.row(5) += Eigen::RowVector2d(3.3, 0.9);
+  EXPECT_TRUE(check_anchor_labels(noisy_looks(600, 1), places).exchanges.empty());
+}
+
+TEST(AnchorLabels, DoesNotBlameLabelsForBearingsOfTheOtherSign) {
+  SightingLog mirrored = noisy_looks(600, 1);
+  for (Sighting& sighting : mirrored.sightings) sighting.bearing_rad *= -1.0;
+  for (const auto& anchors : {kCorners, kSix})
+    EXPECT_TRUE(check_anchor_labels(mirrored, known(anchors)).exchanges.empty());
+}
+
+TEST(AnchorLabels, TakesWhatHasNoMap) {
+  EXPECT_TRUE(check_anchor_labels({}, Points(0, 2)).exchanges.empty());
+  const SightingLog lonely{{"A", "B"}, {{0, 0, 1.0, 0.0}, {1, 1, 2.0, 0.0}}, 2, {}};
+  EXPECT_EQ(check_anchor_labels(lonely, Points::Zero(2, 2)).places, 0);
+  EXPECT_THROW(check_anchor_labels(lonely, Points::Zero(3, 2)), InvalidInput);
+}
+
+TEST(AnchorLabels, SaysWhatItFound) {
+  EXPECT_EQ(described(AnchorExchange{0, 2, 1.93, 0.12}, noisy_looks(10, 1)),
+            "A and C look exchanged in all sightings: known places missed by 1.930 m, then by "
+            "0.120 m");
+}
+
+}  // namespace
+}  // namespace mapproof::test
