@@ -43,8 +43,8 @@ OwnMap map_input(const OwnInput& input, const std::optional<NamedPointsFile>& an
   const std::optional<Sensor> sensor = kind.empty() ? std::nullopt : sensor_named(kind);
   if (kind == kRangeBearing)
     return map_pairs(sightings_of(input), anchors, truth, options, input.rigid);
-  const bool as_usual =
-      options.missing.way == MissingChoice().way && options.submaps == 0 && !input.labels.asked();
+  const bool as_usual = options.missing.way == MissingChoice().way && options.submaps == 0 &&
+                        !input.labels.asked() && !options.choose && options.ellipse_replicates == 0;
   if (sensor && as_usual && input.layout != Layout::kWide && is_large_long_table(input.path))
     return map_sparse(read_sightings(input.path, {.unit = input.unit, .value = sensor}), *sensor,
                       anchors, truth, options);

@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include "app/own_certainty.hpp"
 #include "app/own_submaps.hpp"
 #include "core/base/errors.hpp"
 #include "core/observe/proximities.hpp"
@@ -75,8 +76,18 @@ OwnMap map_own(const ObservationSource& source, const std::optional<NamedPointsF
 
   EmbedderOptions fitting;
   fitting.only_seen_together = options.only_seen_together;
-  MissingOutcome missing;
-  OwnEmbedding made = own_embedding(source.history, steps, options.setting, fitting,
+  MissingOutcome missing, of_draws;  // What draws of the steps went through is not told.
+  MethodSetting asked = options.setting;
+  if (options.choose) {
+    result.choice =
+        own_choice(source.history, steps, {reference.positions_m, reference.anchors},
+                   {.embedder = fitting,
+                    .rule = proximity_rule(options.missing, source.history.sensor, of_draws),
+                    .fit = options.fit});
+    if (!result.choice->order.empty())
+      asked = result.choice->maps[result.choice->order.front()].setting;
+  }
+  OwnEmbedding made = own_embedding(source.history, steps, asked, fitting,
                                     proximity_rule(options.missing, source.history.sensor, missing),
                                     options.submaps);
   result.remarks.insert(result.remarks.end(), missing.remarks.begin(), missing.remarks.end());
@@ -94,6 +105,15 @@ OwnMap map_own(const ObservationSource& source, const std::optional<NamedPointsF
                          embedding.statuses.end());
   record.certificate = embedding.certificate;
   align_and_score(record, embedding.coordinates, reference, options.fit);
+  if (options.ellipse_replicates > 0)
+    result.certainty =
+        own_certainty(record, source.history,
+                      {.setting = record.setting,
+                       .embedder = fitting,
+                       .rule = proximity_rule(options.missing, source.history.sensor, of_draws),
+                       .replicates = options.ellipse_replicates,
+                       .fit = options.fit},
+                      result.remarks);
   return result;
 }
 

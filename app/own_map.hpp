@@ -5,10 +5,12 @@
 #include <utility>
 #include <vector>
 
+#include "app/own_choice.hpp"
 #include "app/own_missing.hpp"
 #include "app/own_reference.hpp"
 #include "core/embed/embedder.hpp"
 #include "core/model/experiment.hpp"
+#include "core/model/map_certainty.hpp"
 #include "core/model/map_record.hpp"
 #include "core/model/submaps.hpp"
 #include "core/records/observations.hpp"
@@ -18,12 +20,14 @@ namespace mapproof {
 /// How a person's own observations are to be mapped.
 struct OwnMapOptions {
   MethodSetting setting;  ///< Without a parameter: the usual one of these data.
+  bool choose = false;    ///< Choose method and parameter; `setting` is for where none gives a map.
   int steps = 0;          ///< The first so many observations; 0: all.
   AffineFit fit = AffineFit::kLeastDistances;
   bool drop_unseen = false;         ///< Map the others where a landmark was never observed.
   bool only_seen_together = false;  ///< See EmbedderOptions.
   MissingChoice missing;
-  int submaps = 0;  ///< Most landmarks of a sub-map, 6 or more; 0: one map.
+  int submaps = 0;             ///< Most landmarks of a sub-map, 6 or more; 0: one map.
+  int ellipse_replicates = 0;  ///< Draws for each landmark's ellipse; 0: none.
 };
 
 /// A map and what has to be said about how it came to be.
@@ -36,6 +40,8 @@ struct OwnMap {
   /// What was mapped and how, where the record's sensor and method do not say it.
   std::string observed = {};
   std::string made_by = {};
+  std::optional<MapCertainty> certainty = std::nullopt;  ///< If it was asked for.
+  std::optional<OwnChoice> choice = std::nullopt;        ///< If the method was to be chosen.
 };
 
 /// Maps observations, aligned to the anchors if there are any, scored if there is a truth.

@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 
+#include "app/own_certainty.hpp"
 #include "core/align/rigid.hpp"
 #include "core/base/errors.hpp"
 #include "core/base/words.hpp"
@@ -133,6 +134,9 @@ OwnMap map_pairs(SightingSource source, const std::optional<NamedPointsFile>& an
       fmt::format("{} of {}", map.pairs.size(), log.names.size() * (log.names.size() - 1) / 2));
   record.estimate = map.embedding.coordinates;
   place(result, known, log, options.fit, rigid);
+  if (options.ellipse_replicates > 0)
+    result.certainty =
+        own_pair_certainty(record, log, rigid, options.ellipse_replicates, result.remarks);
   return result;
 }
 

@@ -7,6 +7,8 @@
 
 #include "app/build_facts.hpp"
 #include "app/commands/verbs.hpp"
+#include "app/follow_map.hpp"
+#include "app/followed_outputs.hpp"
 #include "app/map_folder.hpp"
 #include "app/own_input.hpp"
 #include "app/result_json.hpp"
@@ -15,10 +17,12 @@
 #include "core/base/words.hpp"
 #include "core/records/map_files.hpp"
 #include "render/figures/map.hpp"
+#include "render/figures/map_ellipses.hpp"
 #include "render/figures/score_words.hpp"
 #include "render/figures/submaps.hpp"
 #include "render/output/write_figure.hpp"
 #include "reports/html/report_html.hpp"
+#include "reports/sections/certainty_section.hpp"
 #include "reports/sections/map_report.hpp"
 #include "reports/sections/study_figures.hpp"
 #include "reports/tables/write_tables.hpp"
@@ -42,6 +46,8 @@ struct Arguments {
   std::optional<double> variance;
   std::optional<double> degree;
   std::optional<std::string> templates;
+  bool follow = false;
+  std::string every = "1s";
   OwnMapOptions options;
 };
 
@@ -106,6 +112,14 @@ void require_pairs(const Arguments& arguments) {
 
 /// The method, and its parameter if one was given.
 MethodSetting chosen_setting(const Arguments& arguments) {
+  if (arguments.options.submaps > 0 &&
+      (arguments.options.choose || arguments.options.ellipse_replicates > 0))
+    throw InvalidInput("--submaps: not with --method auto or --ellipses");
+  if (arguments.options.choose) {
+    if (arguments.parameter || arguments.neighbours || arguments.variance || arguments.degree)
+      throw InvalidInput("--method auto chooses the parameter, too; leave it out");
+    return {Method::kIsomap, std::nullopt};
+  }
   const std::string name = arguments.method.empty() ? "isomap" : lower_case(arguments.method);
   const std::optional<Method> method = method_named(name);
   if (!method)
@@ -163,6 +177,20 @@ std::vector<std::pair<std::string, std::string>> facts(const Arguments& argument
   return items;
 }
 
+nlohmann::ordered_json landmark_json(const OwnMap& map, Eigen::Index i) {
+  const MapRecord& record = map.record;
+  const std::string unit = record.frame == Frame::kTruth ? "_m" : "";
+  nlohmann::ordered_json landmark{{"name", record.names[static_cast<std::size_t>(i)]},
+                                  {"x" + unit, number_or_null(record.estimate(i, 0))},
+                                  {"y" + unit, number_or_null(record.estimate(i, 1))}};
+  if (!map.certainty) return landmark;
+  landmark["ellipse"] = nullptr;
+  if (const std::optional<Ellipse> ellipse = confidence_ellipse(*map.certainty, i))
+    landmark["ellipse"] = {
+        {"a" + unit, ellipse->a}, {"b" + unit, ellipse->b}, {"turn_rad", ellipse->turn_rad}};
+  return landmark;
+}
+
 nlohmann::ordered_json map_result(const OwnMap& map, const fs::path& out) {
   const MapRecord& record = map.record;
   const bool metric = record.frame == Frame::kTruth;
@@ -185,11 +213,10 @@ nlohmann::ordered_json map_result(const OwnMap& map, const fs::path& out) {
         {"mpe_all_fitted_m", number_or_null(record.score->mpe_all_fitted_m)},
         {"moe_unmirrored_percent", number_or_null(record.score->moe_unmirrored_percent)}};
   for (Eigen::Index i = 0; i < record.estimate.rows(); ++i)
-    object["landmarks"].push_back({{"name", record.names[static_cast<std::size_t>(i)]},
-                                   {metric ? "x_m" : "x", number_or_null(record.estimate(i, 0))},
-                                   {metric ? "y_m" : "y", number_or_null(record.estimate(i, 1))}});
+    object["landmarks"].push_back(landmark_json(map, i));
   for (const Status& status : record.statuses)
     object["statuses"].push_back({{"code", name(status.code)}, {"detail", status.detail}});
+  if (map.choice) object["choice"] = choice_json(*map.choice);
   return object;
 }
 
@@ -206,6 +233,12 @@ void write_outputs(const Arguments& arguments, const OwnMap& map, const Template
                    const Invocation& invocation) {
   std::vector<Figure> figures = {map_figure(map.record, "map", what_words(map))};
   if (map.joined) figures.push_back(submaps_figure(*map.joined, map.record.names, "submaps"));
+  std::vector<Section> sections;
+  if (map.choice) sections.push_back(choice_section(*map.choice));
+  if (map.certainty) {
+    add_ellipses(map.record, *map.certainty, figures.front());
+    sections.push_back(certainty_section(map.record, *map.certainty));
+  }
   std::vector<FigureBlock> more;
   for (std::size_t k = 1; k < figures.size(); ++k) more.push_back(figure_block(figures[k]));
   const Report report =
@@ -217,12 +250,13 @@ void write_outputs(const Arguments& arguments, const OwnMap& map, const Template
                   .more_figures = std::move(more),
                   .provenance = build_provenance(),
                   .command = invocation.command,
-                  .what = what_words(map)});
+                  .what = what_words(map),
+                  .more = std::move(sections)});
   const MapFolder folder(arguments.out, map.record);
   const fs::path& out = folder.path();
   // The file that marks the folder as a map's comes first: a killed command can then be repeated.
-  write_file(out / kMapFile, map_json(map.record));
-  write_file(out / "map.csv", map_csv(map.record));
+  write_file(out / kMapFile, map_json(map.record, map.certainty));
+  write_file(out / "map.csv", map_csv(map.record, map.certainty));
   if (!map.joined)  // of an earlier map in this folder
     for (const char* ending : {".svg", ".png", ".pdf", ".figure.json"})
       fs::remove(out / "figures" / (std::string("submaps") + ending));
@@ -237,6 +271,37 @@ void write_outputs(const Arguments& arguments, const OwnMap& map, const Template
   write_file(out / "report.html", html);
 }
 
+int follow_file(const Arguments& arguments, const Templates& page, const Invocation& invocation) {
+  const OwnMapOptions& options = arguments.options;
+  const std::optional<Sensor> kind = sensor_named(arguments.input.kind);
+  if (!kind)
+    throw InvalidInput("--follow: say by --kind what the values are: visibility, bearing or range");
+  if (options.choose || options.ellipse_replicates > 0 || options.steps > 0 ||
+      !arguments.truth.empty() || options.missing.way != MissingChoice().way ||
+      options.submaps > 0 || arguments.input.labels.asked())
+    throw InvalidInput(
+        "--follow: not with --method auto, --ellipses, --steps, --truth, --missing, --submaps or "
+        "labels that are checked");
+  FollowOrder order{.path = arguments.input.path,
+                    .sensor = *kind,
+                    .unit = arguments.input.unit,
+                    .options = {.setting = options.setting, .embedder = {}},
+                    .every = follow_interval(arguments.every),
+                    .anchors = read_points(arguments.anchors),
+                    .fit = options.fit};
+  order.options.embedder.only_seen_together = options.only_seen_together;
+  const OwnMap map = follow_map(order, invocation.console,
+                                followed_outputs({.out = arguments.out,
+                                                  .observations = arguments.input.path,
+                                                  .command = invocation.command,
+                                                  .page = page}));
+  for (const std::string& remark : map.remarks) invocation.console.warning(remark);
+  for (const Status& status : map.record.statuses)
+    invocation.console.warning(fmt::format("{}: {}", name(status.code), status.detail));
+  invocation.console.result(map_text(map, arguments.out), map_result(map, arguments.out));
+  return map.record.estimate.array().isNaN().all() ? kNo : kDone;
+}
+
 int make_map(Arguments arguments, const Invocation& invocation) {
   const Templates page = load_templates(arguments.templates);
   check_map_folder(arguments.out);
@@ -247,11 +312,14 @@ int make_map(Arguments arguments, const Invocation& invocation) {
   input.unit = arguments.degrees ? AngleUnit::kDegrees : AngleUnit::kRadians;
   input.rigid = arguments.fit == "rigid";
   if (input.kind.empty() && arguments.method == kPairs) input.kind = kRangeBearing;
-  input.kind = kind_of(input);
+  arguments.options.choose = lower_case(arguments.method) == "auto";
+  // What grows, or comes by a pipe, cannot be looked into first.
+  if (!arguments.follow) input.kind = kind_of(input);
   require_pairs(arguments);
   if (input.kind != kRangeBearing) arguments.options.setting = chosen_setting(arguments);
   arguments.options.fit =
       arguments.fit == "least-squares" ? AffineFit::kLeastSquares : AffineFit::kLeastDistances;
+  if (arguments.follow) return follow_file(arguments, page, invocation);
   const OwnMap map = map_input(input, read_points(arguments.anchors), read_points(arguments.truth),
                                arguments.options);
   for (const auto& [what, value] : map.read)
@@ -284,8 +352,10 @@ Action map_verb(CLI::App& app) {
       "Exit code 1 if no map came out; the report then says why.\n");
   app.add_option("OBSERVATIONS", arguments->input.path, "File or folder")->required();
   add_out_option(app, arguments->out, "Folder for map, figure and report")->required();
-  app.add_option("--method", arguments->method,
-                 "See \"mapproof methods\" (default: isomap); of range-bearing: pairs");
+  app.add_option(
+      "--method", arguments->method,
+      "See \"mapproof methods\" (default: isomap), or auto: the best by what can be told "
+      "without the truth; of range-bearing: pairs");
   CLI::Option_group* parameter =
       app.add_option_group("Parameter of the method", "One of these, see \"mapproof methods\"");
   parameter->require_option(0, 1);
@@ -330,6 +400,18 @@ Action map_verb(CLI::App& app) {
   app.add_option("--submaps", arguments->options.submaps,
                  "Map overlapping groups of at most so many landmarks apart, and join them")
       ->check(CLI::Range(6, 5000));
+  app.add_option("--ellipses", arguments->options.ellipse_replicates,
+                 "Draw each landmark's 95 % ellipse, from so many maps of steps drawn anew "
+                 "(default: 200)")
+      ->expected(0, 1)
+      ->default_str("200")
+      ->check(CLI::Range(10, 10000));
+  app.add_flag("--follow", arguments->follow,
+               "Follow long CSV as it grows (-: standard input) and write map and figure again and "
+               "again, to its end, SIGINT or SIGTERM");
+  app.add_option("--every", arguments->every,
+                 "With --follow: after so many steps (100) or seconds (2s)")
+      ->capture_default_str();
   app.add_flag("--check-labels", arguments->input.labels.check,
                "Sightings of range and bearing: name labels that contradict the others");
   app.add_flag("--repair-labels", arguments->input.labels.repair, "And mend them before mapping");

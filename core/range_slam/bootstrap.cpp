@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "core/align/rigid.hpp"
+#include "core/align/laid_on.hpp"
 #include "core/base/errors.hpp"
 #include "core/base/random.hpp"
 #include "core/range_slam/metric_upgrade.hpp"
@@ -19,13 +19,6 @@ std::vector<Eigen::Index> drawn_steps(Eigen::Index T, Eigen::Index block, Random
     for (Eigen::Index i = 0; i < block && std::ssize(steps) < T; ++i) steps.push_back(first + i);
   }
   return steps;
-}
-
-/// `points` moved, mirrored and scaled to lie on `onto` best.
-Points laid_on(const Points& points, const Points& onto) {
-  const Similarity mirror = fit_similarity(points, onto, Alignment::kRigidWithReflection);
-  const Points turned = mirror(points);
-  return fit_similarity(turned, onto, Alignment::kSimilarity)(turned);
 }
 
 }  // namespace
@@ -50,7 +43,7 @@ LandmarkBootstrap bootstrap_landmarks(const Eigen::MatrixXd& Y, const Points& la
         known ? map_from_known_landmarks(factors, *known) : metric_upgrade(factors).map;
     if (map.empty()) continue;
     const Points landmarks = landmarks_of(map.C);
-    maps.push_back(known ? landmarks : laid_on(landmarks, landmarks_m));
+    maps.push_back(known ? landmarks : *laid_on(landmarks, landmarks_m));
   }
   LandmarkBootstrap result{.covariances_m2 = {}, .maps = static_cast<int>(maps.size())};
   if (maps.size() < 2) return result;

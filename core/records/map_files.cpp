@@ -1,13 +1,35 @@
 #include "core/records/map_files.hpp"
 
 #include <algorithm>
+#include <numbers>
 
 #include "core/base/csv.hpp"
 #include "core/json/json_text.hpp"
+#include "core/records/certainty_values.hpp"
 #include "core/records/map_values.hpp"
 
 namespace mapproof {
 namespace {
+
+std::string ellipse_fields(const MapCertainty& certainty, Eigen::Index i) {
+  const std::optional<Ellipse> ellipse = confidence_ellipse(certainty, i);
+  if (!ellipse) return ",,,";
+  return ',' + csv_number(ellipse->a) + ',' + csv_number(ellipse->b) + ',' +
+         csv_number(ellipse->turn_rad * 180.0 / std::numbers::pi);
+}
+
+/// A whole file and the certainty in it.
+std::pair<MapRecord, std::optional<MapCertainty>> parse(std::string_view text,
+                                                        const std::string& source) {
+  const JsonDocument document = parse_json(text, source);
+  const JsonCursor object = document.cursor();
+  expect_schema(object, "mapproof.map");
+  MapRecord map = read_map(object, nullptr, {"schema", "certainty"});
+  std::optional<MapCertainty> certainty;
+  if (const auto value = object.find("certainty"))
+    certainty = read_certainty(*value, map.names.size());
+  return {std::move(map), std::move(certainty)};
+}
 
 std::string csv_row(const MapRecord& map, Eigen::Index i) {
   const bool has_truth = map.truth_m && map.truth_m->row(i).allFinite();
@@ -19,27 +41,36 @@ std::string csv_row(const MapRecord& map, Eigen::Index i) {
   if (is_metric)
     row += ',' + (has_truth ? csv_number((map.estimate.row(i) - map.truth_m->row(i)).norm()) : "");
   row += std::ranges::find(map.anchors, i) != map.anchors.end() ? ",1" : ",0";
-  return row + "\r\n";
+  return row;
 }
 
 }  // namespace
 
-std::string map_json(const MapRecord& map) {
+std::string map_json(const MapRecord& map, const std::optional<MapCertainty>& certainty) {
   nlohmann::ordered_json value = {{"schema", schema_value("mapproof.map")}};
   value.update(map_value(map));
+  if (certainty) value["certainty"] = certainty_value(*certainty);
   return json_text(value);
 }
 
 MapRecord parse_map(std::string_view text, const std::string& source) {
-  const JsonDocument document = parse_json(text, source);
-  expect_schema(document.cursor(), "mapproof.map");
-  return read_map(document.cursor(), nullptr, {"schema"});
+  return parse(text, source).first;
 }
 
-std::string map_csv(const MapRecord& map) {
-  std::string csv = map.frame == Frame::kTruth ? "name,x_m,y_m,true_x_m,true_y_m,error_m,anchor\r\n"
-                                               : "name,x,y,true_x_m,true_y_m,anchor\r\n";
-  for (Eigen::Index i = 0; i < map.estimate.rows(); ++i) csv += csv_row(map, i);
+std::optional<MapCertainty> parse_map_certainty(std::string_view text, const std::string& source) {
+  return parse(text, source).second;
+}
+
+std::string map_csv(const MapRecord& map, const std::optional<MapCertainty>& certainty) {
+  const bool metric = map.frame == Frame::kTruth;
+  std::string csv = metric ? "name,x_m,y_m,true_x_m,true_y_m,error_m,anchor"
+                           : "name,x,y,true_x_m,true_y_m,anchor";
+  if (certainty)
+    csv += metric ? ",ellipse_a_m,ellipse_b_m,ellipse_turn_deg"
+                  : ",ellipse_a,ellipse_b,ellipse_turn_deg";
+  csv += "\r\n";
+  for (Eigen::Index i = 0; i < map.estimate.rows(); ++i)
+    csv += csv_row(map, i) + (certainty ? ellipse_fields(*certainty, i) : "") + "\r\n";
   return csv;
 }
 

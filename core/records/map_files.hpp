@@ -1,21 +1,29 @@
 #pragma once
 
+#include <optional>
 #include <string>
 #include <string_view>
 
+#include "core/model/map_certainty.hpp"
 #include "core/model/map_record.hpp"
 
 namespace mapproof {
 
 /// One map as a file of its own (mapproof.map); a NaN row of positions is null.
-std::string map_json(const MapRecord& map);
+/// @param certainty  Of its landmarks, as many as the map has.
+std::string map_json(const MapRecord& map, const std::optional<MapCertainty>& certainty = {});
 
-/// @param source  What to call the file in errors. @throws IoError with the place.
+/// @param source  What to call the file in errors. @throws IoError with the place, of what is wrong
+///                with its certainty, too.
 MapRecord parse_map(std::string_view text, const std::string& source);
 
+/// The certainty in a map's file; empty if it has none. @throws IoError as parse_map.
+std::optional<MapCertainty> parse_map_certainty(std::string_view text, const std::string& source);
+
 /// One map as RFC 4180: name,x_m,y_m,true_x_m,true_y_m,error_m,anchor; empty where unknown.
-/// Without the frame of the truth the columns are x,y and there is no error. Names are kept as they
-/// are, so a spreadsheet may take one that starts with = + - or @ for a formula.
-std::string map_csv(const MapRecord& map);
+/// Without the frame of the truth the columns are x,y and there is no error. With a certainty the
+/// half axes of the ellipse and the turn of the longer one from the x axis follow. Names are kept
+/// as they are, so a spreadsheet may take one that starts with = + - or @ for a formula.
+std::string map_csv(const MapRecord& map, const std::optional<MapCertainty>& certainty = {});
 
 }  // namespace mapproof

@@ -4,10 +4,14 @@
 #include <fmt/format.h>
 
 #include "core/base/errors.hpp"
+#include "core/trials/certainty.hpp"
+#include "core/trials/choice.hpp"
 #include "core/trials/labels.hpp"
 #include "core/trials/missing.hpp"
+#include "core/trials/mixed.hpp"
 #include "core/trials/moved.hpp"
 #include "core/trials/mrclam.hpp"
+#include "core/trials/online.hpp"
 #include "core/trials/submaps.hpp"
 #include "core/trials/topic.hpp"
 
@@ -15,8 +19,8 @@ namespace mapproof {
 
 std::span<const Topic* const> all_topics() {
   static const std::vector<const Topic*> kTopics = {
-      &kMissingTopic,  //
-      &kSubmapsTopic, &kLabelsTopic, &kMovedTopic, &kMrclamTopic,
+      &kCertaintyTopic, &kChoiceTopic, &kLabelsTopic, &kMissingTopic, &kMixedTopic,
+      &kMovedTopic,     &kMrclamTopic, &kOnlineTopic, &kSubmapsTopic,
   };
   return kTopics;
 }

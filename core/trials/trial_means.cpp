@@ -32,4 +32,12 @@ double trial_mean(const TrialStudy& study, std::string_view setup, std::string_v
                         : sum / static_cast<double>(values.size());
 }
 
+void add_seconds(TrialPart& part, std::string_view series, double seconds) {
+  const auto found = std::ranges::find(part.seconds, series, &TrialSeconds::series);
+  if (found == part.seconds.end())
+    part.seconds.push_back({part.id, std::string(series), seconds});
+  else
+    found->seconds += seconds;
+}
+
 }  // namespace mapproof

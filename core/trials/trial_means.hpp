@@ -18,4 +18,7 @@ std::vector<double> trial_values(const TrialStudy& study, std::string_view setup
 double trial_mean(const TrialStudy& study, std::string_view setup, std::string_view series,
                   double level, std::string_view quantity);
 
+/// Adds to what a series took on a part: one entry a series.
+void add_seconds(TrialPart& part, std::string_view series, double seconds);
+
 }  // namespace mapproof

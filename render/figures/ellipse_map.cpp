@@ -164,7 +164,7 @@ ScatterEllipse scatter_ellipse(const std::vector<Points>& estimates_m, Eigen::In
     C += off.transpose() * off;
   }
   C /= ellipse.runs - 1;
-  const CovarianceEllipse axes = covariance_ellipse(C);
+  const Ellipse axes = covariance_ellipse(C);
   ellipse.a_m = axes.a, ellipse.b_m = axes.b, ellipse.turn_rad = axes.turn_rad;
   return ellipse;
 }

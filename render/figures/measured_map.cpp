@@ -43,7 +43,7 @@ Ellipses scatter_ellipses(const MeasuredMapSpec& spec) {
   for (std::size_t i = 0; i < spec.covariances.size(); ++i) {
     const auto place = spec.map.estimate.row(static_cast<Eigen::Index>(i));
     if (!spec.covariances[i].allFinite() || !place.allFinite()) continue;
-    const CovarianceEllipse axes = covariance_ellipse(spec.covariances[i]);
+    const Ellipse axes = covariance_ellipse(spec.covariances[i]);
     ellipses.x.push_back(place(0)), ellipses.y.push_back(place(1));
     ellipses.a.push_back(axes.a), ellipses.b.push_back(axes.b);
     ellipses.turn_rad.push_back(axes.turn_rad);

@@ -139,7 +139,7 @@ class PathMap {
     for (Index i = 0; i < std::ssize(covariances); ++i) {
       const Eigen::RowVector2d at = record.estimate.landmarks_m.row(i);
       if (!in_picture(at) || !covariances[i].allFinite()) continue;
-      const CovarianceEllipse ellipse = covariance_ellipse(covariances[i]);
+      const Ellipse ellipse = covariance_ellipse(covariances[i]);
       ellipses.x.push_back(at.x()), ellipses.y.push_back(at.y());
       ellipses.a.push_back(view_.enlarged * ellipse.a);
       ellipses.b.push_back(view_.enlarged * ellipse.b);

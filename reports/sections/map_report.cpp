@@ -228,6 +228,7 @@ Report map_report(const MapReportInput& input) {
   if (!input.record.anchors.empty()) landmarks.blocks.emplace_back(anchors_table(input.record));
   landmarks.blocks.emplace_back(landmarks_table(input.record));
   report.sections.push_back(std::move(landmarks));
+  report.sections.insert(report.sections.end(), input.more.begin(), input.more.end());
   report.sections.push_back(input_section(input));
   if (input.record.certificate)
     report.sections.push_back(certificate_section(*input.record.certificate));

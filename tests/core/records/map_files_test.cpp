@@ -1,5 +1,7 @@
 #include "core/records/map_files.hpp"
 
+#include <limits>
+
 #include <gtest/gtest.h>
 
 #include "core/base/files.hpp"
@@ -70,6 +72,52 @@ TEST(MapCsv, KeepsHostileNamesAsTheyAre) {
   EXPECT_NE(csv.find("\r\n\"a\"\"b,c\",4,0,"), std::string::npos);
   EXPECT_NE(csv.find("\r\n\"two\nlines\",,,"), std::string::npos);
   EXPECT_NE(csv.find("\r\n\" padded \",3,4,"), std::string::npos);
+}
+
+MapCertainty sample_certainty() {
+  MapCertainty certainty{.covariances = {},
+                         .squared_radius = 4.0,
+                         .confidence = 0.95,
+                         .replicates = 50,
+                         .maps = 49,
+                         .block_steps = 7};
+  Eigen::Matrix2d C;
+  C << 2.5, 1.5, 1.5, 2.5;
+  certainty.covariances.assign(4, C);
+  certainty.covariances[0].setZero();
+  certainty.covariances[2].setConstant(std::numeric_limits<double>::quiet_NaN());
+  return certainty;
+}
+
+TEST(MapJson, HoldsHowSureEachLandmarkIs) {
+  const std::string text = map_json(sample(), sample_certainty());
+  const auto certainty = parse_map_certainty(text, "m");
+  ASSERT_TRUE(certainty);
+  EXPECT_EQ(certainty->covariances[1], sample_certainty().covariances[1]);
+  EXPECT_TRUE(certainty->covariances[2].array().isNaN().all());
+  EXPECT_EQ(certainty->maps, 49);
+  EXPECT_EQ(map_json(parse_map(text, "m"), certainty), text);
+  EXPECT_FALSE(parse_map_certainty(map_json(sample()), "m"));
+}
+
+TEST(MapJson, RefusesCovariancesThatAreNone) {
+  MapCertainty certainty = sample_certainty();
+  certainty.covariances[3](0, 1) = certainty.covariances[3](1, 0) = 2.6;
+  EXPECT_EQ(error_of([&] { parse_map(map_json(sample(), certainty), "m"); }),
+            "m: /certainty/covariances/3: expected a covariance, xy^2 <= xx yy");
+  certainty.covariances.pop_back();
+  EXPECT_TRUE(error_of([&] {
+                parse_map(map_json(sample(), certainty), "m");
+              }).starts_with("m: /certainty/covariances: expected"));
+}
+
+TEST(MapCsv, GivesTheEllipsesOfLandmarksThatHaveOne) {
+  const std::string csv = map_csv(sample(), sample_certainty());
+  EXPECT_TRUE(
+      csv.starts_with("name,x_m,y_m,true_x_m,true_y_m,error_m,anchor,ellipse_a_m,"
+                      "ellipse_b_m,ellipse_turn_deg\r\noak,0,0,0,0,0,1,0,0,0\r\n"));
+  EXPECT_NE(csv.find("\r\nash,4,0,4,0,0,1,4,2,45\r\n"), std::string::npos) << csv;
+  EXPECT_NE(csv.find("\r\nelm,,,4,3,,0,,,\r\n"), std::string::npos) << csv;
 }
 
 }  // namespace

@@ -1,0 +1,28 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "core/certainty/history_certainty.hpp"
+#include "core/model/map_record.hpp"
+#include "core/model/sighting_log.hpp"
+
+namespace mapproof {
+
+/// How sure each landmark of a map is, in the frame that the map is in; empty, with a remark, if
+/// there is no map.
+/// @param record   The map of the first `record.step` observations.
+/// @param remarks  Told of landmarks without an ellipse.
+std::optional<MapCertainty> own_certainty(const MapRecord& record,
+                                          const ObservationHistory& history,
+                                          const HistoryCertaintyOptions& options,
+                                          std::vector<std::string>& remarks);
+
+/// The same of a map of measured pairs, from looks drawn anew in blocks.
+/// @param rigid  The map keeps its scale: maps of other looks are laid on it rigidly.
+std::optional<MapCertainty> own_pair_certainty(const MapRecord& record, const SightingLog& log,
+                                               bool rigid, int replicates,
+                                               std::vector<std::string>& remarks);
+
+}  // namespace mapproof

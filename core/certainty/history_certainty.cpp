@@ -1,0 +1,35 @@
+#include "core/certainty/history_certainty.hpp"
+
+#include "core/align/laid_on.hpp"
+#include "core/base/errors.hpp"
+#include "core/certainty/block_length.hpp"
+#include "core/certainty/map_bootstrap.hpp"
+#include "core/certainty/resampled_maps.hpp"
+#include "core/score/map_score.hpp"
+
+namespace mapproof {
+std::optional<Points> in_frame(const Points& coordinates, const CertaintyFrame& frame,
+                               AffineFit fit) {
+  if (!frame.anchors.empty()) {
+    AlignedMap map = align_to_anchors(coordinates, frame.positions_m, frame.anchors, fit);
+    if (!map.aligned) return std::nullopt;
+    return std::move(map.positions_m);
+  }
+  return laid_on(coordinates, frame.positions_m);
+}
+
+MapCertainty history_certainty(const ObservationHistory& history, Eigen::Index steps,
+                               const CertaintyFrame& frame,
+                               const HistoryCertaintyOptions& options) {
+  if (frame.positions_m.rows() != history.landmarks())
+    throw InvalidInput("a certainty needs a frame of all landmarks");
+  const Eigen::Index block = options.block > 0 ? options.block : map_block_length(history, steps);
+  ResampledMaps maps(history, steps, options.embedder, options.rule);
+  const auto map_of = [&](const std::vector<Eigen::Index>& drawn) {
+    return in_frame(maps.map_of(drawn, options.setting), frame, options.fit);
+  };
+  return bootstrap_map(history.landmarks(), steps, map_of,
+                       {.replicates = options.replicates, .block = block, .seed = options.seed});
+}
+
+}  // namespace mapproof

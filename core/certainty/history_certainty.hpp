@@ -1,0 +1,42 @@
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "core/embed/embedder.hpp"
+#include "core/model/experiment.hpp"
+#include "core/model/map_certainty.hpp"
+#include "core/model/observation_history.hpp"
+
+namespace mapproof {
+
+/// What the ellipses of a map refer to, and how they are drawn.
+struct HistoryCertaintyOptions {
+  MethodSetting setting;  ///< With its parameter.
+  EmbedderOptions embedder;
+  ProximityRule rule = {};  ///< See HistoryEmbedder.
+  int replicates = 200;     ///< 10 to 10,000.
+  Eigen::Index block = 0;   ///< Consecutive steps drawn together; 0: map_block_length().
+  std::uint64_t seed = 1;
+  AffineFit fit = AffineFit::kLeastDistances;
+};
+
+/// How the maps of other steps are brought to the frame of the estimate: fitted to the anchors if
+/// there are any, else laid on the estimate by the similarity or mirrored similarity that fits
+/// best, since what such a map leaves open is not uncertainty.
+struct CertaintyFrame {
+  Points positions_m;                 ///< M x 2: the anchors' rows are read; or the estimate.
+  std::vector<Eigen::Index> anchors;  ///< Empty: lay on `positions_m`.
+};
+
+/// A map in that frame; empty if it cannot be brought there.
+std::optional<Points> in_frame(const Points& coordinates, const CertaintyFrame& frame,
+                               AffineFit fit);
+
+/// The certainty of the map of the first `steps` observations, see bootstrap_map.
+/// @throws InvalidInput if a bound is broken.
+/// @note As costly as `replicates` maps, O(M^2 N) each and what the method takes.
+MapCertainty history_certainty(const ObservationHistory& history, Eigen::Index steps,
+                               const CertaintyFrame& frame, const HistoryCertaintyOptions& options);
+
+}  // namespace mapproof

@@ -1,0 +1,69 @@
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "core/certainty/history_certainty.hpp"
+#include "core/choice/criterion.hpp"
+#include "core/embed/embedder.hpp"
+
+namespace mapproof {
+
+struct ChoiceOptions {
+  std::vector<MethodSetting> settings;  ///< With their parameters.
+  EmbedderOptions embedder;
+  ProximityRule rule = {};  ///< See HistoryEmbedder.
+  int replicates = 20;      ///< Maps of steps drawn anew, for the stability; 0: it is not judged.
+  std::uint64_t seed = 1;
+  AffineFit fit = AffineFit::kLeastDistances;
+};
+
+/// One candidate: its map and what the criteria say of it.
+struct JudgedMap {
+  MethodSetting setting;
+  Embedding embedding;
+  Points positions;  ///< M x 2: in the frame of the anchors, if there are any that serve; judged.
+  bool mapped = false;  ///< Some map came out, and could be fitted to the anchors; else NaN below.
+  CriterionValues values{};
+};
+
+/// Maps a history by every setting and judges the maps without the truth.
+///
+/// Distances are those of the observation vectors. The residual variance is against shortest paths
+/// over one graph of 8 neighbours for all; neighbourhoods are of 10, or a quarter of the landmarks.
+class MapJudge {
+ public:
+  /// @throws InvalidInput for a bound that is broken.
+  /// @note As costly as `replicates` + 1 maps by each setting.
+  MapJudge(const ObservationHistory& history, Eigen::Index steps, const ChoiceOptions& options);
+
+  /// @param frame  The anchors and their positions; without anchors the maps are judged as they
+  ///               are, and nothing of the frame is read.
+  /// @return In the order of the settings. kCombined is the mean of the ranks by all criteria that
+  ///         could be told of every map.
+  /// @throws InvalidInput for a frame of other landmarks.
+  std::vector<JudgedMap> in(const CertaintyFrame& frame) const;
+
+ private:
+  AffineFit fit_;
+  std::vector<Eigen::Index> seen_;   ///< Rows of the landmarks that have distances.
+  Eigen::MatrixXd distances_;        ///< Of those; infinite where there is no common step.
+  Eigen::MatrixXd along_the_graph_;  ///< The same over the neighbour graph.
+  std::vector<JudgedMap> maps_;      ///< With the stability alone.
+
+  void observe(const ObservationHistory& history, Eigen::Index steps, const ChoiceOptions& options);
+  void judge_stability(const ObservationHistory& history, Eigen::Index steps,
+                       const ChoiceOptions& options);
+  void judge(JudgedMap& map, const CertaintyFrame& frame) const;
+};
+
+/// Methods and parameters that a choice is among, of landmarks and parameters that fit them:
+/// every method; K of 5 to 10; semidefinite embeddings up to 60 landmarks, for their cost.
+std::vector<MethodSetting> usual_candidates(const HistoryEmbedder& embedder,
+                                            Eigen::Index landmarks);
+
+/// The maps by one criterion, best first: rows of `maps`, those that came out alone; ties, and maps
+/// of which the criterion tells nothing, in the order given and last.
+std::vector<std::size_t> ranked(const std::vector<JudgedMap>& maps, Criterion criterion);
+
+}  // namespace mapproof

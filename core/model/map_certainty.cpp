@@ -1,0 +1,23 @@
+#include "core/model/map_certainty.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace mapproof {
+
+Ellipse ellipse_of(const Eigen::Matrix2d& C, double radius) {
+  // The eigenvalues of a symmetric 2 x 2 matrix in closed form.
+  const double middle = (C(0, 0) + C(1, 1)) / 2.0;
+  const double half = std::hypot((C(0, 0) - C(1, 1)) / 2.0, C(0, 1));
+  return {.a = radius * std::sqrt(std::max(middle + half, 0.0)),
+          .b = radius * std::sqrt(std::max(middle - half, 0.0)),
+          .turn_rad = 0.5 * std::atan2(2.0 * C(0, 1), C(0, 0) - C(1, 1))};
+}
+
+std::optional<Ellipse> confidence_ellipse(const MapCertainty& certainty, Eigen::Index landmark) {
+  const Eigen::Matrix2d& C = certainty.covariances.at(static_cast<std::size_t>(landmark));
+  if (!C.allFinite()) return std::nullopt;
+  return ellipse_of(C, std::sqrt(certainty.squared_radius));
+}
+
+}  // namespace mapproof

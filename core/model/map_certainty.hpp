@@ -1,0 +1,38 @@
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include <Eigen/Core>
+
+namespace mapproof {
+
+/// How far the landmarks' places would move if the same steps were walked and observed anew.
+struct MapCertainty {
+  /// M, of the map's unit squared; NaN where too few replicates placed the landmark.
+  std::vector<Eigen::Matrix2d> covariances;
+  /// Of the ellipse: (x - place)' C^-1 (x - place) up to this.
+  double squared_radius = 0.0;
+  double confidence = 0.95;  ///< That the ellipse holds the mean of such maps.
+  int replicates = 0;        ///< Drawn.
+  int maps = 0;              ///< Of them, those that gave a map that could be aligned.
+  int block_steps = 0;       ///< Consecutive steps that were drawn together.
+
+  bool operator==(const MapCertainty&) const = default;
+};
+
+/// An ellipse about a landmark's place, in the map's unit.
+struct Ellipse {
+  double a = 0.0;         ///< The longer half axis.
+  double b = 0.0;         ///< The shorter.
+  double turn_rad = 0.0;  ///< Of `a` from the x axis, counter-clockwise, in (-pi/2, pi/2].
+};
+
+/// The ellipse of the points whose distance by that covariance is `radius`.
+/// @param C  Symmetric; not positive semidefinite: the axis is 0 there.
+Ellipse ellipse_of(const Eigen::Matrix2d& C, double radius);
+
+/// The confidence ellipse of a landmark; empty where its covariance is not known.
+std::optional<Ellipse> confidence_ellipse(const MapCertainty& certainty, Eigen::Index landmark);
+
+}  // namespace mapproof

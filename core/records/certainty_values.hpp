@@ -1,0 +1,17 @@
+#pragma once
+
+#include <nlohmann/json.hpp>
+
+#include "core/json/json_cursor.hpp"
+#include "core/model/map_certainty.hpp"
+
+namespace mapproof {
+
+/// Covariances are [xx, xy, yy], null where they are not known.
+nlohmann::ordered_json certainty_value(const MapCertainty& certainty);
+
+/// @param landmarks  As many covariances as it must have.
+/// @throws IoError with the place, for covariances that are not positive semidefinite too.
+MapCertainty read_certainty(const JsonCursor& value, std::size_t landmarks);
+
+}  // namespace mapproof

@@ -1,0 +1,210 @@
+#include "core/trials/certainty.hpp"
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include "core/base/random.hpp"
+#include "core/certainty/block_length.hpp"
+#include "core/certainty/map_bootstrap.hpp"
+#include "core/trials/certainty_walks.hpp"
+#include "core/trials/trial_means.hpp"
+
+namespace mapproof {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+const std::vector<MethodSetting> kSettings = {{Method::kLpca, std::nullopt},
+                                              {Method::kSmacof, std::nullopt},
+                                              {Method::kSmacofKnn, 8.0},
+                                              {Method::kIsomap, 8.0}};
+
+/// Setups whose levels are numbers of steps.
+constexpr std::pair<const char*, Sensor> kSensors[] = {{"bearing", Sensor::kBearing},
+                                                       {"visibility", Sensor::kVisibility}};
+/// The one whose levels are lengths of blocks, in the usual length.
+constexpr const char* kBlocks = "blocks";
+
+std::string series_id(const MethodSetting& setting) {
+  return std::string(info(setting.method).name);
+}
+
+TrialDesign design(const TrialExperiment& experiment) {
+  TrialDesign design;
+  design.question = fmt::format(
+      "In each layout {:g} walks are mapped; the mean of these maps is what a method tends to. "
+      "Of {:g} of them ellipses are drawn by the bootstrap, each from its own walk alone. Of the "
+      "landmarks that are no anchors, how many have that mean in their 95 % ellipse, and how many "
+      "the truth?",
+      number_option(experiment, "walks"), number_option(experiment, "tried"));
+  for (const auto& [id, sensor] : kSensors)
+    design.setups.push_back({id, fmt::format("Ellipses of maps from {}", name(sensor)),
+                             "observations", list_option(experiment, "observations")});
+  design.setups.push_back({kBlocks, "Ellipses from blocks of other lengths, bearing",
+                           "length of the blocks, of the usual one",
+                           list_option(experiment, "blocks")});
+  for (const MethodSetting& setting : kSettings)
+    design.series.push_back({series_id(setting), label(setting)});
+  design.quantities = {{"mean_covered_percent", "Mean in the ellipse", "%", false},
+                       {"truth_covered_percent", "Truth in the ellipse", "%", false},
+                       {"bias_m", "Mean map from the truth", "m", true},
+                       {"spread_m", "Maps from the mean map (RMS)", "m", true},
+                       {"told_m", "Maps from the mean map as ellipses tell", "m", true}};
+  return design;
+}
+
+/// One sensor's walks in one world.
+class WalkedWorld {
+ public:
+  WalkedWorld(const TrialContext& context, Sensor sensor)
+      : context_(context),
+        frame_{context.world->landmarks_m, context.anchors},
+        histories_(walked_histories(
+            *context.world, context.experiment.walk, sensor, context.experiment.steps,
+            static_cast<int>(number_option(context.experiment, "walks")),
+            derive_seed(context.seed, {static_cast<std::uint64_t>(sensor)}))) {}
+
+  Eigen::Index most_steps() const { return histories_.front().steps(); }
+
+  /// Ellipses of the first walks, and how many of them hold what they should.
+  /// @param blocks  Their length in units of the usual one.
+  Trial tried(const MethodSetting& setting, Eigen::Index steps, double blocks,
+              TrialPart& part) const {
+    const Clock::time_point start = Clock::now();
+    HistoryCertaintyOptions options{.setting = setting, .embedder = {}};
+    options.replicates = static_cast<int>(number_option(context_.experiment, "replicates"));
+    const auto tried = static_cast<std::size_t>(number_option(context_.experiment, "tried"));
+    const std::vector<Points> maps = walked_maps(histories_, steps, frame_, options);
+    std::vector<MapCertainty> certainties;
+    for (std::size_t w = 0; w < std::min(tried, histories_.size()); ++w) {
+      const double usual = static_cast<double>(map_block_length(histories_[w], steps));
+      options.block = std::clamp<Eigen::Index>(std::llround(blocks * usual), 1, steps);
+      options.seed = derive_seed(context_.seed, {w});
+      certainties.push_back(history_certainty(histories_[w], steps, frame_, options));
+    }
+    add_seconds(part, series_id(setting),
+                std::chrono::duration<double>(Clock::now() - start).count());
+    const Coverage found = coverage(maps, certainties, frame_);
+    return {.setup = {},
+            .series = series_id(setting),
+            .level = 0.0,
+            .values = {found.mean_percent, found.truth_percent, found.bias_m, found.spread_m,
+                       found.told_m},
+            .statuses = {}};
+  }
+
+  /// The first walk's map with its ellipses.
+  TrialMap shown(const MethodSetting& setting, const std::string& id) const {
+    const ObservationHistory& history = histories_.front();
+    HistoryEmbedder embedder(history, history.steps());
+    TrialMap shown;
+    shown.id = fmt::format("{}-{}", id, series_id(setting));
+    shown.title = fmt::format("{} from {}, with 95 % ellipses by the bootstrap.", label(setting),
+                              name(history.sensor));
+    MapRecord& map = shown.map;
+    map.id = shown.id;
+    map.sensor = history.sensor;
+    map.setting = setting;
+    map.step = static_cast<int>(history.steps());
+    map.names = history.names;
+    map.truth_m = frame_.positions_m;
+    map.anchors = frame_.anchors;
+    const Embedding embedding = embedder.embed(setting);
+    map.statuses = embedding.statuses;
+    const auto placed = in_frame(embedding.coordinates, frame_, AffineFit::kLeastDistances);
+    map.frame = placed ? Frame::kTruth : Frame::kSimilarity;
+    map.estimate = placed.value_or(embedding.coordinates);
+    if (!placed) return shown;
+    const MapCertainty certainty =
+        history_certainty(history, history.steps(), frame_, {.setting = setting, .embedder = {}});
+    // Study figures draw ellipses of known covariances: these are as large as those of the
+    // estimate.
+    for (const Eigen::Matrix2d& C : certainty.covariances)
+      shown.covariances.push_back(C * (certainty.squared_radius / squared_radius(0.95, 1e9)));
+    return shown;
+  }
+
+ private:
+  const TrialContext& context_;
+  CertaintyFrame frame_;
+  std::vector<ObservationHistory> histories_;
+};
+
+void add(TrialPart& part, Trial trial, const char* setup, double level) {
+  trial.setup = setup;
+  trial.level = level;
+  part.trials.push_back(std::move(trial));
+}
+
+TrialPart make(const TrialContext& context) {
+  TrialPart part;
+  for (const auto& [id, sensor] : kSensors) {
+    const WalkedWorld walked(context, sensor);
+    for (const double steps : list_option(context.experiment, "observations"))
+      for (const MethodSetting& setting : kSettings) {
+        const auto used = std::min<Eigen::Index>(std::llround(steps), walked.most_steps());
+        add(part, walked.tried(setting, used, 1.0, part), id, steps);
+      }
+    if (sensor == Sensor::kBearing)
+      for (const double blocks : list_option(context.experiment, "blocks"))
+        for (const Method method : {Method::kLpca, Method::kSmacof})
+          add(part, walked.tried({method, std::nullopt}, walked.most_steps(), blocks, part),
+              kBlocks, blocks);
+    if (context.with_maps) part.maps.push_back(walked.shown(kSettings[1], id));
+  }
+  return part;
+}
+
+/// The least and the greatest of means over all series and levels of a setup.
+std::pair<double, double> range_of(const TrialStudy& study, const TrialSetup& setup,
+                                   const char* quantity) {
+  double low = HUGE_VAL, high = -HUGE_VAL;
+  for (const TrialSeries& series : study.design.series)
+    for (const double level : setup.levels) {
+      const double mean = trial_mean(study, setup.id, series.id, level, quantity);
+      if (std::isnan(mean)) continue;
+      low = std::min(low, mean);
+      high = std::max(high, mean);
+    }
+  return {low, high};
+}
+
+std::vector<std::string> conclude(const TrialStudy& study) {
+  std::vector<std::string> sentences;
+  for (const TrialSetup& setup : study.design.setups) {
+    const auto [low, high] = range_of(study, setup, "mean_covered_percent");
+    if (low > high) continue;
+    sentences.push_back(
+        fmt::format("{}: the 95 % ellipses hold the mean of the method's own maps for {:.1f} to "
+                    "{:.1f} % of the "
+                    "landmarks, by method and level{}.",
+                    setup.title, low, high,
+                    low >= 93.0 && high <= 97.0 ? ", all within the 93 to 97 % aimed at"
+                                                : "; 93 to 97 % was aimed at"));
+    const auto [truth_low, truth_high] = range_of(study, setup, "truth_covered_percent");
+    const auto [bias_low, bias_high] = range_of(study, setup, "bias_m");
+    sentences.push_back(fmt::format(
+        "{}: they hold the truth for {:.1f} to {:.1f} % of them, since the mean map is {:.3f} to "
+        "{:.3f} m off itself: ellipses tell of chance, not of what a method has wrong each time.",
+        setup.title, truth_low, truth_high, bias_low, bias_high));
+  }
+  return sentences;
+}
+
+}  // namespace
+
+const Topic kCertaintyTopic = {.name = "certainty",
+                               .of_data = false,
+                               .options = {{"walks", {60}, 2, 1000, true, false},
+                                           {"tried", {8}, 1, 1000, true, false},
+                                           {"replicates", {100}, 10, 10000, true, false},
+                                           {"observations", {500, 2000}, 10, 100000, true, true},
+                                           {"blocks", {0.5, 1, 2, 4}, 0.01, 100, false, true}},
+                               .design = design,
+                               .make = make,
+                               .conclude = conclude};
+
+}  // namespace mapproof

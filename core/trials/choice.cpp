@@ -1,0 +1,206 @@
+#include "core/trials/choice.hpp"
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <limits>
+
+#include <fmt/format.h>
+
+#include "core/base/random.hpp"
+#include "core/choice/judged_maps.hpp"
+#include "core/score/map_score.hpp"
+#include "core/simulate/sensors.hpp"
+#include "core/trials/trial_means.hpp"
+
+namespace mapproof {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
+constexpr std::pair<const char*, Sensor> kSensors[] = {{"visibility", Sensor::kVisibility},
+                                                       {"bearing", Sensor::kBearing}};
+constexpr const char* kRandom = "random";
+constexpr const char* kFixed = "fixed";
+const MethodSetting kFixedSetting{Method::kIsomap, 6.0};
+
+TrialDesign design(const TrialExperiment& experiment) {
+  TrialDesign design;
+  design.question =
+      "All methods with several parameters map the same observations. How much worse than the best "
+      "of these maps is the one that a criterion picks which knows nothing of the truth? With "
+      "anchors it judges maps fitted to them, and is judged by their MPE; without, it judges the "
+      "shapes alone, and is judged by the MPE with the affine map fitted on all landmarks.";
+  for (const auto& [id, sensor] : kSensors)
+    design.setups.push_back({id, fmt::format("Picking among maps from {}", name(sensor)),
+                             "observations", list_option(experiment, "observations")});
+  for (const CriterionInfo& criterion : all_criteria())
+    design.series.push_back({std::string(criterion.name), std::string(criterion.label)});
+  design.series.push_back({kFixed, label(kFixedSetting) + ", always"});
+  design.series.push_back({kRandom, "any, at random"});
+  design.quantities = {{"regret_m", "Regret with anchors", "m", true},
+                       {"regret_shape_m", "Regret without anchors", "m", true},
+                       {"mpe_m", "MPE of the pick", "m", true}};
+  return design;
+}
+
+/// The errors of all maps that came out.
+struct Errors {
+  std::vector<double> of;  ///< NaN: no map.
+  double best = HUGE_VAL;
+  double mean = 0.0;
+
+  explicit Errors(std::vector<double> values) : of(std::move(values)) {
+    int count = 0;
+    for (const double error : of) {
+      if (std::isnan(error)) continue;
+      best = std::min(best, error);
+      mean += error;
+      ++count;
+    }
+    mean = count > 0 ? mean / count : kUnknown;
+  }
+
+  /// Of the first of some maps, best by some criterion first.
+  double first(const std::vector<std::size_t>& order) const {
+    return order.empty() ? kUnknown : of[order.front()];
+  }
+};
+
+/// @param fitted  Errors with the affine map fitted on all landmarks, else with that on the
+/// anchors.
+Errors errors_of(const std::vector<JudgedMap>& maps, const TrialContext& context, bool fitted) {
+  std::vector<double> errors;
+  for (const JudgedMap& map : maps) {
+    const std::optional<Score> score = map.mapped
+                                           ? score_map(map.positions, context.world->landmarks_m,
+                                                       context.anchors, AffineFit::kLeastDistances)
+                                           : std::nullopt;
+    errors.push_back(!score ? kUnknown : fitted ? score->mpe_all_fitted_m : score->mpe_m);
+  }
+  return Errors(std::move(errors));
+}
+
+/// What every series picks of one history's maps.
+class Picks {
+ public:
+  Picks(const MapJudge& judge, const TrialContext& context)
+      : anchored_(judge.in({context.world->landmarks_m, context.anchors})),
+        shapes_(judge.in({context.world->landmarks_m, {}})),
+        errors_(errors_of(anchored_, context, false)),
+        shape_errors_(errors_of(shapes_, context, true)) {}
+
+  std::vector<Trial> trials() const {
+    std::vector<Trial> trials;
+    for (const CriterionInfo& criterion : all_criteria()) {
+      const double error = errors_.first(ranked(anchored_, criterion.criterion));
+      const double shape_error = criterion.needs_anchors
+                                     ? kUnknown
+                                     : shape_errors_.first(ranked(shapes_, criterion.criterion));
+      trials.push_back(trial(criterion.name, error, shape_error));
+    }
+    trials.push_back(trial(kFixed, of_fixed(errors_), of_fixed(shape_errors_)));
+    trials.push_back(trial(kRandom, errors_.mean, shape_errors_.mean));
+    return trials;
+  }
+
+ private:
+  Trial trial(std::string_view series, double error, double shape_error) const {
+    return {.setup = {},
+            .series = std::string(series),
+            .level = 0.0,
+            .values = {error - errors_.best, shape_error - shape_errors_.best, error},
+            .statuses = {}};
+  }
+
+  double of_fixed(const Errors& errors) const {
+    const auto found = std::ranges::find(anchored_, kFixedSetting, &JudgedMap::setting);
+    return found == anchored_.end()
+               ? kUnknown
+               : errors.of[static_cast<std::size_t>(found - anchored_.begin())];
+  }
+
+  std::vector<JudgedMap> anchored_;
+  std::vector<JudgedMap> shapes_;
+  Errors errors_;
+  Errors shape_errors_;
+};
+
+TrialPart make(const TrialContext& context) {
+  TrialPart part;
+  for (const auto& [id, sensor] : kSensors) {
+    SensorOptions options;
+    options.sensor = sensor;
+    Random noise(derive_seed(context.seed, {static_cast<std::uint64_t>(sensor)}));
+    const ObservationHistory history = observe(*context.world, *context.path, options, noise);
+    for (const double level : list_option(context.experiment, "observations")) {
+      const Clock::time_point start = Clock::now();
+      const auto steps = std::min<Eigen::Index>(std::llround(level), history.steps());
+      const MapJudge judge(
+          history, steps,
+          {.settings = usual_candidates(HistoryEmbedder(history, steps), history.landmarks()),
+           .embedder = {},
+           .replicates = static_cast<int>(number_option(context.experiment, "replicates")),
+           .seed = context.seed});
+      for (Trial& trial : Picks(judge, context).trials()) {
+        trial.setup = id;
+        trial.level = level;
+        part.trials.push_back(std::move(trial));
+      }
+      add_seconds(part, info(Criterion::kCombined).name,
+                  std::chrono::duration<double>(Clock::now() - start).count());
+    }
+  }
+  return part;
+}
+
+/// The mean of a quantity over all setups and levels.
+double mean_over_all(const TrialStudy& study, std::string_view series, const char* quantity) {
+  double sum = 0.0;
+  int count = 0;
+  for (const TrialSetup& setup : study.design.setups)
+    for (const double level : setup.levels)
+      for (const double value : trial_values(study, setup.id, series, level, quantity)) {
+        sum += value;
+        ++count;
+      }
+  return count > 0 ? sum / count : kUnknown;
+}
+
+std::string sentence(const TrialStudy& study, const char* quantity, const char* when) {
+  std::string best;
+  double least = HUGE_VAL;
+  std::string all;
+  for (const TrialSeries& series : study.design.series) {
+    const double regret = mean_over_all(study, series.id, quantity);
+    if (std::isnan(regret)) continue;
+    all += fmt::format("{}{} {:.3f}", all.empty() ? "" : ", ", series.label, regret);
+    if (series.id == kRandom || series.id == kFixed || regret >= least) continue;
+    least = regret;
+    best = series.label;
+  }
+  return fmt::format(
+      "{} the best criterion over all sensors and numbers of steps is: {}, whose pick is {:.3f} m "
+      "worse than the best map on average; a fixed method is {:.3f} m worse and a random pick "
+      "{:.3f} m. Mean regret in m: {}.",
+      when, best, least, mean_over_all(study, kFixed, quantity),
+      mean_over_all(study, kRandom, quantity), all);
+}
+
+std::vector<std::string> conclude(const TrialStudy& study) {
+  return {sentence(study, "regret_m", "With anchors"),
+          sentence(study, "regret_shape_m", "Without anchors")};
+}
+
+}  // namespace
+
+const Topic kChoiceTopic = {.name = "choice",
+                            .of_data = false,
+                            .options = {{"observations", {200, 500, 2000}, 10, 100000, true, true},
+                                        {"replicates", {10}, 1, 1000, true, false}},
+                            .design = design,
+                            .make = make,
+                            .conclude = conclude};
+
+}  // namespace mapproof

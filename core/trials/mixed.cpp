@@ -1,0 +1,201 @@
+#include "core/trials/mixed.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+#include <fmt/format.h>
+
+#include "core/base/random.hpp"
+#include "core/embed/embedder.hpp"
+#include "core/mixed/joint_map.hpp"
+#include "core/mixed/mixed_distances.hpp"
+#include "core/score/map_score.hpp"
+#include "core/simulate/sensors.hpp"
+#include "core/trials/trial_means.hpp"
+
+namespace mapproof {
+namespace {
+
+constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
+constexpr const char* kBearingNoise = "bearing-noise";
+constexpr const char* kVisibilityErrors = "visibility-errors";
+constexpr const char* kRangeToo = "range-too";
+constexpr const char* kSingles[] = {"visibility",       "bearing",       "range",
+                                    "visibility-order", "bearing-order", "range-order"};
+constexpr const char* kMixes[] = {"equal", "reliable", "joint"};
+
+TrialDesign design(const TrialExperiment& experiment) {
+  TrialDesign design;
+  design.question = fmt::format(
+      "Is one map of several sensors better than that of the best of them? Singly, visibility is "
+      "mapped by {}, bearing and range by {}. Together, by the mean of their distances, with equal "
+      "weights or with weights by how far both halves of the steps agree; or jointly, each "
+      "sensor's distances trusted in their order alone. The joint map's way is tried on each "
+      "sensor "
+      "alone, too.",
+      label({Method::kIsomap, 6.0}), label({Method::kSmacofKnn, 8.0}));
+  const std::vector<double>& noise = list_option(experiment, "bearing_noise_deg");
+  design.setups = {{kBearingNoise, "Visibility with bearings of more and more noise",
+                    "noise of bearings, °", noise},
+                   {kVisibilityErrors, "Bearings with visibility that errs more and more",
+                    "entries of visibility that are wrong, %",
+                    list_option(experiment, "visibility_errors_percent")},
+                   {kRangeToo, "Visibility, bearing and range", "noise of bearings, °", noise}};
+  for (const Sensor sensor : {Sensor::kVisibility, Sensor::kBearing, Sensor::kRange}) {
+    const std::string id(name(sensor));
+    design.series.push_back({id, id + " alone"});
+    design.series.push_back({id + "-order", id + " alone, its order"});
+  }
+  for (const auto& [id, label] :
+       {std::pair{"equal", "mean distance, equal weights"},
+        std::pair{"reliable", "mean distance, weighted"}, std::pair{"joint", "joint map"}})
+    design.series.push_back({id, label});
+  design.quantities = {{"mpe_m", "MPE", "m", true}, {"moe_percent", "MOE", "%", true}};
+  return design;
+}
+
+MethodSetting single_setting(Sensor sensor) {
+  return sensor == Sensor::kVisibility ? MethodSetting{Method::kIsomap, 6.0}
+                                       : MethodSetting{Method::kSmacofKnn, 8.0};
+}
+
+/// Histories of one walk, mapped singly and together.
+class MixedTrials {
+ public:
+  MixedTrials(const TrialContext& context, const char* setup, double level, TrialPart& part)
+      : context_(context), setup_(setup), level_(level), part_(part) {}
+
+  void add(const SensorOptions& options) {
+    Random noise(derive_seed(context_.seed, {static_cast<std::uint64_t>(options.sensor)}));
+    histories_.push_back(observe(*context_.world, *context_.path, options, noise));
+  }
+
+  void run() {
+    std::vector<Eigen::MatrixXd> squared;
+    std::vector<double> reliabilities;
+    for (const ObservationHistory& history : histories_) {
+      HistoryEmbedder embedder(history, history.steps());
+      const Embedding single = embedder.embed(single_setting(history.sensor));
+      const std::string id(name(history.sensor));
+      record(id, single);
+      if (!single.coordinates.allFinite()) return;  // Nothing to mix.
+      squared.push_back(proximities(history, history.steps()).squared_distances);
+      // What the joint map's way makes of the one sensor: it must not pass for what mixing does.
+      record(id + "-order", joint_map({squared.back().cwiseSqrt()}, single.coordinates).embedding);
+      reliabilities.push_back(reliability(history, history.steps()));
+    }
+    const MethodSetting setting{Method::kSmacofKnn, 8.0};
+    const std::vector<double> equal(squared.size(), 1.0);
+    record("equal", Embedder(mixed_proximities(squared, equal)).embed(setting));
+    Embedder weighted(mixed_proximities(squared, weights_of(reliabilities)));
+    const Embedding start = weighted.embed(setting);
+    record("reliable", start);
+    if (!start.coordinates.allFinite()) return;
+    std::vector<Eigen::MatrixXd> distances;
+    for (const Eigen::MatrixXd& one : squared) distances.push_back(one.cwiseSqrt());
+    record("joint", joint_map(distances, start.coordinates).embedding);
+  }
+
+ private:
+  void record(const std::string& series, const Embedding& embedding) {
+    const Points& truth = context_.world->landmarks_m;
+    const AlignedMap map = align_to_anchors(embedding.coordinates, truth, context_.anchors,
+                                            AffineFit::kLeastDistances);
+    Trial trial{.setup = setup_,
+                .series = series,
+                .level = level_,
+                .values = {kUnknown, kUnknown},
+                .statuses = embedding.statuses};
+    trial.statuses.insert(trial.statuses.end(), map.statuses.begin(), map.statuses.end());
+    if (map.aligned)
+      if (const auto score =
+              score_map(map.positions_m, truth, context_.anchors, AffineFit::kLeastDistances))
+        trial.values = {score->mpe_m, score->moe_percent};
+    part_.trials.push_back(std::move(trial));
+  }
+
+  const TrialContext& context_;
+  const char* setup_;
+  double level_;
+  TrialPart& part_;
+  std::vector<ObservationHistory> histories_;
+};
+
+double in_rad(double degrees) { return degrees * std::numbers::pi / 180.0; }
+
+TrialPart make(const TrialContext& context) {
+  TrialPart part;
+  const TrialExperiment& experiment = context.experiment;
+  const double usual_deg = number_option(experiment, "usual_bearing_noise_deg");
+  for (const double degrees : list_option(experiment, "bearing_noise_deg")) {
+    MixedTrials trials(context, kBearingNoise, degrees, part);
+    trials.add({.sensor = Sensor::kVisibility});
+    trials.add({.sensor = Sensor::kBearing, .noise = in_rad(degrees)});
+    trials.run();
+  }
+  for (const double percent : list_option(experiment, "visibility_errors_percent")) {
+    MixedTrials trials(context, kVisibilityErrors, percent, part);
+    trials.add({.sensor = Sensor::kVisibility, .noise = percent / 100.0});
+    trials.add({.sensor = Sensor::kBearing, .noise = in_rad(usual_deg)});
+    trials.run();
+  }
+  for (const double degrees : list_option(experiment, "bearing_noise_deg")) {
+    MixedTrials trials(context, kRangeToo, degrees, part);
+    trials.add({.sensor = Sensor::kVisibility});
+    trials.add({.sensor = Sensor::kBearing, .noise = in_rad(degrees)});
+    trials.add({.sensor = Sensor::kRange, .noise = number_option(experiment, "range_noise_m")});
+    trials.run();
+  }
+  return part;
+}
+
+/// Means of maps of one quality differ by less than this share.
+constexpr double kMuch = 0.95;
+
+/// The series of least mean MPE among some, and that mean.
+template <typename Names>
+std::pair<std::string, double> best_of(const TrialStudy& study, const TrialSetup& setup,
+                                       double level, const Names& names) {
+  std::pair<std::string, double> best{"", HUGE_VAL};
+  for (const TrialSeries& series : study.design.series) {
+    if (std::ranges::find(names, series.id) == std::end(names)) continue;
+    const double mean = trial_mean(study, setup.id, series.id, level, "mpe_m");
+    if (mean < best.second) best = {series.label, mean};
+  }
+  return best;
+}
+
+std::vector<std::string> conclude(const TrialStudy& study) {
+  std::vector<std::string> sentences;
+  for (const TrialSetup& setup : study.design.setups)
+    for (const double level : setup.levels) {
+      const auto [single, single_m] = best_of(study, setup, level, kSingles);
+      const auto [mix, mix_m] = best_of(study, setup, level, kMixes);
+      if (!std::isfinite(single_m) || !std::isfinite(mix_m)) continue;
+      const char* verdict = mix_m < kMuch * single_m   ? "better than"
+                            : mix_m * kMuch < single_m ? "about as good as"
+                                                       : "worse than";
+      sentences.push_back(fmt::format(
+          "{}, {:g}: {} has an MPE of {:.3f} m, {} one of {:.3f} m; together is {} the best sensor "
+          "alone.",
+          setup.title, level, single, single_m, mix, mix_m, verdict));
+    }
+  return sentences;
+}
+
+}  // namespace
+
+const Topic kMixedTopic = {
+    .name = "mixed",
+    .of_data = false,
+    .options = {{"bearing_noise_deg", {0, 10, 20, 40}, 0, 180, false, true},
+                {"visibility_errors_percent", {0, 2, 5, 10}, 0, 50, false, true},
+                {"usual_bearing_noise_deg", {20}, 0, 180, false, false},
+                {"range_noise_m", {0.1}, 0, 100, false, false}},
+    .design = design,
+    .make = make,
+    .conclude = conclude};
+
+}  // namespace mapproof

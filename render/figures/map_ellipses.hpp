@@ -1,0 +1,20 @@
+#pragma once
+
+#include <string>
+
+#include "core/model/map_certainty.hpp"
+#include "core/model/map_record.hpp"
+#include "render/plot/figure.hpp"
+
+namespace mapproof {
+
+/// Puts the ellipses of a map under what its figure shows, and tells of them in the caption. Where
+/// some are as large as the map, the frame cuts them.
+/// @param figure  map_figure() of the record.
+/// @throws InvalidInput unless there is a covariance a landmark.
+void add_ellipses(const MapRecord& record, const MapCertainty& certainty, Figure& figure);
+
+/// What the ellipses of a map say, and what they do not: a sentence or two.
+std::string ellipse_words(const MapCertainty& certainty);
+
+}  // namespace mapproof

@@ -1,0 +1,86 @@
+#include "reports/sections/certainty_section.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+#include <numeric>
+#include <optional>
+
+#include <fmt/format.h>
+
+#include "core/base/errors.hpp"
+#include "core/base/words.hpp"
+#include "core/statistics/intervals.hpp"
+#include "render/figures/map_ellipses.hpp"
+#include "reports/model/format.hpp"
+#include "reports/sections/wording.hpp"
+
+namespace mapproof {
+namespace {
+
+using Eigen::Index;
+
+constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
+
+bool is_anchor(const MapRecord& record, Index row) {
+  return std::ranges::find(record.anchors, row) != record.anchors.end();
+}
+
+Table ellipse_table(const MapRecord& record, const std::vector<std::optional<Ellipse>>& ellipses) {
+  const std::string unit = record.frame == Frame::kTruth ? "m" : "";
+  Table table{"ellipses",
+              "Ellipse of every landmark, the least sure first",
+              {{"Landmark", "", "", ""},
+               {"longer", unit, "Half axis", ""},
+               {"shorter", unit, "Half axis", ""},
+               {"Turn", "°", "", "Of the longer axis from the x axis, counter-clockwise."},
+               {"Anchor", "", "", "Its true position was given."}},
+              {},
+              {}};
+  std::vector<std::size_t> order(ellipses.size());
+  std::iota(order.begin(), order.end(), 0U);
+  std::ranges::stable_sort(order, {}, [&](std::size_t i) {
+    return ellipses[i] ? -ellipses[i]->a : std::numeric_limits<double>::infinity();
+  });
+  for (const std::size_t i : order) {
+    const std::optional<Ellipse>& ellipse = ellipses[i];
+    const double turn = ellipse ? ellipse->turn_rad * 180.0 / std::numbers::pi : kUnknown;
+    Row row;
+    row.cells = {TextCell{record.names[i], Emphasis::kData},
+                 NumberCell{ellipse ? ellipse->a : kUnknown, 3},
+                 NumberCell{ellipse ? ellipse->b : kUnknown, 3}, NumberCell{turn, 0},
+                 TextCell{is_anchor(record, static_cast<Index>(i)) ? "yes" : "no"}};
+    row.source = record.id;
+    table.rows.push_back(std::move(row));
+  }
+  return table;
+}
+
+}  // namespace
+
+Section certainty_section(const MapRecord& record, const MapCertainty& certainty) {
+  if (std::ssize(certainty.covariances) != record.estimate.rows())
+    throw InvalidInput("a map's ellipses need a covariance a landmark");
+  std::vector<std::optional<Ellipse>> ellipses;
+  std::vector<double> axes;
+  for (Index i = 0; i < record.estimate.rows(); ++i) {
+    ellipses.push_back(confidence_ellipse(certainty, i));
+    if (ellipses.back() && !is_anchor(record, i)) axes.push_back(ellipses.back()->a);
+  }
+  Section section{"certainty", "How sure each landmark is", {}};
+  section.blocks.emplace_back(plain(ellipse_words(certainty)));
+  if (!axes.empty())
+    section.blocks.emplace_back(plain(fmt::format(
+        "Half the longer axis is {}{} in the median, and {}{} at most.",
+        format_number(median(axes), 3), record.frame == Frame::kTruth ? " m" : "",
+        format_number(std::ranges::max(axes), 3), record.frame == Frame::kTruth ? " m" : "")));
+  if (record.frame == Frame::kSimilarity)
+    section.blocks.emplace_back(
+        plain("The map has no anchors: maps of other steps were laid on it by the similarity that "
+              "fits best, and lengths are in its own unit."));
+  section.blocks.emplace_back(ellipse_table(record, ellipses));
+  return section;
+}
+
+}  // namespace mapproof

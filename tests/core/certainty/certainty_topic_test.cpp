@@ -1,0 +1,91 @@
+#include <gtest/gtest.h>
+
+#include "core/base/random.hpp"
+#include "core/simulate/robot_walk.hpp"
+#include "core/simulate/world.hpp"
+#include "core/trials/certainty.hpp"
+#include "core/trials/certainty_walks.hpp"
+
+namespace mapproof {
+namespace {
+
+TrialExperiment small_study() {
+  TrialExperiment experiment;
+  experiment.name = "certainty";
+  experiment.topic = "certainty";
+  experiment.steps = 200;
+  experiment.world.landmarks = 15;
+  experiment.world.side_m = 1.4;
+  for (const TrialOption& option : kCertaintyTopic.options)
+    experiment.options[std::string(option.name)] = option.usual;
+  experiment.options["walks"] = {6};
+  experiment.options["tried"] = {2};
+  experiment.options["replicates"] = {12};
+  experiment.options["observations"] = {100, 200};
+  experiment.options["blocks"] = {0.5, 1};
+  return experiment;
+}
+
+TrialPart made(const TrialExperiment& experiment) {
+  Random random(9);
+  const World world = scatter_landmarks(experiment.world, random);
+  const Path path = random_walk(world, experiment.walk, experiment.steps, random);
+  TrialPart part = kCertaintyTopic.make({.experiment = experiment,
+                                         .part = "layout-1-pose-1",
+                                         .run = {},
+                                         .world = &world,
+                                         .path = &path,
+                                         .anchors = {0, 4, 9, 14},
+                                         .seed = 5,
+                                         .data = {},
+                                         .with_maps = true});
+  part.run = RunId{};
+  return part;
+}
+
+TEST(CertaintyTopic, TriesEverySeriesAtEveryLevelOfBothSensors) {
+  const TrialExperiment experiment = small_study();
+  TrialStudy study;
+  study.experiment = experiment;
+  study.design = kCertaintyTopic.design(experiment);
+  study.parts = {made(experiment)};
+  // 2 sensors x 2 levels x 4 methods, and 2 lengths of blocks x 2 methods.
+  EXPECT_EQ(study.parts[0].trials.size(), 20U);
+  for (const Trial& trial : study.parts[0].trials) {
+    ASSERT_EQ(trial.values.size(), study.design.quantities.size());
+    EXPECT_GE(trial.values[0], 0.0);
+    EXPECT_LE(trial.values[0], 100.0);
+    EXPECT_GT(trial.values[3], 0.0);
+  }
+  ASSERT_EQ(study.parts[0].maps.size(), 2U);
+  EXPECT_EQ(study.parts[0].maps[0].covariances.size(), 15U);
+  EXPECT_EQ(kCertaintyTopic.conclude(study).size(), 6U);
+}
+
+TEST(CertaintyTopic, MakesTheSameAgain) {
+  const TrialExperiment experiment = small_study();
+  const TrialPart once = made(experiment), again = made(experiment);
+  for (std::size_t i = 0; i < once.trials.size(); ++i)
+    EXPECT_EQ(once.trials[i].values, again.trials[i].values);
+}
+
+TEST(Coverage, CountsByHand) {
+  // Two landmarks and an anchor; two maps about (0, 0) and (4, 0).
+  Points truth(3, 2), first(3, 2), second(3, 2);
+  truth << 0, 0, 4, 3, 9, 9;
+  first << 1, 0, 4, 1, 9, 9;
+  second << -1, 0, 4, -1, 9, 9;
+  MapCertainty wide;
+  wide.squared_radius = 4.0;
+  wide.covariances.assign(3, Eigen::Matrix2d::Identity());  // Circles of radius 2.
+  wide.covariances[1] *= 0.2;                               // Of radius 0.89.
+  const Coverage found = coverage({first, second}, {wide, wide}, {truth, {2}});
+  EXPECT_DOUBLE_EQ(found.mean_percent, 50.0);
+  EXPECT_DOUBLE_EQ(found.truth_percent, 50.0);
+  EXPECT_DOUBLE_EQ(found.bias_m, 1.5);
+  EXPECT_DOUBLE_EQ(found.spread_m, 1.0);
+  EXPECT_DOUBLE_EQ(found.told_m, std::sqrt((2.0 + 0.4) / 2.0));
+}
+
+}  // namespace
+}  // namespace mapproof

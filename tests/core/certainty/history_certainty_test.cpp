@@ -1,0 +1,126 @@
+#include "core/certainty/history_certainty.hpp"
+
+#include <gtest/gtest.h>
+
+#include "core/base/errors.hpp"
+#include "core/base/random.hpp"
+#include "core/certainty/resampled_maps.hpp"
+#include "core/simulate/robot_walk.hpp"
+#include "core/simulate/sensors.hpp"
+#include "core/simulate/world.hpp"
+
+namespace mapproof {
+namespace {
+
+struct Walked {
+  World world;
+  ObservationHistory history;
+};
+
+Walked walked(Sensor sensor, double dropout_share, int steps = 300) {
+  Random random(4);
+  Walked made;
+  made.world = scatter_landmarks({.side_m = 1.5, .landmarks = 16}, random);
+  const Path path = random_walk(made.world, {}, steps, random);
+  made.history =
+      observe(made.world, path, {.sensor = sensor, .dropout_share = dropout_share}, random);
+  return made;
+}
+
+std::vector<Eigen::Index> some_steps() {
+  std::vector<Eigen::Index> steps;
+  for (Eigen::Index t = 0; t < 200; ++t) steps.push_back((t * 7) % 60);
+  return steps;
+}
+
+class EverySensor : public ::testing::TestWithParam<std::pair<Sensor, double>> {};
+
+TEST_P(EverySensor, ResampledMapsAreThoseOfTheHistoryOfTheseSteps) {
+  const auto [sensor, dropout] = GetParam();
+  const ObservationHistory history = walked(sensor, dropout).history;
+  ObservationHistory drawn = history;
+  drawn.values = history.values(Eigen::all, some_steps());
+  HistoryEmbedder embedder(drawn, drawn.steps());
+  const Points expected = embedder.embed({Method::kSmacof, std::nullopt}).coordinates;
+  ResampledMaps maps(history, history.steps(), {});
+  const Points found = maps.map_of(some_steps(), {Method::kSmacof, std::nullopt});
+  for (Eigen::Index i = 0; i < expected.rows(); ++i)
+    for (Eigen::Index k = 0; k < 2; ++k)
+      if (std::isnan(expected(i, k))) {
+        EXPECT_TRUE(std::isnan(found(i, k)));
+      } else {
+        EXPECT_NEAR(found(i, k), expected(i, k), 1e-9 * expected.array().abs().maxCoeff());
+      }
+}
+
+TEST_P(EverySensor, EveryLandmarkThatIsSeenHasAnEllipse) {
+  const auto [sensor, dropout] = GetParam();
+  const Walked made = walked(sensor, dropout);
+  Random random(1);
+  const CertaintyFrame frame{made.world.landmarks_m,
+                             place_anchors(made.world, 4, AnchorPlacement::kWalls, random)};
+  const MapCertainty found = history_certainty(
+      made.history, 300, frame, {.setting = {Method::kLpca, std::nullopt}, .replicates = 20});
+  ASSERT_EQ(found.covariances.size(), 16U);
+  EXPECT_EQ(found.maps, 20);
+  for (const Eigen::Matrix2d& C : found.covariances) EXPECT_TRUE(C.allFinite());
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    Certainty, EverySensor,
+    ::testing::Values(std::pair{Sensor::kVisibility, 0.0}, std::pair{Sensor::kVisibility, 0.3},
+                      std::pair{Sensor::kBearing, 0.0}, std::pair{Sensor::kBearing, 0.3},
+                      std::pair{Sensor::kRange, 0.0}, std::pair{Sensor::kRange, 0.3}));
+
+TEST(HistoryCertainty, IsNothingWhereTheMapIsTheSameForAllSteps) {
+  // Ranges without noise give LPCA the same map up to an affine one, whatever the steps.
+  const Walked made = walked(Sensor::kRange, 0.0);
+  const MapCertainty found =
+      history_certainty(made.history, 300, {made.world.landmarks_m, {0, 5, 10, 15}},
+                        {.setting = {Method::kLpca, std::nullopt}, .replicates = 20});
+  for (const Eigen::Matrix2d& C : found.covariances) EXPECT_LT(C.norm(), 1e-18);
+}
+
+TEST(HistoryCertainty, ScalesWithAFrameWithoutAnchors) {
+  const Walked made = walked(Sensor::kBearing, 0.0);
+  const HistoryCertaintyOptions options{.setting = {Method::kSmacof, std::nullopt},
+                                        .replicates = 20};
+  HistoryEmbedder embedder(made.history, 300);
+  const Points map = embedder.embed(options.setting).coordinates;
+  const MapCertainty once = history_certainty(made.history, 300, {map, {}}, options);
+  const MapCertainty twice = history_certainty(made.history, 300, {2.0 * map, {}}, options);
+  for (std::size_t i = 0; i < once.covariances.size(); ++i)
+    EXPECT_LT((4.0 * once.covariances[i] - twice.covariances[i]).norm(),
+              1e-9 * twice.covariances[i].norm());
+}
+
+TEST(HistoryCertainty, ShrinksWithTheSteps) {
+  const Walked made = walked(Sensor::kBearing, 0.0, 2000);
+  const HistoryCertaintyOptions options{.setting = {Method::kLpca, std::nullopt}, .replicates = 60};
+  const auto sum = [&](Eigen::Index steps) {
+    double total = 0.0;
+    for (const Eigen::Matrix2d& C :
+         history_certainty(made.history, steps, {made.world.landmarks_m, {0, 5, 10, 15}}, options)
+             .covariances)
+      total += C.trace();
+    return total;
+  };
+  EXPECT_LT(sum(2000), 0.6 * sum(250));
+}
+
+TEST(HistoryCertainty, RefusesFramesOfOtherLandmarks) {
+  const Walked made = walked(Sensor::kBearing, 0.0);
+  EXPECT_THROW(history_certainty(made.history, 300, {Points::Zero(3, 2), {}},
+                                 {.setting = {Method::kLpca, std::nullopt}}),
+               InvalidInput);
+}
+
+TEST(InFrame, LeavesMapsOutThatAreTiedByTooFewLandmarks) {
+  Points map = Points::Constant(4, 2, NAN);
+  map.row(0) << 0.0, 0.0;
+  map.row(1) << 1.0, 0.0;
+  EXPECT_FALSE(in_frame(map, {Points::Identity(4, 2), {}}, AffineFit::kLeastSquares));
+}
+
+}  // namespace
+}  // namespace mapproof

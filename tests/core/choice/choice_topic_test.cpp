@@ -1,0 +1,48 @@
+#include <cmath>
+
+#include <gtest/gtest.h>
+
+#include "core/base/random.hpp"
+#include "core/simulate/robot_walk.hpp"
+#include "core/simulate/world.hpp"
+#include "core/trials/choice.hpp"
+
+namespace mapproof {
+namespace {
+
+TEST(ChoiceTopic, RegretsNothingOfTheBestAndTriesEverySeries) {
+  TrialExperiment experiment;
+  experiment.topic = "choice";
+  experiment.steps = 300;
+  experiment.world.landmarks = 16;
+  experiment.world.side_m = 1.4;
+  experiment.options = {{"observations", {100, 300}}, {"replicates", {2}}};
+  Random random(9);
+  const World world = scatter_landmarks(experiment.world, random);
+  const Path path = random_walk(world, experiment.walk, experiment.steps, random);
+  TrialStudy study;
+  study.experiment = experiment;
+  study.design = kChoiceTopic.design(experiment);
+  study.parts = {kChoiceTopic.make({.experiment = experiment,
+                                    .part = "layout-1-pose-1",
+                                    .run = {},
+                                    .world = &world,
+                                    .path = &path,
+                                    .anchors = {0, 5, 10, 15},
+                                    .seed = 5,
+                                    .data = {},
+                                    .with_maps = true})};
+  EXPECT_EQ(study.parts[0].trials.size(), 2U * 2U * study.design.series.size());
+  for (const Trial& trial : study.parts[0].trials) {
+    EXPECT_GE(trial.values[0], 0.0) << trial.series;
+    if (trial.series != "anchors") {
+      EXPECT_GE(trial.values[1], 0.0) << trial.series;
+    }
+  }
+  const auto sentences = kChoiceTopic.conclude(study);
+  ASSERT_EQ(sentences.size(), 2U);
+  EXPECT_EQ(sentences[0].find("nan"), std::string::npos) << sentences[0];
+}
+
+}  // namespace
+}  // namespace mapproof

@@ -1,0 +1,43 @@
+#include <gtest/gtest.h>
+
+#include "core/base/random.hpp"
+#include "core/simulate/robot_walk.hpp"
+#include "core/simulate/world.hpp"
+#include "core/trials/online.hpp"
+
+namespace mapproof {
+namespace {
+
+TEST(OnlineTopic, FollowsEverySensorToEveryLevel) {
+  TrialExperiment experiment;
+  experiment.topic = "online";
+  experiment.steps = 300;
+  experiment.world.landmarks = 16;
+  experiment.world.side_m = 1.4;
+  experiment.options = {{"observations", {100, 300}}, {"every", {50}}};
+  Random random(9);
+  const World world = scatter_landmarks(experiment.world, random);
+  const Path path = random_walk(world, experiment.walk, experiment.steps, random);
+  TrialStudy study;
+  study.experiment = experiment;
+  study.design = kOnlineTopic.design(experiment);
+  study.parts = {kOnlineTopic.make({.experiment = experiment,
+                                    .part = "layout-1-pose-1",
+                                    .run = {},
+                                    .world = &world,
+                                    .path = &path,
+                                    .anchors = {0, 5, 10, 15},
+                                    .seed = 5,
+                                    .data = {},
+                                    .with_maps = true})};
+  ASSERT_EQ(study.parts[0].trials.size(), 8U);
+  for (const Trial& trial : study.parts[0].trials) {
+    EXPECT_GE(trial.values[1], trial.values[0]);
+    EXPECT_LE(trial.values[0], 100.0);
+    EXPECT_GT(trial.values[3], 0.0);
+  }
+  EXPECT_EQ(kOnlineTopic.conclude(study).size(), 2U);
+}
+
+}  // namespace
+}  // namespace mapproof

@@ -1,0 +1,45 @@
+#include <cmath>
+
+#include <gtest/gtest.h>
+
+#include "core/base/random.hpp"
+#include "core/simulate/robot_walk.hpp"
+#include "core/simulate/world.hpp"
+#include "core/trials/mixed.hpp"
+
+namespace mapproof {
+namespace {
+
+TEST(MixedTopic, MapsEverySensorAndEveryMixAtEveryLevel) {
+  TrialExperiment experiment;
+  experiment.topic = "mixed";
+  experiment.steps = 1000;
+  experiment.world.landmarks = 25;
+  experiment.world.side_m = 1.7;
+  experiment.options = {{"bearing_noise_deg", {0, 20}},
+                        {"visibility_errors_percent", {0, 5}},
+                        {"usual_bearing_noise_deg", {20}},
+                        {"range_noise_m", {0.1}}};
+  Random random(9);
+  const World world = scatter_landmarks(experiment.world, random);
+  const Path path = random_walk(world, experiment.walk, experiment.steps, random);
+  TrialStudy study;
+  study.experiment = experiment;
+  study.design = kMixedTopic.design(experiment);
+  study.parts = {kMixedTopic.make({.experiment = experiment,
+                                   .part = "layout-1-pose-1",
+                                   .run = {},
+                                   .world = &world,
+                                   .path = &path,
+                                   .anchors = {0, 8, 16, 24},
+                                   .seed = 5,
+                                   .data = {},
+                                   .with_maps = true})};
+  // 2 sensors in two ways and 3 mixes at 4 levels, 3 sensors in two ways and 3 mixes at 2.
+  ASSERT_EQ(study.parts[0].trials.size(), 46U);
+  for (const Trial& trial : study.parts[0].trials) EXPECT_GT(trial.values[0], 0.0);
+  EXPECT_EQ(kMixedTopic.conclude(study).size(), 6U);
+}
+
+}  // namespace
+}  // namespace mapproof

@@ -1,0 +1,101 @@
+#include "core/records/observation_stream.hpp"
+
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include "core/records/observations.hpp"
+#include "tests/core/records/samples.hpp"
+#include "tests/support/temporary_folder.hpp"
+
+namespace mapproof {
+namespace {
+
+using test::error_of;
+
+constexpr const char* kText =
+    "landmark,step,value\n"
+    "door,0,0.5\n"
+    "desk,0,-1\n"
+    "\n"
+    "door,2,0.25\n"
+    "# a remark\n"
+    "lamp,2,nan\n"
+    "desk,3,1e-1";
+
+/// All steps of a text that comes in pieces of so many bytes.
+std::vector<StreamedStep> streamed(const std::string& text, std::size_t piece,
+                                   ObservationStream& stream) {
+  std::vector<StreamedStep> steps;
+  const auto take = [&] {
+    for (StreamedStep& step : stream.steps()) steps.push_back(std::move(step));
+  };
+  for (std::size_t at = 0; at < text.size(); at += piece) {
+    stream.take(std::string_view(text).substr(at, piece));
+    take();
+  }
+  stream.end();
+  take();
+  return steps;
+}
+
+TEST(ObservationStream, GivesTheStepsOfTheFileHoweverItsBytesCome) {
+  test::TemporaryFolder folder;
+  const std::string path = folder.file("long.csv", kText);
+  const ObservationHistory whole = read_observations(path, Sensor::kBearing, Layout::kLong).history;
+  for (std::size_t piece = 1; piece < 80; ++piece) {
+    ObservationStream stream("long.csv", Sensor::kBearing);
+    const auto steps = streamed(kText, piece, stream);
+    ASSERT_EQ(static_cast<Eigen::Index>(steps.size()), whole.steps());
+    EXPECT_EQ(stream.names(), whole.names);
+    for (std::size_t t = 0; t < steps.size(); ++t) {
+      Eigen::VectorXd column =
+          Eigen::VectorXd::Constant(whole.landmarks(), std::numeric_limits<double>::quiet_NaN());
+      for (const auto& [row, value] : steps[t].values) column(row) = value;
+      for (Eigen::Index i = 0; i < column.size(); ++i) {
+        const double expected = whole.values(i, static_cast<Eigen::Index>(t));
+        EXPECT_TRUE(column(i) == expected || (std::isnan(column(i)) && std::isnan(expected)));
+      }
+    }
+  }
+}
+
+TEST(ObservationStream, HoldsAStepBackUntilALaterOneBegins) {
+  ObservationStream stream("f", Sensor::kVisibility);
+  stream.take("0,a,1\n0,b,1\n");
+  EXPECT_TRUE(stream.steps().empty());
+  stream.take("1,a,");
+  EXPECT_TRUE(stream.steps().empty());  // The line may still become one of step 0.
+  stream.take("1\n");
+  EXPECT_EQ(stream.steps().size(), 1U);
+  stream.take("1,b,0.");
+  stream.drop_half_line();
+  stream.end();
+  EXPECT_EQ(stream.steps().size(), 1U);
+}
+
+TEST(ObservationStream, NamesTheLineOfWhatIsWrong) {
+  const auto error = [](const std::string& text) {
+    return error_of([&] {
+      ObservationStream stream("f", Sensor::kVisibility);
+      stream.take(text);
+      stream.end();
+    });
+  };
+  EXPECT_EQ(error("step,landmark,value\n0,a,1\n0,a,0\n"),
+            "f: line 3: landmark \"a\" is already listed at step 0");
+  EXPECT_EQ(error("5,a,1\n4,a,0\n"),
+            "f: line 2: step 4 after step 5: a file that is followed lists its steps in ascending "
+            "order");
+  EXPECT_EQ(error("0,a\n"), "f: line 1: has 2 cells, expected step, landmark, value");
+  EXPECT_EQ(error("0.5,a,1\n"), "f: line 1: a step is an integer from 0, got \"0.5\"");
+  EXPECT_EQ(error("step,landmark,angle\n"),
+            "f: line 1: expected the columns step, landmark, value");
+  EXPECT_EQ(error("0,a,1\n0,\"b,1\n"),
+            "f: line 2: its quotes are broken, or a cell goes over its end");
+  EXPECT_EQ(error("0,a\xff,1\n"), "f: line 1: is no UTF-8 text, or holds a NUL byte");
+  EXPECT_TRUE(error("0,a,0.5\n").starts_with("f: line 1: "));
+  EXPECT_EQ(error(std::string((1 << 20) + 1, 'x')), "f: line 1: is longer than 1 MiB");
+}
+
+}  // namespace
+}  // namespace mapproof
