@@ -24,7 +24,6 @@ struct MapReportInput {
   /// What was mapped and how, where the record's method and sensor do not say it: "SMACOF of
   /// measured pairs, range and bearing". Empty: they do.
   std::string what = {};
-  std::string command;             ///< The one that makes it again, ready to be typed.
   std::vector<Section> more = {};  ///< After the landmarks: what else was asked for.
 };
 
