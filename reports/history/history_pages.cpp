@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <set>
+#include <tuple>
 
 #include <fmt/format.h>
 
@@ -33,6 +34,18 @@ std::string id_of(const std::string& name) {
   for (const char c : lower_case(name))
     id += (c >= 'a' && c <= 'z') || (c >= '0' && c <= '9') ? c : '-';
   return id;
+}
+
+/// "ISOMAP, K = 6" of "isomap-K6"; what is no method stays as it is.
+std::string shown_method(const std::string& method) {
+  const std::optional<Method> known = method_named(base_method(method));
+  if (!known) return method;
+  const std::string label(info(*known).label);
+  const std::string_view name = info(*known).name;
+  const auto& parameter = info(*known).parameter;
+  if (!parameter || method.size() <= name.size() + 1 + parameter->symbol.size()) return label;
+  return fmt::format("{}, {} = {}", label, parameter->shown,
+                     method.substr(name.size() + 1 + parameter->symbol.size()));
 }
 
 double median_or_last(const std::vector<double>& values) {
@@ -95,9 +108,10 @@ std::optional<Figure> lines_figure(const StudyTrend& trend, const std::string& s
       facts.label);
   ErrorPanel panel = panel_of(trend);
   for (const auto& [id, values] : lines) {
-    const std::string label = id.step == 0 ? id.method : fmt::format("{}, {}", id.method, id.step);
-    panel.lines.push_back(
-        {.label = label, .key = id_of(label), .x = night_numbers(trend), .mean = *values});
+    panel.lines.push_back({.label = shown_method(id.method),
+                           .key = id_of(id.method),
+                           .x = night_numbers(trend),
+                           .mean = *values});
   }
   spec.panels.push_back(std::move(panel));
   Figure figure = error_lines_figure(spec);
@@ -152,12 +166,14 @@ Section summary_section(const StudyTrend& trend, const NightFindings& findings) 
 }  // namespace
 
 std::vector<Figure> trend_figures(const StudyTrend& trend) {
-  std::set<std::pair<std::string, std::string>> shown;
+  // The order of history_quantity()'s table: errors first.
+  std::set<std::tuple<const HistoryQuantity*, std::string, std::string>> shown;
   for (const auto& [id, values] : trend.medians)
-    if (history_quantity(id.quantity).compared != Compared::kNot)
-      shown.insert({id.quantity, id.sensor});
+    if (const HistoryQuantity& quantity = history_quantity(id.quantity);
+        quantity.compared != Compared::kNot)
+      shown.insert({&quantity, id.quantity, id.sensor});
   std::vector<Figure> figures;
-  for (const auto& [quantity, sensor] : shown)
+  for (const auto& [place, quantity, sensor] : shown)
     if (auto figure = lines_figure(trend, sensor, quantity)) figures.push_back(std::move(*figure));
   if (auto figure = memory_figure(trend)) figures.push_back(std::move(*figure));
   return figures;
@@ -236,9 +252,9 @@ Report index_page(std::span<const NightFacts> nights, const NightFindings& findi
   for (const std::string& study : studies)
     last.blocks.emplace_back(Paragraph{
         {{study + ": ", Emphasis::kStrong},
-         {fmt::format("nights/{:04}/{}/report.html", tonight.number, study), Emphasis::kCode},
+         {fmt::format("nights/{:04}/{}/report.html", tonight.number, study), Emphasis::kFile},
          {", over the nights "},
-         {fmt::format("trends/{}/report.html", study), Emphasis::kCode}}});
+         {fmt::format("trends/{}/report.html", study), Emphasis::kFile}}});
   report.sections.push_back(std::move(last));
   report.sections.push_back({"nights", "All nights", {nights_table(nights, findings)}});
   return report;

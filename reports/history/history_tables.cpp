@@ -66,7 +66,7 @@ Table nights_table(std::span<const NightFacts> nights, const NightFindings& find
         {{number(night.number, 0), text(night.started_utc),
           text(words_of(night.verdict) + (night.pinned ? ", pinned" : "")),
           number(static_cast<double>(count), 0), against, TextCell{night.host, Emphasis::kData},
-          TextCell{fmt::format("nights/{:04}", night.number), Emphasis::kCode}},
+          TextCell{fmt::format("nights/{:04}/", night.number), Emphasis::kFile}},
          fmt::format("night {}", night.number)});
   }
   return table;

@@ -150,7 +150,7 @@ Scores night_scores(const TrialStudy& study) {
     for (const Trial& trial : part.trials)
       for (std::size_t i = 0; i < trial.values.size(); ++i) {
         const std::string& quantity = study.design.quantities[i].id;
-        SeriesId series{trial.setup, fmt::format("{} {:.6g}", trial.series, trial.level), 0, ""};
+        SeriesId series{trial.setup, fmt::format("{}@{:.6g}", trial.series, trial.level), 0, ""};
         series.quantity = is_history_quantity(quantity) ? quantity : "other";
         if (series.quantity == "other") series.method += " " + quantity;
         scores[std::move(series)].push_back({part.id, unit, trial.values[i]});

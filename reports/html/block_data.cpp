@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include "core/base/words.hpp"
+#include "reports/html/escape.hpp"
 #include "reports/html/table_data.hpp"
 #include "reports/model/format.hpp"
 
@@ -25,6 +26,8 @@ data phrase_data(const Phrase& phrase) {
   out.set("plain", phrase.emphasis == Emphasis::kPlain);
   out.set("strong", phrase.emphasis == Emphasis::kStrong);
   out.set("code", phrase.emphasis == Emphasis::kCode);
+  out.set("file", phrase.emphasis == Emphasis::kFile);
+  out.set("link", phrase.emphasis == Emphasis::kFile ? file_link(phrase.text) : "");
   out.set("data", phrase.emphasis == Emphasis::kData);
   out.set("long", phrase.text.size() > kLong);
   return out;

@@ -1,5 +1,9 @@
 #include "reports/html/escape.hpp"
 
+#include <string_view>
+
+#include <fmt/format.h>
+
 #include "reports/model/format.hpp"
 
 namespace mapproof {
@@ -28,6 +32,17 @@ std::string html_escaped(const std::string& text) {
     }
   }
   return out;
+}
+
+std::string file_link(const std::string& path) {
+  constexpr std::string_view kPlain =
+      "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789-_./";
+  std::string link = "./";  // Never taken for a scheme or a host.
+  for (const char c : path)
+    link += kPlain.find(c) != std::string_view::npos
+                ? std::string(1, c)
+                : fmt::format("%{:02X}", static_cast<unsigned char>(c));
+  return link;
 }
 
 }  // namespace mapproof

@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include "core/base/words.hpp"
+#include "reports/html/escape.hpp"
 #include "reports/model/format.hpp"
 #include "reports/tables/write_tables.hpp"
 
@@ -91,7 +92,9 @@ data cell_data(const Table& table, const Row& row, std::size_t index) {
   out.set("heads", index == 0);
   out.set("is_text", text != nullptr || holds_text(table, index));
   out.set("code", emphasis == Emphasis::kCode);
-  out.set("data", emphasis != Emphasis::kCode);
+  out.set("file", emphasis == Emphasis::kFile);
+  out.set("link", emphasis == Emphasis::kFile ? file_link(text->text) : "");
+  out.set("data", emphasis != Emphasis::kCode && emphasis != Emphasis::kFile);
   out.set("long", text != nullptr && text->text.size() > kLongCell);
   const std::string key = std::visit(SortKey{}, cell);
   out.set("sort", text == nullptr ? data("key", key) : data(false));

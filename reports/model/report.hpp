@@ -13,6 +13,7 @@ enum class Emphasis {
   kPlain,
   kStrong,
   kCode,  ///< Commands, file names, ids.
+  kFile,  ///< A file or folder by its path from the page: a link.
   kData,  ///< Text from a user's file: kept apart from the direction of the text around it.
 };
 

@@ -169,5 +169,12 @@ TEST(ReportHtml, RefusesAReportWithAnIdThatIsNone) {
   EXPECT_THROW(report_html(report, load_templates(), {}), InvalidInput);
 }
 
+TEST(Html, FilesAreLinkedByPathsThatStayBesideThePage) {
+  EXPECT_EQ(file_link("nights/0001/a b/report.html"), "./nights/0001/a%20b/report.html");
+  EXPECT_EQ(file_link("javascript:alert(1)"), "./javascript%3Aalert%281%29");
+  EXPECT_EQ(file_link("//host/x"), ".///host/x");
+  EXPECT_EQ(file_link("\"><b>"), "./%22%3E%3Cb%3E");
+}
+
 }  // namespace
 }  // namespace mapproof
