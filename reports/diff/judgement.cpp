@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <optional>
 
 namespace mapproof {
 namespace {
@@ -11,9 +12,15 @@ namespace {
 // but of kMovedShare .58 must pass and .64 must fail.
 constexpr int kMostLocalGroups = 3;
 constexpr double kMostLocalShare = 0.12;  // Of the tiles with anything in them.
+constexpr int kMostSparseGroups = 6;      // Which are few places too,
+constexpr double kSparseShare = 0.02;     // if they are so small.
 constexpr double kLeftShare = 0.3;        // Of a group's difference, beyond a small movement.
 constexpr double kLostShare = 0.1;        // Of the pixels beyond noise.
 constexpr double kMovedShare = 0.61;      // Of the difference, one way.
+constexpr double kCopiedShare =
+    0.6;  // Of the pixels beyond noise: without smoothing half, layers .7.
+constexpr double kMovedTouched = 0.63;    // Of the tiles with anything in them.
+constexpr double kFarMoved = 1.6;         // Pixels; hints move letters by less.
 constexpr double kRecolouredShare = 0.2;  // Of the difference.
 constexpr double kOneSidedShare = 0.6;    // Of the difference and of tiles.
 constexpr double kBoldShare = 0.1;        // Of the pixels beyond noise.
@@ -93,17 +100,17 @@ struct OverallEvidence {
   double energy = 0.0, recoloured = 0.0, beyond = 0.0, lost = 0.0;
   double sided = 0.0, one_sided = 0.0;  ///< Energies of tiles that can tell, and of those that do.
   double right = 0.0, down = 0.0;       ///< Sums of movements' directions, by energy.
+  double far_right = 0.0, far_down = 0.0;  ///< The same of movements that are far.
+  std::array<double, 8> copied{};
   int tiles = 0, one_sided_tiles = 0;
 
   void add(const TileEvidence& tile, const PictureOptions& options) {
     energy += tile.fit.energy;
-    if (is_moved(tile, options)) {
-      right += tile.fit.energy * tile.right_px / tile.displacement_px();
-      down += tile.fit.energy * tile.down_px / tile.displacement_px();
-    }
+    if (is_moved(tile, options)) add_movement(tile);
     if (is_recoloured(tile)) recoloured += tile.fit.energy;
     beyond += tile.beyond_noise;
     lost += tile.lost;
+    for (std::size_t step = 0; step < copied.size(); ++step) copied[step] += tile.copied[step];
     if (tile.beyond_noise < kFewPixels) return;
     ++tiles;
     sided += tile.fit.energy;
@@ -111,9 +118,24 @@ struct OverallEvidence {
     ++one_sided_tiles;
     one_sided += tile.fit.energy;
   }
+  void add_movement(const TileEvidence& tile) {
+    const double x = tile.fit.energy * tile.right_px / tile.displacement_px();
+    const double y = tile.fit.energy * tile.down_px / tile.displacement_px();
+    right += x, down += y;
+    if (tile.displacement_px() > kFarMoved) far_right += x, far_down += y;
+  }
   bool any_lost() const { return lost > kLostShare * beyond; }
-  /// Other hints move letters apart; what is moved goes one way.
-  bool any_moved() const { return std::hypot(right, down) > kMovedShare * energy; }
+  /// Where pixels come from, as one of kSteps, if most are copies of what was a pixel away.
+  std::optional<std::size_t> copied_from() const {
+    const auto most = std::ranges::max_element(copied);
+    if (*most <= kCopiedShare * beyond) return std::nullopt;
+    return most - copied.begin();
+  }
+  /// Other hints move letters too, and all one way, but not far, and what is no letter stays.
+  bool any_moved(int textured) const {
+    return std::hypot(far_right, far_down) > kMovedShare * energy ||
+           (std::hypot(right, down) > kMovedShare * energy && tiles > kMovedTouched * textured);
+  }
   bool any_recoloured() const { return recoloured > kRecolouredShare * energy; }
   /// A line that is thicker, or a pale grid lost: smoothing takes as much as it gives.
   bool is_one_sided() const {
@@ -121,13 +143,15 @@ struct OverallEvidence {
   }
 };
 
-void judge_overall(std::span<const int> tiles, std::span<const TileEvidence> evidence,
+void judge_overall(std::span<const int> tiles, std::span<const TileEvidence> evidence, int textured,
                    const PictureOptions& options, ChangeMap& marks) {
   OverallEvidence all;
   for (const TileEvidence& tile : evidence) all.add(tile, options);
+  const std::optional<std::size_t> step = all.copied_from();
   for (std::size_t i = 0; i < tiles.size(); ++i)
     if ((all.any_lost() && evidence[i].lost > 0) ||
-        (all.any_moved() && is_moved(evidence[i], options)) ||
+        (step && 2 * evidence[i].copied[*step] > evidence[i].beyond_noise) ||
+        (all.any_moved(textured) && is_moved(evidence[i], options)) ||
         (all.any_recoloured() && is_recoloured(evidence[i])) ||
         (all.is_one_sided() && evidence[i].is_one_sided()))
       change_edges(*marks.tile(tiles[i]));
@@ -210,15 +234,17 @@ void judge(std::span<const int> tiles, std::span<const TileEvidence> evidence, i
     beyond += evidence[i].beyond_noise > 0;
   }
   const auto groups = tile_groups(marks.across(), is_beyond);
-  const bool is_local = static_cast<int>(groups.size()) <= kMostLocalGroups &&
-                        beyond <= std::max(1.0, kMostLocalShare * textured);
+  const int places = static_cast<int>(groups.size());
+  const bool is_local =
+      (places <= kMostLocalGroups && beyond <= std::max(1.0, kMostLocalShare * textured)) ||
+      (places <= kMostSparseGroups && beyond <= kSparseShare * textured);
   for (std::size_t i = 0; i < tiles.size(); ++i)
     if ((is_local ? evidence[i].flat_shift : evidence[i].flat_shift_in_noise) > 0.0)
       change(*marks.tile(tiles[i]), [](PixelMark mark) { return mark != PixelMark::kEqual; });
   if (is_local)
     judge_locally(groups, of_tile, marks);
   else {
-    judge_overall(tiles, evidence, options, marks);
+    judge_overall(tiles, evidence, textured, options, marks);
     const std::vector<bool> is_out = out_of_step(tiles, evidence, textured, options, marks);
     for (std::size_t i = 0; i < tiles.size(); ++i)
       if (is_out[tiles[i]]) change_edges(*marks.tile(tiles[i]));

@@ -58,6 +58,17 @@ bool is_bold(const PatchPair& pair, int i) {
   return false;
 }
 
+/// Counts from where the cell's new colour may have come, if all moved by a pixel.
+void count_copies(const PatchPair& pair, int i, double noise, std::array<int, 8>& copied) {
+  for (std::size_t step = 0; step < kSteps.size(); ++step) {
+    const int j = i + kSteps[step][1] * kPatchSide + kSteps[step][0];
+    int largest = 0;
+    for (int c = 0; c < 3; ++c)
+      largest = std::max(largest, std::abs(pair.after.raw[c][i] - pair.before.raw[c][j]));
+    copied[step] += largest <= noise;
+  }
+}
+
 /// Slope of a smoothed plane, of 255 a pixel, by five cells.
 double slope(const Plane& plane, int i, int step) {
   return (8 * (plane[i + step] - plane[i - step]) - (plane[i + 2 * step] - plane[i - 2 * step])) /
@@ -251,6 +262,7 @@ TileEvidence tile_evidence(const Image& baseline, const Image& current, int x0, 
       ++found.beyond_noise;
       found.bold += is_bold(pair, i);
       found.lost += is_lost(pair, i, bounds.noise);
+      count_copies(pair, i, bounds.noise, found.copied);
       for (int c = 0; c < 3; ++c) {
         const int difference = pair.after.raw[c][i] - pair.before.raw[c][i];
         found.sum[c] += difference, found.absolute_sum[c] += std::abs(difference);

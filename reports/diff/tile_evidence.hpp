@@ -21,6 +21,10 @@ struct MovementFit {
   double left(double right_px, double down_px) const;
 };
 
+/// To the pixels around one, right and down.
+inline constexpr std::array<std::array<int, 2>, 8> kSteps{
+    {{-1, -1}, {0, -1}, {1, -1}, {-1, 0}, {1, 0}, {-1, 1}, {0, 1}, {1, 1}}};
+
 /// What a tile's difference looks like.
 struct TileEvidence {
   int differing = 0;     ///< Pixels that differ at all.
@@ -30,7 +34,9 @@ struct TileEvidence {
   /// Of 255: how far the mean of flat pixels moves, of the whole tile or three of its rows or
   /// columns, less what noise explains; at most 0 if noise explains all.
   double flat_shift = -1.0;
-  double flat_shift_in_noise = -1.0;     ///< The same, if there were noise all over.
+  double flat_shift_in_noise = -1.0;  ///< The same, if there were noise all over.
+  /// Of those beyond noise, pixels with the colour that the one at each of kSteps from it had.
+  std::array<int, 8> copied{};
   std::array<double, 3> sum{};           ///< Of the differences beyond noise, a channel.
   std::array<double, 3> absolute_sum{};  ///< Of their sizes.
   MovementFit fit;                       ///< Of the smoothed difference.

@@ -72,6 +72,40 @@ Change with_wave(int waves, int points) {
   };
 }
 
+/// All items of a role moved by pixels; of text any role.
+struct LayerMove {
+  std::string layer;
+  std::function<bool(const Item&)> is_in;
+  double right_px = 0.0, down_px = 0.0;
+
+  void operator()(Drawing& drawing) const {
+    const double px = 72.0 / drawing.dpi;
+    const auto moved = [&](Point at) { return Point{at.x + right_px * px, at.y + down_px * px}; };
+    for (Item& item : drawing.items) {
+      if (!is_in(item)) continue;
+      if (auto* stamp = std::get_if<Stamp>(&item.what)) stamp->at = moved(stamp->at);
+      if (auto* line = std::get_if<TextLine>(&item.what)) line->at = moved(line->at);
+      if (auto* shape = std::get_if<Shape>(&item.what))
+        for (Point& point : shape->path.points) point = moved(point);
+    }
+  }
+};
+
+bool is_text(const Item& item) { return std::holds_alternative<TextLine>(item.what); }
+
+std::vector<LayerMove> layer_moves() {
+  std::vector<LayerMove> moves;
+  const auto is_of = [](Role role) {
+    return [role](const Item& item) { return item.role == role && !is_text(item); };
+  };
+  for (const auto& [right, down] : {std::pair{1.0, 0.0}, {0.0, 1.0}, {-1.0, 1.0}}) {
+    moves.push_back({"markers", is_of(Role::kMarker), right, down});
+    moves.push_back({"lines", is_of(Role::kLine), right, down});
+    moves.push_back({"text", is_text, right, down});
+  }
+  return moves;
+}
+
 Change without(std::size_t item) {
   return [item](Drawing& drawing) { drawing.items.erase(drawing.items.begin() + item); };
 }
@@ -105,6 +139,10 @@ class SubtleMutations {
             lose_grid);
     add("smooth wave of 99 points for 100", kWithinTolerance, with_wave(1, 100), with_wave(1, 99));
     for (const auto& [right, down] : {std::pair{0.1, 0.0}, {-0.07, 0.07}}) changes(right, down);
+    for (const LayerMove& move : layer_moves())
+      if (std::ranges::any_of(drawing_.items, move.is_in))
+        add(fmt::format("all {} moved {} {} px", move.layer, move.right_px, move.down_px),
+            kDifferent, none, move);
     hints();
     return std::move(found_);
   }
@@ -171,6 +209,10 @@ class SubtleMutations {
     add("hinted by the rasterizer", PictureState::kWithinTolerance, none, none, plain, automatic);
     add("hinted by the font for the rasterizer", PictureState::kWithinTolerance, none, none,
         automatic, own);
+    for (const auto& [right, down] : {std::pair{0.0, 1.0}, {0.0, -1.0}, {1.0, 0.0}})
+      add(fmt::format("hinted by the rasterizer and moved {} {} px", right, down),
+          PictureState::kWithinTolerance, none, LayerMove{"text", is_text, right, down}, plain,
+          automatic);
     for (const std::size_t i : one(Role::kTickLabel))
       for (const int by : {1, 3, 6})
         add(fmt::format("hinted digit {} further", by), PictureState::kDifferent, none,
