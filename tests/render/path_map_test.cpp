@@ -67,7 +67,7 @@ TEST(PathMap, EnlargesEllipsesByAFactorThatItTells) {
   const SlamRun run = sample_drive("plaza-1", 2000, 1);
   const Figure figure = figure_of(run);
   const auto ellipses = labelled<Ellipses>(figure.panels[0], "refined, scale free").value();
-  const CovarianceEllipse own = covariance_ellipse(run.records[5].estimate.landmark_cov_m2[2]);
+  const Ellipse own = covariance_ellipse(run.records[5].estimate.landmark_cov_m2[2]);
   EXPECT_NEAR(ellipses.a[2], 5.0 * own.a, 1e-12);
   EXPECT_NEAR(ellipses.b[2], 5.0 * own.b, 1e-12);
   EXPECT_TRUE(notes_contain(figure, "enlarged 5 times"));
@@ -131,7 +131,7 @@ TEST(PathMap, RefusesPartsThatDisagree) {
 TEST(CovarianceEllipse, HasTheEigenvaluesAsHalfAxes) {
   Eigen::Matrix2d C;
   C << 2.5, 1.5, 1.5, 2.5;  // 4 along the diagonal, 1 across.
-  const CovarianceEllipse ellipse = covariance_ellipse(C);
+  const Ellipse ellipse = covariance_ellipse(C);
   EXPECT_NEAR(ellipse.a / ellipse.b, 2.0, 1e-12);
   EXPECT_NEAR(ellipse.b, std::sqrt(-2.0 * std::log(0.05)), 1e-12);
   EXPECT_NEAR(ellipse.turn_rad, std::atan(1.0), 1e-12);
