@@ -1,3 +1,4 @@
+#include <array>
 #include <memory>
 #include <system_error>
 
@@ -6,6 +7,7 @@
 #include "app/commands/verbs.hpp"
 #include "app/diff_options.hpp"
 #include "app/folder_report.hpp"
+#include "app/output_places.hpp"
 #include "app/study_order.hpp"
 #include "core/base/errors.hpp"
 #include "reports/diff/folder_diff.hpp"
@@ -33,9 +35,21 @@ void make_candidate(const Arguments& arguments, const Invocation& invocation) {
                load_templates(arguments.options.templates), arguments.jobs);
 }
 
+/// The candidate never writes over the baseline, nor an output over either.
+void check_places(const Arguments& arguments) {
+  if (overlap(arguments.baseline, arguments.out))
+    throw InvalidInput(fmt::format("--baseline {} and --out {}: one is the other or lies in it",
+                                   printable(arguments.baseline), printable(arguments.out)));
+  const std::array<fs::path, 4> inputs = {arguments.baseline, arguments.out,
+                                          arguments.options.settings, arguments.experiment};
+  check_output_places(arguments.options, inputs);
+}
+
 int check(const Arguments& arguments, const Invocation& invocation) {
+  check_places(arguments);
   const DiffSettings settings = diff_settings(arguments.options, arguments.baseline);
   make_candidate(arguments, invocation);
+  check_places(arguments);  // Now that the candidate's files are there.
   std::error_code error;
   // An empty folder stands for a baseline that is not there yet: everything in the candidate is
   // new.
@@ -45,7 +59,8 @@ int check(const Arguments& arguments, const Invocation& invocation) {
         "{}",
         arguments.baseline, arguments.out,
         quoted_command({"mapproof", "approve", arguments.baseline, arguments.out, "--all"})));
-    return kNo;
+    return hand_out(no_baseline(arguments.baseline, arguments.out, settings), settings,
+                    arguments.options, invocation.console);
   }
   return hand_out(folder_diff(arguments.baseline, arguments.out, settings), settings,
                   arguments.options, invocation.console);

@@ -1,8 +1,10 @@
-#include <cstdlib>
+#include <array>
+#include <filesystem>
 #include <memory>
 
 #include "app/commands/verbs.hpp"
 #include "app/diff_options.hpp"
+#include "app/output_places.hpp"
 #include "reports/diff/folder_diff.hpp"
 
 namespace mapproof {
@@ -15,6 +17,9 @@ struct Arguments {
 };
 
 int diff(const Arguments& arguments, const Invocation& invocation) {
+  const std::array<std::filesystem::path, 3> inputs = {arguments.baseline, arguments.current,
+                                                       arguments.options.settings};
+  check_output_places(arguments.options, inputs);
   const DiffSettings settings = diff_settings(arguments.options, arguments.baseline);
   const DiffResult result = folder_diff(arguments.baseline, arguments.current, settings);
   return hand_out(result, settings, arguments.options, invocation.console);

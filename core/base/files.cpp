@@ -28,7 +28,8 @@ const char* endless_kind(mode_t mode) {
 /// Whether the path is a stream that this process was handed, as by a shell's <(...).
 bool is_handed_in(const fs::path& path) {
   const std::string text = path.string();
-  return text == "/dev/stdin" || text.starts_with("/dev/fd/") || text.starts_with("/proc/self/fd/");
+  return text == "/dev/stdin" || text == "/dev/stdout" || text == "/dev/stderr" ||
+         text.starts_with("/dev/fd/") || text.starts_with("/proc/self/fd/");
 }
 
 /// Refuses what is no file, without waiting for anybody to write to it.
@@ -45,6 +46,24 @@ Descriptor open_file(const fs::path& path, struct stat& facts) {
   if (flags < 0 || ::fcntl(file.get(), F_SETFL, flags & ~O_NONBLOCK) < 0)
     throw IoError(path.string(), reason());
   return file;
+}
+
+/// Where the file itself is that a path names: behind links, so that these stay.
+/// @throws IoError for what is there and no regular file: it cannot be replaced.
+fs::path replaceable_place(const fs::path& path) {
+  if (is_handed_in(path))
+    throw IoError(path.string(), "is a stream, no file that can be written at once");
+  struct stat facts {};
+  if (::stat(path.c_str(), &facts) != 0) return path;
+  if (S_ISDIR(facts.st_mode)) throw IoError(path.string(), "is a folder, no file to be replaced");
+  if (!S_ISREG(facts.st_mode))
+    throw IoError(path.string(),
+                  std::string("is ") + endless_kind(facts.st_mode) + ", no file to be replaced");
+  std::error_code error;
+  if (!fs::is_symlink(path, error)) return path;
+  const fs::path target = fs::canonical(path, error);
+  if (error) throw IoError(path.string(), "cannot be followed: " + error.message());
+  return target;
 }
 
 }  // namespace
@@ -81,14 +100,15 @@ void make_folder(const fs::path& path) {
 
 void write_file(const fs::path& path, std::string_view bytes) {
   if (path.has_parent_path()) make_folder(path.parent_path());
-  fs::path beside = path;
+  const fs::path place = replaceable_place(path);
+  fs::path beside = place;
   beside += ".part-" + std::to_string(::getpid());
   try {
     Descriptor file(::open(beside.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0644));
     if (file.get() < 0) throw IoError(path.string(), "cannot be written: " + reason());
     if (!write_all(file, bytes) || !file.close())
       throw IoError(path.string(), "cannot be written: " + reason());
-    if (::rename(beside.c_str(), path.c_str()) != 0)
+    if (::rename(beside.c_str(), place.c_str()) != 0)
       throw IoError(path.string(), "cannot be put in place: " + reason());
   } catch (...) {
     ::unlink(beside.c_str());

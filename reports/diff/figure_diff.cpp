@@ -26,7 +26,11 @@ void compare_words(const Figure& a, const Figure& b, FigureLog& log) {
   log.change(ChangeKind::kMetadata, "figure", "id", a.id, b.id);
   log.change(ChangeKind::kMetadata, "figure", "title", a.title, b.title);
   log.change(ChangeKind::kMetadata, "figure", "caption", a.caption, b.caption);
-  log.change(ChangeKind::kMetadata, "figure", "alternative text", a.alt, b.alt);
+  // Of a figure that varies it tells the values, and may name them in another order.
+  if (a.alt != b.alt && a.varies && b.varies)
+    log.mask();
+  else
+    log.change(ChangeKind::kMetadata, "figure", "alternative text", a.alt, b.alt);
   log.change(ChangeKind::kMetadata, "figure", "varies", a.varies ? "yes" : "no",
              b.varies ? "yes" : "no");
   if (a.record_ids != b.record_ids) {
@@ -69,21 +73,25 @@ void compare_frame(const Figure& a, const Figure& b, FigureLog& log) {
 }
 
 void compare_axis(const std::string& place, const char* which, const Axis& a, const Axis& b,
-                  FigureLog& log) {
+                  bool varies, FigureLog& log) {
   const auto add = [&](const char* what, const std::string& before, const std::string& after) {
     log.change(ChangeKind::kStyle, place, fmt::format("{} of {}", what, which), before, after);
   };
   add("label", a.label, b.label);
   add("scale", a.scale == Scale::kLog ? "log" : "linear",
       b.scale == Scale::kLog ? "log" : "linear");
-  add("limits", text_of(a.limits), text_of(b.limits));
+  if (varies && a.limits != b.limits)
+    log.mask();
+  else
+    add("limits", text_of(a.limits), text_of(b.limits));
   add("ticks", a.whole ? "whole numbers" : "any", b.whole ? "whole numbers" : "any");
 }
 
-void compare_axes(const std::string& place, const Panel& a, const Panel& b, FigureLog& log) {
+void compare_axes(const std::string& place, const Panel& a, const Panel& b, bool varies,
+                  FigureLog& log) {
   log.change(ChangeKind::kStyle, place, "title", a.title, b.title);
-  compare_axis(place, "x", a.x, b.x, log);
-  compare_axis(place, "y", a.y, b.y, log);
+  compare_axis(place, "x", a.x, b.x, varies, log);
+  compare_axis(place, "y", a.y, b.y, varies, log);
   log.change(ChangeKind::kStyle, place, "aspect", a.equal_aspect ? "equal" : "free",
              b.equal_aspect ? "equal" : "free");
   log.change(ChangeKind::kStyle, place, "frame", a.bare ? "bare" : "with axes",
@@ -131,7 +139,8 @@ bool FigureDiff::has(ChangeKind kind) const {
 }
 
 FigureDiff figure_diff(const Figure& a, const Figure& b, const FigureOptions& options) {
-  FigureLog log(a.varies && b.varies);
+  const bool varies = a.varies && b.varies;
+  FigureLog log(varies);
   if (a == b) return log.take();
   const FigurePlaces places(a, b);
   compare_words(a, b, log);
@@ -143,8 +152,9 @@ FigureDiff figure_diff(const Figure& a, const Figure& b, const FigureOptions& op
       for (const Layer& layer : (removed ? a : b).panels[p].layers) layers.lone(layer, removed);
       continue;
     }
-    compare_axes(fmt::format("panel {}", p + 1), a.panels[p], b.panels[p], log);
-    LayerDiff layers(p, a, places, options, log);
+    compare_axes(fmt::format("panel {}", p + 1), a.panels[p], b.panels[p], varies, log);
+    const auto shared = varies ? shared_names(a.panels[p], b.panels[p]) : std::set<std::string>();
+    LayerDiff layers(p, a, places, options, log, varies ? &shared : nullptr);
     compare_layers(a.panels[p], b.panels[p], layers, log);
   }
   return log.take();

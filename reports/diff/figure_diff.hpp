@@ -65,7 +65,9 @@ struct FigureOptions {
 };
 
 /// Compares two figures mark by mark. Layers are matched by kind and label, marks by id and else
-/// by their place in the layer. In figures marked `varies` on both sides data are not judged.
+/// by their place in the layer. In figures marked `varies` on both sides are not judged:
+/// places, numbers, limits, the alternative text, how many nameless points a layer has, and of
+/// which layer a named point is.
 /// @note O(points); layers of a panel squared.
 FigureDiff figure_diff(const Figure& baseline, const Figure& current,
                        const FigureOptions& options = {});

@@ -21,6 +21,8 @@ class FigureLog {
   void change(ChangeKind kind, const std::string& place, std::string_view what,
               const std::string& baseline, const std::string& current);
   void move(MarkMove move);
+  /// A difference that is not judged, as the figure varies.
+  void mask() { ++diff_.masked; }
   /// A point that moved within tolerance.
   void within() { ++diff_.within; }
   /// Errors of marks on both sides: their sums, and how many.

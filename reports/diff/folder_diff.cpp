@@ -155,6 +155,15 @@ Judgement judge_whole(const DiffResult& result) {
   return whole;
 }
 
+/// Sorts the items and judges the whole.
+void conclude(DiffResult& result) {
+  std::ranges::stable_sort(result.items, std::ranges::greater(),
+                           [](const DiffItem& item) { return item.judgement.verdict; });
+  result.judgement = judge_whole(result);
+  result.passes =
+      std::ranges::all_of(result.items, [](const DiffItem& item) { return item.passes; });
+}
+
 }  // namespace
 
 std::string_view name(ItemKind kind) {
@@ -206,11 +215,30 @@ DiffResult folder_diff(const fs::path& baseline, const fs::path& current,
   if (result.items.empty())
     throw InvalidInput(baseline.string() + " and " + current.string() +
                        " hold no records, figures or pictures to compare");
-  std::ranges::stable_sort(result.items, std::ranges::greater(),
-                           [](const DiffItem& item) { return item.judgement.verdict; });
-  result.judgement = judge_whole(result);
-  result.passes =
-      std::ranges::all_of(result.items, [](const DiffItem& item) { return item.passes; });
+  conclude(result);
+  return result;
+}
+
+DiffResult no_baseline(const fs::path& baseline, const fs::path& current,
+                       const DiffSettings& settings) {
+  DiffResult result;
+  result.baseline = baseline.string();
+  result.current = current.string();
+  result.allowed = settings.allowed;
+  result.items.push_back(lone_records(
+      "baseline", {Verdict::kMissing, true,
+                   fmt::format("there is no baseline {}; the candidate is kept in {}",
+                               printable(result.baseline), printable(result.current))}));
+  for (const auto& [id, path] : record_places(current))
+    result.items.push_back(lone_records(id, {Verdict::kNew, true, "the baseline has no records"}));
+  const ItemList after = list_items(current);
+  std::ranges::move(picture_items({}, after, file_id(current), {}, settings),
+                    std::back_inserter(result.items));
+  add_documents(result.items, {}, after, file_id(current), settings);
+  for (DiffItem& item : result.items)
+    item.passes =
+        item.judgement.verdict == Verdict::kNew && passes(item.judgement, settings.allowed);
+  conclude(result);
   return result;
 }
 

@@ -16,4 +16,10 @@ namespace mapproof {
 DiffResult folder_diff(const std::filesystem::path& baseline, const std::filesystem::path& current,
                        const DiffSettings& settings = {});
 
+/// What is said of a current folder where there is no baseline: all of it is new, the baseline
+/// missing. Never passes, whatever is allowed.
+/// @throws IoError as folder_diff.
+DiffResult no_baseline(const std::filesystem::path& baseline, const std::filesystem::path& current,
+                       const DiffSettings& settings);
+
 }  // namespace mapproof

@@ -86,28 +86,12 @@ std::vector<std::string> records_of(const Figure& a, const Figure& b) {
   return ids;
 }
 
-/// The PNG's size on the current side, by whatever was compared.
-std::vector<PixelBox> masks(const Figure& a, const Figure& b, const PictureFile& file) {
-  if (!file.diff.pixels) return {};
-  std::vector<PixelBox> boxes = varying_regions(a, file.diff.pixels->baseline);
-  const std::vector<PixelBox> more = varying_regions(b, file.diff.pixels->current);
-  boxes.insert(boxes.end(), more.begin(), more.end());
-  return boxes;
-}
-
-/// Pictures of a figure whose data vary are looked at outside the regions that vary; an SVG has no
-/// regions, and follows from the same values.
-void mask(const Figure& a, const Figure& b, std::vector<PictureFile>& pictures,
-          PictureOptions options) {
-  std::erase_if(pictures, [](const PictureFile& file) {
-    return (file.format == "svg" || file.format == "pdf") && !file.baseline.empty() &&
-           !file.current.empty() && file.diff.state != PictureState::kUnreadable;
-  });
+/// Pictures of a figure that varies follow from values that do: these are judged, not their looks.
+void leave_to_value(std::vector<PictureFile>& pictures) {
   for (PictureFile& file : pictures) {
-    if (file.format != "png" || file.diff.state != PictureState::kDifferent) continue;
-    const std::vector<PixelBox> boxes = masks(a, b, file);
-    options.ignored.insert(options.ignored.end(), boxes.begin(), boxes.end());
-    file.diff = picture_diff(file.baseline, file.current, options);
+    if (file.diff.state != PictureState::kDifferent) continue;
+    file.diff.state = PictureState::kWithinTolerance;
+    file.diff.reason = "varies from run to run: not judged";
   }
 }
 
@@ -148,8 +132,6 @@ void compare_values(DiffItem& item, const RecordContext& context, const DiffSett
   if (item.figure->has(ChangeKind::kData))
     item.judgement =
         tied_judgement(item.id, *item.figure, item.judgement, records_of(a, b), context);
-  if (a.varies && b.varies && item.figure->masked > 0)
-    mask(a, b, item.pictures, settings.pictures_of(item.id));
 }
 
 /// A PDF's bytes follow from a value that is another one, however little.
@@ -178,6 +160,7 @@ DiffItem item_diff(const std::string& id, const ItemFiles* baseline, const ItemF
     item.pictures = compare_pictures(*baseline, *current, settings.pictures_of(id));
     if (both) compare_values(item, context, settings);
     leave_pdf_to_value(item);
+    if (item.figure && item.figure->masked > 0) leave_to_value(item.pictures);
     if (item.judgement.verdict != Verdict::kUnreadable)
       item.judgement = judge_pictures(item.judgement, both, item.pictures, context);
     if (some && !both)

@@ -28,8 +28,4 @@ Judgement tied_judgement(const std::string& id, const FigureDiff& diff, const Ju
 Judgement judge_pictures(const Judgement& value, bool has_value,
                          const std::vector<PictureFile>& pictures, const RecordContext& context);
 
-/// The regions of a figure's PNG in which it varies from run to run: its panels with their ticks,
-/// labels and legend, in pixels of `size`; empty if the picture is not of the report's theme.
-std::vector<PixelBox> varying_regions(const Figure& figure, const PictureSize& size);
-
 }  // namespace mapproof

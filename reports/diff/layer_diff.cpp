@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
+#include <iterator>
 
 #include <fmt/format.h>
 
@@ -57,8 +58,22 @@ std::string LayerDiff::place(const LayerView& layer) const {
   return text;
 }
 
+/// Points without names come and go with what they show.
+bool LayerDiff::may_vary(const LayerView& layer, std::size_t point) const {
+  if (shared_ == nullptr) return false;
+  if (!layer.has_mark_a_point()) return true;
+  const std::string& name = layer.marks[point].id;
+  return name.empty() || shared_->contains(name);
+}
+
 void LayerDiff::lone(const Layer& layer, bool removed) {
   const LayerView view = view_of(layer);
+  bool all_vary = shared_ != nullptr && !view.is_whole;
+  for (std::size_t i = 0; i < view.points(); ++i) all_vary = all_vary && may_vary(view, i);
+  if (all_vary) {
+    log_.mask();
+    return;
+  }
   const std::string what = counted(static_cast<long long>(view.points()), "point");
   // An empty layer shows nothing.
   log_.change(is_empty(layer) ? ChangeKind::kMetadata : ChangeKind::kData, place(view),
@@ -81,6 +96,8 @@ void LayerDiff::compare(const LayerView& a, const LayerView& b) {
   for (const Match& match : matches) {
     if (match.baseline && match.current) {
       compare_point(a, *match.baseline, b, *match.current);
+    } else if (match.baseline ? may_vary(a, *match.baseline) : may_vary(b, *match.current)) {
+      log_.mask();
     } else if (match.baseline) {
       if (removed++ == 0) first_removed = point_text(a, *match.baseline);
     } else if (added++ == 0) {
@@ -114,7 +131,7 @@ void LayerDiff::compare_point(const LayerView& a, std::size_t i, const LayerView
     MarkMove move = mark_move(a, i, before, after);
     if (!farthest || move.distance > farthest->distance) farthest = std::move(move);
   }
-  if (i < a.texts.size() && j < b.texts.size())
+  if (i < a.texts.size() && j < b.texts.size() && shared_ == nullptr)
     log_.change(ChangeKind::kStyle, place_, "text", a.texts[i], b.texts[j]);
   if (farthest) {
     log_.move(*std::move(farthest));
@@ -200,6 +217,22 @@ void LayerDiff::add_errors(const LayerView& a, const LayerView& b) {
     count += 1.0;
   }
   log_.errors(first, second, count);
+}
+
+std::set<std::string> shared_names(const Panel& a, const Panel& b) {
+  const auto names_of = [](const Panel& panel) {
+    std::set<std::string> names;
+    for (const Layer& layer : panel.layers) {
+      const LayerView view = view_of(layer);
+      if (!view.has_mark_a_point()) continue;
+      for (const Mark& mark : view.marks) names.insert(mark.id);
+    }
+    return names;
+  };
+  const std::set<std::string> first = names_of(a), second = names_of(b);
+  std::set<std::string> shared;
+  std::ranges::set_intersection(first, second, std::inserter(shared, shared.end()));
+  return shared;
 }
 
 }  // namespace mapproof

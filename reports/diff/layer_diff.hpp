@@ -1,5 +1,6 @@
 #pragma once
 
+#include <set>
 #include <string>
 
 #include "reports/diff/figure_layers.hpp"
@@ -13,9 +14,17 @@ namespace mapproof {
 class LayerDiff {
  public:
   /// All of them must outlive it.
+  /// @param shared  Of a figure that varies, the names of points that stand on both sides of the
+  ///                panel, see shared_names(): which layer they are of is not judged. Else null.
   LayerDiff(std::size_t panel, const Figure& baseline, const FigurePlaces& places,
-            const FigureOptions& options, FigureLog& log)
-      : panel_(panel), figure_(baseline), places_(places), options_(options), log_(log) {}
+            const FigureOptions& options, FigureLog& log,
+            const std::set<std::string>* shared = nullptr)
+      : panel_(panel),
+        figure_(baseline),
+        places_(places),
+        options_(options),
+        log_(log),
+        shared_(shared) {}
 
   /// Two layers of one kind.
   void compare(const LayerView& baseline, const LayerView& current);
@@ -30,6 +39,7 @@ class LayerDiff {
   void compare_point(const LayerView& a, std::size_t i, const LayerView& b, std::size_t j);
   void compare_values(const LayerView& a, const LayerView& b, const std::vector<Match>& matches);
   void compare_data(const Mark& a, const Mark& b);
+  bool may_vary(const LayerView& layer, std::size_t point) const;
   void lone_points(const char* what, long count, const std::string& first);
   MarkMove mark_move(const LayerView& layer, std::size_t point, Point before, Point after) const;
 
@@ -38,7 +48,11 @@ class LayerDiff {
   const FigurePlaces& places_;
   const FigureOptions& options_;
   FigureLog& log_;
+  const std::set<std::string>* shared_;
   std::string place_;  ///< Of the layer at hand.
 };
+
+/// Names of the points that both panels have, in whatever layers.
+std::set<std::string> shared_names(const Panel& a, const Panel& b);
 
 }  // namespace mapproof

@@ -1,10 +1,8 @@
 #include <algorithm>
-#include <cmath>
 
 #include <fmt/format.h>
 
 #include "core/base/words.hpp"
-#include "render/plot/layout.hpp"
 #include "reports/diff/item_diff.hpp"
 
 namespace mapproof {
@@ -91,18 +89,21 @@ Judgement judge_alone(const std::vector<PictureFile>& files) {
   return {};
 }
 
-/// Of pictures whose figure's value is equal.
-Judgement judge_drawing(const std::vector<PictureFile>& files, const RecordContext& context) {
+/// Of pictures whose figure's value is equal, or within tolerance.
+Judgement judge_drawing(const Judgement& value, const std::vector<PictureFile>& files,
+                        const RecordContext& context) {
+  const char* equal = value.verdict == Verdict::kIdentical ? "equal" : "equal within tolerance";
   const bool same = same_renderer(files, context);
   if (const PictureFile* style =
           first_with(files, [&](const PictureFile& file) { return changes_style(file, same); })) {
     const SvgChange* first =
         style->diff.svg->changes.empty() ? nullptr : &style->diff.svg->changes[0];
-    return {Verdict::kStyle, true,
-            fmt::format("the figure's value is equal, its looks are not: {}{}", style->diff.reason,
-                        first ? fmt::format("; {}: {} {} \u2192 {}", first->element, first->what,
-                                            first->baseline, first->current)
-                              : "")};
+    return {
+        Verdict::kStyle, true,
+        fmt::format("the figure's value is {}, its looks are not: {}{}", equal, style->diff.reason,
+                    first ? fmt::format("; {}: {} {} \u2192 {}", first->element, first->what,
+                                        first->baseline, first->current)
+                          : "")};
   }
   const PictureFile* file = first_with(files, is_visible);
   const bool visible = file != nullptr;
@@ -111,15 +112,8 @@ Judgement judge_drawing(const std::vector<PictureFile>& files, const RecordConte
         files, [](const PictureFile& f) { return f.diff.state == PictureState::kWithinTolerance; });
   if (file == nullptr) return {};
   return {Verdict::kRenderer, visible,
-          fmt::format("the figure's value is equal, its {} is drawn otherwise: {}; {}",
+          fmt::format("the figure's value is {}, its {} is drawn otherwise: {}; {}", equal,
                       file->format, file->diff.reason, renderers_text(file->diff, context))};
-}
-
-PixelBox pixels_of(const Box& box, double scale) {
-  const int x = std::max(0, static_cast<int>(std::floor(box.x0 * scale)) - 1);
-  const int y = std::max(0, static_cast<int>(std::floor(box.y0 * scale)) - 1);
-  return {x, y, static_cast<int>(std::ceil(box.x1 * scale)) + 1 - x,
-          static_cast<int>(std::ceil(box.y1 * scale)) + 1 - y};
 }
 
 }  // namespace
@@ -140,32 +134,10 @@ Judgement judge_pictures(const Judgement& value, bool has_value,
     if (unmoved) told.cause += "; its pictures are the same: they are not of this value";
     return told;
   }
-  const Judgement drawing = judge_drawing(pictures, context);
+  const Judgement drawing = judge_drawing(value, pictures, context);
   // What nobody sees is no news where the value says more.
   const bool says_more = value.verdict == Verdict::kIdentical || drawing.visible;
   return says_more && drawing.verdict > value.verdict ? drawing : value;
-}
-
-std::vector<PixelBox> varying_regions(const Figure& figure, const PictureSize& size) {
-  if (!problem(figure).empty()) return {};
-  const Theme theme = report_theme();
-  const Drawing drawing = lay_out(figure, theme);
-  const double scale = theme.dpi / 72.0;
-  if (std::abs(drawing.width * scale - size.width) > 1.0 ||
-      std::abs(drawing.height * scale - size.height) > 1.0)
-    return {};
-  // The whole of each panel: other ticks move its frame and labels, whose words the values tell.
-  std::vector<Box> panels = drawing.frames;
-  for (const Item& item : drawing.items) {
-    if (item.role == Role::kTitle || item.clipped || item.panel >= panels.size()) continue;
-    if (const auto* line = std::get_if<TextLine>(&item.what))
-      panels[item.panel] = panels[item.panel].united(ink_box(*line));
-    else if (const auto* shape = std::get_if<Shape>(&item.what))
-      panels[item.panel] = panels[item.panel].united(bounds(shape->path));
-  }
-  std::vector<PixelBox> boxes;
-  for (const Box& panel : panels) boxes.push_back(pixels_of(panel.grown(theme.line_pt), scale));
-  return boxes;
 }
 
 }  // namespace mapproof

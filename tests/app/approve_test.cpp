@@ -161,6 +161,37 @@ TEST(CheckVerb, FailsWithoutABaselineAndKeepsTheCandidate) {
   EXPECT_NE(other.out.find("\u2192 77: other worlds"), std::string::npos) << other.out;
 }
 
+TEST(CheckVerb, WritesWhatIsAskedForWithoutABaseline) {
+  const TemporaryFolder folder;
+  const std::string experiment = std::string(MAPPROOF_TEST_DATA) + "/experiments/small.json";
+  const std::string diff = folder / "diff";
+  const Outcome outcome =
+      mapproof({"check", experiment, "--baseline", folder / "none", "--out", folder / "out",
+                "--allow", "new,missing", "--json", diff + ".json", "--junit", diff + ".xml",
+                "--markdown", diff + ".md", "--page", diff + ".html"});
+  EXPECT_EQ(outcome.exit_code, 1) << outcome.error;
+  EXPECT_NE(read_file(diff + ".xml").find("failures=\"1\""), std::string::npos);
+  EXPECT_NE(read_file(diff + ".md").find("there is no baseline"), std::string::npos);
+  EXPECT_NE(read_file(diff + ".json").find("\"passes\": false"), std::string::npos);
+  EXPECT_TRUE(read_file(diff + ".html").starts_with("<!DOCTYPE html>"));
+  EXPECT_TRUE(fs::exists(folder / "out/study.json"));
+  EXPECT_FALSE(fs::exists(folder / "none"));
+}
+
+TEST(CheckVerb, NeverWritesTheCandidateOverTheBaseline) {
+  const TwoStudies two;
+  const std::string experiment = std::string(MAPPROOF_TEST_DATA) + "/experiments/small.json";
+  fs::create_directory_symlink(two.before, two.folder / "link");
+  const auto before = contents(two.folder.path());
+  for (const std::string& out :
+       {two.before, two.before + "/", std::string(two.folder / "link"), two.before + "/new",
+        std::string(two.folder / "link/new"), two.folder.path().string()}) {
+    const Outcome outcome = mapproof({"check", experiment, "--baseline", two.before, "--out", out});
+    EXPECT_EQ(outcome.exit_code, 2) << out;
+    EXPECT_EQ(contents(two.folder.path()), before) << out;
+  }
+}
+
 TEST(CheckVerb, PassesAgainstAStudyOfRecordsAlone) {
   const TemporaryFolder folder;
   const std::string experiment = std::string(MAPPROOF_TEST_DATA) + "/experiments/small.json";

@@ -66,6 +66,51 @@ TEST(DiffVerb, WritesOneOfItsOutputsToStandardOutput) {
   EXPECT_EQ(mapproof({"diff", two.before, two.after, "--json", "-", "--junit", "-"}).exit_code, 2);
 }
 
+TEST(DiffVerb, NeverReplacesWhatItCompares) {
+  const TwoStudies two;
+  const auto before = contents(two.before);
+  fs::create_directory_symlink(two.before, two.folder / "link");
+  const std::string picture = two.after + "/figures/map-usual.png";
+  for (const auto& [option, place] :
+       {std::pair<std::string, std::string>{"--json", two.before + "/study.json"},
+        {"--json", two.folder / "link/study.json"},
+        {"--out", picture},
+        {"--out", two.after + "/report.html"},
+        {"--markdown", two.after + "/figures/new.svg"},
+        {"--junit", two.before + "/runs/layout-1-pose-1.json"}}) {
+    const Outcome outcome = mapproof({"diff", two.before, two.after, option, place});
+    EXPECT_EQ(outcome.exit_code, 2) << option << " " << place;
+    EXPECT_EQ(std::ranges::count(outcome.error, '\n'), 1) << outcome.error;
+  }
+  EXPECT_EQ(contents(two.before), before);
+  EXPECT_EQ(mapproof({"diff", picture, picture, "--json", picture}).exit_code, 2);
+  const std::string one = two.folder / "one";
+  EXPECT_EQ(mapproof({"diff", picture, picture, "--json", one, "--junit", one}).exit_code, 2);
+  for (int run = 0; run < 2; ++run)  // Its own outputs may stand there.
+    EXPECT_EQ(mapproof({"diff", two.before, two.after, "--out", two.after + "/diff.html", "--json",
+                        two.after + "/diff.json", "--junit", two.after + "/diff.xml", "--markdown",
+                        two.after + "/diff.md"})
+                  .exit_code,
+              0);
+}
+
+TEST(DiffVerb, WritesThroughLinksAndRefusesWhatIsNoFile) {
+  const TwoStudies two;
+  const std::string pipe = two.folder / "pipe", link = two.folder / "link.json";
+  ASSERT_EQ(::mkfifo(pipe.c_str(), 0600), 0);
+  const fs::path target = two.folder.file("target.json", "old");
+  fs::create_symlink(target, link);
+  for (const std::string& place : {pipe, std::string("/dev/full"), std::string(two.folder / "")}) {
+    const Outcome outcome = mapproof({"diff", two.before, two.after, "--json", place});
+    EXPECT_EQ(outcome.exit_code, 2) << place;
+    EXPECT_EQ(std::ranges::count(outcome.error, '\n'), 1) << outcome.error;
+  }
+  EXPECT_TRUE(fs::is_fifo(pipe));
+  EXPECT_EQ(mapproof({"diff", two.before, two.after, "--json", link}).exit_code, 0);
+  EXPECT_TRUE(fs::is_symlink(link));
+  EXPECT_NE(read_file(target).find("mapproof.diff"), std::string::npos);
+}
+
 TEST(DiffVerb, NeverWaitsForWhatHasNoEnd) {
   const TwoStudies two;
   const std::string picture = two.after + "/figures/map-usual.png";

@@ -1,0 +1,98 @@
+#include "app/output_places.hpp"
+
+#include <algorithm>
+#include <array>
+#include <fstream>
+#include <string>
+#include <string_view>
+#include <system_error>
+
+#include <fmt/format.h>
+
+#include "core/base/errors.hpp"
+#include "reports/diff/item_files.hpp"
+
+namespace mapproof {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// An output and what an earlier one of its kind holds near its beginning.
+struct Output {
+  const char* option;
+  fs::path place;
+  std::string_view mark;
+};
+
+/// The place behind links, as far as it is there.
+fs::path real_place(const fs::path& path) {
+  std::error_code error;
+  fs::path place = fs::weakly_canonical(fs::absolute(path, error), error);
+  if (error) place = fs::absolute(path, error).lexically_normal();
+  return place.has_filename() ? place : place.parent_path();
+}
+
+/// The same or below it.
+bool lies_in(const fs::path& place, const fs::path& folder) {
+  return std::ranges::mismatch(folder, place).in1 == folder.end();
+}
+
+bool is_earlier_output(const Output& output) {
+  std::string head(4096, '\0');
+  std::ifstream file(output.place, std::ios::binary);
+  file.read(head.data(), static_cast<std::streamsize>(head.size()));
+  head.resize(static_cast<std::size_t>(file.gcount()));
+  return head.find(output.mark) != std::string::npos;
+}
+
+void check_place(const Output& output, const fs::path& input) {
+  const fs::path place = real_place(output.place), compared = real_place(input);
+  const auto refuse = [&](const char* why) {
+    throw InvalidInput(
+        fmt::format("{} {}: {}", output.option, printable(output.place.string()), why));
+  };
+  std::error_code error;
+  if (place == compared) refuse("is what is compared");
+  if (!lies_in(place, compared) || !fs::is_directory(compared, error)) return;
+  if (!item_name(place, compared).kind.empty())
+    refuse("is the place of a figure, picture, table or page that is compared");
+  if (fs::is_regular_file(place, error) && !is_earlier_output(output))
+    refuse("is a file of a folder that is compared");
+}
+
+void require_replaceable(const fs::path& place) {
+  std::error_code error;
+  const fs::file_status status = fs::status(place, error);
+  if (fs::exists(status) && !fs::is_regular_file(status))
+    throw IoError(place.string(), "is no regular file, and cannot be replaced");
+}
+
+}  // namespace
+
+bool overlap(const fs::path& a, const fs::path& b) {
+  const fs::path first = real_place(a), second = real_place(b);
+  return lies_in(first, second) || lies_in(second, first);
+}
+
+void check_output_places(const DiffOptions& options, std::span<const fs::path> inputs) {
+  const std::array outputs = {
+      Output{"the page", options.page, "content=\"mapproof\""},
+      Output{"--json", options.json, "\"mapproof.diff\""},
+      Output{"--junit", options.junit, "<testsuites"},
+      Output{"--markdown", options.markdown, "### mapproof diff"},
+  };
+  const auto is_file = [](const Output& o) { return !o.place.empty() && o.place != "-"; };
+  for (const Output& output : outputs) {
+    if (!is_file(output)) continue;
+    for (const fs::path& input : inputs)
+      if (!input.empty()) check_place(output, input);
+    require_replaceable(output.place);
+    for (const Output& other : outputs)
+      if (&other != &output && is_file(other) &&
+          real_place(other.place) == real_place(output.place))
+        throw InvalidInput(fmt::format("{} and {} are one file: {}", output.option, other.option,
+                                       printable(output.place.string())));
+  }
+}
+
+}  // namespace mapproof

@@ -1,0 +1,71 @@
+#include <gtest/gtest.h>
+
+#include "render/figures/pareto.hpp"
+#include "reports/diff/folder_diff.hpp"
+#include "tests/reports/diff/small_study.hpp"
+#include "tests/support/temporary_folder.hpp"
+
+namespace mapproof::test {
+namespace {
+
+ParetoSpec costs() {
+  return {.id = "cost-bearing",
+          .title = "Cost of a map",
+          .settings = {{"LPCA", 0.01, 0.3},
+                       {"ISOMAP", 0.02, 0.2},
+                       {"SDE", 0.3, 0.1},
+                       {"MDS", 0.5, 0.4}},
+          .record_ids = {"layout-1-pose-1/bearing/lpca/2000"}};
+}
+
+DiffResult diff_of(const Figure& before, const Figure& after) {
+  const TemporaryFolder folder;
+  write_study_figure(before, report_theme(), folder / "before");
+  write_study_figure(after, report_theme(), folder / "after");
+  return folder_diff(folder / "before", folder / "after");
+}
+
+TEST(VaryingFigures, PassWhereTheFastestIsAnother) {
+  ParetoSpec later = costs();
+  later.settings[3].seconds = 0.001;  // Now MDS is on the front, and none is beaten.
+  const Figure before = pareto_figure(costs());
+  ASSERT_NE(before.panels[0].layers.size(), pareto_figure(later).panels[0].layers.size());
+  const DiffResult result = diff_of(before, pareto_figure(later));
+  EXPECT_TRUE(result.passes) << result.judgement.cause;
+  EXPECT_EQ(result.judgement.verdict, Verdict::kWithinTolerance);
+  EXPECT_NE(result.judgement.cause.find("varies from run to run"), std::string::npos);
+}
+
+TEST(VaryingFigures, AreNotJudgedByPicturesOfAnotherSize) {
+  const Figure before = pareto_figure(costs());
+  const TemporaryFolder folder;
+  write_study_figure(before, report_theme(), folder / "before");
+  ParetoSpec later = costs();
+  later.settings[0].seconds *= 1.1;
+  Theme taller = report_theme();
+  taller.width_pt += 10.0;
+  write_study_figure(pareto_figure(later), taller, folder / "after");
+  const DiffResult result = folder_diff(folder / "before", folder / "after");
+  EXPECT_TRUE(result.passes) << result.judgement.cause;
+  EXPECT_EQ(result.judgement.cause.find("value is equal"), std::string::npos);
+}
+
+TEST(VaryingFigures, AreToldWhereSomethingLastingChanged) {
+  const Figure before = pareto_figure(costs());
+  ParetoSpec fewer = costs();
+  fewer.settings.pop_back();
+  EXPECT_EQ(diff_of(before, pareto_figure(fewer)).judgement.verdict, Verdict::kChanged);
+  Figure renamed = before;
+  renamed.panels[0].x.label = "minutes a map";
+  EXPECT_EQ(diff_of(before, renamed).judgement.verdict, Verdict::kStyle);
+  Figure others = before;
+  others.record_ids = {"layout-9-pose-1/bearing/lpca/2000"};
+  EXPECT_EQ(diff_of(before, others).judgement.verdict, Verdict::kChanged);
+  Figure lost = before;
+  std::erase_if(lost.panels[0].layers,
+                [](const Layer& layer) { return std::holds_alternative<Polyline>(layer); });
+  EXPECT_EQ(diff_of(before, lost).judgement.verdict, Verdict::kChanged);
+}
+
+}  // namespace
+}  // namespace mapproof::test
