@@ -1,11 +1,13 @@
 #include "app/own_labels.hpp"
 
+#include <algorithm>
 #include <limits>
+#include <utility>
 
 #include <fmt/format.h>
 
 #include "core/base/errors.hpp"
-#include "core/base/words.hpp"
+#include "core/labels/anchor_labels.hpp"
 #include "core/labels/mislabelled.hpp"
 #include "core/labels/moved.hpp"
 #include "core/records/mrclam.hpp"
@@ -13,54 +15,137 @@
 namespace mapproof {
 namespace {
 
-void check(LabelOutcome& outcome, bool repair) {
-  const LabelCheck check = check_labels(outcome.log);
+constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
+
+std::string label(const SightingLog& log, int landmark) {
+  return log.names[static_cast<std::size_t>(landmark)];
+}
+
+/// The places that the source and the files know, anchors' own first; NaN rows: none does.
+Points known_places(const SightingLog& log, const std::optional<Points>& own_m,
+                    const std::optional<NamedPointsFile>& anchors,
+                    const std::optional<NamedPointsFile>& truth) {
+  Points known_m = own_m ? *own_m : Points::Constant(std::ssize(log.names), 2, kUnknown);
+  for (const auto* file : {&truth, &anchors}) {
+    if (!file->has_value()) continue;
+    const NamedPoints& points = (*file)->points;
+    for (std::size_t k = 0; k < points.names.size(); ++k)
+      if (const auto found = std::ranges::find(log.names, points.names[k]);
+          found != log.names.end())
+        known_m.row(found - log.names.begin()) = points.positions_m.row(static_cast<int>(k));
+  }
+  return known_m;
+}
+
+/// Labels that contradict one another. @return The log without those contradictions.
+SightingLog check_pairs(LabelOutcome& outcome, bool repair) {
+  LabelCheck check = check_labels(outcome.log);
   for (const LabelFinding& finding : check.findings)
-    outcome.remarks.push_back(described(finding, outcome.log) + (repair ? "; repaired." : "."));
+    outcome.facts.push_back({std::string(name(finding.fault)), label(outcome.log, finding.first),
+                             label(outcome.log, finding.second), described(finding, outcome.log),
+                             finding.loss_before_m, finding.loss_after_m, repair});
   if (check.findings.empty())
+    outcome.remarks.push_back(
+        fmt::format("No label contradicts the others: loss {:.3f} m.", check.loss_before_m));
+  return std::move(check.repaired);
+}
+
+/// Labels that contradict known places throughout. @return The log without that.
+SightingLog check_places(LabelOutcome& outcome, const SightingLog& log, const Points& known_m,
+                         bool repair) {
+  AnchorCheck check = check_anchor_labels(log, known_m);
+  for (const AnchorExchange& exchange : check.exchanges)
+    outcome.facts.push_back({"exchanged", label(log, exchange.first), label(log, exchange.second),
+                             described(exchange, log), exchange.misfit_before_m,
+                             exchange.misfit_after_m, repair});
+  if (check.places < kFewestKnownPlaces)
+    outcome.remarks.push_back(
+        fmt::format("An exchange of two labels in all sightings would not show: that needs the "
+                    "places of {} landmarks or more.",
+                    kFewestKnownPlaces));
+  else if (check.exchanges.empty())
     outcome.remarks.push_back(fmt::format(
-        "No label contradicts the others: loss {:.3f} m. A swap in all sightings would not show.",
-        check.loss_before_m));
-  else if (!repair)
+        "No exchange of labels would fit the {} known places clearly better: missed by {:.3f} m.",
+        check.places, check.misfit_before_m));
+  return std::move(check.repaired);
+}
+
+void check_and_repair(LabelOutcome& outcome, bool repair, const Points& known_m) {
+  SightingLog mended = check_pairs(outcome, repair);
+  mended = check_places(outcome, mended, known_m, repair);
+  for (const LabelFact& fact : outcome.facts)
+    outcome.remarks.push_back(fact.sentence + (repair ? "; repaired." : "."));
+  if (!outcome.facts.empty() && !repair)
     outcome.remarks.emplace_back("The labels are mapped as they are; --repair-labels mends them.");
-  if (repair) outcome.log = check.repaired;
+  if (repair) outcome.log = std::move(mended);
 }
 
 void split_moved(LabelOutcome& outcome) {
-  const MovedCheck check = find_moved(outcome.log);
-  for (const MovedLandmark& moved : check.moved)
-    outcome.remarks.push_back(described(moved, outcome.log) + ".");
+  MovedCheck check = find_moved(outcome.log);
+  for (const MovedLandmark& moved : check.moved) {
+    outcome.facts.push_back({"moved",
+                             label(outcome.log, moved.landmark),
+                             {},
+                             described(moved, outcome.log),
+                             moved.loss_before_m,
+                             moved.loss_after_m,
+                             false});
+    outcome.remarks.push_back(outcome.facts.back().sentence + ".");
+  }
   if (check.moved.empty()) outcome.remarks.emplace_back("No landmark was found to have moved.");
-  outcome.log = check.split;
+  outcome.log = std::move(check.split);
+}
+
+/// Checks the log of a source, and makes room for the second places of what moved: where those
+/// are, no survey says.
+template <class Source>
+LabelOutcome checked(Source& source, const SightingLog& log, const LabelChoice& choice,
+                     const std::optional<NamedPointsFile>& anchors,
+                     const std::optional<NamedPointsFile>& truth) {
+  LabelOutcome outcome =
+      with_labels_checked(log, choice, known_places(log, source.truth_m, anchors, truth));
+  source.remarks.insert(source.remarks.end(), outcome.remarks.begin(), outcome.remarks.end());
+  const std::size_t landmarks = outcome.log.names.size();
+  source.places.resize(landmarks, source.places.empty() ? std::string() : source.places.front());
+  if (source.truth_m) {
+    Points truth_m = Points::Constant(static_cast<Eigen::Index>(landmarks), 2, kUnknown);
+    truth_m.topRows(source.truth_m->rows()) = *source.truth_m;
+    source.truth_m = truth_m;
+  }
+  return outcome;
 }
 
 }  // namespace
 
-LabelOutcome with_labels_checked(const SightingLog& log, const LabelChoice& choice) {
-  LabelOutcome outcome{log, {}};
-  if (choice.check || choice.repair) check(outcome, choice.repair);
+LabelOutcome with_labels_checked(const SightingLog& log, const LabelChoice& choice,
+                                 const Points& known_m) {
+  LabelOutcome outcome{log, {}, {}};
+  if (choice.check || choice.repair) check_and_repair(outcome, choice.repair, known_m);
   if (choice.find_moved) split_moved(outcome);
   return outcome;
 }
 
-void check_labels_of(ObservationSource& source, const LabelChoice& choice) {
-  if (!choice.asked()) return;
+std::vector<LabelFact> check_labels_of(SightingSource& source, const LabelChoice& choice,
+                                       const std::optional<NamedPointsFile>& anchors,
+                                       const std::optional<NamedPointsFile>& truth) {
+  if (!choice.asked()) return {};
+  LabelOutcome outcome = checked(source, source.log, choice, anchors, truth);
+  source.log = std::move(outcome.log);
+  return std::move(outcome.facts);
+}
+
+std::vector<LabelFact> check_labels_of(ObservationSource& source, const LabelChoice& choice,
+                                       const std::optional<NamedPointsFile>& anchors,
+                                       const std::optional<NamedPointsFile>& truth) {
+  if (!choice.asked()) return {};
   if (!is_mrclam(source.path))
     throw IoError(source.path,
-                  "labels are checked by range and bearing seen together, as a folder of MRCLAM "
-                  "holds them");
-  LabelOutcome outcome = with_labels_checked(read_mrclam_sightings(source.path).log, choice);
+                  "labels are checked by range and bearing seen together: sightings mapped with "
+                  "--kind range-bearing, or a folder of MRCLAM");
+  LabelOutcome outcome =
+      checked(source, read_mrclam_sightings(source.path).log, choice, anchors, truth);
   source.history = history_of(outcome.log, source.history.sensor);
-  source.remarks.insert(source.remarks.end(), outcome.remarks.begin(), outcome.remarks.end());
-  const auto known = std::ssize(source.places);
-  for (Eigen::Index k = known; k < source.history.landmarks(); ++k)
-    source.places.push_back(source.places.empty() ? std::string() : source.places.front());
-  if (!source.truth_m) return;
-  // Where a landmark moved to, the survey does not say.
-  Points truth_m =
-      Points::Constant(source.history.landmarks(), 2, std::numeric_limits<double>::quiet_NaN());
-  truth_m.topRows(source.truth_m->rows()) = *source.truth_m;
-  source.truth_m = truth_m;
+  return std::move(outcome.facts);
 }
 
 }  // namespace mapproof

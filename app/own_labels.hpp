@@ -4,32 +4,55 @@
 #include <string>
 #include <vector>
 
+#include "app/own_reference.hpp"
 #include "core/model/sighting_log.hpp"
 #include "core/records/observations.hpp"
+#include "core/records/sightings.hpp"
 
 namespace mapproof {
 
 /// What a person wants done about labels.
 struct LabelChoice {
-  bool check = false;       ///< Name labels that contradict the others.
+  bool check = false;       ///< Name labels that contradict the others, or known places.
   bool repair = false;      ///< And mend them before mapping.
   bool find_moved = false;  ///< Name landmarks that moved, and map both of their places.
 
   bool asked() const { return check || repair || find_moved; }
 };
 
-/// The log as it is to be mapped, and what was found, a sentence each.
+/// One thing that was found about labels.
+struct LabelFact {
+  std::string what;       ///< "swapped", "wrong", "mixed", "exchanged" (in all sightings), "moved".
+  std::string first;      ///< The label,
+  std::string second;     ///< and the other one; empty if it moved.
+  std::string sentence;   ///< The same in words, with when and how many.
+  double before_m = 0.0;  ///< The map's loss, or of "exchanged" its misfit to the known places,
+  double after_m = 0.0;   ///< and what is left of it without the fault.
+  bool repaired = false;
+};
+
+/// The log as it is to be mapped, and what was found.
 struct LabelOutcome {
   SightingLog log;
-  std::vector<std::string> remarks;
+  std::vector<LabelFact> facts;
+  std::vector<std::string> remarks;  ///< A sentence each.
 };
 
 /// Checks, and if that is chosen mends, the labels of sightings with range and bearing.
-LabelOutcome with_labels_checked(const SightingLog& log, const LabelChoice& choice);
+/// @param known_m  M x 2; NaN rows: places that are not known.
+LabelOutcome with_labels_checked(const SightingLog& log, const LabelChoice& choice,
+                                 const Points& known_m);
+
+/// The same of a source, its truth, and the places that files name.
+std::vector<LabelFact> check_labels_of(SightingSource& source, const LabelChoice& choice,
+                                       const std::optional<NamedPointsFile>& anchors,
+                                       const std::optional<NamedPointsFile>& truth);
 
 /// The same of a source that was read from a folder of MRCLAM: its history is made anew from what
 /// came of the sightings.
 /// @throws IoError for any other source: one kind of value alone tells nothing of labels.
-void check_labels_of(ObservationSource& source, const LabelChoice& choice);
+std::vector<LabelFact> check_labels_of(ObservationSource& source, const LabelChoice& choice,
+                                       const std::optional<NamedPointsFile>& anchors,
+                                       const std::optional<NamedPointsFile>& truth);
 
 }  // namespace mapproof

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "app/own_choice.hpp"
+#include "app/own_labels.hpp"
 #include "app/own_missing.hpp"
 #include "app/own_reference.hpp"
 #include "core/embed/embedder.hpp"
@@ -42,6 +43,7 @@ struct OwnMap {
   std::string made_by = {};
   std::optional<MapCertainty> certainty = std::nullopt;  ///< If it was asked for.
   std::optional<OwnChoice> choice = std::nullopt;        ///< If the method was to be chosen.
+  std::vector<LabelFact> labels = {};  ///< What was found about them, if that was asked.
 };
 
 /// Maps observations, aligned to the anchors if there are any, scored if there is a truth.

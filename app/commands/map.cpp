@@ -203,6 +203,7 @@ nlohmann::ordered_json map_result(const OwnMap& map, const fs::path& out) {
                                 {"score", nullptr},
                                 {"landmarks", nlohmann::ordered_json::array()},
                                 {"statuses", nlohmann::ordered_json::array()},
+                                {"labels", nlohmann::ordered_json::array()},
                                 {"remarks", map.remarks},
                                 {"map", (out / kMapFile).string()},
                                 {"report", (out / "report.html").string()}};
@@ -214,6 +215,14 @@ nlohmann::ordered_json map_result(const OwnMap& map, const fs::path& out) {
         {"moe_unmirrored_percent", number_or_null(record.score->moe_unmirrored_percent)}};
   for (Eigen::Index i = 0; i < record.estimate.rows(); ++i)
     object["landmarks"].push_back(landmark_json(map, i));
+  for (const LabelFact& fact : map.labels)
+    object["labels"].push_back({{"what", fact.what},
+                                {"first", fact.first},
+                                {"second", fact.second},
+                                {"found", fact.sentence},
+                                {"before_m", number_or_null(fact.before_m)},
+                                {"after_m", number_or_null(fact.after_m)},
+                                {"repaired", fact.repaired}});
   for (const Status& status : record.statuses)
     object["statuses"].push_back({{"code", name(status.code)}, {"detail", status.detail}});
   if (map.choice) object["choice"] = choice_json(*map.choice);
@@ -412,8 +421,10 @@ Action map_verb(CLI::App& app) {
   app.add_option("--every", arguments->every,
                  "With --follow: after so many steps (100) or seconds (2s)")
       ->capture_default_str();
-  app.add_flag("--check-labels", arguments->input.labels.check,
-               "Sightings of range and bearing: name labels that contradict the others");
+  app.add_flag(
+      "--check-labels", arguments->input.labels.check,
+      "Sightings of range and bearing: name labels that contradict the others, or the places "
+      "that anchors, truth or survey tell");
   app.add_flag("--repair-labels", arguments->input.labels.repair, "And mend them before mapping");
   app.add_flag("--find-moved", arguments->input.labels.find_moved,
                "Sightings of range and bearing: name landmarks that moved, map both places");
