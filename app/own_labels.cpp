@@ -1,7 +1,9 @@
 #include "app/own_labels.hpp"
 
 #include <algorithm>
+#include <filesystem>
 #include <limits>
+#include <system_error>
 #include <utility>
 
 #include <fmt/format.h>
@@ -138,7 +140,8 @@ std::vector<LabelFact> check_labels_of(ObservationSource& source, const LabelCho
                                        const std::optional<NamedPointsFile>& anchors,
                                        const std::optional<NamedPointsFile>& truth) {
   if (!choice.asked()) return {};
-  if (!is_mrclam(source.path))
+  std::error_code error;
+  if (!std::filesystem::is_directory(source.path, error) || !is_mrclam(source.path))
     throw IoError(source.path,
                   "labels are checked by range and bearing seen together: sightings mapped with "
                   "--kind range-bearing, or a folder of MRCLAM");

@@ -11,9 +11,9 @@
 #include <fmt/format.h>
 
 #include "core/base/errors.hpp"
-#include "core/labels/handedness.hpp"
 #include "core/labels/labelled_looks.hpp"
-#include "core/labels/place_costs.hpp"
+#include "core/labels/robust_map.hpp"
+#include "core/pairs/pair_map.hpp"
 
 namespace mapproof {
 namespace {
@@ -121,6 +121,12 @@ double deviation_of(const Fit& fit) {
   return *middle / 1.18 * std::sqrt(places / (places - 2.0));
 }
 
+/// A known place first, and of two the lower.
+Exchange in_order(const KnownPlaces& places, int known, int other) {
+  if (std::ranges::binary_search(places.rows(), other) && other < known) return {other, known};
+  return {known, other};
+}
+
 /// All exchanges that involve one of the known places that fit worst.
 Exchanges candidates(const KnownPlaces& places, const Fit& given) {
   std::vector<std::size_t> order(places.rows().size());
@@ -135,7 +141,7 @@ Exchanges candidates(const KnownPlaces& places, const Fit& given) {
     done[static_cast<std::size_t>(a)] = 1;
     for (std::size_t b = 0; b < places.landmarks(); ++b)
       if (done[b] == 0 && places.mapped(static_cast<int>(b)))
-        result.emplace_back(a, static_cast<int>(b));
+        result.push_back(in_order(places, a, static_cast<int>(b)));
   }
   return result;
 }
@@ -204,7 +210,23 @@ bool decided(const KnownPlaces& places, const Exchanges& chosen, const Exchanges
   return true;
 }
 
-SightingLog exchanged(SightingLog log, const Exchanges& exchanges) {
+/// The standard deviation of the pairs' residuals by their middle one.
+double deviation_of(const PairMap& map) {
+  const Points& points = map.embedding.coordinates;
+  std::vector<double> residuals = {0.0};
+  double longest = 0.0;
+  for (const MeasuredPair& pair : map.pairs) {
+    const double distance = (points.row(pair.first) - points.row(pair.second)).norm();
+    if (std::isnan(distance)) continue;
+    residuals.push_back(std::abs(distance - pair.distance_m));
+    longest = std::max(longest, pair.distance_m);
+  }
+  const auto middle = residuals.begin() + std::ssize(residuals) / 2;
+  std::ranges::nth_element(residuals, middle);
+  return std::max({1.48 * *middle, 1e-3 * longest, 1e-9});
+}
+
+SightingLog exchanged(const SightingLog& log, const Exchanges& exchanges) {
   std::vector<int> labels = given_labels(log);
   for (const auto& [a, b] : exchanges)
     for (int& label : labels) label = label == a ? b : label == b ? a : label;
@@ -216,19 +238,18 @@ SightingLog exchanged(SightingLog log, const Exchanges& exchanges) {
 AnchorCheck check_anchor_labels(const SightingLog& log, const Points& known_m) {
   if (known_m.rows() != std::ssize(log.names))
     throw InvalidInput("known places have a row for each landmark");
-  const LabelledLooks looks = labelled_looks(log, 40);
-  const std::vector<PairItem> items = pair_items(looks.pairs, given_labels(log), looks.blocks);
-  const RobustMap map = unfolded_map(items, robust_map(items, static_cast<int>(log.names.size())),
-                                     looks.blocks.count);
-  const KnownPlaces places(with_hand_of_looks(log, map.positions_m), known_m);
-  AnchorCheck check{.places = static_cast<int>(places.rows().size()), .repaired = log};
+  const PairMap map = sighted_map(log);
+  const KnownPlaces places(map.embedding.coordinates, known_m);
+  AnchorCheck check;
+  check.places = static_cast<int>(places.rows().size());
+  check.repaired = log;
   if (check.places < kFewestKnownPlaces) return check;
-  const double deviation = std::max(map.loss_m, 1e-9);
+  const double deviation = deviation_of(map);
   const Fit given = places.fit({}, deviation);
   check.misfit_before_m = check.misfit_after_m = root_mean_square(given);
   const Exchanges tried = candidates(places, given);
   Exchanges chosen = lowest(places, tried, deviation);
-  if (!chosen.empty() && !decided(places, chosen, tried, deviation)) chosen.clear();
+  while (!chosen.empty() && !decided(places, chosen, tried, deviation)) chosen.pop_back();
   Exchanges undone;
   for (const Exchange& one : chosen) {
     undone.push_back(one);

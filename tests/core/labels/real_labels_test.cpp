@@ -1,0 +1,67 @@
+#include <algorithm>
+
+#include <gtest/gtest.h>
+
+#include "core/labels/anchor_labels.hpp"
+#include "core/labels/mislabelled.hpp"
+#include "noisy_looks.hpp"
+#include "real_looks.hpp"
+
+namespace mapproof::test {
+namespace {
+
+/// A set of MRCLAM, if the folder is there.
+class RealLabels : public testing::TestWithParam<const char*> {
+ protected:
+  void SetUp() override {
+    std::optional<SightingSource> source = real_looks(GetParam());
+    if (!source) GTEST_SKIP() << "MAPPROOF_MRCLAM does not name the folder of the sets";
+    source_ = std::move(*source);
+  }
+  const SightingLog& log() const { return source_.log; }
+
+  SightingSource source_;
+};
+
+TEST_P(RealLabels, SwappedInTheSecondHalfAreNamedAndMended) {
+  const double middle = middle_time_s(log());
+  const auto later = [&](int step) {
+    return log().times_s[static_cast<std::size_t>(step)] >= middle;
+  };
+  for (const auto& [a, b] : {std::pair(1, 7), std::pair(2, 8)}) {
+    const SightingLog wrong = swapped(log(), a, b, later);
+    const int spoilt = wrong_labels(wrong, log());
+    const LabelCheck check = check_labels(wrong);
+    ASSERT_FALSE(check.findings.empty()) << a << ' ' << b;
+    EXPECT_EQ(check.findings[0].first, a);
+    EXPECT_EQ(check.findings[0].second, b);
+    EXPECT_LT(check.loss_after_m, 0.75 * check.loss_before_m);
+    EXPECT_LT(wrong_labels(check.repaired, log()), spoilt / 10);
+  }
+}
+
+TEST_P(RealLabels, AreNotExchangedByTheSurvey) {
+  const AnchorCheck check = check_anchor_labels(log(), *source_.truth_m);
+  EXPECT_EQ(check.places, 15);
+  EXPECT_TRUE(check.exchanges.empty());
+  EXPECT_LT(check.misfit_before_m, 0.15);
+}
+
+TEST_P(RealLabels, ExchangedThroughoutAreNamedByTheSurvey) {
+  const auto always = [](int) { return true; };
+  int named = 0;
+  for (int a = 0; a < 15; ++a)
+    for (int b = a + 1; b < 15; ++b) {
+      const AnchorCheck check = check_anchor_labels(swapped(log(), a, b, always), *source_.truth_m);
+      const bool right = check.exchanges.size() == 1 && check.exchanges[0].first == a &&
+                         check.exchanges[0].second == b;
+      if (!right) ADD_FAILURE() << log().names[a] << ' ' << log().names[b];
+      named += right ? 1 : 0;
+    }
+  EXPECT_EQ(named, 105);
+}
+
+INSTANTIATE_TEST_SUITE_P(Mrclam, RealLabels, testing::Values("dataset2", "dataset3"));
+
+}  // namespace
+}  // namespace mapproof::test
