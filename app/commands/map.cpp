@@ -193,7 +193,6 @@ nlohmann::ordered_json landmark_json(const OwnMap& map, Eigen::Index i) {
 
 nlohmann::ordered_json map_result(const OwnMap& map, const fs::path& out) {
   const MapRecord& record = map.record;
-  const bool metric = record.frame == Frame::kTruth;
   const bool of_pairs = !map.made_by.empty();
   nlohmann::ordered_json object{{"sensor", of_pairs ? kRangeBearing : name(record.sensor)},
                                 {"method", of_pairs ? kPairs : info(record.setting.method).name},
