@@ -4,6 +4,8 @@
 #include <cmath>
 #include <limits>
 #include <optional>
+#include <set>
+#include <utility>
 
 #include "core/align/rigid.hpp"
 #include "core/base/errors.hpp"
@@ -79,10 +81,19 @@ std::vector<Eigen::Matrix2d> pair_covariances(const SightingLog& log,
   if (options.replicates < 1 || options.block_looks < 1 || log.steps < 1)
     throw InvalidInput("a bootstrap needs a look, a replicate and a look a block, or more");
   const std::vector<std::size_t> first = starts_of(log);
+  // Which pairs are trusted is of the looks as they are: drawn twice, a wrong one would pass.
+  std::set<std::pair<Eigen::Index, Eigen::Index>> trusted;
+  for (const MeasuredPair& pair : sighted_map(log).pairs) trusted.emplace(pair.first, pair.second);
+  const PairMapOptions all{.fewest_looks = 1};
   std::vector<Points> maps;
   for (int replicate = 0; replicate < options.replicates; ++replicate) {
     Random random(derive_seed(options.seed, {static_cast<std::uint64_t>(replicate)}));
-    const PairMap map = sighted_map(drawn_log(log, first, options.block_looks, random));
+    std::vector<MeasuredPair> pairs =
+        measured_pairs(drawn_log(log, first, options.block_looks, random));
+    std::erase_if(pairs, [&](const MeasuredPair& pair) {
+      return !trusted.contains({pair.first, pair.second});
+    });
+    const PairMap map = pair_map(pairs, log.names, all);
     if (auto placed = in_frame(map.embedding.coordinates, options)) maps.push_back(*placed);
   }
   std::vector<Eigen::Matrix2d> covariances;
