@@ -7,7 +7,7 @@
 namespace mapproof {
 
 /// How many consecutive values a circular block bootstrap should draw together, so that it tells
-/// the variance of the series' mean with the least squared error [politis2004; patton2009].
+/// the variance of the series' mean with the least squared error [politis2004] [patton2009].
 ///
 /// @param series  Finite.
 /// @return At least 1, at most min(3 sqrt(n), n / 3) rounded up; 1 for a series without variance.

@@ -26,8 +26,8 @@ std::vector<Eigen::Index> drawn_steps(Eigen::Index steps, Eigen::Index block, Ra
 /// no place; empty if none came out.
 using MapOfSteps = std::function<std::optional<Points>(const std::vector<Eigen::Index>& steps)>;
 
-/// How sure each landmark is: covariances over maps of steps drawn anew [kuensch1989; politis1992],
-/// and the radius of their 95 % ellipses.
+/// How sure each landmark is: covariances over maps of steps drawn anew [kuensch1989]
+/// [politis1992], and the radius of their 95 % ellipses.
 ///
 /// A covariance from N steps in blocks of b is about as good as one of 3 N / 2 b independent maps,
 /// and no better than that of the replicates, so the radius is that of Hotelling's T^2 with so many

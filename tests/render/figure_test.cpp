@@ -113,7 +113,7 @@ TEST(FigureJson, NamesThePlaceOfWhatItCannotRead) {
   EXPECT_EQ(message_of("[1e999]"),
             "f.json: line 1, column 6: the number \"1e999\" is beyond what a double holds");
   EXPECT_TRUE(message_of("[]").starts_with("f.json: /: says not what it is"));
-  EXPECT_EQ(message_of(replaced(json, "\"alt\"", "\"other\"")), "f.json: /: lacks the key \"alt\"");
+  EXPECT_EQ(message_of(replaced(json, "\"alt\"", "\"other\"")), "f.json: /: unknown key \"other\"");
   EXPECT_EQ(message_of(replaced(json, "mapproof.figure", "other")),
             "f.json: /schema/name: expected \"mapproof.figure\", got \"other\"");
   EXPECT_EQ(
