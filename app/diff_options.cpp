@@ -31,10 +31,13 @@ std::vector<Verdict> verdicts_in(const std::string& list) {
     const std::size_t end = std::min(list.find(',', at), list.size());
     const std::string word = list.substr(at, end - at);
     const auto verdict = verdict_named(word);
-    if (!verdict)
+    if (!verdict) {
+      const std::string_view meant = likely_word(word, names);
       throw InvalidInput(
-          fmt::format("--allow: no verdict \"{}\"; did you mean \"{}\"? There are {}",
-                      printable(word), nearest_word(word, names), fmt::join(names, ", ")));
+          fmt::format("--allow: no verdict \"{}\"{}. There are {}", printable(word),
+                      meant.empty() ? "" : fmt::format("; did you mean \"{}\"?", meant),
+                      fmt::join(names, ", ")));
+    }
     verdicts.push_back(*verdict);
     at = end + 1;
   }

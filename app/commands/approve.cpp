@@ -14,6 +14,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
+constexpr std::size_t kLongestName = 4096;                  // Bytes.
 constexpr std::size_t kLargestFile = std::size_t{1} << 26;  // Bytes, of approvals.
 
 struct Arguments {
@@ -58,10 +59,12 @@ int approve(const Arguments& arguments, const Invocation& invocation) {
     apply(step);
     const bool removed = step.from.empty();
     object[removed ? "removed" : "written"].push_back(step.to.string());
-    text += fmt::format("{}  {}\n", removed ? "removed" : "written", step.to.string());
+    text += fmt::format("{}  {}\n", removed ? "removed" : "written",
+                        printable(step.to.string(), kLongestName));
   }
   object["refused"] = plan.refused;
-  for (const std::string& refusal : plan.refused) invocation.console.warning(refusal);
+  for (const std::string& refusal : plan.refused)
+    invocation.console.warning(printable(refusal, kLongestName));
   if (text.empty()) invocation.console.info(arguments.baseline + ": nothing to take");
   invocation.console.result(text, object);
   return plan.refused.empty() ? kDone : kNo;

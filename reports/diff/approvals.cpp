@@ -76,7 +76,7 @@ std::vector<std::string> chosen_ids(const ApprovalOrder& order, const Files& bef
   const std::vector<std::string_view> names(known.begin(), known.end());
   for (const std::string& id : order.ids)
     if (!known.contains(id)) {
-      const std::string_view meant = nearest_word(id, names);
+      const std::string_view meant = likely_word(id, names);
       throw InvalidInput("no figure or picture \"" + printable(id) + "\"" +
                          (meant.empty() ? "" : "; did you mean \"" + std::string(meant) + "\"?"));
     }
@@ -85,6 +85,7 @@ std::vector<std::string> chosen_ids(const ApprovalOrder& order, const Files& bef
 
 void read_as_what_it_is(const fs::path& file) {
   const std::string name = file.filename().string();
+  const std::string kind = item_name(file, file.parent_path()).kind;
   require_file(file);
   if (name.ends_with(".figure.json")) {
     figure_from_json(read_file(file), file.string());
@@ -93,9 +94,9 @@ void read_as_what_it_is(const fs::path& file) {
   } else if (name.ends_with(".json")) {
     for (const Finding& finding : validate(file))
       if (!finding.problem.empty()) throw InvalidInput(finding.problem);
-  } else if (name.ends_with(".png")) {
+  } else if (kind == "png") {
     read_png(read_file(file));
-  } else if (name.ends_with(".svg")) {
+  } else if (kind == "svg") {
     parse_svg(read_file(file));
   }
 }

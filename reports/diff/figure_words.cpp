@@ -34,7 +34,18 @@ std::string first_of(const FigureDiff& diff, ChangeKind kind) {
          (count > 1 ? fmt::format(", and {} more", counted(count - 1, "change")) : "");
 }
 
+/// Whether places that are given, not estimated, moved: then it is another world.
+bool truth_moved(const FigureDiff& diff) {
+  return std::ranges::any_of(diff.moves, [](const MarkMove& move) {
+    return move.place.find("\"true ") != std::string::npos ||
+           move.place.find("\"truth\"") != std::string::npos;
+  });
+}
+
 Verdict direction(const FigureDiff& diff) {
+  const bool other_records =
+      std::ranges::find(diff.changes, kRecordsWord, &FigureChange::what) != diff.changes.end();
+  if (other_records || truth_moved(diff)) return Verdict::kChanged;
   if (!diff.baseline_error || !diff.current_error) return Verdict::kChanged;
   const double change = *diff.current_error - *diff.baseline_error;
   if (std::abs(change) <= 1e-6 * (1.0 + std::abs(*diff.baseline_error))) return Verdict::kChanged;

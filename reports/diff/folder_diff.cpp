@@ -155,6 +155,28 @@ Judgement judge_whole(const DiffResult& result) {
   return whole;
 }
 
+/// Names the pictures that nothing here decodes.
+void remark_not_compared(const std::vector<DiffItem>& items, DiffResult& result) {
+  std::vector<std::string> names;
+  for (const DiffItem& item : items)
+    for (const PictureFile& file : item.pictures)
+      if (is_not_compared(file.format)) names.push_back(printable(item.id) + "." + file.format);
+  if (!names.empty())
+    result.remarks.push_back("Not compared but by their bytes: " + listed(names, 12) + ".");
+}
+
+/// Names the ignored regions that are of nothing here: a name may be misspelt.
+void remark_ignored(const std::vector<DiffItem>& items, const DiffSettings& settings,
+                    DiffResult& result) {
+  std::set<std::string> unmatched;
+  for (const IgnoredRegion& region : settings.ignored)
+    if (region.id != "*" && std::ranges::find(items, region.id, &DiffItem::id) == items.end())
+      unmatched.insert("\"" + printable(region.id) + "\"");
+  if (unmatched.empty()) return;
+  result.remarks.push_back("Ignored regions of no picture here: " +
+                           listed({unmatched.begin(), unmatched.end()}, 12) + ".");
+}
+
 /// Sorts the items and judges the whole.
 void conclude(DiffResult& result) {
   std::ranges::stable_sort(result.items, std::ranges::greater(),
@@ -210,6 +232,8 @@ DiffResult folder_diff(const fs::path& baseline, const fs::path& current,
   std::vector<DiffItem> pictures =
       picture_items(before, after, file_id(current), context, settings);
   name_swapped(pictures);
+  remark_not_compared(pictures, result);
+  remark_ignored(pictures, settings, result);
   std::ranges::move(pictures, std::back_inserter(result.items));
   add_documents(result.items, before, after, file_id(current), settings);
   if (result.items.empty())

@@ -1,5 +1,6 @@
 #include "reports/diff/item_files.hpp"
 
+#include <algorithm>
 #include <array>
 #include <string_view>
 #include <system_error>
@@ -12,13 +13,15 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr std::size_t kMostFiles = 100'000;
-constexpr std::array<std::string_view, 5> kKinds = {"figure.json", "scene.json", "png", "svg",
-                                                    "pdf"};
+constexpr std::array<std::string_view, 13> kKinds = {
+    "figure.json", "scene.json", "png", "svg",  "pdf", "jpg", "jpeg",
+    "gif",         "webp",       "tif", "tiff", "bmp", "eps"};
+constexpr std::ptrdiff_t kFirstOther = 5;  // Of these: pictures that nothing here decodes.
 
 void add(ItemList& items, const ItemName& name, const fs::path& file) {
   if (name.kind == "figure.json" || name.kind == "scene.json")
     items[name.id].figure = file;
-  else if (name.kind == "png" || name.kind == "svg" || name.kind == "pdf")
+  else if (name.kind != "csv" && name.kind != "md" && name.kind != "tex" && name.kind != "html")
     items[name.id].pictures[name.kind][""] = file;
   else
     items[name.id].documents[name.kind] = file;
@@ -34,12 +37,20 @@ std::string document_kind(const fs::path& file) {
 
 }  // namespace
 
+bool is_not_compared(std::string_view kind) {
+  return std::ranges::find(kKinds.begin() + kFirstOther, kKinds.end(), kind) != kKinds.end();
+}
+
 ItemName item_name(const fs::path& file, const fs::path& folder) {
   std::string path = file.lexically_relative(folder).generic_string();
   constexpr std::string_view kFigures = "figures/";
   if (path.starts_with(kFigures)) path.erase(0, kFigures.size());
+  std::string lower = path;  // Endings in whatever case.
+  std::ranges::transform(lower, lower.begin(), [](char c) {
+    return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
+  });
   for (const std::string_view kind : kKinds)
-    if (path.size() > kind.size() + 1 && path.ends_with(kind) &&
+    if (path.size() > kind.size() + 1 && lower.ends_with(kind) &&
         path[path.size() - kind.size() - 1] == '.')
       return {path.substr(0, path.size() - kind.size() - 1), std::string(kind)};
   const std::string kind = document_kind(file);

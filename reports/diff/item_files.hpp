@@ -3,6 +3,7 @@
 #include <filesystem>
 #include <map>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace mapproof {
@@ -10,7 +11,8 @@ namespace mapproof {
 /// The files of one item on one side.
 struct ItemFiles {
   std::filesystem::path figure;  ///< ID.figure.json or ID.scene.json; empty: none.
-  /// By format ("png", "svg", "pdf") and baseline key; the plain file has the key "".
+  /// By format ("png", "svg", "pdf", and those that are not compared: "jpg", "gif", …) and baseline
+  /// key; the plain file has the key "".
   std::map<std::string, std::map<std::string, std::filesystem::path>> pictures;
   /// Of a table or a page, by format: "csv", "md", "tex", "html". Then it has nothing else.
   std::map<std::string, std::filesystem::path> documents;
@@ -29,9 +31,12 @@ ItemList list_items(const std::filesystem::path& path);
 /// "ID@KEY".
 void join_keyed(ItemList& baseline, const ItemList& current);
 
-/// The id of a file below `folder` and its kind: "png", "svg", "figure.json", "pdf", "scene.json",
-/// of tables (in a folder "tables") "csv", "md", "tex", of reports "html"; an empty kind: no file
-/// of an item.
+/// Kinds of pictures that are told by their bytes alone, as nothing here decodes them.
+bool is_not_compared(std::string_view kind);
+
+/// The id of a file below `folder` and its kind, in lower case: "png", "svg", "figure.json", "pdf",
+/// "scene.json", of tables (in a folder "tables") "csv", "md", "tex", of reports "html"; an empty
+/// kind: no file of an item.
 struct ItemName {
   std::string id, kind;
 };

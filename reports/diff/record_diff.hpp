@@ -43,6 +43,9 @@ struct PairedTest {
   std::string unit;  ///< "layout": means over the poses of each; "run": the layouts are too few.
   SignedRankTest test;
   double p = 1.0;  ///< Corrected for all tests of the comparison.
+  /// Of how many tests, where no outcome of so few units could get any of them below the level;
+  /// else 0. Such a test is silent, and decides nothing.
+  int powerless_of = 0;
 };
 
 /// One quantity of one subject over all runs.

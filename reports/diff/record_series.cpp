@@ -154,7 +154,7 @@ Outcome outcome_of(const Open& open, bool same_seeds, const QuantityFacts& quant
     return c.within > 0 ? Outcome::kWithinTolerance : Outcome::kEqual;
   if (quantity.direction == Direction::kNeither || !same_seeds) return Outcome::kChanged;
   const bool up_is_worse = quantity.direction == Direction::kLowerIsBetter;
-  if (c.test && c.lost + c.gained == 0) {
+  if (c.test && c.test->powerless_of == 0 && c.lost + c.gained == 0) {
     const bool decides =
         c.test->p < options.significance && std::abs(c.test->test.effect) >= options.least_effect;
     if (!decides) return Outcome::kChanged;
@@ -167,14 +167,23 @@ Outcome outcome_of(const Open& open, bool same_seeds, const QuantityFacts& quant
   return worse > 0 ? Outcome::kWorse : Outcome::kBetter;
 }
 
-void correct(std::vector<Open>& all) {
+void correct(std::vector<Open>& all, double significance) {
   std::vector<double> p;
+  double least_p = 1.0;
   for (const Open& open : all)
-    if (open.comparison.test) p.push_back(open.comparison.test->p);
+    if (open.comparison.test) {
+      p.push_back(open.comparison.test->p);
+      least_p = std::min(least_p, least_signed_rank_p(open.comparison.test->test.pairs));
+    }
+  // Holm multiplies the least of all by their number, and gives none of the others less.
+  const bool is_powerless = least_p * static_cast<double>(p.size()) >= significance;
   const std::vector<double> corrected = holm(p);
   std::size_t next = 0;
   for (Open& open : all)
-    if (open.comparison.test) open.comparison.test->p = corrected[next++];
+    if (open.comparison.test) {
+      open.comparison.test->p = corrected[next++];
+      open.comparison.test->powerless_of = is_powerless ? static_cast<int>(p.size()) : 0;
+    }
 }
 
 }  // namespace
@@ -222,7 +231,7 @@ std::vector<Comparison> compare_series(const RecordSet& a, const RecordSet& b, b
       if (c.within + c.beyond + c.lost + c.gained > 0) all.push_back(std::move(open));
     }
   }
-  correct(all);
+  correct(all, options.significance);
   std::vector<Comparison> compared;
   for (Open& open : all) {
     open.comparison.outcome =

@@ -84,9 +84,11 @@ Judgement tied_judgement(const std::string& id, const FigureDiff& diff, const Ju
 
   const std::vector<const Comparison*> shown = primary(id, ties.comparisons);
   if (const Comparison* first = most_telling(shown)) {
-    judgement.verdict = Verdict::kBetter;
+    // Of other records there is no better or worse.
+    if (other_records(diff) == nullptr) judgement.verdict = Verdict::kBetter;
     for (const Comparison* comparison : shown)
-      judgement.verdict = heavier(judgement.verdict, verdict_of(comparison->outcome));
+      if (other_records(diff) == nullptr)
+        judgement.verdict = heavier(judgement.verdict, verdict_of(comparison->outcome));
     const auto of_run = std::ranges::find_if(shown, [&](const Comparison* c) {
       return c->quantity == first->quantity &&
              std::ranges::any_of(c->largest,

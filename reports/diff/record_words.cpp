@@ -62,6 +62,20 @@ void judge_presence(const RecordDiff& diff, Judgement& whole, std::vector<std::s
   add(diff.new_subjects, Verdict::kNew, "record");
 }
 
+/// What a test has to say beside p: nothing where it decided.
+std::string test_words(const Comparison& c) {
+  if (!c.test) return "";
+  if (c.test->powerless_of == 0)
+    return c.outcome == Outcome::kChanged ? ", neither better nor worse over the seeds" : "";
+  const std::string pairs = c.test->unit == "layout"
+                                ? fmt::format("{} pairs in {} layouts", c.pairs, c.test->test.pairs)
+                                : counted(c.test->test.pairs, "pair");
+  return fmt::format(", {} can show nothing at {}{}", pairs,
+                     c.test->powerless_of == 1 ? std::string("1 quantity")
+                                               : fmt::format("{} quantities", c.test->powerless_of),
+                     c.outcome == Outcome::kChanged ? "" : ", but all that differ point one way");
+}
+
 void judge_comparisons(const RecordDiff& diff, Judgement& whole, std::vector<std::string>& causes) {
   std::vector<const Comparison*> all;
   for (const Comparison& comparison : diff.comparisons) {
@@ -72,10 +86,8 @@ void judge_comparisons(const RecordDiff& diff, Judgement& whole, std::vector<std
   if (first == nullptr || verdict_of(first->outcome) <= Verdict::kWithinTolerance) return;
   const auto beyond = std::ranges::count_if(
       all, [](const Comparison* c) { return verdict_of(c->outcome) > Verdict::kWithinTolerance; });
-  const bool test_is_silent = first->outcome == Outcome::kChanged && first->test;
   causes.push_back(fmt::format(
-      "{} of {}{}{}", comparison_text(*first), first->subject,
-      test_is_silent ? ", neither better nor worse over the seeds" : "",
+      "{} of {}{}{}", comparison_text(*first), first->subject, test_words(*first),
       beyond > 1 ? fmt::format(", and {} of other quantities or records", beyond - 1) : ""));
 }
 

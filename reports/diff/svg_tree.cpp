@@ -1,7 +1,9 @@
 #include "reports/diff/svg_tree.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cctype>
+#include <charconv>
 #include <memory>
 
 #include <expat.h>
@@ -139,9 +141,31 @@ class Builder {
     if (tree.elements.empty() && tree.generator.empty()) tree.generator = spaced(text);
   }
 
+  /// Whether a value of geometry holds a word for no number, or one too large for any.
+  static bool is_no_number(const std::string& name, std::string_view value) {
+    static constexpr std::array<std::string_view, 14> kGeometry = {
+        "x", "y", "x1", "y1", "x2", "y2", "cx", "cy", "r", "rx", "ry", "d", "points", "transform"};
+    if (std::ranges::find(kGeometry, name) == kGeometry.end()) return false;
+    const std::string text = lower(value);
+    if (text.find("nan") != std::string::npos || text.find("inf") != std::string::npos) return true;
+    for (std::size_t at = text.find('e'); at != std::string::npos; at = text.find('e', at + 1)) {
+      int exponent = 0;
+      const char* begin = text.data() + at + 1;
+      if (*begin == '+') ++begin;
+      const auto [end, error] = std::from_chars(begin, text.data() + text.size(), exponent);
+      if (error == std::errc::result_out_of_range || (error == std::errc() && exponent > 300))
+        return true;
+    }
+    return false;
+  }
+
   /// False if the attribute is refused.
   bool add(SvgElement& element, const std::string& name, std::string_view value) {
     if (lower(name).starts_with("on")) return refuse("an event handler: " + name), false;
+    if (is_no_number(name, value))
+      return refuse(fmt::format("{} of a {} is no finite number: {}", name, element.name,
+                                printable(std::string(value), 40))),
+             false;
     const bool is_reference = name == "href" || name.ends_with("}href");
     const std::string_view target = trimmed(value);
     if (is_reference && element.name != "a" && !target.starts_with('#') &&

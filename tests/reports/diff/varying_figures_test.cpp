@@ -50,6 +50,23 @@ TEST(VaryingFigures, AreNotJudgedByPicturesOfAnotherSize) {
   EXPECT_EQ(result.judgement.cause.find("value is equal"), std::string::npos);
 }
 
+TEST(OtherRecords, MakeNoFigureBetterOrWorse) {
+  Figure before = pareto_figure(costs());
+  before.varies = false;
+  Figure after = before;
+  after.record_ids = {"layout-9-pose-1/bearing/lpca/2000"};
+  for (Layer& layer : after.panels[0].layers)
+    if (auto* points = std::get_if<Scatter>(&layer))
+      for (std::size_t i = 0; i < points->y.size(); ++i) {
+        points->y[i] *= 2.0;
+        for (auto& [key, value] : points->marks[i].data)
+          if (key == "error") value = "9";
+      }
+  EXPECT_EQ(diff_of(before, after).judgement.verdict, Verdict::kChanged);
+  after.record_ids = before.record_ids;
+  EXPECT_EQ(diff_of(before, after).judgement.verdict, Verdict::kWorse);
+}
+
 TEST(VaryingFigures, AreToldWhereSomethingLastingChanged) {
   const Figure before = pareto_figure(costs());
   ParetoSpec fewer = costs();
