@@ -100,11 +100,14 @@ TEST_F(PictureDiffTest, TellsWhereMostOfAChangeLies) {
   EXPECT_GT(found.pixels->largest_colour_difference, 0.5);
 }
 
-TEST_F(PictureDiffTest, IgnoresWhatLiesInABox) {
-  const PictureDiff found =
-      diff(encode_png(white(100, 90)), encode_png(with_square()), {.ignored = {{25, 25, 30, 30}}});
-  EXPECT_EQ(found.state, PictureState::kIdentical);
+TEST_F(PictureDiffTest, IgnoresWhatLiesInABoxButDoesNotCallItIdentical) {
+  const PictureOptions boxed{.ignored = {{25, 25, 30, 30}}};
+  const PictureDiff found = diff(encode_png(white(100, 90)), encode_png(with_square()), boxed);
+  EXPECT_EQ(found.state, PictureState::kWithinTolerance);
   EXPECT_EQ(found.pixels->ignored, 900);
+  EXPECT_EQ(found.reason, "900 pixels ignored, which differ");
+  EXPECT_EQ(diff(encode_png(with_square()), encode_png(with_square()), boxed).state,
+            PictureState::kIdentical);
   EXPECT_EQ(diff(encode_png(white(100, 90)), encode_png(with_square()),
                  {.ignored = {{25, 25, 24, 24}, {-5, 80, 900, 900}}})
                 .state,
