@@ -49,8 +49,7 @@ TEST(ForeignFiles, OfKindsThatAreNotComparedNeverPassIfTheirBytesDiffer) {
     two.add(std::string("y.") + kind, "one", "two");
   const DiffItem item = two.item("y");
   EXPECT_EQ(item.judgement.verdict, Verdict::kUnreadable);
-  EXPECT_NE(item.judgement.cause.find("is not compared"), std::string::npos)
-      << item.judgement.cause;
+  EXPECT_NE(item.judgement.cause.find("not compared"), std::string::npos) << item.judgement.cause;
   const DiffResult result = folder_diff(two.before, two.after);
   ASSERT_EQ(result.remarks.size(), 1U);
   EXPECT_NE(result.remarks[0].find("z.jpg"), std::string::npos) << result.remarks[0];
@@ -64,11 +63,8 @@ TEST(ForeignFiles, AreNotIdenticalWhereAnIgnoredRegionHidesWhatDiffers) {
   EXPECT_EQ(two.item("a", settings).judgement.verdict, Verdict::kIdentical);
   two.add("a.png", picture("curve-usual"), picture("curve-log"));
   const DiffItem item = two.item("a", settings);
-  if (item.pictures[0].diff.pixels &&
-      item.pictures[0].diff.pixels->baseline == item.pictures[0].diff.pixels->current) {
-    EXPECT_EQ(item.judgement.verdict, Verdict::kWithinTolerance);
-    EXPECT_NE(item.judgement.cause.find("ignored"), std::string::npos) << item.judgement.cause;
-  }
+  EXPECT_EQ(item.judgement.verdict, Verdict::kWithinTolerance);
+  EXPECT_NE(item.judgement.cause.find("ignored"), std::string::npos) << item.judgement.cause;
   const std::vector<std::string> remarks = folder_diff(two.before, two.after, settings).remarks;
   EXPECT_TRUE(std::ranges::any_of(
       remarks, [](const std::string& r) { return r.find("mistyped") != std::string::npos; }));
