@@ -7,6 +7,7 @@
 
 #include "core/base/errors.hpp"
 #include "render/cairo/cairo_painter.hpp"
+#include "render/cairo/library_versions.hpp"
 #include "render/image/png.hpp"
 
 namespace mapproof {
@@ -18,6 +19,18 @@ std::string joined(const std::vector<std::string>& parts) {
   std::string text;
   for (const std::string& part : parts) (text += text.empty() ? "" : "\n") += part;
   return visible_lines(text);
+}
+
+/// "mapproof (Cairo 1.16.0, FreeType 2.12.1, HarfBuzz 6.0.0)": all that pixels depend on.
+const std::string& drawing_software() {
+  static const std::string software = [] {
+    std::string versions;
+    for (const auto& [library, version] : render_library_versions())
+      if (library != "libdeflate")
+        versions += (versions.empty() ? "" : ", ") + library + " " + version;
+    return "mapproof (" + versions + ")";
+  }();
+  return software;
 }
 
 }  // namespace
@@ -48,7 +61,7 @@ std::vector<std::pair<std::string, std::string>> png_words(const Drawing& drawin
   std::vector<std::pair<std::string, std::string>> words = {
       {"Title", visible_lines(drawing.title)},
       {"Description", visible_lines(drawing.alt)},
-      {"Software", "mapproof"},
+      {"Software", drawing_software()},
       {"mapproof:figure", drawing.id},
       {"mapproof:records", joined(drawing.record_ids)}};
   if (!drawing.renderer.empty()) words.emplace_back("mapproof:renderer", drawing.renderer);
