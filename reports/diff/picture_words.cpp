@@ -73,15 +73,27 @@ std::optional<Judgement> judge_presence(const std::vector<PictureFile>& files) {
   return std::nullopt;
 }
 
+/// An SVG says what changed, the other kinds how much.
+std::string words_alone(const std::vector<PictureFile>& files) {
+  std::string words;
+  for (const bool is_svg : {true, false})
+    for (const PictureFile& file : files) {
+      if (!is_visible(file) || (file.format == "svg") != is_svg) continue;
+      if (words.empty())
+        words = fmt::format("{}, by its {} alone: {}", file.format,
+                            is_svg                 ? "elements"
+                            : file.format == "png" ? "pixels"
+                                                   : "bytes",
+                            file.diff.reason);
+      else
+        words += fmt::format("; {}: {}", file.format, file.diff.reason);
+    }
+  return words;
+}
+
 /// Of pictures without a value.
 Judgement judge_alone(const std::vector<PictureFile>& files) {
-  if (const PictureFile* different = first_with(files, is_visible))
-    return {Verdict::kChanged, true,
-            fmt::format("{}, by its {} alone: {}", different->format,
-                        different->format == "svg"   ? "elements"
-                        : different->format == "pdf" ? "bytes"
-                                                     : "pixels",
-                        different->diff.reason)};
+  if (std::ranges::any_of(files, is_visible)) return {Verdict::kChanged, true, words_alone(files)};
   if (const PictureFile* near = first_with(files, [](const PictureFile& f) {
         return f.diff.state == PictureState::kWithinTolerance;
       }))

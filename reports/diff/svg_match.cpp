@@ -1,8 +1,10 @@
 #include "reports/diff/svg_match.hpp"
 
 #include <algorithm>
+#include <charconv>
 #include <functional>
 #include <map>
+#include <set>
 #include <string_view>
 
 namespace mapproof {
@@ -26,6 +28,48 @@ std::vector<std::uint64_t> digests(const SvgTree& tree) {
     of[i] = digest;
   }
   return of;
+}
+
+/// "line2d_12" without its number.
+std::string_view stem(std::string_view id) {
+  const std::size_t last = id.find_last_not_of("0123456789");
+  return id.substr(0, last == id.npos ? 0 : last + 1);
+}
+
+/// How many ids of each stem, the least number and the largest. Numbers too long for one are names.
+struct Numbers {
+  std::uint32_t count = 0, least = UINT32_MAX, largest = 0;
+  bool operator==(const Numbers&) const = default;
+  bool are_counted() const { return count > 0 && largest - least + 1 == count; }
+};
+
+std::map<std::string_view, Numbers> numbers_of(const SvgTree& tree) {
+  std::map<std::string_view, Numbers> found;
+  for (const SvgElement& element : tree.elements) {
+    const std::string_view of = stem(element.id),
+                           digits = std::string_view(element.id).substr(of.size());
+    std::uint32_t number = 0;
+    if (digits.empty() || digits.size() > 9) continue;
+    std::from_chars(digits.data(), digits.data() + digits.size(), number);
+    Numbers& numbers = found[of];
+    ++numbers.count;
+    numbers.least = std::min(numbers.least, number);
+    numbers.largest = std::max(numbers.largest, number);
+  }
+  return found;
+}
+
+/// Stems whose numbers only count, without a gap, to another end: where one of their elements is
+/// gone, those after it bear other numbers, and an id says nothing.
+std::set<std::string_view> renumbered_stems(const SvgTree& a, const SvgTree& b) {
+  std::set<std::string_view> stems;
+  const auto others = numbers_of(b);
+  for (const auto& [of, numbers] : numbers_of(a))
+    if (const auto other = others.find(of); other != others.end() && other->second != numbers &&
+                                            other->second.are_counted() && numbers.are_counted() &&
+                                            other->second.least == numbers.least)
+      stems.insert(of);
+  return stems;
 }
 
 class Matcher {
@@ -64,9 +108,10 @@ class Matcher {
 
   void pair_by_id() {
     const auto others = by_id(b_);
+    const auto renumbered = renumbered_stems(a_, b_);
     for (const auto& [id, i] : by_id(a_))
       if (const auto other = others.find(id);
-          i > 0 && other != others.end() && other->second > 0 &&
+          i > 0 && !renumbered.contains(stem(id)) && other != others.end() && other->second > 0 &&
           a_.elements[i].name == b_.elements[other->second].name)
         pair(i, other->second);
   }

@@ -15,7 +15,8 @@ struct SvgMatch {
       is_reordered;  ///< Of the baseline: it is drawn before or after others it was not.
 };
 
-/// Matches by id where both files have it, on elements of the same name; else below matched
+/// Matches by id where both files have it, on elements of the same name, unless ids only count
+/// ("line2d_7") and to another end; else below matched
 /// parents: first equal ones in order, then what lies between them, so that the least differs. One
 /// element that is gone leaves the others matched.
 /// @note O(n) for files that agree but for little; at most 2^22 pairs of children are compared, the

@@ -119,6 +119,25 @@ TEST(SvgDiff, TheOrderOfDrawingCounts) {
   EXPECT_EQ(found.changes[0].element, "svg/g#c");
 }
 
+TEST(SvgDiff, OneOfCountedElementsThatIsGoneIsOneChange) {
+  const auto counted = [](int gone) {
+    std::string body;
+    for (int i = 0, number = 0; i < 40; ++i)
+      if (i != gone)
+        body += fmt::format("<g id='line2d_{}'><path d='M{} 0'/></g>", ++number, i * i);
+    return body;
+  };
+  for (const int gone : {0, 17, 39}) {
+    const SvgDiff found = body_diff(counted(-1), counted(gone));
+    EXPECT_EQ(found.structure, 1) << gone;
+    EXPECT_EQ(found.total - found.tolerated, 1) << gone;
+    EXPECT_EQ(body_diff(counted(gone), counted(-1)).structure, 1) << gone;
+  }
+  // Numbers with a gap are names: the one that moved is told by its own.
+  const std::string all = "<g id='p1'><rect x='1'/></g><g id='p2'><rect x='2'/></g><g id='p3'/>";
+  EXPECT_EQ(body_diff(all, "<g id='p1'><rect x='2'/></g><g id='p3'/>").geometry, 1);
+}
+
 TEST(SvgDiff, IdsThatAreMadeUpAnewAreRemarks) {
   const SvgDiff found = body_diff("<defs><path id='m1f' d='M0 0'/></defs><use xlink:href='#m1f'/>",
                                   "<defs><path id='x9a' d='M0 0'/></defs><use href='#x9a'/>");
