@@ -110,6 +110,11 @@ std::string diff_junit(const DiffResult& result) {
     out += fmt::format("      <system-out>{}: {}</system-out>\n    </testcase>\n",
                        label(told.verdict), message);
   }
+  if (!result.remarks.empty()) {
+    out += "    <system-out>";
+    for (const std::string& remark : result.remarks) out += xml(printable(remark, kLongest)) + "\n";
+    out += "</system-out>\n";
+  }
   return out + "  </testsuite>\n</testsuites>\n";
 }
 

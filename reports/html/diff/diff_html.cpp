@@ -46,6 +46,17 @@ std::string left_out(const std::vector<ShownPictures>& shown) {
                     : "Pictures of " + counted(count, "item") + " are not shown; each says why.";
 }
 
+constexpr std::size_t kLongestNote = 2000;
+
+/// What was not compared or is not shown.
+list notes_data(const DiffResult& result, const std::vector<ShownPictures>& shown) {
+  list out;
+  for (const std::string& remark : result.remarks)
+    out.push_back(data("note", printable(remark, kLongestNote)));
+  if (const std::string text = left_out(shown); !text.empty()) out.push_back(data("note", text));
+  return out;
+}
+
 void set_items(data& page, const DiffResult& result, const std::vector<ShownPictures>& shown) {
   list changed, items, identical;
   for (std::size_t i = 0; i < result.items.size(); ++i) {
@@ -75,7 +86,7 @@ std::string diff_html(const DiffResult& result, const DiffSettings& settings,
   page.set("passes", result.passes);
   page.set("verdict", std::string(name(result.judgement.verdict)));
   page.set("label", std::string(label(result.judgement.verdict)));
-  page.set("cause", text_or_false(printable(result.judgement.cause, 2000)));
+  page.set("cause", text_or_false(printable(result.judgement.cause, kLongestNote)));
   page.set("compared", counted(std::ssize(result.items), "item"));
   page.set("baseline", url_text(result.baseline));
   page.set("current", url_text(result.current));
@@ -83,7 +94,7 @@ std::string diff_html(const DiffResult& result, const DiffSettings& settings,
   page.set("files", std::filesystem::is_regular_file(result.current, error));
   page.set("facts", block_data(whole_facts(result), {}, {}));
   page.set("counts", counts_data(result));
-  page.set("left_out", text_or_false(left_out(shown)));
+  page.set("notes", notes_data(result, shown));
   page.set("version", std::string(version()));
   set_items(page, result, shown);
   return rendered("diff", templates, page);

@@ -72,6 +72,13 @@ TEST(DiffPage, SaysThatSizesDifferAndWhyAPictureIsNotShown) {
   EXPECT_NE(page.find("Not shown: png cannot be read."), std::string::npos);
 }
 
+TEST(DiffPage, SaysWhatWasNotCompared) {
+  const test::TemporaryFolder folder;
+  DiffResult result = test::compared_folders(folder.path());
+  result.remarks = {"Not compared: <b>x</b>.jpg"};
+  EXPECT_NE(page_of(result).find("Not compared: &lt;b&gt;x&lt;/b&gt;.jpg"), std::string::npos);
+}
+
 TEST(DiffPage, LeavesOutPicturesBeyondItsBudgetAndCountsThem) {
   const test::TemporaryFolder folder;
   const DiffResult result = test::compared_folders(folder.path());
