@@ -1,7 +1,10 @@
 #include "reports/diff/document_diff.hpp"
 
 #include <algorithm>
+#include <charconv>
+#include <cmath>
 #include <map>
+#include <optional>
 #include <set>
 
 #include <fmt/format.h>
@@ -45,11 +48,26 @@ Judgement by_records(const std::string& what, const std::vector<DiffItem>& told)
   if (verdict <= Verdict::kWithinTolerance)
     return {Verdict::kChanged, true, what + "; its records did not change"};
   const bool has_direction = verdict == Verdict::kBetter || verdict == Verdict::kWorse;
+  // The records' own item has the rest.
+  const std::string& cause = records->judgement.cause;
   return {has_direction ? verdict : Verdict::kChanged, true,
-          fmt::format("{}; it follows from {}: {}", what, records->id, records->judgement.cause)};
+          fmt::format("{}; it follows from {}: {}", what, records->id,
+                      cause.substr(0, cause.find("; ")))};
+}
+
+/// All that the text is, as a number.
+std::optional<double> number(const std::string& text) {
+  double value = 0.0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+  if (error != std::errc() || end != text.data() + text.size() || !std::isfinite(value)) return {};
+  return value;
 }
 
 std::string first_text(const OtherDiff& cells) {
+  constexpr std::size_t kReadable = 8;  // Characters: longer numbers are in full precision.
+  const std::optional<double> before = number(cells.baseline), after = number(cells.current);
+  if (before && after && std::max(cells.baseline.size(), cells.current.size()) > kReadable)
+    return fmt::format("{}: {}", cells.first, change_text(*before, *after, ""));
   return fmt::format("{}: {} \u2192 {}", cells.first, cells.baseline, cells.current);
 }
 
