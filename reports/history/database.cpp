@@ -5,8 +5,6 @@
 
 #include <sqlite3.h>
 
-#include "core/base/errors.hpp"
-
 namespace mapproof {
 namespace {
 
@@ -16,6 +14,10 @@ constexpr int kBusyMilliseconds = 10'000;
 bool is_full(int code) {
   return (code & 0xFF) == SQLITE_FULL || code == SQLITE_IOERR_WRITE || code == SQLITE_IOERR_FSYNC ||
          code == SQLITE_IOERR_TRUNCATE;
+}
+
+bool is_damage(int code) {
+  return (code & 0xFF) == SQLITE_CORRUPT || (code & 0xFF) == SQLITE_NOTADB;
 }
 
 }  // namespace
@@ -123,8 +125,8 @@ std::string Database::damage() {
     if (answer != "ok") return answer;
     Statement keys(*this, "PRAGMA foreign_key_check");
     return keys.step() ? "a row of " + keys.text(0) + " belongs to none of " + keys.text(2) : "";
-  } catch (const IoError& error) {
-    return error.what();
+  } catch (const DamagedFile& error) {
+    return error.damage();
   }
 }
 
@@ -136,6 +138,7 @@ void Database::fail() const {
   if (is_full(code))
     throw IoError(path_.string(), "cannot be written: the disk is full; what it held is untouched");
   if ((code & 0xFF) == SQLITE_BUSY) throw IoError(path_.string(), "is in use by another process");
+  if (is_damage(code)) throw DamagedFile(path_.string(), sqlite3_errmsg(handle_));
   throw IoError(path_.string(), sqlite3_errmsg(handle_));
 }
 

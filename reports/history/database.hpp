@@ -7,12 +7,26 @@
 #include <string>
 #include <string_view>
 
+#include "core/base/errors.hpp"
+
 struct sqlite3;
 struct sqlite3_stmt;
 
 namespace mapproof {
 
 class Database;
+
+/// The bytes of the file are not those of a database, or not those of a whole one.
+class DamagedFile : public IoError {
+ public:
+  DamagedFile(const std::string& path, const std::string& damage)
+      : IoError(path, "is damaged: " + damage), damage_(damage) {}
+
+  const std::string& damage() const { return damage_; }
+
+ private:
+  std::string damage_;
+};
 
 /// One statement of SQL, its values bound one after the other, its rows read column by column.
 class Statement {
@@ -54,7 +68,7 @@ class Database {
   /// Opens the file; with kWrite makes one that is not there. Waits up to ten seconds for another
   /// process that writes. A rollback journal is kept, not a write-ahead log: the store is then one
   /// file between two nights, on any file system, and a night is a single transaction.
-  /// @throws IoError if it cannot be opened or is no database.
+  /// @throws DamagedFile if it is no database or not a whole one; IoError if it cannot be opened.
   Database(const std::filesystem::path& path, Access access);
   ~Database();
   Database(const Database&) = delete;
@@ -64,13 +78,14 @@ class Database {
   void execute(const std::string& sql);
 
   /// What SQLite's own check finds wrong with the file; empty if nothing.
+  /// @throws IoError if the file cannot be read, which says nothing of what is in it.
   std::string damage();
 
   std::int64_t last_row() const;
   const std::filesystem::path& path() const { return path_; }
   sqlite3* handle() const { return handle_; }
 
-  /// @throws IoError that says what went wrong last.
+  /// @throws IoError that says what went wrong last; DamagedFile if it is the file's bytes.
   [[noreturn]] void fail() const;
 
  private:

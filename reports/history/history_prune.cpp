@@ -63,14 +63,15 @@ fs::path night_folder(const fs::path& store, int night) {
 Pruned prune(HistoryStore& history, const fs::path& store, const PruneRule& rule) {
   Pruned pruned;
   pruned.nights = nights_to_remove(history.nights(), rule);
-  history.remove(pruned.nights);
   for (const int night : pruned.nights) {
     std::error_code error;
     fs::remove_all(night_folder(store, night), error);
     if (error)
       throw IoError(night_folder(store, night).string(), "cannot be removed: " + error.message());
   }
+  history.remove(pruned.nights);
   pruned.files = ObjectFolder(store / "objects").remove_others(history.digests());
+  history.compact();
   return pruned;
 }
 

@@ -31,8 +31,8 @@ struct Pruned {
 /// The folder of a night in a store: "nights/0012".
 std::filesystem::path night_folder(const std::filesystem::path& store, int night);
 
-/// Removes nights from the store, then their folders and the figures that no other night has. After
-/// a kill in between the next one finishes it. @throws IoError.
+/// Removes the folders of nights, then the nights and the figures that no other night has. After a
+/// kill or an error in between the next one finishes it. @throws IoError.
 Pruned prune(HistoryStore& history, const std::filesystem::path& store, const PruneRule& rule);
 
 }  // namespace mapproof

@@ -16,6 +16,9 @@ namespace {
 
 namespace fs = std::filesystem;
 
+/// Far from where numbers would run over.
+constexpr std::int64_t kMostNights = 100'000'000;
+
 constexpr const char* kNightColumns =
     "number, started_utc, ended_utc, command, provenance, host, processor, cores, jobs, reference, "
     "pinned, verdict";
@@ -34,8 +37,8 @@ NightFacts read_facts(const Statement& row, const fs::path& path) {
   facts.pinned = row.integer(10) != 0;
   const auto verdict = night_verdict_named(row.text(11));
   if (!verdict)
-    throw IoError(path.string(), fmt::format("night {}", facts.number),
-                  "unknown verdict \"" + printable(row.text(11)) + "\"");
+    throw DamagedFile(path.string(), fmt::format("night {} has the unknown verdict \"{}\"",
+                                                 facts.number, printable(row.text(11))));
   facts.verdict = *verdict;
   return facts;
 }
@@ -53,20 +56,39 @@ fs::path set_aside(const fs::path& path) {
   return aside;
 }
 
+/// What SQLite's check cannot find: bytes that changed into words and numbers that have no meaning.
+std::string damage_of_rows(Database& database) {
+  if (version_of(database) != schema_version()) return "";
+  Statement nights(database, "SELECT number, verdict FROM nights");
+  while (nights.step()) {
+    if (nights.integer(0) < 1 || nights.integer(0) > kMostNights)
+      return fmt::format("there is no night {}", nights.integer(0));
+    if (!night_verdict_named(nights.text(1)))
+      return fmt::format("night {} has the unknown verdict \"{}\"", nights.integer(0),
+                         printable(nights.text(1)));
+  }
+  Statement findings(database, "SELECT night, kind FROM findings");
+  while (findings.step())
+    if (!rule_named(findings.text(1)))
+      return fmt::format("night {} has the unknown finding \"{}\"", findings.integer(0),
+                         printable(findings.text(1)));
+  return "";
+}
+
 /// The database if it is whole. @param damage  What is wrong if it is not.
 std::unique_ptr<Database> open_whole(const fs::path& path, Database::Access access,
                                      std::string& damage) {
-  std::unique_ptr<Database> database;
   try {
-    database = std::make_unique<Database>(path, access);
-  } catch (const IoError& error) {
-    // Only what has the wrong bytes is damaged; what may not be read or is in use is not.
-    if (std::string_view(error.what()).find("not a database") == std::string_view::npos) throw;
-    damage = error.what();
-    return nullptr;
+    auto database = std::make_unique<Database>(path, access);
+    damage = database->damage();
+    if (damage.empty()) damage = damage_of_tables(*database);
+    if (damage.empty()) damage = damage_of_rows(*database);
+    if (damage.empty()) return database;
+  } catch (const DamagedFile& error) {
+    // What may not be read or is in use is not damaged: that is not caught.
+    damage = error.damage();
   }
-  damage = database->damage();
-  return damage.empty() ? std::move(database) : nullptr;
+  return nullptr;
 }
 
 template <typename Row>
@@ -117,7 +139,7 @@ HistoryStore HistoryStore::open_existing(const fs::path& store) {
     throw IoError(store.string(), "holds no history.sqlite; mapproof nightly makes one");
   std::string damage;
   std::unique_ptr<Database> database = open_whole(path, Database::Access::kRead, damage);
-  if (!database) throw IoError(path.string(), "is damaged: " + damage);
+  if (!database) throw DamagedFile(path.string(), damage);
   const int version = version_of(*database);
   if (version != schema_version())
     throw IoError(path.string(), fmt::format("is of version {}; the next mapproof nightly brings "
@@ -142,8 +164,9 @@ std::vector<NightFinding> HistoryStore::findings(int night) {
   while (rows.step()) {
     const auto rule = rule_named(rows.text(1));
     if (!rule)
-      throw IoError(database_->path().string(), fmt::format("night {}", night),
-                    "unknown finding \"" + printable(rows.text(1)) + "\"");
+      throw DamagedFile(
+          database_->path().string(),
+          fmt::format("night {} has the unknown finding \"{}\"", night, printable(rows.text(1))));
     findings.push_back({.study = rows.text(0),
                         .rule = *rule,
                         .subject = rows.text(2),
@@ -320,8 +343,9 @@ void HistoryStore::remove(const std::vector<int>& nights) {
       "DELETE FROM series WHERE id NOT IN (SELECT series FROM trends);"
       "DELETE FROM runs WHERE id NOT IN (SELECT run FROM scores);");
   transaction.commit();
-  database_->execute("VACUUM");
 }
+
+void HistoryStore::compact() { database_->execute("VACUUM"); }
 
 std::vector<std::string> HistoryStore::digests() {
   Statement rows(*database_, "SELECT DISTINCT digest FROM figures ORDER BY digest");

@@ -52,6 +52,9 @@ class HistoryStore {
   /// Removes nights in one transaction. @throws IoError.
   void remove(const std::vector<int>& nights);
 
+  /// Gives back the room of what was removed; needs as much while it does. @throws IoError.
+  void compact();
+
   /// The digests that figures of any night name. @throws IoError.
   std::vector<std::string> digests();
 

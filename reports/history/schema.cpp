@@ -1,6 +1,9 @@
 #include "reports/history/schema.hpp"
 
+#include <algorithm>
 #include <array>
+#include <iterator>
+#include <set>
 #include <string>
 
 #include <fmt/format.h>
@@ -111,6 +114,17 @@ void make_tables_from(Database& database, int from, int version) {
   transaction.commit();
 }
 
+/// "nights.number" of every column there is. Names, since how a statement is written down is
+/// SQLite's.
+std::set<std::string> columns_of(Database& database) {
+  Statement rows(database,
+                 "SELECT t.name || '.' || c.name FROM sqlite_schema t "
+                 "JOIN pragma_table_info(t.name) c WHERE t.type = 'table'");
+  std::set<std::string> columns;
+  while (rows.step()) columns.insert(rows.text(0));
+  return columns;
+}
+
 /// By SQLite's own copy, which is whole whatever a killed writer left.
 void copy_to(Database& database, const fs::path& path) {
   fs::path beside = path;
@@ -151,6 +165,18 @@ int version_of(Database& database) {
                   fmt::format("is of version {}; this program knows versions up to {}", version,
                               schema_version()));
   return version;
+}
+
+std::string damage_of_tables(Database& database) {
+  const int version = version_of(database);
+  if (version == 0) return "";
+  Database whole(":memory:", Database::Access::kWrite);
+  make_tables(whole, version);
+  const std::set<std::string> wanted = columns_of(whole);
+  const std::set<std::string> there = columns_of(database);
+  std::set<std::string> missing;
+  std::ranges::set_difference(wanted, there, std::inserter(missing, missing.end()));
+  return missing.empty() ? "" : "it has no " + *missing.begin();
 }
 
 void make_tables(Database& database, int version) {

@@ -2,6 +2,7 @@
 
 #include <chrono>
 #include <csignal>
+#include <sstream>
 #include <thread>
 
 #include <gtest/gtest.h>
@@ -33,15 +34,18 @@ json history(const fs::path& store) {
   return json::parse(outcome.out);
 }
 
-/// Makes the errors of the nights in the history smaller, as if the program had been better then.
-void make_better(const fs::path& store, double factor) {
+/// Runs statements on the store's file from beside the program.
+void change(const fs::path& store, const std::string& statements) {
   sqlite3* database = nullptr;
   ASSERT_EQ(sqlite3_open((store / "history.sqlite").c_str(), &database), SQLITE_OK);
-  const std::string statements =
-      "UPDATE scores SET value = value * " + std::to_string(factor) +
-      " WHERE series IN (SELECT id FROM series WHERE quantity = 'mpe_m')";
   EXPECT_EQ(sqlite3_exec(database, statements.c_str(), nullptr, nullptr, nullptr), SQLITE_OK);
   sqlite3_close(database);
+}
+
+/// Makes the errors of the nights in the history smaller, as if the program had been better then.
+void make_better(const fs::path& store, double factor) {
+  change(store, "UPDATE scores SET value = value * " + std::to_string(factor) +
+                    " WHERE series IN (SELECT id FROM series WHERE quantity = 'mpe_m')");
 }
 
 TEST(Nightly, RecordsANightAndItsReportAndFindsNothingWorseInTheNext) {
@@ -96,9 +100,87 @@ TEST(Nightly, OnAFullDiskSaysSoAndLosesNoNight) {
     EXPECT_TRUE(outcome.exit_code == 2 || outcome.exit_code == 3)
         << bytes << ": " << outcome.exit_code << outcome.error;
     EXPECT_FALSE(outcome.error.empty());
-    EXPECT_EQ(mapproof({"history", store, "--export", "csv"}).out, before) << bytes;
+    EXPECT_TRUE(mapproof({"history", store, "--export", "csv"}).out == before) << bytes;
   }
   EXPECT_EQ(night(store).exit_code, 0) << "goes on once there is room";
+}
+
+std::size_t lines_with(const std::string& text, const std::string& part) {
+  std::istringstream lines(text);
+  std::size_t count = 0;
+  for (std::string line; std::getline(lines, line);) count += line.find(part) != std::string::npos;
+  return count;
+}
+
+TEST(Nightly, WithNoRoomForTheCommitNamesTheStoreInOneLineAndLosesNoNight) {
+  const TemporaryFolder folder;
+  const fs::path store = folder / "history";
+  ASSERT_EQ(night(store).exit_code, 0);
+  // A history larger than any other file of a night: what the limit stops is its commit alone.
+  change(store, "CREATE TABLE padding (x); INSERT INTO padding VALUES (zeroblob(8000000))");
+  const std::string before = mapproof({"history", store, "--export", "csv"}).out;
+  const std::size_t bytes = fs::file_size(store / "history.sqlite");
+  for (const std::size_t more : {0U, 4'096U}) {
+    const Outcome outcome = night(store, {}, kSmall, Limits{.file_bytes = bytes + more});
+    EXPECT_EQ(outcome.exit_code, 2) << more << outcome.error;
+    EXPECT_EQ(lines_with(outcome.error, "history.sqlite: cannot be written"), 1U) << outcome.error;
+    EXPECT_TRUE(mapproof({"history", store, "--export", "csv"}).out == before) << more;
+    EXPECT_EQ(mapproof({"history", store, "--verify"}).exit_code, 0) << more;
+  }
+  EXPECT_EQ(night(store).exit_code, 0) << "goes on once there is room";
+  EXPECT_EQ(history(store).at("nights").size(), 2U);
+}
+
+/// A night whose history lies on a disk of its own with `free_kib` left, a mount of a namespace of
+/// its own; afterwards one with room. The history is put back into the store.
+Outcome night_on_a_small_disk(const fs::path& store, const fs::path& disk, int free_kib) {
+  const std::string used =
+      std::to_string((fs::file_size(store / "history.sqlite") + 4095) / 4096 * 4 + free_kib);
+  const std::string script =
+      "mount -t tmpfs -o size=" + used +
+      "k tmpfs \"$1\" || exit 77\n"
+      "cp \"$0/history.sqlite\" \"$1\" && ln -sf \"$1/history.sqlite\" \"$0\" || exit 76\n"
+      "disk=$1; shift; \"$@\"; code=$?\n"
+      "cp \"$disk/history.sqlite\" \"$0/back\" && mv \"$0/back\" \"$0/history.sqlite\" || exit 76\n"
+      "exit $code\n";
+  return run_program({"unshare", "-Urm", "sh", "-c", script, store, disk, program(), "nightly",
+                      kSmall, "--profile", "tiny", "--store", store, "--jobs", "1"});
+}
+
+TEST(Nightly, OnADiskThatIsFullAtTheCommitNamesTheStoreInOneLineAndLosesNoNight) {
+  const TemporaryFolder folder;
+  const fs::path store = folder / "history";
+  fs::create_directory(folder / "disk");
+  ASSERT_EQ(night(store).exit_code, 0);
+  const std::string before = mapproof({"history", store, "--export", "csv"}).out;
+  for (const int free_kib : {8, 40}) {
+    const Outcome outcome = night_on_a_small_disk(store, folder / "disk", free_kib);
+    if (outcome.exit_code == 77 || outcome.exit_code == 1 || outcome.exit_code == 127)
+      GTEST_SKIP() << "no mounts of one's own here: " << outcome.error;
+    EXPECT_EQ(outcome.exit_code, 2) << free_kib << outcome.error;
+    EXPECT_EQ(lines_with(outcome.error, "history.sqlite: cannot be written: the disk is full"), 1U)
+        << free_kib << outcome.error;
+    EXPECT_TRUE(mapproof({"history", store, "--export", "csv"}).out == before) << free_kib;
+    EXPECT_EQ(mapproof({"history", store, "--verify"}).exit_code, 0) << free_kib;
+  }
+  EXPECT_EQ(night(store).exit_code, 0) << "goes on once there is room";
+  EXPECT_EQ(history(store).at("nights").size(), 2U);
+}
+
+TEST(Nightly, KeepsAHistoryThatWasCutShortAndBeginsANewOne) {
+  const TemporaryFolder folder;
+  const fs::path store = folder / "history";
+  ASSERT_EQ(night(store).exit_code, 0);
+  std::string bytes = read_file(store / "history.sqlite");
+  bytes.resize(bytes.size() - 10'000);
+  write_file(store / "history.sqlite", bytes);
+  const Outcome listed = mapproof({"history", store});
+  EXPECT_EQ(listed.exit_code, 2);
+  EXPECT_NE(listed.error.find("history.sqlite: is damaged"), std::string::npos) << listed.error;
+  const Outcome outcome = night(store);
+  EXPECT_EQ(outcome.exit_code, 0) << outcome.error;
+  EXPECT_EQ(read_file(store / "history.sqlite.damaged-1"), bytes);
+  EXPECT_EQ(history(store).at("nights").at(0).at("night"), 2) << "night 1 keeps its folder";
 }
 
 TEST(Nightly, KilledAtAnyTimeLosesNoFinishedNight) {

@@ -20,9 +20,9 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// In the child: becomes mapproof, its output going to the two descriptors.
-[[noreturn]] void become_mapproof(const std::vector<std::string>& arguments, const Limits& limits,
-                                  int out, int error) {
+/// In the child: becomes a program, its output going to the two descriptors.
+[[noreturn]] void become(const std::vector<std::string>& command, const Limits& limits, int out,
+                         int error) {
   ::dup2(::open("/dev/null", O_RDONLY), STDIN_FILENO);
   ::dup2(out, STDOUT_FILENO);
   ::dup2(error, STDERR_FILENO);
@@ -30,23 +30,33 @@ namespace fs = std::filesystem;
     const rlimit limit{limits.file_bytes, limits.file_bytes};
     ::setrlimit(RLIMIT_FSIZE, &limit);
   }
-  std::vector<char*> words{const_cast<char*>(MAPPROOF_PROGRAM)};
-  for (const std::string& argument : arguments)
-    words.push_back(const_cast<char*>(argument.c_str()));
+  std::vector<char*> words;
+  for (const std::string& word : command) words.push_back(const_cast<char*>(word.c_str()));
   words.push_back(nullptr);
-  ::execv(words[0], words.data());
+  ::execvp(words[0], words.data());
   ::_exit(127);
+}
+
+std::vector<std::string> with_program(std::vector<std::string> arguments) {
+  arguments.insert(arguments.begin(), program());
+  return arguments;
 }
 
 }  // namespace
 
+std::string program() { return MAPPROOF_PROGRAM; }
+
 Outcome mapproof(const std::vector<std::string>& arguments, const Limits& limits) {
+  return run_program(with_program(arguments), limits);
+}
+
+Outcome run_program(const std::vector<std::string>& command, const Limits& limits) {
   std::array<int, 2> out{};
   std::array<int, 2> error{};
   if (::pipe2(out.data(), O_CLOEXEC) != 0 || ::pipe2(error.data(), O_CLOEXEC) != 0)
     throw std::runtime_error("no pipe");
   const pid_t child = ::fork();
-  if (child == 0) become_mapproof(arguments, limits, out[1], error[1]);
+  if (child == 0) become(command, limits, out[1], error[1]);
   ::close(out[1]);
   ::close(error[1]);
 
@@ -78,7 +88,7 @@ pid_t start_mapproof(const std::vector<std::string>& arguments) {
   const pid_t child = ::fork();
   if (child != 0) return child;
   const int nowhere = ::open("/dev/null", O_WRONLY);
-  become_mapproof(arguments, {}, nowhere, nowhere);
+  become(with_program(arguments), {}, nowhere, nowhere);
 }
 
 std::vector<std::pair<std::string, std::string>> contents(const fs::path& folder) {

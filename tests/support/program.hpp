@@ -26,6 +26,12 @@ struct Limits {
 /// Runs mapproof with these arguments, without a shell, and waits for it.
 Outcome mapproof(const std::vector<std::string>& arguments, const Limits& limits = {});
 
+/// The same for any program, found by its name: its name or path, then its arguments. 127: none.
+Outcome run_program(const std::vector<std::string>& command, const Limits& limits = {});
+
+/// The path of mapproof.
+std::string program();
+
 /// Starts mapproof and lets it run, its output thrown away; to be killed and waited for.
 pid_t start_mapproof(const std::vector<std::string>& arguments);
 

@@ -219,6 +219,63 @@ TEST(HistoryStore, ThatIsDamagedIsKeptAsideAndSaid) {
   }
 }
 
+/// A store of three nights, damaged: its first `cut` bytes, `flips` of them changed.
+std::string damaged_bytes(const fs::path& path, double cut, int flips, Random& random) {
+  {
+    HistoryStore store = HistoryStore::open(path.parent_path());
+    for (int i = 1; i <= 3; ++i) {
+      Night night = sample_night(i, 1);
+      night.findings.push_back({.study = "sample", .sentence = "a finding"});
+      store.append(night);
+    }
+  }
+  std::string bytes = read_file(path);
+  bytes.resize(static_cast<std::size_t>(cut * static_cast<double>(bytes.size())));
+  for (int i = 0; i < flips; ++i) {
+    // Half of them in the first pages: the header, the tables' definitions, the nights.
+    const double reach = i % 2 == 0 ? 12'000.0 : static_cast<double>(bytes.size());
+    const auto at = static_cast<std::size_t>(
+        random.uniform(0.0, std::min(reach, static_cast<double>(bytes.size()))));
+    bytes[at] = static_cast<char>(bytes[at] ^ (1 << static_cast<int>(random.uniform(0.0, 8.0))));
+  }
+  write_file(path, bytes);
+  return bytes;
+}
+
+TEST(HistoryStore, WhateverByteIsDamagedIsReadOrKeptAsideOrRefusedAsItIs) {
+  Random random(19);
+  int kept_aside = 0;
+  for (int round = 0; round < 150; ++round) {
+    const TemporaryFolder folder;
+    const fs::path path = history_file(folder.path());
+    const double cut = round % 3 == 0 ? random.uniform(0.02, 0.99) : 1.0;
+    const std::string bytes = damaged_bytes(path, cut, round % 3 == 0 ? 0 : 1 + round % 5, random);
+    const fs::path aside = folder.path() / "history.sqlite.damaged-1";
+    try {
+      HistoryStore store = HistoryStore::open(folder.path());
+      EXPECT_NO_THROW(history_json(store, true)) << round;
+      EXPECT_EQ(fs::exists(aside), !store.remarks().empty()) << round;
+      EXPECT_NO_THROW(store.append(sample_night(store.last_number() + 1, 1))) << round;
+    } catch (const IoError& error) {  // Another program's, or of a later version.
+      EXPECT_FALSE(fs::exists(aside)) << round << error.what();
+      EXPECT_EQ(read_file(path), bytes) << round;
+    }
+    if (!fs::exists(aside)) continue;
+    ++kept_aside;
+    EXPECT_EQ(read_file(aside), bytes) << round;
+  }
+  EXPECT_GT(kept_aside, 60);
+}
+
+TEST(HistoryStore, ThatIsInUseIsNotTakenForADamagedOne) {
+  const TemporaryFolder folder;
+  HistoryStore::open(folder.path());
+  Database other(history_file(folder.path()), Database::Access::kWrite);
+  other.execute("BEGIN EXCLUSIVE");
+  EXPECT_THROW(HistoryStore::open(folder.path()), IoError);
+  EXPECT_FALSE(fs::exists(folder.path() / "history.sqlite.damaged-1"));
+}
+
 /// Appends nights to a store as long as it lives, each time under its lock, as the program does.
 [[noreturn]] void append_for_ever(const fs::path& folder, const fs::path& finished) {
   for (;;) {
@@ -270,6 +327,27 @@ TEST(HistoryPrune, KeepsTheLastEverySoManyPinnedAndWhatTheyWereComparedWith) {
             (std::vector<int>{1, 2, 3, 4, 6, 8, 10, 11, 12, 13, 15, 16, 17}));
   for (const char* bad : {"", "last=0", "last=3,", "every=7", "last=3,every=x", "last=99999999999"})
     EXPECT_THROW(parse_prune_rule(bad), InvalidInput) << bad;
+}
+
+TEST(HistoryPrune, FinishesWhatAnErrorLeftHalfDone) {
+  const TemporaryFolder folder;
+  HistoryStore store = HistoryStore::open(folder.path());
+  for (int number = 1; number <= 4; ++number) {
+    store.append(sample_night(number, 1));
+    write_file(night_folder(folder.path(), number) / "night.json", "{}");
+  }
+  const PruneRule rule{.last = 1};
+  {
+    Database other(history_file(folder.path()), Database::Access::kWrite);
+    other.execute(
+        "CREATE TRIGGER no_room BEFORE DELETE ON nights BEGIN SELECT RAISE(ABORT, 'no'); END");
+    EXPECT_THROW(prune(store, folder.path(), rule), IoError);
+    other.execute("DROP TRIGGER no_room");
+  }
+  prune(store, folder.path(), rule);
+  ASSERT_EQ(store.nights().size(), 1U);
+  for (int number = 1; number <= 4; ++number)
+    EXPECT_EQ(fs::exists(night_folder(folder.path(), number)), number == 4) << number;
 }
 
 TEST(ObjectFolder, KeepsAFigureOfTwoNightsOnceAndDropsWhatNoNightNames) {
