@@ -104,8 +104,8 @@ Action history_verb(CLI::App& app) {
   app.add_option("DIR", arguments->store, "Folder of the history")->required();
   auto* what = app.add_option_group("what");
   what->add_option("--prune", arguments->prune,
-                   "Remove all nights but the last N and those whose number K divides: "
-                   "last=N,every=K");
+                   "Remove all nights but the last N, those whose number K divides, the pinned and "
+                   "what these were compared with: last=N,every=K");
   what->add_option("--export", arguments->format, "Every value of every night, to standard output")
       ->check(CLI::IsMember({"csv", "json"}));
   what->add_option("--pin", arguments->pin, "Compare with this night from now on")
