@@ -53,7 +53,7 @@ class Follower {
   }
 
   OwnMap update(bool last) {
-    const FollowedUpdate update = map_.update(last);
+    const FollowedUpdate update = map_.update();
     OwnMap result;
     MapRecord& record = result.record;
     record.id = "map";

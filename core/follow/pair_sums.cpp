@@ -25,8 +25,9 @@ void PairSums::grow(Eigen::Index landmarks) {
   if (landmarks <= room) return;
   // Twice the room, so that landmarks that come one by one cost no copy each.
   const Eigen::Index size = std::max(landmarks, 2 * room);
-  for (Eigen::MatrixXd* matrix : {&products_, &squares_, &values_, &counts_})
-    grow_square(*matrix, size);
+  for (Eigen::MatrixXd* matrix : {&products_, &counts_}) grow_square(*matrix, size);
+  if (sensor_ != Sensor::kBearing) grow_square(squares_, size);
+  if (sensor_ == Sensor::kRange) grow_square(values_, size);
   first_.conservativeResize(size);
   first_.tail(size - room).setZero();
 }
@@ -46,16 +47,36 @@ void PairSums::add(const std::vector<StepEntry>& step) {
     if (counts_(entry.landmark, entry.landmark) == 0.0) first_(entry.landmark) = square;
     entry.value = square - first_(entry.landmark);
   }
-  const bool bearing = sensor_ == Sensor::kBearing;
-  for (const StepEntry& a : entries)
-    for (const StepEntry& b : entries) {
+  if (sensor_ == Sensor::kBearing)
+    add_bearings(entries);
+  else
+    add_values(entries);
+  ++steps_;
+}
+
+/// By unit vectors: a sine and a cosine of each, instead of a cosine of each pair.
+void PairSums::add_bearings(const std::vector<StepEntry>& entries) {
+  std::vector<Eigen::Vector2d> unit;
+  unit.reserve(entries.size());
+  for (const StepEntry& entry : entries)
+    unit.emplace_back(std::cos(entry.value), std::sin(entry.value));
+  for (std::size_t b = 0; b < entries.size(); ++b)
+    for (std::size_t a = b; a < entries.size(); ++a) {
+      products_(entries[a].landmark, entries[b].landmark) += unit[a].dot(unit[b]);
+      counts_(entries[a].landmark, entries[b].landmark) += 1.0;
+    }
+}
+
+void PairSums::add_values(const std::vector<StepEntry>& entries) {
+  for (const StepEntry& b : entries)
+    for (const StepEntry& a : entries) {
       const Eigen::Index i = a.landmark, j = b.landmark;
-      products_(i, j) += bearing ? std::cos(a.value - b.value) : a.value * b.value;
-      squares_(i, j) += bearing ? 1.0 : a.value * a.value;
-      values_(i, j) += a.value;
+      squares_(i, j) += a.value * a.value;
+      if (sensor_ == Sensor::kRange) values_(i, j) += a.value;
+      if (i < j) continue;
+      products_(i, j) += a.value * b.value;
       counts_(i, j) += 1.0;
     }
-  ++steps_;
 }
 
 std::vector<Eigen::Index> PairSums::seen() const {
@@ -66,20 +87,24 @@ std::vector<Eigen::Index> PairSums::seen() const {
   return rows;
 }
 
+double PairSums::count(Eigen::Index i, Eigen::Index j) const {
+  return counts_(std::max(i, j), std::min(i, j));
+}
+
 /// Of values less each landmark's mean over all its own steps.
 double PairSums::centred_product(Eigen::Index i, Eigen::Index j) const {
-  if (sensor_ != Sensor::kRange) return products_(i, j);
-  const double mean_i = values_(i, i) / counts_(i, i);
-  const double mean_j = values_(j, j) / counts_(j, j);
-  return products_(i, j) - mean_j * values_(i, j) - mean_i * values_(j, i) +
-         counts_(i, j) * mean_i * mean_j;
+  const double product = products_(std::max(i, j), std::min(i, j));
+  if (sensor_ != Sensor::kRange) return product;
+  const double mean_i = values_(i, i) / count(i, i);
+  const double mean_j = values_(j, j) / count(j, j);
+  return product - mean_j * values_(i, j) - mean_i * values_(j, i) + count(i, j) * mean_i * mean_j;
 }
 
 double PairSums::centred_square(Eigen::Index i, Eigen::Index j) const {
-  if (sensor_ == Sensor::kVisibility && lists_sightings_) return products_(i, i);
-  if (sensor_ != Sensor::kRange) return squares_(i, j);
-  const double mean = values_(i, i) / counts_(i, i);
-  return squares_(i, j) - 2.0 * mean * values_(i, j) + counts_(i, j) * mean * mean;
+  if (sensor_ == Sensor::kBearing) return count(i, j);
+  if (sensor_ == Sensor::kVisibility) return lists_sightings_ ? products_(i, i) : squares_(i, j);
+  const double mean = values_(i, i) / count(i, i);
+  return squares_(i, j) - 2.0 * mean * values_(i, j) + count(i, j) * mean * mean;
 }
 
 Proximities PairSums::proximities_of(const std::vector<Eigen::Index>& rows) const {
@@ -93,7 +118,7 @@ Proximities PairSums::proximities_of(const std::vector<Eigen::Index>& rows) cons
       const Eigen::Index i = rows[static_cast<std::size_t>(a)];
       const Eigen::Index j = rows[static_cast<std::size_t>(b)];
       const double common =
-          visibility && lists_sightings_ ? static_cast<double>(steps_) : counts_(i, j);
+          visibility && lists_sightings_ ? static_cast<double>(steps_) : count(i, j);
       double product = centred_product(i, j);
       const double square_i = centred_square(i, j), square_j = centred_square(j, i);
       double distance = 0.0;

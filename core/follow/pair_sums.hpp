@@ -23,7 +23,7 @@ class PairSums {
 
   /// Landmarks from now on: so far unobserved ones come to those there are.
   /// @throws InvalidInput for fewer than there are.
-  /// @note Memory 32 n^2 bytes for n landmarks, up to four times that while they become more.
+  /// @note Memory up to 32 n^2 bytes for n landmarks, four times that while they become more.
   void grow(Eigen::Index landmarks);
 
   /// Adds a step; landmarks that it does not list were not observed.
@@ -44,6 +44,9 @@ class PairSums {
   Proximities proximities_of(const std::vector<Eigen::Index>& rows) const;
 
  private:
+  void add_bearings(const std::vector<StepEntry>& entries);
+  void add_values(const std::vector<StepEntry>& entries);
+  double count(Eigen::Index i, Eigen::Index j) const;
   double centred_product(Eigen::Index i, Eigen::Index j) const;
   double centred_square(Eigen::Index i, Eigen::Index j) const;
 
@@ -51,11 +54,12 @@ class PairSums {
   Eigen::Index landmarks_ = 0;  ///< The matrices have room for more.
   Eigen::Index steps_ = 0;
   bool lists_sightings_ = true;  ///< Visibility: no 0 was listed so far.
-  // Entry (i, j) is over the steps that list both.
-  Eigen::MatrixXd products_;  ///< Of i's value and j's; cosines of differences for bearings.
-  Eigen::MatrixXd squares_;   ///< Of i's.
+  // Entry (i, j) is over the steps that list both. Those that are the same both ways are kept below
+  // the diagonal, and what a sensor has no use for is empty.
+  Eigen::MatrixXd products_;  ///< i >= j: of i's value and j's; cosines of differences of bearings.
+  Eigen::MatrixXd counts_;    ///< i >= j: steps.
+  Eigen::MatrixXd squares_;   ///< Of i's; not of bearings.
   Eigen::MatrixXd values_;    ///< Ranges: i's squared range, less the first.
-  Eigen::MatrixXd counts_;    ///< Steps.
   Eigen::VectorXd first_;     ///< Ranges: i's first squared range, against cancellation.
 };
 

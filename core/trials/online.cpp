@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
-#include <limits>
 
 #include <fmt/format.h>
 
@@ -18,28 +17,41 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-constexpr std::pair<const char*, Sensor> kSensors[] = {{"bearing", Sensor::kBearing},
-                                                       {"visibility", Sensor::kVisibility}};
-constexpr const char* kCarriedOn = "carried-on";
-constexpr const char* kAnew = "anew";
-const MethodSetting kSetting{Method::kSmacof, std::nullopt};
+constexpr Sensor kSensors[] = {Sensor::kBearing, Sensor::kVisibility, Sensor::kRange};
+
+/// A method, with one setting for all histories, and its two series.
+struct Followed {
+  MethodSetting setting;
+  const char* carried_on;
+  const char* anew;
+};
+
+const Followed kMethods[] = {
+    {{Method::kSmacof, std::nullopt}, "smacof", "smacof-anew"},
+    {{Method::kSmacofKnn, 6.0}, "smacof-knn", "smacof-knn-anew"},
+    {{Method::kIsomap, 6.0}, "isomap", "isomap-anew"},
+};
 
 TrialDesign design(const TrialExperiment& experiment) {
   TrialDesign design;
   design.question = fmt::format(
-      "Observations arrive one by one, and every {:g} of them the map by {} is carried on from "
-      "sums "
-      "over pairs and from its last state. How far is it from the map that all observations so far "
-      "make anew, and how many iterations does each take?",
-      number_option(experiment, "every"), label(kSetting));
-  for (const auto& [id, sensor] : kSensors)
-    design.setups.push_back({id, fmt::format("Maps from {}, carried on", name(sensor)),
+      "Observations arrive one by one, and every {:g} of them the map is made from sums over pairs "
+      "that are carried on. How far is it from the map that all observations so far make anew, and "
+      "through how many of them does each go?",
+      number_option(experiment, "every"));
+  for (const Sensor sensor : kSensors)
+    design.setups.push_back({std::string(name(sensor)),
+                             fmt::format("Maps from {}, carried on", name(sensor)),
                              "observations so far", list_option(experiment, "observations")});
-  design.series = {{kCarriedOn, "carried on"}, {kAnew, "made anew"}};
-  design.quantities = {{"gap_percent", "From the map made anew, of its size", "%", true},
-                       {"greatest_gap_percent", "The same, at most so far", "%", true},
-                       {"beyond_percent", "Updates so far beyond 1 % of its size", "%", true},
-                       {"iterations", "Iterations an update", "", true}};
+  for (const Followed& method : kMethods) {
+    design.series.push_back({method.carried_on, label(method.setting) + ", carried on"});
+    design.series.push_back({method.anew, label(method.setting) + ", anew"});
+  }
+  design.quantities = {
+      {"gap_ppm", "From the map made anew, of its size", "ppm", true},
+      {"greatest_gap_ppm", "The same, at most over all updates so far", "ppm", true},
+      {"beyond_percent", "Updates so far beyond the stated bound", "%", true},
+      {"steps_gone_through", "Observations gone through for the update", "", true}};
   return design;
 }
 
@@ -54,42 +66,31 @@ std::vector<StepEntry> step_of(const ObservationHistory& history, Eigen::Index t
   return step;
 }
 
-/// What the updates since the last level came to.
-struct Span {
-  double gap = std::numeric_limits<double>::quiet_NaN();  ///< Of the last.
-  double greatest = 0.0;                                  ///< Of all so far.
-  int beyond = 0;                                         ///< Updates so far, beyond the bound.
-  int updates_so_far = 0;
+/// What the updates so far came to.
+struct Gaps {
+  double last = 0.0;
+  double greatest = 0.0;
   int updates = 0;
-  int carried_on = 0;  ///< Iterations.
-  int anew = 0;
+  int beyond = 0;  ///< The stated bound.
+
+  void add(double gap) {
+    last = gap;
+    greatest = std::max(greatest, gap);
+    ++updates;
+    beyond += gap <= kFollowedWithin ? 0 : 1;
+  }
 };
 
-void add(TrialPart& part, const char* setup, double level, Span& span) {
-  const double updates = std::max(span.updates, 1);
-  part.trials.push_back({.setup = setup,
-                         .series = kCarriedOn,
-                         .level = level,
-                         .values = {100.0 * span.gap, 100.0 * span.greatest,
-                                    100.0 * span.beyond / std::max(span.updates_so_far, 1),
-                                    span.carried_on / updates},
-                         .statuses = {}});
-  part.trials.push_back({.setup = setup,
-                         .series = kAnew,
-                         .level = level,
-                         .values = {0.0, 0.0, 0.0, span.anew / updates},
-                         .statuses = {}});
-  span.updates = span.carried_on = span.anew = 0;
-}
-
-/// Follows one history from its first step to its last.
-void follow(const TrialContext& context, const char* setup, const ObservationHistory& history,
+/// Follows one history from its first step to its last by one method.
+void follow(const TrialContext& context, const Followed& method, const ObservationHistory& history,
             TrialPart& part) {
   const auto every = static_cast<Eigen::Index>(number_option(context.experiment, "every"));
   const std::vector<double>& levels = list_option(context.experiment, "observations");
-  FollowedMap map(history.sensor, {.setting = kSetting, .embedder = {}});
+  const std::string setup{name(history.sensor)};
+  FollowedMap map(history.sensor, {.setting = method.setting, .embedder = {}});
   map.grow(history.landmarks());
-  Span span;
+  Gaps gaps;
+  Eigen::Index before = 0;
   double carried_on_s = 0.0, anew_s = 0.0;
   for (Eigen::Index t = 1; t <= history.steps(); ++t) {
     Clock::time_point start = Clock::now();
@@ -101,28 +102,36 @@ void follow(const TrialContext& context, const char* setup, const ObservationHis
     const Embedding update = map.update().embedding;
     carried_on_s += seconds_since(start);
     start = Clock::now();
-    const Embedding whole = HistoryEmbedder(history, t).embed(kSetting);
+    const Embedding whole = HistoryEmbedder(history, t).embed(method.setting);
     anew_s += seconds_since(start);
-    span.gap = relative_gap(update.coordinates, whole.coordinates);
-    span.greatest = std::max(span.greatest, span.gap);
-    span.beyond += span.gap > kFollowedWithin ? 1 : 0;
-    ++span.updates_so_far;
-    span.carried_on += update.iterations;
-    span.anew += whole.iterations;
-    ++span.updates;
-    if (asked) add(part, setup, static_cast<double>(t), span);
+    gaps.add(relative_gap(update.coordinates, whole.coordinates));
+    const auto trial = [&](const char* series, const std::vector<double>& values) {
+      part.trials.push_back({.setup = setup,
+                             .series = series,
+                             .level = static_cast<double>(t),
+                             .values = values,
+                             .statuses = {}});
+    };
+    if (asked) {
+      trial(method.carried_on, {1e6 * gaps.last, 1e6 * gaps.greatest,
+                                100.0 * gaps.beyond / static_cast<double>(gaps.updates),
+                                static_cast<double>(t - before)});
+      trial(method.anew, {0.0, 0.0, 0.0, static_cast<double>(t)});
+    }
+    before = t;
   }
-  add_seconds(part, kCarriedOn, carried_on_s);
-  add_seconds(part, kAnew, anew_s);
+  add_seconds(part, method.carried_on, carried_on_s);
+  add_seconds(part, method.anew, anew_s);
 }
 
 TrialPart make(const TrialContext& context) {
   TrialPart part;
-  for (const auto& [id, sensor] : kSensors) {
+  for (const Sensor sensor : kSensors) {
     SensorOptions options;
     options.sensor = sensor;
     Random noise(derive_seed(context.seed, {static_cast<std::uint64_t>(sensor)}));
-    follow(context, id, observe(*context.world, *context.path, options, noise), part);
+    const ObservationHistory history = observe(*context.world, *context.path, options, noise);
+    for (const Followed& method : kMethods) follow(context, method, history, part);
   }
   return part;
 }
@@ -131,18 +140,26 @@ std::vector<std::string> conclude(const TrialStudy& study) {
   std::vector<std::string> sentences;
   for (const TrialSetup& setup : study.design.setups) {
     const double last = setup.levels.back();
-    double greatest = 0.0;
-    for (const double gap : trial_values(study, setup.id, kCarriedOn, last, "greatest_gap_percent"))
-      greatest = std::max(greatest, gap);
+    double greatest = 0.0, beyond = 0.0;
+    for (const Followed& method : kMethods) {
+      const auto most = [&](const char* quantity, double so_far) {
+        for (const double value : trial_values(study, setup.id, method.carried_on, last, quantity))
+          so_far = std::max(so_far, value);
+        return so_far;
+      };
+      greatest = most("greatest_gap_ppm", greatest);
+      beyond = most("beyond_percent", beyond);
+    }
     sentences.push_back(fmt::format(
-        "{}: at {:g} observations the map carried on is {:.3f} % of its size from the map made "
-        "anew on average, {:.3f} % at most over all updates, and beyond 1 % in {:.2f} % of them; "
-        "it takes {:.1f} iterations an update "
-        "instead of {:.1f}.",
-        setup.title, last, trial_mean(study, setup.id, kCarriedOn, last, "gap_percent"), greatest,
-        trial_mean(study, setup.id, kCarriedOn, last, "beyond_percent"),
-        trial_mean(study, setup.id, kCarriedOn, last, "iterations"),
-        trial_mean(study, setup.id, kAnew, last, "iterations")));
+        "{}: up to {:g} observations no map carried on, whatever the method, was further than "
+        "{:.2g} ppm of its size from the map made anew{}; it goes through {:g} observations for "
+        "its last update instead of {:g}.",
+        setup.title, last, greatest,
+        beyond > 0.0 ? fmt::format("; beyond the stated bound in {:.2g} % of the updates of one "
+                                   "run",
+                                   beyond)
+                     : "",
+        trial_mean(study, setup.id, kMethods[0].carried_on, last, "steps_gone_through"), last));
   }
   return sentences;
 }

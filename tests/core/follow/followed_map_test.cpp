@@ -1,6 +1,8 @@
 #include "core/follow/followed_map.hpp"
 
+#include <algorithm>
 #include <cmath>
+#include <string>
 
 #include <gtest/gtest.h>
 
@@ -27,53 +29,63 @@ std::vector<StepEntry> step_of(const ObservationHistory& history, Eigen::Index t
   return step;
 }
 
-class FollowedBy : public ::testing::TestWithParam<MethodSetting> {};
-
-TEST_P(FollowedBy, EveryUpdateIsTheMapOfTheWholeHistory) {
-  for (const Sensor sensor : {Sensor::kBearing, Sensor::kVisibility}) {
-    const ObservationHistory history = walked(sensor, 3, 400);
-    FollowedMap map(sensor, {.setting = GetParam(), .embedder = {}, .whole_every = 50});
-    map.grow(history.landmarks());
+/// Some entries not observed, in stretches, and the last landmark at first not at all.
+ObservationHistory with_gaps(ObservationHistory history, std::uint64_t seed) {
+  Random random(seed);
+  const Eigen::Index last = history.landmarks() - 1;
+  for (Eigen::Index i = 0; i <= last; ++i) {
+    bool is_gone = false;
     for (Eigen::Index t = 0; t < history.steps(); ++t) {
-      map.add(step_of(history, t));
-      if (t % 20 != 19 || t < 100) continue;
-      HistoryEmbedder whole(history, t + 1);
-      const FollowedUpdate update = map.update();
-      EXPECT_LT(relative_gap(update.embedding.coordinates, whole.embed(GetParam()).coordinates),
-                update.whole ? 1e-6 : kFollowedWithin)
-          << t;
+      if (random.uniform() < 0.1) is_gone = random.uniform() < 0.3;
+      if (is_gone || (i == last && t < 40)) history.values(i, t) = NAN;
     }
   }
+  return history;
+}
+
+class FollowedBy : public ::testing::TestWithParam<MethodSetting> {};
+
+void expect_maps_of_the_whole(const ObservationHistory& history, const MethodSetting& setting,
+                              std::uint64_t seed) {
+  FollowedMap map(history.sensor, {.setting = setting, .embedder = {}});
+  map.grow(history.landmarks());
+  double greatest = 0.0;
+  for (Eigen::Index t = 0; t < history.steps(); ++t) {
+    map.add(step_of(history, t));
+    if (t % 10 != 9) continue;
+    const Points update = map.update().embedding.coordinates;
+    const Points whole = HistoryEmbedder(history, t + 1).embed(setting).coordinates;
+    ASSERT_EQ(update.array().isNaN().count(), whole.array().isNaN().count()) << seed << ' ' << t;
+    if (whole.allFinite()) greatest = std::max(greatest, relative_gap(update, whole));
+  }
+  EXPECT_LT(greatest, kFollowedWithin) << name(history.sensor) << ", seed " << seed;
+}
+
+// Visibility among them, whose stress has several minima: by weights of neighbours, too.
+TEST_P(FollowedBy, EveryUpdateIsTheMapOfTheWholeHistoryWithinTheStatedBound) {
+  for (std::uint64_t seed = 1; seed <= 4; ++seed)
+    for (const Sensor sensor : {Sensor::kBearing, Sensor::kVisibility, Sensor::kRange}) {
+      const ObservationHistory history = walked(sensor, seed, 300);
+      expect_maps_of_the_whole(history, GetParam(), seed);
+      expect_maps_of_the_whole(with_gaps(history, seed), GetParam(), seed);
+    }
 }
 
 INSTANTIATE_TEST_SUITE_P(Follow, FollowedBy,
                          ::testing::Values(MethodSetting{Method::kLpca, std::nullopt},
                                            MethodSetting{Method::kSmacof, std::nullopt},
-                                           MethodSetting{Method::kIsomap, 6.0}),
-                         [](const auto& info) {
-                           return std::string(mapproof::info(info.param.method).name);
+                                           MethodSetting{Method::kSmacofKnn, 6.0},
+                                           MethodSetting{Method::kIsomap, 6.0},
+                                           MethodSetting{Method::kKpcaGaussian, 0.5},
+                                           MethodSetting{Method::kKpcaPolynomial, 2.0},
+                                           MethodSetting{Method::kLaplacianEigenmap, 6.0},
+                                           MethodSetting{Method::kLle, 8.0},
+                                           MethodSetting{Method::kHessianLle, 8.0}),
+                         [](const auto& tested) {
+                           std::string word{mapproof::info(tested.param.method).name};
+                           std::erase(word, '-');
+                           return word;
                          });
-
-TEST(FollowedMap, GoesOnFromItsLastMapInFewerIterations) {
-  const ObservationHistory history = walked(Sensor::kBearing, 5, 600);
-  FollowedMap map(Sensor::kBearing,
-                  {.setting = {Method::kSmacof, std::nullopt}, .embedder = {}, .whole_every = 4});
-  map.grow(history.landmarks());
-  int warm = 0, whole = 0, warm_iterations = 0, whole_iterations = 0;
-  for (Eigen::Index t = 0; t < history.steps(); ++t) {
-    map.add(step_of(history, t));
-    if (t % 20 != 19 || t < 200) continue;
-    const FollowedUpdate update = map.update();
-    (update.whole ? whole : warm) += 1;
-    (update.whole ? whole_iterations : warm_iterations) += update.embedding.iterations;
-    if (update.gap) {
-      EXPECT_LT(*update.gap, kFollowedWithin);
-    }
-  }
-  EXPECT_EQ(whole, 7);  // Updates 0, 1, 3, 7, 11, 15 and 19.
-  EXPECT_EQ(warm, 13);
-  EXPECT_LT(warm_iterations * whole, whole_iterations * warm);
-}
 
 TEST(FollowedMap, HoldsLandmarksFromWhenTheyAreSeen) {
   FollowedMap map(Sensor::kBearing, {.setting = {Method::kSmacof, std::nullopt}, .embedder = {}});
@@ -94,7 +106,6 @@ TEST(FollowedMap, HoldsLandmarksFromWhenTheyAreSeen) {
     map.add(step);
   }
   update = map.update();
-  EXPECT_TRUE(update.whole);
   EXPECT_TRUE(update.embedding.coordinates.allFinite());
 }
 

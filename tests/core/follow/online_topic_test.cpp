@@ -30,13 +30,15 @@ TEST(OnlineTopic, FollowsEverySensorToEveryLevel) {
                                     .seed = 5,
                                     .data = {},
                                     .with_maps = true})};
-  ASSERT_EQ(study.parts[0].trials.size(), 8U);
+  // Three sensors, three methods, two levels, carried on and anew.
+  ASSERT_EQ(study.parts[0].trials.size(), 36U);
   for (const Trial& trial : study.parts[0].trials) {
     EXPECT_GE(trial.values[1], trial.values[0]);
-    EXPECT_LE(trial.values[0], 100.0);
-    EXPECT_GT(trial.values[3], 0.0);
+    EXPECT_LE(trial.values[1], 1.0) << trial.setup << ' ' << trial.series;
+    EXPECT_EQ(trial.values[2], 0.0);
+    EXPECT_EQ(trial.values[3], trial.series.ends_with("-anew") ? trial.level : 50.0);
   }
-  EXPECT_EQ(kOnlineTopic.conclude(study).size(), 2U);
+  EXPECT_EQ(kOnlineTopic.conclude(study).size(), 3U);
 }
 
 }  // namespace
