@@ -52,7 +52,7 @@ class Follower {
     return std::ssize(steps);
   }
 
-  OwnMap update(bool last) {
+  OwnMap update() {
     const FollowedUpdate update = map_.update();
     OwnMap result;
     MapRecord& record = result.record;
@@ -176,7 +176,7 @@ OwnMap follow_map(const FollowOrder& order, const Console& console, const WriteF
     }
     follower.stream().take(bytes);
     if (!due.after(follower.take_steps())) continue;
-    const OwnMap map = follower.update(false);
+    const OwnMap map = follower.update();
     write(map, false);
     console.detail(fmt::format("{} steps, {} landmarks", map.record.step, map.record.names.size()));
     due.done();
@@ -185,7 +185,7 @@ OwnMap follow_map(const FollowOrder& order, const Console& console, const WriteF
   follower.stream().end();
   follower.take_steps();
   if (follower.steps() == 0) throw IoError(file.name(), "held no observations");
-  OwnMap last = follower.update(true);
+  OwnMap last = follower.update();
   last.remarks = std::move(remarks);
   write(last, true);
   return last;

@@ -39,7 +39,7 @@ using WriteFollowed = std::function<void(const OwnMap& map, bool last)>;
 /// Follows a growing file to its end, or to SIGINT or SIGTERM, and writes its map again and again.
 /// A file that is cut short or replaced ends it, too, with a remark. Without anchors each map is
 /// laid on the one before, so that it does not jump.
-/// @return The last map, which was begun anew.
+/// @return The last map.
 /// @throws IoError for what cannot be read.
 OwnMap follow_map(const FollowOrder& order, const Console& console, const WriteFollowed& write);
 
