@@ -60,6 +60,16 @@ std::string unknown_verb(const CLI::App& app, int argc, char** argv) {
                         : "; did you mean \"" + std::string(meant) + "\"?");
 }
 
+/// "help" and "help VERB" as "--help" and "VERB --help".
+std::vector<char*> with_help(int argc, char** argv) {
+  std::vector<char*> words(argv, argv + argc);
+  static char help[] = "--help";
+  if (argc < 2 || std::string_view(argv[1]) != "help") return words;
+  words.erase(words.begin() + 1);
+  words.push_back(help);
+  return words;
+}
+
 int run_verb_of(int argc, char** argv) {
   CLI::App app(
       "Maps from what a robot observed, without ever estimating its pose, and proof of them",
@@ -128,7 +138,8 @@ int main(int argc, char** argv) {
   // A limit on file sizes then fails the write, which says so and cleans up, not the program.
   std::signal(SIGXFSZ, SIG_IGN);
   try {
-    return run_verb_of(argc, argv);
+    std::vector<char*> words = with_help(argc, argv);
+    return run_verb_of(static_cast<int>(words.size()), words.data());
   } catch (const IoError& error) {
     return fail(error.what(), kUsage);
   } catch (const InvalidInput& error) {

@@ -102,7 +102,7 @@ class WalkedWorld {
     HistoryEmbedder embedder(history, history.steps());
     TrialMap shown;
     shown.id = fmt::format("{}-{}", id, series_id(setting));
-    shown.title = fmt::format("{} from {}, with 95 % ellipses by the bootstrap.", label(setting),
+    shown.title = fmt::format("{} from {}, with 95 % ellipses by the bootstrap", label(setting),
                               name(history.sensor));
     MapRecord& map = shown.map;
     map.id = shown.id;
@@ -177,13 +177,11 @@ std::vector<std::string> conclude(const TrialStudy& study) {
   for (const TrialSetup& setup : study.design.setups) {
     const auto [low, high] = range_of(study, setup, "mean_covered_percent");
     if (low > high) continue;
-    sentences.push_back(
-        fmt::format("{}: the 95 % ellipses hold the mean of the method's own maps for {:.1f} to "
-                    "{:.1f} % of the "
-                    "landmarks, by method and level{}.",
-                    setup.title, low, high,
-                    low >= 93.0 && high <= 97.0 ? ", all within the 93 to 97 % aimed at"
-                                                : "; 93 to 97 % was aimed at"));
+    sentences.push_back(fmt::format(
+        "{}: the 95 % ellipses hold the mean of the method's own maps for {:.1f} to {:.1f} % of "
+        "the "
+        "landmarks, by method and level; the 93 to 97 % aimed at are {}.",
+        setup.title, low, high, low >= 93.0 && high <= 97.0 ? "met by all" : "not met by all"));
     const auto [truth_low, truth_high] = range_of(study, setup, "truth_covered_percent");
     const auto [bias_low, bias_high] = range_of(study, setup, "bias_m");
     sentences.push_back(fmt::format(

@@ -171,11 +171,9 @@ double mean_over_all(const TrialStudy& study, std::string_view series, const cha
 std::string sentence(const TrialStudy& study, const char* quantity, const char* when) {
   std::string best;
   double least = HUGE_VAL;
-  std::string all;
   for (const TrialSeries& series : study.design.series) {
     const double regret = mean_over_all(study, series.id, quantity);
     if (std::isnan(regret)) continue;
-    all += fmt::format("{}{} {:.3f}", all.empty() ? "" : ", ", series.label, regret);
     if (series.id == kRandom || series.id == kFixed || regret >= least) continue;
     least = regret;
     best = series.label;
@@ -183,9 +181,9 @@ std::string sentence(const TrialStudy& study, const char* quantity, const char* 
   return fmt::format(
       "{} the best criterion over all sensors and numbers of steps is: {}, whose pick is {:.3f} m "
       "worse than the best map on average; a fixed method is {:.3f} m worse and a random pick "
-      "{:.3f} m. Mean regret in m: {}.",
+      "{:.3f} m.",
       when, best, least, mean_over_all(study, kFixed, quantity),
-      mean_over_all(study, kRandom, quantity), all);
+      mean_over_all(study, kRandom, quantity));
 }
 
 std::vector<std::string> conclude(const TrialStudy& study) {

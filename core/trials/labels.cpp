@@ -38,7 +38,7 @@ TrialDesign design(const TrialExperiment& experiment) {
       "and what is won by estimating the correspondence? Maps are of SMACOF over K = {:g} "
       "neighbours.",
       number_option(experiment, "stretch"), number_option(experiment, "neighbours"));
-  const std::string label = "share of labels confused, %";
+  const std::string label = "labels confused [%]";
   design.setups = {
       {kUnlabelled, "Readings without a label", label, percent},
       {kConfused, "Readings under a wrong label, not known which", label, percent},
@@ -97,12 +97,14 @@ Confused confused_history(const ObservationHistory& truth, double share, Eigen::
   return result;
 }
 
-/// The share of confused readings that are where they belong; NaN without any.
+/// Of the readings that the dealing gave to another landmark, the share that is where it belongs;
+/// NaN without any.
 double correct_percent(const ObservationHistory& found, const ObservationHistory& truth,
-                       const Mask& confused) {
-  const auto all = confused.count();
+                       const ObservationHistory& given) {
+  const Mask wrong = given.values.array() != truth.values.array();
+  const auto all = wrong.count();
   if (all == 0) return std::numeric_limits<double>::quiet_NaN();
-  const auto right = (confused && (found.values.array() == truth.values.array())).count();
+  const auto right = (wrong && (found.values.array() == truth.values.array())).count();
   return 100.0 * static_cast<double>(right) / static_cast<double>(all);
 }
 
@@ -147,9 +149,9 @@ class ConfusedMaps {
     part_.trials.push_back({setup_.id,
                             series,
                             level_,
-                            {series == std::string_view(kLeftOut)
-                                 ? none
-                                 : correct_percent(history, truth_, confused.confused),
+                            {series == std::string_view(kEstimated)
+                                 ? correct_percent(history, truth_, confused.history)
+                                 : none,
                              map.score ? map.score->mpe_m : none,
                              map.score ? map.score->moe_unmirrored_percent : none},
                             map.statuses});
@@ -162,7 +164,8 @@ class ConfusedMaps {
     const std::string id = fmt::format("{}-{}", setup_.id, series);
     TrialMap shown;
     shown.id = id;
-    shown.title = fmt::format("{}, {:g} %: {}.", setup_.title, level_, series);
+    shown.title = fmt::format("{}, {}: {}", setup_.title, level_words(setup_, level_),
+                              series_label(design(context_.experiment), series));
     shown.map.id = id;
     shown.map.sensor = truth_.sensor;
     shown.map.setting = setting;
@@ -202,21 +205,27 @@ TrialPart make(const TrialContext& context) {
 
 std::vector<std::string> conclude(const TrialStudy& study) {
   std::vector<std::string> sentences;
-  for (const TrialSetup& setup : study.design.setups)
+  for (const TrialSetup& setup : study.design.setups) {
+    std::vector<std::string> levels, right, given, estimated;
     for (const double level : setup.levels) {
-      if (level == 0.0) continue;
       const auto mean = [&](const char* series, const char* quantity) {
         return trial_mean(study, setup.id, series, level, quantity);
       };
-      const double given = mean(kGiven, "mpe_m");
-      const double estimated = mean(kEstimated, "mpe_m");
-      if (std::isnan(given) || std::isnan(estimated)) continue;
-      sentences.push_back(fmt::format(
-          "{}, {:g} %: {:.1f} % of the confused labels are set right; the MPE is {:.3f} m with "
-          "labels as given and {:.3f} m with those estimated{}.",
-          setup.title, level, mean(kEstimated, "correct_percent"), given, estimated,
-          estimated < given ? "" : ", which is no better"));
+      if (level == 0.0 || std::isnan(mean(kGiven, "mpe_m")) ||
+          std::isnan(mean(kEstimated, "mpe_m")))
+        continue;
+      levels.push_back(fmt::format("{:g}", level));
+      right.push_back(fmt::format("{:.0f}", mean(kEstimated, "correct_percent")));
+      given.push_back(fmt::format("{:.3f}", mean(kGiven, "mpe_m")));
+      estimated.push_back(fmt::format("{:.3f}", mean(kEstimated, "mpe_m")));
     }
+    if (levels.empty()) continue;
+    sentences.push_back(fmt::format(
+        "{}: of {} % of the labels confused, {} % are set right; the mean MPE is {} m with labels "
+        "as given and {} m with those estimated.",
+        setup.title, all_listed(levels), all_listed(right), all_listed(given),
+        all_listed(estimated)));
+  }
   return sentences;
 }
 

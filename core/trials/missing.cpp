@@ -70,7 +70,7 @@ TrialDesign design(const TrialExperiment& experiment) {
       number_option(experiment, "dimensions"), number_option(experiment, "covisible_neighbours"),
       number_option(experiment, "smacof_neighbours"),
       number_option(experiment, "isomap_neighbours"));
-  const std::string label = "share missing, %";
+  const std::string label = "share missing [%]";
   design.setups = {{kAtRandom, "Entries missing at random", label,
                     percent(list_option(experiment, "shares_at_random"))},
                    {kLimitedRange, "Distant landmarks not observed", label,
@@ -163,7 +163,8 @@ class GappedHistory {
     const std::string id = fmt::format("{}-{}", setup_.id, series);
     part_.maps.push_back(
         {.id = id,
-         .title = fmt::format("{}, {:g} % of the entries: {}.", setup_.title, level_, series),
+         .title = fmt::format("{}, {}: {}", setup_.title, level_words(setup_, level_),
+                              series_label(design(context_.experiment), series)),
          .map = {.id = id,
                  .sensor = history_.sensor,
                  .setting = setting,
@@ -241,7 +242,7 @@ std::vector<std::string> conclude(const TrialStudy& study) {
       const std::string words = ranking(study, setup, level);
       if (words.empty() || (level != setup.levels.back() && level != 50.0)) continue;
       sentences.push_back(
-          fmt::format("{}, {:g} % of the entries, mean MPE: {}.", setup.title, level, words));
+          fmt::format("{}, {}, mean MPE: {}.", setup.title, level_words(setup, level), words));
     }
   return sentences;
 }

@@ -38,11 +38,11 @@ TrialDesign design(const TrialExperiment& experiment) {
       label({Method::kIsomap, 6.0}), label({Method::kSmacofKnn, 8.0}));
   const std::vector<double>& noise = list_option(experiment, "bearing_noise_deg");
   design.setups = {{kBearingNoise, "Visibility with bearings of more and more noise",
-                    "noise of bearings, °", noise},
+                    "noise of bearings [°]", noise},
                    {kVisibilityErrors, "Bearings with visibility that errs more and more",
-                    "entries of visibility that are wrong, %",
+                    "entries of visibility that are wrong [%]",
                     list_option(experiment, "visibility_errors_percent")},
-                   {kRangeToo, "Visibility, bearing and range", "noise of bearings, °", noise}};
+                   {kRangeToo, "Visibility, bearing and range", "noise of bearings [°]", noise}};
   for (const Sensor sensor : {Sensor::kVisibility, Sensor::kBearing, Sensor::kRange}) {
     const std::string id(name(sensor));
     design.series.push_back({id, id + " alone"});
@@ -151,37 +151,46 @@ TrialPart make(const TrialContext& context) {
   return part;
 }
 
-/// Means of maps of one quality differ by less than this share.
-constexpr double kMuch = 0.95;
+/// The series of least mean MPE among some, and that mean; null if none has one.
+struct Best {
+  const TrialSeries* series = nullptr;
+  double mean_m = HUGE_VAL;
+};
 
-/// The series of least mean MPE among some, and that mean.
 template <typename Names>
-std::pair<std::string, double> best_of(const TrialStudy& study, const TrialSetup& setup,
-                                       double level, const Names& names) {
-  std::pair<std::string, double> best{"", HUGE_VAL};
+Best best_of(const TrialStudy& study, const TrialSetup& setup, double level, const Names& names) {
+  Best best;
   for (const TrialSeries& series : study.design.series) {
     if (std::ranges::find(names, series.id) == std::end(names)) continue;
     const double mean = trial_mean(study, setup.id, series.id, level, "mpe_m");
-    if (mean < best.second) best = {series.label, mean};
+    if (mean < best.mean_m) best = {&series, mean};
   }
   return best;
 }
 
+/// "at noise of bearings 20° joint map has a mean MPE of 0.012 m, range alone 0.013 m (better)".
+std::string words_at(const TrialStudy& study, const TrialSetup& setup, double level) {
+  const Best single = best_of(study, setup, level, kSingles);
+  const Best mix = best_of(study, setup, level, kMixes);
+  if (single.series == nullptr || mix.series == nullptr) return "";
+  const auto difference =
+      trial_difference(study, setup.id, mix.series->id, single.series->id, level, "mpe_m");
+  return fmt::format("at {}, {} has a mean MPE of {:.3f} m and {} one of {:.3f} m ({})",
+                     level_words(setup, level), mix.series->label, mix.mean_m, single.series->label,
+                     single.mean_m, difference ? verdict_words(*difference) : "no run has both");
+}
+
 std::vector<std::string> conclude(const TrialStudy& study) {
   std::vector<std::string> sentences;
-  for (const TrialSetup& setup : study.design.setups)
-    for (const double level : setup.levels) {
-      const auto [single, single_m] = best_of(study, setup, level, kSingles);
-      const auto [mix, mix_m] = best_of(study, setup, level, kMixes);
-      if (!std::isfinite(single_m) || !std::isfinite(mix_m)) continue;
-      const char* verdict = mix_m < kMuch * single_m   ? "better than"
-                            : mix_m * kMuch < single_m ? "about as good as"
-                                                       : "worse than";
-      sentences.push_back(fmt::format(
-          "{}, {:g}: {} has an MPE of {:.3f} m, {} one of {:.3f} m; together is {} the best sensor "
-          "alone.",
-          setup.title, level, single, single_m, mix, mix_m, verdict));
-    }
+  for (const TrialSetup& setup : study.design.setups) {
+    std::vector<std::string> ends = {words_at(study, setup, setup.levels.front())};
+    if (setup.levels.size() > 1) ends.push_back(words_at(study, setup, setup.levels.back()));
+    std::erase(ends, "");
+    if (!ends.empty())
+      sentences.push_back(
+          fmt::format("{}: the best of the maps together beside the best of one sensor: {}.",
+                      setup.title, fmt::join(ends, "; ")));
+  }
   return sentences;
 }
 

@@ -32,10 +32,10 @@ TrialDesign design(const TrialExperiment& experiment) {
       "step? Each run tries {:g} landmarks, one at a time.",
       number_option(experiment, "reach_m"), number_option(experiment, "tried"));
   design.setups = {
-      {kDistance, "Moves of several lengths", "moved by, m",
+      {kDistance, "Moves of several lengths", "moved by [m]",
        list_option(experiment, "distances_m")},
       {kNoise, fmt::format("A move of {:g} m under noise", number_option(experiment, "distance_m")),
-       "noise of the range, share", list_option(experiment, "noises")}};
+       "noise of the range, as a share of it", list_option(experiment, "noises")}};
   design.series = {{kTest, "Permutation test of the place over time"}};
   design.quantities = {{"named_percent", "Moved landmark named", "%", false},
                        {"false_percent", "Logs in which another is named", "%", true},
@@ -125,27 +125,43 @@ TrialPart make(const TrialContext& context) {
   return part;
 }
 
+/// The mean of a quantity at each level that has one: "0, 50 and 100".
+std::string means_text(const TrialStudy& study, const TrialSetup& setup, const char* quantity) {
+  std::vector<std::string> means;
+  for (const double level : setup.levels)
+    if (const double mean = trial_mean(study, setup.id, kTest, level, quantity); !std::isnan(mean))
+      means.push_back(fmt::format("{:.0f}", mean));
+  return all_listed(means);
+}
+
+double greatest_mean(const TrialStudy& study, const TrialSetup& setup, const char* quantity) {
+  double greatest = 0.0;
+  for (const double level : setup.levels)
+    if (const double mean = trial_mean(study, setup.id, kTest, level, quantity); mean > greatest)
+      greatest = mean;
+  return greatest;
+}
+
 std::vector<std::string> conclude(const TrialStudy& study) {
   std::vector<std::string> sentences;
-  for (const TrialSetup& setup : study.design.setups)
-    for (const double level : setup.levels) {
-      const auto mean = [&](const char* quantity) {
-        return trial_mean(study, setup.id, kTest, level, quantity);
-      };
-      if (std::isnan(mean("false_percent"))) continue;
-      if (setup.id == kDistance && level == 0.0) {
-        sentences.push_back(fmt::format(
-            "Where nothing moves, a landmark is named in {:.1f} % of the logs; the level is 5 %.",
-            mean("false_percent")));
-        continue;
-      }
-      std::string sentence = fmt::format("{}, {:g}: named in {:.0f} % of the logs", setup.title,
-                                         level, mean("named_percent"));
-      if (!std::isnan(mean("step_error")))
-        sentence += fmt::format(", the step {:.0f} steps off on the average", mean("step_error"));
-      sentences.push_back(
-          sentence + fmt::format("; another landmark named in {:.1f} %.", mean("false_percent")));
-    }
+  const double still = trial_mean(study, kDistance, kTest, 0.0, "false_percent");
+  if (!std::isnan(still))
+    sentences.push_back(fmt::format(
+        "Where nothing moves, a landmark is named in {:.1f} % of the logs; the level is 5 %.",
+        still));
+  for (const TrialSetup& setup : study.design.setups) {
+    std::vector<std::string> levels;
+    for (const double level : setup.levels)
+      if (!std::isnan(trial_mean(study, setup.id, kTest, level, "named_percent")))
+        levels.push_back(fmt::format("{:g}", level));
+    if (levels.empty()) continue;
+    sentences.push_back(fmt::format(
+        "{}: at {} ({}) the moved landmark is named in {} % of the logs, another one in {:.1f} % "
+        "at most; the step is {:.0f} steps off on average at most.",
+        setup.title, all_listed(levels), setup.level_label,
+        means_text(study, setup, "named_percent"), greatest_mean(study, setup, "false_percent"),
+        greatest_mean(study, setup, "step_error")));
+  }
   return sentences;
 }
 

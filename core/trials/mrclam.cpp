@@ -206,18 +206,7 @@ void add_way(const Way& way, const RealSet& set, const TrialContext& context, Tr
 TrialPart make(const TrialContext& context) {
   TrialPart part;
   RealSet set;
-  try {
-    set.source = read_mrclam_sightings(context.data);
-  } catch (const IoError& error) {
-    // One set that cannot be read is no reason to do without the others.
-    for (const Way& way : kWays)
-      part.trials.push_back({.setup = kSetup,
-                             .series = way.id,
-                             .level = 0.0,
-                             .values = std::vector<double>(6, kNan),
-                             .statuses = {{StatusCode::kFailed, error.what()}}});
-    return part;
-  }
+  set.source = read_mrclam_sightings(context.data);
   set.anchors = anchors_of(set.source);
   for (const Way& way : kWays) add_way(way, set, context, part);
   return part;

@@ -8,8 +8,8 @@
 namespace mapproof {
 
 /// The MRCLAM sets in a folder, by id: its folders that hold a RobotN_Measurement.dat, or the
-/// folder itself. What is in them is not checked.
-/// @throws IoError if a file of theirs cannot be read.
+/// folder itself; each is read whole.
+/// @throws IoError as read_mrclam_sightings.
 std::vector<TrialData> mrclam_sets(const std::filesystem::path& folder);
 
 }  // namespace mapproof

@@ -2,6 +2,7 @@
 
 #include <chrono>
 #include <cmath>
+#include <set>
 #include <string>
 
 #include <fmt/format.h>
@@ -49,8 +50,8 @@ TrialDesign design(const TrialExperiment& experiment) {
   };
   design.setups = {
       {kSize, "Sub-maps by size", "most landmarks of a sub-map", list_option(experiment, "sizes")},
-      {kOverlap, "Sub-maps by overlap", "share borrowed, %", percent("overlaps")},
-      {kLimitedRange, "Distant landmarks not observed", "share missing, %",
+      {kOverlap, "Sub-maps by overlap", "share borrowed [%]", percent("overlaps")},
+      {kLimitedRange, "Distant landmarks not observed", "share missing [%]",
        percent("shares_sensor_range")}};
   for (const bool whole : {true, false})
     for (const MethodSetting& setting : settings_of(experiment))
@@ -153,22 +154,38 @@ TrialPart make(const TrialContext& context) {
   return part;
 }
 
+/// Sub-maps held against the whole with one method: means by level, and where chance does not
+/// explain the difference.
+std::string comparison(const TrialStudy& study, const TrialSetup& setup,
+                       const MethodSetting& setting) {
+  const std::string whole = series_id(true, setting), parts = series_id(false, setting);
+  std::vector<std::string> levels, of_whole, of_parts, worse, better;
+  for (const double level : setup.levels) {
+    const auto difference = trial_difference(study, setup.id, parts, whole, level, "mpe_m");
+    if (!difference) continue;
+    levels.push_back(fmt::format("{:g}", level));
+    of_parts.push_back(fmt::format("{:.3f}", trial_mean(study, setup.id, parts, level, "mpe_m")));
+    of_whole.push_back(fmt::format("{:.3f}", trial_mean(study, setup.id, whole, level, "mpe_m")));
+    if (difference->half_width && std::abs(difference->mean) > *difference->half_width)
+      (difference->mean > 0.0 ? worse : better).push_back(levels.back());
+  }
+  if (levels.empty()) return "";
+  const std::set<std::string> wholes(of_whole.begin(), of_whole.end());
+  std::string words = fmt::format(
+      "{}, {}: at {} ({}) the mean MPE of the parts joined is {} m, of the whole {} m", setup.title,
+      label(setting), all_listed(levels), setup.level_label, all_listed(of_parts),
+      wholes.size() == 1 ? of_whole.front() : all_listed(of_whole));
+  if (!worse.empty()) words += "; worse beyond chance at " + all_listed(worse);
+  if (!better.empty()) words += "; better beyond chance at " + all_listed(better);
+  return words + (worse.empty() && better.empty() ? "; no difference is beyond chance." : ".");
+}
+
 std::vector<std::string> conclude(const TrialStudy& study) {
   std::vector<std::string> sentences;
   for (const TrialSetup& setup : study.design.setups)
-    for (const MethodSetting& setting : settings_of(study.experiment)) {
-      std::string words;
-      for (const double level : setup.levels) {
-        const double whole = trial_mean(study, setup.id, series_id(true, setting), level, "mpe_m");
-        const double parts = trial_mean(study, setup.id, series_id(false, setting), level, "mpe_m");
-        if (std::isnan(whole) || std::isnan(parts)) continue;
-        words += fmt::format("{}{:g}: {:.3f} m for {:.3f} m{}", words.empty() ? "" : "; ", level,
-                             parts, whole, parts > whole ? " (worse)" : " (better)");
-      }
-      if (words.empty()) continue;
-      sentences.push_back(fmt::format("{}, {}, mean MPE of parts for that of the whole, by {}: {}.",
-                                      setup.title, label(setting), setup.level_label, words));
-    }
+    for (const MethodSetting& setting : settings_of(study.experiment))
+      if (std::string words = comparison(study, setup, setting); !words.empty())
+        sentences.push_back(std::move(words));
   return sentences;
 }
 

@@ -4,22 +4,40 @@
 #include <cmath>
 #include <limits>
 
+#include <fmt/format.h>
+
 #include "core/base/errors.hpp"
+#include "core/base/words.hpp"
 
 namespace mapproof {
 
-std::vector<double> trial_values(const TrialStudy& study, std::string_view setup,
-                                 std::string_view series, double level, std::string_view quantity) {
+namespace {
+
+std::size_t column_of(const TrialStudy& study, std::string_view quantity) {
   const auto& quantities = study.design.quantities;
   const auto found = std::ranges::find(quantities, quantity, &TrialQuantity::id);
   if (found == quantities.end()) throw InvalidInput("a study of trials without that quantity");
-  const auto column = static_cast<std::size_t>(found - quantities.begin());
+  return static_cast<std::size_t>(found - quantities.begin());
+}
+
+/// NaN if it was not tried.
+double value_of(const TrialPart& part, std::string_view setup, std::string_view series,
+                double level, std::size_t column) {
+  for (const Trial& trial : part.trials)
+    if (trial.setup == setup && trial.series == series && trial.level == level)
+      return trial.values.at(column);
+  return std::numeric_limits<double>::quiet_NaN();
+}
+
+}  // namespace
+
+std::vector<double> trial_values(const TrialStudy& study, std::string_view setup,
+                                 std::string_view series, double level, std::string_view quantity) {
+  const std::size_t column = column_of(study, quantity);
   std::vector<double> values;
   for (const TrialPart& part : study.parts)
-    for (const Trial& trial : part.trials)
-      if (trial.setup == setup && trial.series == series && trial.level == level &&
-          std::isfinite(trial.values.at(column)))
-        values.push_back(trial.values[column]);
+    if (const double value = value_of(part, setup, series, level, column); std::isfinite(value))
+      values.push_back(value);
   return values;
 }
 
@@ -30,6 +48,50 @@ double trial_mean(const TrialStudy& study, std::string_view setup, std::string_v
   for (const double value : values) sum += value;
   return values.empty() ? std::numeric_limits<double>::quiet_NaN()
                         : sum / static_cast<double>(values.size());
+}
+
+std::string level_words(const TrialSetup& setup, double level) {
+  if (setup.level_label.empty()) return "";
+  std::string label = setup.level_label, unit;
+  if (const std::size_t bracket = label.find(" ["); bracket != label.npos) {
+    unit = label.substr(bracket + 2, label.size() - bracket - 3);
+    label.resize(bracket);
+  }
+  return fmt::format("{} {:g}{}{}", label, level, unit.empty() || unit == "\u00B0" ? "" : " ",
+                     unit);
+}
+
+std::string series_label(const TrialDesign& design, std::string_view id) {
+  const auto found = std::ranges::find(design.series, id, &TrialSeries::id);
+  return found == design.series.end() ? std::string(id) : found->label;
+}
+
+std::string all_listed(const std::vector<std::string>& words) {
+  return listed(words, words.size() + 1);
+}
+
+std::optional<MeanEstimate> trial_difference(const TrialStudy& study, std::string_view setup,
+                                             std::string_view series, std::string_view other,
+                                             double level, std::string_view quantity) {
+  const std::size_t column = column_of(study, quantity);
+  std::vector<double> differences;
+  std::vector<int> layouts;
+  for (const TrialPart& part : study.parts) {
+    const double difference =
+        value_of(part, setup, series, level, column) - value_of(part, setup, other, level, column);
+    if (!std::isfinite(difference)) continue;
+    differences.push_back(difference);
+    layouts.push_back(part.run ? part.run->layout : 0);
+  }
+  if (differences.empty()) return std::nullopt;
+  return clustered_mean(differences, layouts);
+}
+
+std::string verdict_words(const MeanEstimate& difference) {
+  const char* side = difference.mean < 0.0 ? "better" : "worse";
+  if (!difference.half_width) return fmt::format("{}, in one layout", side);
+  if (std::abs(difference.mean) <= *difference.half_width) return "no different beyond chance";
+  return side;
 }
 
 void add_seconds(TrialPart& part, std::string_view series, double seconds) {

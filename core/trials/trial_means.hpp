@@ -1,9 +1,12 @@
 #pragma once
 
+#include <optional>
+#include <string>
 #include <string_view>
 #include <vector>
 
 #include "core/model/trial_study.hpp"
+#include "core/statistics/intervals.hpp"
 
 namespace mapproof {
 
@@ -17,6 +20,28 @@ std::vector<double> trial_values(const TrialStudy& study, std::string_view setup
 /// Their mean; NaN without any.
 double trial_mean(const TrialStudy& study, std::string_view setup, std::string_view series,
                   double level, std::string_view quantity);
+
+/// "noise of bearings 20 °", "observations 2000": a level with what it is of; empty if the setup
+/// has but one.
+std::string level_words(const TrialSetup& setup, double level);
+
+/// The label of a series of the design; its id if there is none of it.
+std::string series_label(const TrialDesign& design, std::string_view id);
+
+/// "a, b and c", all of them.
+std::string all_listed(const std::vector<std::string>& words);
+
+/// How far one series is from another, run by run: `series` less `other` wherever both have a
+/// value.
+/// @return Its mean, and the 95 % interval over layouts (none with one layout); empty without any
+///         pair.
+std::optional<MeanEstimate> trial_difference(const TrialStudy& study, std::string_view setup,
+                                             std::string_view series, std::string_view other,
+                                             double level, std::string_view quantity);
+
+/// "better", "worse" or "no different beyond chance", of a quantity that is better if lower;
+/// without an interval nothing is said of chance: "better, of one layout".
+std::string verdict_words(const MeanEstimate& difference);
 
 /// Adds to what a series took on a part: one entry a series.
 void add_seconds(TrialPart& part, std::string_view series, double seconds);

@@ -17,6 +17,7 @@ struct LevelCurveSpec {
   std::string quantity = "mean position error";
   std::vector<ErrorLine> methods;  ///< `x` holds the level.
   std::vector<std::string> record_ids;
+  double log_from = 20.0;  ///< As in ErrorLinesSpec.
 };
 
 /// Error over the level of a disturbance, a line with its 95 % band a method.

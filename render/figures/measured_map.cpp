@@ -22,7 +22,7 @@ void require_consistent(const MeasuredMapSpec& spec) {
 }
 
 Segments pair_lines(const MeasuredMapSpec& spec) {
-  Segments lines{.label = "measured pair", .ink = Ink::kMuted, .width = 0.4};
+  Segments lines{.label = "measured pair", .ink = Ink::kSeries3, .width = 0.4};
   for (const MeasuredPair& pair : spec.pairs) {
     const auto from = spec.map.estimate.row(pair.first), to = spec.map.estimate.row(pair.second);
     if (!from.allFinite() || !to.allFinite()) continue;

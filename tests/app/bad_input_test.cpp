@@ -214,6 +214,19 @@ TEST(BadInput, AFullDiskLosesNothingAndLeavesNoPart) {
   EXPECT_EQ(contents(folder / "study"), before);
 }
 
+TEST(BadInput, ARealSetThatIsBrokenIsToldBeforeAnythingIsMade) {
+  const TemporaryFolder folder;
+  std::filesystem::copy(std::string(MAPPROOF_TEST_DATA) + "/mrclam", folder / "sets/whole");
+  std::filesystem::copy(std::string(MAPPROOF_TEST_DATA) + "/mrclam", folder / "sets/broken");
+  std::filesystem::remove(folder / "sets/broken/Barcodes.dat");
+  const Outcome outcome =
+      mapproof({"reproduce", "mrclam", "--data", folder / "sets", "--out", folder / "out"});
+  EXPECT_EQ(outcome.exit_code, 2);
+  EXPECT_NE(outcome.error.find("broken/Barcodes.dat"), std::string::npos) << outcome.error;
+  EXPECT_EQ(std::ranges::count(outcome.error, '\n'), 1) << outcome.error;
+  EXPECT_FALSE(std::filesystem::exists(folder / "out"));
+}
+
 TEST(BadInput, AFolderThatIsNoStudyIsNamed) {
   const TemporaryFolder folder;
   folder.file("study/study.json", "{}");

@@ -16,6 +16,7 @@ TEST(CommandLine, HelpShowsEveryVerbAndItsExamplesAndExitCodes) {
   for (const std::string& verb : kVerbs) {
     EXPECT_NE(help.out.find("\n  " + verb), std::string::npos) << verb;
     const Outcome own = mapproof({verb, "--help"});
+    EXPECT_EQ(mapproof({"help", verb}).out, own.out) << verb;
     EXPECT_EQ(own.exit_code, 0);
     for (const char* part :
          {"Example", "mapproof ", "Exit codes", "--json", "--quiet", "--verbose"})

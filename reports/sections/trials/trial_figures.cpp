@@ -17,6 +17,12 @@ namespace {
 
 constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 
+/// Bands of more lines than these hide each other.
+constexpr std::size_t kMostBands = 4;
+
+/// Levels that span more than this are on a logarithmic axis.
+constexpr double kWideSpan = 20.0;
+
 /// One series over the levels; a line a data set if there are several.
 std::vector<ErrorLine> lines_of(const TrialStudy& study, const TrialSeries& series,
                                 std::size_t place, const std::vector<const TrialCell*>& cells,
@@ -41,6 +47,46 @@ std::vector<ErrorLine> lines_of(const TrialStudy& study, const TrialSeries& seri
     line->high.push_back(interval ? interval->high : kNan);
   }
   return lines;
+}
+
+bool is_known(double value) { return std::isfinite(value); }
+
+/// Takes away lines of which nothing is known, which would be in the legend alone.
+void drop_unknown(std::vector<ErrorLine>& lines) {
+  std::erase_if(lines,
+                [](const ErrorLine& line) { return std::ranges::none_of(line.mean, is_known); });
+}
+
+/// Takes the bands away where they are unknown, or too many to be told apart.
+void drop_bands(std::vector<ErrorLine>& lines) {
+  const bool too_many = lines.size() > kMostBands;
+  for (ErrorLine& line : lines)
+    if (too_many || std::ranges::none_of(line.low, is_known)) {
+      line.low.clear();
+      line.high.clear();
+    }
+}
+
+/// Intervals of percentages end where percentages do.
+void clip_percents(std::vector<ErrorLine>& lines) {
+  for (ErrorLine& line : lines)
+    for (std::vector<double>* ends : {&line.low, &line.high})
+      for (double& end : *ends)
+        if (is_known(end)) end = std::clamp(end, 0.0, 100.0);
+}
+
+/// Takes the level 0 away, which a logarithmic axis does not have.
+void drop_zero_level(std::vector<ErrorLine>& lines) {
+  for (ErrorLine& line : lines) {
+    if (line.x.empty() || line.x.front() != 0.0) continue;
+    for (std::vector<double>* values : {&line.x, &line.mean, &line.low, &line.high})
+      if (!values->empty()) values->erase(values->begin());
+  }
+}
+
+bool spans_widely(const std::vector<double>& levels) {
+  const auto first = std::ranges::find_if(levels, [](double level) { return level != 0.0; });
+  return first != levels.end() && *first > 0.0 && levels.back() > kWideSpan * *first;
 }
 
 /// Whether a quantity tells any two cells of a setup apart: what is the same everywhere needs no
@@ -73,6 +119,16 @@ std::optional<Figure> curve_figure(const TrialStudy& study, const TrialSetup& se
          lines_of(study, series, i, cells_of(cells, setup.id, series.id), quantity))
       spec.methods.push_back(std::move(line));
   }
+  drop_unknown(spec.methods);
+  drop_bands(spec.methods);
+  if (what.unit == "%") {
+    clip_percents(spec.methods);
+    spec.log_from = HUGE_VAL;
+  }
+  if (spans_widely(setup.levels)) {
+    spec.x_scale = Scale::kLog;
+    drop_zero_level(spec.methods);
+  }
   spec.record_ids = {fmt::format("{}, setup {}", study.experiment.name, setup.id)};
   return level_curve_figure(spec);
 }
@@ -96,9 +152,9 @@ StudyFigures trial_figures(const TrialStudy& study) {
       maps.figures.push_back(measured_map_figure(
           {id_prefix(study) + "-map-" + map.id, map.title, map.map, map.pairs, map.covariances}));
       if (!map.pairs.empty())
-        maps.figures.push_back(pair_distances_figure({id_prefix(study) + "-pairs-" + map.id,
-                                                      map.title + ", measured pairs", map.map,
-                                                      map.pairs}));
+        maps.figures.push_back(
+            pair_distances_figure({id_prefix(study) + "-pairs-" + map.id,
+                                   map.title + ", measured pairs", map.map, map.pairs}));
     }
   if (!maps.empty()) figures.groups.push_back(std::move(maps));
   return figures;

@@ -84,7 +84,8 @@ int decimals_of(const std::vector<TrialCell>& cells, std::size_t quantity) {
   for (const TrialCell& cell : cells)
     if (cell.means[quantity] && cell.means[quantity]->mean != 0.0)
       sizes.push_back(std::abs(cell.means[quantity]->mean));
-  if (sizes.empty()) return 0;
+  const auto is_whole = [](double size) { return size == std::floor(size); };
+  if (std::ranges::all_of(sizes, is_whole)) return 0;  // Counts.
   const int before = static_cast<int>(std::floor(std::log10(median(sizes)))) + 1;
   return std::clamp(kSignificant - before, 0, kMost);
 }

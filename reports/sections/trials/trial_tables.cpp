@@ -40,9 +40,9 @@ void add_notes(const std::vector<SeriesCells>& rows, bool has_levels, Table& tab
     std::map<StatusCode, std::string> places;
     for (const TrialCell* cell : row.cells)
       for (const auto& [code, count] : cell->statuses) {
-        std::string where = fmt::format("in {} of {}", count, cell->tried);
+        std::string where = cell->part.empty() ? fmt::format("in {} of {}", count, cell->tried)
+                                               : "on " + cell->part;
         if (has_levels) where += fmt::format(" at {:.6g}", cell->level);
-        if (!cell->part.empty()) where += " on " + cell->part;
         places[code] += (places[code].empty() ? "" : ", ") + where;
       }
     for (const auto& [code, where] : places)
@@ -97,28 +97,26 @@ std::string title_of(const TrialStudy& study, const std::string& part) {
   return set == study.experiment.data.end() ? part : set->title;
 }
 
-Table data_table(const TrialStudy& study, const TrialSetup& setup,
+/// Of one data set: all quantities of several sets side by side would be too wide to read.
+Table data_table(const TrialStudy& study, const TrialSetup& setup, const TrialPart& part,
                  const std::vector<TrialCell>& cells) {
   Table table;
-  table.id = fmt::format("{}-{}", id_prefix(study), setup.id);
-  table.caption = setup.title;
+  table.id = fmt::format("{}-{}-{}", id_prefix(study), setup.id, part.id);
+  table.caption = fmt::format("{}: {}", title_of(study, part.id), setup.title);
   const bool has_levels = !setup.level_label.empty();
   table.columns.push_back({"Series", "", "", ""});
   if (has_levels) table.columns.push_back({setup.level_label, "", "", ""});
-  for (const TrialPart& part : study.parts)
-    for (const TrialQuantity& quantity : study.design.quantities)
-      table.columns.push_back({quantity.label, quantity.unit, title_of(study, part.id), ""});
+  for (const TrialQuantity& quantity : study.design.quantities)
+    table.columns.push_back({quantity.label, quantity.unit, "", ""});
   const std::vector<SeriesCells> rows = rows_of(study, setup, cells);
   for (const SeriesCells& row : rows)
     for (const double level : setup.levels) {
       Row line{{TextCell{row.series->label}}, "", false};
       if (has_levels) line.cells.emplace_back(TextCell{fmt::format("{:.6g}", level)});
-      for (const TrialPart& part : study.parts) {
-        const TrialCell* cell = cell_at(row, level, part.id);
-        for (std::size_t i = 0; i < study.design.quantities.size(); ++i)
-          line.cells.push_back(cell == nullptr ? Cell(MissingCell{})
-                                               : mean_cell(cell->means[i], decimals_of(cells, i)));
-      }
+      const TrialCell* cell = cell_at(row, level, part.id);
+      for (std::size_t i = 0; i < study.design.quantities.size(); ++i)
+        line.cells.push_back(cell == nullptr ? Cell(MissingCell{})
+                                             : mean_cell(cell->means[i], decimals_of(cells, i)));
       table.rows.push_back(std::move(line));
     }
   add_notes(rows, has_levels, table);
@@ -137,8 +135,15 @@ std::vector<TrialCell> cells_in(const TrialStudy& study, const TrialSetup& setup
 std::vector<Table> trial_tables(const TrialStudy& study, const TrialSetup& setup) {
   const std::vector<TrialCell> cells = cells_in(study, setup);
   if (cells.empty()) return {};
-  if (is_of_data(study)) return {data_table(study, setup, cells)};
   std::vector<Table> tables;
+  if (is_of_data(study)) {
+    for (const TrialPart& part : study.parts) {
+      std::vector<TrialCell> own = cells;
+      std::erase_if(own, [&](const TrialCell& cell) { return cell.part != part.id; });
+      if (!own.empty()) tables.push_back(data_table(study, setup, part, own));
+    }
+    return tables;
+  }
   for (std::size_t i = 0; i < study.design.quantities.size(); ++i)
     if (std::ranges::any_of(cells, [&](const TrialCell& c) { return c.means[i].has_value(); }))
       tables.push_back(simulated_table(study, setup, i, cells));
@@ -164,7 +169,10 @@ std::vector<Table> trial_seconds_tables(const TrialStudy& study) {
     }
     if (any) table.rows.push_back(std::move(line));
   }
-  table.notes.emplace_back("Seconds differ from one run of the program to the next.");
+  table.notes.emplace_back(
+      "Seconds of making the map; reading the files is not part of them. They differ from one run "
+      "of "
+      "the program to the next; what the whole run took is under Provenance.");
   if (table.rows.empty()) return {};
   return {std::move(table)};
 }

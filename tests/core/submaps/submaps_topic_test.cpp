@@ -42,9 +42,9 @@ TEST(SubmapsTopic, HoldsPartsAgainstTheWholeAndSaysWhichIsWorse) {
   }
   const auto sentences = kSubmapsTopic.conclude(study);
   ASSERT_FALSE(sentences.empty());
-  EXPECT_NE(sentences.front().find("(worse)") != std::string::npos ||
-                sentences.front().find("(better)") != std::string::npos,
-            false);
+  // One layout tells nothing of chance.
+  EXPECT_NE(sentences.front().find("no difference is beyond chance"), std::string::npos)
+      << sentences.front();
 }
 
 }  // namespace
