@@ -216,6 +216,7 @@ TEST(BadInput, AFullDiskLosesNothingAndLeavesNoPart) {
 
 TEST(BadInput, ARealSetThatIsBrokenIsToldBeforeAnythingIsMade) {
   const TemporaryFolder folder;
+  std::filesystem::create_directories(folder / "sets");
   std::filesystem::copy(std::string(MAPPROOF_TEST_DATA) + "/mrclam", folder / "sets/whole");
   std::filesystem::copy(std::string(MAPPROOF_TEST_DATA) + "/mrclam", folder / "sets/broken");
   std::filesystem::remove(folder / "sets/broken/Barcodes.dat");
