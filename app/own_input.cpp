@@ -4,6 +4,7 @@
 #include <utility>
 #include <vector>
 
+#include "app/own_mixed.hpp"
 #include "app/own_sightings.hpp"
 #include "core/records/sightings.hpp"
 
@@ -20,6 +21,14 @@ OwnMap map_input(const OwnInput& input, const std::optional<NamedPointsFile>& an
                  const std::optional<NamedPointsFile>& truth, const OwnMapOptions& options) {
   const std::string kind = kind_of(input);
   const std::optional<Sensor> sensor = kind.empty() ? std::nullopt : sensor_named(kind);
+  if (!input.others.empty()) {
+    std::vector<ObservationSource> sources = {
+        read_observations(input.path, sensor, input.layout, input.unit)};
+    for (const OtherInput& other : input.others)
+      sources.push_back(
+          read_observations(other.path, sensor_named(other.kind), input.layout, input.unit));
+    return map_mixed(sources, anchors, truth, options);
+  }
   if (kind == kRangeBearing) {
     SightingSource source = read_sightings(input.path, {.unit = input.unit, .value = std::nullopt});
     std::vector<LabelFact> facts = check_labels_of(source, input.labels, anchors, truth);

@@ -3,6 +3,7 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "app/own_labels.hpp"
 #include "app/own_map.hpp"
@@ -14,6 +15,12 @@ inline constexpr std::string_view kRangeBearing = "range-bearing";
 /// The way that those are mapped.
 inline constexpr std::string_view kPairs = "pairs";
 
+/// Observations by another sensor of the same landmarks.
+struct OtherInput {
+  std::string path;
+  std::string kind;  ///< A sensor's name.
+};
+
 /// A person's observations as the command line names them.
 struct OwnInput {
   std::string path;
@@ -22,6 +29,7 @@ struct OwnInput {
   AngleUnit unit = AngleUnit::kRadians;
   bool rigid = false;  ///< Fit a metric map to the anchors without changing its scale.
   LabelChoice labels;  ///< Of range and bearing seen together.
+  std::vector<OtherInput> others = {};  ///< To be mapped together with it.
 };
 
 /// The kind of the input: what was given, or range-bearing for a file of sightings.
@@ -30,7 +38,7 @@ std::string kind_of(const OwnInput& input);
 
 /// Reads and maps observations of a kind from kind_of(), by options.setting or, of range and
 /// bearing, by pairs. Long tables of more than some 64 MB are never held as an array of landmarks
-/// times steps.
+/// times steps. With others, one map of all (see map_mixed()).
 /// @throws IoError as the readers and map_own().
 OwnMap map_input(const OwnInput& input, const std::optional<NamedPointsFile>& anchors,
                  const std::optional<NamedPointsFile>& truth, const OwnMapOptions& options);

@@ -8,6 +8,7 @@
 #include "app/own_choice.hpp"
 #include "app/own_labels.hpp"
 #include "app/own_missing.hpp"
+#include "app/own_mixed.hpp"
 #include "app/own_reference.hpp"
 #include "core/embed/embedder.hpp"
 #include "core/model/experiment.hpp"
@@ -43,6 +44,7 @@ struct OwnMap {
   std::string made_by = {};
   std::optional<MapCertainty> certainty = std::nullopt;  ///< If it was asked for.
   std::optional<OwnChoice> choice = std::nullopt;        ///< If the method was to be chosen.
+  std::optional<OwnMixed> mixed = std::nullopt;          ///< If it is of several sensors.
   std::vector<LabelFact> labels = {};  ///< What was found about them, if that was asked.
 };
 

@@ -34,7 +34,9 @@ namespace fs = std::filesystem;
 
 struct Arguments {
   std::string out;
-  std::string method;  ///< Empty: isomap, or pairs of range and bearing.
+  std::vector<std::string> with;       ///< Files of other sensors,
+  std::vector<std::string> with_kind;  ///< and what each holds.
+  std::string method;                  ///< Empty: isomap, or pairs of range and bearing.
   OwnInput input;
   std::string layout = "auto";
   bool degrees = false;
@@ -108,6 +110,25 @@ void require_pairs(const Arguments& arguments) {
     throw InvalidInput("--submaps: a map of pairs is made as a whole");
   if (!of_both && arguments.input.rigid)
     throw InvalidInput("--fit rigid: only a map of range and bearing has a scale of its own");
+}
+
+/// Fills in the other sensors' files. @throws InvalidInput for what does not go with them.
+void take_others(Arguments& arguments) {
+  if (arguments.with.size() != arguments.with_kind.size())
+    throw InvalidInput("--with: each file needs a --with-kind of its own");
+  for (std::size_t k = 0; k < arguments.with.size(); ++k)
+    arguments.input.others.push_back({arguments.with[k], arguments.with_kind[k]});
+  if (arguments.with.empty()) return;
+  const OwnMapOptions& options = arguments.options;
+  if (arguments.input.kind == kRangeBearing)
+    throw InvalidInput(
+        "--with: range and bearing together are mapped by pairs; name one of them by --kind");
+  if (options.choose || options.submaps > 0 || options.ellipse_replicates > 0 ||
+      options.missing.way != MissingChoice().way || arguments.follow ||
+      arguments.input.labels.asked())
+    throw InvalidInput(
+        "--with: not with --method auto, --submaps, --ellipses, --missing, --follow or labels that "
+        "are checked");
 }
 
 /// The method, and its parameter if one was given.
@@ -193,8 +214,10 @@ nlohmann::ordered_json landmark_json(const OwnMap& map, Eigen::Index i) {
 
 nlohmann::ordered_json map_result(const OwnMap& map, const fs::path& out) {
   const MapRecord& record = map.record;
-  const bool of_pairs = !map.made_by.empty();
-  nlohmann::ordered_json object{{"sensor", of_pairs ? kRangeBearing : name(record.sensor)},
+  const bool of_pairs = !map.made_by.empty() && !map.mixed;
+  nlohmann::ordered_json object{{"sensor", of_pairs    ? kRangeBearing
+                                           : map.mixed ? "mixed"
+                                                       : name(record.sensor)},
                                 {"method", of_pairs ? kPairs : info(record.setting.method).name},
                                 {"parameter", parameter_json(record.setting)},
                                 {"steps", record.step},
@@ -225,6 +248,7 @@ nlohmann::ordered_json map_result(const OwnMap& map, const fs::path& out) {
   for (const Status& status : record.statuses)
     object["statuses"].push_back({{"code", name(status.code)}, {"detail", status.detail}});
   if (map.choice) object["choice"] = choice_json(*map.choice);
+  if (map.mixed) object["mixed"] = mixed_json(*map.mixed);
   return object;
 }
 
@@ -241,7 +265,11 @@ void write_outputs(const Arguments& arguments, const OwnMap& map, const Template
                    const Invocation& invocation) {
   std::vector<Figure> figures = {map_figure(map.record, "map", what_words(map))};
   if (map.joined) figures.push_back(submaps_figure(*map.joined, map.record.names, "submaps"));
+  if (map.mixed)
+    if (std::optional<Figure> figure = mixed_figure(*map.mixed))
+      figures.push_back(std::move(*figure));
   std::vector<Section> sections;
+  if (map.mixed) sections.push_back(mixed_section(*map.mixed));
   if (map.choice) sections.push_back(choice_section(*map.choice));
   if (map.certainty) {
     add_ellipses(map.record, *map.certainty, figures.front());
@@ -263,11 +291,14 @@ void write_outputs(const Arguments& arguments, const OwnMap& map, const Template
   const MapFolder folder(arguments.out, map.record);
   const fs::path& out = folder.path();
   // The file that marks the folder as a map's comes first: a killed command can then be repeated.
-  write_file(out / kMapFile, map_json(map.record, map.certainty));
+  write_file(out / kMapFile,
+             map_json(map.record, map.certainty,
+                      map.mixed ? std::optional(map.mixed->sensors) : std::nullopt));
   write_file(out / "map.csv", map_csv(map.record, map.certainty));
-  if (!map.joined)  // of an earlier map in this folder
-    for (const char* ending : {".svg", ".png", ".pdf", ".figure.json"})
-      fs::remove(out / "figures" / (std::string("submaps") + ending));
+  for (const char* id : {"submaps", "sensors"})  // of an earlier map in this folder
+    if (std::ranges::find(figures, id, &Figure::id) == figures.end())
+      for (const char* ending : {".svg", ".png", ".pdf", ".figure.json"})
+        fs::remove(out / "figures" / (std::string(id) + ending));
   std::map<std::string, std::string> drawn;
   for (const Figure& figure : figures)
     drawn[figure.id] = write_figure(figure, report_theme(), out / "figures");
@@ -323,6 +354,7 @@ int make_map(Arguments arguments, const Invocation& invocation) {
   arguments.options.choose = lower_case(arguments.method) == "auto";
   // What grows, or comes by a pipe, cannot be looked into first.
   if (!arguments.follow) input.kind = kind_of(input);
+  take_others(arguments);
   require_pairs(arguments);
   if (input.kind != kRangeBearing) arguments.options.setting = chosen_setting(arguments);
   arguments.options.fit =
@@ -350,7 +382,9 @@ Action map_verb(CLI::App& app) {
       "  mapproof map bearings.csv --kind bearing --anchors anchors.csv --out out/map\n"
       "  mapproof map seen.csv --kind visibility --method lpca --out out/shape\n"
       "  mapproof map MRCLAM_Dataset2 --method isomap -K 5 --out out/mrclam\n"
-      "  mapproof map MRCLAM_Dataset2 --kind range-bearing --out out/pairs\n\n"
+      "  mapproof map MRCLAM_Dataset2 --kind range-bearing --out out/pairs\n"
+      "  mapproof map seen.csv --kind visibility --with bearings.csv --with-kind bearing --out "
+      "out/joint\n\n"
       "OBSERVATIONS: wide CSV (a row a landmark, a column a step; empty or nan: missing), long "
       "CSV\n"
       "(step, landmark, value), sightings (step or time, landmark, range, bearing), JSON of\n"
@@ -379,6 +413,13 @@ Action map_verb(CLI::App& app) {
          "What the values are: visibility (0/1), bearing [rad], range [m], or range-bearing; "
          "needed for CSV but sightings")
       ->check(CLI::IsMember({"visibility", "bearing", "range", "range-bearing"}));
+  app.add_option("--with", arguments->with,
+                 "Observations of the same landmarks by another kind of sensor, for one map of "
+                 "both: landmarks are matched by name, steps need not be the same")
+      ->take_all();
+  app.add_option("--with-kind", arguments->with_kind, "What they are, for each --with")
+      ->check(CLI::IsMember({"visibility", "bearing", "range"}))
+      ->take_all();
   app.add_flag("--degrees", arguments->degrees, "Bearings in a CSV file are in degrees");
   app.add_option("--layout", arguments->layout, "Of a CSV file")
       ->check(CLI::IsMember({"auto", "wide", "long"}))

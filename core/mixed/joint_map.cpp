@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 #include "core/base/errors.hpp"
 #include "core/embed/smacof.hpp"
@@ -10,6 +11,8 @@
 
 namespace mapproof {
 namespace {
+
+constexpr double kLeastVariance = 1e-4;  ///< In the map's mean square distance from its centre.
 
 struct Pair {
   Eigen::Index i;
@@ -114,6 +117,20 @@ std::vector<double> increasing_fit(const std::vector<double>& values) {
   return fit;
 }
 
+double order_misfit(const std::vector<Eigen::MatrixXd>& distances, const Points& map) {
+  check(distances, map, {});
+  const Points centred = map.rowwise() - map.colwise().mean();
+  const double size = size_of(centred);
+  if (!(size > 0.0)) throw InvalidInput("a map that is a point has no order of distances");
+  double sum = 0.0, count = 0.0;
+  for (const Eigen::MatrixXd& one : distances) {
+    const Voice voice = voice_of(sorted_pairs(one), one, centred, kLeastVariance * size);
+    for (const double variance : voice.variance) sum += 0.5 * std::log(variance / size);
+    count += static_cast<double>(voice.variance.size());
+  }
+  return count > 0.0 ? sum / count : 0.0;
+}
+
 JointMap joint_map(const std::vector<Eigen::MatrixXd>& distances, const Points& start,
                    const JointMapOptions& options) {
   check(distances, start, options);
@@ -133,7 +150,7 @@ JointMap joint_map(const std::vector<Eigen::MatrixXd>& distances, const Points& 
   for (int round = 0; round < options.rounds; ++round) {
     Eigen::MatrixXd sum = Eigen::MatrixXd::Zero(M, M), weights = Eigen::MatrixXd::Zero(M, M);
     for (std::size_t s = 0; s < distances.size(); ++s) {
-      const Voice voice = voice_of(pairs[s], distances[s], map, 1e-4 * size);
+      const Voice voice = voice_of(pairs[s], distances[s], map, kLeastVariance * size);
       result.shares[s] = 0.0;
       for (std::size_t k = 0; k < pairs[s].size(); ++k) {
         const auto [i, j] = pairs[s][k];
@@ -160,6 +177,24 @@ JointMap joint_map(const std::vector<Eigen::MatrixXd>& distances, const Points& 
   for (const double share : result.shares) total += share;
   for (double& share : result.shares) share /= total;
   return result;
+}
+
+JointMap best_joint_map(const std::vector<Eigen::MatrixXd>& distances,
+                        const std::vector<Points>& starts, const JointMapOptions& options) {
+  if (starts.empty()) throw InvalidInput("a joint map needs a start");
+  JointMap best;
+  double least = std::numeric_limits<double>::infinity();
+  for (const Points& start : starts) {
+    JointMap map = joint_map(distances, start, options);
+    const Points& places = map.embedding.coordinates;
+    const bool has_order =
+        places.allFinite() && size_of(places.rowwise() - places.colwise().mean()) > 0.0;
+    const double misfit = has_order ? order_misfit(distances, places) : HUGE_VAL;
+    if (!best.shares.empty() && misfit >= least) continue;
+    least = misfit;
+    best = std::move(map);
+  }
+  return best;
 }
 
 }  // namespace mapproof

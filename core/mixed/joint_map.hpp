@@ -32,6 +32,21 @@ struct JointMap {
 JointMap joint_map(const std::vector<Eigen::MatrixXd>& distances, const Points& start,
                    const JointMapOptions& options = {});
 
+/// How badly a map agrees with the order of the sensors' distances: the mean over all pairs that a
+/// sensor knows of half the logarithm of the variance about the increasing fit, in units of the
+/// map's mean square distance from its centre; at least half of log(1e-4) for each. What
+/// joint_map() lowers, but for rounds; so maps from several starts can be compared.
+/// @param map  M x 2, finite, no point.
+/// @throws InvalidInput if sizes differ or a bound is broken.
+double order_misfit(const std::vector<Eigen::MatrixXd>& distances, const Points& map);
+
+/// The joint map from whichever start ends in the least order_misfit(); of equal ones the first. A
+/// sensor whose bends the one start shares would confirm itself: so each has its start.
+/// @param starts  One or more, as joint_map() needs them.
+/// @throws InvalidInput without a start, or as joint_map().
+JointMap best_joint_map(const std::vector<Eigen::MatrixXd>& distances,
+                        const std::vector<Points>& starts, const JointMapOptions& options = {});
+
 /// The increasing values nearest to `values` in least squares, in the order given (pool adjacent
 /// violators).
 std::vector<double> increasing_fit(const std::vector<double>& values);

@@ -7,6 +7,7 @@
 #include "core/json/json_text.hpp"
 #include "core/records/certainty_values.hpp"
 #include "core/records/map_values.hpp"
+#include "core/records/sensor_values.hpp"
 
 namespace mapproof {
 namespace {
@@ -24,10 +25,11 @@ std::pair<MapRecord, std::optional<MapCertainty>> parse(std::string_view text,
   const JsonDocument document = parse_json(text, source);
   const JsonCursor object = document.cursor();
   expect_schema(object, "mapproof.map");
-  MapRecord map = read_map(object, nullptr, {"schema", "certainty"});
+  MapRecord map = read_map(object, nullptr, {"schema", "certainty", "mixed"});
   std::optional<MapCertainty> certainty;
   if (const auto value = object.find("certainty"))
     certainty = read_certainty(*value, map.names.size());
+  if (const auto value = object.find("mixed")) read_sensors(*value);
   return {std::move(map), std::move(certainty)};
 }
 
@@ -46,10 +48,12 @@ std::string csv_row(const MapRecord& map, Eigen::Index i) {
 
 }  // namespace
 
-std::string map_json(const MapRecord& map, const std::optional<MapCertainty>& certainty) {
+std::string map_json(const MapRecord& map, const std::optional<MapCertainty>& certainty,
+                     const std::optional<MapSensors>& sensors) {
   nlohmann::ordered_json value = {{"schema", schema_value("mapproof.map")}};
   value.update(map_value(map));
   if (certainty) value["certainty"] = certainty_value(*certainty);
+  if (sensors) value["mixed"] = sensors_value(*sensors);
   return json_text(value);
 }
 

@@ -6,15 +6,18 @@
 
 #include "core/model/map_certainty.hpp"
 #include "core/model/map_record.hpp"
+#include "core/model/map_sensors.hpp"
 
 namespace mapproof {
 
 /// One map as a file of its own (mapproof.map); a NaN row of positions is null.
 /// @param certainty  Of its landmarks, as many as the map has.
-std::string map_json(const MapRecord& map, const std::optional<MapCertainty>& certainty = {});
+/// @param sensors    Of a joint map.
+std::string map_json(const MapRecord& map, const std::optional<MapCertainty>& certainty = {},
+                     const std::optional<MapSensors>& sensors = {});
 
 /// @param source  What to call the file in errors. @throws IoError with the place, of what is wrong
-///                with its certainty, too.
+///                with its certainty or sensors, too.
 MapRecord parse_map(std::string_view text, const std::string& source);
 
 /// The certainty in a map's file; empty if it has none. @throws IoError as parse_map.

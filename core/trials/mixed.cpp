@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 
 #include "core/base/random.hpp"
+#include "core/choice/mixed_quality.hpp"
 #include "core/embed/embedder.hpp"
 #include "core/mixed/joint_map.hpp"
 #include "core/mixed/mixed_distances.hpp"
@@ -52,7 +53,9 @@ TrialDesign design(const TrialExperiment& experiment) {
        {std::pair{"equal", "mean distance, equal weights"},
         std::pair{"reliable", "mean distance, weighted"}, std::pair{"joint", "joint map"}})
     design.series.push_back({id, label});
-  design.quantities = {{"mpe_m", "MPE", "m", true}, {"moe_percent", "MOE", "%", true}};
+  design.quantities = {{"mpe_m", "MPE", "m", true},
+                       {"moe_percent", "MOE", "%", true},
+                       {"continuity", "Neighbourhoods of all sensors kept", "", false}};
   return design;
 }
 
@@ -75,27 +78,34 @@ class MixedTrials {
   void run() {
     std::vector<Eigen::MatrixXd> squared;
     std::vector<double> reliabilities;
+    std::vector<Points> starts;
+    for (const ObservationHistory& history : histories_) {
+      squared.push_back(proximities(history, history.steps()).squared_distances);
+      distances_.push_back(squared.back().cwiseSqrt());
+      reliabilities.push_back(reliability(history, history.steps()));
+    }
+    weights_ = weights_of(reliabilities);
     for (const ObservationHistory& history : histories_) {
       HistoryEmbedder embedder(history, history.steps());
       const Embedding single = embedder.embed(single_setting(history.sensor));
       const std::string id(name(history.sensor));
       record(id, single);
       if (!single.coordinates.allFinite()) return;  // Nothing to mix.
-      squared.push_back(proximities(history, history.steps()).squared_distances);
       // What the joint map's way makes of the one sensor: it must not pass for what mixing does.
-      record(id + "-order", joint_map({squared.back().cwiseSqrt()}, single.coordinates).embedding);
-      reliabilities.push_back(reliability(history, history.steps()));
+      const Embedding by_order =
+          joint_map({distances_[starts.size()]}, single.coordinates).embedding;
+      record(id + "-order", by_order);
+      starts.push_back(by_order.coordinates);
     }
     const MethodSetting setting{Method::kSmacofKnn, 8.0};
     const std::vector<double> equal(squared.size(), 1.0);
     record("equal", Embedder(mixed_proximities(squared, equal)).embed(setting));
-    Embedder weighted(mixed_proximities(squared, weights_of(reliabilities)));
+    Embedder weighted(mixed_proximities(squared, weights_));
     const Embedding start = weighted.embed(setting);
     record("reliable", start);
     if (!start.coordinates.allFinite()) return;
-    std::vector<Eigen::MatrixXd> distances;
-    for (const Eigen::MatrixXd& one : squared) distances.push_back(one.cwiseSqrt());
-    record("joint", joint_map(distances, start.coordinates).embedding);
+    starts.insert(starts.begin(), start.coordinates);
+    record("joint", best_joint_map(distances_, starts).embedding);
   }
 
  private:
@@ -106,13 +116,14 @@ class MixedTrials {
     Trial trial{.setup = setup_,
                 .series = series,
                 .level = level_,
-                .values = {kUnknown, kUnknown},
+                .values = {kUnknown, kUnknown,
+                           mixed_continuity(distances_, weights_, embedding.coordinates)},
                 .statuses = embedding.statuses};
     trial.statuses.insert(trial.statuses.end(), map.statuses.begin(), map.statuses.end());
     if (map.aligned)
       if (const auto score =
               score_map(map.positions_m, truth, context_.anchors, AffineFit::kLeastDistances))
-        trial.values = {score->mpe_m, score->moe_percent};
+        trial.values = {score->mpe_m, score->moe_percent, trial.values.back()};
     part_.trials.push_back(std::move(trial));
   }
 
@@ -121,6 +132,8 @@ class MixedTrials {
   double level_;
   TrialPart& part_;
   std::vector<ObservationHistory> histories_;
+  std::vector<Eigen::MatrixXd> distances_;  ///< Of each.
+  std::vector<double> weights_;
 };
 
 double in_rad(double degrees) { return degrees * std::numbers::pi / 180.0; }
@@ -180,6 +193,31 @@ std::string words_at(const TrialStudy& study, const TrialSetup& setup, double le
                      single.mean_m, difference ? verdict_words(*difference) : "no run has both");
 }
 
+/// What it costs to take the map that keeps most neighbourhoods: its MPE less that of the best map,
+/// and the joint map's less that, means over the parts.
+std::string choice_words(const TrialStudy& study, const TrialSetup& setup) {
+  double picked = 0.0, joint = 0.0, count = 0.0;
+  for (const TrialPart& part : study.parts)
+    for (const double level : setup.levels) {
+      const Trial* pick = nullptr;
+      double best_m = HUGE_VAL, joint_m = kUnknown;
+      for (const Trial& trial : part.trials) {
+        if (trial.setup != setup.id || trial.level != level || !std::isfinite(trial.values[0]))
+          continue;
+        if (pick == nullptr || trial.values[2] > pick->values[2]) pick = &trial;
+        best_m = std::min(best_m, trial.values[0]);
+        if (trial.series == "joint") joint_m = trial.values[0];
+      }
+      if (pick == nullptr || std::isnan(joint_m)) continue;
+      picked += pick->values[0] - best_m, joint += joint_m - best_m, count += 1.0;
+    }
+  if (count == 0.0) return "";
+  return fmt::format(
+      "{}: the map that keeps most neighbourhoods of all sensors has an MPE {:.3f} m above the "
+      "best map's, the joint map one of {:.3f} m above it.",
+      setup.title, picked / count, joint / count);
+}
+
 std::vector<std::string> conclude(const TrialStudy& study) {
   std::vector<std::string> sentences;
   for (const TrialSetup& setup : study.design.setups) {
@@ -191,6 +229,9 @@ std::vector<std::string> conclude(const TrialStudy& study) {
           fmt::format("{}: the best of the maps together beside the best of one sensor: {}.",
                       setup.title, fmt::join(ends, "; ")));
   }
+  for (const TrialSetup& setup : study.design.setups)
+    if (std::string words = choice_words(study, setup); !words.empty())
+      sentences.push_back(std::move(words));
   return sentences;
 }
 

@@ -39,10 +39,12 @@ TEST(MixedTopic, MapsEverySensorAndEveryMixAtEveryLevel) {
   ASSERT_EQ(study.parts[0].trials.size(), 46U);
   for (const Trial& trial : study.parts[0].trials) EXPECT_GT(trial.values[0], 0.0);
   const std::vector<std::string> sentences = kMixedTopic.conclude(study);
-  ASSERT_EQ(sentences.size(), 3U);
+  // Of each setup what mixing gains, then what choosing by the neighbourhoods costs.
+  ASSERT_EQ(sentences.size(), 6U);
   for (const char* part :
        {"at noise of bearings 0\u00B0, ", "at noise of bearings 20\u00B0, ", "in one layout"})
     EXPECT_NE(sentences[0].find(part), std::string::npos) << sentences[0];
+  EXPECT_NE(sentences[3].find("keeps most neighbourhoods"), std::string::npos);
 }
 
 }  // namespace

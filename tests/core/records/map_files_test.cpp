@@ -3,10 +3,12 @@
 #include <limits>
 
 #include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
 
 #include "core/base/files.hpp"
 #include "core/records/landmarks_csv.hpp"
 #include "tests/core/records/samples.hpp"
+#include "tests/core/records/schema_problem.hpp"
 
 namespace mapproof {
 namespace {
@@ -98,6 +100,22 @@ TEST(MapJson, HoldsHowSureEachLandmarkIs) {
   EXPECT_EQ(certainty->maps, 49);
   EXPECT_EQ(map_json(parse_map(text, "m"), certainty), text);
   EXPECT_FALSE(parse_map_certainty(map_json(sample()), "m"));
+}
+
+TEST(MapJson, HoldsTheSensorsOfAJointMap) {
+  const MapSensors sensors{.sensors = {{Sensor::kBearing, 0.9, 0.75, 0.5, 0.98},
+                                       {Sensor::kRange, 0.5, 0.25, 0.5, std::nan("")}},
+                           .continuity = 0.99,
+                           .why = "both agree"};
+  const std::string text = map_json(sample(), {}, sensors);
+  EXPECT_NE(text.find("\"why\": \"both agree\""), std::string::npos);
+  EXPECT_EQ(test::schema_problem("map", nlohmann::json::parse(text)), "");
+  EXPECT_EQ(map_json(parse_map(text, "m")), map_json(sample()));
+  MapSensors none = sensors;
+  none.sensors.clear();
+  EXPECT_TRUE(error_of([&] {
+                parse_map(map_json(sample(), {}, none), "m");
+              }).starts_with("m: /mixed/sensors: expected"));
 }
 
 TEST(MapJson, RefusesCovariancesThatAreNone) {
