@@ -42,10 +42,10 @@ bool same_positions(const std::optional<Points>& a, const std::optional<Points>&
 
 /// What tells two maps apart that are not the same one made twice; empty if nothing does.
 std::string difference(const MapRecord& there, const MapRecord& here) {
-  if (there.sensor != here.sensor)
-    return fmt::format("of {} there, of {} here", name(there.sensor), name(here.sensor));
+  if (there.sensor != here.sensor || there.of_pairs != here.of_pairs)
+    return fmt::format("of {} there, of {} here", observed(there), observed(here));
   if (there.setting != here.setting)
-    return fmt::format("{} there, {} here", label(there.setting), label(here.setting));
+    return fmt::format("{} there, {} here", made_by(there), made_by(here));
   if (there.step != here.step) return fmt::format("{} steps there, {} here", there.step, here.step);
   if (there.names != here.names) return "of other landmarks";
   if (there.anchors != here.anchors) return "with other anchors";

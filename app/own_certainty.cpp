@@ -4,9 +4,6 @@
 
 #include <fmt/format.h>
 
-#include "core/certainty/map_bootstrap.hpp"
-#include "core/trials/pair_bootstrap.hpp"
-
 namespace mapproof {
 namespace {
 
@@ -42,20 +39,11 @@ std::optional<MapCertainty> own_certainty(const MapRecord& record,
 }
 
 std::optional<MapCertainty> own_pair_certainty(const MapRecord& record, const SightingLog& log,
-                                               bool rigid, int replicates,
+                                               const CertaintyFrame& frame,
+                                               const PairCertaintyOptions& options,
                                                std::vector<std::string>& remarks) {
   if (is_empty(record, remarks)) return std::nullopt;
-  const bool tied = record.frame == Frame::kTruth && !rigid && !record.anchors.empty();
-  PairBootstrapOptions options{.positions_m = tied ? *record.truth_m : record.estimate,
-                               .anchors = tied ? record.anchors : std::vector<Eigen::Index>{},
-                               .replicates = replicates};
-  options.block_looks = std::clamp(options.block_looks, 1, std::max(1, log.steps / 3));
-  MapCertainty certainty;
-  certainty.covariances = pair_covariances(log, options);
-  certainty.squared_radius = squared_radius(
-      certainty.confidence, bootstrap_freedom(log.steps, options.block_looks, replicates));
-  certainty.replicates = certainty.maps = replicates;
-  certainty.block_steps = options.block_looks;
+  MapCertainty certainty = pair_certainty(log, frame, options);
   remark_without(certainty, remarks);
   return certainty;
 }

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "core/certainty/history_certainty.hpp"
+#include "core/certainty/pair_certainty.hpp"
 #include "core/model/map_record.hpp"
 #include "core/model/sighting_log.hpp"
 
@@ -20,9 +21,9 @@ std::optional<MapCertainty> own_certainty(const MapRecord& record,
                                           std::vector<std::string>& remarks);
 
 /// The same of a map of measured pairs, from looks drawn anew in blocks.
-/// @param rigid  The map keeps its scale: maps of other looks are laid on it rigidly.
 std::optional<MapCertainty> own_pair_certainty(const MapRecord& record, const SightingLog& log,
-                                               bool rigid, int replicates,
+                                               const CertaintyFrame& frame,
+                                               const PairCertaintyOptions& options,
                                                std::vector<std::string>& remarks);
 
 }  // namespace mapproof

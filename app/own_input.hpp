@@ -2,18 +2,12 @@
 
 #include <optional>
 #include <string>
-#include <string_view>
 #include <vector>
 
 #include "app/own_labels.hpp"
 #include "app/own_map.hpp"
 
 namespace mapproof {
-
-/// The kind of observations that measure distances between landmarks in each look.
-inline constexpr std::string_view kRangeBearing = "range-bearing";
-/// The way that those are mapped.
-inline constexpr std::string_view kPairs = "pairs";
 
 /// Observations by another sensor of the same landmarks.
 struct OtherInput {

@@ -39,7 +39,7 @@ struct OwnMap {
   std::optional<JoinedSubmaps> joined =
       {};  ///< What the map was joined from, in a frame of its own.
   std::vector<std::pair<std::string, std::string>> read;  ///< Facts of the observations.
-  /// What was mapped and how, where the record's sensor and method do not say it.
+  /// What was mapped and how, where the record does not say it: a mixed map.
   std::string observed = {};
   std::string made_by = {};
   std::optional<MapCertainty> certainty = std::nullopt;  ///< If it was asked for.

@@ -91,18 +91,20 @@ std::vector<Eigen::Index> all_rows(const SightingLog& log) {
 }
 
 /// A map in metres is laid on the anchors as asked for; without any, on the truth for its errors.
-void place(OwnMap& result, const Reference& known, const SightingLog& log, AffineFit fit,
-           bool rigid) {
+/// @return How maps of other looks are brought to the same frame.
+CertaintyFrame place(OwnMap& result, const Reference& known, const SightingLog& log, AffineFit fit,
+                     bool rigid) {
   MapRecord& record = result.record;
   const Points own = record.estimate;
   if (!rigid && !known.anchors.empty()) align_and_score(record, own, known, fit);
-  if (record.frame == Frame::kTruth && !rigid && !known.anchors.empty()) return;
+  if (record.frame == Frame::kTruth && !rigid && !known.anchors.empty())
+    return {known.positions_m, known.anchors, false};
   record.frame = Frame::kTruth;
   record.anchors = known.anchors;
-  if (known.anchors.empty() && !known.has_truth) return;
+  if (known.anchors.empty() && !known.has_truth) return {own, {}, true};
   if (!lay_rigidly(record, known.positions_m,
                    known.anchors.empty() ? all_rows(log) : known.anchors))
-    return;
+    return {own, {}, true};
   record.truth_m = known.positions_m;
   if (known.anchors.empty())
     result.remarks.push_back(
@@ -110,6 +112,8 @@ void place(OwnMap& result, const Reference& known, const SightingLog& log, Affin
         "kept.");
   if (known.has_truth)
     record.score = score_map(record.estimate, known.positions_m, known.anchors, fit);
+  if (known.anchors.empty()) return {record.estimate, {}, true};
+  return {known.positions_m, known.anchors, true};
 }
 
 }  // namespace
@@ -126,17 +130,17 @@ OwnMap map_pairs(SightingSource source, const std::optional<NamedPointsFile>& an
   MapRecord& record = result.record;
   record.sensor = Sensor::kRange;
   record.setting = {Method::kSmacof, std::nullopt};
-  result.observed = "range and bearing";
-  result.made_by = "SMACOF of measured pairs";
+  record.of_pairs = true;
   record.statuses = map.embedding.statuses;
   result.read.emplace_back(
       "Measured pairs",
       fmt::format("{} of {}", map.pairs.size(), log.names.size() * (log.names.size() - 1) / 2));
   record.estimate = map.embedding.coordinates;
-  place(result, known, log, options.fit, rigid);
+  const CertaintyFrame frame = place(result, known, log, options.fit, rigid);
   if (options.ellipse_replicates > 0)
-    result.certainty =
-        own_pair_certainty(record, log, rigid, options.ellipse_replicates, result.remarks);
+    result.certainty = own_pair_certainty(
+        record, log, frame, {.replicates = options.ellipse_replicates, .fit = options.fit},
+        result.remarks);
   return result;
 }
 

@@ -164,16 +164,18 @@ std::optional<NamedPointsFile> read_points(const std::string& path) {
 }
 
 std::string observed_words(const OwnMap& map) {
-  return map.observed.empty() ? std::string(name(map.record.sensor)) : map.observed;
+  return map.observed.empty() ? observed(map.record) : map.observed;
 }
 
 std::string method_words(const OwnMap& map) {
-  return map.made_by.empty() ? label(map.record.setting) : map.made_by;
+  return map.made_by.empty() ? made_by(map.record) : map.made_by;
 }
 
-/// What the record does not say; empty if it does.
+/// What the record's sensor and method do not say; empty if they do.
 std::string what_words(const OwnMap& map) {
-  return map.made_by.empty() ? std::string() : map.made_by + ", " + map.observed;
+  return map.made_by.empty() && !map.record.of_pairs
+             ? std::string()
+             : method_words(map) + ", " + observed_words(map);
 }
 
 std::vector<std::pair<std::string, std::string>> facts(const Arguments& arguments,
@@ -214,21 +216,21 @@ nlohmann::ordered_json landmark_json(const OwnMap& map, Eigen::Index i) {
 
 nlohmann::ordered_json map_result(const OwnMap& map, const fs::path& out) {
   const MapRecord& record = map.record;
-  const bool of_pairs = !map.made_by.empty() && !map.mixed;
-  nlohmann::ordered_json object{{"sensor", of_pairs    ? kRangeBearing
-                                           : map.mixed ? "mixed"
-                                                       : name(record.sensor)},
-                                {"method", of_pairs ? kPairs : info(record.setting.method).name},
-                                {"parameter", parameter_json(record.setting)},
-                                {"steps", record.step},
-                                {"frame", name(record.frame)},
-                                {"score", nullptr},
-                                {"landmarks", nlohmann::ordered_json::array()},
-                                {"statuses", nlohmann::ordered_json::array()},
-                                {"labels", nlohmann::ordered_json::array()},
-                                {"remarks", map.remarks},
-                                {"map", (out / kMapFile).string()},
-                                {"report", (out / "report.html").string()}};
+  nlohmann::ordered_json object{
+      {"sensor", record.of_pairs ? kRangeBearing
+                 : map.mixed     ? "mixed"
+                                 : name(record.sensor)},
+      {"method", record.of_pairs ? kPairs : info(record.setting.method).name},
+      {"parameter", parameter_json(record.setting)},
+      {"steps", record.step},
+      {"frame", name(record.frame)},
+      {"score", nullptr},
+      {"landmarks", nlohmann::ordered_json::array()},
+      {"statuses", nlohmann::ordered_json::array()},
+      {"labels", nlohmann::ordered_json::array()},
+      {"remarks", map.remarks},
+      {"map", (out / kMapFile).string()},
+      {"report", (out / "report.html").string()}};
   if (record.score)
     object["score"] = {
         {"mpe_m", number_or_null(record.score->mpe_m)},

@@ -30,6 +30,13 @@ std::optional<Points> laid_on(const Points& points, const Points& onto) {
   return fit_similarity(turned(both, Eigen::all), goal, Alignment::kSimilarity)(turned);
 }
 
+std::optional<Points> laid_rigidly_on(const Points& points, const Points& onto) {
+  const std::vector<Eigen::Index> both = rows_of_both(points, onto);
+  if (both.size() < 3) return std::nullopt;
+  return fit_similarity(points(both, Eigen::all), onto(both, Eigen::all),
+                        Alignment::kRigidWithReflection)(points);
+}
+
 double relative_gap(const Points& points, const Points& onto) {
   const std::optional<Points> laid = laid_on(points, onto);
   if (!laid) return 1.0;

@@ -12,6 +12,9 @@ namespace mapproof {
 /// @throws InvalidInput if they differ in number.
 std::optional<Points> laid_on(const Points& points, const Points& onto);
 
+/// The same of metric points: moved, turned and mirrored alone.
+std::optional<Points> laid_rigidly_on(const Points& points, const Points& onto);
+
 /// How far `points`, laid on `onto`, lie from it: root mean square over the rows that both have, in
 /// units of that of `onto` about its centre. In [0, 1]; 1 if they cannot be laid on it.
 double relative_gap(const Points& points, const Points& onto);

@@ -1,5 +1,7 @@
 #include "core/certainty/history_certainty.hpp"
 
+#include <limits>
+
 #include "core/align/laid_on.hpp"
 #include "core/base/errors.hpp"
 #include "core/certainty/block_length.hpp"
@@ -10,6 +12,13 @@
 namespace mapproof {
 std::optional<Points> in_frame(const Points& coordinates, const CertaintyFrame& frame,
                                AffineFit fit) {
+  if (frame.keeps_scale) {
+    if (frame.anchors.empty()) return laid_rigidly_on(coordinates, frame.positions_m);
+    Points known =
+        Points::Constant(coordinates.rows(), 2, std::numeric_limits<double>::quiet_NaN());
+    known(frame.anchors, Eigen::all) = frame.positions_m(frame.anchors, Eigen::all);
+    return laid_rigidly_on(coordinates, known);
+  }
   if (!frame.anchors.empty()) {
     AlignedMap map = align_to_anchors(coordinates, frame.positions_m, frame.anchors, fit);
     if (!map.aligned) return std::nullopt;

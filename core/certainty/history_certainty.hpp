@@ -27,6 +27,7 @@ struct HistoryCertaintyOptions {
 struct CertaintyFrame {
   Points positions_m;                 ///< M x 2: the anchors' rows are read; or the estimate.
   std::vector<Eigen::Index> anchors;  ///< Empty: lay on `positions_m`.
+  bool keeps_scale = false;           ///< Maps are metric: they are laid rigidly on either.
 };
 
 /// A map in that frame; empty if it cannot be brought there.

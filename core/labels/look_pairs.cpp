@@ -5,6 +5,7 @@
 #include <cstdint>
 
 #include "core/base/errors.hpp"
+#include "core/pairs/pair_distances.hpp"
 
 namespace mapproof {
 namespace {
@@ -39,13 +40,6 @@ std::size_t pairs_in(const SightingLog& log, std::size_t begin, std::size_t end)
   return count < 2 ? 0 : count * (count - 1) / 2;
 }
 
-double distance_between(const Sighting& a, const Sighting& b) {
-  // |a - b|^2 = (ra - rb)^2 + 4 ra rb sin^2(angle / 2), which does not cancel at small angles.
-  const double half = std::sin((a.bearing_rad - b.bearing_rad) / 2.0);
-  return std::sqrt((a.range_m - b.range_m) * (a.range_m - b.range_m) +
-                   4.0 * std::abs(a.range_m * b.range_m) * half * half);
-}
-
 }  // namespace
 
 std::vector<LookPair> look_pairs(const SightingLog& log, std::size_t most) {
@@ -67,7 +61,7 @@ std::vector<LookPair> look_pairs(const SightingLog& log, std::size_t most) {
       for (std::size_t b = a + 1; b < end; ++b)
         if (located(log.sightings[a]) && located(log.sightings[b]))
           pairs.push_back(
-              {log.sightings[a].step, a, b, distance_between(log.sightings[a], log.sightings[b])});
+              {log.sightings[a].step, a, b, look_distance(log.sightings[a], log.sightings[b])});
   }
   return pairs;
 }

@@ -92,25 +92,30 @@ LabelFinding found(const LabelledLooks& looks, const std::vector<int>& labels,
   return finding;
 }
 
-/// A swap that changes most sightings of both labels is its complement under other names.
+/// A swap that changes most sightings of both labels is its complement under other names. Of a
+/// complement in two parts the one with more sightings is taken; the other is left for the next
+/// search.
 void turn_to_minority(const LabelledLooks& looks, const std::vector<int>& labels,
                       FaultTrial& trial) {
   if (trial.fault.fault != LabelFault::kSwapped) return;
-  std::size_t changed = 0;
-  std::size_t all = 0;
-  for (std::size_t k = 0; k < labels.size(); ++k)
-    if (labels[k] == trial.fault.first || labels[k] == trial.fault.second) {
-      ++all;
-      changed += labels[k] != trial.labels[k] ? 1 : 0;
-    }
-  const LabelFinding finding = found(looks, labels, trial);
-  if (2 * changed <= all || finding.from_the_start == finding.to_the_end) return;
-  const std::size_t steps = looks.places.front().size();
-  trial.stretch = finding.from_the_start
-                      ? StepStretch{trial.stretch.order, trial.stretch.end, steps}
+  const std::vector<std::size_t>& places = looks.places[trial.stretch.order];
+  std::size_t before = 0;
+  std::size_t inside = 0;
+  std::size_t after = 0;
+  for (std::size_t k = 0; k < labels.size(); ++k) {
+    if (labels[k] != trial.fault.first && labels[k] != trial.fault.second) continue;
+    const std::size_t place = places[static_cast<std::size_t>(looks.log.sightings[k].step)];
+    (place < trial.stretch.begin ? before : place < trial.stretch.end ? inside : after) += 1;
+  }
+  if (inside <= before + after || before + after == 0) return;
+  trial.stretch = before < after
+                      ? StepStretch{trial.stretch.order, trial.stretch.end, places.size()}
                       : StepStretch{trial.stretch.order, 0, trial.stretch.begin};
   trial.labels = mended_labels(looks, labels, trial.fault, trial.stretch);
   trial.map.positions_m.row(trial.fault.first).swap(trial.map.positions_m.row(trial.fault.second));
+  if (std::min(before, after) > 0)
+    trial.map = lowered_map(pair_items(looks.pairs, trial.labels, looks.blocks),
+                            trial.map.positions_m, trial.map.width_m);
 }
 
 /// What gains little in many looks may be a sensor's error in one part of the hall.

@@ -34,10 +34,16 @@ std::vector<std::size_t> places_in_time(const LogBlocks& blocks) {
   return places;
 }
 
-/// The landmark of the least p among those not split yet; its p by Holm.
-std::pair<int, double> least_p(const std::vector<PairItem>& items, const RobustMap& map,
-                               const LogBlocks& blocks, const Tried& tried,
-                               const MovedOptions& options) {
+/// A landmark that may have moved.
+struct Suspect {
+  int landmark = -1;
+  std::size_t slice = 0;  ///< With which its second place begins.
+  double p = 1.0;         ///< By Holm.
+};
+
+/// The landmark of the least p among those not split yet.
+Suspect least_p(const std::vector<PairItem>& items, const RobustMap& map, const LogBlocks& blocks,
+                const Tried& tried, const MovedOptions& options) {
   std::vector<int> candidates;
   for (int k = 0; k < map.positions_m.rows(); ++k)
     if (map.positions_m.row(k).allFinite() &&
@@ -46,19 +52,25 @@ std::pair<int, double> least_p(const std::vector<PairItem>& items, const RobustM
   // Holm's least p is M times the least, which so many permutations can bring below the level.
   const auto needed =
       static_cast<int>(2.0 * static_cast<double>(candidates.size()) / options.level);
-  int best = -1;
+  std::vector<PlaceChange> changes;
+  for (const int landmark : candidates)
+    changes.push_back(best_change(items, map, blocks, landmark));
+  const double inflated = inflation(changes, options.seed);
+  Suspect best;
   double least = 2.0;
   double strongest = 0.0;
-  for (const int landmark : candidates) {
-    const ShiftTest test = shift_test(shift_slices(items, map, blocks, landmark),
-                                      {std::max(options.permutations, needed),
-                                       options.seed + static_cast<std::uint64_t>(landmark)});
-    if (test.p > least || (test.p == least && test.statistic <= strongest)) continue;
-    best = landmark;
-    least = test.p;
-    strongest = test.statistic;
+  for (std::size_t k = 0; k < changes.size(); ++k) {
+    const double p =
+        chance_of(changes[k], {.count = std::max(options.permutations, needed),
+                               .seed = options.seed + static_cast<std::uint64_t>(candidates[k]),
+                               .inflation = inflated});
+    if (p > least || (p == least && best_gain(changes[k].asked) <= strongest)) continue;
+    best = {candidates[k], changes[k].first, 1.0};
+    least = p;
+    strongest = best_gain(changes[k].asked);
   }
-  return {best, std::min(1.0, least * static_cast<double>(candidates.size()))};
+  best.p = std::min(1.0, least * static_cast<double>(candidates.size()));
+  return best;
 }
 
 /// Pairs of one landmark in order of time, with what they cost at its old and its new place.
@@ -169,9 +181,8 @@ MovedCheck find_moved(const SightingLog& log, const MovedOptions& options) {
   map = unfolded_map(items, std::move(map), blocks.count);
   MovedCheck check{{}, log, map.loss_m, map.loss_m};
   while (std::ssize(check.moved) < options.most_findings) {
-    const auto [landmark, p] = least_p(items, map, blocks, tried, options);
-    if (landmark < 0 || p > options.level) break;
-    const std::size_t rough = likeliest_change(shift_slices(items, map, blocks, landmark));
+    const auto [landmark, rough, p] = least_p(items, map, blocks, tried, options);
+    if (landmark < 0 || rough == 0 || p > options.level) break;
     const std::vector<int>& steps = blocks.step_orders.back();
     std::size_t place = 0;
     while (place < steps.size() &&

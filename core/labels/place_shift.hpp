@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <vector>
 
@@ -10,32 +11,45 @@
 
 namespace mapproof {
 
-/// How a slice of time asks for one landmark's place to be shifted: the cost, near the map's place,
-/// is x' H x / 2 - g' x for a shift by x.
+/// How a slice of time asks for one landmark's place to be shifted: the cost, near the place it is
+/// told of, is x' H x / 2 - g' x for a shift by x.
 struct ShiftSlice {
   Eigen::Matrix2d H = Eigen::Matrix2d::Zero();
   Eigen::Vector2d g = Eigen::Vector2d::Zero();
 };
 
-/// Of each slice of time, in order, all robots' together.
-std::vector<ShiftSlice> shift_slices(const std::vector<PairItem>& items, const RobustMap& map,
-                                     const LogBlocks& blocks, int landmark);
-
-/// The slice with which a second place begins that lowers the cost the most.
-std::size_t likeliest_change(const std::vector<ShiftSlice>& slices);
-
-/// Whether the slices ask for one place or for another from some time on.
-struct ShiftTest {
-  double statistic = 0.0;  ///< The most that a second place lowers the cost, m^2.
-  double p = 1.0;          ///< Share of permutations of the slices with as much, itself among them.
+/// The two places of one landmark, before and after some slice of time, that lower the cost of one
+/// the most. Only slices that show the landmark are told of.
+struct PlaceChange {
+  std::size_t first = 0;  ///< Slice with which the second place begins; 0: it has one alone.
+  std::vector<ShiftSlice> asked;  ///< Of the first place, though linear at each slice's own.
+  std::vector<ShiftSlice> rest;   ///< Of each slice's own place: what is left to chance.
 };
+
+/// Looks for the places where the map has the landmark and on circles about it whose radii double
+/// from an eighth of the cost's width to beyond the map, then where the cost is least nearby.
+/// @note O(items * places), some 200 places.
+PlaceChange best_change(const std::vector<PairItem>& items, const RobustMap& map,
+                        const LogBlocks& blocks, int landmark);
+
+/// The most that a second place, on two slices or more, lowers the cost of what slices ask for.
+double best_gain(const std::vector<ShiftSlice>& slices);
 
 struct PermutationOptions {
   int count = 1999;
   std::uint64_t seed = 1;
+  double inflation = 1.0;  ///< Of what `rest` gains by chance, >= 1.
 };
 
-/// @note Stops early where p is plainly large, with what was drawn until then.
-ShiftTest shift_test(const std::vector<ShiftSlice>& slices, const PermutationOptions& options);
+/// How likely chance gains as much by a second place: the greater of two shares, of permutations of
+/// `asked`, which is exact where slices err by themselves, and of permutations of `rest`, inflated,
+/// for slices whose errors hang together. 1 for fewer than 6 slices.
+/// @note Stops early where it is plainly large, with what was drawn until then.
+double chance_of(const PlaceChange& change, const PermutationOptions& options);
+
+/// By how much the landmarks' best gains exceed what permutations of their `rest` gain: the median
+/// over landmarks, so that a few that moved do not count; >= 1. More than 1 where errors hang
+/// together over slices.
+double inflation(const std::vector<PlaceChange>& landmarks, std::uint64_t seed);
 
 }  // namespace mapproof

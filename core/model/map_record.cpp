@@ -17,4 +17,12 @@ std::optional<Frame> frame_named(std::string_view name) {
   return std::nullopt;
 }
 
+std::string observed(const MapRecord& map) {
+  return map.of_pairs ? "range and bearing" : std::string(name(map.sensor));
+}
+
+std::string made_by(const MapRecord& map) {
+  return map.of_pairs ? "SMACOF of measured pairs" : label(map.setting);
+}
+
 }  // namespace mapproof

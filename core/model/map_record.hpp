@@ -29,6 +29,10 @@ std::string_view name(Frame frame);
 /// The frame of that name; empty if there is none.
 std::optional<Frame> frame_named(std::string_view name);
 
+/// What files and the command line call a map of measured pairs: its sensor and its method.
+inline constexpr std::string_view kRangeBearing = "range-bearing";
+inline constexpr std::string_view kPairs = "pairs";
+
 /// One map, of a study or of a person's own observations.
 struct MapRecord {
   std::string id;  ///< Slash-separated, e.g. "layout-1-pose-2/bearing/isomap-K9/2000".
@@ -43,6 +47,15 @@ struct MapRecord {
   std::vector<Status> statuses;
   std::optional<Certificate> certificate;  ///< Of a semidefinite program on a person's own data.
   std::optional<Score> score;              ///< If there is a truth and the map could be scored.
+  /// Made of the distances that range and bearing together measured: `sensor` and `setting` say
+  /// nothing.
+  bool of_pairs = false;
 };
+
+/// What was mapped, in words: "range and bearing", or the sensor's name.
+std::string observed(const MapRecord& map);
+
+/// How: "SMACOF of measured pairs", or the setting's label.
+std::string made_by(const MapRecord& map);
 
 }  // namespace mapproof

@@ -15,12 +15,6 @@ constexpr double kMostValues = 2.5e7;
 constexpr double kMostLooks = 2000.0;  ///< Of a pair: a median of more is hardly better.
 constexpr double kFewestLooks = 5.0;
 
-double distance(const Sighting& a, const Sighting& b) {
-  const double sine = std::sin(0.5 * (a.bearing_rad - b.bearing_rad));
-  const double difference = a.range_m - b.range_m;
-  return std::sqrt(difference * difference + 4.0 * a.range_m * b.range_m * sine * sine);
-}
-
 /// Calls `visit(first, second)` for every two sightings of one look that measured both numbers.
 template <typename Visit>
 void for_each_pair(const std::vector<Sighting>& sightings, const Visit& visit) {
@@ -79,7 +73,7 @@ class PairLooks {
       const auto pair = static_cast<std::size_t>(at(a, b) - 1);
       const int look = seen[pair]++;
       if (look % stride[pair] == 0)
-        values_[first_[pair] + static_cast<std::size_t>(look / stride[pair])] = distance(a, b);
+        values_[first_[pair] + static_cast<std::size_t>(look / stride[pair])] = look_distance(a, b);
     });
   }
 
@@ -125,6 +119,12 @@ void set_precisions(std::vector<MeasuredPair>& pairs, const std::vector<double>&
 }
 
 }  // namespace
+
+double look_distance(const Sighting& a, const Sighting& b) {
+  const double sine = std::sin(0.5 * (a.bearing_rad - b.bearing_rad));
+  const double difference = a.range_m - b.range_m;
+  return std::sqrt(difference * difference + 4.0 * std::abs(a.range_m * b.range_m) * sine * sine);
+}
 
 std::vector<MeasuredPair> measured_pairs(const SightingLog& log, const PairNoise& noise) {
   check(log, noise);

@@ -17,6 +17,10 @@ struct PairNoise {
   double prior_looks = 3.0;
 };
 
+/// Distance of two landmarks seen in one look, by the law of cosines in a form that keeps small
+/// distances; NaN unless range and bearing of both were measured.
+double look_distance(const Sighting& a, const Sighting& b);
+
 /// Distances of landmarks seen in one look: by the law of cosines from both ranges and the angle
 /// between both bearings, whatever the pose. Of each pair the median over its looks, so that up to
 /// half of them may be anything.

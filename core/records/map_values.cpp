@@ -23,6 +23,23 @@ Json truth_value(const MapRecord& map) {
   return map.truth_m ? points_value(*map.truth_m) : Json(nullptr);
 }
 
+/// What was mapped and how.
+void read_origin(const JsonCursor& object, MapRecord& map, std::vector<std::string_view>& keys) {
+  const JsonCursor sensor = object.at("sensor");
+  const JsonCursor method = object.at("method");
+  map.of_pairs = sensor.text() == kRangeBearing;
+  if (!map.of_pairs) {
+    map.setting = read_setting(object, keys);
+    map.sensor = read_sensor(sensor);
+    return;
+  }
+  if (method.text() != kPairs)
+    method.fail("expected pairs for range-bearing, got " + in_quotes(method.text()));
+  keys.push_back("method");
+  map.sensor = Sensor::kRange;
+  map.setting = {Method::kSmacof, std::nullopt};
+}
+
 void check_rows(const JsonCursor& value, const Points& points, const MapRecord& map) {
   if (points.rows() != static_cast<Eigen::Index>(map.names.size()))
     value.fail(
@@ -50,8 +67,11 @@ void read_landmarks(const JsonCursor& object, MapRecord& map) {
 }
 
 Json map_value(const MapRecord& map, const MapRecord* shared) {
-  Json value = {{"id", map.id}, {"sensor", name(map.sensor)}};
-  put_setting(value, map.setting);
+  Json value = {{"id", map.id}, {"sensor", map.of_pairs ? kRangeBearing : name(map.sensor)}};
+  if (map.of_pairs)
+    value["method"] = kPairs;
+  else
+    put_setting(value, map.setting);
   value["step"] = map.step;
   value["frame"] = name(map.frame);
   value["score"] = map.score ? score_value(*map.score) : Json(nullptr);
@@ -74,10 +94,9 @@ MapRecord read_map(const JsonCursor& object, const MapRecord* shared,
                                         "truth_m", "estimate", "certificate"};
   keys.insert(keys.end(), extra_keys.begin(), extra_keys.end());
   MapRecord map;
-  map.setting = read_setting(object, keys);
+  read_origin(object, map, keys);
   object.allow_only(keys);
   map.id = object.at("id").text();
-  map.sensor = read_sensor(object.at("sensor"));
   map.step = object.at("step").integer32(0, kMostSteps);
   map.frame = read_frame(object.at("frame"));
   if (const JsonCursor score = object.at("score"); !score.is_null()) map.score = read_score(score);

@@ -1,7 +1,6 @@
 #include "core/records/observation_stream.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 
 #include <fmt/format.h>
@@ -9,6 +8,7 @@
 #include "core/base/errors.hpp"
 #include "core/json/text_input.hpp"
 #include "core/records/limits.hpp"
+#include "core/records/sighting_columns.hpp"
 #include "core/records/sighting_values.hpp"
 #include "core/records/table_reader.hpp"
 
@@ -16,7 +16,6 @@ namespace mapproof {
 namespace {
 
 constexpr std::size_t kLongestLine = 1 << 20;
-constexpr std::array<std::string_view, 3> kWords = {"step", "landmark", "value"};
 
 /// What is wrong with one line, said of its place in the file.
 template <typename Read>
@@ -64,41 +63,41 @@ void ObservationStream::read_line(std::string_view line) {
            [&] { is_row = reader.next(row); });
   if (!is_row) return;
   const bool first = !std::exchange(begun_, true);
-  if (first && std::ranges::any_of(row.cells, [](std::string_view cell) {
-        return std::ranges::find(kWords, lower_case(cell)) != kWords.end();
-      }))
-    return read_header(row.cells, place);
-  if (row.cells.size() != kWords.size())
+  row.line = line_;
+  if (first && is_long_header(row)) return read_header(row, place);
+  if (row.cells.size() != width_)
     throw IoError(source_, place,
-                  fmt::format("has {} cells, expected step, landmark, value", row.cells.size()));
+                  fmt::format("has {} cells, expected {}", row.cells.size(), width_));
   const std::string_view step_cell = row.cells[columns_[0]];
   const std::optional<double> step = number_in(step_cell);
-  if (!step || !(*step >= 0.0 && *step <= 0x1p53) || *step != std::trunc(*step))
-    throw IoError(source_, place, "a step is an integer from 0, got " + in_quotes(step_cell));
+  if (!step || !std::isfinite(*step))
+    throw IoError(source_, place, fmt::format("{}: {}", word_, number_problem(step_cell)));
   const std::string_view value_cell = row.cells[columns_[2]];
   const std::optional<double> value = sighting_value(value_cell, sensor_, unit_);
   if (!value) throw IoError(source_, place, sighting_problem(value_cell, sensor_, unit_));
   add(*step, names_.find_or_add(row.cells[columns_[1]], line_), *value, place);
 }
 
-void ObservationStream::read_header(const std::vector<std::string_view>& cells,
-                                    const std::string& place) {
-  for (std::size_t w = 0; w < kWords.size(); ++w) {
-    const auto found = std::ranges::find_if(
-        cells, [&](std::string_view cell) { return lower_case(cell) == kWords[w]; });
-    if (found == cells.end() || cells.size() != kWords.size())
-      throw IoError(source_, place, "expected the columns step, landmark, value");
-    columns_[w] = static_cast<std::size_t>(found - cells.begin());
-  }
+void ObservationStream::read_header(const TableRow& row, const std::string& place) {
+  const SightingColumns columns = sighting_columns(row, source_);
+  if (!columns[SightingColumn::kValue]) throw IoError(source_, place, "no column is named value");
+  if (columns[SightingColumn::kRobot])
+    throw IoError(source_, place, "a file that is followed is of one robot");
+  const bool of_steps = columns[SightingColumn::kStep].has_value();
+  word_ = of_steps ? "step" : "time";
+  columns_[0] = *columns[of_steps ? SightingColumn::kStep : SightingColumn::kTime];
+  columns_[1] = *columns[SightingColumn::kLandmark];
+  columns_[2] = *columns[SightingColumn::kValue];
+  width_ = columns.width;
 }
 
 void ObservationStream::add(double step, Eigen::Index landmark, double value,
                             const std::string& place) {
   if (open_ && step < open_->step)
     throw IoError(source_, place,
-                  fmt::format("step {:.0f} after step {:.0f}: a file that is followed lists its "
-                              "steps in ascending order",
-                              step, open_->step));
+                  fmt::format("{0} {1:.15g} after {0} {2:.15g}: a file that is followed lists its "
+                              "looks in ascending order",
+                              word_, step, open_->step));
   if (open_ && step > open_->step) complete_.push_back(*std::exchange(open_, std::nullopt));
   if (!open_) {
     if (++steps_ > static_cast<std::size_t>(kMostSteps))
@@ -110,8 +109,8 @@ void ObservationStream::add(double step, Eigen::Index landmark, double value,
   if (row >= listed_.size()) listed_.resize(row + 1, false);
   if (listed_[row])
     throw IoError(source_, place,
-                  fmt::format("landmark {} is already listed at step {:.0f}",
-                              in_quotes(names_.names()[row]), step));
+                  fmt::format("landmark {} is already listed at {} {:.15g}",
+                              in_quotes(names_.names()[row]), word_, step));
   listed_[row] = true;
   if (!std::isnan(value)) open_->values.emplace_back(landmark, value);
 }

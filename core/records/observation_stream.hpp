@@ -12,17 +12,19 @@
 #include "core/model/sensor.hpp"
 #include "core/records/name_list.hpp"
 #include "core/records/sightings.hpp"
+#include "core/records/table_reader.hpp"
 
 namespace mapproof {
 
 /// All that one step of a growing file listed.
 struct StreamedStep {
-  double step = 0.0;
+  double step = 0.0;                                    ///< Or time.
   std::vector<std::pair<Eigen::Index, double>> values;  ///< Landmark and value; missing ones not.
 };
 
-/// Reads long CSV (step, landmark, value) as it grows. A line counts once its end is there, and a
-/// step once a row of a later one is. Steps come in ascending order; a cell holds no line feed.
+/// Reads long CSV (step or time, landmark, value) as it grows. A line counts once its end is there,
+/// and a step once a row of a later one is. Steps come in ascending order; a cell holds no line
+/// feed.
 class ObservationStream {
  public:
   /// @param source  What to call the file in errors.
@@ -50,7 +52,7 @@ class ObservationStream {
 
  private:
   void read_line(std::string_view line);
-  void read_header(const std::vector<std::string_view>& cells, const std::string& place);
+  void read_header(const TableRow& row, const std::string& place);
   void add(double step, Eigen::Index landmark, double value, const std::string& place);
 
   std::string source_;
@@ -61,6 +63,8 @@ class ObservationStream {
   std::size_t line_ = 0;                ///< Of the file, that was read last.
   bool begun_ = false;                  ///< A row was read: no header comes any more.
   std::size_t columns_[3] = {0, 1, 2};  ///< Of step, landmark, value.
+  std::size_t width_ = 3;               ///< Cells of a row.
+  std::string word_ = "step";           ///< What the first of them is called.
   std::optional<StreamedStep> open_;
   std::vector<bool> listed_;  ///< Landmarks in the open step.
   std::vector<StreamedStep> complete_;

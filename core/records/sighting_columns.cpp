@@ -108,6 +108,12 @@ bool names_value_columns(const TableRow& row) {
   return names(row, SightingColumn::kLandmark) && names(row, SightingColumn::kValue);
 }
 
+bool is_long_header(const TableRow& row) {
+  return std::ranges::any_of(row.cells,
+                             [](auto cell) { return word_of(heading_of(cell)) != nullptr; }) &&
+         std::ranges::none_of(row.cells, [](auto cell) { return number_in(cell).has_value(); });
+}
+
 SightingColumns sighting_columns(const TableRow& header, const std::string& source) {
   const std::string place = fmt::format("line {}", header.line);
   SightingColumns columns;

@@ -32,6 +32,9 @@ bool names_sighting_columns(const TableRow& row);
 /// Whether a row names columns of a long table of observations: a landmark and a value.
 bool names_value_columns(const TableRow& row);
 
+/// Whether a table's first row is its header: one cell names a column, and none is a number.
+bool is_long_header(const TableRow& row);
+
 /// @throws IoError at the header's line if two columns are the same, one that is needed is not
 ///         there, or a unit is not known.
 SightingColumns sighting_columns(const TableRow& header, const std::string& source);

@@ -11,6 +11,7 @@
 #include "core/align/rigid.hpp"
 #include "core/base/errors.hpp"
 #include "core/base/words.hpp"
+#include "core/certainty/pair_certainty.hpp"
 #include "core/embed/embedder.hpp"
 #include "core/experiment/scored_map.hpp"
 #include "core/linalg/planarity.hpp"
@@ -19,7 +20,6 @@
 #include "core/records/mrclam.hpp"
 #include "core/statistics/intervals.hpp"
 #include "core/trials/mrclam_sets.hpp"
-#include "core/trials/pair_bootstrap.hpp"
 
 namespace mapproof {
 namespace {
@@ -28,6 +28,7 @@ using Clock = std::chrono::steady_clock;
 
 constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 constexpr AffineFit kFit = AffineFit::kLeastDistances;
+constexpr int kFewestReplicates = 10;  ///< Of a bootstrap.
 constexpr const char* kSetup = "sensors";
 
 /// One way from a set's looks to a map.
@@ -145,6 +146,7 @@ MapRecord record_of(const Way& way, const RealSet& set, const Made& made) {
   MapRecord map;
   map.id = way.id;
   map.sensor = way.sensor;
+  map.of_pairs = !way.method;
   map.setting = made.setting;
   map.step = set.source.log.steps;
   map.names = set.source.log.names;
@@ -193,13 +195,17 @@ void add_way(const Way& way, const RealSet& set, const TrialContext& context, Tr
   if (!is_last) shown.pairs.clear();
   const int replicates = static_cast<int>(number_option(context.experiment, "replicates"));
   if (is_last && replicates > 0)
-    shown.covariances = pair_covariances(
-        set.source.log,
-        {.positions_m = set.anchors.empty() ? shown.map.estimate : *set.source.truth_m,
-         .anchors = set.anchors,
-         .replicates = replicates,
-         .block_looks = static_cast<int>(number_option(context.experiment, "block_looks")),
-         .seed = context.seed});
+    shown.covariances =
+        pair_certainty(set.source.log,
+                       {set.anchors.empty() ? shown.map.estimate : *set.source.truth_m, set.anchors,
+                        set.anchors.empty()},
+                       {.replicates = std::max(kFewestReplicates, replicates),
+                        .block = static_cast<Eigen::Index>(
+                            std::min<double>(number_option(context.experiment, "block_looks"),
+                                             std::max(1, set.source.log.steps))),
+                        .seed = context.seed,
+                        .fit = kFit})
+            .covariances;
   if (context.with_maps) part.maps.push_back(std::move(shown));
 }
 
@@ -260,7 +266,7 @@ const Topic kMrclamTopic = {
     .of_data = true,
     .options = {{"neighbours", {5}, 1, 100, true, false},
                 {"replicates", {200}, 0, 10'000, true, false},
-                {"block_looks", {100}, 1, 100'000, true, false}},
+                {"block_looks", {0}, 0, 100'000, true, false}},
     .design = design,
     .make = make,
     .conclude = conclude,

@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include "core/base/files.hpp"
+#include "core/base/random.hpp"
 #include "tests/support/gzip.hpp"
 #include "tests/support/looks.hpp"
 #include "tests/support/program.hpp"
@@ -62,6 +63,31 @@ TEST(MapOfSightings, WithoutAnchorsIsInMetres) {
   EXPECT_LT(procrustes_gap(hall.landmarks, places(result, hall.log.names, "x_m", "y_m")), 1e-8);
   const std::string page = read_file(folder / "map/report.html");
   EXPECT_NE(page.find("SMACOF of measured pairs"), std::string::npos);
+  const json file_of_map = json::parse(read_file(folder / "map/map.json"));
+  EXPECT_EQ(file_of_map.at("method"), "pairs");
+  EXPECT_EQ(file_of_map.at("sensor"), "range-bearing");
+}
+
+TEST(MapOfSightings, HasEllipsesOfTheSizeOfItsErrors) {
+  const TemporaryFolder folder;
+  Hall hall;
+  Random random(3);
+  for (Sighting& seen : hall.log.sightings) seen.range_m *= 1.0 + 0.05 * random.normal();
+  const std::string file = folder.file("seen.csv", hall.csv());
+  const std::string anchors = folder.file("anchors.csv", hall.positions(4));
+  for (const char* fit : {"least-squares", "rigid"}) {
+    const Outcome run = mapproof({"map", file, "--anchors", anchors, "--fit", fit, "--ellipses",
+                                  "40", "--out", folder / fit, "--json"});
+    ASSERT_EQ(run.exit_code, 0) << run.error;
+    const json result = json::parse(run.out);
+    const Points off = places(result, hall.log.names, "x_m", "y_m") - hall.landmarks;
+    const double error = off.bottomRows(6).rowwise().norm().mean();
+    double axis = 0.0;
+    for (const json& landmark : result.at("landmarks"))
+      axis += landmark.at("ellipse").at("a_m").get<double>() / 10.0;
+    EXPECT_GT(axis, 0.4 * error) << fit;
+    EXPECT_LT(axis, 10.0 * error) << fit;
+  }
 }
 
 TEST(MapOfSightings, GzippedInDegreesIsTheSame) {

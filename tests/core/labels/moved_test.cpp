@@ -70,28 +70,63 @@ TEST(FindMoved, RefusesOptionsOutOfBounds) {
   EXPECT_TRUE(find_moved({}).moved.empty());
 }
 
-TEST(ShiftTest, IsUniformWithoutAChange) {
-  Random random(9);
-  int below = 0;
-  for (std::uint64_t k = 0; k < 200; ++k) {
-    std::vector<ShiftSlice> slices(20);
-    for (ShiftSlice& slice : slices) {
-      slice.H.setIdentity();
-      slice.g = {random.normal(), random.normal()};
+/// Slices whose errors follow x' = rho x + normal noise, for several landmarks that stand still.
+std::vector<PlaceChange> hanging_slices(double rho, Random& random) {
+  std::vector<PlaceChange> landmarks(9);
+  for (PlaceChange& change : landmarks) {
+    Eigen::Vector2d x(random.normal(), random.normal());
+    x /= std::sqrt(1.0 - rho * rho);
+    for (int k = 0; k < 30; ++k) {
+      change.asked.push_back({Eigen::Matrix2d::Identity(), x});
+      x = rho * x + Eigen::Vector2d(random.normal(), random.normal());
     }
-    below += shift_test(slices, {199, k}).p <= 0.2 ? 1 : 0;
+    change.rest = change.asked;
   }
-  EXPECT_NEAR(below, 40, 3 * std::sqrt(200 * 0.2 * 0.8));
+  return landmarks;
 }
 
-TEST(ShiftTest, FindsWhereASecondPlaceBegins) {
-  std::vector<ShiftSlice> slices(20);
-  for (std::size_t k = 0; k < slices.size(); ++k) {
-    slices[k].H.setIdentity();
-    slices[k].g = k < 13 ? Eigen::Vector2d(0.0, 0.0) : Eigen::Vector2d(0.5, 0.1);
+TEST(BestGain, IsThatOfTwoMeans) {
+  // Asked for at 0 by three slices and at 3 by two: one place costs 3 * 2 / 5 * 9 / 2 more.
+  std::vector<ShiftSlice> slices(5, {Eigen::Matrix2d::Identity(), {0.0, 0.0}});
+  slices[3].g.x() = slices[4].g.x() = 3.0;
+  EXPECT_NEAR(best_gain(slices), 5.4, 1e-6);
+}
+
+TEST(ChanceOf, IsUniformWithoutAMove) {
+  Random random(9);
+  int below = 0;
+  for (std::uint64_t k = 0; k < 40; ++k)
+    for (const PlaceChange& change : hanging_slices(0.0, random))
+      below += chance_of(change, {199, k}) <= 0.2 ? 1 : 0;
+  EXPECT_NEAR(below, 72, 3 * std::sqrt(360 * 0.2 * 0.8));
+}
+
+TEST(ChanceOf, IsSmallForAFarMoveWhateverTheInflation) {
+  Random random(10);
+  PlaceChange change = hanging_slices(0.0, random)[0];
+  for (std::size_t k = 13; k < 30; ++k) change.asked[k].g.x() += 100.0;
+  EXPECT_DOUBLE_EQ(chance_of(change, {1999, 1, 4.0}), 1.0 / 2000.0);
+}
+
+TEST(Inflation, GrowsWithErrorsThatHangTogether) {
+  double before = 0.0;
+  for (const double rho : {0.0, 0.3, 0.6}) {
+    Random random(17);
+    double mean = 0.0;
+    for (std::uint64_t k = 0; k < 50; ++k) mean += inflation(hanging_slices(rho, random), k) / 50.0;
+    EXPECT_GT(mean, before + 0.1);
+    // Sums of what hangs together vary by (1 + rho) / (1 - rho) of what those of the rest do.
+    EXPECT_LT(mean, 1.3 * (1.0 + rho) / (1.0 - rho));
+    before = mean;
   }
-  EXPECT_EQ(likeliest_change(slices), 13U);
-  EXPECT_LE(shift_test(slices, {1999, 1}).p, 0.001);
+}
+
+TEST(Inflation, IsNotThatOfOneLandmarkThatMoved) {
+  Random random(18);
+  std::vector<PlaceChange> landmarks = hanging_slices(0.0, random);
+  const double still = inflation(landmarks, 1);
+  for (std::size_t k = 15; k < 30; ++k) landmarks[4].asked[k].g.x() += 100.0;
+  EXPECT_LT(inflation(landmarks, 1), 1.3 * still);
 }
 
 }  // namespace

@@ -30,6 +30,23 @@ TEST(MapJson, ComesBackTheSame) {
   EXPECT_EQ(map_json(map), read_file(data_file("maps/map.json")));
 }
 
+TEST(MapJson, OfMeasuredPairsSaysSo) {
+  MapRecord map = sample();
+  map.of_pairs = true;
+  map.sensor = Sensor::kRange;
+  map.setting = {Method::kSmacof, std::nullopt};
+  std::string text = map_json(map);
+  EXPECT_NE(text.find("\"range-bearing\""), std::string::npos);
+  EXPECT_NE(text.find("\"pairs\""), std::string::npos);
+  const MapRecord again = parse_map(text, "m");
+  EXPECT_TRUE(again.of_pairs);
+  EXPECT_EQ(again.setting, map.setting);
+  EXPECT_EQ(map_json(again), text);
+  text.replace(text.find("\"pairs\""), 7, "\"smacof\"");
+  EXPECT_EQ(error_of([&] { parse_map(text, "m"); }),
+            "m: /method: expected pairs for range-bearing, got \"smacof\"");
+}
+
 TEST(MapJson, NeedsARowForEveryName) {
   MapRecord map = sample();
   map.estimate.conservativeResize(3, 2);

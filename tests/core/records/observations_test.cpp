@@ -178,25 +178,60 @@ TEST(LongObservations, NameBothLinesOfARepeat) {
             "line 5: landmark \"a\" at step 1 is already on line 2");
 }
 
-TEST(LongObservations, RefuseTimesInPlaceOfSteps) {
-  EXPECT_EQ(
-      error_with("step,landmark,value\n0.5,a,0\n", Sensor::kVisibility),
-      "line 2: a step is an integer, \"0.5\" looks like a time: number the looks 0, 1, 2, ...");
-  EXPECT_EQ(
-      error_with("time,landmark,value\n0.5,a,0\n", Sensor::kVisibility),
-      "line 1: expected the columns step, landmark, value; got \"time\": number the looks 0, 1, "
-      "2, ...");
-  EXPECT_EQ(error_with("step,landmark,value\n-1,a,0\n", Sensor::kVisibility),
-            "line 2: a step is an integer from 0, got \"-1\"");
+TEST(LongObservations, AreReadAlikeByStepOrByTime) {
+  const TemporaryFolder folder;
+  const auto read = [&](const std::string& text) {
+    return read_observations(folder.file("o.csv", text), Sensor::kBearing);
+  };
+  const ObservationSource steps = read("step,landmark,value\n3,a,0.5\n-1,b,1\n3,b,2\n");
+  const ObservationSource times =
+      read("Time [s],object,value,note\n1e9,a,0.5,x\n999999999.25,b,1,y\n1e9,b,2,z\n");
+  Eigen::MatrixXd expected(2, 2);
+  expected << kNan, 0.5, 1, 2;
+  expect_values(steps.history, expected);
+  expect_values(times.history, expected);
+  EXPECT_TRUE(steps.remarks.empty());
+  EXPECT_EQ(times.remarks, std::vector<std::string>{"Columns that are not read: \"note\""});
+}
+
+TEST(LongObservations, WithoutAHeaderMayNameALandmarkAsAColumnIs) {
+  const TemporaryFolder folder;
+  const auto path = folder.file("o.csv", "0,r,1\n0,value,2\n");
+  const ObservationSource source = read_observations(path, Sensor::kRange, Layout::kLong);
+  EXPECT_EQ(source.history.names, (std::vector<std::string>{"r", "value"}));
+}
+
+TEST(LongObservations, OfSeveralRobotsAreLooksOfTheirOwn) {
+  const TemporaryFolder folder;
+  const auto path = folder.file("o.csv",
+                                "robot,time,landmark,value\n"
+                                "R1,0.5,a,1\nR2,0.5,a,2\nR1,0.25,b,3\n");
+  Eigen::MatrixXd expected(2, 3);
+  expected << kNan, 1, 2, 3, kNan, kNan;
+  expect_values(read_observations(path, Sensor::kRange).history, expected);
+}
+
+TEST(LongObservations, AreReadAsALongStreamReadsThem) {
+  const TemporaryFolder folder;
+  const auto path = folder.file("o.csv",
+                                "stamp,tag,value,robot\n"
+                                "7.5,oak,1.5,x\n-2,ash,2.5,x\n7.5,ash,0.5,y\n8,oak,3,y\n");
+  const SightingSource stream =
+      read_sightings(path, {.unit = AngleUnit::kRadians, .value = Sensor::kBearing});
+  const ObservationSource whole = read_observations(path, Sensor::kBearing);
+  EXPECT_EQ(whole.history.names, stream.log.names);
+  expect_values(whole.history, history_of(stream.log, Sensor::kBearing).values);
 }
 
 TEST(LongObservations, RefuseOtherColumnsAndEmptyNames) {
   EXPECT_EQ(error_with("landmark,value\na,0\n", Sensor::kVisibility),
-            "line 1: no column is named step");
+            "line 1: no column is named step or time: which rows are one look?");
+  EXPECT_EQ(error_with("step,landmark,value\nnoon,a,0\n", Sensor::kVisibility),
+            "line 2: step: \"noon\" is not a number");
   EXPECT_EQ(error_with("step,landmark,value\n1,,0\n", Sensor::kVisibility),
             "line 2: a landmark without a name");
   EXPECT_EQ(error_with("step,landmark,value\n1,a\n", Sensor::kVisibility),
-            "line 2: has 2 cells, expected step, landmark, value");
+            "line 2: has 2 cells, expected 3");
   EXPECT_EQ(error_with("step,landmark,value\n", Sensor::kVisibility), "holds no observations");
 }
 

@@ -1,0 +1,112 @@
+#include "core/certainty/pair_certainty.hpp"
+
+#include <cmath>
+
+#include <gtest/gtest.h>
+
+#include "core/base/errors.hpp"
+#include "core/base/random.hpp"
+#include "core/pairs/pair_map.hpp"
+#include "tests/support/looks.hpp"
+#include "tests/support/worlds.hpp"
+
+namespace mapproof::test {
+namespace {
+
+constexpr int kLooks = 400;
+
+Points hall() { return 6.0 * scattered(9, 5); }
+
+/// Looks whose ranges err by 5 % each, in `together` looks that follow each other alike.
+SightingLog erring_looks(std::uint64_t seed, int together) {
+  SightingLog log = looks_at(hall(), kLooks, 4, seed);
+  Random random(1000 + seed);
+  std::vector<double> errors(9 * (kLooks / static_cast<std::size_t>(together) + 1));
+  for (double& error : errors) error = 0.05 * random.normal();
+  for (Sighting& seen : log.sightings)
+    seen.range_m *=
+        1.0 + errors[static_cast<std::size_t>(9 * (seen.step / together) + seen.landmark)];
+  return log;
+}
+
+/// Mean squared distance of a landmark from its mean place, over maps of many logs.
+double spread(int together, const CertaintyFrame& frame) {
+  constexpr int kMaps = 60;
+  std::vector<Points> maps;
+  Points mean = Points::Zero(9, 2);
+  for (int k = 0; k < kMaps; ++k) {
+    const Points own = sighted_map(erring_looks(100 + static_cast<std::uint64_t>(k), together))
+                           .embedding.coordinates;
+    maps.push_back(*in_frame(own, frame, AffineFit::kLeastDistances));
+    mean += maps.back() / kMaps;
+  }
+  double sum = 0.0;
+  for (const Points& map : maps) sum += (map - mean).squaredNorm();
+  return sum / (9.0 * (kMaps - 1));
+}
+
+/// The same by the covariances of several logs.
+double told(int together, const CertaintyFrame& frame, const PairCertaintyOptions& options) {
+  constexpr int kLogs = 4;
+  double sum = 0.0;
+  for (std::uint64_t k = 1; k <= kLogs; ++k)
+    for (const Eigen::Matrix2d& C :
+         pair_certainty(erring_looks(k, together), frame, options).covariances)
+      sum += C.trace();
+  return sum / (9.0 * kLogs);
+}
+
+class CertaintyOfPairs : public ::testing::TestWithParam<std::pair<const char*, CertaintyFrame>> {};
+
+TEST_P(CertaintyOfPairs, IsHowFarMapsOfOtherLooksLieApart) {
+  const CertaintyFrame& frame = GetParam().second;
+  const double ratio = told(1, frame, {.replicates = 60}) / spread(1, frame);
+  EXPECT_GT(ratio, 0.7);
+  EXPECT_LT(ratio, 1.5);
+}
+
+TEST_P(CertaintyOfPairs, IsNothingWhereLooksDoNotErr) {
+  for (const Eigen::Matrix2d& C :
+       pair_certainty(looks_at(hall(), kLooks, 4, 1), GetParam().second, {.replicates = 20})
+           .covariances)
+    EXPECT_LT(C.norm(), 1e-12);
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    Certainty, CertaintyOfPairs,
+    ::testing::Values(std::pair("rigid", CertaintyFrame{hall(), {}, true}),
+                      std::pair("anchors", CertaintyFrame{hall(), {0, 3, 5, 8}, false}),
+                      std::pair("rigid_on_anchors", CertaintyFrame{hall(), {0, 3, 5, 8}, true})),
+    [](const auto& info) { return std::string(info.param.first); });
+
+TEST(PairCertainty, TakesLooksTogetherThatErrAlike) {
+  const CertaintyFrame frame{hall(), {}, true};
+  EXPECT_LE(pair_block_length(erring_looks(1, 1)), 4);
+  EXPECT_GE(pair_block_length(erring_looks(1, 40)), 7);
+  const double apart = spread(40, frame);
+  const double by_blocks = told(40, frame, {.replicates = 60});
+  EXPECT_GT(by_blocks, 1.5 * told(40, frame, {.replicates = 60, .block = 1}));
+  EXPECT_NEAR(by_blocks, apart, 0.4 * apart);
+}
+
+TEST(PairCertainty, HangsOnItsSeedAlone) {
+  const SightingLog log = erring_looks(3, 1);
+  const CertaintyFrame frame{hall(), {}, true};
+  const PairCertaintyOptions options{.replicates = 10, .block = 5, .seed = 4};
+  EXPECT_EQ(pair_certainty(log, frame, options), pair_certainty(log, frame, options));
+  PairCertaintyOptions other = options;
+  other.seed = 5;
+  EXPECT_NE(pair_certainty(log, frame, options), pair_certainty(log, frame, other));
+  EXPECT_EQ(pair_certainty(log, frame, options).block_steps, 5);
+}
+
+TEST(PairCertainty, RefusesOtherFramesAndEmptyLogs) {
+  const SightingLog log = erring_looks(3, 1);
+  EXPECT_THROW(pair_certainty(log, {Points::Zero(3, 2), {}}), InvalidInput);
+  EXPECT_THROW(pair_certainty({.names = {"a"}}, {Points::Zero(1, 2), {}}), InvalidInput);
+  EXPECT_THROW(pair_certainty(log, {hall(), {}}, {.block = kLooks + 1}), InvalidInput);
+  EXPECT_EQ(pair_block_length({}), 1);
+}
+
+}  // namespace
+}  // namespace mapproof::test
