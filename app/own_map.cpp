@@ -89,7 +89,7 @@ OwnMap map_own(const ObservationSource& source, const std::optional<NamedPointsF
   }
   OwnEmbedding made = own_embedding(source.history, steps, asked, fitting,
                                     proximity_rule(options.missing, source.history.sensor, missing),
-                                    options.submaps);
+                                    options.submaps, options.overlap);
   result.remarks.insert(result.remarks.end(), missing.remarks.begin(), missing.remarks.end());
   result.remarks.insert(result.remarks.end(), made.remarks.begin(), made.remarks.end());
   result.joined = std::move(made.joined);

@@ -29,6 +29,7 @@ struct OwnMapOptions {
   bool only_seen_together = false;  ///< See EmbedderOptions.
   MissingChoice missing;
   int submaps = 0;             ///< Most landmarks of a sub-map, 6 or more; 0: one map.
+  std::optional<double> overlap;  ///< Share that a sub-map borrows, in [0, 0.8]; empty: the usual.
   int ellipse_replicates = 0;  ///< Draws for each landmark's ellipse; 0: none.
 };
 

@@ -24,7 +24,7 @@ std::string remark_on(const SubmapEmbedding& parts, Method method) {
 
 OwnEmbedding own_embedding(const ObservationHistory& history, Eigen::Index steps,
                            MethodSetting setting, const EmbedderOptions& options,
-                           const ProximityRule& rule, int submaps) {
+                           const ProximityRule& rule, int submaps, std::optional<double> overlap) {
   if (submaps == 0) {
     HistoryEmbedder embedder(history, steps, options, rule);
     if (!setting.parameter) setting = embedder.usual_setting(setting.method);
@@ -34,6 +34,7 @@ OwnEmbedding own_embedding(const ObservationHistory& history, Eigen::Index steps
     setting = HistoryEmbedder(history, steps, options).usual_setting(setting.method);
   SubmapOptions parts_options{.groups = {}, .embedder = options, .rule = rule};
   parts_options.groups.size = submaps;
+  if (overlap) parts_options.groups.overlap_share = *overlap;
   SubmapEmbedding parts = embed_submaps(history, steps, setting, parts_options);
   OwnEmbedding made{.embedding = {}, .setting = setting, .joined = {}, .remarks = {}};
   if (parts.joined.submaps.size() > 1) made.remarks.push_back(remark_on(parts, setting.method));

@@ -19,9 +19,11 @@ struct OwnEmbedding {
 
 /// Maps a history as a whole, or in overlapping groups.
 /// @param submaps  Most landmarks of a group, 6 or more; 0: as a whole.
+/// @param overlap  Share that a group borrows from its neighbours, in [0, 0.8]; empty: the usual.
 /// @param rule     See HistoryEmbedder; of each group by itself.
 OwnEmbedding own_embedding(const ObservationHistory& history, Eigen::Index steps,
                            MethodSetting setting, const EmbedderOptions& options,
-                           const ProximityRule& rule, int submaps);
+                           const ProximityRule& rule, int submaps,
+                           std::optional<double> overlap);
 
 }  // namespace mapproof

@@ -133,6 +133,8 @@ void take_others(Arguments& arguments) {
 
 /// The method, and its parameter if one was given.
 MethodSetting chosen_setting(const Arguments& arguments) {
+  if (arguments.options.overlap && arguments.options.submaps == 0)
+    throw InvalidInput("--overlap: it is of sub-maps; add --submaps SIZE");
   if (arguments.options.submaps > 0 &&
       (arguments.options.choose || arguments.options.ellipse_replicates > 0))
     throw InvalidInput("--submaps: not with --method auto or --ellipses");
@@ -451,6 +453,9 @@ Action map_verb(CLI::App& app) {
   app.add_option("--submaps", arguments->options.submaps,
                  "Map overlapping groups of at most so many landmarks apart, and join them")
       ->check(CLI::Range(6, 5000));
+  app.add_option("--overlap", arguments->options.overlap,
+                 "Share of each sub-map that it borrows from its neighbours (default: 0.5)")
+      ->check(CLI::Range(0.0, 0.8));
   app.add_option("--ellipses", arguments->options.ellipse_replicates,
                  "Draw each landmark's 95 % ellipse, from so many maps of steps drawn anew "
                  "(default: 200)")

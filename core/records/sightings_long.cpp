@@ -67,10 +67,14 @@ class LongSightings {
       fail(row.line, fmt::format("more than {} rows", kMostRows));
     const Look look = look_of(row);
     if (looks_.empty() || looks_.back() != look) looks_.push_back(look);
+    const std::string_view label = row.cells[*columns_[SightingColumn::kLandmark]];
+    if (label.empty())
+      fail(row.line,
+           "a sighting without a label: which landmark it shows is not told from looks; leave such "
+           "rows out");
     Sighting seen;
     seen.step = static_cast<int>(looks_.size()) - 1;
-    seen.landmark = static_cast<int>(
-        names_.find_or_add(row.cells[*columns_[SightingColumn::kLandmark]], row.line));
+    seen.landmark = static_cast<int>(names_.find_or_add(label, row.line));
     if (const auto cell = columns_[SightingColumn::kRange])
       seen.range_m = value(row, *cell, Sensor::kRange);
     if (const auto cell = columns_[SightingColumn::kBearing])

@@ -117,6 +117,9 @@ TEST(Sightings, NameTheLineThatIsWrong) {
             "line 2: bearings are in radians, within a full turn; 90 looks like degrees");
   EXPECT_EQ(error_with("step,landmark,range,bearing\n0,oak,3,0\n1,elm,3,0\n0,oak,4,1\n"),
             "line 4: landmark \"oak\" is in that look already, on line 2");
+  EXPECT_EQ(error_with("step,landmark,range,bearing\n0,oak,3,0\n1,,4,1\n"),
+            "line 3: a sighting without a label: which landmark it shows is not told from looks; "
+            "leave such rows out");
   EXPECT_EQ(error_with("landmark,range,bearing\noak,3,0\n"),
             "line 1: no column is named step or time: which rows are one look?");
   EXPECT_EQ(error_with("step,landmark,range [ft],bearing\n0,oak,3,0\n"),
