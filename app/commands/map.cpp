@@ -108,6 +108,8 @@ void require_pairs(const Arguments& arguments) {
     throw InvalidInput("--missing: pairs that were not measured are not filled in");
   if (of_both && arguments.options.submaps > 0)
     throw InvalidInput("--submaps: a map of pairs is made as a whole");
+  if (arguments.options.overlap && arguments.options.submaps == 0)
+    throw InvalidInput("--overlap: it is of sub-maps; add --submaps SIZE");
   if (!of_both && arguments.input.rigid)
     throw InvalidInput("--fit rigid: only a map of range and bearing has a scale of its own");
 }
@@ -133,8 +135,6 @@ void take_others(Arguments& arguments) {
 
 /// The method, and its parameter if one was given.
 MethodSetting chosen_setting(const Arguments& arguments) {
-  if (arguments.options.overlap && arguments.options.submaps == 0)
-    throw InvalidInput("--overlap: it is of sub-maps; add --submaps SIZE");
   if (arguments.options.submaps > 0 &&
       (arguments.options.choose || arguments.options.ellipse_replicates > 0))
     throw InvalidInput("--submaps: not with --method auto or --ellipses");

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
+#include "core/base/files.hpp"
 #include "core/base/random.hpp"
 #include "core/simulate/gaps.hpp"
 #include "core/simulate/sensors.hpp"
@@ -80,10 +81,18 @@ TEST(MapMissing, OfSubmapsShowsThemAndIsNearTheTruth) {
   ASSERT_EQ(result["remarks"].size(), 1U);
   EXPECT_EQ(result["remarks"][0].get<std::string>().substr(0, 11), "Joined from");
   EXPECT_TRUE(std::filesystem::exists(folder / "map" / "figures" / "submaps.svg"));
+  const std::string half = read_file(folder / "map/map.csv");
   // Mapped as a whole into the same folder, nothing tells of sub-maps any more.
   EXPECT_EQ(survey.mapped({}, folder / "map").exit_code, 0);
   EXPECT_FALSE(std::filesystem::exists(folder / "map" / "figures" / "submaps.svg"));
   EXPECT_EQ(survey.mapped({"--submaps", "5"}, folder / "small").exit_code, 2);
+  EXPECT_EQ(survey.mapped({"--submaps", "24", "--overlap", "0.65"}, folder / "more").exit_code, 0);
+  EXPECT_NE(read_file(folder / "more/map.csv"), half);
+  EXPECT_EQ(survey.mapped({"--submaps", "24", "--overlap", "0.5"}, folder / "same").exit_code, 0);
+  EXPECT_EQ(read_file(folder / "same/map.csv"), half);
+  const Outcome alone = survey.mapped({"--overlap", "0.65"}, folder / "alone");
+  EXPECT_EQ(alone.exit_code, 2);
+  EXPECT_NE(alone.error.find("add --submaps"), std::string::npos);
 }
 
 TEST(MapMissing, RefusesWhatDoesNotFitTogether) {
