@@ -53,7 +53,7 @@ std::string figure_command(const fs::path& folder) {
 
 /// Each part's findings under its title, and as many of its figures as leave room for the others'.
 void add_opening(const Report& part, std::size_t parts, Opening& all) {
-  constexpr std::size_t kMostThumbnails = 8;
+  constexpr std::size_t kMostThumbnails = 6;
   for (Paragraph finding : part.opening.findings) {
     finding.phrases.insert(finding.phrases.begin(), {part.title + ". ", Emphasis::kStrong});
     all.findings.push_back(std::move(finding));
@@ -110,6 +110,8 @@ FolderReport joined(const fs::path& folder, std::vector<FolderReport> parts) {
   all.report.subtitle = std::ranges::all_of(parts, &FolderReport::of_paper)
                             ? "Two papers, made again"
                             : fmt::format("{} studies", parts.size());
+  if (parts.size() == 2)  // More would fill the head of the page; they are listed below it.
+    all.report.subtitle += ": " + parts[0].report.subtitle + "; " + parts[1].report.subtitle;
   all.report.sections.push_back(contents_section(parts));
   all.report.figure_command = figure_command(folder);
   for (FolderReport& part : parts) {

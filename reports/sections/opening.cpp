@@ -16,28 +16,37 @@ namespace {
 
 constexpr std::size_t kMostThumbnails = 6;
 
-/// "Bearing: SMACOF, K = 8 maps best, mean position error 0.0615 m (the paper: 0.0609 m). "
+/// With no break between number and unit.
+std::string whole_metres(double value) {
+  std::string text = metres(value);
+  const std::size_t space = text.find(' ');
+  return space == std::string::npos ? text : text.replace(space, 1, "\u00a0");
+}
+
+/// "Best by bearing: 0.0615 m mean position error (the paper: 0.0609 m), SMACOF, K = 8. "
 void add_best(const SensorStudy& sensor, const SettingSummary* best, Paragraph& text) {
-  text.phrases.push_back({title_of(sensor.sensor.sensor), Emphasis::kStrong});
+  const std::string by = lower_case(title_of(sensor.sensor.sensor));
   if (best == nullptr) {
-    text.phrases.push_back({": no map could be scored. "});
+    text.phrases.push_back({"By " + by + " no map could be scored. "});
     return;
   }
-  text.phrases.push_back({": " + label(best->setting) + " maps best, "});
-  text.phrases.push_back({"mean position error " + metres(best->mpe_m->mean), Emphasis::kStrong});
-  text.phrases.push_back(
-      {best->published ? " (the paper: " + metres(best->published->mpe_m) + "). " : ". "});
+  const bool is_first = text.phrases.empty();
+  text.phrases.push_back({"Best by " + by + ": "});
+  text.phrases.push_back({whole_metres(best->mpe_m->mean), Emphasis::kStrong});
+  std::string rest = is_first ? " mean position error" : "";
+  if (best->published) rest += " (the paper: " + whole_metres(best->published->mpe_m) + ")";
+  text.phrases.push_back({rest + ", " + label(best->setting) + ". "});
 }
 
 std::string ends(const Study& study) {
   const StudyCounts counts = count(study);
-  const std::string maps = fmt::format("Of {} from {}, ", counted(counts.maps, "map"),
-                                       counted(std::ssize(study.runs), "run"));
-  if (counts.unscored + counts.with_status == 0) return maps + "every one ended well.";
-  return maps + fmt::format("{} {} without a score and {} {} a status.",
-                            counts.unscored == 0 ? "none" : std::to_string(counts.unscored),
-                            counts.unscored < 2 ? "is" : "are", counts.with_status,
-                            counts.with_status == 1 ? "carries" : "carry");
+  const std::string maps = counted(counts.maps, "map");
+  if (counts.unscored + counts.with_status == 0)
+    return fmt::format("Of {} every one ended well.", maps);
+  return fmt::format("Of {} {} {} a status, {} {} without a score.", maps, counts.with_status,
+                     counts.with_status == 1 ? "carries" : "carry",
+                     counts.unscored == 0 ? "none" : std::to_string(counts.unscored),
+                     counts.unscored < 2 ? "is" : "are");
 }
 
 /// The first figure or scene of the group; empty if there is none.

@@ -7,7 +7,6 @@
 #include "render/figures/refinement_starts.hpp"
 #include "render/figures/slam_looks.hpp"
 #include "render/figures/words.hpp"
-#include "reports/sections/opening.hpp"
 #include "reports/sections/slam/slam_report.hpp"
 #include "reports/sections/slam/slam_words.hpp"
 #include "reports/sections/wording.hpp"
@@ -96,12 +95,7 @@ std::string end_words(const ConvergenceCurve& curve) {
 void add_convergence(const SlamStudy& study, BulletList& findings, Highlights& highlights) {
   if (study.convergence.empty()) return;
   const ConvergenceCurve& curve = study.convergence.front();
-  std::vector<double> steps, errors;
-  for (const ConvergencePoint& point : curve.points) {
-    steps.push_back(point.steps);
-    errors.push_back(point.observation.values > 0 ? point.observation.mean : NAN);
-  }
-  const double slope = log_log_slope(steps, errors);
+  const double slope = convergence_slope(curve);
   if (!std::isfinite(slope)) return;
   const std::string text = slope_words(slope);
   highlights.items.push_back(
@@ -120,34 +114,7 @@ void add_remarks_on_paper(BulletList& findings) {
               "stand alone. Fig. 2A is a photograph of the robot: left out.")}});
 }
 
-constexpr std::size_t kMostRuns = 2;  ///< Told before anything else.
-constexpr std::size_t kMostThumbnails = 6;
-
 }  // namespace
-
-Opening slam_opening(const SlamStudy& study, const StudyFigures& figures) {
-  Opening opening;
-  Paragraph text;
-  std::size_t told = 0;
-  for (const SlamRun& run : study.runs) {
-    const std::string errors = errors_of(run);
-    if (run.simulated || errors.empty() || told == kMostRuns) continue;
-    ++told;
-    text.phrases.push_back(strong(title_of(run)));
-    text.phrases.push_back(words(": mean position error " + errors + ". "));
-  }
-  BulletList findings;
-  Highlights highlights;
-  add_convergence(study, findings, highlights);
-  for (const Paragraph& finding : findings.items)
-    text.phrases.insert(text.phrases.end(), finding.phrases.begin(), finding.phrases.end());
-  if (!text.phrases.empty()) opening.findings.push_back(std::move(text));
-  std::vector<std::string> ids = {"fig-2b", "fig-2c", "fig-1a", "fig-1b"};
-  for (const FigureGroup& group : figures.groups)
-    ids.push_back(group.figures.empty() ? group.scenes.front().id : group.figures.front().id);
-  opening.figure_ids = present_ids(ids, figures, kMostThumbnails);
-  return opening;
-}
 
 Section slam_summary_section(const SlamStudy& study) {
   Section section{"slam-summary", "Range-only SLAM: summary", {}};

@@ -5,6 +5,8 @@
 
 #include <fmt/format.h>
 
+#include "render/figures/log_log.hpp"
+
 namespace mapproof {
 
 std::string record_id(const SlamRun& run, const SlamRecord& record) {
@@ -53,6 +55,15 @@ std::optional<double> length_m(const RangeLog& log) {
   for (const Motion& motion : log.odometry)
     length += std::hypot(motion.distance_m, motion.sideways_m);
   return length;
+}
+
+double convergence_slope(const ConvergenceCurve& curve) {
+  std::vector<double> steps, errors;
+  for (const ConvergencePoint& point : curve.points) {
+    steps.push_back(point.steps);
+    errors.push_back(point.observation.values > 0 ? point.observation.mean : NAN);
+  }
+  return log_log_slope(steps, errors);
 }
 
 }  // namespace mapproof

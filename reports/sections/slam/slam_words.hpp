@@ -33,4 +33,8 @@ std::string path_figure_id(const SlamRun& run);
 /// Length of the true path, or else of the odometry, m; empty with neither.
 std::optional<double> length_m(const RangeLog& log);
 
+/// The power of the readings that the error of the observation model goes with; NaN if it has less
+/// than two errors.
+double convergence_slope(const ConvergenceCurve& curve);
+
 }  // namespace mapproof
