@@ -18,6 +18,9 @@ namespace {
 /// More would hide each other; the table has all.
 constexpr std::size_t kMostLines = 12;
 
+/// As many findings of a study stand at the head of a page; its page over the nights has all.
+constexpr std::size_t kMostTold = 3;
+
 /// "smacof-knn" of "smacof-knn-K6"; a range-only method's own name.
 std::string base_method(const std::string& method) {
   std::string best;
@@ -143,24 +146,49 @@ FigureBlock block_of(const Figure& figure) {
   return {figure.id, figure.title, figure.caption, figure.alt, figure.record_ids};
 }
 
+/// The sentences of one study's findings of a night.
+std::vector<std::string> told_of(std::span<const NightFinding> findings, const std::string& study) {
+  std::vector<std::string> sentences;
+  for (const NightFinding& finding : findings)
+    if (finding.study == study) sentences.push_back(finding.sentence + ".");
+  return sentences;
+}
+
+std::vector<std::string> told_of(const NightFindings& findings, int night,
+                                 const std::string& study) {
+  const auto of_night = findings.find(night);
+  return of_night == findings.end() ? std::vector<std::string>{} : told_of(of_night->second, study);
+}
+
 Section summary_section(const StudyTrend& trend, const NightFindings& findings) {
   Section section{"summary", "Tonight", {}};
   const NightFacts& tonight = trend.nights.back();
-  std::vector<Paragraph> found;
-  if (const auto of_night = findings.find(tonight.number); of_night != findings.end())
-    for (const NightFinding& finding : of_night->second)
-      if (finding.study == trend.name)
-        found.push_back({{{finding.sentence + ".", Emphasis::kPlain}}});
+  const std::vector<std::string> found = told_of(findings, tonight.number, trend.name);
   if (found.empty())
     section.blocks.emplace_back(
         Paragraph{{{fmt::format("Night {}: nothing got worse in this study.", tonight.number)}}});
-  else
-    section.blocks.emplace_back(BulletList{std::move(found)});
+  BulletList list;
+  for (const std::string& sentence : std::span(found).first(std::min(found.size(), kMostTold)))
+    list.items.push_back({{{sentence}}});
+  if (found.size() > kMostTold)
+    list.items.push_back(
+        {{{fmt::format("And {} more, under Findings.", found.size() - kMostTold)}}});
+  if (!list.items.empty()) section.blocks.emplace_back(std::move(list));
   section.blocks.emplace_back(Paragraph{
       {{fmt::format("{} from night {} on are shown: those that had the same order as the last.",
                     counted(static_cast<long long>(trend.nights.size()), "night"),
                     trend.nights.front().number)}}});
   return section;
+}
+
+/// The studies that have findings of a night, in the order of these.
+std::vector<std::string> studies_of(int night, const NightFindings& findings) {
+  std::vector<std::string> studies;
+  if (const auto of_night = findings.find(night); of_night != findings.end())
+    for (const NightFinding& finding : of_night->second)
+      if (std::ranges::find(studies, finding.study) == studies.end())
+        studies.push_back(finding.study);
+  return studies;
 }
 
 }  // namespace
@@ -187,7 +215,9 @@ HistoryPage trend_page(const StudyTrend& trend, const NightFindings& findings) {
       fmt::format("Nights {} to {}", trend.nights.front().number, trend.nights.back().number);
   page.report.sections.push_back(summary_section(trend, findings));
   Section figures{"trends", "Trends", {}};
-  for (const Figure& figure : page.figures) figures.blocks.emplace_back(block_of(figure));
+  Gallery gallery;
+  for (const Figure& figure : page.figures) gallery.figures.push_back(block_of(figure));
+  figures.blocks.emplace_back(std::move(gallery));
   page.report.sections.push_back(std::move(figures));
   page.report.sections.push_back({"values", "Values", {accuracy_table(trend)}});
   if (Table found = findings_table(findings, trend.name); !found.rows.empty())
@@ -210,13 +240,17 @@ std::string verdict_sentence(const NightFacts& night, std::size_t findings) {
 
 Standing standing(const Night& night, const std::string& study, bool is_compared) {
   Standing result;
-  for (const NightFinding& finding : night.findings)
-    if (finding.study == study) result.sentences.push_back(finding.sentence + ".");
+  result.sentences = told_of(night.findings, study);
+  const std::size_t count = result.sentences.size();
   const std::string tonight = fmt::format("Night {}: ", night.facts.number);
-  result.worse = !result.sentences.empty();
+  result.worse = count > 0;
+  if (count > kMostTold) {
+    result.sentences.resize(kMostTold);
+    result.sentences.push_back(
+        fmt::format("And {} more, on the page of this study over the nights.", count - kMostTold));
+  }
   if (result.worse)
-    result.title =
-        tonight + counted(static_cast<long long>(result.sentences.size()), "thing") + " got worse";
+    result.title = tonight + counted(static_cast<long long>(count), "thing") + " got worse";
   else if (is_compared && night.facts.reference)
     result.title =
         tonight + fmt::format("nothing got worse than on night {}", *night.facts.reference);
@@ -235,18 +269,24 @@ Report index_page(std::span<const NightFacts> nights, const NightFindings& findi
     return report;
   }
   const NightFacts& tonight = nights.back();
-  report.subtitle =
-      fmt::format("{}, the last begun {}", counted(static_cast<long long>(nights.size()), "night"),
-                  tonight.started_utc);
+  report.subtitle = fmt::format("{}, the last begun {} UTC",
+                                counted(static_cast<long long>(nights.size()), "night"),
+                                to_the_minute(tonight.started_utc));
   const auto found = findings.find(tonight.number);
   const std::size_t count = found == findings.end() ? 0 : found->second.size();
   last.blocks.emplace_back(
       Paragraph{{{fmt::format("Night {}: ", tonight.number), Emphasis::kStrong},
                  {verdict_sentence(tonight, count)}}});
   BulletList list;
-  if (count > 0)
-    for (const NightFinding& finding : found->second)
-      list.items.push_back({{{finding.study + ": ", Emphasis::kStrong}, {finding.sentence + "."}}});
+  for (const std::string& study : studies_of(tonight.number, findings)) {
+    const std::vector<std::string> told = told_of(findings, tonight.number, study);
+    for (const std::string& sentence : std::span(told).first(std::min(told.size(), kMostTold)))
+      list.items.push_back({{{study + ": ", Emphasis::kStrong}, {sentence}}});
+    if (told.size() > kMostTold)
+      list.items.push_back({{{study + ": ", Emphasis::kStrong},
+                             {fmt::format("and {} more, in ", told.size() - kMostTold)},
+                             {fmt::format("trends/{}/report.html", study), Emphasis::kFile}}});
+  }
   for (const std::string& remark : remarks) list.items.push_back({{{remark + "."}}});
   if (!list.items.empty()) last.blocks.emplace_back(std::move(list));
   for (const std::string& study : studies)

@@ -46,6 +46,11 @@ std::vector<SeriesId> last_steps(const StudyTrend& trend) {
 
 }  // namespace
 
+std::string to_the_minute(const std::string& utc) {
+  if (utc.size() != 20 || utc[10] != 'T' || utc[19] != 'Z') return utc;
+  return utc.substr(0, 10) + " " + utc.substr(11, 5);
+}
+
 Table nights_table(std::span<const NightFacts> nights, const NightFindings& findings) {
   Table table{.id = "nights",
               .caption = "Every night, the last one first.",
@@ -63,7 +68,7 @@ Table nights_table(std::span<const NightFacts> nights, const NightFindings& find
     const std::size_t count = found == findings.end() ? 0 : found->second.size();
     const Cell against = night.reference ? Cell{number(*night.reference, 0)} : Cell{MissingCell{}};
     table.rows.push_back(
-        {{number(night.number, 0), text(night.started_utc),
+        {{number(night.number, 0), text(to_the_minute(night.started_utc)),
           text(words_of(night.verdict) + (night.pinned ? ", pinned" : "")),
           number(static_cast<double>(count), 0), against, TextCell{night.host, Emphasis::kData},
           TextCell{fmt::format("nights/{:04}/", night.number), Emphasis::kFile}},
@@ -77,7 +82,7 @@ Table findings_table(const NightFindings& findings, const std::string& study) {
               .caption = "What got worse, the last night first.",
               .columns = {{"Night", "", "", ""},
                           {"Since", "", "", "The night it began, as far as can be told"},
-                          {"NightRule", "", "", ""},
+                          {"Kind", "", "", "By which rule"},
                           {"Finding", "", "", ""}},
               .rows = {},
               .notes = {}};

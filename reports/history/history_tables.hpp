@@ -1,10 +1,14 @@
 #pragma once
 
 #include <span>
+#include <string>
 
 #include "reports/history/history_pages.hpp"
 
 namespace mapproof {
+
+/// "2026-11-22 02:30" of "2026-11-22T02:30:07Z"; what is no such time as it is.
+std::string to_the_minute(const std::string& utc);
 
 /// One row a night, the last one first.
 Table nights_table(std::span<const NightFacts> nights, const NightFindings& findings);

@@ -13,7 +13,7 @@ const putAllIn = (page) => page.evaluate(() => dispatchEvent(new Event("beforepr
 test("the first screen says what was run and found, and leads to figures", async () => {
   const { page, errors, requests, close } = await open();
   const opening = page.locator("#opening");
-  assert.match(await opening.innerText(), /maps best, mean position error [\d.]+ m/);
+  assert.match(await opening.innerText(), /Best by visibility: [\d.]+\sm mean position error/);
   const links = opening.locator(".thumbnails a");
   assert.ok(await links.count() >= 4);
   const { y, height } = await links.first().boundingBox();

@@ -158,6 +158,27 @@ TEST(SlamSummary, FindsErrorsWithTheirAlignmentScaleAndStarts) {
   EXPECT_TRUE(says(section, "Fig. 2A is a photograph"));
 }
 
+std::string words(const Opening& opening) {
+  std::string all;
+  for (const Paragraph& finding : opening.findings)
+    for (const Phrase& phrase : finding.phrases) all += phrase.text;
+  return all;
+}
+
+TEST(SlamOpening, IsAFewNumbersWithTheirAlignmentToldOnce) {
+  const std::string all = words(slam_opening(sample_slam_study(), {}));
+  EXPECT_NE(
+      all.find(
+          "Mean position error on Plaza 1: 0.12\u00a0m refined, 0.41\u00a0m spectral (rigid), "),
+      std::string::npos)
+      << all;
+  EXPECT_NE(all.find("dead reckoning (unaligned). "), std::string::npos) << all;
+  EXPECT_NE(all.find("to the power \u22120.50; theory"), std::string::npos) << all;
+  EXPECT_LT(all.size(), 400U) << all;
+}
+
+TEST(SlamOpening, OfNothingSaysNothing) { EXPECT_EQ(words(slam_opening({}, {})), ""); }
+
 TEST(SlamSummary, ClaimsNoErrorWithoutATruthAndNothingOfAPaperThatIsNot) {
   SlamStudy study;
   study.name = "slam";

@@ -9,6 +9,7 @@
 #include <set>
 #include <thread>
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include "core/base/errors.hpp"
@@ -383,6 +384,24 @@ TEST(HistoryPages, AreValidReportsAndFigures) {
   for (const Figure& figure : page.figures) EXPECT_EQ(problem(figure), "");
   EXPECT_NO_THROW(check(index_page(store.nights(), findings, {}, {})));
   EXPECT_NO_THROW(check(index_page({}, {}, {}, {})));
+}
+
+TEST(HistoryPages, BeginWithThreeFindingsAndSayHowManyMore) {
+  Night night{.facts = {.number = 5, .started_utc = "2026-11-22T02:30:07Z"}};
+  for (int i = 1; i <= 7; ++i)
+    night.findings.push_back({.study = "mine", .sentence = fmt::format("worse {}", i)});
+  const Standing stands = standing(night, "mine", true);
+  EXPECT_EQ(stands.title, "Night 5: 7 things got worse");
+  ASSERT_EQ(stands.sentences.size(), 4U);
+  EXPECT_EQ(stands.sentences[2], "worse 3.");
+  EXPECT_TRUE(stands.sentences[3].starts_with("And 4 more"));
+
+  const Report index = index_page(std::vector{night.facts}, {{5, night.findings}}, {}, {});
+  EXPECT_EQ(index.subtitle, "1 night, the last begun 2026-11-22 02:30 UTC");
+  std::size_t items = 0;
+  for (const Block& block : index.sections.front().blocks)
+    if (const auto* list = std::get_if<BulletList>(&block)) items += list->items.size();
+  EXPECT_EQ(items, 4U);
 }
 
 TEST(HistoryExport, HasALineAValue) {

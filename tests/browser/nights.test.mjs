@@ -1,0 +1,47 @@
+import assert from "node:assert/strict";
+import { existsSync } from "node:fs";
+import { dirname, join, resolve } from "node:path";
+import { test } from "node:test";
+import { fileURLToPath } from "node:url";
+import { open, violations } from "./support.mjs";
+
+/// The folder of a history of two nights.
+const history = process.env.MAPPROOF_HISTORY;
+const pages = [
+  [history, "index.html"],
+  [join(history, "trends", "small"), "report.html"],
+  [join(history, "nights", "0002", "small"), "report.html"],
+];
+const looks = [{}, { colorScheme: "dark" }, { viewport: { width: 390, height: 844 } },
+  { viewport: { width: 390, height: 844 }, colorScheme: "dark" }];
+
+for (const [folder, file] of pages) {
+  const name = join(folder, file).slice(history.length + 1);
+  test(`axe-core finds nothing against ${name}, wide and phone, light and dark`, async () => {
+    for (const look of looks) {
+      const { page, errors, requests, close } = await open(look, folder, file);
+      assert.deepEqual(await violations(page), []);
+      assert.equal(await page.evaluate(() => document.documentElement.scrollWidth - innerWidth), 0);
+      assert.deepEqual([...errors, ...requests], []);
+      await close();
+    }
+  });
+
+  test(`every link of ${name} leads to a file that is there`, async () => {
+    const { page, close } = await open({}, folder, file);
+    const links = await page.locator("a[href]").evaluateAll((all) => all.map((link) => link.href));
+    const files = links.filter((link) => link.startsWith("file:"))
+      .map((link) => fileURLToPath(link.split("#")[0]));
+    assert.ok(files.length > 0);
+    for (const each of files) assert.ok(existsSync(resolve(dirname(join(folder, file)), each)), each);
+    await close();
+  });
+}
+
+test("the index says how the last night stands and leads to it", async () => {
+  const { page, close } = await open({}, history, "index.html");
+  assert.match(await page.locator("#section-last").innerText(), /Night 2: /);
+  await page.getByRole("link", { name: "nights/0002/small/report.html" }).click();
+  assert.match(await page.locator(".standing").innerText(), /Night 2: /);
+  await close();
+});
