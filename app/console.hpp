@@ -23,7 +23,7 @@ class Console {
  public:
   Console(Verbosity verbosity, bool json);
 
-  bool shows_progress() const { return verbosity_ != Verbosity::kQuiet; }
+  bool is_quiet() const { return verbosity_ == Verbosity::kQuiet; }
 
   /// What was done; not with --quiet.
   void info(const std::string& message) const;

@@ -109,7 +109,7 @@ int hand_out(const DiffResult& result, const DiffSettings& settings, const DiffO
   hand(options.junit, [&] { return diff_junit(result); });
   hand(options.markdown, [&] { return diff_markdown(result); });
   if (to_standard_output(options) == 0) {
-    text = diff_text(result);
+    text = diff_text(result, console.is_quiet() ? DiffWords::kFailures : DiffWords::kAll);
     if (is_run_by_ctest()) text += ctest_lines(result);
   }
   console.result(text, object);

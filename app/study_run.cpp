@@ -50,7 +50,7 @@ void finish(Store& store, const std::filesystem::path& folder, int jobs, const s
   if (store.redone())
     console.warning(fmt::format("{}: its records were made by another solver; they are made again",
                                 folder.string()));
-  ProgressLine line(console.shows_progress());
+  ProgressLine line(!console.is_quiet());
   Progress last;
   run([&](const Progress& progress) {
     last = progress;

@@ -28,6 +28,7 @@ namespace fs = std::filesystem;
 
 constexpr const char* kRecords = "records";
 constexpr std::size_t kMostIds = 100'000;
+constexpr std::size_t kLongestName = 4096;  // Characters, as printed.
 
 /// Files of the items on one side, below its folder: id, and the paths of it.
 using Files = std::map<std::string, std::set<fs::path>>;
@@ -74,13 +75,21 @@ std::vector<std::string> chosen_ids(const ApprovalOrder& order, const Files& bef
     return {known.begin(), known.end()};
   }
   const std::vector<std::string_view> names(known.begin(), known.end());
-  for (const std::string& id : order.ids)
-    if (!known.contains(id)) {
+  std::vector<std::string> ids;
+  for (const std::string& id : order.ids) {
+    // As they are, or as a diff prints those that a terminal cannot show.
+    const auto own = known.contains(id) ? known.find(id)
+                                        : std::ranges::find_if(known, [&](const std::string& one) {
+                                            return printable(one, kLongestName) == id;
+                                          });
+    if (own == known.end()) {
       const std::string_view meant = likely_word(id, names);
       throw InvalidInput("no figure or picture \"" + printable(id) + "\"" +
                          (meant.empty() ? "" : "; did you mean \"" + std::string(meant) + "\"?"));
     }
-  return order.ids;
+    ids.push_back(*own);
+  }
+  return ids;
 }
 
 void read_as_what_it_is(const fs::path& file) {

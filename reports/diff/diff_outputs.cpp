@@ -70,11 +70,13 @@ int failures_of(const DiffResult& result, bool unreadable) {
 
 }  // namespace
 
-std::string diff_text(const DiffResult& result) {
+std::string diff_text(const DiffResult& result, DiffWords words) {
+  if (words == DiffWords::kFailures && result.passes) return "";
   std::string text;
   for (const DiffItem& item : result.items) {
     const Judgement& told = item.judgement;
-    if (told.verdict == Verdict::kIdentical) continue;
+    if (told.verdict == Verdict::kIdentical || (words == DiffWords::kFailures && item.passes))
+      continue;
     // Causes that are tied to records begin with the id themselves.
     const std::string head = told.cause.starts_with(item.id + " ") ? "" : item.id + ": ";
     text +=

@@ -10,8 +10,14 @@ namespace mapproof {
 
 /// The forms in which a comparison is handed out (docs/diff.md). All are deterministic.
 
-/// A line an item that is not identical, "worse  fig-7  cause", and one on the whole.
-std::string diff_text(const DiffResult& result);
+/// Of which items it is told.
+enum class DiffWords {
+  kAll,       ///< Of those that are not identical.
+  kFailures,  ///< Of those that do not pass; nothing at all if the whole passes.
+};
+
+/// A line an item, "worse  fig-7  cause", and one on the whole.
+std::string diff_text(const DiffResult& result, DiffWords words = DiffWords::kAll);
 
 /// docs/schemas/diff.schema.json.
 nlohmann::ordered_json diff_json(const DiffResult& result);

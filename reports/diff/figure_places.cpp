@@ -66,20 +66,19 @@ Movement FigurePlaces::movement(std::size_t panel, Point before, Point after,
 const FigurePlaces::Pages& FigurePlaces::pages() const {
   if (!pages_) {
     const Theme theme = report_theme();
-    pages_ = {.baseline = maps_of(baseline_, theme),
-              .current = maps_of(current_, theme),
-              .px_per_pt = theme.dpi / 72.0};
+    pages_ = {.current = maps_of(current_, theme), .px_per_pt = theme.dpi / 72.0};
   }
   return *pages_;
 }
 
 std::optional<double> FigurePlaces::distance_px(std::size_t panel, Point before,
                                                 Point after) const {
-  const Pages& both = pages();
-  if (panel >= both.baseline.size() || panel >= both.current.size()) return std::nullopt;
-  const Point from = both.baseline[panel](before.x, before.y);
-  const Point to = both.current[panel](after.x, after.y);
-  const double distance = both.px_per_pt * std::hypot(to.x - from.x, to.y - from.y);
+  // Both on the current page: that the axes moved is no move of the mark.
+  const Pages& page = pages();
+  if (panel >= page.current.size()) return std::nullopt;
+  const Point from = page.current[panel](before.x, before.y);
+  const Point to = page.current[panel](after.x, after.y);
+  const double distance = page.px_per_pt * std::hypot(to.x - from.x, to.y - from.y);
   return std::isfinite(distance) ? std::optional(distance) : std::nullopt;
 }
 

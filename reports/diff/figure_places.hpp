@@ -26,7 +26,7 @@ class FigurePlaces {
 
  private:
   struct Pages {
-    std::vector<PanelMap> baseline, current;  ///< One a panel; empty: cannot be drawn.
+    std::vector<PanelMap> current;  ///< One a panel; empty: cannot be drawn.
     double px_per_pt = 1.0;
   };
   const Pages& pages() const;

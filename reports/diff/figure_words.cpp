@@ -13,6 +13,12 @@ namespace {
 
 constexpr std::size_t kMostWords = 60;  // Characters of a value in a sentence.
 
+/// "41 mm", "1.2 m"; other units as they are.
+std::string length_text(double length, const std::string& unit) {
+  if (unit == "m" && length < 0.9995) return fmt::format("{:.3g} mm", 1000.0 * length);
+  return fmt::format("{:.3g}{}{}", length, unit.empty() ? "" : " ", unit);
+}
+
 std::string change_sentence(const FigureChange& change) {
   const std::string before = printable(change.baseline, kMostWords);
   const std::string after = printable(change.current, kMostWords);
@@ -80,8 +86,7 @@ std::string move_text(const MarkMove& move) {
           ? fmt::format(
                 "{} {}", who,
                 std::isnan(move.current.x + move.current.y) ? "lost its place" : "gained a place")
-          : fmt::format("{} moved {:.3g}{}{}", who, move.distance, move.unit.empty() ? "" : " ",
-                        move.unit);
+          : fmt::format("{} moved {}", who, length_text(move.distance, move.unit));
   if (move.distance_px) text += fmt::format(" ({:.1f} px)", *move.distance_px);
   return text;
 }

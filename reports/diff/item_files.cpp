@@ -16,6 +16,7 @@ constexpr std::size_t kMostFiles = 100'000;
 constexpr std::array<std::string_view, 13> kKinds = {
     "figure.json", "scene.json", "png", "svg",  "pdf", "jpg", "jpeg",
     "gif",         "webp",       "tif", "tiff", "bmp", "eps"};
+constexpr std::ptrdiff_t kFirstPicture = 2;
 constexpr std::ptrdiff_t kFirstOther = 5;  // Of these: pictures that nothing here decodes.
 
 void add(ItemList& items, const ItemName& name, const fs::path& file) {
@@ -33,6 +34,10 @@ std::string document_kind(const fs::path& file) {
   const std::string extension = file.extension().string();
   const bool is_table = extension == ".csv" || extension == ".md" || extension == ".tex";
   return is_table && file.parent_path().filename() == "tables" ? extension.substr(1) : "";
+}
+
+bool is_picture(std::string_view kind) {
+  return std::ranges::find(kKinds.begin() + kFirstPicture, kKinds.end(), kind) != kKinds.end();
 }
 
 }  // namespace
@@ -71,9 +76,10 @@ ItemList list_items(const fs::path& path) {
   fs::recursive_directory_iterator entry(path, error), end;
   for (; !error && entry != end; entry.increment(error)) {
     std::error_code unknown;  // Of a link to nowhere: then reading it says so.
-    if (entry->is_directory(unknown)) continue;
     const ItemName name = item_name(entry->path(), path);
-    if (name.kind.empty()) continue;
+    // A folder that is called like a picture stands where one may have been: reading it says so.
+    const bool is_folder = entry->is_directory(unknown);
+    if (name.kind.empty() || (is_folder && !is_picture(name.kind))) continue;
     if (++files > kMostFiles)
       throw IoError(path.string(), "holds more than 100,000 pictures: compare folders below it");
     add(items, name, entry->path());

@@ -39,7 +39,7 @@ PictureDiff pdf_diff(const std::filesystem::path& baseline, const std::filesyste
   diff.baseline_bytes = before.size();
   diff.current_bytes = after.size();
   for (const auto& [name, bytes] :
-       {std::pair("the baseline ", &before), std::pair("the current file ", &after)})
+       {std::pair("the baseline: ", &before), std::pair("the current file: ", &after)})
     if (const std::string problem = problem_of(*bytes); !problem.empty())
       diff.reason += (diff.reason.empty() ? "" : "; ") + std::string(name) + problem;
   if (!diff.reason.empty()) return diff;

@@ -45,8 +45,8 @@ std::string renderer(const PngFile& png) {
 /// "baseline truncated", for one side or both.
 std::string unreadable(const std::string& baseline, const std::string& current) {
   std::string reason;
-  if (!baseline.empty()) reason = "the baseline " + baseline;
-  if (!current.empty()) (reason += reason.empty() ? "" : "; ") += "the current file " + current;
+  if (!baseline.empty()) reason = "the baseline: " + baseline;
+  if (!current.empty()) (reason += reason.empty() ? "" : "; ") += "the current file: " + current;
   return reason;
 }
 

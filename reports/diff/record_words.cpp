@@ -70,10 +70,10 @@ std::string test_words(const Comparison& c) {
   const std::string pairs = c.test->unit == "layout"
                                 ? fmt::format("{} pairs in {} layouts", c.pairs, c.test->test.pairs)
                                 : counted(c.test->test.pairs, "pair");
-  return fmt::format(", {} can show nothing at {}{}", pairs,
+  return fmt::format(": {} can show nothing at {}{}", pairs,
                      c.test->powerless_of == 1 ? std::string("1 quantity")
                                                : fmt::format("{} quantities", c.test->powerless_of),
-                     c.outcome == Outcome::kChanged ? "" : ", but all that differ point one way");
+                     c.outcome == Outcome::kChanged ? "" : ", all that differ point one way");
 }
 
 void judge_comparisons(const RecordDiff& diff, Judgement& whole, std::vector<std::string>& causes) {
@@ -234,7 +234,8 @@ std::string comparison_text(const Comparison& comparison, const std::string& run
               : change_text(comparison.baseline_mean, comparison.current_mean, quantity.unit));
   if (!has_own && comparison.pairs > 1)
     text += fmt::format(" over {}", counted(comparison.pairs, "run"));
-  if (comparison.test) text += fmt::format(", p = {:.2g}", comparison.test->p);
+  if (comparison.test && comparison.test->powerless_of == 0)
+    text += fmt::format(", p = {:.2g}", comparison.test->p);
   if (comparison.lost > 0) text += fmt::format(", lost in {}", counted(comparison.lost, "run"));
   if (comparison.gained > 0)
     text += fmt::format(", gained in {}", counted(comparison.gained, "run"));
@@ -261,8 +262,11 @@ Judgement judge(const RecordDiff& diff) {
   judge_rest(diff, whole, causes);
   judge_others(diff, whole, causes);
   if (!diff.problems.empty()) {
+    // What is lost with a file that cannot be read is no news beside that.
+    const auto more = std::ssize(diff.problems) - 1;
     whole.verdict = Verdict::kUnreadable;
-    causes.insert(causes.begin(), diff.problems[0].what);
+    causes = {diff.problems[0].what +
+              (more > 0 ? fmt::format(", and {}", counted(more, "file")) + " more" : "")};
   }
   if (!settings.empty()) {
     if (whole.verdict <= Verdict::kWithinTolerance) whole.verdict = Verdict::kStyle;

@@ -35,6 +35,15 @@ TEST(DiffVerb, FailsWhatDiffersUnlessItIsAllowed) {
   EXPECT_EQ(mapproof({"diff", two.before, two.after, "--allow", "changed,worse"}).exit_code, 0);
 }
 
+TEST(DiffVerb, QuietTellsOfWhatDoesNotPassAlone) {
+  const TwoStudies two;
+  EXPECT_EQ(mapproof({"diff", two.before, two.after, "--quiet"}).out, "");
+  two.change_score();
+  const Outcome outcome = mapproof({"diff", two.before, two.after, "--quiet"});
+  EXPECT_EQ(outcome.exit_code, 1);
+  EXPECT_NE(outcome.out.find("does not pass"), std::string::npos) << outcome.out;
+}
+
 TEST(DiffVerb, WritesWhatIsAskedFor) {
   const TwoStudies two;
   two.change_picture();

@@ -129,6 +129,9 @@ void add_curve_looks(const Figure& figure, std::vector<ValueCase>& cases) {
 
 /// What a figure says that it is made of, whether or not it varies, and numbers in its words.
 void add_records(std::vector<ValueCase>& cases) {
+  cases.push_back(changed_figure(figures()[1], "marked as one that varies", Verdict::kChanged,
+                                 {"varies from run to run no \u2192 yes"},
+                                 [](Figure& f) { f.varies = true; }));
   for (const Figure& figure : figures())
     cases.push_back(changed_figure(figure, "other records", Verdict::kChanged,
                                    {"it shows other records", "layout-9"},

@@ -70,6 +70,14 @@ TEST(ForeignFiles, AreNotIdenticalWhereAnIgnoredRegionHidesWhatDiffers) {
       remarks, [](const std::string& r) { return r.find("mistyped") != std::string::npos; }));
 }
 
+TEST(ForeignFiles, AFolderInAPicturesPlaceCannotBeRead) {
+  const Foreign two;
+  write_file(two.before / "a.png", picture("map-usual"));
+  fs::create_directories(two.after / "a.png");
+  const DiffItem item = two.item("a");
+  EXPECT_EQ(item.judgement.verdict, Verdict::kUnreadable) << item.judgement.cause;
+}
+
 TEST(ForeignFiles, WithNumbersThatAreNoneCannotBeRead) {
   const Foreign two;
   for (const char* bad : {"<svg><circle cx='nan'/></svg>", "<svg><path d='M0 1e999'/></svg>",
