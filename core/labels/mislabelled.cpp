@@ -107,13 +107,16 @@ void turn_to_minority(const LabelledLooks& looks, const std::vector<int>& labels
     const std::size_t place = places[static_cast<std::size_t>(looks.log.sightings[k].step)];
     (place < trial.stretch.begin ? before : place < trial.stretch.end ? inside : after) += 1;
   }
-  if (inside <= before + after || before + after == 0) return;
+  // In two parts only if it is plainly the smaller: halves are about equal either way.
+  const bool in_parts = before > 0 && after > 0;
+  const std::size_t outside = before + after;
+  if (outside == 0 || (in_parts ? 2 * inside <= 3 * outside : inside <= outside)) return;
   trial.stretch = before < after
                       ? StepStretch{trial.stretch.order, trial.stretch.end, places.size()}
                       : StepStretch{trial.stretch.order, 0, trial.stretch.begin};
   trial.labels = mended_labels(looks, labels, trial.fault, trial.stretch);
   trial.map.positions_m.row(trial.fault.first).swap(trial.map.positions_m.row(trial.fault.second));
-  if (std::min(before, after) > 0)
+  if (in_parts)
     trial.map = lowered_map(pair_items(looks.pairs, trial.labels, looks.blocks),
                             trial.map.positions_m, trial.map.width_m);
 }
