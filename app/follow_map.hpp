@@ -1,15 +1,10 @@
 #pragma once
 
 #include <functional>
-#include <optional>
 #include <string>
-#include <vector>
 
 #include "app/console.hpp"
-#include "app/own_map.hpp"
-#include "core/follow/followed_map.hpp"
-#include "core/model/sensor.hpp"
-#include "core/records/sightings.hpp"
+#include "app/follower.hpp"
 
 namespace mapproof {
 
@@ -24,13 +19,9 @@ FollowInterval follow_interval(const std::string& text);
 
 /// What is followed, and how it is mapped.
 struct FollowOrder {
-  std::string path;  ///< "-": standard input.
-  Sensor sensor = Sensor::kVisibility;
-  AngleUnit unit = AngleUnit::kRadians;  ///< Of bearings.
-  FollowOptions options;
+  std::string path;     ///< "-": standard input. Gzip'ed or not.
+  FollowedTable table;  ///< Its source is set from the path.
   FollowInterval every;
-  std::optional<NamedPointsFile> anchors;  ///< Fitted to once three of them are on the map.
-  AffineFit fit = AffineFit::kLeastDistances;
 };
 
 /// What is written after an update; `last`: no other comes.
@@ -38,7 +29,7 @@ using WriteFollowed = std::function<void(const OwnMap& map, bool last)>;
 
 /// Follows a growing file to its end, or to SIGINT or SIGTERM, and writes its map again and again.
 /// A file that is cut short or replaced ends it, too, with a remark. Without anchors each map is
-/// laid on the one before, so that it does not jump.
+/// laid on the one before, so that it does not jump. What is noticed meanwhile goes to the console.
 /// @return The last map.
 /// @throws IoError for what cannot be read.
 OwnMap follow_map(const FollowOrder& order, const Console& console, const WriteFollowed& write);

@@ -7,6 +7,7 @@
 
 #include "app/build_facts.hpp"
 #include "app/map_folder.hpp"
+#include "app/map_words.hpp"
 #include "core/base/files.hpp"
 #include "core/records/folder_lock.hpp"
 #include "core/records/map_files.hpp"
@@ -28,15 +29,16 @@ void write_report(const FollowedPlace& place, const OwnMap& map, const Figure& f
       map_report({.record = map.record,
                   .title = "Map of " + fs::path(place.observations).filename().string(),
                   .facts = {{"Observations", place.observations},
-                            {"Sensor", std::string(name(map.record.sensor))},
+                            {"Sensor", observed_words(map)},
                             {"Landmarks", std::to_string(map.record.names.size())},
                             {"Steps followed", std::to_string(map.record.step)},
-                            {"Method", label(map.record.setting)}},
+                            {"Method", method_words(map)}},
                   .remarks = map.remarks,
                   .figure = figure_block(figure),
                   .more_figures = {},
                   .provenance = build_provenance(),
-                  .command = place.command});
+                  .command = place.command,
+                  .what = what_words(map)});
   write_tables(report, fs::path(place.out) / "tables");
   write_file(fs::path(place.out) / "report.html",
              report_html(report, place.page, [&](const std::string& id) {
@@ -55,7 +57,7 @@ WriteFollowed followed_outputs(FollowedPlace place) {
     const fs::path out = place.out;
     write_file(out / kMapFile, map_json(map.record));
     write_file(out / "map.csv", map_csv(map.record));
-    const Figure figure = map_figure(map.record, "map");
+    const Figure figure = map_figure(map.record, "map", what_words(map));
     const std::string svg = write_figure(figure, report_theme(), out / "figures");
     if (last) write_report(place, map, figure, svg);
   };

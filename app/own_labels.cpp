@@ -143,8 +143,10 @@ std::vector<LabelFact> check_labels_of(ObservationSource& source, const LabelCho
   std::error_code error;
   if (!std::filesystem::is_directory(source.path, error) || !is_mrclam(source.path))
     throw IoError(source.path,
-                  "labels are checked by range and bearing seen together: sightings mapped with "
-                  "--kind range-bearing, or a folder of MRCLAM");
+                  fmt::format("{} by range and bearing seen together: sightings mapped with "
+                              "--kind range-bearing, or a folder of MRCLAM",
+                              choice.check || choice.repair ? "labels are checked"
+                                                            : "a landmark that moved is found"));
   LabelOutcome outcome =
       checked(source, read_mrclam_sightings(source.path).log, choice, anchors, truth);
   source.history = history_of(outcome.log, source.history.sensor);

@@ -8,6 +8,7 @@
 
 #include "core/align/diagonal_anchors.hpp"
 #include "core/base/errors.hpp"
+#include "core/base/words.hpp"
 #include "core/linalg/planarity.hpp"
 #include "core/score/map_score.hpp"
 
@@ -44,13 +45,11 @@ Points matched_truth(const OwnLandmarks& source, const NamedPointsFile& truth,
     throw IoError(truth.path, fmt::format("none of its {} names is a landmark of {} ({}, ...)",
                                           given, source.path, quoted(source.names.at(0))));
   if (matched < given)
-    remarks.push_back(
-        fmt::format("{} positions of the truth are of landmarks that were not "
-                    "observed; they are not used.",
-                    given - matched));
+    remarks.push_back(fmt::format(
+        "True positions of landmarks that were not observed, not used: {}.", given - matched));
   if (matched < source.landmarks())
-    remarks.push_back(fmt::format("The true position of {} landmarks is not known.",
-                                  source.landmarks() - matched));
+    remarks.push_back(fmt::format("The true position of {} is not known.",
+                                  counted(source.landmarks() - matched, "landmark")));
   return positions;
 }
 

@@ -84,16 +84,9 @@ bool lay_rigidly(MapRecord& record, const Points& known_m, const std::vector<Eig
   return true;
 }
 
-std::vector<Eigen::Index> all_rows(const SightingLog& log) {
-  std::vector<Eigen::Index> rows(log.names.size());
-  std::iota(rows.begin(), rows.end(), Eigen::Index{0});
-  return rows;
-}
+}  // namespace
 
-/// A map in metres is laid on the anchors as asked for; without any, on the truth for its errors.
-/// @return How maps of other looks are brought to the same frame.
-CertaintyFrame place(OwnMap& result, const Reference& known, const SightingLog& log, AffineFit fit,
-                     bool rigid) {
+CertaintyFrame place_pairs(OwnMap& result, const Reference& known, AffineFit fit, bool rigid) {
   MapRecord& record = result.record;
   const Points own = record.estimate;
   if (!rigid && !known.anchors.empty()) align_and_score(record, own, known, fit);
@@ -102,8 +95,9 @@ CertaintyFrame place(OwnMap& result, const Reference& known, const SightingLog& 
   record.frame = Frame::kTruth;
   record.anchors = known.anchors;
   if (known.anchors.empty() && !known.has_truth) return {own, {}, true};
-  if (!lay_rigidly(record, known.positions_m,
-                   known.anchors.empty() ? all_rows(log) : known.anchors))
+  std::vector<Eigen::Index> all(record.names.size());
+  std::iota(all.begin(), all.end(), Eigen::Index{0});
+  if (!lay_rigidly(record, known.positions_m, known.anchors.empty() ? all : known.anchors))
     return {own, {}, true};
   record.truth_m = known.positions_m;
   if (known.anchors.empty())
@@ -116,7 +110,17 @@ CertaintyFrame place(OwnMap& result, const Reference& known, const SightingLog& 
   return {known.positions_m, known.anchors, true};
 }
 
-}  // namespace
+void describe_pairs(OwnMap& result, const PairMap& map) {
+  MapRecord& record = result.record;
+  const std::size_t M = record.names.size();
+  record.sensor = Sensor::kRange;
+  record.setting = {Method::kSmacof, std::nullopt};
+  record.estimate = map.embedding.coordinates;
+  record.statuses = map.embedding.statuses;
+  record.of_pairs = true;
+  result.read.emplace_back("Measured pairs",
+                           fmt::format("{} of {}", map.pairs.size(), M * (M - 1) / 2));
+}
 
 OwnMap map_pairs(SightingSource source, const std::optional<NamedPointsFile>& anchors,
                  const std::optional<NamedPointsFile>& truth, const OwnMapOptions& options,
@@ -128,15 +132,8 @@ OwnMap map_pairs(SightingSource source, const std::optional<NamedPointsFile>& an
   const Reference known = known_places(source, anchors, truth, result);
   const PairMap map = sighted_map(log);
   MapRecord& record = result.record;
-  record.sensor = Sensor::kRange;
-  record.setting = {Method::kSmacof, std::nullopt};
-  record.of_pairs = true;
-  record.statuses = map.embedding.statuses;
-  result.read.emplace_back(
-      "Measured pairs",
-      fmt::format("{} of {}", map.pairs.size(), log.names.size() * (log.names.size() - 1) / 2));
-  record.estimate = map.embedding.coordinates;
-  const CertaintyFrame frame = place(result, known, log, options.fit, rigid);
+  describe_pairs(result, map);
+  const CertaintyFrame frame = place_pairs(result, known, options.fit, rigid);
   if (options.ellipse_replicates > 0)
     result.certainty = own_pair_certainty(
         record, log, frame, {.replicates = options.ellipse_replicates, .fit = options.fit},

@@ -8,8 +8,10 @@
 #include "app/build_facts.hpp"
 #include "app/commands/verbs.hpp"
 #include "app/follow_map.hpp"
+#include "app/followable.hpp"
 #include "app/followed_outputs.hpp"
 #include "app/map_folder.hpp"
+#include "app/map_words.hpp"
 #include "app/own_input.hpp"
 #include "app/result_json.hpp"
 #include "core/base/errors.hpp"
@@ -165,21 +167,6 @@ std::optional<NamedPointsFile> read_points(const std::string& path) {
   return NamedPointsFile{.path = path, .points = read_landmarks(path)};
 }
 
-std::string observed_words(const OwnMap& map) {
-  return map.observed.empty() ? observed(map.record) : map.observed;
-}
-
-std::string method_words(const OwnMap& map) {
-  return map.made_by.empty() ? made_by(map.record) : map.made_by;
-}
-
-/// What the record's sensor and method do not say; empty if they do.
-std::string what_words(const OwnMap& map) {
-  return map.made_by.empty() && !map.record.of_pairs
-             ? std::string()
-             : method_words(map) + ", " + observed_words(map);
-}
-
 std::vector<std::pair<std::string, std::string>> facts(const Arguments& arguments,
                                                        const OwnMap& map) {
   const MapRecord& record = map.record;
@@ -315,24 +302,20 @@ void write_outputs(const Arguments& arguments, const OwnMap& map, const Template
 }
 
 int follow_file(const Arguments& arguments, const Templates& page, const Invocation& invocation) {
+  require_followable(arguments.input, arguments.options);
   const OwnMapOptions& options = arguments.options;
-  const std::optional<Sensor> kind = sensor_named(arguments.input.kind);
-  if (!kind)
-    throw InvalidInput("--follow: say by --kind what the values are: visibility, bearing or range");
-  if (options.choose || options.ellipse_replicates > 0 || options.steps > 0 ||
-      !arguments.truth.empty() || options.missing.way != MissingChoice().way ||
-      options.submaps > 0 || arguments.input.labels.asked())
-    throw InvalidInput(
-        "--follow: not with --method auto, --ellipses, --steps, --truth, --missing, --submaps or "
-        "labels that are checked");
   FollowOrder order{.path = arguments.input.path,
-                    .sensor = *kind,
-                    .unit = arguments.input.unit,
-                    .options = {.setting = options.setting, .embedder = {}},
-                    .every = follow_interval(arguments.every),
-                    .anchors = read_points(arguments.anchors),
-                    .fit = options.fit};
-  order.options.embedder.only_seen_together = options.only_seen_together;
+                    .table = {.source = {},
+                              .sensor = sensor_named(arguments.input.kind),
+                              .unit = arguments.input.unit,
+                              .options = {.setting = options.setting, .embedder = {}},
+                              .anchors = read_points(arguments.anchors),
+                              .truth = read_points(arguments.truth),
+                              .fit = options.fit,
+                              .rigid = arguments.input.rigid,
+                              .find_moved = arguments.input.labels.find_moved},
+                    .every = follow_interval(arguments.every)};
+  order.table.options.embedder.only_seen_together = options.only_seen_together;
   const OwnMap map = follow_map(order, invocation.console,
                                 followed_outputs({.out = arguments.out,
                                                   .observations = arguments.input.path,
@@ -463,8 +446,10 @@ Action map_verb(CLI::App& app) {
       ->default_str("200")
       ->check(CLI::Range(10, 10000));
   app.add_flag("--follow", arguments->follow,
-               "Follow long CSV as it grows (-: standard input) and write map and figure again and "
-               "again, to its end, SIGINT or SIGTERM");
+               "Follow long CSV or sightings as they grow (-: standard input; gzip'ed or not) and "
+               "write map and figure again and again, to their end, SIGINT or SIGTERM; not with "
+               "--method auto, --ellipses, --missing, --submaps, --steps, --drop-unseen, "
+               "--check-labels or --repair-labels");
   app.add_option("--every", arguments->every,
                  "With --follow: after so many steps (100) or seconds (2s)")
       ->capture_default_str();
@@ -474,7 +459,8 @@ Action map_verb(CLI::App& app) {
       "that anchors, truth or survey tell");
   app.add_flag("--repair-labels", arguments->input.labels.repair, "And mend them before mapping");
   app.add_flag("--find-moved", arguments->input.labels.find_moved,
-               "Sightings of range and bearing: name landmarks that moved, map both places");
+               "Sightings of range and bearing: name landmarks that moved, map both places; with "
+               "--follow, as soon as it shows");
   app.add_option("--templates", arguments->templates,
                  "Folder whose templates replace the embedded ones");
   return [arguments](const Invocation& invocation) { return make_map(*arguments, invocation); };

@@ -218,11 +218,12 @@ std::string described(const MovedLandmark& moved, const SightingLog& log) {
                ? fmt::format("step {}", step + 1)
                : fmt::format("{:.1f} s", log.times_s[static_cast<std::size_t>(step)]);
   };
-  return fmt::format(
-      "{} moved by {:.2f} m at {} (between {} and {}; p = {:.3g}): loss {:.3f} -> {:.3f} m",
-      printable(log.names[static_cast<std::size_t>(moved.landmark)]), moved.distance_m,
-      at(moved.step), at(moved.earliest_step), at(moved.latest_step), moved.p, moved.loss_before_m,
-      moved.loss_after_m);
+  const std::string earliest = at(moved.earliest_step), latest = at(moved.latest_step);
+  return fmt::format("{} moved by {:.2f} m {} (p = {:.3g}): loss {:.3f} -> {:.3f} m",
+                     printable(log.names[static_cast<std::size_t>(moved.landmark)]),
+                     moved.distance_m,
+                     earliest == latest ? "at " + latest : "between " + earliest + " and " + latest,
+                     moved.p, moved.loss_before_m, moved.loss_after_m);
 }
 
 }  // namespace mapproof

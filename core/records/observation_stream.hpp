@@ -10,7 +10,9 @@
 #include <Eigen/Core>
 
 #include "core/model/sensor.hpp"
+#include "core/records/growing_table.hpp"
 #include "core/records/name_list.hpp"
+#include "core/records/sighting_stream.hpp"
 #include "core/records/sightings.hpp"
 #include "core/records/table_reader.hpp"
 
@@ -22,9 +24,10 @@ struct StreamedStep {
   std::vector<std::pair<Eigen::Index, double>> values;  ///< Landmark and value; missing ones not.
 };
 
-/// Reads long CSV (step or time, landmark, value) as it grows. A line counts once its end is there,
-/// and a step once a row of a later one is. Steps come in ascending order; a cell holds no line
-/// feed.
+/// Reads one sensor's values from long CSV (step or time, landmark, value) as it grows. A line
+/// counts once its end is there (see GrowingTable), and a step once a row of a later one is. Steps
+/// come in ascending order. A header of sightings (see read_sightings) does as well: of each look
+/// what the sensor saw.
 class ObservationStream {
  public:
   /// @param source  What to call the file in errors.
@@ -33,38 +36,44 @@ class ObservationStream {
   ObservationStream(const ObservationStream&) = delete;
   ObservationStream& operator=(const ObservationStream&) = delete;
 
-  /// @throws IoError with the line, as read_observations; or for a step that is not ascending, or a
-  ///         line of more than 1 MiB.
-  void take(std::string_view bytes);
+  /// @throws IoError with the line, as read_observations and GrowingTable; or for a step that is
+  ///         not ascending.
+  void take(std::string_view bytes) {
+    table_.take(bytes, [this](const TableRow& row) { read_row(row); });
+  }
 
   /// Forgets a line whose end has not come, as of a file that is still written to.
-  void drop_half_line() { pending_.clear(); }
+  void drop_half_line() { table_.drop_half_line(); }
 
   /// There will be no more: the last line needs no end, and the last step is complete.
   /// @throws IoError as take().
   void end();
 
   /// The steps that became complete since the last call, ascending.
-  std::vector<StreamedStep> steps() { return std::exchange(complete_, {}); }
+  std::vector<StreamedStep> steps();
+
+  /// What has to be said after end(), a sentence each.
+  std::vector<std::string> remarks() const;
 
   /// Of all landmarks so far, in the order in which they came.
-  const std::vector<std::string>& names() const { return names_.names(); }
+  const std::vector<std::string>& names() const {
+    return sightings_ ? sightings_->rows().names().names() : names_.names();
+  }
 
  private:
-  void read_line(std::string_view line);
+  void read_row(const TableRow& row);
   void read_header(const TableRow& row, const std::string& place);
   void add(double step, Eigen::Index landmark, double value, const std::string& place);
 
-  std::string source_;
+  GrowingTable table_;
   Sensor sensor_;
   AngleUnit unit_;
   NameList names_;
-  std::string pending_;                 ///< A line whose end has not come.
-  std::size_t line_ = 0;                ///< Of the file, that was read last.
-  bool begun_ = false;                  ///< A row was read: no header comes any more.
-  std::size_t columns_[3] = {0, 1, 2};  ///< Of step, landmark, value.
-  std::size_t width_ = 3;               ///< Cells of a row.
-  std::string word_ = "step";           ///< What the first of them is called.
+  std::optional<LookGatherer> sightings_;  ///< If that is what the header names.
+  bool begun_ = false;                     ///< A row was read: no header comes any more.
+  std::size_t columns_[3] = {0, 1, 2};     ///< Of step, landmark, value.
+  std::size_t width_ = 3;                  ///< Cells of a row.
+  std::string word_ = "step";              ///< What the first of them is called.
   std::optional<StreamedStep> open_;
   std::vector<bool> listed_;  ///< Landmarks in the open step.
   std::vector<StreamedStep> complete_;

@@ -14,6 +14,7 @@
 #include "core/records/mrclam.hpp"
 #include "core/records/observation_values.hpp"
 #include "core/records/sighting_values.hpp"
+#include "core/records/table_reader.hpp"
 
 namespace mapproof {
 namespace {
@@ -112,8 +113,10 @@ ObservationSource read_observations(const std::filesystem::path& path, std::opti
                   "does not say what it holds: visibility, bearing or range has to be given");
   if (layout == Layout::kAuto)
     layout = has_long_header(text, source) ? Layout::kLong : Layout::kWide;
-  return layout == Layout::kLong ? read_long(text, source, *kind, unit)
-                                 : read_wide(text, source, *kind, unit);
+  ObservationSource result = layout == Layout::kLong ? read_long(text, source, *kind, unit)
+                                                     : read_wide(text, source, *kind, unit);
+  if (is_cut_table(text)) result.remarks.emplace_back(kCutRemark);
+  return result;
 }
 
 }  // namespace mapproof

@@ -46,6 +46,11 @@ std::string_view bare(std::string_view cell, char separator) {
 
 }  // namespace
 
+bool is_cut_table(std::string_view text) {
+  const std::string_view last = trimmed(text.substr(text.rfind('\n') + 1));
+  return !last.empty() && last.front() != '#';
+}
+
 TableReader::TableReader(std::string_view text, const std::string& source)
     : TableReader(text, source, separator_in(text)) {}
 

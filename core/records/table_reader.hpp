@@ -13,6 +13,12 @@ struct TableRow {
   std::vector<std::string_view> cells;
 };
 
+/// What is said of a table whose last row has no line end.
+inline constexpr const char* kCutRemark = "The last line has no line end: it may be cut.";
+
+/// Whether the text ends within a row, without a line end.
+bool is_cut_table(std::string_view text);
+
 /// Reads a table row by row: RFC 4180 with commas, semicolons or tabs, LF or CR LF, cells in quotes
 /// or not, or with runs of blanks between bare cells. Blanks around bare cells, empty lines and
 /// lines that start with '#' are passed over. Linear in the size of the text.

@@ -51,6 +51,7 @@ bool TableStream::read_rows() {
       throw IoError(source_, fmt::format("line {}", lines_ + 1),
                     "a row of more than 16 MB: do its quotes end?");
   }
+  if (is_over_) is_cut_ = is_cut_table(bytes_);
   if (whole_ == 0) {
     if (lines_ == 0) throw IoError(source_, "is empty");
     return false;

@@ -20,6 +20,9 @@ class TableStream {
   ///         quotes, or a row of more than 16 MB.
   bool next(TableRow& row);
 
+  /// After the last row: it has no line end, see kCutRemark.
+  bool is_cut() const { return is_cut_; }
+
   const std::string& source() const { return source_; }
   /// Bytes that the whole text will have, judged by what was read so far.
   double expected_size() const { return file_.expected_size(); }
@@ -33,6 +36,7 @@ class TableStream {
   std::size_t whole_ = 0;  ///< Bytes of them that are whole rows.
   std::size_t lines_ = 0;  ///< Before them.
   bool is_over_ = false;
+  bool is_cut_ = false;
   char separator_ = '\0';  ///< Not known before the first row.
   std::optional<TableReader> reader_;
 };

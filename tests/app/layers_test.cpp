@@ -52,7 +52,7 @@ const std::map<std::string, Modules>& allowed() {
       {"core/choice", with_leaves({"core/linalg", "core/graph", "core/observe", "core/embed",
                                    "core/align", "core/score", "core/pairs", "core/certainty"})},
       {"core/follow", with_leaves({"core/linalg", "core/graph", "core/observe", "core/embed",
-                                   "core/align", "core/pairs"})},
+                                   "core/align", "core/pairs", "core/labels"})},
       {"core/trials",
        with_leaves({"core/simulate", "core/observe", "core/embed", "core/align", "core/score",
                     "core/linalg", "core/graph", "core/records", "core/experiment", "core/pairs",

@@ -73,6 +73,44 @@ TEST(ObservationStream, HoldsAStepBackUntilALaterOneBegins) {
   EXPECT_EQ(stream.steps().size(), 1U);
 }
 
+TEST(ObservationStream, SeparatesCellsByWhatTheFirstRowHolds) {
+  ObservationStream stream("f", Sensor::kVisibility);
+  stream.take("# x;y\nstep,landmark,value\n2,x;y,1\n2,\ttab,1\n");
+  stream.end();
+  EXPECT_EQ(stream.names(), (std::vector<std::string>{"x;y", "tab"}));
+  ObservationStream semicolons("f", Sensor::kRange);
+  semicolons.take("0;a,b;2.5\n");
+  semicolons.end();
+  EXPECT_EQ(semicolons.names(), (std::vector<std::string>{"a,b"}));
+}
+
+TEST(ObservationStream, RemarksThatTheLastLineHasNoEnd) {
+  const auto remarks = [](const std::string& text) {
+    ObservationStream stream("f", Sensor::kRange);
+    stream.take(text);
+    stream.end();
+    return stream.remarks();
+  };
+  EXPECT_TRUE(remarks("0,a,86.98746\n").empty());
+  EXPECT_TRUE(remarks("0,a,86.98746\n# no row").empty());
+  EXPECT_EQ(remarks("0,a,86.987"), std::vector<std::string>{kCutRemark});
+}
+
+TEST(ObservationStream, TakesWhatItsSensorSawOfSightings) {
+  const std::string text = "time,landmark,range,bearing\n0.5,a,2,1\n0.5,b,3,\n0.75,b,4,-1\n";
+  const auto all = [&](Sensor sensor) {
+    ObservationStream stream("f", sensor);
+    const auto steps = streamed(text, 5, stream);
+    std::vector<std::vector<std::pair<Eigen::Index, double>>> values;
+    for (const StreamedStep& step : steps) values.push_back(step.values);
+    return values;
+  };
+  using Values = std::vector<std::vector<std::pair<Eigen::Index, double>>>;
+  EXPECT_EQ(all(Sensor::kRange), (Values{{{0, 2.0}, {1, 3.0}}, {{1, 4.0}}}));
+  EXPECT_EQ(all(Sensor::kBearing), (Values{{{0, 1.0}}, {{1, -1.0}}}));
+  EXPECT_EQ(all(Sensor::kVisibility), (Values{{{0, 1.0}, {1, 1.0}}, {{1, 1.0}}}));
+}
+
 TEST(ObservationStream, NamesTheLineOfWhatIsWrong) {
   const auto error = [](const std::string& text) {
     return error_of([&] {
@@ -90,7 +128,7 @@ TEST(ObservationStream, NamesTheLineOfWhatIsWrong) {
   EXPECT_EQ(error("time,landmark,value\n0.5,a,1\n0.25,a,1\n"),
             "f: line 3: time 0.25 after time 0.5: a file that is followed lists its looks in "
             "ascending order");
-  EXPECT_EQ(error("step,landmark,angle\n"), "f: line 1: no column is named value");
+  EXPECT_EQ(error("step,landmark\n"), "f: line 1: no column is named value");
   EXPECT_EQ(error("step,landmark,value,robot\n"),
             "f: line 1: a file that is followed is of one robot");
   EXPECT_EQ(error("0,a,1\n0,\"b,1\n"),

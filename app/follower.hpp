@@ -1,0 +1,56 @@
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "app/own_map.hpp"
+#include "core/follow/followed_map.hpp"
+#include "core/model/sensor.hpp"
+#include "core/records/sightings.hpp"
+
+namespace mapproof {
+
+/// How a growing table is mapped.
+struct FollowedTable {
+  std::string source;                      ///< What to call it in errors.
+  std::optional<Sensor> sensor;            ///< None: range and bearing seen together.
+  AngleUnit unit = AngleUnit::kRadians;    ///< Of bearings.
+  FollowOptions options;                   ///< Of one sensor.
+  std::optional<NamedPointsFile> anchors;  ///< Fitted to once three of them are on the map.
+  std::optional<NamedPointsFile> truth;    ///< For scores, of what is known of it so far.
+  AffineFit fit = AffineFit::kLeastDistances;
+  bool rigid = false;       ///< Range and bearing: turn and shift alone.
+  bool find_moved = false;  ///< Range and bearing: notice landmarks that moved.
+};
+
+/// A growing table as a map. Without anchors or truth each map is laid on the one before, so that
+/// it does not jump.
+class Follower {
+ public:
+  virtual ~Follower() = default;
+
+  /// @throws IoError for what cannot be read.
+  virtual void take(std::string_view bytes) = 0;
+  /// Forgets a line whose end has not come.
+  virtual void drop_half_line() = 0;
+  /// There will be no more. @throws IoError as take().
+  virtual void end() = 0;
+
+  /// Takes in the steps that are complete. @return How many. @throws IoError as take().
+  virtual long take_steps() = 0;
+  virtual long steps() const = 0;
+
+  /// The map so far; of what was noticed meanwhile, it says in its remarks.
+  virtual OwnMap update() = 0;
+  /// The map of all there was, with all that is to be said of it.
+  virtual OwnMap last_update() = 0;
+};
+
+/// @note A table of one sensor's values is never held as a whole; of range and bearing, the
+///       sightings are.
+std::unique_ptr<Follower> follower_of(const FollowedTable& table);
+
+}  // namespace mapproof

@@ -1,0 +1,16 @@
+#pragma once
+
+#include <string>
+
+#include "app/own_map.hpp"
+
+namespace mapproof {
+
+/// What was observed, and by which method it was mapped, in words.
+std::string observed_words(const OwnMap& map);
+std::string method_words(const OwnMap& map);
+
+/// What the record does not say of either; empty if it does.
+std::string what_words(const OwnMap& map);
+
+}  // namespace mapproof

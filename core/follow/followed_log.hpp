@@ -1,0 +1,45 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "core/model/sighting_log.hpp"
+
+namespace mapproof {
+
+/// Looks of several robots as they come, pooled as a file of all of them would be: robot by robot,
+/// each robot's in order of step or time.
+class FollowedLog {
+ public:
+  /// A look: which robot's, at which step or time.
+  struct Look {
+    int robot = 0;
+    double key = 0.0;
+
+    auto operator<=>(const Look&) const = default;
+  };
+
+  /// Adds a look; robots are numbered as they come.
+  /// @param sightings  Ascending by landmark, none twice; their steps are not read.
+  /// @throws InvalidInput unless the robot's looks come in ascending order.
+  void add(const Look& look, const std::vector<Sighting>& sightings);
+
+  int steps() const { return steps_; }
+
+  /// The log so far, and the looks that its steps are.
+  /// @param is_timed  Looks go by time: the log holds it.
+  /// @note O(sightings).
+  SightingLog log(const std::vector<std::string>& names, bool is_timed) const;
+  std::vector<Look> looks() const;
+
+ private:
+  struct Robot {
+    std::vector<double> keys;
+    std::vector<Sighting> sightings;  ///< Their steps are the robot's own.
+  };
+
+  std::vector<Robot> robots_;
+  int steps_ = 0;
+};
+
+}  // namespace mapproof

@@ -1,0 +1,47 @@
+#include "core/follow/moved_watch.hpp"
+
+#include <algorithm>
+#include <utility>
+
+namespace mapproof {
+
+std::vector<NoticedMove> MovedWatch::check(const FollowedLog& looks, const SightingLog& log) {
+  ++checks_;
+  next_ = log.steps + std::max(1, log.steps / 4);
+  MovedOptions options = options_;
+  options.level /= static_cast<double>(checks_) * (checks_ + 1);
+  const std::vector<FollowedLog::Look> all = looks.looks();
+  std::vector<NoticedMove> fresh;
+  for (const MovedLandmark& found : find_moved(log, options).moved) {
+    NoticedMove now{found.landmark, all[static_cast<std::size_t>(found.step)],
+                    described(found, log)};
+    const auto known = std::ranges::find(moved_, found.landmark, &NoticedMove::landmark);
+    if (known != moved_.end()) {
+      *known = std::move(now);  // More looks tell the time better.
+      continue;
+    }
+    moved_.push_back(now);
+    fresh.push_back(std::move(now));
+  }
+  return fresh;
+}
+
+SightingLog MovedWatch::split(const FollowedLog& looks, SightingLog log) const {
+  if (moved_.empty()) return log;
+  const std::vector<FollowedLog::Look> all = looks.looks();
+  const bool is_timed = !log.times_s.empty();
+  for (const NoticedMove& moved : moved_) {
+    const auto fresh = static_cast<int>(log.names.size());
+    log.names.push_back(log.names[static_cast<std::size_t>(moved.landmark)] + " (moved)");
+    for (Sighting& seen : log.sightings) {
+      const FollowedLog::Look& look = all[static_cast<std::size_t>(seen.step)];
+      const bool is_later = is_timed ? look.key >= moved.from.key : look >= moved.from;
+      if (seen.landmark == moved.landmark && is_later) seen.landmark = fresh;
+    }
+  }
+  std::ranges::stable_sort(log.sightings, {},
+                           [](const Sighting& one) { return std::pair(one.step, one.landmark); });
+  return log;
+}
+
+}  // namespace mapproof

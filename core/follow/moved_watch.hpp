@@ -1,0 +1,47 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "core/follow/followed_log.hpp"
+#include "core/labels/moved.hpp"
+
+namespace mapproof {
+
+/// A landmark that was noticed to have moved, while looks still came.
+struct NoticedMove {
+  int landmark = 0;
+  FollowedLog::Look from;  ///< The first sighting at the new place.
+  std::string sentence;    ///< See described().
+};
+
+/// Looks for landmarks that moved in a log that grows, and keeps their later sightings apart.
+///
+/// A check is find_moved() of all looks so far, made when there are a quarter more of them than at
+/// the last: by then a move right after it holds long enough to tell. So that all the checks
+/// together say of hardly more than `level` of logs without a move that something moved, the k-th
+/// has a level of level / (k (k + 1)).
+class MovedWatch {
+ public:
+  explicit MovedWatch(const MovedOptions& options = {}) : options_(options) {}
+
+  /// Whether there are looks enough for the next check.
+  bool is_due(int steps) const { return steps >= next_; }
+
+  /// Checks. @return What was not noticed before. @note As find_moved().
+  std::vector<NoticedMove> check(const FollowedLog& looks, const SightingLog& log);
+
+  /// The log with two landmarks for each that was noticed, "NAME (moved)" the later one.
+  SightingLog split(const FollowedLog& looks, SightingLog log) const;
+
+  const std::vector<NoticedMove>& moved() const { return moved_; }
+
+ private:
+  MovedOptions options_;
+  int checks_ = 0;
+  int next_ = 60;
+  std::vector<NoticedMove> moved_;
+};
+
+}  // namespace mapproof

@@ -1,0 +1,216 @@
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <cmath>
+#include <fstream>
+#include <thread>
+
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+#include "core/base/files.hpp"
+#include "core/base/random.hpp"
+#include "core/records/map_files.hpp"
+#include "core/records/table_reader.hpp"
+#include "tests/core/labels/noisy_looks.hpp"
+#include "tests/support/gzip.hpp"
+#include "tests/support/looks.hpp"
+#include "tests/support/program.hpp"
+
+namespace mapproof::test {
+namespace {
+
+using nlohmann::json;
+
+/// Runs `map PIPE --follow ...` while the bytes are written into the pipe, then closed.
+Outcome followed(const TemporaryFolder& folder, const std::string& bytes,
+                 const std::vector<std::string>& more) {
+  const std::string pipe = folder / "pipe";
+  EXPECT_EQ(::mkfifo(pipe.c_str(), 0600), 0);
+  std::thread writer([&] {
+    std::ofstream file(pipe, std::ios::binary);
+    file.write(bytes.data(), static_cast<std::streamsize>(bytes.size()));
+  });
+  std::vector<std::string> all = {"map", pipe, "--follow", "--json"};
+  all.insert(all.end(), more.begin(), more.end());
+  const Outcome outcome = mapproof(all);
+  writer.join();
+  ::unlink(pipe.c_str());
+  return outcome;
+}
+
+json mapped(std::vector<std::string> arguments) {
+  arguments.insert(arguments.begin(), "map");
+  arguments.emplace_back("--json");
+  const Outcome outcome = mapproof(arguments);
+  EXPECT_EQ(outcome.exit_code, 0) << outcome.error;
+  return outcome.exit_code == 0 ? json::parse(outcome.out) : json();
+}
+
+void expect_same_landmarks(const json& followed, const json& whole) {
+  ASSERT_EQ(followed.at("landmarks").size(), whole.at("landmarks").size());
+  for (std::size_t i = 0; i < whole.at("landmarks").size(); ++i) {
+    const json& here = followed["landmarks"][i];
+    const json& there = whole["landmarks"][i];
+    EXPECT_EQ(here["name"], there["name"]);
+    EXPECT_NEAR(here["x_m"].get<double>(), there["x_m"].get<double>(), 1e-6);
+    EXPECT_NEAR(here["y_m"].get<double>(), there["y_m"].get<double>(), 1e-6);
+  }
+}
+
+std::string sightings_csv(const SightingLog& log) {
+  std::string text = "time,landmark,range,bearing\n";
+  for (const Sighting& seen : log.sightings)
+    text += fmt::format("{},{},{},{}\n", 0.1 * seen.step,
+                        log.names[static_cast<std::size_t>(seen.landmark)], seen.range_m,
+                        seen.bearing_rad);
+  return text;
+}
+
+std::string bearings_csv(const SightingLog& log) {
+  std::string text = "step,landmark,value\n";
+  for (const Sighting& seen : log.sightings)
+    text += fmt::format("{},{},{}\n", seen.step, log.names[static_cast<std::size_t>(seen.landmark)],
+                        seen.bearing_rad);
+  return text;
+}
+
+std::string places_csv(const SightingLog& log, const std::vector<Eigen::Index>& rows) {
+  std::string text = "name,x,y\n";
+  const Points places = noisy_landmarks();
+  for (const Eigen::Index k : rows)
+    text += fmt::format("{},{},{}\n", log.names[static_cast<std::size_t>(k)], places(k, 0),
+                        places(k, 1));
+  return text;
+}
+
+/// Landmark 7 stands half a metre elsewhere from look 400 of 800 on.
+SightingLog looks_with_move() {
+  Points places = noisy_landmarks();
+  SightingLog log = looks_at(places, 800, 5, 11);
+  places.row(7) += Eigen::RowVector2d(0.3, -0.4);
+  const SightingLog later = looks_at(places, 800, 5, 11);
+  std::erase_if(log.sightings, [](const Sighting& one) { return one.step >= 400; });
+  for (const Sighting& one : later.sightings)
+    if (one.step >= 400) log.sightings.push_back(one);
+  Random random(5);
+  for (Sighting& one : log.sightings) {
+    one.range_m *= 1.0 + 0.02 * random.normal();
+    one.bearing_rad += 0.0175 * random.normal();
+  }
+  return log;
+}
+
+TEST(FollowedMapFile, ReadsWhatThePlainMapReads) {
+  const TemporaryFolder folder;
+  const std::string text =
+      "step,landmark,value\n0,\"x;y\",1\n0,b,1\n1,b,1\n1,c,1\n2,x;y,1\n2,c,1\n2,d,1\n3,d,1\n3,b,"
+      "1\n4,b,1";
+  const Outcome outcome =
+      followed(folder, text, {"--kind", "visibility", "--method", "lpca", "--out", folder / "a"});
+  ASSERT_EQ(outcome.exit_code, 0) << outcome.error;
+  EXPECT_EQ(json::parse(outcome.out)["landmarks"][0]["name"], "x;y");
+  EXPECT_NE(outcome.error.find(kCutRemark), std::string::npos) << outcome.error;
+  const json whole = mapped({folder.file("a.csv", text), "--kind", "visibility", "--method", "lpca",
+                             "--out", folder / "b"});
+  EXPECT_NE(whole["remarks"].dump().find(kCutRemark), std::string::npos);
+  EXPECT_EQ(whole["landmarks"].size(), 4U);
+}
+
+TEST(FollowedMapFile, IsScoredByTheTruthAsThePlainMapIs) {
+  const TemporaryFolder folder;
+  const SightingLog log = noisy_looks(400, 2);
+  const std::string text = bearings_csv(log);
+  const std::string anchors = folder.file("anchors.csv", places_csv(log, {0, 2, 12, 14}));
+  const std::string truth = folder.file("truth.csv", places_csv(log, {0, 1, 2, 5, 7, 9, 12, 14}));
+  const std::vector<std::string> options = {"--kind", "bearing", "--method", "smacof", "--anchors",
+                                            anchors,  "--truth", truth,      "--out"};
+  auto with_out = [&](const std::string& out) {
+    std::vector<std::string> all = options;
+    all.push_back(out);
+    return all;
+  };
+  const Outcome outcome = followed(folder, text, with_out(folder / "followed"));
+  ASSERT_EQ(outcome.exit_code, 0) << outcome.error;
+  std::vector<std::string> plain = with_out(folder / "whole");
+  plain.insert(plain.begin(), folder.file("all.csv", text));
+  const json whole = mapped(plain), last = json::parse(outcome.out);
+  expect_same_landmarks(last, whole);
+  for (const char* score : {"mpe_m", "moe_percent", "mpe_all_fitted_m"})
+    EXPECT_NEAR(last["score"][score].get<double>(), whole["score"][score].get<double>(), 1e-6);
+  EXPECT_NE(last["remarks"].dump().find("The true position of 7 landmarks is not known."),
+            std::string::npos);
+}
+
+TEST(FollowedMapFile, OfRangeAndBearingIsThePlainMapAndNamesWhatMoved) {
+  const TemporaryFolder folder;
+  const SightingLog log = looks_with_move();
+  const std::string text = sightings_csv(log);
+  const std::string anchors = folder.file("anchors.csv", places_csv(log, {0, 2, 12, 14}));
+  const Outcome outcome =
+      followed(folder, text,
+               {"--kind", "range-bearing", "--find-moved", "--every", "50", "--anchors", anchors,
+                "--fit", "rigid", "--out", folder / "followed"});
+  ASSERT_EQ(outcome.exit_code, 0) << outcome.error;
+  // Noticed while there were still looks to come, with the time.
+  const std::string noticed = fmt::format("looks: {} moved by 0.", log.names[7]);
+  EXPECT_NE(outcome.error.find(noticed), std::string::npos) << outcome.error;
+  EXPECT_NE(outcome.error.find(" s and "), std::string::npos) << outcome.error;
+  const json last = json::parse(outcome.out);
+  const json whole =
+      mapped({folder.file("all.csv", text), "--kind", "range-bearing", "--find-moved", "--anchors",
+              anchors, "--fit", "rigid", "--out", folder / "whole"});
+  ASSERT_EQ(last["labels"].size(), 1U);
+  EXPECT_EQ(last["labels"], whole["labels"]);
+  EXPECT_EQ(last["landmarks"].size(), log.names.size() + 1);
+  expect_same_landmarks(last, whole);
+  EXPECT_NE(read_file(folder / "followed/report.html").find("range and bearing"),
+            std::string::npos);
+}
+
+TEST(FollowedMapFile, MayBeGzippedAndCutThere) {
+  const TemporaryFolder folder;
+  const SightingLog log = noisy_looks(400, 3);
+  const std::string packed = gzipped(sightings_csv(log));
+  const Outcome whole =
+      followed(folder, packed, {"--kind", "range-bearing", "--out", folder / "a"});
+  ASSERT_EQ(whole.exit_code, 0) << whole.error;
+  EXPECT_EQ(json::parse(whole.out)["steps"], 400);
+  const Outcome part = followed(folder, packed.substr(0, packed.size() * 3 / 4),
+                                {"--kind", "range-bearing", "--out", folder / "b"});
+  ASSERT_EQ(part.exit_code, 0) << part.error;
+  EXPECT_LT(json::parse(part.out)["steps"], 400);
+  EXPECT_NE(part.error.find("stops before its end"), std::string::npos);
+}
+
+TEST(FollowedMapFile, SaysWhatCannotBeCombinedAndWhy) {
+  const TemporaryFolder folder;
+  const std::string file = folder.file("rows.csv", "0,a,1\n0,b,2\n");
+  const std::string out = folder / "out";
+  const auto error = [&](std::vector<std::string> more) {
+    std::vector<std::string> all = {"map", file, "--follow", "--out", out};
+    all.insert(all.end(), more.begin(), more.end());
+    const Outcome outcome = mapproof(all);
+    EXPECT_EQ(outcome.exit_code, 2);
+    return outcome.error;
+  };
+  const std::vector<std::pair<std::vector<std::string>, std::string>> cases = {
+      {{"--ellipses", "20"}, "--ellipses: not with --follow"},
+      {{"--method", "auto"}, "--method auto: not with --follow"},
+      {{"--missing", "ppca"}, "--missing: not with --follow"},
+      {{"--submaps", "8"}, "--submaps: not with --follow"},
+      {{"--steps", "8"}, "--steps: not with --follow"},
+      {{"--check-labels"}, "--check-labels, --repair-labels: not with --follow"},
+      {{"--find-moved"}, "--find-moved: not with --follow: one kind of value"},
+  };
+  for (const auto& [options, expected] : cases) {
+    std::vector<std::string> all = options;
+    all.insert(all.end(), {"--kind", "range"});
+    EXPECT_NE(error(all).find(expected), std::string::npos) << error(all);
+  }
+  EXPECT_NE(error({}).find("range or range-bearing"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace mapproof::test
