@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <string>
 #include <vector>
 
@@ -9,6 +10,8 @@
 #include "core/records/sightings.hpp"
 
 namespace mapproof {
+
+inline constexpr std::size_t kMostSightings = 50'000'000;  ///< More are taken for a mistake.
 
 /// Which look a row is of: rows of one robot at one step or time are one look.
 struct LookKey {

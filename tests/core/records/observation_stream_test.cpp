@@ -128,7 +128,7 @@ TEST(ObservationStream, NamesTheLineOfWhatIsWrong) {
   EXPECT_EQ(error("time,landmark,value\n0.5,a,1\n0.25,a,1\n"),
             "f: line 3: time 0.25 after time 0.5: a file that is followed lists its looks in "
             "ascending order");
-  EXPECT_EQ(error("step,landmark\n"), "f: line 1: no column is named value");
+  EXPECT_EQ(error("step,landmark\n"), "f: line 1: no column is named range or bearing");
   EXPECT_EQ(error("step,landmark,value,robot\n"),
             "f: line 1: a file that is followed is of one robot");
   EXPECT_EQ(error("0,a,1\n0,\"b,1\n"),
