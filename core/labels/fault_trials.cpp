@@ -6,8 +6,10 @@
 #include <map>
 
 #include "core/labels/label_search.hpp"
+#include "core/labels/look_by_look.hpp"
 #include "core/labels/mixed_fault.hpp"
 #include "core/labels/place_costs.hpp"
+#include "core/labels/scattered_fault.hpp"
 
 namespace mapproof {
 namespace {
@@ -15,6 +17,8 @@ namespace {
 constexpr std::size_t kTried = 40;  ///< Hypotheses that a map is made for.
 /// The best of each kind, whose maps are made from nothing too.
 constexpr std::size_t kBegunAnew = 4;
+/// A fault in single looks has more freedom: it must cost less than this share of a stretch's.
+constexpr double kPlainer = 0.9;
 
 /// The stretch of steps over which the fault explains the looks better, in a map that holds it.
 StepStretch sharpened(const LabelledLooks& looks, const std::vector<int>& labels,
@@ -140,10 +144,15 @@ std::optional<FaultTrial> best_trial(const LabelledLooks& looks, const std::vect
   std::optional<FaultTrial> lowest;
   for (const auto& [fault, found] : best) {
     FaultTrial trial = sharp_trial(looks, labels, found.first, found.second);
+    trial = settled_trial(looks, labels, trial.labels, trial, trial.map.positions_m,
+                          trial.map.width_m, map.width_m);
     if (trial.map.cost < (lowest ? lowest->map.cost : map.cost)) lowest = std::move(trial);
   }
   std::optional<FaultTrial> mixed = mixed_trial(looks, labels, map);
   if (mixed && mixed->map.cost < (lowest ? lowest->map.cost : map.cost)) lowest = std::move(mixed);
+  std::optional<FaultTrial> scattered = scattered_trial(looks, labels, map);
+  if (scattered && scattered->map.cost < (lowest ? kPlainer * lowest->map.cost : map.cost))
+    lowest = std::move(scattered);
   return lowest;
 }
 

@@ -14,6 +14,7 @@ struct FaultTrial {
   StepStretch stretch;
   std::vector<int> labels;
   RobustMap map;
+  bool scattered = false;  ///< In single looks, whenever; the stretch is then the whole log.
 };
 
 /// The fault that lowers the cost of a map the most; empty if none does. The best of each kind is

@@ -8,6 +8,19 @@
 namespace mapproof {
 namespace {
 
+/// Adds what an item costs if its landmark stands on each point.
+void add_costs(const Points& grid, const Eigen::RowVector2d& partner, const PairItem& item,
+               double width_m, Eigen::Ref<Eigen::VectorXf> costs) {
+  const Eigen::ArrayXd residuals =
+      ((grid.rowwise() - partner).rowwise().norm().array() - item.distance_m).abs();
+  costs.array() +=
+      (item.weight * (residuals <= width_m)
+                         .select(0.5 * residuals.square(), width_m * (residuals - 0.5 * width_m)))
+          .cast<float>();
+}
+
+}  // namespace
+
 Points grid_over(const Points& map, int side) {
   Eigen::RowVector2d low(HUGE_VAL, HUGE_VAL);
   Eigen::RowVector2d high = -low;
@@ -28,19 +41,6 @@ Points grid_over(const Points& map, int side) {
   }
   return grid;
 }
-
-/// Adds what an item costs if its landmark stands on each point.
-void add_costs(const Points& grid, const Eigen::RowVector2d& partner, const PairItem& item,
-               double width_m, Eigen::Ref<Eigen::VectorXf> costs) {
-  const Eigen::ArrayXd residuals =
-      ((grid.rowwise() - partner).rowwise().norm().array() - item.distance_m).abs();
-  costs.array() +=
-      (item.weight * (residuals <= width_m)
-                         .select(0.5 * residuals.square(), width_m * (residuals - 0.5 * width_m)))
-          .cast<float>();
-}
-
-}  // namespace
 
 PlaceCosts place_costs(const std::vector<PairItem>& items, const Points& map, int blocks,
                        const std::vector<int>& labels, double width_m, int side) {

@@ -9,6 +9,10 @@
 
 namespace mapproof {
 
+/// side^2 points over a map and a quarter of its extent around; NaN rows do not count.
+/// @param side  >= 2.
+Points grid_over(const Points& map, int side);
+
 /// What the sightings under one label cost in each block, were their landmark anywhere on a grid
 /// while the others stay: whose sightings they are can then be asked of any stretch of blocks by
 /// sums alone.

@@ -1,0 +1,58 @@
+#include "core/labels/look_by_look.hpp"
+
+#include "core/labels/look_costs.hpp"
+#include "core/labels/place_costs.hpp"
+
+namespace mapproof {
+namespace {
+
+constexpr int kMostRounds = 12;
+constexpr double kPrice = 2.0;   ///< Of another label, variances.
+constexpr double kWidths = 1.5;  ///< Standard deviations in a width.
+
+}  // namespace
+
+std::vector<int> labels_look_by_look(const LabelledLooks& looks, const std::vector<int>& given,
+                                     const std::vector<int>& labels, const LabelHypothesis& fault,
+                                     const Points& map, double width_m) {
+  const double price = kPrice * width_m * width_m / (kWidths * kWidths);
+  const bool both = fault.fault == LabelFault::kSwapped;
+  // The label that a sighting bears if it does not keep its present one.
+  const auto otherwise = [&](std::size_t row) {
+    if (!both && given[row] != fault.first) return labels[row];
+    return labels[row] == fault.first    ? fault.second
+           : labels[row] == fault.second ? fault.first
+                                         : labels[row];
+  };
+  std::vector<int> result = labels;
+  LookCosts costs(looks, map, width_m);
+  for (std::size_t row = 0, end = 0; row < labels.size(); row = end) {
+    end = costs.take(labels, row, fault.first, fault.second);
+    if (!costs.tells()) continue;
+    bool taken = false;
+    double gain = 0.0;
+    for (std::size_t k = row; k < end; ++k) {
+      taken = taken || given[k] == fault.second;
+      if (otherwise(k) != labels[k]) gain += costs(k, labels[k]) - costs(k, otherwise(k));
+    }
+    if (gain <= price || (taken && !both)) continue;
+    for (std::size_t k = row; k < end; ++k) result[k] = otherwise(k);
+  }
+  return result;
+}
+
+FaultTrial settled_trial(const LabelledLooks& looks, const std::vector<int>& given,
+                         const std::vector<int>& labels, FaultTrial trial, const Points& start, double told_m, double width_m) {
+  trial.map.positions_m = turned_as_seen(looks, labels, start);
+  for (int round = 0; round < kMostRounds; ++round) {
+    std::vector<int> next =
+        labels_look_by_look(looks, given, labels, trial.fault, trial.map.positions_m, told_m);
+    if (round > 0 && next == trial.labels) break;
+    trial.labels = std::move(next);
+    trial.map = lowered_map(pair_items(looks.pairs, trial.labels, looks.blocks),
+                            trial.map.positions_m, width_m);
+  }
+  return trial;
+}
+
+}  // namespace mapproof

@@ -1,0 +1,46 @@
+#pragma once
+
+#include <vector>
+
+#include "core/labels/labelled_looks.hpp"
+#include "core/labels/robust_map.hpp"
+
+namespace mapproof {
+
+/// The map, or its mirror image, so that its landmarks turn the way round that the looks show them.
+/// @param labels  A landmark of each sighting.
+Points turned_as_seen(const LabelledLooks& looks, const std::vector<int>& labels, Points map);
+
+/// What the sightings of one look cost in a map under this or that label, the others' labels being
+/// certain. Where two others or more tell where the robot was, range and bearing count each for
+/// itself: a range that is wrong spoils all of a sighting's distances alike, its bearing not.
+class LookCosts {
+ public:
+  /// @param map  M x 2, turned as seen; NaN rows: not mapped.
+  /// @param width_m  Of Huber's cost.
+  LookCosts(const LabelledLooks& looks, const Points& map, double width_m);
+
+  /// Takes the look that begins at a row, without the sightings under either of two labels.
+  /// @return The row after its last.
+  std::size_t take(const std::vector<int>& labels, std::size_t row, int first, int second);
+
+  bool tells() const { return !others_.empty(); }      ///< Whether anything is known of the look.
+  bool has_pose() const { return others_.size() > 1; }  ///< Whether its bearings count.
+
+  /// m^2; 0 where nothing tells.
+  double operator()(std::size_t row, int landmark) const;
+
+ private:
+  void set_pose();
+
+  const LabelledLooks& looks_;
+  const Points& map_;
+  double width_m_;
+  std::vector<std::pair<std::size_t, int>> others_;  ///< Row and label.
+  double extent_m_ = 0.0;  ///< Of the others about their mean: what the turn stands on.
+  Eigen::Matrix2d turn_ = Eigen::Matrix2d::Identity();  ///< Row vectors: from the map's to the robot's.
+  Eigen::RowVector2d seen_mean_m_ = Eigen::RowVector2d::Zero();
+  Eigen::RowVector2d map_mean_m_ = Eigen::RowVector2d::Zero();
+};
+
+}  // namespace mapproof

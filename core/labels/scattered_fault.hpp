@@ -1,0 +1,21 @@
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "core/labels/fault_trials.hpp"
+
+namespace mapproof {
+
+/// Two labels that stand for each other, or one for the other, in single looks, whenever those are:
+/// found by the two places that both labels' sightings share, then settled look by look.
+///
+/// Which place is whose the looks cannot say: it is taken so that one label alone is at fault, or
+/// else so that fewer sightings are.
+/// @param map  Of the pairs under these labels; the trial's cost is at its width.
+/// @return The one of the least cost; empty if no two labels share places.
+/// @note Some 1 s for 15 landmarks.
+std::optional<FaultTrial> scattered_trial(const LabelledLooks& looks,
+                                          const std::vector<int>& labels, const RobustMap& map);
+
+}  // namespace mapproof

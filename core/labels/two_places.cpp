@@ -1,0 +1,156 @@
+#include "core/labels/two_places.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <map>
+
+#include "core/labels/look_costs.hpp"
+#include "core/labels/place_costs.hpp"
+
+namespace mapproof {
+namespace {
+
+constexpr int kFewestLooks = 10;        ///< Of two landmarks, to ask for two distances.
+constexpr std::size_t kAskedLooks = 200;  ///< Of two landmarks, at most.
+constexpr std::size_t kAskedSightings = 250;  ///< Of a label, at most.
+constexpr std::size_t kLabels = 8;      ///< That are asked in twos.
+constexpr int kSide = 18;               ///< Of the grid of places.
+
+/// Every so many of the values that at most `most` are left.
+template <typename Value>
+void thin_out(std::vector<Value>& values, std::size_t most) {
+  const std::size_t stride = (values.size() + most - 1) / std::max<std::size_t>(most, 1);
+  if (stride < 2) return;
+  std::size_t kept = 0;
+  for (std::size_t k = 0; k < values.size(); k += stride) values[kept++] = values[k];
+  values.resize(kept);
+}
+
+/// By how much two distances explain the values better than one, a value, m^2.
+double gain_of_two(const std::vector<double>& values, double width_m) {
+  const auto [low, high] = std::ranges::minmax(values);
+  const auto steps = static_cast<Eigen::Index>(std::min(40.0, std::ceil((high - low) / width_m)));
+  if (steps < 2) return 0.0;
+  const auto n = std::ssize(values);
+  Eigen::ArrayXXd costs(n, steps + 1);
+  for (Eigen::Index i = 0; i < n; ++i)
+    for (Eigen::Index k = 0; k <= steps; ++k)
+      costs(i, k) = huber_cost(values[static_cast<std::size_t>(i)] -
+                                   (low + (high - low) * static_cast<double>(k) /
+                                              static_cast<double>(steps)),
+                               width_m);
+  const double one = costs.colwise().sum().minCoeff();
+  double two = one;
+  for (Eigen::Index a = 0; a <= steps; ++a)
+    for (Eigen::Index b = a + 2; b <= steps; ++b)
+      two = std::min(two, costs.col(a).min(costs.col(b)).sum());
+  return (one - two) / static_cast<double>(n);
+}
+
+/// Costs of a label's sightings at each point of a grid: sightings x points.
+Eigen::MatrixXf sighting_costs(const LabelledLooks& looks, const std::vector<int>& labels,
+                               const RobustMap& core, int label, const Points& grid) {
+  std::map<std::size_t, std::vector<std::pair<int, double>>> seen;  // row: others and distances
+  for (const LookPair& pair : looks.pairs)
+    for (const auto& [own, other] :
+         {std::pair(pair.first, pair.second), std::pair(pair.second, pair.first)})
+      if (labels[own] == label && core.positions_m.row(labels[other]).allFinite())
+        seen[own].emplace_back(labels[other], pair.distance_m);
+  std::vector<std::vector<std::pair<int, double>>> asked;
+  for (auto& [row, others] : seen) asked.push_back(std::move(others));
+  thin_out(asked, kAskedSightings);
+  Eigen::MatrixXf costs(std::ssize(asked), grid.rows());
+  for (Eigen::Index i = 0; i < costs.rows(); ++i)
+    for (Eigen::Index g = 0; g < grid.rows(); ++g) {
+      double sum = 0.0;
+      const auto& others = asked[static_cast<std::size_t>(i)];
+      for (const auto& [other, distance] : others)
+        sum += huber_cost(distance - (grid.row(g) - core.positions_m.row(other)).norm(),
+                          core.width_m);
+      costs(i, g) = static_cast<float>(sum / static_cast<double>(others.size()));
+    }
+  return costs;
+}
+
+/// The map of all landmarks but two.
+RobustMap core_map(const std::vector<PairItem>& items, const RobustMap& map, int first,
+                   int second, int blocks) {
+  std::vector<PairItem> others;
+  for (const PairItem& item : items)
+    if (item.first != first && item.first != second && item.second != first &&
+        item.second != second)
+      others.push_back(item);
+  RobustMap anew = robust_map(others, static_cast<int>(map.positions_m.rows()));
+  anew = unfolded_map(others, std::move(anew), blocks);
+  anew.positions_m.row(first).setConstant(std::nan(""));
+  anew.positions_m.row(second).setConstant(std::nan(""));
+  return anew;
+}
+
+/// Finds the two places, and which is whose: as fewer sightings ask for.
+void place(SharedPlaces& shared, const Eigen::MatrixXf& A, const Eigen::MatrixXf& B,
+           const Points& grid) {
+  const Eigen::VectorXf of_a = A.colwise().sum();
+  const Eigen::VectorXf of_b = B.colwise().sum();
+  const double one_each = static_cast<double>(of_a.minCoeff()) + of_b.minCoeff();
+  double least = one_each;
+  for (Eigen::Index p = 0; p < grid.rows(); ++p)
+    for (Eigen::Index q = p + 1; q < grid.rows(); ++q) {
+      const double sum = static_cast<double>(A.col(p).cwiseMin(A.col(q)).sum()) +
+                         B.col(p).cwiseMin(B.col(q)).sum();
+      if (sum >= least) continue;
+      least = sum;
+      shared.map.positions_m.row(shared.first) = grid.row(p);
+      shared.map.positions_m.row(shared.second) = grid.row(q);
+    }
+  shared.gain = (one_each - least) / std::max<double>(1.0, static_cast<double>(A.rows() + B.rows()));
+}
+
+}  // namespace
+
+std::vector<int> labels_of_two_distances(const LabelledLooks& looks, const std::vector<int>& labels,
+                                         int landmarks, double width_m, std::size_t most) {
+  std::map<std::pair<int, int>, std::vector<double>> distances;
+  for (const LookPair& pair : looks.pairs)
+    if (labels[pair.first] != labels[pair.second])
+      distances[std::minmax(labels[pair.first], labels[pair.second])].push_back(pair.distance_m);
+  std::vector<double> gains(static_cast<std::size_t>(landmarks), 0.0);
+  for (auto& [pair, values] : distances) {
+    if (std::ssize(values) < kFewestLooks) continue;
+    thin_out(values, kAskedLooks);
+    const double gain = gain_of_two(values, width_m);
+    gains[static_cast<std::size_t>(pair.first)] += gain;
+    gains[static_cast<std::size_t>(pair.second)] += gain;
+  }
+  std::vector<int> found;
+  for (int k = 0; k < landmarks; ++k)
+    if (gains[static_cast<std::size_t>(k)] > 0.0) found.push_back(k);
+  std::ranges::stable_sort(found, std::greater<>(),
+                           [&](int k) { return gains[static_cast<std::size_t>(k)]; });
+  if (found.size() > most) found.resize(most);
+  return found;
+}
+
+std::vector<SharedPlaces> shared_places(const LabelledLooks& looks, const std::vector<int>& labels,
+                                        const RobustMap& map, std::size_t most) {
+  const std::vector<PairItem> items = pair_items(looks.pairs, labels, looks.blocks);
+  const std::vector<int> doubtful = labels_of_two_distances(
+      looks, labels, static_cast<int>(map.positions_m.rows()), map.width_m, kLabels);
+  std::vector<SharedPlaces> found;
+  for (std::size_t k = 0; k < doubtful.size(); ++k)
+    for (std::size_t l = k + 1; l < doubtful.size(); ++l) {
+      SharedPlaces shared{std::min(doubtful[k], doubtful[l]), std::max(doubtful[k], doubtful[l]),
+                          {}, 0.0};
+      shared.map = core_map(items, map, shared.first, shared.second, looks.blocks.count);
+      const Points grid = grid_over(shared.map.positions_m, kSide);
+      place(shared, sighting_costs(looks, labels, shared.map, shared.first, grid),
+            sighting_costs(looks, labels, shared.map, shared.second, grid), grid);
+      if (shared.gain > 0.0) found.push_back(std::move(shared));
+    }
+  std::ranges::stable_sort(found, std::greater<>(), &SharedPlaces::gain);
+  if (found.size() > most) found.resize(most);
+  return found;
+}
+
+}  // namespace mapproof
