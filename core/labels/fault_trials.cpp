@@ -36,23 +36,7 @@ StepStretch sharpened(const LabelledLooks& looks, const std::vector<int>& labels
         cost(a, b, pair.distance_m) -
         cost(other_label(one, a), other_label(one, b), pair.distance_m);
   }
-  // The stretch of the greatest sum, in one pass.
-  StepStretch best{order, 0, 0};
-  double greatest = 0.0;
-  double sum = 0.0;
-  std::size_t begin = 0;
-  for (Eigen::Index k = 0; k < gains.size(); ++k) {
-    if (sum <= 0.0) {
-      sum = 0.0;
-      begin = static_cast<std::size_t>(k);
-    }
-    sum += gains(k);
-    if (sum > greatest) {
-      greatest = sum;
-      best = {order, begin, static_cast<std::size_t>(k) + 1};
-    }
-  }
-  return best;
+  return greatest_sum(order, gains);
 }
 
 /// The items with the fault mended in whole blocks: what makes trying many cheap.
@@ -144,11 +128,14 @@ std::optional<FaultTrial> best_trial(const LabelledLooks& looks, const std::vect
   std::optional<FaultTrial> lowest;
   for (const auto& [fault, found] : best) {
     FaultTrial trial = sharp_trial(looks, labels, found.first, found.second);
-    trial = settled_trial(looks, labels, trial.labels, trial, trial.map.positions_m,
+    trial = settled_trial(looks, labels, std::vector(trial.labels), trial, trial.map.positions_m,
                           trial.map.width_m, map.width_m);
     if (trial.map.cost < (lowest ? lowest->map.cost : map.cost)) lowest = std::move(trial);
   }
   std::optional<FaultTrial> mixed = mixed_trial(looks, labels, map);
+  if (mixed)
+    mixed = settled_trial(looks, labels, labels, *mixed, mixed->map.positions_m, map.width_m,
+                          map.width_m);
   if (mixed && mixed->map.cost < (lowest ? lowest->map.cost : map.cost)) lowest = std::move(mixed);
   std::optional<FaultTrial> scattered = scattered_trial(looks, labels, map);
   if (scattered && scattered->map.cost < (lowest ? kPlainer * lowest->map.cost : map.cost))

@@ -12,24 +12,6 @@ constexpr std::size_t kMostLabels = 40;
 constexpr int kMostPartners = 60;  ///< Of the distances' search: for more it would be slow.
 constexpr int kDistances = 32;     ///< Values of a distance that are tried.
 
-/// The mapped labels whose items cost most, ascending.
-std::vector<int> costly_labels(const std::vector<PairItem>& items, const RobustMap& map) {
-  const Eigen::Index M = map.positions_m.rows();
-  Eigen::VectorXd costs = Eigen::VectorXd::Zero(M);
-  for (const PairItem& item : items) {
-    const double cost = map_cost({item}, map.positions_m, map.width_m);
-    costs(item.first) += cost;
-    costs(item.second) += cost;
-  }
-  std::vector<int> labels;
-  for (int k = 0; k < M; ++k)
-    if (map.positions_m.row(k).allFinite()) labels.push_back(k);
-  std::ranges::stable_sort(labels, std::greater<>(), [&](int k) { return costs(k); });
-  labels.resize(std::min(labels.size(), kMostLabels));
-  std::ranges::sort(labels);
-  return labels;
-}
-
 /// The best stretch of each fault of each two labels, the best ones of all.
 /// @param placed  Fills in where both landmarks are.
 template <typename Placed>
@@ -56,7 +38,7 @@ std::vector<LabelHypothesis> best_stretches(const StretchCosts& costs, const Log
 /// What the items of each label cost if its distance to each partner were this or that.
 StretchCosts distance_costs(const std::vector<PairItem>& items, const RobustMap& map,
                             const LogBlocks& blocks) {
-  StretchCosts result{costly_labels(items, map), {}, kDistances};
+  StretchCosts result{costly_labels(items, map, kMostLabels), {}, kDistances};
   const Eigen::Index M = map.positions_m.rows();
   std::vector<int> place(static_cast<std::size_t>(M), -1);
   for (std::size_t k = 0; k < result.labels.size(); ++k)
@@ -80,11 +62,29 @@ StretchCosts distance_costs(const std::vector<PairItem>& items, const RobustMap&
 
 }  // namespace
 
+std::vector<int> costly_labels(const std::vector<PairItem>& items, const RobustMap& map,
+                               std::size_t most) {
+  const Eigen::Index M = map.positions_m.rows();
+  Eigen::VectorXd costs = Eigen::VectorXd::Zero(M);
+  for (const PairItem& item : items) {
+    const double cost = map_cost({item}, map.positions_m, map.width_m);
+    costs(item.first) += cost;
+    costs(item.second) += cost;
+  }
+  std::vector<int> labels;
+  for (int k = 0; k < M; ++k)
+    if (map.positions_m.row(k).allFinite()) labels.push_back(k);
+  std::ranges::stable_sort(labels, std::greater<>(), [&](int k) { return costs(k); });
+  labels.resize(std::min(labels.size(), most));
+  std::ranges::sort(labels);
+  return labels;
+}
+
 std::vector<LabelHypothesis> hypotheses_in_map(const std::vector<PairItem>& items,
                                                const RobustMap& map, const LogBlocks& blocks,
                                                std::size_t most) {
   const PlaceCosts places =
-      place_costs(items, map.positions_m, blocks.count, costly_labels(items, map), map.width_m);
+      place_costs(items, map.positions_m, blocks.count, costly_labels(items, map, kMostLabels), map.width_m);
   return best_stretches(places.costs, blocks, most, [&](LabelHypothesis& one, const auto& costs) {
     Eigen::Index point = 0;
     costs.first.minCoeff(&point);

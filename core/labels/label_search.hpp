@@ -7,6 +7,10 @@
 
 namespace mapproof {
 
+/// The mapped labels whose items cost most, ascending.
+std::vector<int> costly_labels(const std::vector<PairItem>& items, const RobustMap& map,
+                               std::size_t most);
+
 /// The most promising ways in which labels may be wrong over one stretch of blocks, judged in a
 /// map: all pairs of the 40 labels that cost most, all stretches, both landmarks where on a grid
 /// they cost least while the others stay.

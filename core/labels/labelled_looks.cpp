@@ -21,6 +21,25 @@ LabelledLooks labelled_looks(const SightingLog& log, int most_blocks) {
   return looks;
 }
 
+StepStretch greatest_sum(std::size_t order, const Eigen::VectorXd& gains) {
+  StepStretch best{order, 0, 0};
+  double greatest = 0.0;
+  double sum = 0.0;
+  std::size_t begin = 0;
+  for (Eigen::Index k = 0; k < gains.size(); ++k) {
+    if (sum <= 0.0) {
+      sum = 0.0;
+      begin = static_cast<std::size_t>(k);
+    }
+    sum += gains(k);
+    if (sum > greatest) {
+      greatest = sum;
+      best = {order, begin, static_cast<std::size_t>(k) + 1};
+    }
+  }
+  return best;
+}
+
 int other_label(const LabelHypothesis& one, int label) {
   if (label == one.first) return one.second;
   return one.fault == LabelFault::kSwapped && label == one.second ? one.first : label;
@@ -42,9 +61,15 @@ std::vector<int> mended_labels(const LabelledLooks& looks, std::vector<int> labe
   return labels;
 }
 
-SightingLog relabelled(const SightingLog& log, const std::vector<int>& labels) {
+SightingLog relabelled(const SightingLog& log, const std::vector<int>& labels,
+                       const std::vector<char>& left_out) {
   SightingLog result = log;
-  for (std::size_t k = 0; k < labels.size(); ++k) result.sightings[k].landmark = labels[k];
+  result.sightings.clear();
+  for (std::size_t k = 0; k < labels.size(); ++k) {
+    if (!left_out.empty() && left_out[k] != 0) continue;
+    result.sightings.push_back(log.sightings[k]);
+    result.sightings.back().landmark = labels[k];
+  }
   const auto key = [](const Sighting& one) { return std::tuple(one.step, one.landmark); };
   std::ranges::stable_sort(result.sightings, {}, key);
   const auto repeated = std::ranges::unique(result.sightings, {}, key);

@@ -28,6 +28,9 @@ struct StepStretch {
   std::size_t end = 0;
 };
 
+/// The stretch of the greatest sum, in one pass. @param gains  Of each place of that order.
+StepStretch greatest_sum(std::size_t order, const Eigen::VectorXd& gains);
+
 /// Whose a sighting under `label` is where the fault holds.
 int other_label(const LabelHypothesis& one, int label);
 
@@ -36,6 +39,8 @@ std::vector<int> mended_labels(const LabelledLooks& looks, std::vector<int> labe
                                const LabelHypothesis& one, const StepStretch& stretch);
 
 /// The log with other labels, a landmark once a look.
-SightingLog relabelled(const SightingLog& log, const std::vector<int>& labels);
+/// @param left_out  Nonzero: sightings that are not taken over; empty for none.
+SightingLog relabelled(const SightingLog& log, const std::vector<int>& labels,
+                       const std::vector<char>& left_out = {});
 
 }  // namespace mapproof

@@ -1,5 +1,7 @@
 #include "core/labels/look_by_look.hpp"
 
+#include <limits>
+
 #include "core/labels/look_costs.hpp"
 #include "core/labels/place_costs.hpp"
 
@@ -9,6 +11,10 @@ namespace {
 constexpr int kMostRounds = 12;
 constexpr double kPrice = 2.0;   ///< Of another label, variances.
 constexpr double kWidths = 1.5;  ///< Standard deviations in a width.
+
+RobustMap freshly_mapped(const std::vector<PairItem>& items, int landmarks, double width_m) {
+  return lowered_map(items, robust_map(items, landmarks).positions_m, width_m);
+}
 
 }  // namespace
 
@@ -42,17 +48,34 @@ std::vector<int> labels_look_by_look(const LabelledLooks& looks, const std::vect
 }
 
 FaultTrial settled_trial(const LabelledLooks& looks, const std::vector<int>& given,
-                         const std::vector<int>& labels, FaultTrial trial, const Points& start, double told_m, double width_m) {
+                         const std::vector<int>& labels, FaultTrial trial, const Points& start,
+                         double told_m, double width_m) {
   trial.map.positions_m = turned_as_seen(looks, labels, start);
+  trial.labels = labels;
+  FaultTrial best;
+  best.map.cost = std::numeric_limits<double>::infinity();
+  bool unfolded = false;
   for (int round = 0; round < kMostRounds; ++round) {
     std::vector<int> next =
         labels_look_by_look(looks, given, labels, trial.fault, trial.map.positions_m, told_m);
-    if (round > 0 && next == trial.labels) break;
+    const bool settled = round > 0 && next == trial.labels;
+    if (settled && unfolded) break;
     trial.labels = std::move(next);
-    trial.map = lowered_map(pair_items(looks.pairs, trial.labels, looks.blocks),
-                            trial.map.positions_m, width_m);
+    const std::vector<PairItem> items = pair_items(looks.pairs, trial.labels, looks.blocks);
+    trial.map = lowered_map(items, trial.map.positions_m, width_m);
+    if (!settled) {
+      if (trial.map.cost < best.map.cost) best = trial;
+      continue;
+    }
+    // Labels that were wrong may have folded what is mapped of the others.
+    unfolded = true;
+    RobustMap anew = freshly_mapped(items, static_cast<int>(start.rows()), width_m);
+    if (anew.cost < trial.map.cost) trial.map = std::move(anew);
+    trial.map = unfolded_map(items, std::move(trial.map), looks.blocks.count);
+    trial.map.positions_m = turned_as_seen(looks, trial.labels, trial.map.positions_m);
+    if (trial.map.cost < best.map.cost) best = trial;
   }
-  return trial;
+  return best;
 }
 
 }  // namespace mapproof

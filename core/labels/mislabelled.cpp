@@ -10,11 +10,13 @@
 #include "core/base/errors.hpp"
 #include "core/base/words.hpp"
 #include "core/labels/fault_trials.hpp"
+#include "core/labels/look_costs.hpp"
 #include "core/labels/place_costs.hpp"
 
 namespace mapproof {
 namespace {
 
+constexpr double kFitsNot = 8.0;  ///< A sighting's cost, in variances, under a label not its own.
 constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
 
 /// How well the fall of the cost is explained by the labels tried.
@@ -61,7 +63,8 @@ LabelFinding found(const LabelledLooks& looks, const std::vector<int>& labels,
   LabelFinding finding{.fault = trial.fault.fault,
                        .first = trial.fault.first,
                        .second = trial.fault.second,
-                       .by_time = trial.stretch.order > 0};
+                       .by_time = trial.stretch.order > 0,
+                       .scattered = trial.scattered};
   const std::vector<std::size_t>& places = looks.places[trial.stretch.order];
   std::size_t first = places.size();
   std::size_t last = 0;
@@ -97,7 +100,7 @@ LabelFinding found(const LabelledLooks& looks, const std::vector<int>& labels,
 /// search.
 void turn_to_minority(const LabelledLooks& looks, const std::vector<int>& labels,
                       FaultTrial& trial) {
-  if (trial.fault.fault != LabelFault::kSwapped) return;
+  if (trial.fault.fault != LabelFault::kSwapped || trial.scattered) return;
   const std::vector<std::size_t>& places = looks.places[trial.stretch.order];
   std::size_t before = 0;
   std::size_t inside = 0;
@@ -114,7 +117,10 @@ void turn_to_minority(const LabelledLooks& looks, const std::vector<int>& labels
   trial.stretch = before < after
                       ? StepStretch{trial.stretch.order, trial.stretch.end, places.size()}
                       : StepStretch{trial.stretch.order, 0, trial.stretch.begin};
-  trial.labels = mended_labels(looks, labels, trial.fault, trial.stretch);
+  if (in_parts)
+    trial.labels = mended_labels(looks, labels, trial.fault, trial.stretch);
+  else
+    for (int& label : trial.labels) label = other_label(trial.fault, label);
   trial.map.positions_m.row(trial.fault.first).swap(trial.map.positions_m.row(trial.fault.second));
   if (in_parts)
     trial.map = lowered_map(pair_items(looks.pairs, trial.labels, looks.blocks),
@@ -127,21 +133,61 @@ bool convincing(const Explanation& explanation, const LabelCheckOptions& options
          explanation.partners >= static_cast<std::size_t>(options.fewest_partners);
 }
 
+/// The map of all pairs under some labels at a width of its own: from nothing or from a start,
+/// whichever costs less.
+RobustMap map_under(const LabelledLooks& looks, const std::vector<int>& labels,
+                    const Points* start_m = nullptr) {
+  const std::vector<PairItem> items = pair_items(looks.pairs, labels, looks.blocks);
+  RobustMap map = robust_map(items, static_cast<int>(looks.log.names.size()));
+  map = unfolded_map(items, std::move(map), looks.blocks.count);
+  if (start_m == nullptr) return map;
+  RobustMap other = lowered_map(items, *start_m, map.width_m);
+  if (other.cost >= map.cost) return map;
+  // The width of a folded map is too wide.
+  const double own = std::min(map.width_m, width_of(items, other.positions_m));
+  return lowered_map(items, other.positions_m, own);
+}
+
+double loss_at(const LabelledLooks& looks, const std::vector<int>& labels, const Points& map_m,
+               double width_m) {
+  return lowered_map(pair_items(looks.pairs, labels, looks.blocks), map_m, width_m).loss_m;
+}
+
+/// Sightings of labels at fault in single looks that fit neither of both: they would be all that
+/// some pairs are known by.
+std::vector<char> fitting_neither(const LabelledLooks& looks, const std::vector<int>& labels,
+                                  const RobustMap& map, std::vector<LabelFinding>& findings) {
+  std::vector<char> left_out(labels.size(), 0);
+  const Points turned_m = turned_as_seen(looks, labels, map.positions_m);
+  LookCosts costs(looks, turned_m, map.width_m);
+  for (LabelFinding& finding : findings)
+    for (std::size_t row = 0, end = 0; row < labels.size() && finding.scattered; row = end) {
+      end = costs.take(labels, row, finding.first, finding.second);
+      for (std::size_t k = row; k < end; ++k) {
+        if (labels[k] != finding.first && labels[k] != finding.second) continue;
+        finding.untold += costs.tells() ? 0 : 1;
+        if (costs(k, labels[k]) <= kFitsNot * residual_variance(map)) continue;
+        finding.left_out += left_out[k] == 0 ? 1 : 0;
+        left_out[k] = 1;
+      }
+    }
+  return left_out;
+}
+
 }  // namespace
 
 LabelCheck check_labels(const SightingLog& log, const LabelCheckOptions& options) {
   const LabelledLooks looks = labelled_looks(log, options.most_blocks);
   std::vector<int> labels = given_labels(log);
-  std::vector<PairItem> items = pair_items(looks.pairs, labels, looks.blocks);
-  RobustMap map = robust_map(items, static_cast<int>(log.names.size()));
-  map = unfolded_map(items, std::move(map), looks.blocks.count);
+  RobustMap map = map_under(looks, labels);
+  const double told_width_m = map.width_m;
   LabelCheck check{
       .findings = {}, .loss_before_m = map.loss_m, .loss_after_m = map.loss_m, .repaired = log};
   for (int round = 0; round < options.most_findings; ++round) {
     std::optional<FaultTrial> trial = best_trial(looks, labels, map);
     if (!trial) break;
-    const double fall = map.cost - trial->map.cost;
-    const double evidence = fall / residual_variance(map);
+    const double evidence = (map.cost - trial->map.cost) / residual_variance(map);
+    if(getenv("DBG")){auto e=explained(looks,labels,map,*trial);fprintf(stderr," trial %d %s %s scattered %d evidence %.0f share %.2f left %.2f partners %zu cost %.1f\n",(int)trial->fault.fault,log.names[trial->fault.first].c_str(),log.names[trial->fault.second].c_str(),trial->scattered,evidence,e.share,e.left,e.partners,trial->map.cost);}
     if (evidence < options.least_evidence ||
         !convincing(explained(looks, labels, map, *trial), options))
       break;
@@ -149,14 +195,15 @@ LabelCheck check_labels(const SightingLog& log, const LabelCheckOptions& options
     LabelFinding finding = found(looks, labels, *trial);
     if (finding.sightings < std::max(1, options.fewest_sightings)) break;
     finding.evidence = evidence;
-    finding.loss_before_m = map.loss_m;
-    finding.loss_after_m = trial->map.loss_m;
-    check.findings.push_back(finding);
+    finding.loss_before_m = check.loss_after_m;
     labels = std::move(trial->labels);
-    map = std::move(trial->map);
+    // Labels that were wrong may have widened the residuals that the width stands for.
+    map = map_under(looks, labels, &trial->map.positions_m);
+    check.loss_after_m = loss_at(looks, labels, map.positions_m, told_width_m);
+    finding.loss_after_m = check.loss_after_m;
+    check.findings.push_back(finding);
   }
-  check.loss_after_m = map.loss_m;
-  check.repaired = relabelled(log, labels);
+  check.repaired = relabelled(log, labels, fitting_neither(looks, labels, map, check.findings));
   return check;
 }
 
@@ -173,7 +220,8 @@ std::string described(const LabelFinding& finding, const SightingLog& log) {
                                                     : "from " + first + " to " + last;
   const std::string what =
       finding.fault == LabelFault::kSwapped
-          ? fmt::format("{} and {} look swapped", label(finding.first), label(finding.second))
+          ? fmt::format("{} and {} look swapped{}", label(finding.first), label(finding.second),
+                        finding.scattered ? " in single looks" : "")
       : finding.fault == LabelFault::kWrong
           ? fmt::format("{} looks like {}", label(finding.first), label(finding.second))
           : fmt::format("some of {} look like {}", label(finding.first), label(finding.second));

@@ -28,6 +28,7 @@ struct LabelFinding {
   int first = 0;  ///< As in LabelHypothesis.
   int second = 0;
   bool by_time = false;  ///< The stretch is one of time, over all robots; else one of steps.
+  bool scattered = false;  ///< In single looks, whenever, between the steps that follow.
   int first_step = 0;    ///< Where it begins and ends, at sightings that it relabels.
   int last_step = 0;
   double first_time_s = 0.0;  ///< The same in time; NaN for a log without times.
@@ -35,6 +36,8 @@ struct LabelFinding {
   bool to_the_end = false;      ///< No sighting of either label comes after it in its order.
   bool from_the_start = false;  ///< None before.
   int sightings = 0;            ///< Relabelled.
+  int untold = 0;    ///< If scattered: sightings of both seen alone, which stay as they are,
+  int left_out = 0;  ///< and those that fit neither landmark, which the repaired log is without.
   double loss_before_m = 0.0;   ///< See RobustMap; of all pairs, at one width.
   double loss_after_m = 0.0;
   double evidence = 0.0;  ///< Fall of the cost in variances of the residuals.

@@ -15,6 +15,8 @@ namespace mapproof {
 namespace {
 
 constexpr double kWidths = 1.5;  ///< Standard deviations in RobustMap::width_m.
+constexpr double kFewestLooks = 3.0;  ///< Of a pair that the start of a map is made of,
+constexpr int kPairsToPlace = 3;      ///< if each of its landmarks has so many.
 constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
 constexpr double kInfinite = std::numeric_limits<double>::infinity();
 constexpr int kMostLandmarks = 2000;
@@ -51,6 +53,25 @@ Mapped largest_group(const std::vector<PairItem>& items, int landmarks) {
   return mapped;
 }
 
+/// Takes pairs away that were seen in few looks, which may all be of wrong labels, but for those of
+/// landmarks that have few better ones.
+void leave_well_seen(Eigen::MatrixXd& D, const Eigen::MatrixXd& looks) {
+  const auto well = [&](Eigen::Index i, Eigen::Index j) {
+    return i != j && std::isfinite(D(i, j)) && looks(i, j) >= kFewestLooks;
+  };
+  std::vector<bool> is_short;
+  for (Eigen::Index i = 0; i < D.rows(); ++i) {
+    int count = 0;
+    for (Eigen::Index j = 0; j < D.rows(); ++j) count += well(i, j) ? 1 : 0;
+    is_short.push_back(count < kPairsToPlace);
+  }
+  for (Eigen::Index i = 0; i < D.rows(); ++i)
+    for (Eigen::Index j = i + 1; j < D.rows(); ++j)
+      if (!well(i, j) && !is_short[static_cast<std::size_t>(i)] &&
+          !is_short[static_cast<std::size_t>(j)])
+        D(i, j) = D(j, i) = kInfinite;
+}
+
 /// Medians over the blocks, infinite for pairs never seen.
 Eigen::MatrixXd median_distances(const std::vector<PairItem>& items, const Mapped& mapped) {
   const std::size_t n = mapped.landmarks.size();
@@ -65,6 +86,7 @@ Eigen::MatrixXd median_distances(const std::vector<PairItem>& items, const Mappe
   const auto size = static_cast<Eigen::Index>(n);
   Eigen::MatrixXd D = Eigen::MatrixXd::Constant(size, size, kInfinite);
   D.diagonal().setZero();
+  Eigen::MatrixXd looks = Eigen::MatrixXd::Zero(size, size);
   for (Eigen::Index i = 0; i < size; ++i)
     for (Eigen::Index j = i + 1; j < size; ++j) {
       auto& pair = values[static_cast<std::size_t>(i) * n + static_cast<std::size_t>(j)];
@@ -72,26 +94,13 @@ Eigen::MatrixXd median_distances(const std::vector<PairItem>& items, const Mappe
       std::ranges::sort(pair);
       double half = 0.0;
       for (const auto& [distance, weight] : pair) half += weight / 2.0;
+      looks(i, j) = looks(j, i) = 2.0 * half;
       std::size_t at = 0;
       while (at + 1 < pair.size() && (half -= pair[at].second) > 0.0) ++at;
       D(i, j) = D(j, i) = pair[at].first;
     }
+  leave_well_seen(D, looks);
   return D;
-}
-
-/// 1.5 standard deviations of the residuals by their weighted-out median, never nothing.
-double width_of(const std::vector<PairItem>& items, const Points& map) {
-  std::vector<double> residuals;
-  std::vector<double> distances;
-  for (const PairItem& item : items) {
-    const double distance = (map.row(item.first) - map.row(item.second)).norm();
-    if (std::isnan(distance)) continue;
-    residuals.push_back(std::abs(item.distance_m - distance));
-    distances.push_back(item.distance_m);
-  }
-  if (residuals.empty()) return 1.0;
-  const double floor = std::max(1e-3 * median(distances), 1e-9);
-  return std::max(kWidths * 1.4826 * median(residuals), floor);
 }
 
 /// Weights and distances of one round: what the cost's majorising parabolas add up to.
@@ -126,6 +135,20 @@ RobustMap finished(const std::vector<PairItem>& items, Points map, double width_
 }
 
 }  // namespace
+
+double width_of(const std::vector<PairItem>& items, const Points& map) {
+  std::vector<double> residuals;
+  std::vector<double> distances;
+  for (const PairItem& item : items) {
+    const double distance = (map.row(item.first) - map.row(item.second)).norm();
+    if (std::isnan(distance)) continue;
+    residuals.push_back(std::abs(item.distance_m - distance));
+    distances.push_back(item.distance_m);
+  }
+  if (residuals.empty()) return 1.0;
+  const double floor = std::max(1e-3 * median(distances), 1e-9);
+  return std::max(kWidths * 1.4826 * median(residuals), floor);
+}
 
 double huber_cost(double residual, double width) {
   const double size = std::abs(residual);

@@ -39,6 +39,9 @@ struct RobustMap {
                          ///< far ones drawn in.
 };
 
+/// 1.5 standard deviations of the items' residuals in a map by their median, never nothing.
+double width_of(const std::vector<PairItem>& items, const Points& map);
+
 /// The variance of a pair's residuals that the width of the map's cost stands for.
 double residual_variance(const RobustMap& map);
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "core/labels/look_by_look.hpp"
+#include "core/labels/look_costs.hpp"
 #include "core/labels/place_costs.hpp"
 #include "core/labels/two_places.hpp"
 
@@ -10,9 +11,13 @@ namespace mapproof {
 namespace {
 
 constexpr std::size_t kTried = 4;  ///< Twos of labels that are settled.
+constexpr double kLeastGain = 0.3;  ///< Of the first one's.
 /// So rare, and so much rarer than the other label's, one label's changes are chance.
 constexpr double kByChance = 0.1;
 constexpr double kRarer = 0.25;
+/// Looks against a stretch, as a share of those that it explains, and what it may cost more.
+constexpr double kStrays = 0.05;
+constexpr double kAsGood = 1.1;
 
 /// Sightings that a trial gives another label, of each of both.
 struct Changes {
@@ -77,16 +82,68 @@ FaultTrial simpler_trial(const LabelledLooks& looks, const std::vector<int>& lab
                  changes.second_share > changes.first_share, width_m);
 }
 
+/// For each place of an order: looks given another label, less those that tell and keep theirs.
+Eigen::VectorXi balance(const LabelledLooks& looks, const std::vector<int>& labels,
+                        const FaultTrial& trial, std::size_t order) {
+  Eigen::VectorXi result = Eigen::VectorXi::Zero(looks.log.steps);
+  const bool both = trial.fault.fault == LabelFault::kSwapped;
+  LookCosts costs(looks, trial.map.positions_m, 1.0);
+  for (std::size_t row = 0, end = 0; row < labels.size(); row = end) {
+    end = costs.take(labels, row, trial.fault.first, trial.fault.second);
+    if (!costs.tells()) continue;
+    const auto step = static_cast<std::size_t>(looks.log.sightings[row].step);
+    int& sum = result(static_cast<Eigen::Index>(looks.places[order][step]));
+    for (std::size_t k = row; k < end; ++k)
+      if (labels[k] == trial.fault.first || (both && labels[k] == trial.fault.second))
+        sum = labels[k] != trial.labels[k] ? 1 : -1;
+  }
+  return result;
+}
+
+/// The stretch that holds the fault, if there is one but for a few looks.
+std::optional<StepStretch> stretch_of(const LabelledLooks& looks, const std::vector<int>& labels,
+                                      const FaultTrial& trial) {
+  for (std::size_t order = 0; order < looks.places.size(); ++order) {
+    const Eigen::VectorXi balances = balance(looks, labels, trial, order);
+    const StepStretch best = greatest_sum(order, balances.cast<double>());
+    const auto begin = static_cast<Eigen::Index>(best.begin);
+    const auto length = static_cast<Eigen::Index>(best.end) - begin;
+    const auto changed = static_cast<double>((balances.array() > 0).count());
+    const auto inside = balances.segment(begin, length).array();
+    const double against = changed - static_cast<double>((inside > 0).count()) +
+                           static_cast<double>((inside < 0).count());
+    if (against <= kStrays * changed) return best;
+  }
+  return std::nullopt;
+}
+
+/// The same fault over a stretch, where sightings that no look tells of are mended too.
+FaultTrial over_stretch(const LabelledLooks& looks, const std::vector<int>& labels,
+                        FaultTrial trial, double width_m) {
+  const std::optional<StepStretch> stretch = stretch_of(looks, labels, trial);
+  if (!stretch) return trial;
+  FaultTrial whole = trial;
+  whole.scattered = false;
+  whole.stretch = *stretch;
+  if (whole.fault.fault == LabelFault::kMixed) whole.fault.fault = LabelFault::kWrong;
+  whole.labels = mended_labels(looks, labels, whole.fault, *stretch);
+  whole = settled_trial(looks, labels, std::vector(whole.labels), whole, trial.map.positions_m,
+                        width_m, width_m);
+  return whole.map.cost < kAsGood * trial.map.cost ? whole : trial;
+}
+
 }  // namespace
 
 std::optional<FaultTrial> scattered_trial(const LabelledLooks& looks,
                                           const std::vector<int>& labels, const RobustMap& map) {
   std::optional<FaultTrial> best;
-  for (const SharedPlaces& shared : shared_places(looks, labels, map, kTried)) {
+  const std::vector<SharedPlaces> all = shared_places(looks, labels, map, kTried);
+  for (const SharedPlaces& shared : all) {
+    if (shared.gain < kLeastGain * all.front().gain) break;
     FaultTrial trial = simpler_trial(looks, labels, shared, map.width_m);
     if (!best || trial.map.cost < best->map.cost) best = std::move(trial);
   }
-  return best;
+  return best ? std::optional(over_stretch(looks, labels, std::move(*best), map.width_m)) : best;
 }
 
 }  // namespace mapproof

@@ -3,9 +3,11 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <limits>
 #include <map>
+#include <set>
 
-#include "core/labels/look_costs.hpp"
+#include "core/labels/label_search.hpp"
 #include "core/labels/place_costs.hpp"
 
 namespace mapproof {
@@ -14,7 +16,8 @@ namespace {
 constexpr int kFewestLooks = 10;        ///< Of two landmarks, to ask for two distances.
 constexpr std::size_t kAskedLooks = 200;  ///< Of two landmarks, at most.
 constexpr std::size_t kAskedSightings = 250;  ///< Of a label, at most.
-constexpr std::size_t kLabels = 8;      ///< That are asked in twos.
+constexpr std::size_t kLabels = 4;      ///< Of either kind of doubt, asked in twos.
+constexpr std::size_t kAskedLabels = 20;  ///< For two places.
 constexpr int kSide = 18;               ///< Of the grid of places.
 
 /// Every so many of the values that at most `most` are left.
@@ -73,15 +76,15 @@ Eigen::MatrixXf sighting_costs(const LabelledLooks& looks, const std::vector<int
   return costs;
 }
 
-/// The map of all landmarks but two.
-RobustMap core_map(const std::vector<PairItem>& items, const RobustMap& map, int first,
-                   int second, int blocks) {
+/// The map of all landmarks but two, which may be one.
+RobustMap core_map(const std::vector<PairItem>& items, int landmarks, int first, int second,
+                   int blocks) {
   std::vector<PairItem> others;
   for (const PairItem& item : items)
     if (item.first != first && item.first != second && item.second != first &&
         item.second != second)
       others.push_back(item);
-  RobustMap anew = robust_map(others, static_cast<int>(map.positions_m.rows()));
+  RobustMap anew = robust_map(others, landmarks);
   anew = unfolded_map(others, std::move(anew), blocks);
   anew.positions_m.row(first).setConstant(std::nan(""));
   anew.positions_m.row(second).setConstant(std::nan(""));
@@ -105,6 +108,75 @@ void place(SharedPlaces& shared, const Eigen::MatrixXf& A, const Eigen::MatrixXf
       shared.map.positions_m.row(shared.second) = grid.row(q);
     }
   shared.gain = (one_each - least) / std::max<double>(1.0, static_cast<double>(A.rows() + B.rows()));
+}
+
+/// One label whose sightings may be of two places.
+struct TwoPlaces {
+  int label = 0;
+  double gain = 0.0;         ///< Over one place, m^2 a sighting.
+  std::vector<int> next_to;  ///< The landmarks nearest to both.
+};
+
+int nearest_to(const Points& map, const Eigen::RowVector2d& place) {
+  int nearest = -1;
+  double least = std::numeric_limits<double>::infinity();
+  for (int k = 0; k < map.rows(); ++k)
+    if (const double distance = (map.row(k) - place).norm(); distance < least) {
+      least = distance;
+      nearest = k;
+    }
+  return nearest;
+}
+
+/// The two places that explain one label's sightings best, in a map of all others.
+TwoPlaces two_places(const LabelledLooks& looks, const std::vector<int>& labels,
+                     const std::vector<PairItem>& items, int landmarks, int label) {
+  const RobustMap core = core_map(items, landmarks, label, label, looks.blocks.count);
+  const Points grid = grid_over(core.positions_m, kSide);
+  const Eigen::MatrixXf costs = sighting_costs(looks, labels, core, label, grid);
+  if (costs.rows() == 0) return {label, 0.0, {}};
+  Eigen::Index first = 0;
+  Eigen::Index second = 0;
+  const float one = costs.colwise().sum().minCoeff();
+  float least = one;
+  for (Eigen::Index p = 0; p < grid.rows(); ++p)
+    for (Eigen::Index q = p + 1; q < grid.rows(); ++q)
+      if (const float sum = costs.col(p).cwiseMin(costs.col(q)).sum(); sum < least) {
+        least = sum;
+        first = p;
+        second = q;
+      }
+  TwoPlaces found{label, static_cast<double>(one - least) / static_cast<double>(costs.rows()), {}};
+  for (const Eigen::Index point : {first, second})
+    if (const int near = nearest_to(core.positions_m, grid.row(point)); near >= 0)
+      found.next_to.push_back(near);
+  return found;
+}
+
+/// Each two of the labels that seem to have two distances or two places, and each of them with
+/// those whose places it seems to have.
+std::set<std::pair<int, int>> worth_asking(const LabelledLooks& looks,
+                                           const std::vector<int>& labels,
+                                           const std::vector<PairItem>& items,
+                                           const RobustMap& map) {
+  const auto landmarks = static_cast<int>(map.positions_m.rows());
+  std::vector<TwoPlaces> places;
+  for (const int label : costly_labels(items, map, kAskedLabels))
+    places.push_back(two_places(looks, labels, items, landmarks, label));
+  std::ranges::stable_sort(places, std::greater<>(), &TwoPlaces::gain);
+  std::set<int> doubtful;
+  for (const int label : labels_of_two_distances(looks, labels, landmarks, map.width_m, kLabels))
+    doubtful.insert(label);
+  for (std::size_t k = 0; k < std::min(kLabels, places.size()); ++k)
+    doubtful.insert(places[k].label);
+  std::set<std::pair<int, int>> twos;
+  for (const int one : doubtful)
+    for (const int other : doubtful)
+      if (one < other) twos.emplace(one, other);
+  for (const TwoPlaces& one : places)
+    if (doubtful.contains(one.label))
+      for (const int other : one.next_to) twos.insert(std::minmax(one.label, other));
+  return twos;
 }
 
 }  // namespace
@@ -135,19 +207,16 @@ std::vector<int> labels_of_two_distances(const LabelledLooks& looks, const std::
 std::vector<SharedPlaces> shared_places(const LabelledLooks& looks, const std::vector<int>& labels,
                                         const RobustMap& map, std::size_t most) {
   const std::vector<PairItem> items = pair_items(looks.pairs, labels, looks.blocks);
-  const std::vector<int> doubtful = labels_of_two_distances(
-      looks, labels, static_cast<int>(map.positions_m.rows()), map.width_m, kLabels);
+  const auto landmarks = static_cast<int>(map.positions_m.rows());
   std::vector<SharedPlaces> found;
-  for (std::size_t k = 0; k < doubtful.size(); ++k)
-    for (std::size_t l = k + 1; l < doubtful.size(); ++l) {
-      SharedPlaces shared{std::min(doubtful[k], doubtful[l]), std::max(doubtful[k], doubtful[l]),
-                          {}, 0.0};
-      shared.map = core_map(items, map, shared.first, shared.second, looks.blocks.count);
-      const Points grid = grid_over(shared.map.positions_m, kSide);
-      place(shared, sighting_costs(looks, labels, shared.map, shared.first, grid),
-            sighting_costs(looks, labels, shared.map, shared.second, grid), grid);
-      if (shared.gain > 0.0) found.push_back(std::move(shared));
-    }
+  for (const auto& [first, second] : worth_asking(looks, labels, items, map)) {
+    SharedPlaces shared{first, second, {}, 0.0};
+    shared.map = core_map(items, landmarks, first, second, looks.blocks.count);
+    const Points grid = grid_over(shared.map.positions_m, kSide);
+    place(shared, sighting_costs(looks, labels, shared.map, first, grid),
+          sighting_costs(looks, labels, shared.map, second, grid), grid);
+    if (shared.gain > 0.0) found.push_back(std::move(shared));
+  }
   std::ranges::stable_sort(found, std::greater<>(), &SharedPlaces::gain);
   if (found.size() > most) found.resize(most);
   return found;
