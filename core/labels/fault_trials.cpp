@@ -130,6 +130,7 @@ std::optional<FaultTrial> best_trial(const LabelledLooks& looks, const std::vect
     FaultTrial trial = sharp_trial(looks, labels, found.first, found.second);
     trial = settled_trial(looks, labels, std::vector(trial.labels), trial, trial.map.positions_m,
                           trial.map.width_m, map.width_m);
+    trial = simplified(looks, labels, std::move(trial));
     if (trial.map.cost < (lowest ? lowest->map.cost : map.cost)) lowest = std::move(trial);
   }
   std::optional<FaultTrial> mixed = mixed_trial(looks, labels, map);

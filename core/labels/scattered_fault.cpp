@@ -134,6 +134,25 @@ FaultTrial over_stretch(const LabelledLooks& looks, const std::vector<int>& labe
 
 }  // namespace
 
+FaultTrial simplified(const LabelledLooks& looks, const std::vector<int>& labels,
+                      FaultTrial trial) {
+  if (trial.fault.fault != LabelFault::kSwapped) return trial;
+  const Changes changes = changes_of(labels, trial);
+  if (!changes.one_sided()) return trial;
+  FaultTrial simple = trial;
+  simple.fault.fault = LabelFault::kWrong;
+  if (changes.second_share > changes.first_share) {
+    std::swap(simple.fault.first, simple.fault.second);
+    std::swap(simple.fault.first_m, simple.fault.second_m);
+  }
+  for (std::size_t k = 0; k < labels.size(); ++k)
+    if (labels[k] != simple.fault.first) simple.labels[k] = labels[k];
+  const double width_m = trial.map.width_m;
+  simple = settled_trial(looks, labels, std::vector(simple.labels), simple, trial.map.positions_m,
+                         width_m, width_m);
+  return simple.map.cost < kAsGood * trial.map.cost ? simple : trial;
+}
+
 std::optional<FaultTrial> scattered_trial(const LabelledLooks& looks,
                                           const std::vector<int>& labels, const RobustMap& map) {
   std::optional<FaultTrial> best;
