@@ -9,6 +9,7 @@
 #include <fmt/format.h>
 
 #include "core/base/errors.hpp"
+#include "core/base/words.hpp"
 #include "core/labels/anchor_labels.hpp"
 #include "core/labels/mislabelled.hpp"
 #include "core/labels/moved.hpp"
@@ -17,6 +18,8 @@
 namespace mapproof {
 namespace {
 
+/// Times the loss that known places may be missed by: on sound logs it is less than the loss.
+constexpr double kMissed = 3.0;
 constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
 
 std::string label(const SightingLog& log, int landmark) {
@@ -39,6 +42,39 @@ Points known_places(const SightingLog& log, const std::optional<Points>& own_m,
   return known_m;
 }
 
+std::vector<std::string> names_of(const std::vector<int>& landmarks, const SightingLog& log) {
+  std::vector<std::string> names;
+  for (const int k : landmarks) names.push_back(printable(label(log, k)));
+  return names;
+}
+
+/// What a search for wrong labels leaves to be said besides its findings.
+std::vector<std::string> doubts_of(const LabelCheck& check, const SightingLog& log) {
+  std::vector<std::string> sentences;
+  for (const LabelFinding& finding : check.findings)
+    if (finding.untold > 0 || finding.left_out > 0)
+      sentences.push_back(fmt::format(
+          "Of {} and {}, {} with nothing else in the look cannot be told and would stay as they "
+          "are; {} fit neither landmark and would be left out.",
+          printable(label(log, finding.first)), printable(label(log, finding.second)),
+          counted(finding.untold, "sighting"), finding.left_out));
+  const LabelDoubts& doubts = check.doubts;
+  if (doubts.grave())
+    sentences.push_back(fmt::format(
+        "Warning: the looks do not fit one map{}: residual {:.3f} m against {:.3f} m of their own "
+        "spread{}.",
+        check.findings.empty() ? "" : ", what was found mended", doubts.residual_m, doubts.spread_m,
+        doubts.landmarks.empty()
+            ? ""
+            : "; most with landmarks " + listed(names_of(doubts.landmarks, log), 4)));
+  if (check.findings.empty())
+    sentences.push_back(fmt::format(
+        "No two labels swapped, and none wrong, over a stretch or in single looks explain the "
+        "looks clearly better: loss {:.3f} m.",
+        check.loss_before_m));
+  return sentences;
+}
+
 /// Labels that contradict one another. @return The log without those contradictions.
 SightingLog check_pairs(LabelOutcome& outcome, bool repair) {
   LabelCheck check = check_labels(outcome.log);
@@ -46,9 +82,10 @@ SightingLog check_pairs(LabelOutcome& outcome, bool repair) {
     outcome.facts.push_back({std::string(name(finding.fault)), label(outcome.log, finding.first),
                              label(outcome.log, finding.second), described(finding, outcome.log),
                              finding.loss_before_m, finding.loss_after_m, repair});
-  if (check.findings.empty())
-    outcome.remarks.push_back(
-        fmt::format("No label contradicts the others: loss {:.3f} m.", check.loss_before_m));
+  for (const std::string& sentence : doubts_of(check, outcome.log))
+    outcome.remarks.push_back(sentence);
+  outcome.loss_m = check.loss_after_m;
+  outcome.doubtful = names_of(check.doubts.landmarks, outcome.log);
   return std::move(check.repaired);
 }
 
@@ -69,6 +106,13 @@ SightingLog check_places(LabelOutcome& outcome, const SightingLog& log, const Po
     outcome.remarks.push_back(fmt::format(
         "No exchange of labels would fit the {} known places clearly better: missed by {:.3f} m.",
         check.places, check.misfit_before_m));
+  if (check.places >= kFewestKnownPlaces && check.misfit_after_m > kMissed * outcome.loss_m)
+    outcome.remarks.push_back(fmt::format(
+        "Warning: known places are missed by {:.3f} m, far more than the loss of {:.3f} m "
+        "explains: "
+        "labels may be wrong in a way that was not found{}.",
+        check.misfit_after_m, outcome.loss_m,
+        outcome.doubtful.empty() ? "" : "; most doubtful: " + listed(outcome.doubtful, 4)));
   return std::move(check.repaired);
 }
 
@@ -121,7 +165,7 @@ LabelOutcome checked(Source& source, const SightingLog& log, const LabelChoice& 
 
 LabelOutcome with_labels_checked(const SightingLog& log, const LabelChoice& choice,
                                  const Points& known_m) {
-  LabelOutcome outcome{log, {}, {}};
+  LabelOutcome outcome{log, {}, {}, 0.0, {}};
   if (choice.check || choice.repair) check_and_repair(outcome, choice.repair, known_m);
   if (choice.find_moved) split_moved(outcome);
   return outcome;

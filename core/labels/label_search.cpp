@@ -83,8 +83,8 @@ std::vector<int> costly_labels(const std::vector<PairItem>& items, const RobustM
 std::vector<LabelHypothesis> hypotheses_in_map(const std::vector<PairItem>& items,
                                                const RobustMap& map, const LogBlocks& blocks,
                                                std::size_t most) {
-  const PlaceCosts places =
-      place_costs(items, map.positions_m, blocks.count, costly_labels(items, map, kMostLabels), map.width_m);
+  const PlaceCosts places = place_costs(items, map.positions_m, blocks.count,
+                                        costly_labels(items, map, kMostLabels), map.width_m);
   return best_stretches(places.costs, blocks, most, [&](LabelHypothesis& one, const auto& costs) {
     Eigen::Index point = 0;
     costs.first.minCoeff(&point);

@@ -9,8 +9,8 @@ namespace mapproof {
 /// Two labels given anew look by look, each look as it costs less in a map.
 ///
 /// kSwapped: in a look both stand for each other, or neither; else sightings under the first label
-/// may be of the second landmark, unless that is in the look. Another label than `labels` gives must
-/// gain two variances.
+/// may be of the second landmark, unless that is in the look. Another label than `labels` gives
+/// must gain two variances.
 /// @param given  The labels before the fault is mended; `labels` are those believed so far.
 /// @param map  Turned as seen (see look_costs.hpp).
 /// @note Linear in sightings.
@@ -23,6 +23,7 @@ std::vector<int> labels_look_by_look(const LabelledLooks& looks, const std::vect
 /// @param start  M x 2: the map to begin with.
 /// @param told_m  Width of Huber's cost by which looks are told; the map's is `width_m`.
 FaultTrial settled_trial(const LabelledLooks& looks, const std::vector<int>& given,
-                         const std::vector<int>& labels, FaultTrial trial, const Points& start, double told_m, double width_m);
+                         const std::vector<int>& labels, FaultTrial trial, const Points& start,
+                         double told_m, double width_m);
 
 }  // namespace mapproof

@@ -24,7 +24,7 @@ class LookCosts {
   /// @return The row after its last.
   std::size_t take(const std::vector<int>& labels, std::size_t row, int first, int second);
 
-  bool tells() const { return !others_.empty(); }      ///< Whether anything is known of the look.
+  bool tells() const { return !others_.empty(); }       ///< Whether anything is known of the look.
   bool has_pose() const { return others_.size() > 1; }  ///< Whether its bearings count.
 
   /// m^2; 0 where nothing tells.
@@ -38,7 +38,8 @@ class LookCosts {
   double width_m_;
   std::vector<std::pair<std::size_t, int>> others_;  ///< Row and label.
   double extent_m_ = 0.0;  ///< Of the others about their mean: what the turn stands on.
-  Eigen::Matrix2d turn_ = Eigen::Matrix2d::Identity();  ///< Row vectors: from the map's to the robot's.
+  Eigen::Matrix2d turn_ =
+      Eigen::Matrix2d::Identity();  ///< Row vectors: from the map's to the robot's.
   Eigen::RowVector2d seen_mean_m_ = Eigen::RowVector2d::Zero();
   Eigen::RowVector2d map_mean_m_ = Eigen::RowVector2d::Zero();
 };

@@ -181,13 +181,15 @@ LabelCheck check_labels(const SightingLog& log, const LabelCheckOptions& options
   std::vector<int> labels = given_labels(log);
   RobustMap map = map_under(looks, labels);
   const double told_width_m = map.width_m;
-  LabelCheck check{
-      .findings = {}, .loss_before_m = map.loss_m, .loss_after_m = map.loss_m, .repaired = log};
+  LabelCheck check{.findings = {},
+                   .loss_before_m = map.loss_m,
+                   .loss_after_m = map.loss_m,
+                   .doubts = {},
+                   .repaired = log};
   for (int round = 0; round < options.most_findings; ++round) {
     std::optional<FaultTrial> trial = best_trial(looks, labels, map);
     if (!trial) break;
     const double evidence = (map.cost - trial->map.cost) / residual_variance(map);
-    if(getenv("DBG")){auto e=explained(looks,labels,map,*trial);fprintf(stderr," trial %d %s %s scattered %d evidence %.0f share %.2f left %.2f partners %zu cost %.1f\n",(int)trial->fault.fault,log.names[trial->fault.first].c_str(),log.names[trial->fault.second].c_str(),trial->scattered,evidence,e.share,e.left,e.partners,trial->map.cost);}
     if (evidence < options.least_evidence ||
         !convincing(explained(looks, labels, map, *trial), options))
       break;
@@ -203,6 +205,7 @@ LabelCheck check_labels(const SightingLog& log, const LabelCheckOptions& options
     finding.loss_after_m = check.loss_after_m;
     check.findings.push_back(finding);
   }
+  check.doubts = label_doubts(looks, labels, map);
   check.repaired = relabelled(log, labels, fitting_neither(looks, labels, map, check.findings));
   return check;
 }

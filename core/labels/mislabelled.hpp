@@ -3,6 +3,7 @@
 #include <string>
 #include <vector>
 
+#include "core/labels/label_doubts.hpp"
 #include "core/labels/label_search.hpp"
 
 namespace mapproof {
@@ -27,9 +28,9 @@ struct LabelFinding {
   LabelFault fault = LabelFault::kSwapped;
   int first = 0;  ///< As in LabelHypothesis.
   int second = 0;
-  bool by_time = false;  ///< The stretch is one of time, over all robots; else one of steps.
+  bool by_time = false;    ///< The stretch is one of time, over all robots; else one of steps.
   bool scattered = false;  ///< In single looks, whenever, between the steps that follow.
-  int first_step = 0;    ///< Where it begins and ends, at sightings that it relabels.
+  int first_step = 0;      ///< Where it begins and ends, at sightings that it relabels.
   int last_step = 0;
   double first_time_s = 0.0;  ///< The same in time; NaN for a log without times.
   double last_time_s = 0.0;
@@ -38,7 +39,7 @@ struct LabelFinding {
   int sightings = 0;            ///< Relabelled.
   int untold = 0;    ///< If scattered: sightings of both seen alone, which stay as they are,
   int left_out = 0;  ///< and those that fit neither landmark, which the repaired log is without.
-  double loss_before_m = 0.0;   ///< See RobustMap; of all pairs, at one width.
+  double loss_before_m = 0.0;  ///< See RobustMap; of all pairs, at one width.
   double loss_after_m = 0.0;
   double evidence = 0.0;  ///< Fall of the cost in variances of the residuals.
 };
@@ -48,6 +49,7 @@ struct LabelCheck {
   std::vector<LabelFinding> findings;  ///< In the order found, the plainest first.
   double loss_before_m = 0.0;
   double loss_after_m = 0.0;
+  LabelDoubts doubts;    ///< What none of the findings explains.
   SightingLog repaired;  ///< The log under the labels found, a landmark once a look.
 };
 

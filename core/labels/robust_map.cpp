@@ -14,7 +14,7 @@
 namespace mapproof {
 namespace {
 
-constexpr double kWidths = 1.5;  ///< Standard deviations in RobustMap::width_m.
+constexpr double kWidths = 1.5;       ///< Standard deviations in RobustMap::width_m.
 constexpr double kFewestLooks = 3.0;  ///< Of a pair that the start of a map is made of,
 constexpr int kPairsToPlace = 3;      ///< if each of its landmarks has so many.
 constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();

@@ -10,7 +10,7 @@
 namespace mapproof {
 namespace {
 
-constexpr std::size_t kTried = 4;  ///< Twos of labels that are settled.
+constexpr std::size_t kTried = 4;   ///< Twos of labels that are settled.
 constexpr double kLeastGain = 0.3;  ///< Of the first one's.
 /// So rare, and so much rarer than the other label's, one label's changes are chance.
 constexpr double kByChance = 0.1;
@@ -68,7 +68,8 @@ FaultTrial simpler_trial(const LabelledLooks& looks, const std::vector<int>& lab
   Points exchanged = start;
   exchanged.row(shared.first).swap(exchanged.row(shared.second));
   FaultTrial best = settled(looks, labels, shared, start, LabelFault::kSwapped, false, width_m);
-  FaultTrial other = settled(looks, labels, shared, exchanged, LabelFault::kSwapped, false, width_m);
+  FaultTrial other =
+      settled(looks, labels, shared, exchanged, LabelFault::kSwapped, false, width_m);
   Changes changes = changes_of(labels, best);
   const Changes of_other = changes_of(labels, other);
   if (changes.one_sided() != of_other.one_sided() ? of_other.one_sided()

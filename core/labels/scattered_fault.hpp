@@ -18,8 +18,8 @@ namespace mapproof {
 std::optional<FaultTrial> scattered_trial(const LabelledLooks& looks,
                                           const std::vector<int>& labels, const RobustMap& map);
 
-/// Of a swap that changes the sightings under one label alone: that label's fault, if it explains as
-/// much.
+/// Of a swap that changes the sightings under one label alone: that label's fault, if it explains
+/// as much.
 FaultTrial simplified(const LabelledLooks& looks, const std::vector<int>& labels, FaultTrial trial);
 
 }  // namespace mapproof

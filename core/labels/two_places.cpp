@@ -13,12 +13,12 @@
 namespace mapproof {
 namespace {
 
-constexpr int kFewestLooks = 10;        ///< Of two landmarks, to ask for two distances.
-constexpr std::size_t kAskedLooks = 200;  ///< Of two landmarks, at most.
+constexpr int kFewestLooks = 10;              ///< Of two landmarks, to ask for two distances.
+constexpr std::size_t kAskedLooks = 200;      ///< Of two landmarks, at most.
 constexpr std::size_t kAskedSightings = 250;  ///< Of a label, at most.
-constexpr std::size_t kLabels = 4;      ///< Of either kind of doubt, asked in twos.
-constexpr std::size_t kAskedLabels = 20;  ///< For two places.
-constexpr int kSide = 18;               ///< Of the grid of places.
+constexpr std::size_t kLabels = 4;            ///< Of either kind of doubt, asked in twos.
+constexpr std::size_t kAskedLabels = 20;      ///< For two places.
+constexpr int kSide = 18;                     ///< Of the grid of places.
 
 /// Every so many of the values that at most `most` are left.
 template <typename Value>
@@ -39,10 +39,10 @@ double gain_of_two(const std::vector<double>& values, double width_m) {
   Eigen::ArrayXXd costs(n, steps + 1);
   for (Eigen::Index i = 0; i < n; ++i)
     for (Eigen::Index k = 0; k <= steps; ++k)
-      costs(i, k) = huber_cost(values[static_cast<std::size_t>(i)] -
-                                   (low + (high - low) * static_cast<double>(k) /
-                                              static_cast<double>(steps)),
-                               width_m);
+      costs(i, k) =
+          huber_cost(values[static_cast<std::size_t>(i)] -
+                         (low + (high - low) * static_cast<double>(k) / static_cast<double>(steps)),
+                     width_m);
   const double one = costs.colwise().sum().minCoeff();
   double two = one;
   for (Eigen::Index a = 0; a <= steps; ++a)
@@ -69,8 +69,8 @@ Eigen::MatrixXf sighting_costs(const LabelledLooks& looks, const std::vector<int
       double sum = 0.0;
       const auto& others = asked[static_cast<std::size_t>(i)];
       for (const auto& [other, distance] : others)
-        sum += huber_cost(distance - (grid.row(g) - core.positions_m.row(other)).norm(),
-                          core.width_m);
+        sum +=
+            huber_cost(distance - (grid.row(g) - core.positions_m.row(other)).norm(), core.width_m);
       costs(i, g) = static_cast<float>(sum / static_cast<double>(others.size()));
     }
   return costs;
@@ -107,7 +107,8 @@ void place(SharedPlaces& shared, const Eigen::MatrixXf& A, const Eigen::MatrixXf
       shared.map.positions_m.row(shared.first) = grid.row(p);
       shared.map.positions_m.row(shared.second) = grid.row(q);
     }
-  shared.gain = (one_each - least) / std::max<double>(1.0, static_cast<double>(A.rows() + B.rows()));
+  shared.gain =
+      (one_each - least) / std::max<double>(1.0, static_cast<double>(A.rows() + B.rows()));
 }
 
 /// One label whose sightings may be of two places.

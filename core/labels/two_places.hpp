@@ -11,7 +11,7 @@ namespace mapproof {
 struct SharedPlaces {
   int first = 0;  ///< first < second.
   int second = 0;
-  RobustMap map;  ///< Of the others alone, with both labels' likeliest places.
+  RobustMap map;      ///< Of the others alone, with both labels' likeliest places.
   double gain = 0.0;  ///< Over one place each, m^2 a sighting of those asked.
 };
 

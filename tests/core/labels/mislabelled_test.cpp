@@ -11,8 +11,11 @@ namespace mapproof::test {
 namespace {
 
 TEST(LabelCheck, NamesNothingInCleanLooks) {
-  for (std::uint64_t seed = 1; seed <= 5; ++seed)
-    EXPECT_TRUE(check_labels(noisy_looks(600, seed)).findings.empty()) << seed;
+  for (std::uint64_t seed = 1; seed <= 5; ++seed) {
+    const LabelCheck check = check_labels(noisy_looks(600, seed));
+    EXPECT_TRUE(check.findings.empty()) << seed;
+    EXPECT_FALSE(check.doubts.grave()) << seed;
+  }
 }
 
 TEST(LabelCheck, FindsTwoLabelsSwappedFromSomeStepOn) {
@@ -60,6 +63,43 @@ TEST(LabelCheck, FindsSightingsUnderTheLabelOfAnother) {
     EXPECT_EQ(check.findings.front().second, landmark);
     EXPECT_LE(wrong_labels(check.repaired, clean), 2);
   }
+}
+
+TEST(LabelCheck, FindsLabelsSwappedInSingleLooks) {
+  const SightingLog clean = noisy_looks(900, 8);
+  for (const auto& [a, b] : {std::pair(0, 14), std::pair(3, 11)}) {
+    const SightingLog wrong = swapped(clean, a, b, [](int step) { return step % 5 < 2; });
+    const LabelCheck check = check_labels(wrong);
+    ASSERT_EQ(check.findings.size(), 1U) << a << ' ' << b;
+    EXPECT_EQ(std::pair(check.findings[0].first, check.findings[0].second), std::pair(a, b));
+    EXPECT_TRUE(check.findings[0].scattered);
+    EXPECT_LE(wrong_labels(check.repaired, clean), wrong_labels(wrong, clean) / 20);
+    EXPECT_FALSE(check.doubts.grave());
+  }
+}
+
+TEST(LabelCheck, FindsALandmarkCalledByAnothersNameInSingleLooks) {
+  const SightingLog clean = noisy_looks(900, 9);
+  const SightingLog wrong = called(clean, 13, 7, [](int step) { return step % 3 == 0; });
+  const LabelCheck check = check_labels(wrong);
+  ASSERT_EQ(check.findings.size(), 1U);
+  EXPECT_EQ(check.findings[0].fault, LabelFault::kMixed);
+  EXPECT_EQ(check.findings[0].first, 7);
+  EXPECT_EQ(check.findings[0].second, 13);
+  EXPECT_LE(wrong_labels(check.repaired, clean), wrong_labels(wrong, clean) / 20);
+}
+
+TEST(LabelCheck, DoubtsLooksThatFitNoMap) {
+  // Three landmarks take turns under each other's labels: no fault of two explains that.
+  SightingLog wrong = noisy_looks(600, 10);
+  for (Sighting& seen : wrong.sightings)
+    if (seen.landmark < 9 && seen.step % 2 == 0) seen.landmark = (seen.landmark + 3) % 9;
+  wrong = swapped(wrong, 0, 1, [](int) { return false; });  // in order again
+  LabelCheckOptions options;
+  options.most_findings = 1;
+  const LabelCheck check = check_labels(wrong, options);
+  EXPECT_TRUE(check.doubts.grave());
+  EXPECT_FALSE(check.doubts.landmarks.empty());
 }
 
 TEST(LabelCheck, CannotKnowOfASwapInAllSightings) {

@@ -40,6 +40,39 @@ TEST_P(RealLabels, SwappedInTheSecondHalfAreNamedAndMended) {
   }
 }
 
+TEST_P(RealLabels, AsTheyAreRaiseNoDoubt) {
+  const LabelCheck check = check_labels(log());
+  EXPECT_TRUE(check.findings.empty());
+  EXPECT_FALSE(check.doubts.grave());
+  EXPECT_EQ(wrong_labels(check.repaired, log()), 0);
+}
+
+/// A map of a fault that was mended must be as good as without it.
+void expect_mended(const SightingSource& source, const char* kind, int a, int b) {
+  const SightingLog wrong = with_fault(source.log, kind, a, b, 7);
+  const double sound_m = map_error_m(source.log, *source.truth_m);
+  EXPECT_GT(map_error_m(wrong, *source.truth_m), 3.0 * sound_m);
+  const LabelCheck check = check_labels(wrong);
+  ASSERT_EQ(check.findings.size(), 1U) << kind << ' ' << a << ' ' << b;
+  const LabelFinding& finding = check.findings[0];
+  EXPECT_EQ(std::minmax(finding.first, finding.second), std::minmax(a, b));
+  const SightingLog mended = check_anchor_labels(check.repaired, *source.truth_m).repaired;
+  EXPECT_LT(map_error_m(mended, *source.truth_m), 1.2 * sound_m) << kind << ' ' << a << ' ' << b;
+}
+
+TEST_P(RealLabels, SwappedInHalfOfTheLooksAreMended) {
+  expect_mended(source_, "half", 4, 12);
+  expect_mended(source_, "half", 1, 6);
+}
+
+TEST_P(RealLabels, OfOneLandmarkUnderTheNameOfAnotherAreMended) {
+  expect_mended(source_, "replaced30", 12, 4);
+}
+
+TEST_P(RealLabels, SwappedForAThirdOfTheTimeAreMendedAtOnce) {
+  expect_mended(source_, "stretch", 4, 12);
+}
+
 TEST_P(RealLabels, AreNotExchangedByTheSurvey) {
   const AnchorCheck check = check_anchor_labels(log(), *source_.truth_m);
   EXPECT_EQ(check.places, 15);

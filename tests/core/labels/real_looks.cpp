@@ -1,12 +1,35 @@
 #include "real_looks.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <cstdlib>
 #include <filesystem>
+#include <functional>
+#include <set>
 
+#include "core/align/rigid.hpp"
+#include "core/base/random.hpp"
+#include "core/pairs/pair_map.hpp"
 #include "core/records/mrclam.hpp"
+#include "noisy_looks.hpp"
 
 namespace mapproof::test {
+namespace {
+
+/// The log without sightings of one landmark in looks that another is in too: under one label both
+/// are one.
+SightingLog without(SightingLog log, int landmark, int other,
+                    const std::function<bool(int)>& in_step) {
+  std::set<int> taken;
+  for (const Sighting& seen : log.sightings)
+    if (seen.landmark == other && in_step(seen.step)) taken.insert(seen.step);
+  std::erase_if(log.sightings, [&](const Sighting& seen) {
+    return seen.landmark == landmark && taken.contains(seen.step);
+  });
+  return log;
+}
+
+}  // namespace
 
 std::optional<SightingSource> real_looks(const std::string& set) {
   const char* folder = std::getenv("MAPPROOF_MRCLAM");
@@ -42,6 +65,36 @@ int shared_sightings(const SightingLog& log, const std::vector<int>& robots, int
     count += shared ? 1 : 0;
   }
   return count;
+}
+
+SightingLog with_fault(const SightingLog& log, const std::string& kind, int first, int second,
+                       std::uint64_t seed) {
+  std::vector<double> times = log.times_s;
+  std::ranges::sort(times);
+  const auto quantile = [&](double share) {
+    return times[static_cast<std::size_t>(share * static_cast<double>(times.size() - 1))];
+  };
+  const double share = kind == "half" ? 0.5 : kind == "tenth" ? 0.1 : 0.3;
+  Random random(seed);
+  std::vector<char> at_random;
+  for (int step = 0; step < log.steps; ++step)
+    at_random.push_back(random.uniform(0.0, 1.0) < share ? 1 : 0);
+  const bool in_time = kind == "stretch" || kind == "replaced70";
+  const double begin = quantile(0.3);
+  const double end = kind == "stretch" ? quantile(0.6) : times.back() + 1.0;
+  const auto at_fault = [&](int step) {
+    const double time = log.times_s[static_cast<std::size_t>(step)];
+    return in_time ? time >= begin && time < end : at_random[static_cast<std::size_t>(step)] != 0;
+  };
+  if (kind == "replaced30" || kind == "replaced70")
+    return called(without(log, first, second, at_fault), first, second, at_fault);
+  return swapped(log, first, second, at_fault);
+}
+
+double map_error_m(const SightingLog& log, const Points& truth_m) {
+  const Points map = sighted_map(log).embedding.coordinates;
+  if (!map.allFinite()) return HUGE_VAL;
+  return (fit_similarity(map, truth_m, Alignment::kRigid)(map) - truth_m).rowwise().norm().mean();
 }
 
 }  // namespace mapproof::test
