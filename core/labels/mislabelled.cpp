@@ -77,10 +77,12 @@ LabelFinding found(const LabelledLooks& looks, const std::vector<int>& labels,
     last_of_all = std::max(last_of_all, place);
     if (labels[k] == trial.labels[k]) continue;
     ++finding.sightings;
+    // Looks beside the stretch that were given otherwise one by one do not widen it.
+    if (place < trial.stretch.begin || place >= trial.stretch.end) continue;
     first = std::min(first, place);
     last = std::max(last, place);
   }
-  if (finding.sightings == 0) return finding;
+  if (first > last) return finding;
   finding.from_the_start = first == first_of_all;
   finding.to_the_end = last == last_of_all;
   const std::vector<int>& steps = looks.blocks.step_orders[trial.stretch.order];

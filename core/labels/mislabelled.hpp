@@ -53,14 +53,14 @@ struct LabelCheck {
   SightingLog repaired;  ///< The log under the labels found, a landmark once a look.
 };
 
-/// Looks for labels swapped, or wrong, over a stretch of steps or of time: the stretch and labels
-/// that lower the loss of the map the most, again and again.
+/// Looks for labels swapped, or wrong, over a stretch of steps or of time or in single looks: the
+/// fault that lowers the loss of the map the most, again and again.
 ///
 /// Two labels that are swapped in all sightings are the same data under other names: no pair
 /// contradicts another, and only known positions could tell.
 /// Of a swap and its complement that one is named that changes fewer sightings.
 /// @throws InvalidInput as look_pairs, cut_in_blocks and robust_map do.
-/// @note Some 1.5 to 4 s for 15 landmarks and 20,000 pairs.
+/// @note Some 2 s for 15 landmarks and 20,000 pairs, and as much for each finding.
 LabelCheck check_labels(const SightingLog& log, const LabelCheckOptions& options = {});
 
 /// A sentence: "7 and 12 look swapped from step 1200 on (310 sightings): loss 0.410 -> 0.130 m".
