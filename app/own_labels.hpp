@@ -35,9 +35,9 @@ struct LabelFact {
 struct LabelOutcome {
   SightingLog log;
   std::vector<LabelFact> facts;
-  std::vector<std::string> remarks;   ///< A sentence each.
-  double loss_m = 0.0;                ///< Of the pairs, what was found mended; 0: not checked.
-  std::vector<std::string> doubtful;  ///< Landmarks that fit worst then.
+  std::vector<std::string> remarks;        ///< A sentence each.
+  double loss_m = 0.0;                     ///< Of the pairs, what was found mended; 0: not checked.
+  std::vector<std::string> doubtful = {};  ///< Landmarks that fit worst then.
 };
 
 /// Checks, and if that is chosen mends, the labels of sightings with range and bearing.
