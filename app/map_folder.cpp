@@ -42,6 +42,9 @@ bool same_positions(const std::optional<Points>& a, const std::optional<Points>&
 
 /// What tells two maps apart that are not the same one made twice; empty if nothing does.
 std::string difference(const MapRecord& there, const MapRecord& here) {
+  if (there.id != here.id)
+    return here.id == "joint" ? "of one sensor there, of several here"
+                              : "of several sensors there, of one here";
   if (there.sensor != here.sensor || there.of_pairs != here.of_pairs)
     return fmt::format("of {} there, of {} here", observed(there), observed(here));
   if (there.setting != here.setting)
@@ -51,6 +54,13 @@ std::string difference(const MapRecord& there, const MapRecord& here) {
   if (there.anchors != here.anchors) return "with other anchors";
   if (!same_positions(there.truth_m, here.truth_m)) return "with other known positions";
   return "";
+}
+
+void refuse_other(const fs::path& folder, const MapRecord& there, const MapRecord& here) {
+  const std::string what = difference(there, here);
+  if (!what.empty())
+    throw IoError(folder.string(),
+                  fmt::format("holds another map ({}); choose another --out or remove it", what));
 }
 
 }  // namespace
@@ -75,10 +85,18 @@ void check_same_map(const fs::path& folder, const MapRecord& map) {
   const fs::path file = folder / kMapFile;
   std::error_code error;
   if (!fs::exists(file, error)) return;
-  const std::string what = difference(parse_map(read_file(file), file.string()), map);
-  if (!what.empty())
-    throw IoError(folder.string(),
-                  fmt::format("holds another map ({}); choose another --out or remove it", what));
+  refuse_other(folder, parse_map(read_file(file), file.string()), map);
+}
+
+void check_may_become(const fs::path& folder, const MapRecord& map, bool any_method) {
+  const fs::path file = folder / kMapFile;
+  std::error_code error;
+  if (!fs::exists(file, error)) return;
+  const MapRecord there = parse_map(read_file(file), file.string());
+  MapRecord here = map;
+  if (any_method || (there.setting.method == here.setting.method && !here.setting.parameter))
+    here.setting = there.setting;
+  refuse_other(folder, there, here);
 }
 
 MapFolder::MapFolder(const fs::path& folder, const MapRecord& map)

@@ -23,6 +23,10 @@ void check_map_folder(const std::filesystem::path& folder);
 /// @throws IoError saying what differs.
 void check_same_map(const std::filesystem::path& folder, const MapRecord& map);
 
+/// The same before `map` is made: parameters that are not known yet are not compared, nor is the
+/// method if `any_method`.
+void check_may_become(const std::filesystem::path& folder, const MapRecord& map, bool any_method);
+
 /// The folder of a map while it is written: made, checked, locked, and rid of what a killed process
 /// left behind.
 class MapFolder {

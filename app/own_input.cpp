@@ -4,8 +4,11 @@
 #include <utility>
 #include <vector>
 
+#include <fmt/format.h>
+
 #include "app/own_mixed.hpp"
 #include "app/own_sightings.hpp"
+#include "core/base/errors.hpp"
 #include "core/records/sightings.hpp"
 
 namespace mapproof {
@@ -27,6 +30,10 @@ OwnMap map_input(const OwnInput& input, const std::optional<NamedPointsFile>& an
     for (const OtherInput& other : input.others)
       sources.push_back(
           read_observations(other.path, sensor_named(other.kind), input.layout, input.unit));
+    for (const ObservationSource& source : sources)
+      if (!source.unlabelled.empty())
+        throw IoError(source.path, fmt::format("line {}", source.unlabelled.front().line),
+                      "a reading without a label: not with --with");
     return map_mixed(sources, anchors, truth, options);
   }
   if (kind == kRangeBearing) {
@@ -37,13 +44,19 @@ OwnMap map_input(const OwnInput& input, const std::optional<NamedPointsFile>& an
     return map;
   }
   const bool as_usual = options.missing.way == MissingChoice().way && options.submaps == 0 &&
-                        !input.labels.asked() && !options.choose && options.ellipse_replicates == 0;
+                        !input.labels.asked() && input.unsure.empty() && !options.choose &&
+                        options.ellipse_replicates == 0;
   if (sensor && as_usual && input.layout != Layout::kWide && is_large_long_table(input.path))
     return map_sparse(read_sightings(input.path, {.unit = input.unit, .value = sensor}), *sensor,
                       anchors, truth, options);
   ObservationSource source = read_observations(input.path, sensor, input.layout, input.unit);
   std::vector<LabelFact> facts = check_labels_of(source, input.labels, anchors, truth);
+  const bool doubtful = !source.unlabelled.empty() || !input.unsure.empty();
+  const EstimatedLabels estimated = estimate_labels(source, input.unsure);
+  source.remarks.insert(source.remarks.end(), estimated.remarks.begin(), estimated.remarks.end());
   OwnMap map = map_own(source, anchors, truth, options);
+  map.warnings.insert(map.warnings.begin(), estimated.warnings.begin(), estimated.warnings.end());
+  if (doubtful) map.estimated = estimated;
   map.labels = std::move(facts);
   return map;
 }

@@ -23,7 +23,8 @@ struct OwnInput {
   AngleUnit unit = AngleUnit::kRadians;
   bool rigid = false;  ///< Fit a metric map to the anchors without changing its scale.
   LabelChoice labels;  ///< Of range and bearing seen together.
-  std::vector<OtherInput> others = {};  ///< To be mapped together with it.
+  std::vector<std::string> unsure = {};  ///< Labels that are confused with one another.
+  std::vector<OtherInput> others = {};   ///< To be mapped together with it.
 };
 
 /// The kind of the input: what was given, or range-bearing for a file of sightings.

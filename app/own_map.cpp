@@ -58,6 +58,19 @@ void check_method(const ObservationSource& source, const OwnMapOptions& options)
 
 }  // namespace
 
+void begin_map(const OwnMapOptions& options, const BegunMap& begun, const Reference& reference) {
+  if (!options.begin) return;
+  MapRecord record;
+  record.id = begun.id;
+  record.sensor = begun.sensor;
+  record.setting = options.setting;
+  record.step = begun.step;
+  record.names = begun.names;
+  record.anchors = reference.anchors;
+  if (reference.has_truth || !reference.anchors.empty()) record.truth_m = reference.positions_m;
+  options.begin(record);
+}
+
 OwnMap map_own(const ObservationSource& source, const std::optional<NamedPointsFile>& anchors,
                const std::optional<NamedPointsFile>& truth, const OwnMapOptions& options) {
   const Eigen::Index steps = options.steps > 0 ? options.steps : source.history.steps();
@@ -74,24 +87,30 @@ OwnMap map_own(const ObservationSource& source, const std::optional<NamedPointsF
                                .truth_m = source.truth_m};
   const Reference reference = reference_of(landmarks, anchors, truth, result.remarks);
 
+  begin_map(options,
+            {.sensor = source.history.sensor,
+             .step = static_cast<int>(steps),
+             .names = source.history.names},
+            reference);
   EmbedderOptions fitting;
   fitting.only_seen_together = options.only_seen_together;
   MissingOutcome missing, of_draws;  // What draws of the steps went through is not told.
+  const MissingChoice choice = judged_choice(options.missing, source.history, steps, missing);
   MethodSetting asked = options.setting;
   if (options.choose) {
-    result.choice =
-        own_choice(source.history, steps, {reference.positions_m, reference.anchors},
-                   {.embedder = fitting,
-                    .rule = proximity_rule(options.missing, source.history.sensor, of_draws),
-                    .fit = options.fit});
+    result.choice = own_choice(source.history, steps, {reference.positions_m, reference.anchors},
+                               {.embedder = fitting,
+                                .rule = proximity_rule(choice, source.history.sensor, of_draws),
+                                .fit = options.fit});
     if (!result.choice->order.empty())
       asked = result.choice->maps[result.choice->order.front()].setting;
   }
   OwnEmbedding made = own_embedding(source.history, steps, asked, fitting,
-                                    proximity_rule(options.missing, source.history.sensor, missing),
+                                    proximity_rule(choice, source.history.sensor, missing),
                                     options.submaps, options.overlap);
   result.remarks.insert(result.remarks.end(), missing.remarks.begin(), missing.remarks.end());
   result.remarks.insert(result.remarks.end(), made.remarks.begin(), made.remarks.end());
+  result.warnings = std::move(missing.warnings);
   result.joined = std::move(made.joined);
   const Embedding& embedding = made.embedding;
   MapRecord& record = result.record;
@@ -103,6 +122,9 @@ OwnMap map_own(const ObservationSource& source, const std::optional<NamedPointsF
   record.statuses = std::move(missing.statuses);
   record.statuses.insert(record.statuses.end(), embedding.statuses.begin(),
                          embedding.statuses.end());
+  if (missing.completed)
+    for (Status& status : record.statuses)
+      if (status.code == StatusCode::kDistancesCompleted) status.detail = *missing.completed;
   record.certificate = embedding.certificate;
   align_and_score(record, embedding.coordinates, reference, options.fit);
   if (options.ellipse_replicates > 0)
@@ -110,7 +132,7 @@ OwnMap map_own(const ObservationSource& source, const std::optional<NamedPointsF
         own_certainty(record, source.history,
                       {.setting = record.setting,
                        .embedder = fitting,
-                       .rule = proximity_rule(options.missing, source.history.sensor, of_draws),
+                       .rule = proximity_rule(choice, source.history.sensor, of_draws),
                        .replicates = options.ellipse_replicates,
                        .fit = options.fit},
                       result.remarks);

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <functional>
 #include <optional>
 #include <string>
 #include <utility>
@@ -10,6 +11,7 @@
 #include "app/own_missing.hpp"
 #include "app/own_mixed.hpp"
 #include "app/own_reference.hpp"
+#include "app/own_unlabelled.hpp"
 #include "core/embed/embedder.hpp"
 #include "core/model/experiment.hpp"
 #include "core/model/map_certainty.hpp"
@@ -28,26 +30,42 @@ struct OwnMapOptions {
   bool drop_unseen = false;         ///< Map the others where a landmark was never observed.
   bool only_seen_together = false;  ///< See EmbedderOptions.
   MissingChoice missing;
-  int submaps = 0;             ///< Most landmarks of a sub-map, 6 or more; 0: one map.
+  int submaps = 0;                ///< Most landmarks of a sub-map, 6 or more; 0: one map.
   std::optional<double> overlap;  ///< Share that a sub-map borrows, in [0, 0.8]; empty: the usual.
-  int ellipse_replicates = 0;  ///< Draws for each landmark's ellipse; 0: none.
+  int ellipse_replicates = 0;     ///< Draws for each landmark's ellipse; 0: none.
+  /// Asked before anything is computed, of what is known of the map by then; may throw. Its setting
+  /// lacks what is not known yet: a usual parameter.
+  std::function<void(const MapRecord&)> begin = {};
 };
 
 /// A map and what has to be said about how it came to be.
 struct OwnMap {
   MapRecord record;
   std::vector<std::string> remarks;
+  std::vector<std::string> warnings = {};  ///< What a person should know before trusting the map.
   std::optional<JoinedSubmaps> joined =
       {};  ///< What the map was joined from, in a frame of its own.
   std::vector<std::pair<std::string, std::string>> read;  ///< Facts of the observations.
   /// What was mapped and how, where the record does not say it: a mixed map.
   std::string observed = {};
   std::string made_by = {};
-  std::optional<MapCertainty> certainty = std::nullopt;  ///< If it was asked for.
-  std::optional<OwnChoice> choice = std::nullopt;        ///< If the method was to be chosen.
-  std::optional<OwnMixed> mixed = std::nullopt;          ///< If it is of several sensors.
+  std::optional<MapCertainty> certainty = std::nullopt;     ///< If it was asked for.
+  std::optional<OwnChoice> choice = std::nullopt;           ///< If the method was to be chosen.
+  std::optional<OwnMixed> mixed = std::nullopt;             ///< If it is of several sensors.
+  std::optional<EstimatedLabels> estimated = std::nullopt;  ///< If some were doubtful.
   std::vector<LabelFact> labels = {};  ///< What was found about them, if that was asked.
 };
+
+/// What is known of a map before it is made, beside the options and the reference.
+struct BegunMap {
+  std::string id = "map";
+  Sensor sensor = Sensor::kVisibility;
+  int step = 0;
+  const std::vector<std::string>& names;
+};
+
+/// Calls options.begin with what is known of a map before it is made.
+void begin_map(const OwnMapOptions& options, const BegunMap& begun, const Reference& reference);
 
 /// Maps observations, aligned to the anchors if there are any, scored if there is a truth.
 ///

@@ -8,23 +8,46 @@
 #include "core/base/words.hpp"
 #include "core/missing/covisible.hpp"
 #include "core/missing/filled.hpp"
+#include "core/missing/gap_pattern.hpp"
 
 namespace mapproof {
 namespace {
 
 constexpr const char* kCovisible = "covisible";
+constexpr const char* kAuto = "auto";
+constexpr double kMostWork = 5e10;  ///< Products of entries that judging gaps may take.
+constexpr double kFewPairs = 0.1;   ///< Share of pairs without ground that is worth a warning.
+
+Eigen::Index infinite_pairs(const Proximities& proximities) {
+  return (!proximities.squared_distances.array().isFinite()).count() / 2;
+}
 
 ProximityRule covisible_rule(MissingOutcome& outcome) {
   return [&outcome](const ObservationHistory& history, Eigen::Index steps) {
     const CovisibleOptions options;
-    if (outcome.remarks.empty())
+    if (!outcome.told)
       outcome.remarks.push_back(
           fmt::format("Distances are those of landmarks often observed together: the {} of each "
                       "that share most "
                       "of its steps, {} or more of them; others take the shortest path.",
                       options.neighbours, options.least_common));
-    return covisible_proximities(history, steps, options);
+    outcome.told = true;
+    Proximities result = covisible_proximities(history, steps, options);
+    const Eigen::Index left_out = infinite_pairs(result);
+    if (left_out > 0)
+      outcome.completed = fmt::format(
+          "{} of landmarks are not among the covisible ones that --missing covisible keeps ({} of "
+          "them without a step in common); their distance is the shortest path over the others.",
+          counted(left_out, "pair"), infinite_pairs(proximities(history, steps)));
+    return result;
   };
+}
+
+/// Whether another way than the advised one makes much worse maps: gaps at random spoil covisible
+/// pairs, patterns spoil the others; common steps at random are but a little worse.
+bool worth_a_warning(const GapPattern& pattern, const std::string& way) {
+  constexpr double kPatterned = 2.0;
+  return way == kCovisible || pattern.dispersion > kPatterned;
 }
 
 ProximityRule filling_rule(Filling filling, int dimensions, MissingOutcome& outcome) {
@@ -37,12 +60,15 @@ ProximityRule filling_rule(Filling filling, int dimensions, MissingOutcome& outc
       if (std::ranges::find(outcome.statuses, status) == outcome.statuses.end())
         outcome.statuses.push_back(status);
     const auto missing = history.values.leftCols(steps).array().isNaN().count();
-    if (filled.model.loadings.size() > 0 && outcome.remarks.empty())
+    if (filled.model.loadings.size() > 0 && !outcome.told) {
+      outcome.told = true;
       outcome.remarks.push_back(fmt::format(
-          "Entries filled in by {2} of {1}: {0}. They count as missing at random; where "
-          "distant landmarks alone are missing, common steps give better maps.",
+          "Entries filled in by {2} of {1}: {0}. Distances over them differ from those over common "
+          "steps, where pairs have some, by {3:.1f} % in the median.",
           missing, counted(filled.model.loadings.cols(), "dimension"),
-          filling == Filling::kPpca ? "PPCA" : "PCA"));
+          filling == Filling::kPpca ? "PPCA" : "PCA",
+          100.0 * median_disagreement(filled.proximities, proximities(history, steps))));
+    }
     return std::move(filled.proximities);
   };
 }
@@ -51,7 +77,41 @@ ProximityRule filling_rule(Filling filling, int dimensions, MissingOutcome& outc
 
 std::vector<std::string> missing_ways() {
   return {std::string(name(Filling::kCommonSteps)), std::string(name(Filling::kPpca)),
-          std::string(name(Filling::kPca)), kCovisible};
+          std::string(name(Filling::kPca)), kCovisible, kAuto};
+}
+
+MissingChoice judged_choice(MissingChoice choice, const ObservationHistory& history,
+                            Eigen::Index steps, MissingOutcome& outcome) {
+  const std::vector<Eigen::Index> unseen = unseen_landmarks(history, steps);
+  std::vector<Eigen::Index> rows;
+  for (Eigen::Index i = 0; i < history.landmarks(); ++i)
+    if (!std::ranges::binary_search(unseen, i)) rows.push_back(i);
+  const double work = static_cast<double>(rows.size()) * static_cast<double>(rows.size()) *
+                      static_cast<double>(steps);
+  const bool is_auto = choice.way == kAuto;
+  if (is_auto) choice.way = name(GapWay::kCommonSteps);
+  if (rows.size() < 2 || (!is_auto && work > kMostWork)) return choice;
+  const GapPattern pattern = gap_pattern(with_rows(history, rows), steps);
+  const GapAdvice advice = advised_way(pattern, history.sensor);
+  if (is_auto) {
+    choice.way = name(advice.way);
+    if (choice.dimensions && advice.way != GapWay::kPpca) choice.dimensions.reset();
+    outcome.remarks.push_back(
+        fmt::format("Missing entries: {} was taken, as {}.", choice.way, advice.why));
+  } else if (const bool both_fill = advice.way == GapWay::kPpca && choice.way == "pca";
+             choice.way != name(advice.way) && !both_fill && pattern.dispersion > 0.0 &&
+             history.sensor != Sensor::kVisibility && worth_a_warning(pattern, choice.way)) {
+    outcome.warnings.push_back(
+        fmt::format("--missing {} is not what serves these gaps best: {}. --missing {} is likely "
+                    "to give a better map.",
+                    choice.way, advice.why, name(advice.way)));
+  }
+  if (pattern.few_share > kFewPairs)
+    outcome.warnings.push_back(fmt::format(
+        "{:.0f} % of the pairs of landmarks have fewer than five steps in common, {:.0f} % none: "
+        "their distances have little ground.",
+        100.0 * pattern.few_share, 100.0 * pattern.apart_share));
+  return choice;
 }
 
 ProximityRule proximity_rule(const MissingChoice& choice, Sensor sensor, MissingOutcome& outcome) {

@@ -276,6 +276,12 @@ OwnMap map_mixed(const std::vector<ObservationSource>& sources,
                                .unseen = unseen_by_all(sources, histories, options, result),
                                .truth_m = own_truth(sources, names)};
   const Reference reference = reference_of(landmarks, anchors, truth, result.remarks);
+  begin_map(options,
+            {.id = "joint",
+             .sensor = histories.front().sensor,
+             .step = static_cast<int>(histories.front().steps()),
+             .names = names},
+            reference);
   EmbedderOptions fitting;
   fitting.only_seen_together = options.only_seen_together;
   const MixedMap made = mixed_map(histories, 0, options.setting, fitting);

@@ -1,6 +1,7 @@
 #include "app/own_reference.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <map>
 
@@ -15,7 +16,8 @@
 namespace mapproof {
 namespace {
 
-constexpr double kFlat = 1e-6;  ///< Anchors flatter than this do not span the plane.
+constexpr double kFlat = 1e-6;   ///< Anchors flatter than this do not span the plane.
+constexpr double kFarOut = 2.0;  ///< The median landmark so many times as far out as any anchor.
 constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
 
 std::string quoted(const std::string& name) { return "\"" + printable(name) + "\""; }
@@ -156,6 +158,40 @@ void align_and_score(MapRecord& record, const Points& coordinates, const Referen
   record.score = record.frame == Frame::kTruth
                      ? score_map(record.estimate, reference.positions_m, reference.anchors, fit)
                      : anchor_free_score(record.estimate, reference.positions_m, fit);
+}
+
+std::vector<std::string> frame_warnings(const MapRecord& record) {
+  if (record.frame != Frame::kTruth || record.anchors.empty() || !record.truth_m) return {};
+  const Points anchors_m = (*record.truth_m)(record.anchors, Eigen::all);
+  const Eigen::RowVector2d centre = anchors_m.colwise().mean();
+  std::vector<double> away;
+  double trivial_m = 0.0;
+  int known = 0;
+  for (Eigen::Index i = 0; i < record.estimate.rows(); ++i) {
+    if (!record.estimate.row(i).allFinite() || std::ranges::count(record.anchors, i) > 0) continue;
+    away.push_back((record.estimate.row(i) - centre).norm());
+    if (!record.truth_m->row(i).allFinite()) continue;
+    trivial_m += (record.truth_m->row(i) - centre).norm();
+    ++known;
+  }
+  if (away.empty()) return {};
+  if (record.score && known > 0 && std::isfinite(record.score->mpe_m)) {
+    trivial_m /= known;
+    if (record.score->mpe_m < trivial_m) return {};
+    return {
+        fmt::format("The map is worth nothing in metres: its MPE is {:.3g} m, and all landmarks "
+                    "put at the mean "
+                    "of the anchors would have one of {:.3g} m.",
+                    record.score->mpe_m, trivial_m)};
+  }
+  const double reach_m = (anchors_m.rowwise() - centre).rowwise().norm().maxCoeff();
+  const auto middle = away.begin() + std::ssize(away) / 2;
+  std::ranges::nth_element(away, middle);
+  if (*middle < kFarOut * reach_m) return {};
+  return {fmt::format(
+      "Half of the landmarks lie {:.3g} m or more from the anchors' mean, no anchor beyond {:.3g} "
+      "m: the map, or its fit to the anchors, is likely to be worth nothing.",
+      *middle, reach_m)};
 }
 
 }  // namespace mapproof

@@ -46,4 +46,9 @@ Reference reference_of(const OwnLandmarks& source, const std::optional<NamedPoin
 void align_and_score(MapRecord& record, const Points& coordinates, const Reference& reference,
                      AffineFit fit);
 
+/// What a person should know of a map in the frame of its anchors that is worth little: errors as
+/// large as if all landmarks were put at the anchors' mean, or, without a truth, landmarks far
+/// outside of what the anchors span. A sentence each.
+std::vector<std::string> frame_warnings(const MapRecord& record);
+
 }  // namespace mapproof

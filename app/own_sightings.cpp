@@ -154,6 +154,7 @@ OwnMap map_sparse(SightingSource source, Sensor sensor,
                                            unseen.size(), log.names.size(), log.steps));
   EmbedderOptions fitting;
   fitting.only_seen_together = options.only_seen_together;
+  begin_map(options, {.sensor = sensor, .step = log.steps, .names = log.names}, known);
   Embedder embedder(sighted_proximities(log, sensor), fitting);
   MapRecord& record = result.record;
   record.sensor = sensor;

@@ -23,7 +23,6 @@ struct OwnEmbedding {
 /// @param rule     See HistoryEmbedder; of each group by itself.
 OwnEmbedding own_embedding(const ObservationHistory& history, Eigen::Index steps,
                            MethodSetting setting, const EmbedderOptions& options,
-                           const ProximityRule& rule, int submaps,
-                           std::optional<double> overlap);
+                           const ProximityRule& rule, int submaps, std::optional<double> overlap);
 
 }  // namespace mapproof

@@ -122,6 +122,11 @@ void take_others(Arguments& arguments) {
     throw InvalidInput("--with: each file needs a --with-kind of its own");
   for (std::size_t k = 0; k < arguments.with.size(); ++k)
     arguments.input.others.push_back({arguments.with[k], arguments.with_kind[k]});
+  if (!arguments.input.unsure.empty() &&
+      (arguments.follow || !arguments.with.empty() || arguments.input.kind == kRangeBearing))
+    throw InvalidInput(
+        "--labels-unsure: of one kind of value that every landmark has at every step; not with "
+        "--follow, --with or range-bearing (see --check-labels)");
   if (arguments.with.empty()) return;
   const OwnMapOptions& options = arguments.options;
   if (arguments.input.kind == kRangeBearing)
@@ -218,6 +223,7 @@ nlohmann::ordered_json map_result(const OwnMap& map, const fs::path& out) {
       {"statuses", nlohmann::ordered_json::array()},
       {"labels", nlohmann::ordered_json::array()},
       {"remarks", map.remarks},
+      {"warnings", map.warnings},
       {"map", (out / kMapFile).string()},
       {"report", (out / "report.html").string()}};
   if (record.score)
@@ -273,6 +279,7 @@ void write_outputs(const Arguments& arguments, const OwnMap& map, const Template
                   .title = "Map of " + fs::path(arguments.input.path).filename().string(),
                   .facts = facts(arguments, map),
                   .remarks = map.remarks,
+                  .warnings = map.warnings,
                   .figure = figure_block(figures.front()),
                   .more_figures = std::move(more),
                   .provenance = build_provenance(),
@@ -290,6 +297,10 @@ void write_outputs(const Arguments& arguments, const OwnMap& map, const Template
     if (std::ranges::find(figures, id, &Figure::id) == figures.end())
       for (const char* ending : {".svg", ".png", ".pdf", ".figure.json"})
         fs::remove(out / "figures" / (std::string(id) + ending));
+  if (map.estimated)
+    write_file(out / "labels.csv", labels_csv(*map.estimated));
+  else
+    fs::remove(out / "labels.csv");
   std::map<std::string, std::string> drawn;
   for (const Figure& figure : figures)
     drawn[figure.id] = write_figure(figure, report_theme(), out / "figures");
@@ -347,11 +358,17 @@ int make_map(Arguments arguments, const Invocation& invocation) {
   arguments.options.fit =
       arguments.fit == "least-squares" ? AffineFit::kLeastSquares : AffineFit::kLeastDistances;
   if (arguments.follow) return follow_file(arguments, page, invocation);
-  const OwnMap map = map_input(input, read_points(arguments.anchors), read_points(arguments.truth),
-                               arguments.options);
+  const bool any_method = arguments.options.choose;
+  arguments.options.begin = [&](const MapRecord& begun) {
+    check_may_become(arguments.out, begun, any_method);
+  };
+  OwnMap map = map_input(input, read_points(arguments.anchors), read_points(arguments.truth),
+                         arguments.options);
   for (const auto& [what, value] : map.read)
     invocation.console.detail(fmt::format("{}: {}: {}", input.path, what, value));
+  for (std::string& warning : frame_warnings(map.record)) map.warnings.push_back(warning);
   for (const std::string& remark : map.remarks) invocation.console.info(remark);
+  for (const std::string& warning : map.warnings) invocation.console.warning(warning);
   for (const Status& status : map.record.statuses)
     invocation.console.warning(fmt::format("{}: {}", name(status.code), status.detail));
   write_outputs(arguments, map, page, invocation);
@@ -427,7 +444,7 @@ Action map_verb(CLI::App& app) {
                "Visibility: no graph edge between landmarks never seen together");
   app.add_option("--missing", arguments->options.missing.way,
                  "Missing entries: distances over common steps, filled in by PPCA or PCA, or of "
-                 "covisible landmarks alone")
+                 "covisible landmarks alone; auto: as the pattern of the gaps advises")
       ->check(CLI::IsMember(missing_ways()))
       ->capture_default_str();
   app.add_option("--dimensions", arguments->options.missing.dimensions,
@@ -461,6 +478,10 @@ Action map_verb(CLI::App& app) {
   app.add_flag("--find-moved", arguments->input.labels.find_moved,
                "Sightings of range and bearing: name landmarks that moved, map both places; with "
                "--follow, as soon as it shows");
+  app.add_option("--labels-unsure", arguments->input.unsure,
+                 "Labels that are confused with one another, a,b,...: whose their readings are is "
+                 "estimated together with the map (as of readings under the label ? in long CSV)")
+      ->delimiter(',');
   app.add_option("--templates", arguments->templates,
                  "Folder whose templates replace the embedded ones");
   return [arguments](const Invocation& invocation) { return make_map(*arguments, invocation); };

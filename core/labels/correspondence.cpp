@@ -139,6 +139,27 @@ double median_residual(const Labelled& labelled, Eigen::Index rank) {
   return *middle;
 }
 
+/// Which doubtful readings no exchange within their step would make nearly as likely.
+Mask clear_readings(const Labelled& labelled, Eigen::Index rank) {
+  const Eigen::MatrixXd components = model_of(labelled, rank).components;
+  const double least = 4.0 * median_residual(labelled, rank);
+  Mask clear =
+      Mask::Constant(labelled.readings.front().rows(), std::ssize(labelled.readings), false);
+  for (std::size_t step = 0; step < labelled.readings.size(); ++step) {
+    const std::vector<Eigen::Index>& rows = labelled.doubtful[step];
+    const Eigen::MatrixXd Y = labelled.values(step);
+    const Eigen::MatrixXd E = components * (components.transpose() * Y);
+    for (const Eigen::Index i : rows) {
+      bool is_clear = true;
+      for (const Eigen::Index j : rows)
+        if (i != j)
+          is_clear = is_clear && 2.0 * (E.row(i) - E.row(j)).dot(Y.row(i) - Y.row(j)) > least;
+      clear(i, static_cast<Eigen::Index>(step)) = is_clear;
+    }
+  }
+  return clear;
+}
+
 /// Labels and components in turn until no label changes.
 struct Descent {
   Labelled labelled;
@@ -258,7 +279,13 @@ Correspondence estimated_correspondence(const ObservationHistory& history, const
     Descent other = lowered(from_certain(given, rank, dealing), rank, options.most_rounds, dealing);
     if (other.loss < best.loss) best = std::move(other);
   }
-  Correspondence result{history, 0.0, 0.0, best.rounds, best.settled};
+  Correspondence result{.history = history,
+                        .loss_before = 0.0,
+                        .loss_after = 0.0,
+                        .rounds = best.rounds,
+                        .settled = best.settled};
+  result.reading_of.resize(history.landmarks(), history.steps());
+  result.clear = clear_readings(best.labelled, rank);
   if (spread > 0.0) {
     result.loss_before = model_of(given, rank).loss / spread;
     result.loss_after = best.loss / spread;
@@ -266,6 +293,8 @@ Correspondence estimated_correspondence(const ObservationHistory& history, const
   for (Eigen::Index step = 0; step < history.steps(); ++step) {
     const auto& reading_of = best.labelled.reading_of[static_cast<std::size_t>(step)];
     result.history.values.col(step) = history.values.col(step)(reading_of);
+    for (Eigen::Index row = 0; row < history.landmarks(); ++row)
+      result.reading_of(row, step) = reading_of[static_cast<std::size_t>(row)];
   }
   return result;
 }

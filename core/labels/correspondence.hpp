@@ -24,6 +24,11 @@ struct Correspondence {
   double loss_after = 0.0;   ///< the model does not explain, under the labels given and found.
   int rounds = 0;
   bool settled = true;  ///< False: labels still changed when the rounds were used up.
+  /// M x N: the row whose reading, as it was given, a landmark has in a step.
+  Eigen::Array<Eigen::Index, Eigen::Dynamic, Eigen::Dynamic> reading_of = {};
+  /// M x N: a doubtful reading that no exchange with another of its step would make nearly as
+  /// likely: each would cost more than 4 median squared residuals.
+  Eigen::Array<bool, Eigen::Dynamic, Eigen::Dynamic> clear = {};
 };
 
 /// Which of its entries a step's doubtful readings are, estimated together with the map by lowering

@@ -3,6 +3,7 @@
 #include <filesystem>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "core/model/observation_history.hpp"
@@ -19,6 +20,17 @@ enum class Layout {
   kLong,  ///< A row an observation: step, landmark, value.
 };
 
+/// A reading of which nobody says whose it is.
+struct UnlabelledReading {
+  Eigen::Index step = 0;  ///< Column of the history.
+  double number = 0.0;    ///< Of the step, as the file has it.
+  double value = 0.0;     ///< As the history's; NaN: missing.
+  std::size_t line = 0;
+};
+
+/// The landmark of such a reading in a long table.
+inline constexpr std::string_view kUnlabelledMark = "?";
+
 /// A person's own observations, with what is needed to talk about the file they came from.
 struct ObservationSource {
   ObservationHistory history;
@@ -26,6 +38,8 @@ struct ObservationSource {
   std::vector<std::string> remarks;  ///< What was dropped or assumed, a sentence each.
   std::vector<std::string> places;   ///< M; where a landmark stands: "line 7", "/values/6".
   std::string path;                  ///< For errors: the file or folder that was read.
+  /// Of a long table, in the order of its lines; they are not in the history.
+  std::vector<UnlabelledReading> unlabelled = {};
 };
 
 /// Observations from CSV (wide or long), mapproof's JSON or a folder of MRCLAM [leung2011], files

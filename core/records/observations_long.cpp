@@ -25,7 +25,7 @@ struct Look {
 };
 
 struct Entry {
-  Eigen::Index landmark;
+  Eigen::Index landmark;  ///< -1: without a label.
   Look look;
   std::size_t line;
   double value;
@@ -63,11 +63,11 @@ class LongValues {
     const std::string_view cell = row.cells[*columns_[SightingColumn::kValue]];
     const std::optional<double> value = sighting_value(cell, sensor_, unit_);
     if (!value) fail(row.line, sighting_problem(cell, sensor_, unit_));
-    return {
-        .landmark = names_.find_or_add(row.cells[*columns_[SightingColumn::kLandmark]], row.line),
-        .look = look_of(row),
-        .line = row.line,
-        .value = *value};
+    const std::string_view name = row.cells[*columns_[SightingColumn::kLandmark]];
+    return {.landmark = name == kUnlabelledMark ? -1 : names_.find_or_add(name, row.line),
+            .look = look_of(row),
+            .line = row.line,
+            .value = *value};
   }
 
   const NameList& names() const { return names_; }
@@ -144,6 +144,7 @@ Eigen::MatrixXd arrange(const std::vector<Entry>& entries, const LongValues& rea
   std::vector<bool> is_set(static_cast<std::size_t>(values.size()));
   std::size_t column = 0;
   for (const Entry& entry : entries) {
+    if (entry.landmark < 0) continue;
     if (steps[column] != entry.look)
       column =
           static_cast<std::size_t>(std::ranges::lower_bound(steps, entry.look) - steps.begin());
@@ -153,6 +154,20 @@ Eigen::MatrixXd arrange(const std::vector<Entry>& entries, const LongValues& rea
     values(entry.landmark, static_cast<Eigen::Index>(column)) = entry.value;
   }
   return values;
+}
+
+std::vector<UnlabelledReading> unlabelled_in(const std::vector<Entry>& entries) {
+  std::vector<UnlabelledReading> readings;
+  if (std::ranges::none_of(entries, [](const Entry& entry) { return entry.landmark < 0; }))
+    return readings;
+  const std::vector<Look> looks = distinct_looks(entries);
+  for (const Entry& entry : entries)
+    if (entry.landmark < 0)
+      readings.push_back({.step = std::ranges::lower_bound(looks, entry.look) - looks.begin(),
+                          .number = entry.look.key,
+                          .value = entry.value,
+                          .line = entry.line});
+  return readings;
 }
 
 }  // namespace
@@ -198,7 +213,8 @@ ObservationSource read_long(std::string_view text, const std::string& source, Se
                            .truth_m = std::nullopt,
                            .remarks = values.remarks(),
                            .places = values.names().places(),
-                           .path = source};
+                           .path = source,
+                           .unlabelled = unlabelled_in(entries)};
   if (lists_sightings)
     result.remarks.push_back("Only sightings are listed: all other entries are taken as not seen");
   return result;

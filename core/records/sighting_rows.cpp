@@ -8,6 +8,7 @@
 
 #include "core/base/errors.hpp"
 #include "core/json/text_input.hpp"
+#include "core/records/observations.hpp"
 #include "core/records/sighting_values.hpp"
 
 namespace mapproof {
@@ -46,6 +47,10 @@ Sighting SightingRows::sighting_of(const TableRow& row) {
     fail(row,
          "a sighting without a label: which landmark it shows is not told from looks; leave such "
          "rows out");
+  if (label == kUnlabelledMark)
+    fail(row,
+         "a reading without a label (?): whose such are is estimated of long tables of one kind of "
+         "value, up to some 64 MB");
   Sighting seen;
   seen.landmark = static_cast<int>(names_.find_or_add(label, row.line));
   if (const auto cell = columns_[SightingColumn::kRange])

@@ -136,6 +136,8 @@ std::string shape_finding(const MapRecord& record) {
 Section summary(const MapReportInput& input) {
   const MapRecord& record = input.record;
   Section section{"summary", "Summary", {}};
+  for (const std::string& warning : input.warnings)
+    section.blocks.emplace_back(Callout{Callout::Tone::kWarning, "Warning", plain(warning)});
   section.blocks.emplace_back(highlights(record));
   BulletList findings;
   const std::string landmarks = counted(record.estimate.rows(), "landmark");

@@ -16,9 +16,10 @@ struct MapReportInput {
   std::string title;  ///< "Map of observations.csv".
   /// What was read, in words: {"File", "observations.csv"}, {"Landmarks", "50"}, …
   std::vector<std::pair<std::string, std::string>> facts;
-  std::vector<std::string> remarks;       ///< "line 7: no bearing, row dropped", …
-  FigureBlock figure;                     ///< figure_block(map_figure(record, id)).
-  std::vector<FigureBlock> more_figures;  ///< Below it.
+  std::vector<std::string> remarks;        ///< "line 7: no bearing, row dropped", …
+  std::vector<std::string> warnings = {};  ///< Before the map is trusted; shown first.
+  FigureBlock figure;                      ///< figure_block(map_figure(record, id)).
+  std::vector<FigureBlock> more_figures;   ///< Below it.
   Provenance provenance;
   std::string command;  ///< The one that makes it again, ready to be typed.
   /// What was mapped and how, where the record's method and sensor do not say it: "SMACOF of

@@ -16,11 +16,13 @@ namespace {
 
 /// Bearings in a room, with gaps, as a person has them; and its anchors and truth.
 struct GappedSurvey {
-  explicit GappedSurvey(const TemporaryFolder& folder, double share) : room(walked_room(3, 1000)) {
+  /// @param by_range  The most distant entries are missing, else any.
+  explicit GappedSurvey(const TemporaryFolder& folder, double share, bool by_range = false)
+      : room(walked_room(3, 1000)) {
     Random random(7);
-    const ObservationHistory history =
-        with_gaps(observe(room.world, room.path, {.sensor = Sensor::kBearing}, random),
-                  random_losses(50, 1000, random), share);
+    const ObservationHistory history = with_gaps(
+        observe(room.world, room.path, {.sensor = Sensor::kBearing}, random),
+        by_range ? range_losses(room.world, room.path) : random_losses(50, 1000, random), share);
     std::string csv;
     for (Eigen::Index i = 0; i < 50; ++i) {
       csv += history.names[static_cast<std::size_t>(i)];
@@ -93,6 +95,75 @@ TEST(MapMissing, OfSubmapsShowsThemAndIsNearTheTruth) {
   const Outcome alone = survey.mapped({"--overlap", "0.65"}, folder / "alone");
   EXPECT_EQ(alone.exit_code, 2);
   EXPECT_NE(alone.error.find("add --submaps"), std::string::npos);
+}
+
+TEST(MapMissing, OfCovisiblePairsTellsTheOnesLeftOutFromThoseWithoutACommonStep) {
+  const TemporaryFolder folder;
+  const GappedSurvey survey(folder, 0.3);
+  const Outcome outcome = survey.mapped({"--missing", "covisible"}, folder / "map");
+  ASSERT_EQ(outcome.exit_code, 0) << outcome.error;
+  const auto result = nlohmann::json::parse(outcome.out);
+  EXPECT_NE(result["statuses"].dump().find("(0 of them without a step in common)"),
+            std::string::npos)
+      << result["statuses"];
+  // These gaps say nothing of what is near, and that is said.
+  ASSERT_EQ(result["warnings"].size(), 1U);
+  EXPECT_NE(result["warnings"][0].get<std::string>().find("--missing ppca is likely"),
+            std::string::npos);
+}
+
+TEST(MapMissing, AutoTakesWhatThePatternOfTheGapsAdvisesAndSaysSo) {
+  const TemporaryFolder folder;
+  const GappedSurvey survey(folder, 0.5);
+  const Outcome outcome = survey.mapped({"--missing", "auto"}, folder / "map");
+  ASSERT_EQ(outcome.exit_code, 0) << outcome.error;
+  const auto result = nlohmann::json::parse(outcome.out);
+  EXPECT_NE(result["remarks"].dump().find("ppca was taken, as entries are missing as if at random"),
+            std::string::npos)
+      << result["remarks"];
+  EXPECT_TRUE(result["warnings"].empty()) << result["warnings"];
+}
+
+TEST(MapMissing, OfASensorOfShortRangeWarnsWhereEntriesAreFilledIn) {
+  const TemporaryFolder folder;
+  const GappedSurvey survey(folder, 0.7, true);
+  const Outcome filled = survey.mapped({"--missing", "ppca"}, folder / "map");
+  ASSERT_EQ(filled.exit_code, 0) << filled.error;
+  const auto result = nlohmann::json::parse(filled.out);
+  EXPECT_NE(result["warnings"].dump().find("--missing common-steps is likely"), std::string::npos)
+      << result["warnings"];
+  EXPECT_NE(filled.error.find("missing by distance"), std::string::npos) << filled.error;
+  const auto plain = nlohmann::json::parse(survey.mapped({}, folder / "plain").out);
+  EXPECT_LT(plain["score"]["mpe_m"], result["score"]["mpe_m"]);
+}
+
+TEST(Map, RefusesAFolderOfAnotherMapBeforeItComputes) {
+  const TemporaryFolder folder;
+  const GappedSurvey survey(folder, 0.1);
+  ASSERT_EQ(survey.mapped({}, folder / "map").exit_code, 0);
+  const Outcome again = survey.mapped({"--steps", "100", "--missing", "ppca"}, folder / "map");
+  EXPECT_EQ(again.exit_code, 2);
+  EXPECT_NE(again.error.find("1000 steps there, 100 here"), std::string::npos) << again.error;
+  // What the mapping would have remarked was not said: it did not come to that.
+  EXPECT_EQ(again.error.find("PPCA"), std::string::npos) << again.error;
+}
+
+TEST(Map, WarnsOfAMapThatIsWorthNoMoreThanTheAnchorsMean) {
+  const TemporaryFolder folder;
+  GappedSurvey survey(folder, 0.0);
+  // The truth of other landmarks: names dealt out anew.
+  std::string csv = "name,x,y\n";
+  const std::vector<std::string> names = landmark_names(50);
+  for (Eigen::Index i = 0; i < 50; ++i)
+    csv += fmt::format("{},{},{}\n", names[static_cast<std::size_t>((i * 7 + 3) % 50)],
+                       survey.room.world.landmarks_m(i, 0), survey.room.world.landmarks_m(i, 1));
+  survey.truth = folder.file("dealt.csv", csv);
+  const Outcome outcome = survey.mapped({}, folder / "map");
+  ASSERT_EQ(outcome.exit_code, 0) << outcome.error;
+  const auto result = nlohmann::json::parse(outcome.out);
+  ASSERT_EQ(result["warnings"].size(), 1U) << outcome.error;
+  EXPECT_NE(result["warnings"][0].get<std::string>().find("worth nothing in metres"),
+            std::string::npos);
 }
 
 TEST(MapMissing, RefusesWhatDoesNotFitTogether) {

@@ -1,0 +1,50 @@
+#pragma once
+
+#include <string>
+#include <string_view>
+
+#include "core/model/observation_history.hpp"
+#include "core/observe/proximities.hpp"
+
+namespace mapproof {
+
+/// What the gaps of a history look like, told without the truth.
+struct GapPattern {
+  double missing_share = 0.0;  ///< Of all entries.
+  double apart_share = 0.0;    ///< Of pairs of landmarks: those without a common step,
+  double few_share = 0.0;      ///< and with fewer than five.
+  /// Root mean square, over the pairs, of how many standard deviations their common steps are from
+  /// what gaps at random would leave: about 1 at random; more in patterns or in bursts.
+  double dispersion = 0.0;
+  /// Rank correlation, over the pairs that have common steps, of that with their distance: near -1
+  /// where near landmarks are observed together and distant ones are not; about 0 at random.
+  double nearness = 0.0;
+};
+
+/// @param history  Of landmarks that were all observed.
+/// @throws InvalidInput if `steps` is out of bounds.
+/// @note As costly as proximities().
+GapPattern gap_pattern(const ObservationHistory& history, Eigen::Index steps);
+
+/// What serves such gaps best.
+enum class GapWay { kCommonSteps, kPpca, kCovisible };
+
+/// "common-steps", "ppca", "covisible": as the command line has them.
+std::string_view name(GapWay way);
+
+/// A way and why, a clause: "entries are missing by distance: ...".
+struct GapAdvice {
+  GapWay way = GapWay::kCommonSteps;
+  std::string why;
+};
+
+/// The way that made the best maps of such gaps in the study of missing entries: bearings of which
+/// distant landmarks are missing, common steps; ranges of which many pairs were hardly ever
+/// observed together, covisible pairs; visibility, or no gaps, common steps; else PPCA.
+GapAdvice advised_way(const GapPattern& pattern, Sensor sensor);
+
+/// How far distances over filled entries are from those over common steps, where those are: the
+/// median over the pairs of the difference, as a share of the latter; NaN without any.
+double median_disagreement(const Proximities& filled, const Proximities& common);
+
+}  // namespace mapproof
