@@ -30,7 +30,8 @@ Dealt deal(ObservationSource& source) {
   Dealt dealt{Mask::Constant(values.rows(), values.cols(), false),
               Lines::Constant(values.rows(), values.cols(), -1)};
   // Of visibility, sightings alone may be listed: what is not seen is 0, and as free as a gap.
-  const bool is_seen = source.history.sensor == Sensor::kVisibility;
+  const bool is_seen =
+      source.history.sensor == Sensor::kVisibility && !values.array().isNaN().any();
   for (std::size_t k = 0; k < source.unlabelled.size(); ++k) {
     const UnlabelledReading& reading = source.unlabelled[k];
     Eigen::Index row = 0;

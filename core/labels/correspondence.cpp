@@ -274,6 +274,13 @@ Correspondence estimated_correspondence(const ObservationHistory& history, const
   double spread = 0.0;
   for (const Eigen::MatrixXd& Y : given.readings) spread += Y.squaredNorm();
   Descent best = lowered(given, rank, options.most_rounds, dealing);
+  // Components to spare learn which labels are confused; a few have no room for that.
+  constexpr Eigen::Index kFew = 4;
+  if (rank > kFew) {
+    Descent other = lowered(given, kFew, options.most_rounds, dealing);
+    other = lowered(std::move(other.labelled), rank, options.most_rounds, dealing);
+    if (other.loss < best.loss) best = std::move(other);
+  }
   // Where nothing is certain, filling has nothing to start from.
   if (!doubtful.all()) {
     Descent other = lowered(from_certain(given, rank, dealing), rank, options.most_rounds, dealing);

@@ -36,8 +36,9 @@ struct Correspondence {
 /// observation vectors leave. In turn components from labels, and at each step the assignment of
 /// the doubtful readings to the doubtful landmarks that is nearest to what the components say.
 ///
-/// Both turns lower the loss and what is paid for changes. It is started from the given labels and
-/// from the components of the certain entries alone; the start that ends lower is taken.
+/// Both turns lower the loss and what is paid for changes. It is started from the given labels,
+/// from those that four components make of them, and from the components of the certain entries
+/// alone; the start that ends lowest is taken.
 /// @param doubtful  M x N, true: the reading may be of any landmark that is doubtful in this
 /// stretch
 ///                  of steps; it is then doubtful in all of them.

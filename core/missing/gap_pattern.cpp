@@ -19,7 +19,7 @@ constexpr std::array kNames = {std::string_view("common-steps"), std::string_vie
                                std::string_view("covisible")};
 constexpr double kFewSteps = 5.0;
 constexpr double kPatterned = 2.0;     ///< Dispersion above this is no chance.
-constexpr double kByDistance = -0.55;  ///< Nearness below this: a sensor of short range.
+constexpr double kByDistance = -0.7;  ///< Nearness below this: a sensor of short range.
 constexpr double kManyApart = 0.15;    ///< Of pairs with few common steps: nothing fills them.
 
 /// Ranks from 1; equal values have their mean rank.
