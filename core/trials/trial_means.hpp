@@ -21,8 +21,8 @@ std::vector<double> trial_values(const TrialStudy& study, std::string_view setup
 double trial_mean(const TrialStudy& study, std::string_view setup, std::string_view series,
                   double level, std::string_view quantity);
 
-/// "noise of bearings 20 °", "observations 2000": a level with what it is of; empty if the setup
-/// has but one.
+/// "noise of bearings 20°", "observations 2000": a level with what it is of; empty if the setup
+/// has no levels.
 std::string level_words(const TrialSetup& setup, double level);
 
 /// The label of a series of the design; its id if there is none of it.
@@ -40,7 +40,7 @@ std::optional<MeanEstimate> trial_difference(const TrialStudy& study, std::strin
                                              double level, std::string_view quantity);
 
 /// "better", "worse" or "no different beyond chance", of a quantity that is better if lower;
-/// without an interval nothing is said of chance: "better, of one layout".
+/// without an interval nothing is said of chance: "better, in one layout".
 std::string verdict_words(const MeanEstimate& difference);
 
 /// Adds to what a series took on a part: one entry a series.

@@ -26,7 +26,7 @@ after(() => browser.close());
 export async function open(options = {}, folder = study, file = "report.html", hash = "") {
   const context = await browser.newContext({ viewport: { width: 1400, height: 900 }, ...options });
   const page = await context.newPage();
-  page.setDefaultTimeout(120000);  // Other tests and builds may keep the processors busy.
+  page.setDefaultTimeout(120000);  // A report of both papers lays out slowly.
   const requests = [], errors = [];
   const own = pathToFileURL(join(folder, file)).href;
   page.on("request", (request) => {

@@ -33,6 +33,7 @@ Report report_of(const MapRecord& record) {
                      "Map of x.csv",
                      {{"File", "x.csv"}},
                      {"line 7: row dropped"},
+                     {},
                      {"map", "t", "c", "a", {record.id}},
                      {},
                      {"0.1.0", "abc", "d", {}},

@@ -42,6 +42,7 @@ TEST(MapJson, OfMeasuredPairsSaysSo) {
   EXPECT_TRUE(again.of_pairs);
   EXPECT_EQ(again.setting, map.setting);
   EXPECT_EQ(map_json(again), text);
+  EXPECT_EQ(test::schema_problem("map", nlohmann::json::parse(text)), "");
   text.replace(text.find("\"pairs\""), 7, "\"smacof\"");
   EXPECT_EQ(error_of([&] { parse_map(text, "m"); }),
             "m: /method: expected pairs for range-bearing, got \"smacof\"");
