@@ -14,11 +14,14 @@ fs::path write_history_pages(HistoryStore& history, const fs::path& out,
                              int jobs) {
   const std::vector<NightFacts> nights = history.nights();
   NightFindings findings;
-  for (const NightFacts& night : nights) findings[night.number] = history.findings(night.number);
-  std::vector<std::string> studies;
+  NightStudies studies;
+  for (const NightFacts& night : nights) {
+    findings[night.number] = history.findings(night.number);
+    for (const StudyNight& study : history.studies(night.number))
+      studies[night.number].push_back(study.name);
+  }
   if (!nights.empty())
     for (const StudyNight& study : history.studies(nights.back().number)) {
-      studies.push_back(study.name);
       HistoryPage trend = trend_page(
           history.trend(study.name, study.order_digest, kTrendNights, nights.back().number),
           findings);

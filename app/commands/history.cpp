@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include "app/commands/verbs.hpp"
+#include "app/history_report.hpp"
 #include "core/base/errors.hpp"
 #include "core/base/words.hpp"
 #include "core/json/json_text.hpp"
@@ -59,6 +60,9 @@ int prune_by(HistoryStore& history, const Arguments& arguments, const Console& c
     console.warning(arguments.store + ": a night is being made in it; waiting for its end");
   });
   const Pruned pruned = prune(history, arguments.store, parse_prune_rule(*arguments.prune));
+  std::error_code error;
+  if (fs::exists(fs::path(arguments.store) / "index.html", error))  // Its links are to be true.
+    write_history_pages(history, arguments.store, {}, load_templates(), 1);
   console.result(fmt::format("{} and {} removed\n",
                              counted(static_cast<long long>(pruned.nights.size()), "night"),
                              counted(pruned.files, "figure file")),

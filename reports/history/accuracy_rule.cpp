@@ -196,8 +196,9 @@ std::string change_words(double change, bool ratio, const std::string& word) {
 RuleOutcome judge_accuracy(const StudyEvidence& evidence, const RegressionRules& rules) {
   RuleOutcome outcome;
   if (!evidence.reference) {
-    outcome.remarks.push_back(evidence.trend.name +
-                              ": no earlier night had this order; nothing to compare with");
+    outcome.remarks.push_back(
+        evidence.trend.name +
+        ": no night to compare with made it with these settings and this seed");
     return outcome;
   }
   const Work work = compare_all(evidence, rules);

@@ -47,8 +47,9 @@ std::string shown_method(const std::string& method) {
   const std::string_view name = info(*known).name;
   const auto& parameter = info(*known).parameter;
   if (!parameter || method.size() <= name.size() + 1 + parameter->symbol.size()) return label;
-  return fmt::format("{}, {} = {}", label, parameter->shown,
-                     method.substr(name.size() + 1 + parameter->symbol.size()));
+  std::string value = method.substr(name.size() + 1 + parameter->symbol.size());
+  if (value.starts_with('-')) value.erase(0, 1);  // Of "sigma2-10": no parameter is below 0.
+  return fmt::format("{}, {} = {}", label, parameter->shown, value);
 }
 
 double median_or_last(const std::vector<double>& values) {
@@ -260,7 +261,7 @@ Standing standing(const Night& night, const std::string& study, bool is_compared
 }
 
 Report index_page(std::span<const NightFacts> nights, const NightFindings& findings,
-                  std::span<const std::string> studies, std::span<const std::string> remarks) {
+                  const NightStudies& studies, std::span<const std::string> remarks) {
   Report report{.title = "Nights", .subtitle = "", .sections = {}, .footer = ""};
   Section last{"last", "The last night", {}};
   if (nights.empty()) {
@@ -289,14 +290,15 @@ Report index_page(std::span<const NightFacts> nights, const NightFindings& findi
   }
   for (const std::string& remark : remarks) list.items.push_back({{{remark + "."}}});
   if (!list.items.empty()) last.blocks.emplace_back(std::move(list));
-  for (const std::string& study : studies)
+  const auto made = studies.find(tonight.number);
+  for (const std::string& study : made == studies.end() ? std::vector<std::string>() : made->second)
     last.blocks.emplace_back(Paragraph{
         {{study + ": ", Emphasis::kStrong},
          {fmt::format("nights/{:04}/{}/report.html", tonight.number, study), Emphasis::kFile},
          {", over the nights "},
          {fmt::format("trends/{}/report.html", study), Emphasis::kFile}}});
   report.sections.push_back(std::move(last));
-  report.sections.push_back({"nights", "All nights", {nights_table(nights, findings)}});
+  report.sections.push_back({"nights", "All nights", {nights_table(nights, findings, studies)}});
   return report;
 }
 

@@ -20,15 +20,19 @@ struct HistoryPage {
 /// Findings by night.
 using NightFindings = std::map<int, std::vector<NightFinding>>;
 
+/// Names of the studies by night.
+using NightStudies = std::map<int, std::vector<std::string>>;
+
 /// One study over the nights: what was found, accuracy of the best setting of each method, seconds
 /// and memory. Pure: the same values give the same page.
 /// @param trend  At least one night.
 HistoryPage trend_page(const StudyTrend& trend, const NightFindings& findings);
 
 /// All nights, the last one first, and what the last one says.
+/// @param studies  Of the nights whose reports are to be linked.
 /// @param remarks  What could not be judged, or is only suspected, of the last night.
 Report index_page(std::span<const NightFacts> nights, const NightFindings& findings,
-                  std::span<const std::string> studies, std::span<const std::string> remarks);
+                  const NightStudies& studies, std::span<const std::string> remarks);
 
 /// How a study of a judged night stands.
 /// @param is_compared  Whether the night of reference has the study, ordered in the same way.

@@ -51,7 +51,8 @@ std::string to_the_minute(const std::string& utc) {
   return utc.substr(0, 10) + " " + utc.substr(11, 5);
 }
 
-Table nights_table(std::span<const NightFacts> nights, const NightFindings& findings) {
+Table nights_table(std::span<const NightFacts> nights, const NightFindings& findings,
+                   const NightStudies& studies) {
   Table table{.id = "nights",
               .caption = "Every night, the last one first.",
               .columns = {{"Night", "", "", "Its number: the order of nights, whatever clocks say"},
@@ -60,19 +61,22 @@ Table nights_table(std::span<const NightFacts> nights, const NightFindings& find
                           {"Findings", "", "", "How many"},
                           {"Against", "", "", "The night it was compared with"},
                           {"Host", "", "", ""},
-                          {"Report", "", "", "The folder of that night's reports"}},
+                          {"Report", "", "", "Of that night; the folder of several"}},
               .rows = {},
               .notes = {}};
   for (const NightFacts& night : nights | std::views::reverse) {
     const auto found = findings.find(night.number);
     const std::size_t count = found == findings.end() ? 0 : found->second.size();
+    std::string place = fmt::format("nights/{:04}/", night.number);
+    if (const auto made = studies.find(night.number);
+        made != studies.end() && made->second.size() == 1)
+      place += made->second.front() + "/report.html";
     const Cell against = night.reference ? Cell{number(*night.reference, 0)} : Cell{MissingCell{}};
-    table.rows.push_back(
-        {{number(night.number, 0), text(to_the_minute(night.started_utc)),
-          text(words_of(night.verdict) + (night.pinned ? ", pinned" : "")),
-          number(static_cast<double>(count), 0), against, TextCell{night.host, Emphasis::kData},
-          TextCell{fmt::format("nights/{:04}/", night.number), Emphasis::kFile}},
-         fmt::format("night {}", night.number)});
+    table.rows.push_back({{number(night.number, 0), text(to_the_minute(night.started_utc)),
+                           text(words_of(night.verdict) + (night.pinned ? ", pinned" : "")),
+                           number(static_cast<double>(count), 0), against,
+                           TextCell{night.host, Emphasis::kData}, TextCell{place, Emphasis::kFile}},
+                          fmt::format("night {}", night.number)});
   }
   return table;
 }

@@ -11,7 +11,9 @@ namespace mapproof {
 std::string to_the_minute(const std::string& utc);
 
 /// One row a night, the last one first.
-Table nights_table(std::span<const NightFacts> nights, const NightFindings& findings);
+/// @param studies  Of each night: its report is linked where there is one study, else its folder.
+Table nights_table(std::span<const NightFacts> nights, const NightFindings& findings,
+                   const NightStudies& studies);
 
 /// One row a finding of those nights, the last night first.
 Table findings_table(const NightFindings& findings, const std::string& study);

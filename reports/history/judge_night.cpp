@@ -111,6 +111,9 @@ std::vector<std::string> judge_night(HistoryStore& store, Night& tonight,
                                      std::optional<int> asked_reference,
                                      const RegressionRules& rules) {
   tonight.facts.reference = reference_night(store, tonight, asked_reference);
+  // A night that was asked for or pinned may have made nothing of what tonight made.
+  if (tonight.facts.reference && !can_be_compared(store, *tonight.facts.reference, tonight))
+    tonight.facts.reference.reset();
   const std::vector<NightFacts> nights = store.nights();
   const std::vector<NightFinding> yesterday =
       nights.empty() ? std::vector<NightFinding>{} : store.findings(nights.back().number);

@@ -90,6 +90,37 @@ TEST(Nightly, RefusesANightToCompareWithThatIsNotThereBeforeAnyWork) {
   EXPECT_FALSE(fs::exists(folder / "h/nights/0001/small"));
 }
 
+TEST(Nightly, SaysThatTheNightItWasToCompareWithMadeSomethingElse) {
+  const TemporaryFolder folder;
+  const fs::path store = folder / "history";
+  ASSERT_EQ(night(store).exit_code, 0);
+  std::string other = read_file(kSmall);
+  const std::size_t seed = other.find("\"seed\": ");
+  ASSERT_NE(seed, std::string::npos);
+  other.insert(seed + 8, "1");
+  const std::string file = folder.file("small.json", other);
+  const Outcome outcome = night(store, {"--reference", "1"}, file);
+  EXPECT_EQ(outcome.exit_code, 0) << outcome.error;
+  const json told = json::parse(outcome.out);
+  EXPECT_TRUE(told.at("reference").is_null());
+  EXPECT_NE(told.at("remarks").dump().find("no night to compare with"), std::string::npos);
+  EXPECT_EQ(read_file(store / "index.html").find("Nothing got worse"), std::string::npos);
+}
+
+TEST(Nightly, AfterPruningTheIndexNamesTheNightsThatAreLeft) {
+  const TemporaryFolder folder;
+  const fs::path store = folder / "history";
+  for (int i = 0; i < 3; ++i) ASSERT_EQ(night(store).exit_code, 0);
+  EXPECT_NE(read_file(store / "index.html").find("nights/0001/small/report.html"),
+            std::string::npos);
+  ASSERT_EQ(mapproof({"history", store, "--prune", "last=1"}).exit_code, 0);
+  const std::string index = read_file(store / "index.html");
+  for (int number = 1; number <= 3; ++number) {
+    const std::string report = "nights/000" + std::to_string(number) + "/small/report.html";
+    EXPECT_EQ(index.find(report) != std::string::npos, fs::exists(store / report)) << report;
+  }
+}
+
 TEST(Nightly, OnAFullDiskSaysSoAndLosesNoNight) {
   const TemporaryFolder folder;
   const fs::path store = folder / "history";

@@ -404,7 +404,8 @@ TEST(HistoryPages, BeginWithThreeFindingsAndSayHowManyMore) {
   EXPECT_EQ(stands.sentences[2], "worse 3.");
   EXPECT_TRUE(stands.sentences[3].starts_with("And 4 more"));
 
-  const Report index = index_page(std::vector{night.facts}, {{5, night.findings}}, {}, {});
+  const Report index =
+      index_page(std::vector{night.facts}, {{5, night.findings}}, {{5, {"small"}}}, {});
   EXPECT_EQ(index.subtitle, "1 night, the last begun 2026-11-22 02:30 UTC");
   std::size_t items = 0;
   for (const Block& block : index.sections.front().blocks)
