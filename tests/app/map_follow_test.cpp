@@ -103,23 +103,6 @@ std::string places_csv(const SightingLog& log, const std::vector<Eigen::Index>& 
   return text;
 }
 
-/// Landmark 7 stands half a metre elsewhere from look 400 of 800 on.
-SightingLog looks_with_move() {
-  Points places = noisy_landmarks();
-  SightingLog log = looks_at(places, 800, 5, 11);
-  places.row(7) += Eigen::RowVector2d(0.3, -0.4);
-  const SightingLog later = looks_at(places, 800, 5, 11);
-  std::erase_if(log.sightings, [](const Sighting& one) { return one.step >= 400; });
-  for (const Sighting& one : later.sightings)
-    if (one.step >= 400) log.sightings.push_back(one);
-  Random random(5);
-  for (Sighting& one : log.sightings) {
-    one.range_m *= 1.0 + 0.02 * random.normal();
-    one.bearing_rad += 0.0175 * random.normal();
-  }
-  return log;
-}
-
 TEST(FollowedMapFile, ReadsWhatThePlainMapReads) {
   const TemporaryFolder folder;
   const std::string text =
@@ -163,7 +146,7 @@ TEST(FollowedMapFile, IsScoredByTheTruthAsThePlainMapIs) {
 
 TEST(FollowedMapFile, OfRangeAndBearingIsThePlainMapAndNamesWhatMoved) {
   const TemporaryFolder folder;
-  const SightingLog log = looks_with_move();
+  const SightingLog log = looks_with_move(800, 7, {0.3, -0.4}, 400);
   const std::string text = sightings_csv(log);
   const std::string anchors = folder.file("anchors.csv", places_csv(log, {0, 2, 12, 14}));
   const Outcome outcome =

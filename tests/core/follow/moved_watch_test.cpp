@@ -11,21 +11,9 @@
 namespace mapproof::test {
 namespace {
 
-/// Looks of which landmark 7 stands half a metre elsewhere from one on.
-SightingLog looks_with_move(int looks, int from) {
-  Points places = noisy_landmarks();
-  SightingLog log = looks_at(places, looks, 5, 11);
-  places.row(7) += Eigen::RowVector2d(0.3, -0.4);
-  const SightingLog later = looks_at(places, looks, 5, 11);
-  std::erase_if(log.sightings, [&](const Sighting& one) { return one.step >= from; });
-  for (const Sighting& one : later.sightings)
-    if (one.step >= from) log.sightings.push_back(one);
-  Random random(5);
-  for (Sighting& one : log.sightings) {
-    one.range_m *= 1.0 + 0.02 * random.normal();
-    one.bearing_rad += 0.0175 * random.normal();
-  }
-  return log;
+/// Landmark 7 stands half a metre elsewhere from one look on.
+SightingLog half_metre_move(int looks, int from) {
+  return looks_with_move(looks, 7, {0.3, -0.4}, from);
 }
 
 /// Feeds a log look by look; calls `each` after every one, with the log so far.
@@ -41,7 +29,7 @@ void follow(const SightingLog& log, FollowedLog& looks, const Each& each) {
 }
 
 TEST(MovedWatch, NoticesAMoveSoonAfterItWithItsTimeAndOnce) {
-  const SightingLog log = looks_with_move(800, 400);
+  const SightingLog log = half_metre_move(800, 400);
   FollowedLog looks;
   MovedWatch watch;
   std::vector<std::pair<int, NoticedMove>> noticed;

@@ -33,6 +33,22 @@ SightingLog noisy_looks(int looks, std::uint64_t seed) {
   return log;
 }
 
+SightingLog looks_with_move(int looks, int landmark, const Eigen::RowVector2d& by_m, int from) {
+  Points places = noisy_landmarks();
+  SightingLog log = looks_at(places, looks, 5, 11);
+  places.row(landmark) += by_m;
+  const SightingLog later = looks_at(places, looks, 5, 11);
+  std::erase_if(log.sightings, [&](const Sighting& one) { return one.step >= from; });
+  for (const Sighting& one : later.sightings)
+    if (one.step >= from) log.sightings.push_back(one);
+  Random random(5);
+  for (Sighting& one : log.sightings) {
+    one.range_m *= 1.0 + 0.02 * random.normal();
+    one.bearing_rad += 0.0175 * random.normal();
+  }
+  return log;
+}
+
 SightingLog swapped(SightingLog log, int first, int second,
                     const std::function<bool(int)>& in_step) {
   for (Sighting& sighting : log.sightings) {

@@ -15,6 +15,10 @@ SightingLog noisy_looks(int looks, std::uint64_t seed);
 /// The true places of these landmarks.
 Points noisy_landmarks();
 
+/// Looks at these landmarks, each at the five nearest, with errors of 2 % of the range and 1
+/// degree; one of them stands elsewhere from a step on.
+SightingLog looks_with_move(int looks, int landmark, const Eigen::RowVector2d& by_m, int from);
+
 /// The log with the labels of two landmarks exchanged in some steps.
 SightingLog swapped(SightingLog log, int first, int second,
                     const std::function<bool(int)>& in_step);
