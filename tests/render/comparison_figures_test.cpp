@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "core/base/errors.hpp"
+#include "render/figures/pair_distances.hpp"
 #include "render/plot/layout.hpp"
 #include "tests/support/figure_parts.hpp"
 #include "tests/support/sample_comparisons.hpp"
@@ -234,6 +235,50 @@ TEST(LevelCurveFigure, TakesItsAxisFromTheCaller) {
   const Figure figure = level_curve_figure(sample_levels(8));
   EXPECT_EQ(figure.panels[0].x.label, "standard deviation of bearing noise [°]");
   EXPECT_EQ(layers_of<Polyline>(figure.panels[0]).size(), 8u);
+}
+
+/// Three landmarks 3, 4 and 5 m apart, the third without a place in the map.
+MapRecord right_triangle() {
+  MapRecord map;
+  map.id = "map";
+  map.names = {"a", "b", "c"};
+  map.estimate = Points::Constant(3, 2, NAN);
+  map.estimate.topRows(2) << 0.0, 0.0, 3.1, 0.0;
+  map.truth_m.emplace(3, 2);
+  *map.truth_m << 0.0, 0.0, 3.0, 0.0, 3.0, 4.0;
+  return map;
+}
+
+TEST(PairDistancesFigure, ShowsEachPairThatHasPlacesAndWhatItIsOff) {
+  const MapRecord map = right_triangle();
+  const std::vector<MeasuredPair> pairs = {{0, 1, 3.3, 1.0, 7}, {0, 2, 4.8, 1.0, 9}};
+  const Figure figure = pair_distances_figure({"pairs", "Pairs", map, pairs});
+  ASSERT_EQ(figure.panels.size(), 2u);
+  const auto against = layers_of<Scatter>(figure.panels[0]);
+  const auto off = layers_of<Scatter>(figure.panels[1]);
+  ASSERT_EQ(against.size(), 2u);
+  ASSERT_EQ(against[0].x.size(), 1u);  // The third landmark has no place in the map,
+  ASSERT_EQ(against[1].x.size(), 2u);  // but one in the truth.
+  EXPECT_DOUBLE_EQ(against[0].x[0], 3.1);
+  EXPECT_DOUBLE_EQ(against[0].y[0], 3.3);
+  EXPECT_NEAR(off[0].y[0], 0.2, 1e-12);
+  EXPECT_DOUBLE_EQ(against[1].x[1], 5.0);
+  EXPECT_NEAR(off[1].y[1], -0.2, 1e-12);
+  EXPECT_EQ(against[1].marks[1].id, "truth-1-3");
+  EXPECT_TRUE(contains(figure.alt, "1 pair measured.")) << figure.alt;
+  EXPECT_TRUE(contains(figure.alt, "within 0.250 m in the truth")) << figure.alt;
+}
+
+TEST(PairDistancesFigure, SaysThatNoPairHasAPlaceAndRefusesRowsThatAreNotThere) {
+  const MapRecord map = right_triangle();
+  const std::vector<MeasuredPair> none;
+  const Figure figure = pair_distances_figure({"pairs", "Pairs", map, none});
+  ASSERT_EQ(figure.notes.size(), 1u);
+  EXPECT_EQ(figure.notes[0].text, "No measured pair has a place.");
+  for (const MeasuredPair& wrong : {MeasuredPair{0, 3}, MeasuredPair{1, 1}, MeasuredPair{-1, 2}}) {
+    const std::vector<MeasuredPair> pairs = {wrong};
+    EXPECT_THROW(pair_distances_figure({"pairs", "Pairs", map, pairs}), InvalidInput);
+  }
 }
 
 TEST(OcclusionFigure, CountsEachRunInOneBin) {
