@@ -40,8 +40,9 @@ for (const [folder, file] of pages) {
 
 test("the index says how the last night stands and leads to it", async () => {
   const { page, close } = await open({}, history, "index.html");
-  assert.match(await page.locator("#section-last").innerText(), /Night 2: /);
-  await page.getByRole("link", { name: "nights/0002/small/report.html" }).click();
+  const last = page.locator("#section-last");
+  assert.match(await last.innerText(), /Night 2: /);
+  await last.getByRole("link", { name: "nights/0002/small/report.html" }).click();
   assert.match(await page.locator(".standing").innerText(), /Night 2: /);
   await close();
 });
