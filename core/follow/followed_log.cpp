@@ -6,7 +6,7 @@
 
 namespace mapproof {
 
-void FollowedLog::add(const Look& look, const std::vector<Sighting>& sightings) {
+void FollowedLog::add(const LookKey& look, const std::vector<Sighting>& sightings) {
   if (look.robot < 0 || look.robot > std::ssize(robots_) || !std::isfinite(look.key))
     throw InvalidInput("robots are numbered as they come, and their looks have a step or time");
   if (look.robot == std::ssize(robots_)) robots_.emplace_back();
@@ -35,8 +35,8 @@ SightingLog FollowedLog::log(const std::vector<std::string>& names, bool is_time
   return log;
 }
 
-std::vector<FollowedLog::Look> FollowedLog::looks() const {
-  std::vector<Look> looks;
+std::vector<LookKey> FollowedLog::looks() const {
+  std::vector<LookKey> looks;
   for (std::size_t k = 0; k < robots_.size(); ++k)
     for (const double key : robots_[k].keys) looks.push_back({static_cast<int>(k), key});
   return looks;

@@ -11,18 +11,10 @@ namespace mapproof {
 /// each robot's in order of step or time.
 class FollowedLog {
  public:
-  /// A look: which robot's, at which step or time.
-  struct Look {
-    int robot = 0;
-    double key = 0.0;
-
-    auto operator<=>(const Look&) const = default;
-  };
-
   /// Adds a look; robots are numbered as they come.
   /// @param sightings  Ascending by landmark, none twice; their steps are not read.
   /// @throws InvalidInput unless the robot's looks come in ascending order.
-  void add(const Look& look, const std::vector<Sighting>& sightings);
+  void add(const LookKey& look, const std::vector<Sighting>& sightings);
 
   int steps() const { return steps_; }
 
@@ -30,7 +22,7 @@ class FollowedLog {
   /// @param is_timed  Looks go by time: the log holds it.
   /// @note O(sightings).
   SightingLog log(const std::vector<std::string>& names, bool is_timed) const;
-  std::vector<Look> looks() const;
+  std::vector<LookKey> looks() const;
 
  private:
   struct Robot {

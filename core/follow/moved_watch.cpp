@@ -10,7 +10,7 @@ std::vector<NoticedMove> MovedWatch::check(const FollowedLog& looks, const Sight
   next_ = log.steps + std::max(1, log.steps / 4);
   MovedOptions options = options_;
   options.level /= static_cast<double>(checks_) * (checks_ + 1);
-  const std::vector<FollowedLog::Look> all = looks.looks();
+  const std::vector<LookKey> all = looks.looks();
   std::vector<NoticedMove> fresh;
   for (const MovedLandmark& found : find_moved(log, options).moved) {
     NoticedMove now{found.landmark, all[static_cast<std::size_t>(found.step)],
@@ -28,13 +28,13 @@ std::vector<NoticedMove> MovedWatch::check(const FollowedLog& looks, const Sight
 
 SightingLog MovedWatch::split(const FollowedLog& looks, SightingLog log) const {
   if (moved_.empty()) return log;
-  const std::vector<FollowedLog::Look> all = looks.looks();
+  const std::vector<LookKey> all = looks.looks();
   const bool is_timed = !log.times_s.empty();
   for (const NoticedMove& moved : moved_) {
     const auto fresh = static_cast<int>(log.names.size());
     log.names.push_back(log.names[static_cast<std::size_t>(moved.landmark)] + " (moved)");
     for (Sighting& seen : log.sightings) {
-      const FollowedLog::Look& look = all[static_cast<std::size_t>(seen.step)];
+      const LookKey& look = all[static_cast<std::size_t>(seen.step)];
       const bool is_later = is_timed ? look.key >= moved.from.key : look >= moved.from;
       if (seen.landmark == moved.landmark && is_later) seen.landmark = fresh;
     }

@@ -1,6 +1,5 @@
 #pragma once
 
-#include <optional>
 #include <string>
 #include <vector>
 
@@ -12,8 +11,8 @@ namespace mapproof {
 /// A landmark that was noticed to have moved, while looks still came.
 struct NoticedMove {
   int landmark = 0;
-  FollowedLog::Look from;  ///< The first sighting at the new place.
-  std::string sentence;    ///< See described().
+  LookKey from;          ///< The first sighting at the new place.
+  std::string sentence;  ///< See described().
 };
 
 /// Looks for landmarks that moved in a log that grows, and keeps their later sightings apart.

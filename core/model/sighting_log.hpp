@@ -1,5 +1,6 @@
 #pragma once
 
+#include <compare>
 #include <limits>
 #include <string>
 #include <vector>
@@ -15,6 +16,14 @@ struct Sighting {
   double range_m = std::numeric_limits<double>::quiet_NaN();      ///< NaN: not measured.
   double bearing_rad = std::numeric_limits<double>::quiet_NaN();  ///< Relative to the heading,
                                                                   ///< counter-clockwise; NaN: not.
+};
+
+/// Which look it was of the looks of several robots: one robot's at one step or time.
+struct LookKey {
+  int robot = 0;     ///< In the order in which they come; 0 where robots are not told apart.
+  double key = 0.0;  ///< Step or time, finite.
+
+  auto operator<=>(const LookKey&) const = default;
 };
 
 /// What looks showed of M landmarks, range and bearing of each together: a history as sparse as the

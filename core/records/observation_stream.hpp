@@ -11,10 +11,10 @@
 
 #include "core/model/sensor.hpp"
 #include "core/records/growing_table.hpp"
-#include "core/records/name_list.hpp"
 #include "core/records/sighting_stream.hpp"
 #include "core/records/sightings.hpp"
 #include "core/records/table_reader.hpp"
+#include "core/records/value_rows.hpp"
 
 namespace mapproof {
 
@@ -57,23 +57,20 @@ class ObservationStream {
 
   /// Of all landmarks so far, in the order in which they came.
   const std::vector<std::string>& names() const {
-    return sightings_ ? sightings_->rows().names().names() : names_.names();
+    return sightings_ ? sightings_->rows().names().names() : values_.names().names();
   }
 
  private:
   void read_row(const TableRow& row);
-  void read_header(const TableRow& row, const std::string& place);
-  void add(double step, Eigen::Index landmark, double value, const std::string& place);
+  void add(const ValueRows::Reading& reading);
+  void begin_step(const ValueRows::Reading& reading);
 
   GrowingTable table_;
   Sensor sensor_;
   AngleUnit unit_;
-  NameList names_;
+  ValueRows values_;
   std::optional<LookGatherer> sightings_;  ///< If that is what the header names.
   bool begun_ = false;                     ///< A row was read: no header comes any more.
-  std::size_t columns_[3] = {0, 1, 2};     ///< Of step, landmark, value.
-  std::size_t width_ = 3;                  ///< Cells of a row.
-  std::string word_ = "step";              ///< What the first of them is called.
   std::optional<StreamedStep> open_;
   std::vector<bool> listed_;  ///< Landmarks in the open step.
   std::vector<StreamedStep> complete_;

@@ -1,173 +1,79 @@
 #include <algorithm>
-#include <cmath>
 #include <limits>
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include "core/base/errors.hpp"
 #include "core/json/text_input.hpp"
 #include "core/records/limits.hpp"
-#include "core/records/name_list.hpp"
 #include "core/records/observation_values.hpp"
 #include "core/records/sighting_columns.hpp"
-#include "core/records/sighting_values.hpp"
 #include "core/records/table_reader.hpp"
+#include "core/records/value_rows.hpp"
 
 namespace mapproof {
 namespace {
 
-/// One look: what one robot saw at one step or time.
-struct Look {
-  Eigen::Index robot = 0;
-  double key = 0.0;
-  auto operator<=>(const Look&) const = default;
-};
-
-struct Entry {
-  Eigen::Index landmark;  ///< -1: without a label.
-  Look look;
-  std::size_t line;
-  double value;
-};
-
-/// Of a table without a header.
-SightingColumns usual_columns() {
-  SightingColumns columns;
-  columns.width = 3;
-  std::size_t cell = 0;
-  for (const SightingColumn column :
-       {SightingColumn::kStep, SightingColumn::kLandmark, SightingColumn::kValue})
-    columns.cell[static_cast<std::size_t>(column)] = cell++;
-  return columns;
-}
-
-SightingColumn key_column(const SightingColumns& columns) {
-  return columns[SightingColumn::kStep] ? SightingColumn::kStep : SightingColumn::kTime;
-}
-
-/// Reads the rows of a table, whose looks are told as those of sightings are.
-class LongValues {
- public:
-  LongValues(const std::string& source, Sensor sensor, AngleUnit unit)
-      : source_(source), sensor_(sensor), unit_(unit), names_(source), robots_(source) {}
-
-  void read_header(const TableRow& row) {
-    columns_ = sighting_columns(row, source_);
-    if (!columns_[SightingColumn::kValue]) fail(row.line, "no column is named value");
-  }
-
-  Entry entry(const TableRow& row) {
-    if (row.cells.size() != columns_.width)
-      fail(row.line, fmt::format("has {} cells, expected {}", row.cells.size(), columns_.width));
-    const std::string_view cell = row.cells[*columns_[SightingColumn::kValue]];
-    const std::optional<double> value = sighting_value(cell, sensor_, unit_);
-    if (!value) fail(row.line, sighting_problem(cell, sensor_, unit_));
-    const std::string_view name = row.cells[*columns_[SightingColumn::kLandmark]];
-    return {.landmark = name == kUnlabelledMark ? -1 : names_.find_or_add(name, row.line),
-            .look = look_of(row),
-            .line = row.line,
-            .value = *value};
-  }
-
-  const NameList& names() const { return names_; }
-
-  /// How a look is named in an error.
-  std::string words(const Look& look) const {
-    return fmt::format("{} {:.15g}",
-                       key_column(columns_) == SightingColumn::kStep ? "step" : "time", look.key);
-  }
-
-  std::vector<std::string> remarks() const {
-    if (columns_.unread.empty()) return {};
-    return {fmt::format("Columns that are not read: {}", fmt::join(columns_.unread, ", "))};
-  }
-
- private:
-  [[noreturn]] void fail(std::size_t line, const std::string& what) const {
-    throw IoError(source_, fmt::format("line {}", line), what);
-  }
-
-  Look look_of(const TableRow& row) {
-    Look look;
-    if (const auto cell = columns_[SightingColumn::kRobot])
-      look.robot = robots_.find_or_add(row.cells[*cell], row.line);
-    const std::string_view cell = row.cells[*columns_[key_column(columns_)]];
-    const std::optional<double> key = number_in(cell);
-    if (!key || !std::isfinite(*key))
-      fail(row.line,
-           fmt::format("{}: {}", key_column(columns_) == SightingColumn::kStep ? "step" : "time",
-                       number_problem(cell)));
-    look.key = *key;
-    return look;
-  }
-
-  const std::string& source_;
-  Sensor sensor_;
-  AngleUnit unit_;
-  SightingColumns columns_ = usual_columns();
-  NameList names_;
-  NameList robots_;
-};
+using Reading = ValueRows::Reading;
 
 /// Ascending. Rows mostly come step by step, so that little is left to sort.
-std::vector<Look> distinct_looks(const std::vector<Entry>& entries) {
-  std::vector<Look> steps;
-  for (const Entry& entry : entries)
-    if (steps.empty() || steps.back() != entry.look) steps.push_back(entry.look);
+std::vector<LookKey> distinct_looks(const std::vector<Reading>& readings) {
+  std::vector<LookKey> steps;
+  for (const Reading& reading : readings)
+    if (steps.empty() || steps.back() != reading.look) steps.push_back(reading.look);
   std::ranges::sort(steps);
   const auto rest = std::ranges::unique(steps);
   steps.erase(rest.begin(), rest.end());
   return steps;
 }
 
-[[noreturn]] void refuse_repeat(const Entry& repeat, const std::vector<Entry>& entries,
-                                const LongValues& reader, const std::string& source) {
-  const auto first = std::ranges::find_if(entries, [&](const Entry& entry) {
-    return entry.landmark == repeat.landmark && entry.look == repeat.look;
+[[noreturn]] void refuse_repeat(const Reading& repeat, const std::vector<Reading>& readings,
+                                const ValueRows& rows, const std::string& source) {
+  const auto first = std::ranges::find_if(readings, [&](const Reading& reading) {
+    return reading.landmark == repeat.landmark && reading.look == repeat.look;
   });
-  const std::string& name = reader.names().names()[static_cast<std::size_t>(repeat.landmark)];
+  const std::string& name = rows.names().names()[static_cast<std::size_t>(repeat.landmark)];
   throw IoError(source, fmt::format("line {}", repeat.line),
                 fmt::format("landmark {} at {} is already on line {}", in_quotes(name),
-                            reader.words(repeat.look), first->line));
+                            rows.looks().words(repeat.look.key), first->line));
 }
 
 /// @param others  What stands where nothing is listed.
-Eigen::MatrixXd arrange(const std::vector<Entry>& entries, const LongValues& reader, double others,
+Eigen::MatrixXd arrange(const std::vector<Reading>& readings, const ValueRows& rows, double others,
                         const std::string& source) {
-  const std::vector<Look> steps = distinct_looks(entries);
-  const std::size_t count = reader.names().names().size();
+  const std::vector<LookKey> steps = distinct_looks(readings);
+  const std::size_t count = rows.names().names().size();
   check_size(source, "as a whole", count, steps.size());
   const auto landmarks = static_cast<Eigen::Index>(count);
   Eigen::MatrixXd values =
       Eigen::MatrixXd::Constant(landmarks, static_cast<Eigen::Index>(steps.size()), others);
   std::vector<bool> is_set(static_cast<std::size_t>(values.size()));
   std::size_t column = 0;
-  for (const Entry& entry : entries) {
-    if (entry.landmark < 0) continue;
-    if (steps[column] != entry.look)
+  for (const Reading& reading : readings) {
+    if (reading.landmark < 0) continue;
+    if (steps[column] != reading.look)
       column =
-          static_cast<std::size_t>(std::ranges::lower_bound(steps, entry.look) - steps.begin());
-    auto is_repeated = is_set[column * count + static_cast<std::size_t>(entry.landmark)];
-    if (is_repeated) refuse_repeat(entry, entries, reader, source);
+          static_cast<std::size_t>(std::ranges::lower_bound(steps, reading.look) - steps.begin());
+    auto is_repeated = is_set[column * count + static_cast<std::size_t>(reading.landmark)];
+    if (is_repeated) refuse_repeat(reading, readings, rows, source);
     is_repeated = true;
-    values(entry.landmark, static_cast<Eigen::Index>(column)) = entry.value;
+    values(reading.landmark, static_cast<Eigen::Index>(column)) = reading.value;
   }
   return values;
 }
 
-std::vector<UnlabelledReading> unlabelled_in(const std::vector<Entry>& entries) {
-  std::vector<UnlabelledReading> readings;
-  if (std::ranges::none_of(entries, [](const Entry& entry) { return entry.landmark < 0; }))
-    return readings;
-  const std::vector<Look> looks = distinct_looks(entries);
-  for (const Entry& entry : entries)
-    if (entry.landmark < 0)
-      readings.push_back({.step = std::ranges::lower_bound(looks, entry.look) - looks.begin(),
-                          .number = entry.look.key,
-                          .value = entry.value,
-                          .line = entry.line});
-  return readings;
+std::vector<UnlabelledReading> unlabelled_in(const std::vector<Reading>& readings) {
+  std::vector<UnlabelledReading> unlabelled;
+  if (std::ranges::none_of(readings, [](const Reading& reading) { return reading.landmark < 0; }))
+    return unlabelled;
+  const std::vector<LookKey> looks = distinct_looks(readings);
+  for (const Reading& reading : readings)
+    if (reading.landmark < 0)
+      unlabelled.push_back({.step = std::ranges::lower_bound(looks, reading.look) - looks.begin(),
+                            .number = reading.look.key,
+                            .value = reading.value,
+                            .line = reading.line});
+  return unlabelled;
 }
 
 }  // namespace
@@ -191,32 +97,29 @@ ObservationSource read_long(std::string_view text, const std::string& source, Se
                             AngleUnit unit) {
   TableReader reader(text, source);
   TableRow row;
-  LongValues values(source, sensor, unit);
-  std::vector<Entry> entries;
+  ValueRows rows(source, sensor, unit);
+  std::vector<Reading> readings;
   for (bool is_first = true; reader.next(row); is_first = false) {
-    if (is_first && is_long_header(row)) {
-      values.read_header(row);
-      continue;
-    }
-    entries.push_back(values.entry(row));
-    if (static_cast<double>(entries.size()) > kMostEntries)
+    if (is_first && rows.begin(row)) continue;
+    readings.push_back(rows.reading(row));
+    if (static_cast<double>(readings.size()) > kMostEntries)
       throw IoError(source, fmt::format("more than {:.0f} rows", kMostEntries));
   }
-  if (entries.empty()) throw IoError(source, "holds no observations");
+  if (readings.empty()) throw IoError(source, "holds no observations");
   const bool lists_sightings =
       sensor == Sensor::kVisibility &&
-      std::ranges::all_of(entries, [](const Entry& entry) { return entry.value == 1.0; });
+      std::ranges::all_of(readings, [](const Reading& reading) { return reading.value == 1.0; });
   const double others = lists_sightings ? 0.0 : std::numeric_limits<double>::quiet_NaN();
   ObservationSource result{.history = {.sensor = sensor,
-                                       .names = values.names().names(),
-                                       .values = arrange(entries, values, others, source)},
+                                       .names = rows.names().names(),
+                                       .values = arrange(readings, rows, others, source)},
                            .truth_m = std::nullopt,
-                           .remarks = values.remarks(),
-                           .places = values.names().places(),
+                           .remarks = rows.looks().remarks(),
+                           .places = rows.names().places(),
                            .path = source,
-                           .unlabelled = unlabelled_in(entries)};
+                           .unlabelled = unlabelled_in(readings)};
   if (lists_sightings)
-    result.remarks.push_back("Only sightings are listed: all other entries are taken as not seen");
+    result.remarks.push_back("Only sightings are listed: all other readings are taken as not seen");
   return result;
 }
 

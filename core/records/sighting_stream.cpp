@@ -27,12 +27,11 @@ void LookGatherer::open(const LookKey& look, const TableRow& row) {
   if (robot >= open_.size()) open_.resize(robot + 1);
   StreamedLook& last = open_[robot];
   if (!last.sightings.empty() && last.look == look) return;
-  const char* what = rows_.is_timed() ? "time" : "step";
   if (!last.sightings.empty() && look.key < last.look.key)
     throw IoError(source_, fmt::format("line {}", row.line),
-                  fmt::format("{} {} after {} {}: a file that is followed lists a robot's looks in "
+                  fmt::format("{} after {}: a file that is followed lists a robot's looks in "
                               "ascending order",
-                              what, look.key, what, last.look.key));
+                              rows_.looks().words(look.key), rows_.looks().words(last.look.key)));
   close(last);
   last.look = look;
   if (++looks_ > static_cast<std::size_t>(kMostSteps))
@@ -58,7 +57,7 @@ void LookGatherer::take(const TableRow& row) {
 }
 
 std::vector<std::string> SightingStream::remarks() const {
-  std::vector<std::string> remarks = gatherer_.rows().remarks();
+  std::vector<std::string> remarks = gatherer_.rows().looks().remarks();
   if (table_.is_cut()) remarks.emplace_back(kCutRemark);
   return remarks;
 }

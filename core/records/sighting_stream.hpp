@@ -80,7 +80,7 @@ class SightingStream {
   /// What has to be said after end(), a sentence each.
   std::vector<std::string> remarks() const;
 
-  bool is_timed() const { return gatherer_.rows().is_timed(); }
+  bool is_timed() const { return gatherer_.rows().looks().is_timed(); }
   /// Of all landmarks so far, in the order in which they came.
   const std::vector<std::string>& names() const { return gatherer_.rows().names().names(); }
 

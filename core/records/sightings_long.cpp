@@ -36,13 +36,9 @@ class LongSightings {
   }
 
  private:
-  [[noreturn]] void fail(std::size_t line, const std::string& what) const {
-    throw IoError(stream_.source(), fmt::format("line {}", line), what);
-  }
-
   void add(const TableRow& row) {
     if (log_.sightings.size() == kMostSightings)
-      fail(row.line, fmt::format("more than {} rows", kMostSightings));
+      rows_.looks().fail(row.line, fmt::format("more than {} rows", kMostSightings));
     const LookKey look = rows_.look_of(row);
     if (looks_.empty() || looks_.back() != look) looks_.push_back(look);
     log_.sightings.push_back(rows_.sighting_of(row));
@@ -82,7 +78,7 @@ class LongSightings {
       refuse_repeat(distinct[static_cast<std::size_t>(repeat->step)],
                     rows_.names().names()[static_cast<std::size_t>(repeat->landmark)]);
     log_.steps = static_cast<int>(distinct.size());
-    if (rows_.is_timed())
+    if (rows_.looks().is_timed())
       for (const LookKey& look : distinct) log_.times_s.push_back(look.key);
   }
 
@@ -94,18 +90,17 @@ class LongSightings {
     bool is_first = true;
     while (again.next(row)) {
       if (std::exchange(is_first, false) && rows_.begin(row)) continue;
-      const bool is_it = rows_.look_of(row) == look &&
-                         row.cells[*rows_.columns()[SightingColumn::kLandmark]] == name;
+      const bool is_it = rows_.look_of(row) == look && rows_.looks().label(row) == name;
       if (is_it && first > 0)
-        fail(row.line, fmt::format("landmark {} is in that look already, on line {}",
-                                   in_quotes(name), first));
+        rows_.looks().fail(row.line, fmt::format("landmark {} is in that look already, on line {}",
+                                                 in_quotes(name), first));
       if (is_it) first = row.line;
     }
     throw IoError(stream_.source(), "changed while it was read");
   }
 
   std::vector<std::string> remarks() const {
-    std::vector<std::string> remarks = rows_.remarks();
+    std::vector<std::string> remarks = rows_.looks().remarks();
     if (stream_.is_cut()) remarks.emplace_back(kCutRemark);
     return remarks;
   }

@@ -24,7 +24,7 @@ TEST(FollowedLog, PoolsLooksRobotByRobot) {
   for (std::size_t k = 0; k < 3; ++k) EXPECT_EQ(log.sightings[k].step, static_cast<int>(k));
   EXPECT_EQ(log.sightings[1].range_m, 3.0);
   EXPECT_EQ(log.sightings[2].range_m, 2.0);
-  EXPECT_EQ(looks.looks()[2], (FollowedLog::Look{1, 0.5}));
+  EXPECT_EQ(looks.looks()[2], (LookKey{1, 0.5}));
   EXPECT_TRUE(looks.log({"a", "b"}, false).times_s.empty());
 }
 
