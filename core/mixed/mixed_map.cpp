@@ -135,15 +135,19 @@ std::optional<JointMap> joint_from_all(const std::vector<Eigen::MatrixXd>& dista
 }  // namespace
 
 MixedMap mixed_map(const std::vector<ObservationHistory>& histories, Eigen::Index steps,
-                   const MethodSetting& setting, const EmbedderOptions& options) {
+                   const MethodSetting& setting, const EmbedderOptions& options,
+                   const std::vector<MethodSetting>& own) {
   check(histories, steps);
-  MixedMap result{.joint = {}, .setting = setting, .sensors = {}};
+  if (!own.empty() && own.size() != histories.size())
+    throw InvalidInput(fmt::format("{} settings for {} sensors", own.size(), histories.size()));
+  MixedMap result{.joint = {}, .mean = {}, .setting = setting, .sensors = {}};
   std::vector<Eigen::MatrixXd> distances, squared;
   std::vector<double> reliabilities;
   for (const ObservationHistory& history : histories) {
     ObservationHistory used = history;
     if (steps > 0) used.values = history.values.leftCols(steps);
-    result.sensors.push_back(alone(used, setting, options));
+    result.sensors.push_back(
+        alone(used, own.empty() ? setting : own[result.sensors.size()], options));
     distances.push_back(result.sensors.back().distances);
     squared.push_back(distances.back().cwiseAbs2());
     reliabilities.push_back(result.sensors.back().reliability);
@@ -153,10 +157,11 @@ MixedMap mixed_map(const std::vector<ObservationHistory>& histories, Eigen::Inde
   for (double& weight : weights) weight = std::max(weight, 1e-9);
   const Rows rows = known_rows(squared);
   const Eigen::Index M = squared.front().rows();
-  Embedding start = start_of(squared, weights, rows, result.setting, options);
-  start.coordinates = spread(start.coordinates, rows, M);
-  result.joint = start;
-  const std::optional<JointMap> joint = joint_from_all(distances, start, result.sensors, rows);
+  result.mean = start_of(squared, weights, rows, result.setting, options);
+  result.mean.coordinates = spread(result.mean.coordinates, rows, M);
+  result.joint = result.mean;
+  const std::optional<JointMap> joint =
+      joint_from_all(distances, result.mean, result.sensors, rows);
   if (joint) {
     result.joint.coordinates = joint->embedding.coordinates;
     result.joint.statuses.insert(result.joint.statuses.end(), joint->embedding.statuses.begin(),

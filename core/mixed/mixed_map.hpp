@@ -1,6 +1,5 @@
 #pragma once
 
-#include <string>
 #include <vector>
 
 #include "core/embed/embedder.hpp"
@@ -23,7 +22,8 @@ struct MixedSensor {
 /// A joint map and what it was made of.
 struct MixedMap {
   Embedding joint;        ///< M x 2; NaN rows: unseen by every sensor.
-  MethodSetting setting;  ///< Of the mean distances' map, that it starts from.
+  Embedding mean;         ///< The map of the mean distances, likewise; `joint` starts from it too.
+  MethodSetting setting;  ///< Of `mean`, with its parameter.
   std::vector<MixedSensor> sensors;
 };
 
@@ -36,10 +36,13 @@ struct MixedMap {
 /// @param histories  Of the same landmarks in the same order, of different sensors.
 /// @param steps      The first so many of each are used; 0: all.
 /// @param setting    Without a parameter: the usual one of each map.
+/// @param own        Settings of the sensors' own maps, one each; empty: `setting` of all.
 /// @return `joint` is kFailed if the mean distances give no map, and has the statuses of that map.
-/// @throws InvalidInput if landmarks differ, sensors repeat, or `steps` is out of bounds.
+/// @throws InvalidInput if landmarks differ, sensors repeat, `own` is of another number of sensors,
+///         or `steps` is out of bounds.
 /// @note S + 1 maps by the method and 2 S + 1 of joint_map() for S sensors.
 MixedMap mixed_map(const std::vector<ObservationHistory>& histories, Eigen::Index steps,
-                   const MethodSetting& setting, const EmbedderOptions& options = {});
+                   const MethodSetting& setting, const EmbedderOptions& options = {},
+                   const std::vector<MethodSetting>& own = {});
 
 }  // namespace mapproof

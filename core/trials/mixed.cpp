@@ -10,8 +10,8 @@
 #include "core/base/random.hpp"
 #include "core/choice/mixed_quality.hpp"
 #include "core/embed/embedder.hpp"
-#include "core/mixed/joint_map.hpp"
 #include "core/mixed/mixed_distances.hpp"
+#include "core/mixed/mixed_map.hpp"
 #include "core/score/map_score.hpp"
 #include "core/simulate/sensors.hpp"
 #include "core/trials/trial_means.hpp"
@@ -76,36 +76,28 @@ class MixedTrials {
   }
 
   void run() {
-    std::vector<Eigen::MatrixXd> squared;
-    std::vector<double> reliabilities;
-    std::vector<Points> starts;
-    for (const ObservationHistory& history : histories_) {
-      squared.push_back(proximities(history, history.steps()).squared_distances);
-      distances_.push_back(squared.back().cwiseSqrt());
-      reliabilities.push_back(reliability(history, history.steps()));
-    }
-    weights_ = weights_of(reliabilities);
-    for (const ObservationHistory& history : histories_) {
-      HistoryEmbedder embedder(history, history.steps());
-      const Embedding single = embedder.embed(single_setting(history.sensor));
-      const std::string id(name(history.sensor));
-      record(id, single);
-      if (!single.coordinates.allFinite()) return;  // Nothing to mix.
-      // What the joint map's way makes of the one sensor: it must not pass for what mixing does.
-      const Embedding by_order =
-          joint_map({distances_[starts.size()]}, single.coordinates).embedding;
-      record(id + "-order", by_order);
-      starts.push_back(by_order.coordinates);
-    }
     const MethodSetting setting{Method::kSmacofKnn, 8.0};
+    std::vector<MethodSetting> own;
+    for (const ObservationHistory& history : histories_)
+      own.push_back(single_setting(history.sensor));
+    const MixedMap made = mixed_map(histories_, 0, setting, {}, own);
+    std::vector<Eigen::MatrixXd> squared;
+    for (const MixedSensor& sensor : made.sensors) {
+      distances_.push_back(sensor.distances);
+      squared.push_back(sensor.distances.cwiseAbs2());
+      weights_.push_back(sensor.weight);
+    }
+    for (const MixedSensor& sensor : made.sensors) {
+      const std::string id(name(sensor.sensor));
+      record(id, sensor.own);
+      if (!sensor.own.coordinates.allFinite()) return;  // Nothing to mix.
+      // What the joint map's way makes of the one sensor: it must not pass for what mixing does.
+      if (sensor.by_order.coordinates.rows() > 0) record(id + "-order", sensor.by_order);
+    }
     const std::vector<double> equal(squared.size(), 1.0);
     record("equal", Embedder(mixed_proximities(squared, equal)).embed(setting));
-    Embedder weighted(mixed_proximities(squared, weights_));
-    const Embedding start = weighted.embed(setting);
-    record("reliable", start);
-    if (!start.coordinates.allFinite()) return;
-    starts.insert(starts.begin(), start.coordinates);
-    record("joint", best_joint_map(distances_, starts).embedding);
+    record("reliable", made.mean);
+    if (made.mean.coordinates.allFinite()) record("joint", made.joint);
   }
 
  private:
