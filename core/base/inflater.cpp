@@ -11,15 +11,20 @@ namespace mapproof {
 namespace {
 
 constexpr std::string_view kMagic = "\x1f\x8b";
-constexpr double kHarmless = 64.0 * 1024.0 * 1024.0;
-constexpr double kMostInflation = 300.0;
-constexpr int kGzip = 15 + 16;  ///< The largest window, a gzip header.
+constexpr int kGzipWindowBits = 15 + 16;  ///< The largest window, a gzip header.
 
 }  // namespace
 
+void refuse_bomb(const std::string& source, double packed_bytes, double inflated_bytes) {
+  constexpr double kHarmless = 64.0 * 1024.0 * 1024.0;
+  constexpr double kMostInflation = 300.0;
+  if (inflated_bytes > kHarmless && inflated_bytes > kMostInflation * packed_bytes)
+    throw IoError(source, "inflates to more than 300 times its size: no table does");
+}
+
 struct Inflater::State {
   explicit State(std::string name) : source(std::move(name)) {
-    if (::inflateInit2(&stream, kGzip) != Z_OK)
+    if (::inflateInit2(&stream, kGzipWindowBits) != Z_OK)
       throw IoError(source, "no memory to inflate what is gzip'ed");
   }
   ~State() { ::inflateEnd(&stream); }
@@ -64,8 +69,7 @@ std::string Inflater::State::inflate(std::string_view bytes) {
     const std::size_t got = block.size() - stream.avail_out;
     result.append(block.data(), got);
     inflated += static_cast<double>(got);
-    if (inflated > kHarmless && inflated > kMostInflation * packed)
-      throw IoError(source, "inflates to more than 300 times its size: no table does");
+    refuse_bomb(source, packed, inflated);
     is_full = stream.avail_out == 0 && code == Z_OK;
     if (code == Z_STREAM_END) is_in_member = false;
     if (code == Z_BUF_ERROR) break;

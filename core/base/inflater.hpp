@@ -6,6 +6,10 @@
 
 namespace mapproof {
 
+/// Refuses what inflates beyond 64 MB to more than 300 times its size, which no table does.
+/// @throws IoError of `source`.
+void refuse_bomb(const std::string& source, double packed_bytes, double inflated_bytes);
+
 /// Inflates gzip'ed bytes as they come; those that are not gzip'ed pass as they are.
 class Inflater {
  public:

@@ -11,14 +11,12 @@
 
 #include "core/base/descriptor.hpp"
 #include "core/base/errors.hpp"
+#include "core/base/inflater.hpp"
 
 namespace mapproof {
 namespace {
 
 namespace fs = std::filesystem;
-
-constexpr std::size_t kHarmless = std::size_t{64} << 20;
-constexpr double kMostInflation = 300.0;
 
 std::string reason() { return std::strerror(errno); }
 
@@ -75,9 +73,7 @@ bool PackedFile::append(std::string& bytes, std::size_t count) {
   }
   state_->inflated += static_cast<std::size_t>(got);
   const auto packed = static_cast<double>(std::max<z_off_t>(1, ::gzoffset(state_->stream)));
-  if (state_->inflated > kHarmless &&
-      static_cast<double>(state_->inflated) > kMostInflation * packed)
-    throw IoError(state_->source, "inflates to more than 300 times its size: no table does");
+  refuse_bomb(state_->source, packed, static_cast<double>(state_->inflated));
   return got > 0;
 }
 
