@@ -42,13 +42,15 @@ struct MovedCheck {
 
 /// Looks for landmarks that moved once: the place that the distances to the others ask for changes
 /// at one time. The statistic is the most that two places, before and after, lower the cost of one;
-/// its distribution without a move comes from permuting the slices of time [good2005].
+/// how much chance alone does is the greater of two permutation tests over slices of time
+/// [good2005], see chance_of(), inflated by what the other landmarks gain beyond chance.
 ///
 /// The landmark of the least p is split and the rest are tried anew, while Holm's p is below the
 /// level and the move above its least size. A landmark that two labels were swapped of moves too:
 /// check the labels first.
 /// @throws InvalidInput if an option breaks its bounds, or as look_pairs and robust_map do.
-/// @note O(P log P) for P pairs, and M * permutations * slices.
+/// @note A round, one more than moves found: some 200 places for each pair of a look, and at most
+///       M * permutations * slices, stopped early for landmarks that plainly stand.
 MovedCheck find_moved(const SightingLog& log, const MovedOptions& options = {});
 
 /// A sentence: "7 moved by 0.21 m between step 1198 and step 1204 (p = 0.015)".

@@ -187,28 +187,28 @@ PlaceChange best_change(const std::vector<PairItem>& items, const RobustMap& map
       settled(pulls, places[static_cast<std::size_t>(split.old)], 0, split.first, map.width_m);
   const Eigen::RowVector2d new_m = settled(pulls, places[static_cast<std::size_t>(split.fresh)],
                                            split.first, slices, map.width_m);
-  std::vector<ShiftSlice> rest(slices);
+  std::vector<ShiftSlice> residual(slices);
   for (const Pull& pull : pulls) {
     const ShiftSlice one = asked(pull, pull.slice < split.first ? old_m : new_m, map.width_m);
-    rest[pull.slice].H += one.H;
-    rest[pull.slice].g += one.g;
+    residual[pull.slice].H += one.H;
+    residual[pull.slice].g += one.g;
   }
   const Eigen::Vector2d apart = (new_m - old_m).transpose();
   for (std::size_t k = 0; k < slices; ++k) {
-    if (rest[k].H.trace() == 0.0) continue;
-    change.rest.push_back(rest[k]);
-    change.asked.push_back(rest[k]);
-    if (k >= split.first) change.asked.back().g += rest[k].H * apart;
+    if (residual[k].H.trace() == 0.0) continue;
+    change.residual.push_back(residual[k]);
+    change.asked.push_back(residual[k]);
+    if (k >= split.first) change.asked.back().g += residual[k].H * apart;
   }
   return change;
 }
 
 double chance_of(const PlaceChange& change, const PermutationOptions& options) {
-  if (change.rest.size() < kFewestSlices) return 1.0;
+  if (change.residual.size() < kFewestSlices) return 1.0;
   Random random(options.seed);
   const double gain = best_gain(change.asked);
   const double alone = share_of(change.asked, gain, 1.0, options.count, random);
-  return std::max(alone, share_of(change.rest, gain, options.inflation, options.count, random));
+  return std::max(alone, share_of(change.residual, gain, options.inflation, options.count, random));
 }
 
 double inflation(const std::vector<PlaceChange>& landmarks, std::uint64_t seed) {
@@ -216,12 +216,12 @@ double inflation(const std::vector<PlaceChange>& landmarks, std::uint64_t seed) 
   Random random(seed);
   std::vector<double> ratios;
   for (const PlaceChange& change : landmarks) {
-    if (change.rest.size() < kFewestSlices) continue;
-    std::vector<ShiftSlice> rest = change.rest;
+    if (change.residual.size() < kFewestSlices) continue;
+    std::vector<ShiftSlice> shuffled = change.residual;
     std::vector<double> gains;
     for (int k = 0; k < kShuffles; ++k) {
-      shuffle(rest, random);
-      gains.push_back(best_gain(rest));
+      shuffle(shuffled, random);
+      gains.push_back(best_gain(shuffled));
     }
     const double by_chance = median(gains);
     if (by_chance > 0.0) ratios.push_back(best_gain(change.asked) / by_chance);

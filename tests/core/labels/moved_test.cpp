@@ -63,7 +63,7 @@ std::vector<PlaceChange> hanging_slices(double rho, Random& random) {
       change.asked.push_back({Eigen::Matrix2d::Identity(), x});
       x = rho * x + Eigen::Vector2d(random.normal(), random.normal());
     }
-    change.rest = change.asked;
+    change.residual = change.asked;
   }
   return landmarks;
 }
