@@ -57,17 +57,14 @@ FollowInterval follow_interval(const std::string& text) {
                  : FollowInterval{.steps = static_cast<long>(*number), .seconds = 0.0};
 }
 
-std::unique_ptr<Follower> follower_of(const FollowedTable& table) {
-  return table.sensor ? value_follower(table) : pair_follower(table);
-}
-
 OwnMap follow_map(const FollowOrder& order, const Console& console, const WriteFollowed& write) {
   const EndSignals signals;
   GrowingFile file(order.path);
   Inflater inflater(file.name());
   FollowedTable table = order.table;
   table.source = file.name();
-  const std::unique_ptr<Follower> follower = follower_of(table);
+  const std::unique_ptr<Follower> follower =
+      table.sensor ? value_follower(table) : pair_follower(table);
   Due due(order.every);
   std::vector<std::string> remarks;
   std::string bytes;

@@ -1,6 +1,5 @@
 #pragma once
 
-#include <memory>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -48,9 +47,5 @@ class Follower {
   /// The map of all there was, with all that is to be said of it.
   virtual OwnMap last_update() = 0;
 };
-
-/// @note A table of one sensor's values is never held as a whole; of range and bearing, the
-///       sightings are.
-std::unique_ptr<Follower> follower_of(const FollowedTable& table);
 
 }  // namespace mapproof

@@ -4,14 +4,10 @@
 #include <string>
 #include <vector>
 
-#include <nlohmann/json.hpp>
-
 #include "app/own_reference.hpp"
 #include "core/model/map_sensors.hpp"
 #include "core/model/method.hpp"
 #include "core/records/observations.hpp"
-#include "render/plot/figure.hpp"
-#include "reports/model/report.hpp"
 
 namespace mapproof {
 
@@ -24,6 +20,9 @@ struct ComparedMap {
   MapRecord record;         ///< In the frame of the anchors, or laid on the joint map.
   double continuity = 0.0;  ///< Against all sensors' distances; NaN: not told.
   bool is_joint = false;
+
+  /// In the anchors' frame, or else with the affine map fitted to all; NaN without a truth.
+  double mpe_m() const;
 };
 
 /// What a map of several sensors was made of.
@@ -42,14 +41,5 @@ struct OwnMixed {
 OwnMap map_mixed(const std::vector<ObservationSource>& sources,
                  const std::optional<NamedPointsFile>& anchors,
                  const std::optional<NamedPointsFile>& truth, const OwnMapOptions& options);
-
-/// The joint map beside each sensor's own: weights, what speaks for which, errors where known.
-Section mixed_section(const OwnMixed& mixed);
-
-/// The same for --json.
-nlohmann::ordered_json mixed_json(const OwnMixed& mixed);
-
-/// The maps beside each other; empty if fewer than two came out.
-std::optional<Figure> mixed_figure(const OwnMixed& mixed);
 
 }  // namespace mapproof

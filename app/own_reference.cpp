@@ -16,7 +16,6 @@
 namespace mapproof {
 namespace {
 
-constexpr double kFlat = 1e-6;   ///< Anchors flatter than this do not span the plane.
 constexpr double kFarOut = 2.0;  ///< The median landmark so many times as far out as any anchor.
 constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
 
@@ -76,7 +75,7 @@ std::vector<Eigen::Index> matched_anchors(const OwnLandmarks& source,
     throw IoError(anchors.path,
                   fmt::format("{} observed anchor{}; an affine map to the anchors needs 3 or more",
                               chosen.size(), chosen.size() == 1 ? "" : "s"));
-  if (planarity(positions(chosen, Eigen::all)) <= kFlat)
+  if (planarity(positions(chosen, Eigen::all)) <= kFlatPlanarity)
     throw IoError(
         anchors.path,
         fmt::format("its {} anchors lie on one line; they must span the plane", chosen.size()));
@@ -98,7 +97,7 @@ std::vector<Eigen::Index> own_anchors(const OwnLandmarks& source, Points positio
                                       std::vector<std::string>& remarks) {
   for (const Eigen::Index row : source.unseen) positions_m.row(row).setConstant(kUnknown);
   std::vector<Eigen::Index> anchors = diagonal_anchors(positions_m);
-  if (planarity(positions_m(anchors, Eigen::all)) > kFlat) return anchors;
+  if (planarity(positions_m(anchors, Eigen::all)) > kFlatPlanarity) return anchors;
   remarks.emplace_back("The observed landmarks lie on one line: none of them can be an anchor.");
   return {};
 }

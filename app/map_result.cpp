@@ -1,0 +1,85 @@
+#include "app/map_result.hpp"
+
+#include <fmt/format.h>
+
+#include "app/map_folder.hpp"
+#include "app/map_words.hpp"
+#include "app/mixed_report.hpp"
+#include "app/own_input.hpp"
+#include "app/result_json.hpp"
+#include "core/records/map_files.hpp"
+#include "render/figures/score_words.hpp"
+
+namespace mapproof {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+nlohmann::ordered_json landmark_json(const OwnMap& map, Eigen::Index i) {
+  const MapRecord& record = map.record;
+  const std::string unit = record.frame == Frame::kTruth ? "_m" : "";
+  nlohmann::ordered_json landmark{{"name", record.names[static_cast<std::size_t>(i)]},
+                                  {"x" + unit, number_or_null(record.estimate(i, 0))},
+                                  {"y" + unit, number_or_null(record.estimate(i, 1))}};
+  if (!map.certainty) return landmark;
+  landmark["ellipse"] = nullptr;
+  if (const std::optional<Ellipse> ellipse = confidence_ellipse(*map.certainty, i))
+    landmark["ellipse"] = {
+        {"a" + unit, ellipse->a}, {"b" + unit, ellipse->b}, {"turn_rad", ellipse->turn_rad}};
+  return landmark;
+}
+
+}  // namespace
+
+nlohmann::ordered_json map_result(const OwnMap& map, const fs::path& out) {
+  const MapRecord& record = map.record;
+  nlohmann::ordered_json object{
+      {"sensor", record.of_pairs ? kRangeBearing
+                 : map.mixed     ? "mixed"
+                                 : name(record.sensor)},
+      {"method", record.of_pairs ? kPairs : info(record.setting.method).name},
+      {"parameter", parameter_json(record.setting)},
+      {"steps", record.step},
+      {"frame", name(record.frame)},
+      {"score", nullptr},
+      {"landmarks", nlohmann::ordered_json::array()},
+      {"statuses", nlohmann::ordered_json::array()},
+      {"labels", nlohmann::ordered_json::array()},
+      {"remarks", map.remarks},
+      {"warnings", map.warnings},
+      {"map", (out / kMapFile).string()},
+      {"report", (out / "report.html").string()}};
+  if (record.score)
+    object["score"] = {
+        {"mpe_m", number_or_null(record.score->mpe_m)},
+        {"moe_percent", number_or_null(record.score->moe_percent)},
+        {"mpe_all_fitted_m", number_or_null(record.score->mpe_all_fitted_m)},
+        {"moe_unmirrored_percent", number_or_null(record.score->moe_unmirrored_percent)}};
+  for (Eigen::Index i = 0; i < record.estimate.rows(); ++i)
+    object["landmarks"].push_back(landmark_json(map, i));
+  for (const LabelFact& fact : map.labels)
+    object["labels"].push_back({{"what", fact.what},
+                                {"first", fact.first},
+                                {"second", fact.second},
+                                {"found", fact.sentence},
+                                {"before_m", number_or_null(fact.before_m)},
+                                {"after_m", number_or_null(fact.after_m)},
+                                {"repaired", fact.repaired}});
+  for (const Status& status : record.statuses)
+    object["statuses"].push_back({{"code", name(status.code)}, {"detail", status.detail}});
+  if (map.choice) object["choice"] = choice_json(*map.choice);
+  if (map.mixed) object["mixed"] = mixed_json(*map.mixed);
+  return object;
+}
+
+std::string map_text(const OwnMap& map, const fs::path& out) {
+  const MapRecord& record = map.record;
+  std::string text =
+      fmt::format("{}, {}, {} steps", method_words(map), observed_words(map), record.step);
+  if (record.score)
+    if (const std::string score = score_words(*record.score); !score.empty()) text += ": " + score;
+  return text + "\n" + (out / "report.html").string() + "\n";
+}
+
+}  // namespace mapproof
