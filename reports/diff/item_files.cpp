@@ -13,22 +13,47 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr std::size_t kMostFiles = 100'000;
-constexpr std::array<std::string_view, 13> kKinds = {
-    "figure.json", "scene.json", "png", "svg",  "pdf", "jpg", "jpeg",
-    "gif",         "webp",       "tif", "tiff", "bmp", "eps"};
-constexpr std::ptrdiff_t kFirstPicture = 2;
-constexpr std::ptrdiff_t kFirstOther = 5;  // Of these: pictures that nothing here decodes.
+enum class KindClass {
+  kFigure,    ///< What a picture was drawn of.
+  kPicture,   ///< One that is compared.
+  kOther,     ///< A picture that nothing here decodes.
+  kDocument,  ///< What tells in words what records say.
+};
 
-void add(ItemList& items, const ItemName& name, const fs::path& file) {
-  if (name.kind == "figure.json" || name.kind == "scene.json")
-    items[name.id].figure = file;
-  else if (name.kind != "csv" && name.kind != "md" && name.kind != "tex" && name.kind != "html")
-    items[name.id].pictures[name.kind][""] = file;
-  else
-    items[name.id].documents[name.kind] = file;
+struct Kind {
+  std::string_view ending;
+  KindClass of;
+};
+
+constexpr std::array kKinds = {
+    Kind{"figure.json", KindClass::kFigure}, Kind{"scene.json", KindClass::kFigure},
+    Kind{"png", KindClass::kPicture},        Kind{"svg", KindClass::kPicture},
+    Kind{"pdf", KindClass::kPicture},        Kind{"jpg", KindClass::kOther},
+    Kind{"jpeg", KindClass::kOther},         Kind{"gif", KindClass::kOther},
+    Kind{"webp", KindClass::kOther},         Kind{"tif", KindClass::kOther},
+    Kind{"tiff", KindClass::kOther},         Kind{"bmp", KindClass::kOther},
+    Kind{"eps", KindClass::kOther}};
+
+KindClass class_of(std::string_view kind) {
+  const auto found = std::ranges::find(kKinds, kind, &Kind::ending);
+  return found == kKinds.end() ? KindClass::kDocument : found->of;
 }
 
-/// The kind of a file that tells in words what records say; empty for others.
+void add(ItemList& items, const ItemName& name, const fs::path& file) {
+  switch (class_of(name.kind)) {
+    case KindClass::kFigure:
+      items[name.id].figure = file;
+      break;
+    case KindClass::kPicture:
+    case KindClass::kOther:
+      items[name.id].pictures[name.kind][""] = file;
+      break;
+    case KindClass::kDocument:
+      items[name.id].documents[name.kind] = file;
+  }
+}
+
+/// The kind of a document; empty for other files.
 std::string document_kind(const fs::path& file) {
   if (file.filename() == "report.html") return "html";
   const std::string extension = file.extension().string();
@@ -37,14 +62,12 @@ std::string document_kind(const fs::path& file) {
 }
 
 bool is_picture(std::string_view kind) {
-  return std::ranges::find(kKinds.begin() + kFirstPicture, kKinds.end(), kind) != kKinds.end();
+  return class_of(kind) == KindClass::kPicture || class_of(kind) == KindClass::kOther;
 }
 
 }  // namespace
 
-bool is_not_compared(std::string_view kind) {
-  return std::ranges::find(kKinds.begin() + kFirstOther, kKinds.end(), kind) != kKinds.end();
-}
+bool is_not_compared(std::string_view kind) { return class_of(kind) == KindClass::kOther; }
 
 ItemName item_name(const fs::path& file, const fs::path& folder) {
   std::string path = file.lexically_relative(folder).generic_string();
@@ -54,7 +77,7 @@ ItemName item_name(const fs::path& file, const fs::path& folder) {
   std::ranges::transform(lower, lower.begin(), [](char c) {
     return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
   });
-  for (const std::string_view kind : kKinds)
+  for (const auto& [kind, of] : kKinds)
     if (path.size() > kind.size() + 1 && lower.ends_with(kind) &&
         path[path.size() - kind.size() - 1] == '.')
       return {path.substr(0, path.size() - kind.size() - 1), std::string(kind)};

@@ -25,7 +25,7 @@ constexpr std::array<std::string_view, 4> kVarying = {"durations", "sessions", "
 using Row = std::vector<std::string>;
 
 struct Rows {
-  std::vector<Row> rows;
+  std::vector<Row> rows = {};
   std::size_t heading = 0;  ///< Which of them names the columns.
   bool has_heading = false;
 };

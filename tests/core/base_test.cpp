@@ -11,6 +11,7 @@
 #include "core/base/errors.hpp"
 #include "core/base/files.hpp"
 #include "core/base/random.hpp"
+#include "core/base/sha256.hpp"
 #include "core/base/utf8.hpp"
 #include "core/base/version.hpp"
 #include "core/base/words.hpp"
@@ -177,6 +178,10 @@ TEST(Csv, WritesNumbersThatReadBackTheSame) {
   EXPECT_EQ(csv_number(0.1 + 0.2), "0.30000000000000004");
   EXPECT_EQ(csv_number(100'000.0), "100000");
   EXPECT_EQ(csv_number(std::nan("")), "");
+}
+
+TEST(Sha256, OfThreeLettersIsThatOfTheStandard) {
+  EXPECT_EQ(sha256_hex("abc"), "ba7816bf8f01cfea414140de5dae2223b00361a396177a9cb410ff61f20015ad");
 }
 
 }  // namespace

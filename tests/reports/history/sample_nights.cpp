@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include "core/base/random.hpp"
+#include "reports/history/judge_night.hpp"
 
 namespace mapproof::test {
 namespace {
@@ -54,6 +55,12 @@ Night sample_night(int number, std::uint64_t seed, const Plant& plant) {
       }
   }
   night.studies.push_back(std::move(study));
+  return night;
+}
+
+Night judged(HistoryStore& store, Night night) {
+  judge_night(store, night, std::nullopt);
+  store.append(night);
   return night;
 }
 

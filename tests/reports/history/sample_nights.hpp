@@ -4,6 +4,7 @@
 #include <map>
 #include <string>
 
+#include "reports/history/history_store.hpp"
 #include "reports/history/night.hpp"
 
 namespace mapproof::test {
@@ -21,5 +22,8 @@ struct Plant {
 
 /// A night of one study: six methods, 5 layouts x 5 poses, one step; noise by `seed`.
 Night sample_night(int number, std::uint64_t seed, const Plant& plant = {});
+
+/// Judges a night by those that the store holds and appends it. @return With verdict and findings.
+Night judged(HistoryStore& store, Night night);
 
 }  // namespace mapproof::test

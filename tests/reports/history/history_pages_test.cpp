@@ -1,0 +1,61 @@
+#include <algorithm>
+
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include "reports/history/history_export.hpp"
+#include "reports/history/history_pages.hpp"
+#include "reports/history/history_store.hpp"
+#include "tests/reports/history/sample_nights.hpp"
+#include "tests/support/temporary_folder.hpp"
+
+namespace mapproof::test {
+namespace {
+
+TEST(HistoryPages, AreValidReportsAndFigures) {
+  const TemporaryFolder folder;
+  HistoryStore store = HistoryStore::open(folder.path());
+  NightFindings findings;
+  for (int number = 1; number <= 6; ++number) {
+    Plant plant;
+    if (number >= 5) plant.error = {{"lpca", 1.1}};
+    findings[number] = judged(store, sample_night(number, 1, plant)).findings;
+  }
+  const HistoryPage page = trend_page(store.trend("sample", "d", 60, 6), findings);
+  EXPECT_NO_THROW(check(page.report));
+  ASSERT_EQ(page.figures.size(), 3U);  // MPE, seconds, memory.
+  for (const Figure& figure : page.figures) EXPECT_EQ(problem(figure), "");
+  EXPECT_NO_THROW(check(index_page(store.nights(), findings, {}, {})));
+  EXPECT_NO_THROW(check(index_page({}, {}, {}, {})));
+}
+
+TEST(HistoryPages, BeginWithThreeFindingsAndSayHowManyMore) {
+  Night night{.facts = {.number = 5, .started_utc = "2026-11-22T02:30:07Z"}};
+  for (int i = 1; i <= 7; ++i)
+    night.findings.push_back({.study = "mine", .sentence = fmt::format("worse {}", i)});
+  const Standing stands = standing(night, "mine", true);
+  EXPECT_EQ(stands.title, "Night 5: 7 things got worse");
+  ASSERT_EQ(stands.sentences.size(), 4U);
+  EXPECT_EQ(stands.sentences[2], "worse 3.");
+  EXPECT_TRUE(stands.sentences[3].starts_with("And 4 more"));
+
+  const Report index =
+      index_page(std::vector{night.facts}, {{5, night.findings}}, {{5, {"small"}}}, {});
+  EXPECT_EQ(index.subtitle, "1 night, the last begun 2026-11-22 02:30 UTC");
+  std::size_t items = 0;
+  for (const Block& block : index.sections.front().blocks)
+    if (const auto* list = std::get_if<BulletList>(&block)) items += list->items.size();
+  EXPECT_EQ(items, 4U);
+}
+
+TEST(HistoryExport, HasALineAValue) {
+  const TemporaryFolder folder;
+  HistoryStore store = HistoryStore::open(folder.path());
+  store.append(sample_night(1, 1));
+  const std::string csv = history_csv(store);
+  EXPECT_EQ(std::count(csv.begin(), csv.end(), '\n'), 1 + 6 * 2 * 25);
+  EXPECT_EQ(history_json(store, true)["nights"][0]["studies"][0]["scores"].size(), 12U);
+}
+
+}  // namespace
+}  // namespace mapproof::test

@@ -1,0 +1,71 @@
+#include <cmath>
+
+#include <gtest/gtest.h>
+
+#include "core/base/errors.hpp"
+#include "reports/history/history_store.hpp"
+#include "reports/history/schema.hpp"
+#include "tests/reports/history/sample_nights.hpp"
+#include "tests/support/temporary_folder.hpp"
+
+namespace mapproof::test {
+namespace {
+
+TEST(HistoryStore, GivesBackWhatItWasGiven) {
+  const TemporaryFolder folder;
+  HistoryStore store = HistoryStore::open(folder.path());
+  Night night = sample_night(1, 4);
+  night.studies[0].scores[{"bearing", "lpca", 2000, "mpe_m"}][3].value = std::nan("");
+  night.studies[0].figures = {{"fig-1.svg", sha256_hex("x"), 1}};
+  store.append(night);
+  const Scores scores = store.scores(1, "sample");
+  ASSERT_EQ(scores.size(), night.studies[0].scores.size());
+  for (const auto& [series, values] : night.studies[0].scores)
+    for (std::size_t i = 0; i < values.size(); ++i) {
+      EXPECT_EQ(scores.at(series)[i].run, values[i].run);
+      if (std::isnan(values[i].value))
+        EXPECT_TRUE(std::isnan(scores.at(series)[i].value));
+      else
+        EXPECT_EQ(scores.at(series)[i].value, values[i].value);
+    }
+  EXPECT_EQ(store.digests(), std::vector<std::string>{sha256_hex("x")});
+  EXPECT_THROW(store.append(night), InvalidInput);  // Never the same number twice.
+}
+
+TEST(HistoryStore, OfAnOlderVersionIsMigratedAndKeptAsItWas) {
+  const TemporaryFolder folder;
+  {
+    Database old(history_file(folder.path()), Database::Access::kWrite);
+    make_tables(old, 1);
+    old.execute(
+        "INSERT INTO nights VALUES (4, '2026-01-01T00:00:00Z', '2026-01-01T01:00:00Z', 'c', '{}', "
+        "'h', 'p', 2, 2, NULL, 'good')");
+  }
+  EXPECT_THROW(HistoryStore::open_existing(folder.path()), IoError);
+  HistoryStore store = HistoryStore::open(folder.path());
+  ASSERT_EQ(store.remarks().size(), 1U);
+  ASSERT_EQ(store.nights().size(), 1U);
+  EXPECT_EQ(store.nights()[0].number, 4);
+  EXPECT_FALSE(store.nights()[0].pinned);
+  Database kept(folder.path() / "history.sqlite.v1-backup", Database::Access::kRead);
+  EXPECT_EQ(version_of(kept), 1);
+}
+
+TEST(HistoryStore, OfALaterVersionOrOfAnotherProgramIsRefused) {
+  const TemporaryFolder folder;
+  {
+    Database other(history_file(folder.path()), Database::Access::kWrite);
+    other.execute("CREATE TABLE theirs (x); PRAGMA user_version = 1");
+  }
+  EXPECT_THROW(HistoryStore::open(folder.path()), IoError);
+  const TemporaryFolder later;
+  HistoryStore::open(later.path());
+  {
+    Database ours(history_file(later.path()), Database::Access::kWrite);
+    ours.execute("PRAGMA user_version = 99");
+  }
+  EXPECT_THROW(HistoryStore::open(later.path()), IoError);
+}
+
+}  // namespace
+}  // namespace mapproof::test
