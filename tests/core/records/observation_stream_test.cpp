@@ -96,6 +96,13 @@ TEST(ObservationStream, RemarksThatTheLastLineHasNoEnd) {
   EXPECT_EQ(remarks("0,a,86.987"), std::vector<std::string>{kCutRemark});
 }
 
+TEST(ObservationStream, RemarksWhichColumnsItDoesNotRead) {
+  ObservationStream stream("f", Sensor::kVisibility);
+  stream.take("step,weather,landmark,value\n0,dry,a,1\n");
+  stream.end();
+  EXPECT_EQ(stream.remarks(), (std::vector<std::string>{"Columns that are not read: \"weather\""}));
+}
+
 TEST(ObservationStream, TakesWhatItsSensorSawOfSightings) {
   const std::string text = "time,landmark,range,bearing\n0.5,a,2,1\n0.5,b,3,\n0.75,b,4,-1\n";
   const auto all = [&](Sensor sensor) {
@@ -124,6 +131,8 @@ TEST(ObservationStream, NamesTheLineOfWhatIsWrong) {
   EXPECT_EQ(error("5,a,1\n4,a,0\n"),
             "f: line 2: step 4 after step 5: a file that is followed lists its looks in ascending "
             "order");
+  EXPECT_EQ(error("0,a,1\n0,?,1\n"),
+            "f: line 2: a reading without a label (?): whose such are is estimated of whole files");
   EXPECT_EQ(error("0,a\n"), "f: line 1: has 2 cells, expected 3");
   EXPECT_EQ(error("time,landmark,value\n0.5,a,1\n0.25,a,1\n"),
             "f: line 3: time 0.25 after time 0.5: a file that is followed lists its looks in "
