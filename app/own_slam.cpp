@@ -62,7 +62,10 @@ const SlamRecord* of_method(const SlamRun& run, SlamMethod method) {
 /// What tells two results apart that are not the same one made twice; empty if nothing does.
 std::string difference(const SlamRun& there, const SlamRun& here) {
   const auto input = [](const SlamRun& run) {
-    return slam_run_json({.id = run.id, .figure = "", .log = run.log, .known = {}});
+    SlamRun bare;
+    bare.id = run.id;
+    bare.log = run.log;
+    return slam_run_json(bare);
   };
   if (there.log.landmarks != here.log.landmarks) return "of other landmarks";
   if (there.known != here.known) return "with other known landmarks";

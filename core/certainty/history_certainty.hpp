@@ -13,7 +13,7 @@ namespace mapproof {
 /// What the ellipses of a map refer to, and how they are drawn.
 struct HistoryCertaintyOptions {
   MethodSetting setting;  ///< With its parameter.
-  EmbedderOptions embedder;
+  EmbedderOptions embedder = {};
   ProximityRule rule = {};  ///< See HistoryEmbedder.
   int replicates = 200;     ///< 10 to 10,000.
   Eigen::Index block = 0;   ///< Consecutive steps drawn together; 0: map_block_length().

@@ -10,7 +10,7 @@
 namespace mapproof {
 
 struct ChoiceOptions {
-  std::vector<MethodSetting> settings;  ///< With their parameters.
+  std::vector<MethodSetting> settings = {};  ///< With their parameters.
   EmbedderOptions embedder;
   ProximityRule rule = {};  ///< See HistoryEmbedder.
   int replicates = 20;      ///< Maps of steps drawn anew, for the stability; 0: it is not judged.

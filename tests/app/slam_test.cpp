@@ -160,7 +160,7 @@ INSTANTIATE_TEST_SUITE_P(
                               "line 3"},
                       BadSlam{"UnknownLandmark", kRanges, "", "name,x,y\nzebra,1,2\n", "zebra"},
                       BadSlam{"NanLandmark", kRanges, "", "name,x,y\na,nan,2\n", "line 2"}),
-    [](const auto& info) { return info.param.name; });
+    [](const auto& one) { return one.param.name; });
 
 /// The bounds on the published data, windows chosen without truth, no landmark known.
 TEST(SlamOnPlaza, MeetsTheBoundsOfSpectralAndRefinedErrors) {

@@ -138,7 +138,7 @@ std::vector<Timing> synthetic_timings(const Study& study) {
 
 std::vector<Session> synthetic_sessions() {
   return {{"mapproof run yairi2007 --out out --seed 2007", "2026-01-02T03:04:05Z", "workshop", 2,
-           75.0}};
+           75.0, std::nullopt}};
 }
 
 StudyFigures synthetic_figures(const Study& study) {

@@ -77,7 +77,7 @@ INSTANTIATE_TEST_SUITE_P(
     ::testing::Values(std::pair("rigid", CertaintyFrame{hall(), {}, true}),
                       std::pair("anchors", CertaintyFrame{hall(), {0, 3, 5, 8}, false}),
                       std::pair("rigid_on_anchors", CertaintyFrame{hall(), {0, 3, 5, 8}, true})),
-    [](const auto& info) { return std::string(info.param.first); });
+    [](const auto& one) { return std::string(one.param.first); });
 
 TEST(PairCertainty, TakesLooksTogetherThatErrAlike) {
   const CertaintyFrame frame{hall(), {}, true};
@@ -103,7 +103,9 @@ TEST(PairCertainty, HangsOnItsSeedAlone) {
 TEST(PairCertainty, RefusesOtherFramesAndEmptyLogs) {
   const SightingLog log = erring_looks(3, 1);
   EXPECT_THROW(pair_certainty(log, {Points::Zero(3, 2), {}}), InvalidInput);
-  EXPECT_THROW(pair_certainty({.names = {"a"}}, {Points::Zero(1, 2), {}}), InvalidInput);
+  EXPECT_THROW(
+      pair_certainty({.names = {"a"}, .sightings = {}, .times_s = {}}, {Points::Zero(1, 2), {}}),
+      InvalidInput);
   EXPECT_THROW(pair_certainty(log, {hall(), {}}, {.block = kLooks + 1}), InvalidInput);
   EXPECT_EQ(pair_block_length({}), 1);
 }

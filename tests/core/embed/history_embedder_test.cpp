@@ -90,7 +90,9 @@ TEST(HistoryEmbedder, SaysWhenNeighboursWereNeverSeenTogether) {
 
 TEST(HistoryEmbedder, SaysOfEveryMethodThatRoomsWereNeverSeenTogether) {
   for (const bool only : {false, true}) {
-    HistoryEmbedder embedder(two_rooms(8), 16, {.only_seen_together = only});
+    EmbedderOptions options;
+    options.only_seen_together = only;
+    HistoryEmbedder embedder(two_rooms(8), 16, options);
     for (const MethodInfo& method : all_methods()) {
       const Embedding map = embedder.embed(embedder.usual_setting(method.method));
       // Beside it, such even rooms leave other things undetermined.
@@ -126,7 +128,9 @@ TEST(HistoryEmbedder, IsSilentWhereAllOthersAreNeighboursOrThereIsNoMap) {
 }
 
 TEST(HistoryEmbedder, LeavesNeighboursNeverSeenTogetherOutOnRequest) {
-  HistoryEmbedder embedder(two_rooms(8), 16, {.only_seen_together = true});
+  EmbedderOptions options;
+  options.only_seen_together = true;
+  HistoryEmbedder embedder(two_rooms(8), 16, options);
   const Embedding map = embedder.embed({Method::kIsomap, 6.0});
   EXPECT_FALSE(has(map, StatusCode::kArbitraryNeighbours));
   EXPECT_TRUE(has(map, StatusCode::kBridged));

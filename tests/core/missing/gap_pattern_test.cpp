@@ -65,7 +65,9 @@ TEST(GapAdvice, IsWhatMadeTheBestMapsOfEachKindOfGap) {
   for (const double share : {0.1, 0.3, 0.5, 0.7}) {
     EXPECT_EQ(way_of(bearing.at_random(share)), GapWay::kPpca) << share;
     // A tenth out of range is not told from hidden ones, and matters little.
-    if (share > 0.1) EXPECT_EQ(way_of(bearing.out_of_range(share)), GapWay::kCommonSteps) << share;
+    if (share > 0.1) {
+      EXPECT_EQ(way_of(bearing.out_of_range(share)), GapWay::kCommonSteps) << share;
+    }
     EXPECT_EQ(way_of(bearing.hidden(share)), GapWay::kPpca) << share;
   }
   const Gapped range(Sensor::kRange);

@@ -123,8 +123,9 @@ TEST(RangeLogFiles, OdometryIsRecoveredFromTheDeadReckonedPath) {
   const test::TemporaryFolder folder;
   test::write_mat(log, folder / "a.mat", true);
   expect_same(read_range_log(folder / "a.mat"), sample_log(), 1e-12);
-  const RangeLog given =
-      read_range_log(folder / "a.mat", {.name = "", .odometry = OdometrySource::kAsGiven});
+  RangeLogOptions as_given;
+  as_given.odometry = OdometrySource::kAsGiven;
+  const RangeLog given = read_range_log(folder / "a.mat", as_given);
   EXPECT_EQ(given.odometry.front().turn_rad, -7.0);
 }
 

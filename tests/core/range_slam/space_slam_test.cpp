@@ -258,7 +258,7 @@ SlamExperiment small_flight() {
   SlamExperiment experiment;
   experiment.name = "flight";
   experiment.seed = 3;
-  experiment.space = SpaceFlightOptions{.landmarks = 10, .steps = 150};
+  experiment.space = SpaceFlightOptions{.landmarks = 10, .steps = 150, .noise = {}};
   experiment.space->noise.share = 0.005;
   return experiment;
 }

@@ -60,6 +60,7 @@ RunDetails made_up_details(const RunId& id) {
                        .first_steps = Eigen::MatrixXd::Identity(4, 3),
                        .step = 3,
                        .distances = Eigen::VectorXd::LinSpaced(6, 0.1, 0.9),
+                       .manifold = {},
                        .spectra = {}};
   sensor.distances(2) = nan;
   sensor.spectra = {{{Method::kLpca, std::nullopt}, Eigen::Vector3d(3.0, 2.0, 1e-9)},
@@ -141,7 +142,8 @@ Session made_up_session() {
           .started_utc = "2026-01-02T03:04:05Z",
           .host = "here",
           .jobs = 2,
-          .seconds = 1.5};
+          .seconds = 1.5,
+          .peak_memory_mib = {}};
 }
 
 }  // namespace mapproof::test

@@ -42,13 +42,18 @@ TrialPart made_up_part(const RunId& run) {
   TrialPart part;
   part.id = slug(run);
   part.run = run;
-  part.trials = {{.setup = "random",
-                  .series = "ppca",
-                  .level = 0.1,
-                  .values = {0.05, 100.0},
-                  .statuses = {{StatusCode::kNotConverged, "after 9 steps"}}},
-                 {.setup = "random", .series = "fill", .level = 0.5, .values = {kNan, 0.0}}};
-  TrialMap map{.id = "ppca", .title = "PPCA", .map = test::made_up_result({1, 1}).maps[0]};
+  part.trials = {
+      {.setup = "random",
+       .series = "ppca",
+       .level = 0.1,
+       .values = {0.05, 100.0},
+       .statuses = {{StatusCode::kNotConverged, "after 9 steps"}}},
+      {.setup = "random", .series = "fill", .level = 0.5, .values = {kNan, 0.0}, .statuses = {}}};
+  TrialMap map{.id = "ppca",
+               .title = "PPCA",
+               .map = test::made_up_result({1, 1}).maps[0],
+               .pairs = {},
+               .covariances = {}};
   map.pairs = {{.first = 0, .second = 1, .distance_m = 2.0, .precision = 4.0, .looks = 9}};
   map.covariances.assign(map.map.names.size(), Eigen::Matrix2d::Identity());
   map.covariances.back().setConstant(kNan);

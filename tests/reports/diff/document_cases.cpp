@@ -88,12 +88,12 @@ void add_files(std::vector<ValueCase>& cases) {
                        .change = [=](const fs::path& folder) { change(folder / file); },
                        .alone = true});
     };
-    add("deleted", Verdict::kMissing, [](const fs::path& path) { fs::remove(path); });
-    add("emptied", Verdict::kUnreadable, [](const fs::path& path) { fs::resize_file(path, 0); });
+    add("deleted", Verdict::kMissing, [](const fs::path& copy) { fs::remove(copy); });
+    add("emptied", Verdict::kUnreadable, [](const fs::path& copy) { fs::resize_file(copy, 0); });
     // Every beginning of a CSV is one, and of Markdown nearly every one.
     if (!file.ends_with(".csv") && !file.ends_with(".md"))
       add("truncated", Verdict::kUnreadable,
-          [](const fs::path& path) { fs::resize_file(path, fs::file_size(path) / 2); });
+          [](const fs::path& copy) { fs::resize_file(copy, fs::file_size(copy) / 2); });
   }
 }
 

@@ -29,7 +29,11 @@ void write_study(const std::filesystem::path& folder, double mpe_m, double found
     TrialPart part;
     part.run = RunId{.layout = layout, .pose = 1};
     part.id = slug(*part.run);
-    part.trials = {{.setup = "all", .series = "joint", .level = 0.0, .values = {mpe_m, found}}};
+    part.trials = {{.setup = "all",
+                    .series = "joint",
+                    .level = 0.0,
+                    .values = {mpe_m, found},
+                    .statuses = {}}};
     store.write(part, "");
   }
 }

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "core/base/errors.hpp"
+#include "core/base/sha256.hpp"
 #include "reports/history/history_store.hpp"
 #include "reports/history/schema.hpp"
 #include "tests/reports/history/sample_nights.hpp"
