@@ -63,7 +63,11 @@ Eigen::VectorXd signs_of(const SightingLog& log, const std::vector<std::size_t>&
 
 Eigen::Index block_length_of(const SightingLog& log, std::vector<MeasuredPair> pairs) {
   std::ranges::stable_sort(pairs, std::ranges::greater(), &MeasuredPair::looks);
-  const double most = std::clamp(3e8 / std::pow(std::max(1, log.steps), 1.5), 1.0, 60.0);
+  // The pairs seen most often tell enough; a length costs some N^1.5 for N looks.
+  constexpr double kMostPairs = 60.0;
+  constexpr double kMostWork = 3e8;
+  const double most =
+      std::clamp(kMostWork / std::pow(std::max(1, log.steps), 1.5), 1.0, kMostPairs);
   pairs.resize(std::min(pairs.size(), static_cast<std::size_t>(most)));
   const std::vector<std::size_t> first = starts_of(log);
   double sum = 0.0;

@@ -15,15 +15,16 @@ namespace mapproof {
 
 /// How a CSV file holds observations.
 enum class Layout {
-  kAuto,  ///< kLong if the header names step, landmark and value, else kWide.
+  kAuto,  ///< kLong if the header names a landmark and a value, or what sightings hold; else kWide.
   kWide,  ///< A row a landmark, a column a step.
-  kLong,  ///< A row an observation: step, landmark, value.
+  kLong,  ///< A row an observation: step or time, landmark, value; a robot too, whose steps are
+          ///< then its own.
 };
 
 /// A reading of which nobody says whose it is.
 struct UnlabelledReading {
   Eigen::Index step = 0;  ///< Column of the history.
-  double number = 0.0;    ///< Of the step, as the file has it.
+  double number = 0.0;    ///< Step or time, as the file has it.
   double value = 0.0;     ///< As the history's; NaN: missing.
   std::size_t line = 0;
 };
