@@ -88,16 +88,19 @@ MapCertainty pair_certainty(const SightingLog& log, const CertaintyFrame& frame,
   if (frame.positions_m.rows() != std::ssize(log.names))
     throw InvalidInput("a certainty needs a frame of all landmarks");
   std::set<std::pair<Eigen::Index, Eigen::Index>> trusted;
-  const std::vector<MeasuredPair> pairs = sighted_map(log).pairs;
+  const PairMap whole = sighted_map(log);
+  const std::vector<MeasuredPair>& pairs = whole.pairs;
   for (const MeasuredPair& pair : pairs) trusted.emplace(pair.first, pair.second);
   const Eigen::Index block = options.block > 0 ? options.block : block_length_of(log, pairs);
   const std::vector<std::size_t> first = starts_of(log);
+  PairMapOptions drawing{.fewest_looks = 1};
+  drawing.start = whole.embedding.coordinates;
   const auto map_of = [&](const std::vector<Eigen::Index>& looks) {
     std::vector<MeasuredPair> drawn = measured_pairs(drawn_log(log, first, looks));
     std::erase_if(drawn, [&](const MeasuredPair& pair) {
       return !trusted.contains({pair.first, pair.second});
     });
-    const PairMap map = pair_map(drawn, log.names, {.fewest_looks = 1});
+    const PairMap map = pair_map(drawn, log.names, drawing);
     return in_frame(map.embedding.coordinates, frame, options.fit);
   };
   return bootstrap_map(std::ssize(log.names), log.steps, map_of,

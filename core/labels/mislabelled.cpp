@@ -12,6 +12,7 @@
 #include "core/labels/fault_trials.hpp"
 #include "core/labels/look_costs.hpp"
 #include "core/labels/place_costs.hpp"
+#include "core/pairs/pair_map.hpp"
 
 namespace mapproof {
 namespace {
@@ -135,19 +136,25 @@ bool convincing(const Explanation& explanation, const LabelCheckOptions& options
          explanation.partners >= static_cast<std::size_t>(options.fewest_partners);
 }
 
-/// The map of all pairs under some labels at a width of its own: from nothing or from a start,
-/// whichever costs less.
+/// The map, or that from another start if it costs less.
+RobustMap better_map(const std::vector<PairItem>& items, RobustMap map, const Points& start_m) {
+  RobustMap other = lowered_map(items, start_m, map.width_m);
+  if (other.cost >= map.cost) return map;
+  // The width of a folded map is too wide.
+  const double own = std::min(map.width_m, width_of(items, other.positions_m));
+  return lowered_map(items, other.positions_m, own);
+}
+
+/// The map of all pairs under some labels at a width of its own: from nothing, from the map that
+/// takes few looks and folds for wrong, or from a start, whichever costs less.
 RobustMap map_under(const LabelledLooks& looks, const std::vector<int>& labels,
                     const Points* start_m = nullptr) {
   const std::vector<PairItem> items = pair_items(looks.pairs, labels, looks.blocks);
   RobustMap map = robust_map(items, static_cast<int>(looks.log.names.size()));
   map = unfolded_map(items, std::move(map), looks.blocks.count);
-  if (start_m == nullptr) return map;
-  RobustMap other = lowered_map(items, *start_m, map.width_m);
-  if (other.cost >= map.cost) return map;
-  // The width of a folded map is too wide.
-  const double own = std::min(map.width_m, width_of(items, other.positions_m));
-  return lowered_map(items, other.positions_m, own);
+  map = better_map(items, std::move(map),
+                   sighted_map(relabelled(looks.log, labels)).embedding.coordinates);
+  return start_m == nullptr ? map : better_map(items, std::move(map), *start_m);
 }
 
 double loss_at(const LabelledLooks& looks, const std::vector<int>& labels, const Points& map_m,

@@ -1,8 +1,11 @@
 #include "core/pairs/handedness.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <map>
 #include <span>
+#include <vector>
 
 namespace mapproof {
 namespace {
@@ -12,6 +15,12 @@ double turn(const Eigen::RowVector2d& a, const Eigen::RowVector2d& b, const Eige
   const Eigen::RowVector2d ab = b - a;
   const Eigen::RowVector2d ac = c - a;
   return ab.x() * ac.y() - ab.y() * ac.x();
+}
+
+/// Twice the area of a triple in a map; 0 if it is not whole there.
+double turn_of(const SeenTurn& triple, const Points& map) {
+  const double area = turn(map.row(triple.first), map.row(triple.second), map.row(triple.third));
+  return std::isnan(area) ? 0.0 : area;
 }
 
 /// Where the robot saw it, in its own frame.
@@ -32,22 +41,92 @@ double agreement(std::span<const Sighting* const> look, const Points& map) {
   return sum;
 }
 
+/// Calls `visit` with the whole sightings of each look.
+template <typename Visit>
+void for_each_look(const SightingLog& log, const Visit& visit) {
+  std::vector<const Sighting*> look;
+  for (const Sighting& seen : log.sightings) {
+    if (!look.empty() && look.back()->step != seen.step) {
+      visit(look);
+      look.clear();
+    }
+    if (std::isfinite(seen.range_m) && std::isfinite(seen.bearing_rad)) look.push_back(&seen);
+  }
+  visit(look);
+}
+
+/// Twice the areas of the triples of one landmark order in all looks, and of these without signs.
+struct Turned {
+  int looks = 0;
+  double area = 0.0;
+  double size = 0.0;
+};
+
+using Triple = std::array<int, 3>;
+
+void add_turn(const Sighting& a, const Sighting& b, const Sighting& c,
+              std::map<Triple, Turned>& turned) {
+  const double area = turn(seen_at(a), seen_at(b), seen_at(c));
+  Turned& one = turned[{a.landmark, b.landmark, c.landmark}];
+  ++one.looks;
+  one.area += area;
+  one.size += std::abs(area);
+}
+
 }  // namespace
 
 bool seen_mirrored(const SightingLog& log, const Points& map) {
   double sum = 0.0;
-  std::vector<const Sighting*> look;
-  for (std::size_t k = 0; k < log.sightings.size(); ++k) {
-    const Sighting& seen = log.sightings[k];
-    if (!look.empty() && look.back()->step != seen.step) {
-      sum += agreement(look, map);
-      look.clear();
-    }
-    if (map.row(seen.landmark).allFinite() && std::isfinite(seen.range_m) &&
-        std::isfinite(seen.bearing_rad))
-      look.push_back(&seen);
+  for_each_look(log, [&](std::vector<const Sighting*> look) {
+    std::erase_if(look, [&](const Sighting* seen) { return !map.row(seen->landmark).allFinite(); });
+    sum += agreement(look, map);
+  });
+  return sum < 0.0;
+}
+
+std::vector<SeenTurn> seen_turns(const SightingLog& log) {
+  constexpr std::size_t kAllTriples = 8;
+  std::map<Triple, Turned> turned;
+  for_each_look(log, [&](const std::vector<const Sighting*>& look) {
+    for (std::size_t i = 0; i < look.size(); ++i)
+      for (std::size_t j = i + 1; j < look.size(); ++j)
+        for (std::size_t k = j + 1; k < look.size(); ++k) {
+          if (look.size() > kAllTriples && k > i + 2) break;
+          add_turn(*look[i], *look[j], *look[k], turned);
+        }
+  });
+  std::vector<SeenTurn> turns;
+  for (const auto& [triple, one] : turned)
+    turns.push_back(
+        {triple[0], triple[1], triple[2], one.looks, one.size > 0.0 ? one.area / one.size : 0.0});
+  return turns;
+}
+
+std::vector<SeenTurn> turned_otherwise(const std::vector<SeenTurn>& turns, const Points& map) {
+  constexpr double kClear = 0.8;
+  std::vector<SeenTurn> alike;
+  std::vector<SeenTurn> mirrored;
+  for (const SeenTurn& one : turns)
+    if (const double area = turn_of(one, map); std::abs(one.direction) > kClear && area != 0.0)
+      (area * one.direction > 0.0 ? alike : mirrored).push_back(one);
+  const auto looks = [](const std::vector<SeenTurn>& some) {
+    int sum = 0;
+    for (const SeenTurn& one : some) sum += one.looks;
+    return sum;
+  };
+  return looks(alike) < looks(mirrored) ? alike : mirrored;
+}
+
+double looks_turned_otherwise(const std::vector<SeenTurn>& turns, const Points& map,
+                              double most_looks) {
+  double alike = 0.0;
+  double mirrored = 0.0;
+  for (const SeenTurn& one : turns) {
+    const double looks = std::min<double>(one.looks, most_looks) * std::abs(one.direction);
+    const double area = turn_of(one, map);
+    if (area != 0.0) (area * one.direction > 0.0 ? alike : mirrored) += looks;
   }
-  return sum + agreement(look, map) < 0.0;
+  return std::min(alike, mirrored);
 }
 
 }  // namespace mapproof

@@ -1,10 +1,12 @@
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "core/embed/smacof.hpp"
 #include "core/model/embedding.hpp"
+#include "core/pairs/handedness.hpp"
 #include "core/pairs/pair_distances.hpp"
 
 namespace mapproof {
@@ -19,6 +21,9 @@ struct PairMapOptions {
   /// A pair this many typical residuals off has a quarter of its weight left; > 0.
   double tolerance = 2.0;
   bool refined = true;  ///< False: the start, the map of shortest paths, is all.
+  /// M x 2, a map to begin with instead of looking for one, as for draws of the same looks. Not
+  /// taken if a landmark that pairs hold has no place in it.
+  std::optional<Points> start = {};
   SmacofOptions smacof{.relative_fall = 1e-9, .max_iterations = 5000};
 };
 
@@ -42,7 +47,7 @@ struct PairMap {
 /// @throws InvalidInput if the bounds above are broken.
 /// @note O(M^3) time for the start, and reweightings + 1 runs of SMACOF.
 PairMap pair_map(const std::vector<MeasuredPair>& pairs, const std::vector<std::string>& names,
-                 const PairMapOptions& options = {});
+                 const PairMapOptions& options = {}, const std::vector<SeenTurn>& turns = {});
 
 /// The pair map of what looks showed, mirrored so that landmarks turn the way round that the looks
 /// show them, bearings being counter-clockwise.
