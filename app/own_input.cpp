@@ -12,6 +12,14 @@
 #include "core/records/sightings.hpp"
 
 namespace mapproof {
+namespace {
+
+void add_labels(CheckedLabels labels, OwnMap& map) {
+  map.labels = std::move(labels.facts);
+  map.warnings.insert(map.warnings.begin(), labels.warnings.begin(), labels.warnings.end());
+}
+
+}  // namespace
 
 std::string kind_of(const OwnInput& input) {
   std::error_code error;
@@ -38,9 +46,9 @@ OwnMap map_input(const OwnInput& input, const std::optional<NamedPointsFile>& an
   }
   if (kind == kRangeBearing) {
     SightingSource source = read_sightings(input.path, {.unit = input.unit, .value = std::nullopt});
-    std::vector<LabelFact> facts = check_labels_of(source, input.labels, anchors, truth);
+    CheckedLabels labels = check_labels_of(source, input.labels, anchors, truth);
     OwnMap map = map_pairs(std::move(source), anchors, truth, options, input.rigid);
-    map.labels = std::move(facts);
+    add_labels(std::move(labels), map);
     return map;
   }
   const bool as_usual = options.missing.way == MissingChoice().way && options.submaps == 0 &&
@@ -50,14 +58,14 @@ OwnMap map_input(const OwnInput& input, const std::optional<NamedPointsFile>& an
     return map_sparse(read_sightings(input.path, {.unit = input.unit, .value = sensor}), *sensor,
                       anchors, truth, options);
   ObservationSource source = read_observations(input.path, sensor, input.layout, input.unit);
-  std::vector<LabelFact> facts = check_labels_of(source, input.labels, anchors, truth);
+  CheckedLabels labels = check_labels_of(source, input.labels, anchors, truth);
   const bool doubtful = !source.unlabelled.empty() || !input.unsure.empty();
   const EstimatedLabels estimated = estimate_labels(source, input.unsure);
   source.remarks.insert(source.remarks.end(), estimated.remarks.begin(), estimated.remarks.end());
   OwnMap map = map_own(source, anchors, truth, options);
   map.warnings.insert(map.warnings.begin(), estimated.warnings.begin(), estimated.warnings.end());
   if (doubtful) map.estimated = estimated;
-  map.labels = std::move(facts);
+  add_labels(std::move(labels), map);
   return map;
 }
 

@@ -49,30 +49,31 @@ std::vector<std::string> names_of(const std::vector<int>& landmarks, const Sight
 }
 
 /// What a search for wrong labels leaves to be said besides its findings.
-std::vector<std::string> doubts_of(const LabelCheck& check, const SightingLog& log) {
-  std::vector<std::string> sentences;
+void add_doubts(const LabelCheck& check, bool repair, LabelOutcome& outcome) {
+  const SightingLog& log = outcome.log;
   for (const LabelFinding& finding : check.findings)
     if (finding.untold > 0 || finding.left_out > 0)
-      sentences.push_back(fmt::format(
-          "Of {} and {}, {} with nothing else in the look cannot be told and would stay as they "
-          "are; {} fit neither landmark and would be left out.",
-          printable(label(log, finding.first)), printable(label(log, finding.second)),
-          counted(finding.untold, "sighting"), finding.left_out));
+      outcome.remarks.push_back(
+          fmt::format("Of {} and {}, {} with nothing else in the look cannot be told and {}stay as "
+                      "they are; {} "
+                      "fit neither landmark and {} left out.",
+                      printable(label(log, finding.first)), printable(label(log, finding.second)),
+                      counted(finding.untold, "sighting"), repair ? "" : "would ", finding.left_out,
+                      repair ? "are" : "would be"));
   const LabelDoubts& doubts = check.doubts;
   if (doubts.grave())
-    sentences.push_back(fmt::format(
-        "Warning: the looks do not fit one map{}: residual {:.3f} m against {:.3f} m of their own "
+    outcome.warnings.push_back(fmt::format(
+        "The looks do not fit one map{}: residual {:.3f} m against {:.3f} m of their own "
         "spread{}.",
         check.findings.empty() ? "" : ", what was found mended", doubts.residual_m, doubts.spread_m,
         doubts.landmarks.empty()
             ? ""
             : "; most with landmarks " + listed(names_of(doubts.landmarks, log), 4)));
   if (check.findings.empty())
-    sentences.push_back(fmt::format(
+    outcome.remarks.push_back(fmt::format(
         "No two labels swapped, and none wrong, over a stretch or in single looks explain the "
         "looks clearly better: loss {:.3f} m.",
         check.loss_before_m));
-  return sentences;
 }
 
 /// Labels that contradict one another. @return The log without those contradictions.
@@ -82,8 +83,7 @@ SightingLog check_pairs(LabelOutcome& outcome, bool repair) {
     outcome.facts.push_back({std::string(name(finding.fault)), label(outcome.log, finding.first),
                              label(outcome.log, finding.second), described(finding, outcome.log),
                              finding.loss_before_m, finding.loss_after_m, repair});
-  for (const std::string& sentence : doubts_of(check, outcome.log))
-    outcome.remarks.push_back(sentence);
+  add_doubts(check, repair, outcome);
   outcome.loss_m = check.loss_after_m;
   outcome.doubtful = names_of(check.doubts.landmarks, outcome.log);
   return std::move(check.repaired);
@@ -107,10 +107,9 @@ SightingLog check_places(LabelOutcome& outcome, const SightingLog& log, const Po
         "No exchange of labels would fit the {} known places clearly better: missed by {:.3f} m.",
         check.places, check.misfit_before_m));
   if (check.places >= kFewestKnownPlaces && check.misfit_after_m > kMissed * outcome.loss_m)
-    outcome.remarks.push_back(fmt::format(
-        "Warning: known places are missed by {:.3f} m, far more than the loss of {:.3f} m "
-        "explains: "
-        "labels may be wrong in a way that was not found{}.",
+    outcome.warnings.push_back(fmt::format(
+        "Known places are missed by {:.3f} m, far more than the loss of {:.3f} m explains: labels "
+        "may be wrong in a way that was not found{}.",
         check.misfit_after_m, outcome.loss_m,
         outcome.doubtful.empty() ? "" : "; most doubtful: " + listed(outcome.doubtful, 4)));
   return std::move(check.repaired);
@@ -165,24 +164,24 @@ LabelOutcome checked(Source& source, const SightingLog& log, const LabelChoice& 
 
 LabelOutcome with_labels_checked(const SightingLog& log, const LabelChoice& choice,
                                  const Points& known_m) {
-  LabelOutcome outcome{log, {}, {}, 0.0, {}};
+  LabelOutcome outcome{.log = log};
   if (choice.check || choice.repair) check_and_repair(outcome, choice.repair, known_m);
   if (choice.find_moved) split_moved(outcome);
   return outcome;
 }
 
-std::vector<LabelFact> check_labels_of(SightingSource& source, const LabelChoice& choice,
-                                       const std::optional<NamedPointsFile>& anchors,
-                                       const std::optional<NamedPointsFile>& truth) {
+CheckedLabels check_labels_of(SightingSource& source, const LabelChoice& choice,
+                              const std::optional<NamedPointsFile>& anchors,
+                              const std::optional<NamedPointsFile>& truth) {
   if (!choice.asked()) return {};
   LabelOutcome outcome = checked(source, source.log, choice, anchors, truth);
   source.log = std::move(outcome.log);
-  return std::move(outcome.facts);
+  return {std::move(outcome.facts), std::move(outcome.warnings)};
 }
 
-std::vector<LabelFact> check_labels_of(ObservationSource& source, const LabelChoice& choice,
-                                       const std::optional<NamedPointsFile>& anchors,
-                                       const std::optional<NamedPointsFile>& truth) {
+CheckedLabels check_labels_of(ObservationSource& source, const LabelChoice& choice,
+                              const std::optional<NamedPointsFile>& anchors,
+                              const std::optional<NamedPointsFile>& truth) {
   if (!choice.asked()) return {};
   std::error_code error;
   if (!std::filesystem::is_directory(source.path, error) || !is_mrclam(source.path))
@@ -194,7 +193,7 @@ std::vector<LabelFact> check_labels_of(ObservationSource& source, const LabelCho
   LabelOutcome outcome =
       checked(source, read_mrclam_sightings(source.path).log, choice, anchors, truth);
   source.history = history_of(outcome.log, source.history.sensor);
-  return std::move(outcome.facts);
+  return {std::move(outcome.facts), std::move(outcome.warnings)};
 }
 
 }  // namespace mapproof

@@ -34,8 +34,9 @@ struct LabelFact {
 /// The log as it is to be mapped, and what was found.
 struct LabelOutcome {
   SightingLog log;
-  std::vector<LabelFact> facts;
-  std::vector<std::string> remarks;        ///< A sentence each.
+  std::vector<LabelFact> facts = {};
+  std::vector<std::string> remarks = {};   ///< A sentence each.
+  std::vector<std::string> warnings = {};  ///< The same, of what makes the map doubtful.
   double loss_m = 0.0;                     ///< Of the pairs, what was found mended; 0: not checked.
   std::vector<std::string> doubtful = {};  ///< Landmarks that fit worst then.
 };
@@ -45,16 +46,22 @@ struct LabelOutcome {
 LabelOutcome with_labels_checked(const SightingLog& log, const LabelChoice& choice,
                                  const Points& known_m);
 
+/// What was found in a source's labels, and what makes its map doubtful.
+struct CheckedLabels {
+  std::vector<LabelFact> facts = {};
+  std::vector<std::string> warnings = {};
+};
+
 /// The same of a source, its truth, and the places that files name.
-std::vector<LabelFact> check_labels_of(SightingSource& source, const LabelChoice& choice,
-                                       const std::optional<NamedPointsFile>& anchors,
-                                       const std::optional<NamedPointsFile>& truth);
+CheckedLabels check_labels_of(SightingSource& source, const LabelChoice& choice,
+                              const std::optional<NamedPointsFile>& anchors,
+                              const std::optional<NamedPointsFile>& truth);
 
 /// The same of a source that was read from a folder of MRCLAM: its history is made anew from what
 /// came of the sightings.
 /// @throws IoError for any other source: one kind of value alone tells nothing of labels.
-std::vector<LabelFact> check_labels_of(ObservationSource& source, const LabelChoice& choice,
-                                       const std::optional<NamedPointsFile>& anchors,
-                                       const std::optional<NamedPointsFile>& truth);
+CheckedLabels check_labels_of(ObservationSource& source, const LabelChoice& choice,
+                              const std::optional<NamedPointsFile>& anchors,
+                              const std::optional<NamedPointsFile>& truth);
 
 }  // namespace mapproof

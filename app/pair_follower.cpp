@@ -48,7 +48,7 @@ class PairFollower : public Follower {
   }
 
   OwnMap last_update() override {
-    LabelOutcome outcome{log_so_far(), {}, {}};
+    LabelOutcome outcome{.log = log_so_far()};
     if (table_.find_moved) {
       const auto M = static_cast<Eigen::Index>(outcome.log.names.size());
       const Points unknown = Points::Constant(M, 2, std::numeric_limits<double>::quiet_NaN());

@@ -24,6 +24,7 @@ void FollowedLog::add(const LookKey& look, const std::vector<Sighting>& sighting
 SightingLog FollowedLog::log(const std::vector<std::string>& names, bool is_timed) const {
   SightingLog log;
   log.names = names;
+  log.looks = looks();
   for (const Robot& robot : robots_) {
     for (Sighting seen : robot.sightings) {
       seen.step += log.steps;

@@ -18,6 +18,7 @@ namespace mapproof {
 namespace {
 
 constexpr double kFitsNot = 8.0;  ///< A sighting's cost, in variances, under a label not its own.
+constexpr double kNearlyAll = 0.85;  ///< Of the sightings that a fault may hold for.
 constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
 
 /// How well the fall of the cost is explained by the labels tried.
@@ -58,6 +59,23 @@ Explanation explained(const LabelledLooks& looks, const std::vector<int>& labels
           static_cast<std::size_t>(std::ranges::count(partners, 1))};
 }
 
+/// Whether the finding's stretch of steps is one robot's, and no sighting of both labels by it lies
+/// outside.
+bool is_all_of_robot(const SightingLog& log, const std::vector<int>& labels,
+                     const LabelFinding& finding) {
+  if (finding.by_time || log.looks.empty()) return false;
+  const auto robot = [&](int step) { return log.looks[static_cast<std::size_t>(step)].robot; };
+  const int one = robot(finding.first_step);
+  if (robot(finding.last_step) != one) return false;
+  for (std::size_t k = 0; k < labels.size(); ++k) {
+    const int step = log.sightings[k].step;
+    if ((labels[k] == finding.first || labels[k] == finding.second) && robot(step) == one &&
+        (step < finding.first_step || step > finding.last_step))
+      return false;
+  }
+  return true;
+}
+
 /// Where and when the sightings are that a trial relabelled.
 LabelFinding found(const LabelledLooks& looks, const std::vector<int>& labels,
                    const FaultTrial& trial) {
@@ -71,11 +89,14 @@ LabelFinding found(const LabelledLooks& looks, const std::vector<int>& labels,
   std::size_t last = 0;
   std::size_t first_of_all = places.size();
   std::size_t last_of_all = 0;
+  int meant = 0;
   for (std::size_t k = 0; k < labels.size(); ++k) {
     if (labels[k] != finding.first && labels[k] != finding.second) continue;
     const std::size_t place = places[static_cast<std::size_t>(looks.log.sightings[k].step)];
     first_of_all = std::min(first_of_all, place);
     last_of_all = std::max(last_of_all, place);
+    const bool is_meant = finding.fault == LabelFault::kSwapped || labels[k] == finding.first;
+    if (is_meant && place >= trial.stretch.begin && place < trial.stretch.end) ++meant;
     if (labels[k] == trial.labels[k]) continue;
     ++finding.sightings;
     // Looks beside the stretch that were given otherwise one by one do not widen it.
@@ -89,6 +110,8 @@ LabelFinding found(const LabelledLooks& looks, const std::vector<int>& labels,
   const std::vector<int>& steps = looks.blocks.step_orders[trial.stretch.order];
   finding.first_step = steps[first];
   finding.last_step = steps[last];
+  finding.in_part = finding.sightings < kNearlyAll * meant;
+  finding.all_of_robot = is_all_of_robot(looks.log, labels, finding);
   const std::vector<double>& times = looks.log.times_s;
   const auto time = [&](int step) {
     return times.empty() ? kUnknown : times[static_cast<std::size_t>(step)];
@@ -183,6 +206,22 @@ std::vector<char> fitting_neither(const LabelledLooks& looks, const std::vector<
   return left_out;
 }
 
+/// "from step 12 to step 90 of robot 3", "throughout", "in all looks of robot 3".
+std::string when_words(const LabelFinding& finding, const SightingLog& log) {
+  if (finding.to_the_end && finding.from_the_start) return "throughout";
+  // Times of all robots' looks are of one clock: whose look it was says nothing.
+  const auto robot = [&](int step) { return finding.by_time ? "" : robot_words(log, step); };
+  const std::string of_first = robot(finding.first_step);
+  const std::string of_last = robot(finding.last_step);
+  if (finding.all_of_robot && !of_first.empty()) return "in all looks" + of_first;
+  const std::string first = look_words(log, finding.first_step);
+  const std::string last = look_words(log, finding.last_step);
+  if (finding.to_the_end) return "from " + first + of_first + " on";
+  if (finding.from_the_start) return "up to " + last + of_last;
+  return of_first == of_last ? "from " + first + " to " + last + of_last
+                             : "from " + first + of_first + " to " + last + of_last;
+}
+
 }  // namespace
 
 LabelCheck check_labels(const SightingLog& log, const LabelCheckOptions& options) {
@@ -221,23 +260,15 @@ LabelCheck check_labels(const SightingLog& log, const LabelCheckOptions& options
 
 std::string described(const LabelFinding& finding, const SightingLog& log) {
   const auto label = [&](int k) { return printable(log.names[static_cast<std::size_t>(k)]); };
-  const auto place = [&](int step, double time) {
-    return finding.by_time ? fmt::format("{:.1f} s", time) : fmt::format("step {}", step + 1);
-  };
-  const std::string first = place(finding.first_step, finding.first_time_s);
-  const std::string last = place(finding.last_step, finding.last_time_s);
-  const std::string when = finding.to_the_end && finding.from_the_start ? "throughout"
-                           : finding.to_the_end                         ? "from " + first + " on"
-                           : finding.from_the_start                     ? "up to " + last
-                                                    : "from " + first + " to " + last;
   const std::string what =
       finding.fault == LabelFault::kSwapped
           ? fmt::format("{} and {} look swapped{}", label(finding.first), label(finding.second),
-                        finding.scattered ? " in single looks" : "")
+                        finding.scattered || finding.in_part ? " in single looks" : "")
       : finding.fault == LabelFault::kWrong
-          ? fmt::format("{} looks like {}", label(finding.first), label(finding.second))
+          ? fmt::format("{} looks like {}{}", label(finding.first), label(finding.second),
+                        finding.in_part ? " in single looks" : "")
           : fmt::format("some of {} look like {}", label(finding.first), label(finding.second));
-  return fmt::format("{} {} ({}): loss {:.3f} -> {:.3f} m", what, when,
+  return fmt::format("{} {} ({}): loss {:.3f} -> {:.3f} m", what, when_words(finding, log),
                      counted(finding.sightings, "sighting"), finding.loss_before_m,
                      finding.loss_after_m);
 }

@@ -34,6 +34,8 @@ struct LabelFinding {
   int last_step = 0;
   double first_time_s = 0.0;  ///< The same in time; NaN for a log without times.
   double last_time_s = 0.0;
+  bool in_part = false;  ///< Not all sightings of the labels there are relabelled: look by look.
+  bool all_of_robot = false;    ///< One robot's looks from its first to its last of both labels.
   bool to_the_end = false;      ///< No sighting of either label comes after it in its order.
   bool from_the_start = false;  ///< None before.
   int sightings = 0;            ///< Relabelled.

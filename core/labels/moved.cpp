@@ -213,12 +213,8 @@ MovedCheck find_moved(const SightingLog& log, const MovedOptions& options) {
 }
 
 std::string described(const MovedLandmark& moved, const SightingLog& log) {
-  const auto at = [&](int step) {
-    return log.times_s.empty()
-               ? fmt::format("step {}", step + 1)
-               : fmt::format("{:.1f} s", log.times_s[static_cast<std::size_t>(step)]);
-  };
-  const std::string earliest = at(moved.earliest_step), latest = at(moved.latest_step);
+  const std::string earliest = look_words(log, moved.earliest_step);
+  const std::string latest = look_words(log, moved.latest_step);
   return fmt::format("{} moved by {:.2f} m {} (p = {:.3g}): loss {:.3f} -> {:.3f} m",
                      printable(log.names[static_cast<std::size_t>(moved.landmark)]),
                      moved.distance_m,

@@ -1,6 +1,23 @@
 #include "core/model/sighting_log.hpp"
 
+#include <fmt/format.h>
+
+#include "core/base/errors.hpp"
+
 namespace mapproof {
+
+std::string look_words(const SightingLog& log, int step) {
+  const auto look = static_cast<std::size_t>(step);
+  if (look < log.times_s.size()) return fmt::format("{:.1f} s", log.times_s[look]);
+  if (look < log.looks.size()) return fmt::format("step {:.15g}", log.looks[look].key);
+  return fmt::format("step {}", step + 1);
+}
+
+std::string robot_words(const SightingLog& log, int step) {
+  const auto look = static_cast<std::size_t>(step);
+  if (log.robots.size() < 2 || look >= log.looks.size()) return "";
+  return " of robot " + printable(log.robots[static_cast<std::size_t>(log.looks[look].robot)]);
+}
 
 ObservationHistory history_of(const SightingLog& log, Sensor sensor) {
   const bool is_visibility = sensor == Sensor::kVisibility;

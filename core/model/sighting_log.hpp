@@ -29,12 +29,20 @@ struct LookKey {
 /// What looks showed of M landmarks, range and bearing of each together: a history as sparse as the
 /// looks are. Who looked, and from where, is not in it: looks of several robots are pooled.
 struct SightingLog {
-  std::vector<std::string> names;  ///< Of the landmarks, M of them, all different.
-  std::vector<Sighting>
-      sightings;                ///< Ascending by step, then landmark; no (step, landmark) twice.
-  int steps = 0;                ///< Looks, those that showed nothing among them.
-  std::vector<double> times_s;  ///< Of each look, or empty; ascending within a robot's looks.
+  std::vector<std::string> names = {};  ///< Of the landmarks, M of them, all different.
+  /// Ascending by step, then landmark; no (step, landmark) twice.
+  std::vector<Sighting> sightings = {};
+  int steps = 0;                         ///< Looks, those that showed nothing among them.
+  std::vector<double> times_s = {};      ///< Of each look, or empty; ascending within a robot's.
+  std::vector<LookKey> looks = {};       ///< Which each is in its file, or empty: from 1 on.
+  std::vector<std::string> robots = {};  ///< By LookKey::robot; empty: they have no names.
 };
+
+/// How a look is called in words, by its file's own step or time: "step 1200", "12.5 s".
+std::string look_words(const SightingLog& log, int step);
+
+/// Whose look it was, " of robot 3"; empty for the log of one robot.
+std::string robot_words(const SightingLog& log, int step);
 
 /// What one kind of sensor saw in those looks, as an array: visibility 0 where a landmark was not
 /// seen, bearing and range NaN.

@@ -37,6 +37,9 @@ class LookRows {
   }
 
   bool is_timed() const { return !columns_[SightingColumn::kStep]; }
+  /// Names of the robots, by LookKey::robot; none if no column tells them apart.
+  const std::vector<std::string>& robots() const { return robots_.names(); }
+
   /// "step 3" or "time 3.5", as errors name a look.
   std::string words(double key) const;
 

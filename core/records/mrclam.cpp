@@ -65,6 +65,13 @@ std::vector<fs::path> measurement_files(const fs::path& folder) {
   return ordered;
 }
 
+/// "3" of Robot3_Measurement.dat.
+std::string robot_in(const fs::path& path) {
+  const std::string name = unpacked_name(path.filename()).string();
+  const std::size_t first = std::string_view("Robot").size();
+  return name.substr(first, name.find('_') - first);
+}
+
 /// One row of a robot's file.
 struct Row {
   double time_s;
@@ -95,6 +102,7 @@ class Looks {
       empty_files_.push_back(path.filename().string());
       return;
     }
+    log_.robots.push_back(robot_in(path));
     std::vector<Row> sightings;
     NumberRows rows(checked_text(bytes, source), source, 4);
     while (rows.next()) sightings.push_back(row_of(rows));
@@ -172,6 +180,7 @@ class Looks {
     }
     for (const auto& [landmark, sighting] : look) log_.sightings.push_back(sighting);
     log_.times_s.push_back(rows.front().time_s);
+    log_.looks.push_back({static_cast<int>(log_.robots.size()) - 1, rows.front().time_s});
     ++log_.steps;
   }
 

@@ -78,6 +78,8 @@ class LongSightings {
       refuse_repeat(distinct[static_cast<std::size_t>(repeat->step)],
                     rows_.names().names()[static_cast<std::size_t>(repeat->landmark)]);
     log_.steps = static_cast<int>(distinct.size());
+    log_.looks = distinct;
+    log_.robots = rows_.looks().robots();
     if (rows_.looks().is_timed())
       for (const LookKey& look : distinct) log_.times_s.push_back(look.key);
   }
