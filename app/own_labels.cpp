@@ -13,6 +13,7 @@
 #include "core/labels/anchor_labels.hpp"
 #include "core/labels/mislabelled.hpp"
 #include "core/labels/moved.hpp"
+#include "core/labels/shared_label.hpp"
 #include "core/records/mrclam.hpp"
 
 namespace mapproof {
@@ -89,6 +90,48 @@ SightingLog check_pairs(LabelOutcome& outcome, bool repair) {
   return std::move(check.repaired);
 }
 
+/// Landmarks of a log that no sighting shows.
+std::vector<int> unseen_in(const SightingLog& log) {
+  std::vector<bool> is_seen(log.names.size(), false);
+  for (const Sighting& seen : log.sightings)
+    is_seen[static_cast<std::size_t>(seen.landmark)] = true;
+  std::vector<int> unseen;
+  for (std::size_t k = 0; k < is_seen.size(); ++k)
+    if (!is_seen[k]) unseen.push_back(static_cast<int>(k));
+  return unseen;
+}
+
+/// A label that two landmarks bear. @return The log with two labels then.
+SightingLog check_shared(LabelOutcome& outcome, SightingLog log, bool repair) {
+  const std::optional<SharedLabel> shared = shared_label(log);
+  if (!shared) return log;
+  const std::vector<int> unseen = unseen_in(log);
+  const std::string first = label(log, shared->label);
+  std::string second;
+  int row = static_cast<int>(log.names.size());
+  if (unseen.size() == 1) {
+    row = unseen.front();
+    second = label(log, row);
+  } else {
+    log.names.push_back(first + " (second place)");
+  }
+  outcome.facts.push_back(
+      {"shared", first, second,
+       fmt::format("{} stands at two places {:.2f} m apart ({} and {} sightings): another landmark "
+                   "bears its label{}: loss {:.3f} -> {:.3f} m",
+                   printable(first), shared->apart_m, shared->first_sightings,
+                   shared->second_sightings,
+                   second.empty() ? "" : ", likely " + printable(second) + ", which none shows",
+                   shared->loss_before_m, shared->loss_after_m),
+       shared->loss_before_m, shared->loss_after_m, repair});
+  if (shared->untold > 0)
+    outcome.remarks.push_back(fmt::format("Of {}, {} cannot be told and {} left out.",
+                                          printable(first), counted(shared->untold, "sighting"),
+                                          repair ? "are" : "would be"));
+  outcome.loss_m = shared->loss_after_m;
+  return split_label(log, *shared, row);
+}
+
 /// Labels that contradict known places throughout. @return The log without that.
 SightingLog check_places(LabelOutcome& outcome, const SightingLog& log, const Points& known_m,
                          bool repair) {
@@ -115,9 +158,31 @@ SightingLog check_places(LabelOutcome& outcome, const SightingLog& log, const Po
   return std::move(check.repaired);
 }
 
+/// Labels that contradict one another. Where a landmark is never seen, that another bears its label
+/// is tried first: it is taken if it leaves nothing else to be found.
+SightingLog check_looks(LabelOutcome& outcome, bool repair) {
+  if (!unseen_in(outcome.log).empty()) {
+    LabelOutcome tried{.log = outcome.log};
+    SightingLog split = check_shared(tried, outcome.log, repair);
+    if (!tried.facts.empty()) {
+      LabelOutcome after{.log = split};
+      SightingLog mended = check_pairs(after, repair);
+      if (after.facts.empty() && after.warnings.empty()) {
+        outcome.facts = std::move(tried.facts);
+        outcome.remarks = std::move(tried.remarks);
+        outcome.loss_m = after.loss_m;
+        return mended;
+      }
+    }
+  }
+  return check_shared(outcome, check_pairs(outcome, repair), repair);
+}
+
 void check_and_repair(LabelOutcome& outcome, bool repair, const Points& known_m) {
-  SightingLog mended = check_pairs(outcome, repair);
-  mended = check_places(outcome, mended, known_m, repair);
+  SightingLog mended = check_looks(outcome, repair);
+  Points places_m = Points::Constant(std::ssize(mended.names), 2, kUnknown);
+  places_m.topRows(known_m.rows()) = known_m;
+  mended = check_places(outcome, mended, places_m, repair);
   for (const LabelFact& fact : outcome.facts)
     outcome.remarks.push_back(fact.sentence + (repair ? "; repaired." : "."));
   if (!outcome.facts.empty() && !repair)

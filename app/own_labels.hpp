@@ -22,9 +22,11 @@ struct LabelChoice {
 
 /// One thing that was found about labels.
 struct LabelFact {
-  std::string what;       ///< "swapped", "wrong", "mixed", "exchanged" (in all sightings), "moved".
+  /// "swapped", "wrong", "mixed", "shared" (by two landmarks), "exchanged" (in all sightings),
+  /// "moved".
+  std::string what;
   std::string first;      ///< The label,
-  std::string second;     ///< and the other one; empty if it moved.
+  std::string second;     ///< and the other one; empty if it moved, or is not known.
   std::string sentence;   ///< The same in words, with when and how many.
   double before_m = 0.0;  ///< The map's loss, or of "exchanged" its misfit to the known places,
   double after_m = 0.0;   ///< and what is left of it without the fault.

@@ -18,7 +18,7 @@ namespace mapproof {
 namespace {
 
 constexpr double kFitsNot = 8.0;  ///< A sighting's cost, in variances, under a label not its own.
-constexpr double kNearlyAll = 0.85;  ///< Of the sightings that a fault may hold for.
+constexpr double kNearlyAll = 0.97;  ///< Of the sightings that a fault may hold for.
 constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
 
 /// How well the fall of the cost is explained by the labels tried.

@@ -4,6 +4,7 @@
 
 #include "core/labels/anchor_labels.hpp"
 #include "core/labels/mislabelled.hpp"
+#include "core/labels/shared_label.hpp"
 #include "noisy_looks.hpp"
 #include "real_looks.hpp"
 
@@ -72,6 +73,22 @@ TEST_P(RealLabels, OfOneLandmarkUnderTheNameOfAnotherAreMended) {
 
 TEST_P(RealLabels, SwappedForAThirdOfTheTimeAreMendedAtOnce) {
   expect_mended(source_, "stretch", 4, 12);
+}
+
+TEST_P(RealLabels, OfALandmarkThatIsNeverCalledByItsOwnNameAreFound) {
+  EXPECT_FALSE(shared_label(log()).has_value());
+  for (const auto& [a, b] : {std::pair(10, 6), std::pair(2, 9), std::pair(13, 3)}) {
+    SightingLog wrong = called(log(), a, b, [](int) { return true; });
+    std::erase_if(wrong.sightings, [&, own = a](const Sighting& seen) {
+      return seen.landmark == own;  // In looks that show both.
+    });
+    const auto shared = shared_label(wrong);
+    ASSERT_TRUE(shared.has_value()) << a << ' ' << b;
+    EXPECT_EQ(shared->label, b);
+    const SightingLog split = split_label(wrong, *shared, a);
+    const SightingLog mended = check_anchor_labels(split, *source_.truth_m).repaired;
+    EXPECT_LT(map_error_m(mended, *source_.truth_m), 0.4) << a << ' ' << b;
+  }
 }
 
 TEST_P(RealLabels, AreNotExchangedByTheSurvey) {

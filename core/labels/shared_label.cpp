@@ -1,0 +1,219 @@
+#include "core/labels/shared_label.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <span>
+#include <utility>
+
+#include "core/labels/labelled_looks.hpp"
+#include "core/labels/robust_map.hpp"
+#include "core/pairs/pair_map.hpp"
+#include "core/statistics/intervals.hpp"
+
+namespace mapproof {
+namespace {
+
+constexpr int kFewestSightings = 20;  ///< That tell where they stand,
+constexpr double kLeastShare = 0.1;   ///< of which the second place has at least this share.
+constexpr double kMostStrays = 0.25;  ///< Share that stand at neither.
+constexpr double kReach = 0.3;        ///< Of a place, of the usual distance of neighbours.
+constexpr double kApart = 3.0;        ///< The places are so many reaches apart.
+constexpr double kFurthest = 4.0;     ///< A sighting from the others, in their extents.
+constexpr double kLeastFall = 0.25;   ///< Of the cost, to call a label shared.
+constexpr std::size_t kTriedLabels = 4;
+constexpr int kBlocks = 40;
+
+Eigen::RowVector2d seen_at(const Sighting& seen) {
+  return {seen.range_m * std::cos(seen.bearing_rad), seen.range_m * std::sin(seen.bearing_rad)};
+}
+
+double cross(const Eigen::RowVector2d& a, const Eigen::RowVector2d& b) {
+  return a.x() * b.y() - a.y() * b.x();
+}
+
+/// Where a sighting stands.
+struct Standing {
+  std::size_t row;  ///< Among the log's sightings.
+  Eigen::RowVector2d place_m;
+};
+
+/// The motion that lays what a look saw of mapped landmarks onto the map.
+class LookPose {
+ public:
+  LookPose(std::span<const Sighting> look, int label, const Points& map) {
+    for (const Sighting& seen : look) {
+      if (seen.landmark == label || !map.row(seen.landmark).allFinite() || !is_whole(seen))
+        continue;
+      seen_.push_back(seen_at(seen));
+      mapped_.push_back(map.row(seen.landmark));
+    }
+    if (seen_.size() < 2) return;
+    const Eigen::RowVector2d from = mean(seen_);
+    const Eigen::RowVector2d to = mean(mapped_);
+    double sine = 0.0, cosine = 0.0, squares = 0.0;
+    for (std::size_t k = 0; k < seen_.size(); ++k) {
+      sine += cross(seen_[k] - from, mapped_[k] - to);
+      cosine += (seen_[k] - from).dot(mapped_[k] - to);
+      squares += (seen_[k] - from).squaredNorm();
+    }
+    extent_m_ = std::sqrt(squares / static_cast<double>(seen_.size()));
+    const double length = std::hypot(sine, cosine);
+    if (length > 0.0) turn_ << cosine / length, sine / length, -sine / length, cosine / length;
+    from_ = from;
+    to_ = to;
+  }
+
+  static bool is_whole(const Sighting& seen) {
+    return std::isfinite(seen.range_m) && std::isfinite(seen.bearing_rad);
+  }
+
+  bool tells(const Sighting& seen) const {
+    return seen_.size() >= 2 && is_whole(seen) &&
+           (seen_at(seen) - from_).norm() <= kFurthest * extent_m_;
+  }
+
+  Eigen::RowVector2d place(const Sighting& seen) const {
+    return to_ + (seen_at(seen) - from_) * turn_;
+  }
+
+ private:
+  static Eigen::RowVector2d mean(const std::vector<Eigen::RowVector2d>& points) {
+    Eigen::RowVector2d sum = Eigen::RowVector2d::Zero();
+    for (const Eigen::RowVector2d& point : points) sum += point;
+    return sum / static_cast<double>(points.size());
+  }
+
+  std::vector<Eigen::RowVector2d> seen_;
+  std::vector<Eigen::RowVector2d> mapped_;
+  Eigen::RowVector2d from_ = Eigen::RowVector2d::Zero();
+  Eigen::RowVector2d to_ = Eigen::RowVector2d::Zero();
+  Eigen::Matrix2d turn_ = Eigen::Matrix2d::Identity();  ///< Row vectors: from seen to mapped.
+  double extent_m_ = 0.0;
+};
+
+std::vector<Standing> standings(const SightingLog& log, int label, const Points& map) {
+  std::vector<Standing> result;
+  for (std::size_t begin = 0, end = 0; begin < log.sightings.size(); begin = end) {
+    while (end < log.sightings.size() && log.sightings[end].step == log.sightings[begin].step)
+      ++end;
+    const std::span look(log.sightings.data() + begin, end - begin);
+    const auto own = std::ranges::find(look, label, &Sighting::landmark);
+    if (own == look.end()) continue;
+    const LookPose pose(look, label, map);
+    if (pose.tells(*own))
+      result.push_back({begin + static_cast<std::size_t>(own - look.begin()), pose.place(*own)});
+  }
+  return result;
+}
+
+/// The usual distance of a landmark from its nearest neighbour.
+double neighbour_distance(const Points& map) {
+  std::vector<double> nearest;
+  for (Eigen::Index i = 0; i < map.rows(); ++i) {
+    double least = HUGE_VAL;
+    for (Eigen::Index j = 0; j < map.rows(); ++j)
+      if (i != j && map.row(i).allFinite() && map.row(j).allFinite())
+        least = std::min(least, (map.row(i) - map.row(j)).norm());
+    if (std::isfinite(least)) nearest.push_back(least);
+  }
+  return nearest.empty() ? 0.0 : median(nearest);
+}
+
+/// The middle of the densest disk among some places, and how many it holds.
+std::pair<Eigen::RowVector2d, int> densest(const std::vector<Eigen::RowVector2d>& places,
+                                           double reach_m) {
+  constexpr std::size_t kTried = 300;
+  std::pair<Eigen::RowVector2d, int> best{Eigen::RowVector2d::Zero(), 0};
+  const std::size_t stride = places.size() / kTried + 1;
+  for (std::size_t k = 0; k < places.size(); k += stride) {
+    Eigen::RowVector2d sum = Eigen::RowVector2d::Zero();
+    int count = 0;
+    for (const Eigen::RowVector2d& other : places)
+      if ((other - places[k]).norm() <= reach_m) sum += other, ++count;
+    if (count > best.second) best = {sum / count, count};
+  }
+  return best;
+}
+
+SightingLog without(SightingLog log, int label) {
+  std::erase_if(log.sightings, [&](const Sighting& seen) { return seen.landmark == label; });
+  return log;
+}
+
+/// The two places of a label, if it has two.
+std::optional<SharedLabel> two_places(const SightingLog& log, int label) {
+  const Points map = sighted_map(without(log, label)).embedding.coordinates;
+  const double reach_m = kReach * neighbour_distance(map);
+  const std::vector<Standing> all = standings(log, label, map);
+  if (std::ssize(all) < kFewestSightings || reach_m == 0.0) return std::nullopt;
+  std::vector<Eigen::RowVector2d> places;
+  for (const Standing& one : all) places.push_back(one.place_m);
+  const auto [first_m, first] = densest(places, reach_m);
+  std::erase_if(places, [&, at = first_m](const Eigen::RowVector2d& place) {
+    return (place - at).norm() < kApart * reach_m;
+  });
+  const auto [second_m, second] = densest(places, reach_m);
+  const auto count = static_cast<double>(all.size());
+  if (second < kLeastShare * count || second < kFewestSightings / 2 ||
+      first + second < (1.0 - kMostStrays) * count)
+    return std::nullopt;
+  SharedLabel shared{.label = label, .apart_m = (first_m - second_m).norm()};
+  shared.place.assign(log.sightings.size(), 0);
+  for (const Standing& one : all) {
+    const double to_first = (one.place_m - first_m).norm();
+    const double to_second = (one.place_m - second_m).norm();
+    if (std::min(to_first, to_second) > 0.5 * shared.apart_m) continue;
+    shared.place[one.row] = to_first <= to_second ? 1 : 2;
+    ++(to_first <= to_second ? shared.first_sightings : shared.second_sightings);
+  }
+  for (std::size_t k = 0; k < log.sightings.size(); ++k)
+    if (log.sightings[k].landmark == label && shared.place[k] == 0) ++shared.untold;
+  return shared;
+}
+
+/// Cost of the pairs of a log in their map at a width, and the width that the map asks for.
+RobustMap mapped(const SightingLog& log, std::optional<double> width_m) {
+  const LabelledLooks looks = labelled_looks(log, kBlocks);
+  const std::vector<PairItem> items = pair_items(looks.pairs, given_labels(log), looks.blocks);
+  const Points start = sighted_map(log).embedding.coordinates;
+  return lowered_map(items, start, width_m.value_or(width_of(items, start)));
+}
+
+}  // namespace
+
+SightingLog split_label(const SightingLog& log, const SharedLabel& shared, int second) {
+  SightingLog split = log;
+  split.sightings.clear();
+  for (std::size_t k = 0; k < log.sightings.size(); ++k) {
+    Sighting seen = log.sightings[k];
+    if (seen.landmark == shared.label && shared.place[k] == 0) continue;
+    if (shared.place[k] == 2) seen.landmark = second;
+    split.sightings.push_back(seen);
+  }
+  const auto key = [](const Sighting& one) { return std::pair(one.step, one.landmark); };
+  std::ranges::stable_sort(split.sightings, {}, key);
+  return split;
+}
+
+std::optional<SharedLabel> shared_label(const SightingLog& log) {
+  std::vector<SharedLabel> candidates;
+  for (int label = 0; label < std::ssize(log.names); ++label)
+    if (std::optional<SharedLabel> one = two_places(log, label))
+      candidates.push_back(std::move(*one));
+  std::ranges::stable_sort(candidates, std::ranges::greater(), &SharedLabel::second_sightings);
+  candidates.resize(std::min(candidates.size(), kTriedLabels));
+  // While one label folds the map, others seem to stand at two places as well.
+  std::optional<SharedLabel> best;
+  for (SharedLabel& candidate : candidates) {
+    SightingLog split = split_label(log, candidate, static_cast<int>(log.names.size()));
+    split.names.push_back(log.names[static_cast<std::size_t>(candidate.label)] + " (2)");
+    const RobustMap two = mapped(split, std::nullopt);
+    candidate.loss_before_m = mapped(log, two.width_m).loss_m;
+    candidate.loss_after_m = two.loss_m;
+    if (std::pow(candidate.loss_after_m / candidate.loss_before_m, 2) > 1.0 - kLeastFall) continue;
+    if (!best || candidate.loss_after_m < best->loss_after_m) best = std::move(candidate);
+  }
+  return best;
+}
+
+}  // namespace mapproof

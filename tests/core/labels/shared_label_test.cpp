@@ -1,0 +1,56 @@
+#include "core/labels/shared_label.hpp"
+
+#include <algorithm>
+
+#include <gtest/gtest.h>
+
+#include "core/pairs/pair_map.hpp"
+#include "noisy_looks.hpp"
+#include "tests/support/worlds.hpp"
+
+namespace mapproof::test {
+namespace {
+
+bool always(int) { return true; }
+
+TEST(SharedLabel, IsThatOfALandmarkCalledByAnothersNameThroughout) {
+  for (const auto& [landmark, other] : {std::pair(0, 14), std::pair(7, 2), std::pair(12, 4)}) {
+    const SightingLog wrong = called(noisy_looks(1500, 3), landmark, other, always);
+    const auto shared = shared_label(wrong);
+    ASSERT_TRUE(shared.has_value()) << landmark << " called " << other;
+    EXPECT_EQ(shared->label, other);
+    const double apart_m = (noisy_landmarks().row(landmark) - noisy_landmarks().row(other)).norm();
+    EXPECT_NEAR(shared->apart_m, apart_m, 0.3);
+    EXPECT_LT(shared->loss_after_m, 0.87 * shared->loss_before_m);
+  }
+}
+
+TEST(SharedLabel, SplitGivesTheMapOfBoth) {
+  const SightingLog wrong = called(noisy_looks(1500, 4), 7, 2, always);
+  const auto shared = shared_label(wrong);
+  ASSERT_TRUE(shared.has_value());
+  const SightingLog split = split_label(wrong, *shared, 7);
+  Points map = sighted_map(split).embedding.coordinates;
+  // Which of both places is whose the looks do not say.
+  Points other = map;
+  other.row(2).swap(other.row(7));
+  EXPECT_LT(
+      std::min(procrustes_gap(noisy_landmarks(), map), procrustes_gap(noisy_landmarks(), other)),
+      0.15);
+}
+
+TEST(SharedLabel, IsNoneWhereEachLabelIsOneLandmarks) {
+  for (const std::uint64_t seed : {1, 2, 3, 4, 5})
+    EXPECT_FALSE(shared_label(noisy_looks(1500, seed)).has_value());
+}
+
+TEST(SharedLabel, IsNoneOfALogWithoutLooksOfThree) {
+  SightingLog log{.names = {"a", "b", "c"}};
+  EXPECT_FALSE(shared_label(log).has_value());
+  log.sightings = {{0, 0, 1.0, 0.0}, {0, 1, 2.0, 0.5}, {1, 2, 1.0, 0.0}};
+  log.steps = 2;
+  EXPECT_FALSE(shared_label(log).has_value());
+}
+
+}  // namespace
+}  // namespace mapproof::test
