@@ -1,0 +1,20 @@
+#pragma once
+
+#include <cstddef>
+#include <vector>
+
+#include "core/graph/neighbours.hpp"
+#include "core/pairs/pair_distances.hpp"
+
+namespace mapproof {
+
+inline constexpr int kPairsToPlace = 3;  ///< Two leave a landmark its mirror image.
+
+/// Of each pair: it was seen in so many looks, or one of its landmarks has too few that were.
+std::vector<bool> are_trusted(const std::vector<MeasuredPair>& pairs, std::size_t landmarks,
+                              int fewest_looks);
+
+/// The pairs as edges as long as they were measured; edges ascend.
+Graph graph_of(const std::vector<MeasuredPair>& pairs, std::size_t landmarks);
+
+}  // namespace mapproof
