@@ -14,7 +14,7 @@ namespace mapproof {
 namespace {
 
 constexpr int kFewestSightings = 20;  ///< That tell where they stand,
-constexpr double kLeastShare = 0.1;   ///< of which the second place has at least this share.
+constexpr double kLeastShare = 0.06;  ///< of which the second place has at least this share.
 constexpr double kMostStrays = 0.25;  ///< Share that stand at neither.
 constexpr double kReach = 0.3;        ///< Of a place, of the usual distance of neighbours.
 constexpr double kApart = 3.0;        ///< The places are so many reaches apart.
