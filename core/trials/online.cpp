@@ -48,7 +48,7 @@ TrialDesign design(const TrialExperiment& experiment) {
     design.series.push_back({method.anew, label(method.setting) + ", anew"});
   }
   design.quantities = {
-      {"gap_ppm", "From the map made anew, of its size", "ppm", true},
+      {"gap_ppm", "Off the map made anew", "ppm", true},
       {"greatest_gap_ppm", "The same, at most over all updates so far", "ppm", true},
       {"beyond_percent", "Updates so far beyond the stated bound", "%", true},
       {"steps_gone_through", "Observations gone through for the update", "", true}};

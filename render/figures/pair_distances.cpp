@@ -74,8 +74,10 @@ Figure pair_distances_figure(const PairDistancesSpec& spec) {
   figure.id = spec.id;
   figure.title = spec.title;
   figure.record_ids = {spec.map.id};
-  std::vector<Distances> known = {
-      distances_in(spec.map.estimate, spec, "in the map", Ink::kSeries1, Marker::kCircle)};
+  const bool is_fitted = !spec.map.anchors.empty();
+  std::vector<Distances> known = {distances_in(spec.map.estimate, spec,
+                                               is_fitted ? "in the map as fitted" : "in the map",
+                                               Ink::kSeries1, Marker::kCircle)};
   if (spec.map.truth_m)
     known.push_back(
         distances_in(*spec.map.truth_m, spec, "in the truth", Ink::kSeries2, Marker::kCross));
@@ -91,6 +93,10 @@ Figure pair_distances_figure(const PairDistancesSpec& spec) {
   figure.caption =
       "Each pair of landmarks that looks showed together: its measured distance against that of "
       "their places, and the difference.";
+  if (is_fitted)
+    figure.caption +=
+        " The map is fitted to its anchors, which may stretch it: distances before that are in the "
+        "table.";
   figure.alt = fmt::format("{} measured.", counted(known[0].against.x.size(), "pair"));
   if (longest > 0.0) {
     against.layers.emplace_back(right_line(longest, 1.0));

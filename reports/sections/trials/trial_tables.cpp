@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include "core/model/status.hpp"
+#include "render/figures/status_words.hpp"
 #include "reports/sections/cells.hpp"
 
 namespace mapproof {
@@ -46,7 +47,7 @@ void add_notes(const std::vector<SeriesCells>& rows, bool has_levels, Table& tab
         places[code] += (places[code].empty() ? "" : ", ") + where;
       }
     for (const auto& [code, where] : places)
-      table.notes.push_back(fmt::format("{}: {} {}.", row.series->label, name(code), where));
+      table.notes.push_back(fmt::format("{}: {} {}.", row.series->label, status_words({code, ""}), where));
   }
 }
 
