@@ -19,6 +19,7 @@
 #include "core/pairs/pair_map.hpp"
 #include "core/records/mrclam.hpp"
 #include "core/statistics/intervals.hpp"
+#include "core/trials/mrclam_labels.hpp"
 #include "core/trials/mrclam_sets.hpp"
 
 namespace mapproof {
@@ -30,6 +31,14 @@ constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 constexpr AffineFit kFit = AffineFit::kLeastDistances;
 constexpr int kFewestReplicates = 10;  ///< Of a bootstrap.
 constexpr const char* kSetup = "sensors";
+constexpr const char* kLabels = "labels";
+
+/// Series of looks whose labels were made wrong, as they are and mended.
+constexpr std::pair<const char*, const char*> kSpoilt[] = {
+    {"swapped", "Two labels swapped in half of the looks"},
+    {"swapped-mended", "The same, mended"},
+    {"misnamed", "One landmark called by another's name in all looks"},
+    {"misnamed-mended", "The name mended"}};
 
 /// One way from a set's looks to a map.
 struct Way {
@@ -60,15 +69,19 @@ TrialDesign design(const TrialExperiment&) {
       "can be made of these looks alone, without poses or odometry: from which landmarks are seen "
       "together, from bearings, from ranges, from range and bearing together? The looks of all "
       "robots are pooled. Errors are of the landmarks that are no anchors, after the affine map to "
-      "the anchors: the four landmarks furthest out along the diagonals.";
-  design.setups = {{kSetup, "A map per sensor and method", "", {0.0}}};
+      "the anchors: the four landmarks furthest out along the diagonals. And if labels are wrong: "
+      "can they be found from the looks themselves, and mended?";
+  design.setups = {{kSetup, "A map per sensor and method", "", {0.0}},
+                   {kLabels, "Range and bearing with labels made wrong", "", {0.0}}};
   for (const Way& way : kWays) design.series.push_back({way.id, way.label});
+  for (const auto& [id, label] : kSpoilt) design.series.push_back({id, label});
   design.quantities = {{"mpe_m", "MPE", "m"},
                        {"moe_percent", "MOE", "%"},
                        {"mpe_all_fitted_m", "MPE, affine map to all", "m"},
                        {"rigid_m", "Off after a rigid fit to all", "m"},
                        {"pair_m", "Pairs off in the map (median)", "m"},
-                       {"mapped", "Landmarks mapped", "", false}};
+                       {"mapped", "Landmarks mapped", "", false},
+                       {"faults", "Faults of labels found", "", false}};
   return design;
 }
 
@@ -165,17 +178,18 @@ MapRecord record_of(const Way& way, const RealSet& set, const Made& made) {
   return map;
 }
 
-Trial trial_of(const Way& way, const RealSet& set, const Made& made, const MapRecord& map) {
+Trial trial_of(const char* setup, const std::string& series, const Way& way, const RealSet& set,
+               const Made& made, const MapRecord& map) {
   const Score score = map.score.value_or(Score{kNan, kNan, kNan, kNan});
   const double mapped =
       static_cast<double>((map.estimate.col(0).array() == map.estimate.col(0).array()).count());
   const Points& own = made.embedding.coordinates;
-  return {.setup = kSetup,
-          .series = way.id,
+  return {.setup = setup,
+          .series = series,
           .level = 0.0,
           .values = {score.mpe_m, score.moe_percent, score.mpe_all_fitted_m,
                      way.method ? kNan : rigid_error(own, set.source.truth_m),
-                     median_residual(own, made.pairs), mapped},
+                     median_residual(own, made.pairs), mapped, kNan},
           .statuses = map.statuses};
 }
 
@@ -189,7 +203,7 @@ void add_way(const Way& way, const RealSet& set, const TrialContext& context, Tr
                  .map = record_of(way, set, made),
                  .pairs = made.pairs,
                  .covariances = {}};
-  part.trials.push_back(trial_of(way, set, made, shown.map));
+  part.trials.push_back(trial_of(kSetup, way.id, way, set, made, shown.map));
   // The last way is what pairs come to: its map shows them, and how sure it is.
   const bool is_last = &way == &kWays[std::size(kWays) - 1];
   if (!is_last) shown.pairs.clear();
@@ -209,12 +223,33 @@ void add_way(const Way& way, const RealSet& set, const TrialContext& context, Tr
   if (context.with_maps) part.maps.push_back(std::move(shown));
 }
 
+/// The map of measured pairs of looks whose labels were made wrong, and mended.
+void add_labels(const RealSet& set, const TrialContext& context, TrialPart& part) {
+  const Way& way = kWays[std::size(kWays) - 1];
+  const auto add = [&](const std::string& series, const SightingLog& log, Clock::time_point start) {
+    RealSet other = set;
+    other.source.log = log;
+    const Made made = make_map(way, other, context);
+    part.seconds.push_back(
+        {context.part, series, std::chrono::duration<double>(Clock::now() - start).count()});
+    part.trials.push_back(trial_of(kLabels, series, way, other, made, record_of(way, other, made)));
+  };
+  for (const SpoiltLabels& spoilt : spoilt_labels(set.source.log, context.seed)) {
+    add(spoilt.id, spoilt.log, Clock::now());
+    const Clock::time_point start = Clock::now();
+    const MendedLabels mended = mended_log(spoilt.log, set.source.truth_m);
+    add(spoilt.id + "-mended", mended.log, start);
+    part.trials.back().values.back() = mended.faults;
+  }
+}
+
 TrialPart make(const TrialContext& context) {
   TrialPart part;
   RealSet set;
   set.source = read_mrclam_sightings(context.data);
   set.anchors = anchors_of(set.source);
   for (const Way& way : kWays) add_way(way, set, context, part);
+  add_labels(set, context, part);
   return part;
 }
 
@@ -255,6 +290,12 @@ std::vector<std::string> conclude(const TrialStudy& study) {
     if (!others.empty())
       sentences.push_back(fmt::format("{}: the best of each sensor alone: {}.", part.id,
                                       listed(others, others.size() + 1)));
+    if (const double swapped = value_of(part, "swapped", 0); !std::isnan(swapped))
+      sentences.push_back(fmt::format(
+          "{}: with two labels swapped in half of the looks the map is {:.3f} m off, mended {:.3f} "
+          "m; with a landmark called by another's name in all looks {:.3f} m, mended {:.3f} m.",
+          part.id, swapped, value_of(part, "swapped-mended", 0), value_of(part, "misnamed", 0),
+          value_of(part, "misnamed-mended", 0)));
   }
   return sentences;
 }

@@ -84,8 +84,13 @@ TEST(MrclamTopic, PairsOfPerfectRobotsGiveThePerfectMap) {
   EXPECT_LT(pairs.values[0], 1e-8);
   EXPECT_LT(pairs.values[3], 1e-8);
   EXPECT_EQ(pairs.values[5], 9.0);
-  ASSERT_EQ(part.maps.size(), design.series.size());
+  // Labels made wrong have scores and no maps of their own.
+  ASSERT_EQ(part.maps.size() + 4, design.series.size());
   EXPECT_EQ(part.maps.back().covariances.size(), 9U);
+  EXPECT_GT(trial(part, "swapped").values[3], 0.1);
+  EXPECT_LT(trial(part, "swapped-mended").values[3], 1e-6);
+  EXPECT_GE(trial(part, "swapped-mended").values[6], 1.0);
+  EXPECT_LT(trial(part, "misnamed-mended").values[3], 1e-6);
   EXPECT_FALSE(part.maps.back().pairs.empty());
 }
 
