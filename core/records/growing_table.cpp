@@ -38,8 +38,16 @@ void GrowingTable::take(std::string_view bytes, const TakeRow& take_row) {
 }
 
 void GrowingTable::end(const TakeRow& take_row) {
-  is_cut_ = is_cut_table(pending_);
-  if (!pending_.empty()) read_line(std::exchange(pending_, {}), take_row);
+  if (is_cut_table(pending_)) cut_remark_ = kCutRemark;
+  if (pending_.empty()) return;
+  const bool is_first = line_ == 0;
+  try {
+    read_line(std::exchange(pending_, {}), take_row);
+  } catch (const IoError&) {
+    // Whoever wrote it was stopped within a line: what was whole before it counts.
+    if (cut_remark_ == nullptr || is_first) throw;
+    cut_remark_ = kCutOffRemark;
+  }
 }
 
 void GrowingTable::read_line(std::string_view line, const TakeRow& take_row) {

@@ -28,11 +28,12 @@ class GrowingTable {
   /// Forgets a line whose end has not come, as of a file that is still written to.
   void drop_half_line() { pending_.clear(); }
 
-  /// There will be no more: the last line needs no end.
+  /// There will be no more: the last line needs no end. One that has none and cannot be read is
+  /// left out, unless it is the first.
   void end(const TakeRow& take_row);
 
-  /// After end(): the last line had none, see kCutRemark.
-  bool is_cut() const { return is_cut_; }
+  /// After end(): what has to be said of a last line without an end; null if it had one.
+  const char* cut_remark() const { return cut_remark_; }
 
   const std::string& source() const { return source_; }
 
@@ -43,7 +44,7 @@ class GrowingTable {
   std::string pending_;    ///< A line whose end has not come.
   std::size_t line_ = 0;   ///< The last one read.
   char separator_ = '\0';  ///< Not known before the first row.
-  bool is_cut_ = false;
+  const char* cut_remark_ = nullptr;
 };
 
 }  // namespace mapproof

@@ -40,7 +40,7 @@ std::vector<StreamedStep> ObservationStream::steps() {
 std::vector<std::string> ObservationStream::remarks() const {
   std::vector<std::string> remarks =
       (sightings_ ? sightings_->rows().looks() : values_.looks()).remarks();
-  if (table_.is_cut()) remarks.emplace_back(kCutRemark);
+  if (table_.cut_remark() != nullptr) remarks.emplace_back(table_.cut_remark());
   return remarks;
 }
 

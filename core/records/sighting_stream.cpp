@@ -58,7 +58,7 @@ void LookGatherer::take(const TableRow& row) {
 
 std::vector<std::string> SightingStream::remarks() const {
   std::vector<std::string> remarks = gatherer_.rows().looks().remarks();
-  if (table_.is_cut()) remarks.emplace_back(kCutRemark);
+  if (table_.cut_remark() != nullptr) remarks.emplace_back(table_.cut_remark());
   return remarks;
 }
 

@@ -16,6 +16,10 @@ struct TableRow {
 /// What is said of a table whose last row has no line end.
 inline constexpr const char* kCutRemark = "The last line has no line end: it may be cut.";
 
+/// And if nothing can be made of that row, where it does not stop the reading.
+inline constexpr const char* kCutOffRemark =
+    "The last line has no line end and cannot be read: it is cut, and left out.";
+
 /// Whether the text ends within a row, without a line end.
 bool is_cut_table(std::string_view text);
 

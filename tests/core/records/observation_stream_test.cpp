@@ -96,6 +96,14 @@ TEST(ObservationStream, RemarksThatTheLastLineHasNoEnd) {
   EXPECT_EQ(remarks("0,a,86.987"), std::vector<std::string>{kCutRemark});
 }
 
+TEST(ObservationStream, LeavesALastLineOutThatIsCutAndNoRow) {
+  ObservationStream stream("f", Sensor::kVisibility);
+  stream.take("0,a,1\n0,b,1\n1,a,1\n1,");
+  stream.end();
+  EXPECT_EQ(stream.remarks(), (std::vector<std::string>{kCutOffRemark}));
+  EXPECT_EQ(stream.steps().size(), 2U);
+}
+
 TEST(ObservationStream, RemarksWhichColumnsItDoesNotRead) {
   ObservationStream stream("f", Sensor::kVisibility);
   stream.take("step,weather,landmark,value\n0,dry,a,1\n");
@@ -133,6 +141,7 @@ TEST(ObservationStream, NamesTheLineOfWhatIsWrong) {
             "order");
   EXPECT_EQ(error("0,a,1\n0,?,1\n"),
             "f: line 2: a reading without a label (?): whose such are is estimated of whole files");
+  EXPECT_EQ(error("0,a"), "f: line 1: has 2 cells, expected 3");
   EXPECT_EQ(error("0,a\n"), "f: line 1: has 2 cells, expected 3");
   EXPECT_EQ(error("time,landmark,value\n0.5,a,1\n0.25,a,1\n"),
             "f: line 3: time 0.25 after time 0.5: a file that is followed lists its looks in "
