@@ -3,6 +3,7 @@
 #include <vector>
 
 #include "core/labels/labelled_looks.hpp"
+#include "core/labels/look_pose.hpp"
 #include "core/labels/robust_map.hpp"
 
 namespace mapproof {
@@ -37,11 +38,7 @@ class LookCosts {
   const Points& map_;
   double width_m_;
   std::vector<std::pair<std::size_t, int>> others_;  ///< Row and label.
-  double extent_m_ = 0.0;  ///< Of the others about their mean: what the turn stands on.
-  Eigen::Matrix2d turn_ =
-      Eigen::Matrix2d::Identity();  ///< Row vectors: from the map's to the robot's.
-  Eigen::RowVector2d seen_mean_m_ = Eigen::RowVector2d::Zero();
-  Eigen::RowVector2d map_mean_m_ = Eigen::RowVector2d::Zero();
+  LookPose pose_;                                    ///< Of the others, if they are two or more.
 };
 
 }  // namespace mapproof

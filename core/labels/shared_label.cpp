@@ -6,8 +6,10 @@
 #include <utility>
 
 #include "core/labels/labelled_looks.hpp"
+#include "core/labels/look_pose.hpp"
 #include "core/labels/robust_map.hpp"
 #include "core/pairs/pair_map.hpp"
+#include "core/pairs/seen_place.hpp"
 #include "core/statistics/intervals.hpp"
 
 namespace mapproof {
@@ -23,73 +25,30 @@ constexpr double kLeastFall = 0.25;   ///< Of the cost, to call a label shared.
 constexpr std::size_t kTriedLabels = 4;
 constexpr int kBlocks = 40;
 
-Eigen::RowVector2d seen_at(const Sighting& seen) {
-  return {seen.range_m * std::cos(seen.bearing_rad), seen.range_m * std::sin(seen.bearing_rad)};
-}
-
-double cross(const Eigen::RowVector2d& a, const Eigen::RowVector2d& b) {
-  return a.x() * b.y() - a.y() * b.x();
-}
-
 /// Where a sighting stands.
 struct Standing {
   std::size_t row;  ///< Among the log's sightings.
   Eigen::RowVector2d place_m;
 };
 
-/// The motion that lays what a look saw of mapped landmarks onto the map.
-class LookPose {
- public:
-  LookPose(std::span<const Sighting> look, int label, const Points& map) {
-    for (const Sighting& seen : look) {
-      if (seen.landmark == label || !map.row(seen.landmark).allFinite() || !is_whole(seen))
-        continue;
-      seen_.push_back(seen_at(seen));
-      mapped_.push_back(map.row(seen.landmark));
+/// Where a look's sighting of a label stands, as two others or more in it tell; nothing if they
+/// stand too close together to.
+std::optional<Eigen::RowVector2d> standing(std::span<const Sighting> look, const Sighting& own,
+                                           const Points& map) {
+  std::vector<Eigen::RowVector2d> mapped;
+  std::vector<Eigen::RowVector2d> seen;
+  for (const Sighting& other : look)
+    if (other.landmark != own.landmark && is_located(other) &&
+        map.row(other.landmark).allFinite()) {
+      mapped.push_back(map.row(other.landmark));
+      seen.push_back(place_seen(other));
     }
-    if (seen_.size() < 2) return;
-    const Eigen::RowVector2d from = mean(seen_);
-    const Eigen::RowVector2d to = mean(mapped_);
-    double sine = 0.0, cosine = 0.0, squares = 0.0;
-    for (std::size_t k = 0; k < seen_.size(); ++k) {
-      sine += cross(seen_[k] - from, mapped_[k] - to);
-      cosine += (seen_[k] - from).dot(mapped_[k] - to);
-      squares += (seen_[k] - from).squaredNorm();
-    }
-    extent_m_ = std::sqrt(squares / static_cast<double>(seen_.size()));
-    const double length = std::hypot(sine, cosine);
-    if (length > 0.0) turn_ << cosine / length, sine / length, -sine / length, cosine / length;
-    from_ = from;
-    to_ = to;
-  }
-
-  static bool is_whole(const Sighting& seen) {
-    return std::isfinite(seen.range_m) && std::isfinite(seen.bearing_rad);
-  }
-
-  bool tells(const Sighting& seen) const {
-    return seen_.size() >= 2 && is_whole(seen) &&
-           (seen_at(seen) - from_).norm() <= kFurthest * extent_m_;
-  }
-
-  Eigen::RowVector2d place(const Sighting& seen) const {
-    return to_ + (seen_at(seen) - from_) * turn_;
-  }
-
- private:
-  static Eigen::RowVector2d mean(const std::vector<Eigen::RowVector2d>& points) {
-    Eigen::RowVector2d sum = Eigen::RowVector2d::Zero();
-    for (const Eigen::RowVector2d& point : points) sum += point;
-    return sum / static_cast<double>(points.size());
-  }
-
-  std::vector<Eigen::RowVector2d> seen_;
-  std::vector<Eigen::RowVector2d> mapped_;
-  Eigen::RowVector2d from_ = Eigen::RowVector2d::Zero();
-  Eigen::RowVector2d to_ = Eigen::RowVector2d::Zero();
-  Eigen::Matrix2d turn_ = Eigen::Matrix2d::Identity();  ///< Row vectors: from seen to mapped.
-  double extent_m_ = 0.0;
-};
+  if (seen.size() < 2 || !is_located(own)) return std::nullopt;
+  const LookPose pose(mapped, seen);
+  if ((place_seen(own) - pose.seen_mean_m()).norm() > kFurthest * pose.extent_m())
+    return std::nullopt;
+  return pose.to_map(place_seen(own));
+}
 
 std::vector<Standing> standings(const SightingLog& log, int label, const Points& map) {
   std::vector<Standing> result;
@@ -99,9 +58,8 @@ std::vector<Standing> standings(const SightingLog& log, int label, const Points&
     const std::span look(log.sightings.data() + begin, end - begin);
     const auto own = std::ranges::find(look, label, &Sighting::landmark);
     if (own == look.end()) continue;
-    const LookPose pose(look, label, map);
-    if (pose.tells(*own))
-      result.push_back({begin + static_cast<std::size_t>(own - look.begin()), pose.place(*own)});
+    if (const auto place_m = standing(look, *own, map))
+      result.push_back({begin + static_cast<std::size_t>(own - look.begin()), *place_m});
   }
   return result;
 }

@@ -7,14 +7,14 @@
 #include <span>
 #include <vector>
 
+#include "core/pairs/seen_place.hpp"
+
 namespace mapproof {
 namespace {
 
 /// A triangle's area, twice; negative if clockwise.
 double turn(const Eigen::RowVector2d& a, const Eigen::RowVector2d& b, const Eigen::RowVector2d& c) {
-  const Eigen::RowVector2d ab = b - a;
-  const Eigen::RowVector2d ac = c - a;
-  return ab.x() * ac.y() - ab.y() * ac.x();
+  return cross(b - a, c - a);
 }
 
 /// Twice the area of a triple in a map; 0 if it is not whole there.
@@ -23,17 +23,13 @@ double turn_of(const SeenTurn& triple, const Points& map) {
   return std::isnan(area) ? 0.0 : area;
 }
 
-/// Where the robot saw it, in its own frame.
-Eigen::RowVector2d seen_at(const Sighting& seen) {
-  return {seen.range_m * std::cos(seen.bearing_rad), seen.range_m * std::sin(seen.bearing_rad)};
-}
-
 /// Above 0 if the look and the map turn alike, each triple bounded by the smaller of its areas so
 /// that no wrong one of it decides alone.
 double agreement(std::span<const Sighting* const> look, const Points& map) {
   double sum = 0.0;
   for (std::size_t k = 0; k + 2 < look.size(); ++k) {
-    const double seen = turn(seen_at(*look[k]), seen_at(*look[k + 1]), seen_at(*look[k + 2]));
+    const double seen =
+        turn(place_seen(*look[k]), place_seen(*look[k + 1]), place_seen(*look[k + 2]));
     const double mapped = turn(map.row(look[k]->landmark), map.row(look[k + 1]->landmark),
                                map.row(look[k + 2]->landmark));
     sum += std::copysign(std::min(std::abs(seen), std::abs(mapped)), seen * mapped);
@@ -50,7 +46,7 @@ void for_each_look(const SightingLog& log, const Visit& visit) {
       visit(look);
       look.clear();
     }
-    if (std::isfinite(seen.range_m) && std::isfinite(seen.bearing_rad)) look.push_back(&seen);
+    if (is_located(seen)) look.push_back(&seen);
   }
   visit(look);
 }
@@ -66,7 +62,7 @@ using Triple = std::array<int, 3>;
 
 void add_turn(const Sighting& a, const Sighting& b, const Sighting& c,
               std::map<Triple, Turned>& turned) {
-  const double area = turn(seen_at(a), seen_at(b), seen_at(c));
+  const double area = turn(place_seen(a), place_seen(b), place_seen(c));
   Turned& one = turned[{a.landmark, b.landmark, c.landmark}];
   ++one.looks;
   one.area += area;
