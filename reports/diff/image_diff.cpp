@@ -161,12 +161,15 @@ ImageDiff image_diff(const Image& baseline, Image current, const PictureOptions&
   // Which tiles differ, and whether there is noise all over.
   const std::vector<TileLook> looks = looks_at(baseline, current, diff.marks, options.noise);
   std::vector<int> tiles;
-  int textured = 0;
+  Texture texture;
   double within_noise = 0.0;
   for (std::size_t i = 0; i < looks.size(); ++i) {
     if (looks[i].differs) tiles.push_back(static_cast<int>(i));
-    textured += looks[i].is_textured;
     within_noise += looks[i].within_noise;
+    if (!looks[i].is_textured) continue;
+    ++texture.tiles;
+    texture.bounds.add(static_cast<int>(i) % diff.marks.across(),
+                       static_cast<int>(i) / diff.marks.across());
   }
   const double pixels = static_cast<double>(baseline.width) * baseline.height;
   const EvidenceBounds bounds{options.noise, options.mean_noise, options.displacement_px,
@@ -180,7 +183,7 @@ ImageDiff image_diff(const Image& baseline, Image current, const PictureOptions&
     evidence[i] =
         tile_evidence(baseline, current, box.x0, box.y0, bounds, *diff.marks.tile(tiles[i]));
   });
-  judge(tiles, evidence, textured, options, diff.marks);
+  judge(tiles, evidence, texture, options, diff.marks);
   sum_up(tiles, evidence, diff.marks, diff.pixels);
   find_clusters(tiles, diff.marks, diff.pixels);
   return diff;

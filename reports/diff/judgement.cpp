@@ -222,8 +222,8 @@ std::vector<std::vector<int>> tile_groups(int across, std::vector<bool> is_in) {
   return groups;
 }
 
-void judge(std::span<const int> tiles, std::span<const TileEvidence> evidence, int textured,
-           const PictureOptions& options, ChangeMap& marks) {
+void judge(std::span<const int> tiles, std::span<const TileEvidence> evidence,
+           const Texture& texture, const PictureOptions& options, ChangeMap& marks) {
   const std::size_t count = static_cast<std::size_t>(marks.across()) * marks.down();
   std::vector<bool> is_beyond(count, false);
   std::vector<const TileEvidence*> of_tile(count, nullptr);
@@ -233,6 +233,7 @@ void judge(std::span<const int> tiles, std::span<const TileEvidence> evidence, i
     is_beyond[tiles[i]] = evidence[i].beyond_noise > 0;
     beyond += evidence[i].beyond_noise > 0;
   }
+  const int textured = texture.tiles;
   const auto groups = tile_groups(marks.across(), is_beyond);
   const int places = static_cast<int>(groups.size());
   const bool is_local =
@@ -246,8 +247,9 @@ void judge(std::span<const int> tiles, std::span<const TileEvidence> evidence, i
   else {
     judge_overall(tiles, evidence, textured, options, marks);
     const std::vector<bool> is_out = out_of_step(tiles, evidence, textured, options, marks);
+    const std::vector<bool> is_changed = shape_changes(tiles, evidence, texture, marks.across());
     for (std::size_t i = 0; i < tiles.size(); ++i)
-      if (is_out[tiles[i]]) change_edges(*marks.tile(tiles[i]));
+      if (is_out[tiles[i]] || is_changed[i]) change_edges(*marks.tile(tiles[i]));
   }
 }
 

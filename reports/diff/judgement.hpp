@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "reports/diff/change_map.hpp"
+#include "reports/diff/shape_changes.hpp"
 #include "reports/diff/tile_evidence.hpp"
 
 namespace mapproof {
@@ -17,11 +18,12 @@ std::vector<std::vector<int>> tile_groups(int across, std::vector<bool> is_in);
 /// Another way of smoothing, other hints or a small shift of everything touch edges all over a
 /// picture. A few groups of tiles in one that else is equal are therefore changes unless a small
 /// movement explains them; of what differs all over, only that counts which smoothing cannot do:
-/// things lost or new, movements beyond half a pixel, other inks, other means of flat regions.
+/// things lost or new, movements beyond half a pixel, other inks, other means of flat regions,
+/// and what shape_changes finds.
 ///
 /// @param tiles     Numbers of the tiles that differ; `evidence` is theirs.
-/// @param textured  How many tiles are not of one colour.
-void judge(std::span<const int> tiles, std::span<const TileEvidence> evidence, int textured,
-           const PictureOptions& options, ChangeMap& marks);
+/// @param texture   Of the baseline.
+void judge(std::span<const int> tiles, std::span<const TileEvidence> evidence,
+           const Texture& texture, const PictureOptions& options, ChangeMap& marks);
 
 }  // namespace mapproof

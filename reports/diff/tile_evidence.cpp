@@ -13,6 +13,9 @@ namespace {
 // A pixel is lost if the other picture lacks this share of the contrast around it.
 constexpr double kLostShare = 0.8;
 
+// Fewer pixels beyond noise show no shape.
+constexpr int kFewestShapePixels = 8;
+
 // Of how many deviations of noise a mean may be off: a picture has a million of them.
 constexpr double kDeviations = 6.0;
 
@@ -69,32 +72,6 @@ void count_copies(const PatchPair& pair, int i, double noise, std::array<int, 8>
   }
 }
 
-/// Slope of a smoothed plane, of 255 a pixel, by five cells.
-double slope(const Plane& plane, int i, int step) {
-  return (8 * (plane[i + step] - plane[i - step]) - (plane[i + 2 * step] - plane[i - 2 * step])) /
-         (12.0 * kSmootherScale);
-}
-
-/// @param offset  In cells: the baseline is taken as moved by so much.
-/// @param around  Pixels around the tile that are looked at too.
-MovementFit movement_fit(const PatchPair& pair, double noise, int offset, int around) {
-  MovementFit fit;
-  for (int y = -around; y < kTile + around; ++y)
-    for (int x = -around; x < kTile + around; ++x) {
-      const int i = cell_at(x, y), j = i - offset;
-      for (int c = 0; c < 3; ++c) {
-        const Plane &a = pair.before.smoother[c], &b = pair.after.smoother[c];
-        const double d = static_cast<double>(b[i] - a[j]) / kSmootherScale;
-        if (std::abs(d) <= noise) continue;
-        const double gx = (slope(a, j, 1) + slope(b, i, 1)) / 2.0;
-        const double gy = (slope(a, j, kPatchSide) + slope(b, i, kPatchSide)) / 2.0;
-        fit.gxx += gx * gx, fit.gxy += gx * gy, fit.gyy += gy * gy;
-        fit.gxd += gx * d, fit.gyd += gy * d, fit.energy += d * d;
-      }
-    }
-  return fit;
-}
-
 /// What is left of the difference if the baseline is moved by whole pixels and then by less.
 double left_by_whole(const PatchPair& pair, double noise, double right_px, double down_px) {
   const auto whole = [](double px) {
@@ -120,6 +97,7 @@ void find_displacement(const PatchPair& pair, const EvidenceBounds& bounds, Tile
       std::min(1.0, bounds.displacement_px / std::max(found.displacement_px(), 1e-9));
   found.left_share = found.fit.left(part * right, part * down) / energy;
   found.left_by_whole = left_by_whole(pair, noise, right, down);
+  if (found.beyond_noise >= kFewestShapePixels) found.kept = kept_shape(pair, right, down);
 }
 
 /// Sums of the differences of flat pixels: those around which neither picture has an edge.
@@ -217,25 +195,6 @@ double colour_difference(const PatchPair& pair, int i) {
 }
 
 }  // namespace
-
-void MovementFit::add(const MovementFit& other, double weight) {
-  energy += weight * other.energy;
-  gxx += weight * other.gxx, gxy += weight * other.gxy, gyy += weight * other.gyy;
-  gxd += weight * other.gxd, gyd += weight * other.gyd;
-}
-
-std::array<double, 2> MovementFit::movement() const {
-  const double ridge = 0.01 * (gxx + gyy) + 1e-9;
-  const double xx = gxx + ridge, yy = gyy + ridge;
-  const double determinant = xx * yy - gxy * gxy;
-  return {-(yy * gxd - gxy * gyd) / determinant, -(xx * gyd - gxy * gxd) / determinant};
-}
-
-double MovementFit::left(double x, double y) const {
-  const double left =
-      energy + 2 * (x * gxd + y * gyd) + x * x * gxx + 2 * x * y * gxy + y * y * gyy;
-  return std::max(left, 0.0);
-}
 
 bool TileEvidence::is_one_sided() const {
   const auto most = std::ranges::max_element(absolute_sum) - absolute_sum.begin();

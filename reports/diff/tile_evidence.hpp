@@ -4,22 +4,11 @@
 #include <cmath>
 
 #include "reports/diff/change_map.hpp"
+#include "reports/diff/movement_fit.hpp"
 #include "reports/diff/picture_diff.hpp"
 #include "reports/diff/tile_patch.hpp"
 
 namespace mapproof {
-
-/// Normal equations of the movement that explains a difference best by least squares [lucas1981].
-struct MovementFit {
-  double energy = 0.0;  ///< Sum of squares of the difference.
-  double gxx = 0.0, gxy = 0.0, gyy = 0.0, gxd = 0.0, gyd = 0.0;
-
-  void add(const MovementFit& other, double weight);
-  /// The movement, right and down. Along a straight edge nothing tells it: it is taken as none.
-  std::array<double, 2> movement() const;
-  /// The energy that a movement leaves.
-  double left(double right_px, double down_px) const;
-};
 
 /// To the pixels around one, right and down.
 inline constexpr std::array<std::array<int, 2>, 8> kSteps{
@@ -46,6 +35,7 @@ struct TileEvidence {
   /// The same of whole pixels and what they leave to explain; 1 if the movement is below half of
   /// one.
   double left_by_whole = 1.0;
+  KeptShape kept;                 ///< Left as it is where few pixels are beyond noise.
   double recoloured_share = 0.0;  ///< Of the raw energy, what a change of inks alone explains.
   double recolouring = 0.0;       ///< Of 255: how far inks leave the line from the paper to them.
   int edge_pixels = 0;            ///< That recoloured_share is told by.
