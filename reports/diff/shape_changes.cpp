@@ -6,36 +6,54 @@ namespace mapproof {
 namespace {
 
 // Found on the mutations of tests/reports/diff and on pictures by matplotlib with three hints.
-constexpr int kFewPixels = 4;      // That tell little of a tile;
-constexpr int kShapePixels = 8;    // of its shape,
-constexpr int kUnlikePixels = 16;  // and that another thing stands there.
-constexpr double kKeptLeft = 0.1;  // Of the difference, what a movement leaves of a kept shape.
-constexpr double kMoved = 0.8;     // Pixels,
-constexpr double kFar = 1.6;
-constexpr double kVeryFar = 1.7;  // which hints move a quarter of all tiles by at most:
-constexpr double kVeryFarShare = 0.33;
-constexpr double kFarShare = 0.05;  // Where hints are ruled out;
+constexpr int kFewPixels = 4;         // That tell little of a tile;
+constexpr int kShapePixels = 8;       // of its shape.
+constexpr double kKeptLeft = 0.1;     // Of the difference, what a movement leaves of a kept shape.
+constexpr double kMoved = 0.8;        // Pixels.
+constexpr double kCopiedLeft = 0.01;  // Next to nothing: what stands on whole pixels did so before.
+constexpr double kStill = 0.5;        // Pixels: in place,
+constexpr double kStillLeft = 0.2;    // with so much of the difference left.
+
+// Where hints may be the cause.
+constexpr double kVeryFar = 1.7;        // Pixels, which hints move
+constexpr double kVeryFarShare = 0.33;  // a quarter of all tiles by at most.
+constexpr double kInShapeShare = 0.7;   // Hints .66.
+constexpr int kUnlikePixels = 16;
+constexpr double kUnlikeLeft = 0.85;
+
+// Where they are not, and smoothing is the other cause, which leaves in place.
+constexpr double kFar = 1.05;       // Pixels, not by whole ones.
+constexpr double kFarShare = 0.02;  // Smoothing .004,
 constexpr int kFewestFar = 3;
-constexpr double kOppositeShare = 0.1;  // of tiles that went each way.
-constexpr double kStill = 0.5;          // Pixels: in place, with kStillLeft of the difference left,
-constexpr double kStillLeft = 0.2;
-constexpr double kCopiedLeft = 0.01;   // or with next to nothing left wherever it went.
-constexpr double kInShapeShare = 0.7;  // Of hints .66, of one digit and all moved a bit .71.
-constexpr double kUnlikeLeft = 0.8;
+constexpr double kAstrayLeft = 0.3;
+constexpr double kAstrayShare = 0.1;    // of tiles went each of two opposite ways.
+constexpr double kInPlaceShare = 0.47;  // Where smoothing leaves shapes unlike, .42.
+constexpr int kOddPixels = 12;
+constexpr double kOddLeft = 0.55;
+constexpr double kOddLeftShare = 0.8;
+constexpr double kOddCopied = 0.3;  // Of the pixels beyond noise: more are of what moved by one.
+
 constexpr double kMostUnlikeShare = 0.2;
 
 bool is_moved(const TileEvidence& tile, double px) {
   return tile.kept.left < kKeptLeft && tile.kept.displacement_px() > px;
 }
 
-bool is_in_shape(const TileEvidence& tile) {
-  return tile.kept.left < kCopiedLeft ||
-         (tile.kept.left < kStillLeft && tile.kept.displacement_px() <= kStill);
+bool is_in_place(const TileEvidence& tile) {
+  return tile.kept.left < kStillLeft && tile.kept.displacement_px() <= kStill;
 }
 
+/// Whether another thing stands there than one that is hinted otherwise.
 bool is_unlike(const TileEvidence& tile) {
   return tile.beyond_noise >= kUnlikePixels && 2 * tile.bold > tile.beyond_noise &&
          tile.kept.left > kUnlikeLeft && tile.left_share > kUnlikeLeft;
+}
+
+/// The same, if hints are all equal.
+bool is_odd(const TileEvidence& tile) {
+  return tile.beyond_noise >= kOddPixels && 2 * tile.bold > tile.beyond_noise &&
+         tile.kept.left > kOddLeft && tile.left_share > kOddLeftShare &&
+         std::ranges::max(tile.copied) < kOddCopied * tile.beyond_noise;
 }
 
 /// Labels of axes lie outermost to the left and below, titles and legends at other sides, and other
@@ -49,34 +67,28 @@ bool may_be_hints(const TileBounds& differing, const TileBounds& texture) {
 
 struct ShapeCounts {
   TileBounds differing;
-  int tiles = 0, far = 0, very_far = 0, in_shape = 0, unlike = 0;
+  int tiles = 0, in_shape = 0, in_place = 0, unlike = 0, odd = 0, very_far = 0, far = 0;
   int right = 0, left = 0, down = 0, up = 0;  ///< Tiles that moved so.
 
   void add(const TileEvidence& tile, int x, int y) {
     if (tile.beyond_noise >= kFewPixels) differing.add(x, y);
     if (tile.beyond_noise < kShapePixels) return;
     ++tiles;
-    far += is_moved(tile, kFar);
-    very_far += is_moved(tile, kVeryFar);
-    in_shape += is_in_shape(tile);
+    const bool is_copy = tile.kept.left < kCopiedLeft;
+    in_place += is_in_place(tile);
+    in_shape += is_in_place(tile) || is_copy;
     unlike += is_unlike(tile);
-    if (!is_moved(tile, kMoved)) return;
-    right += tile.kept.right_px > kStill, left += tile.kept.right_px < -kStill;
-    down += tile.kept.down_px > kStill, up += tile.kept.down_px < -kStill;
+    odd += is_odd(tile);
+    very_far += is_moved(tile, kVeryFar);
+    far += is_moved(tile, kFar) && !is_copy;
+    if (tile.kept.left > kAstrayLeft) return;
+    right += tile.kept.right_px > kMoved, left += tile.kept.right_px < -kMoved;
+    down += tile.kept.down_px > kMoved, up += tile.kept.down_px < -kMoved;
   }
 
   /// What is put on whole pixels goes one way, whichever it is.
-  bool any_opposite() const {
-    return std::max(std::min(right, left), std::min(down, up)) >
-           std::max(kOppositeShare * tiles, 1.0);
-  }
-  bool any_moved(const Texture& texture) const {
-    if (very_far > kVeryFarShare * tiles) return true;
-    if (may_be_hints(differing, texture.bounds)) return false;
-    return (far >= kFewestFar && far > kFarShare * tiles) || any_opposite();
-  }
-  bool any_unlike() const {
-    return in_shape > kInShapeShare * tiles && unlike <= kMostUnlikeShare * tiles;
+  bool is_astray() const {
+    return std::max(std::min(right, left), std::min(down, up)) > kAstrayShare * tiles;
   }
 };
 
@@ -87,11 +99,21 @@ std::vector<bool> shape_changes(std::span<const int> tiles, std::span<const Tile
   ShapeCounts all;
   for (std::size_t i = 0; i < tiles.size(); ++i)
     all.add(evidence[i], tiles[i] % across, tiles[i] / across);
-  const bool any_moved = all.any_moved(texture), any_unlike = all.any_unlike();
+  const bool no_hints = !may_be_hints(all.differing, texture.bounds);
+  const double most_unlike = kMostUnlikeShare * all.tiles;
+  const bool any_moved = all.very_far > kVeryFarShare * all.tiles ||
+                         (no_hints && all.far >= kFewestFar && all.far > kFarShare * all.tiles);
+  const bool any_astray = no_hints && all.is_astray();
+  const bool any_unlike = all.in_shape > kInShapeShare * all.tiles && all.unlike <= most_unlike;
+  const bool any_odd =
+      no_hints && all.in_place > kInPlaceShare * all.tiles && all.odd <= most_unlike;
   std::vector<bool> is_changed(tiles.size());
-  for (std::size_t i = 0; i < tiles.size(); ++i)
-    is_changed[i] =
-        (any_moved && is_moved(evidence[i], kMoved)) || (any_unlike && is_unlike(evidence[i]));
+  for (std::size_t i = 0; i < tiles.size(); ++i) {
+    const TileEvidence& tile = evidence[i];
+    const bool is_off = tile.kept.left < kAstrayLeft && tile.kept.displacement_px() > kMoved;
+    is_changed[i] = (any_moved && is_moved(tile, kMoved)) || (any_astray && is_off) ||
+                    (any_unlike && is_unlike(tile)) || (any_odd && is_odd(tile));
+  }
   return is_changed;
 }
 

@@ -14,8 +14,6 @@
 namespace mapproof::test {
 namespace {
 
-using Change = std::function<void(Drawing&)>;
-
 std::uint8_t moved(std::uint8_t value, int by) {
   return static_cast<std::uint8_t>(value + by < 0 || value + by > 255 ? value - by : value + by);
 }

@@ -11,6 +11,11 @@
 
 namespace mapproof::test {
 
+using Change = std::function<void(Drawing&)>;
+
+/// The last digit of an item's text becomes another.
+Change other_digit(std::size_t item, int by);
+
 /// Two pictures of which the second has one thing mutated, and what must be said of them.
 struct Mutation {
   std::string name;
@@ -23,8 +28,13 @@ struct Mutation {
 std::vector<Mutation> mutations_of(const Drawing& drawing, const std::string& picture);
 
 /// Those that are hardest to see: thicker lines, grids of pale dots, curves through fewer points,
-/// one change while all is moved by a tenth of a pixel; and other hints of text, which are no change.
+/// one change while all is moved by a tenth of a pixel; and other hints of text, which are no
+/// change.
 std::vector<Mutation> subtle_mutations_of(const Drawing& drawing, const std::string& picture);
+
+/// Many things that moved, each its own way or all a bit further, smoothly or by whole pixels,
+/// alone and beside a digit that changed.
+std::vector<Mutation> moved_mutations_of(const Drawing& drawing, const std::string& picture);
 
 /// Sample figures at several sizes and themes, thick lines and thin.
 std::vector<std::pair<std::string, Drawing>> mutable_drawings();

@@ -34,7 +34,7 @@ struct Confusion {
 TEST(PictureMutations, NoneIsMissedAndNoneFalselyAlarms) {
   std::vector<Mutation> all;
   for (const auto& [picture, drawing] : mutable_drawings())
-    for (const auto& mutate : {mutations_of, subtle_mutations_of})
+    for (const auto& mutate : {mutations_of, subtle_mutations_of, moved_mutations_of})
       std::ranges::move(mutate(drawing, picture), std::back_inserter(all));
   std::vector<PixelDiff> found(all.size());
   tbb::parallel_for(std::size_t{0}, all.size(), [&](std::size_t i) {

@@ -12,8 +12,6 @@
 namespace mapproof::test {
 namespace {
 
-using Change = std::function<void(Drawing&)>;
-
 /// The stroke of a line of data, or null.
 Stroke* stroke_of(Item& item) {
   auto* shape = std::get_if<Shape>(&item.what);
@@ -108,17 +106,6 @@ std::vector<LayerMove> layer_moves() {
 
 Change without(std::size_t item) {
   return [item](Drawing& drawing) { drawing.items.erase(drawing.items.begin() + item); };
-}
-
-/// The last digit of an item's text becomes another.
-Change other_digit(std::size_t item, int by) {
-  return [=](Drawing& drawing) {
-    auto& shaped = std::get<TextLine>(drawing.items[item].what).shaped;
-    std::string text = shaped.text;
-    char& digit = text[text.find_last_of("0123456789")];
-    digit = static_cast<char>('0' + (digit - '0' + by) % 10);
-    shaped = shape_text(text);
-  };
 }
 
 class SubtleMutations {
@@ -225,6 +212,16 @@ class SubtleMutations {
 };
 
 }  // namespace
+
+Change other_digit(std::size_t item, int by) {
+  return [=](Drawing& drawing) {
+    auto& shaped = std::get<TextLine>(drawing.items[item].what).shaped;
+    std::string text = shaped.text;
+    char& digit = text[text.find_last_of("0123456789")];
+    digit = static_cast<char>('0' + (digit - '0' + by) % 10);
+    shaped = shape_text(text);
+  };
+}
 
 std::vector<Mutation> subtle_mutations_of(const Drawing& drawing, const std::string& picture) {
   return SubtleMutations(drawing, picture).all();
