@@ -25,18 +25,24 @@ constexpr double kUnlikeLeft = 0.85;
 constexpr double kFar = 1.05;       // Pixels, not by whole ones.
 constexpr double kFarShare = 0.02;  // Smoothing .004,
 constexpr int kFewestFar = 3;
+constexpr double kAstray = 0.7;  // Pixels, also of a marker on a line, which stays:
 constexpr double kAstrayLeft = 0.3;
 constexpr double kAstrayShare = 0.1;    // of tiles went each of two opposite ways.
-constexpr double kInPlaceShare = 0.47;  // Where smoothing leaves shapes unlike, .42.
+constexpr double kInPlaceShare = 0.45;  // Where smoothing leaves shapes unlike, .42.
 constexpr int kOddPixels = 12;
 constexpr double kOddLeft = 0.55;
 constexpr double kOddLeftShare = 0.8;
-constexpr double kOddCopied = 0.3;  // Of the pixels beyond noise: more are of what moved by one.
+constexpr double kOddEnergy = 1000.0;  // Squares of 255 a pixel beyond noise.
+constexpr double kOddCopied = 0.35;    // Of the pixels beyond noise: more are of what moved by one.
 
 constexpr double kMostUnlikeShare = 0.2;
 
 bool is_moved(const TileEvidence& tile, double px) {
   return tile.kept.left < kKeptLeft && tile.kept.displacement_px() > px;
+}
+
+bool is_off(const TileEvidence& tile) {
+  return tile.kept.left < kAstrayLeft && tile.kept.displacement_px() > kAstray;
 }
 
 bool is_in_place(const TileEvidence& tile) {
@@ -49,9 +55,10 @@ bool is_unlike(const TileEvidence& tile) {
          tile.kept.left > kUnlikeLeft && tile.left_share > kUnlikeLeft;
 }
 
-/// The same, if hints are all equal.
+/// The same, if hints are all equal: a digit may share much with another.
 bool is_odd(const TileEvidence& tile) {
-  return tile.beyond_noise >= kOddPixels && 2 * tile.bold > tile.beyond_noise &&
+  const int bold_part = tile.fit.energy > kOddEnergy * tile.beyond_noise ? 4 : 2;
+  return tile.beyond_noise >= kOddPixels && bold_part * tile.bold > tile.beyond_noise &&
          tile.kept.left > kOddLeft && tile.left_share > kOddLeftShare &&
          std::ranges::max(tile.copied) < kOddCopied * tile.beyond_noise;
 }
@@ -81,9 +88,9 @@ struct ShapeCounts {
     odd += is_odd(tile);
     very_far += is_moved(tile, kVeryFar);
     far += is_moved(tile, kFar) && !is_copy;
-    if (tile.kept.left > kAstrayLeft) return;
-    right += tile.kept.right_px > kMoved, left += tile.kept.right_px < -kMoved;
-    down += tile.kept.down_px > kMoved, up += tile.kept.down_px < -kMoved;
+    if (!is_off(tile)) return;
+    right += tile.kept.right_px > kStill, left += tile.kept.right_px < -kStill;
+    down += tile.kept.down_px > kStill, up += tile.kept.down_px < -kStill;
   }
 
   /// What is put on whole pixels goes one way, whichever it is.
@@ -110,8 +117,7 @@ std::vector<bool> shape_changes(std::span<const int> tiles, std::span<const Tile
   std::vector<bool> is_changed(tiles.size());
   for (std::size_t i = 0; i < tiles.size(); ++i) {
     const TileEvidence& tile = evidence[i];
-    const bool is_off = tile.kept.left < kAstrayLeft && tile.kept.displacement_px() > kMoved;
-    is_changed[i] = (any_moved && is_moved(tile, kMoved)) || (any_astray && is_off) ||
+    is_changed[i] = (any_moved && is_moved(tile, kMoved)) || (any_astray && is_off(tile)) ||
                     (any_unlike && is_unlike(tile)) || (any_odd && is_odd(tile));
   }
   return is_changed;

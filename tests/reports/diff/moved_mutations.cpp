@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <cmath>
 #include <memory>
 
@@ -75,8 +76,8 @@ Change both(Change first, Change second) {
   return [=](Drawing& drawing) { first(drawing), second(drawing); };
 }
 
-/// A line of text above the frame that has a digit, else the last of the axes' labels.
-std::vector<std::size_t> lines_of_digits(const Drawing& drawing) {
+/// The last of the axes' labels.
+std::vector<std::size_t> last_label(const Drawing& drawing) {
   std::vector<std::size_t> found;
   for (std::size_t i = 0; i < drawing.items.size(); ++i)
     if (const auto* line = std::get_if<TextLine>(&drawing.items[i].what);
@@ -109,9 +110,12 @@ std::vector<Mutation> moved_mutations_of(const Drawing& drawing, const std::stri
     }
     add("markers pushed apart by 1 px", snapped, both(snapped, pushed_apart));
   }
+  // Cells are a raster that stays.
+  if (std::ranges::find(drawing.items, Role::kCells, &Item::role) != drawing.items.end())
+    return found;
   for (const double by : {1.5, 2.0, 2.5, 3.0, 4.0})
     add(fmt::format("stretched by {} px", by), none, stretched(by));
-  for (const std::size_t i : lines_of_digits(drawing))
+  for (const std::size_t i : last_label(drawing))
     for (const double by : {0.1, 0.3, 0.5, 2.0})
       for (const int further : {1, 3, 6})
         add(fmt::format("stretched by {} px, digit {} further", by, further), none,
