@@ -18,10 +18,14 @@ namespace {
 // A picture of which so many pixels differ by no more than noise has noise all over.
 constexpr double kNoisyShare = 0.2;
 
+// Of 255: what stands out of any noise that passes.
+constexpr double kInk = 16.0;
+
 /// What a first look at a tile tells.
 struct TileLook {
   bool differs = false;
   bool is_textured = false;  ///< Not of one colour.
+  bool has_ink = false;      ///< Colours further apart than kInk.
   int within_noise = 0;      ///< Pixels that differ by no more than noise.
 };
 
@@ -68,6 +72,9 @@ TileLook look_at(const Image& a, const Image& b, const TileBox& box, double nois
     const std::uint32_t *p = a.row(y) + box.x0, *q = b.row(y) + box.x0;
     look.is_textured =
         look.is_textured || std::any_of(p, p + box.width, [=](auto v) { return v != first; });
+    look.has_ink = look.has_ink || (look.is_textured && std::any_of(p, p + box.width, [=](auto v) {
+                                      return !is_within(v, first, kInk);
+                                    }));
     if (std::memcmp(p, q, sizeof *p * static_cast<std::size_t>(box.width)) == 0) continue;
     look.differs = true;
     for (int x = 0; x < box.width; ++x)
@@ -166,8 +173,8 @@ ImageDiff image_diff(const Image& baseline, Image current, const PictureOptions&
   for (std::size_t i = 0; i < looks.size(); ++i) {
     if (looks[i].differs) tiles.push_back(static_cast<int>(i));
     within_noise += looks[i].within_noise;
-    if (!looks[i].is_textured) continue;
-    ++texture.tiles;
+    texture.tiles += looks[i].is_textured;
+    if (!looks[i].has_ink) continue;
     texture.bounds.add(static_cast<int>(i) % diff.marks.across(),
                        static_cast<int>(i) / diff.marks.across());
   }

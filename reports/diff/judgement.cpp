@@ -247,7 +247,8 @@ void judge(std::span<const int> tiles, std::span<const TileEvidence> evidence,
   else {
     judge_overall(tiles, evidence, textured, options, marks);
     const std::vector<bool> is_out = out_of_step(tiles, evidence, textured, options, marks);
-    const std::vector<bool> is_changed = shape_changes(tiles, evidence, texture, marks.across());
+    const std::vector<bool> is_changed =
+        shape_changes(tiles, evidence, texture, marks.across(), options.displacement_px);
     for (std::size_t i = 0; i < tiles.size(); ++i)
       if (is_out[tiles[i]] || is_changed[i]) change_edges(*marks.tile(tiles[i]));
   }

@@ -9,23 +9,23 @@ namespace {
 constexpr int kFewPixels = 4;         // That tell little of a tile;
 constexpr int kShapePixels = 8;       // of its shape.
 constexpr double kKeptLeft = 0.1;     // Of the difference, what a movement leaves of a kept shape.
-constexpr double kMoved = 0.8;        // Pixels.
+constexpr double kMoved = 0.45;       // Pixels beyond what a piece may be moved.
 constexpr double kCopiedLeft = 0.01;  // Next to nothing: what stands on whole pixels did so before.
-constexpr double kStill = 0.5;        // Pixels: in place,
+constexpr double kStill = 0.15;       // The same: in place,
 constexpr double kStillLeft = 0.2;    // with so much of the difference left.
 
 // Where hints may be the cause.
-constexpr double kVeryFar = 1.7;        // Pixels, which hints move
+constexpr double kVeryFar = 1.35;       // Pixels beyond, which hints move
 constexpr double kVeryFarShare = 0.33;  // a quarter of all tiles by at most.
 constexpr double kInShapeShare = 0.7;   // Hints .66.
 constexpr int kUnlikePixels = 16;
 constexpr double kUnlikeLeft = 0.85;
 
 // Where they are not, and smoothing is the other cause, which leaves in place.
-constexpr double kFar = 1.05;       // Pixels, not by whole ones.
+constexpr double kFar = 0.7;        // Pixels beyond, not by whole ones.
 constexpr double kFarShare = 0.02;  // Smoothing .004,
 constexpr int kFewestFar = 3;
-constexpr double kAstray = 0.7;  // Pixels, also of a marker on a line, which stays:
+constexpr double kAstray = 0.35;  // Pixels beyond, also of a marker on a line, which stays:
 constexpr double kAstrayLeft = 0.3;
 constexpr double kAstrayShare = 0.1;    // of tiles went each of two opposite ways.
 constexpr double kInPlaceShare = 0.45;  // Where smoothing leaves shapes unlike, .42.
@@ -41,12 +41,12 @@ bool is_moved(const TileEvidence& tile, double px) {
   return tile.kept.left < kKeptLeft && tile.kept.displacement_px() > px;
 }
 
-bool is_off(const TileEvidence& tile) {
-  return tile.kept.left < kAstrayLeft && tile.kept.displacement_px() > kAstray;
+bool is_off(const TileEvidence& tile, double allowed_px) {
+  return tile.kept.left < kAstrayLeft && tile.kept.displacement_px() > allowed_px + kAstray;
 }
 
-bool is_in_place(const TileEvidence& tile) {
-  return tile.kept.left < kStillLeft && tile.kept.displacement_px() <= kStill;
+bool is_in_place(const TileEvidence& tile, double allowed_px) {
+  return tile.kept.left < kStillLeft && tile.kept.displacement_px() <= allowed_px + kStill;
 }
 
 /// Whether another thing stands there than one that is hinted otherwise.
@@ -66,13 +66,14 @@ bool is_odd(const TileEvidence& tile) {
 /// Labels of axes lie outermost to the left and below, titles and legends at other sides, and other
 /// hints touch them all.
 bool may_be_hints(const TileBounds& differing, const TileBounds& texture) {
-  const bool left = differing.left <= texture.left + 1, top = differing.top <= texture.top + 1;
-  const bool right = differing.right >= texture.right - 1;
-  const bool bottom = differing.bottom >= texture.bottom - 1;
+  const bool left = differing.left - 1 <= texture.left, top = differing.top - 1 <= texture.top;
+  const bool right = differing.right + 1 >= texture.right;
+  const bool bottom = differing.bottom + 1 >= texture.bottom;
   return left + top + right + bottom >= 3 || (left && bottom);
 }
 
 struct ShapeCounts {
+  double allowed_px;
   TileBounds differing;
   int tiles = 0, in_shape = 0, in_place = 0, unlike = 0, odd = 0, very_far = 0, far = 0;
   int right = 0, left = 0, down = 0, up = 0;  ///< Tiles that moved so.
@@ -82,15 +83,16 @@ struct ShapeCounts {
     if (tile.beyond_noise < kShapePixels) return;
     ++tiles;
     const bool is_copy = tile.kept.left < kCopiedLeft;
-    in_place += is_in_place(tile);
-    in_shape += is_in_place(tile) || is_copy;
+    in_place += is_in_place(tile, allowed_px);
+    in_shape += is_in_place(tile, allowed_px) || is_copy;
     unlike += is_unlike(tile);
     odd += is_odd(tile);
-    very_far += is_moved(tile, kVeryFar);
-    far += is_moved(tile, kFar) && !is_copy;
-    if (!is_off(tile)) return;
-    right += tile.kept.right_px > kStill, left += tile.kept.right_px < -kStill;
-    down += tile.kept.down_px > kStill, up += tile.kept.down_px < -kStill;
+    very_far += is_moved(tile, allowed_px + kVeryFar);
+    far += is_moved(tile, allowed_px + kFar) && !is_copy;
+    if (!is_off(tile, allowed_px)) return;
+    const double still = allowed_px + kStill;
+    right += tile.kept.right_px > still, left += tile.kept.right_px < -still;
+    down += tile.kept.down_px > still, up += tile.kept.down_px < -still;
   }
 
   /// What is put on whole pixels goes one way, whichever it is.
@@ -102,8 +104,8 @@ struct ShapeCounts {
 }  // namespace
 
 std::vector<bool> shape_changes(std::span<const int> tiles, std::span<const TileEvidence> evidence,
-                                const Texture& texture, int across) {
-  ShapeCounts all;
+                                const Texture& texture, int across, double allowed_px) {
+  ShapeCounts all{.allowed_px = allowed_px, .differing = {}};
   for (std::size_t i = 0; i < tiles.size(); ++i)
     all.add(evidence[i], tiles[i] % across, tiles[i] / across);
   const bool no_hints = !may_be_hints(all.differing, texture.bounds);
@@ -117,8 +119,9 @@ std::vector<bool> shape_changes(std::span<const int> tiles, std::span<const Tile
   std::vector<bool> is_changed(tiles.size());
   for (std::size_t i = 0; i < tiles.size(); ++i) {
     const TileEvidence& tile = evidence[i];
-    is_changed[i] = (any_moved && is_moved(tile, kMoved)) || (any_astray && is_off(tile)) ||
-                    (any_unlike && is_unlike(tile)) || (any_odd && is_odd(tile));
+    is_changed[i] = (any_moved && is_moved(tile, allowed_px + kMoved)) ||
+                    (any_astray && is_off(tile, allowed_px)) || (any_unlike && is_unlike(tile)) ||
+                    (any_odd && is_odd(tile));
   }
   return is_changed;
 }

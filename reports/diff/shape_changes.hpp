@@ -19,10 +19,10 @@ struct TileBounds {
   }
 };
 
-/// The tiles of a picture that are not of one colour.
+/// What is drawn in a picture.
 struct Texture {
-  int tiles = 0;
-  TileBounds bounds;
+  int tiles = 0;      ///< That are not of one colour.
+  TileBounds bounds;  ///< Of those with ink that stands out of noise.
 };
 
 /// Of a picture that differs all over, the tiles that no other hints and no other smoothing
@@ -31,8 +31,9 @@ struct Texture {
 ///
 /// @param tiles   Numbers of the tiles that differ; `evidence` is theirs.
 /// @param across  Tiles a row.
+/// @param allowed_px  How far a piece may be moved.
 /// @return One each of `tiles`.
 std::vector<bool> shape_changes(std::span<const int> tiles, std::span<const TileEvidence> evidence,
-                                const Texture& texture, int across);
+                                const Texture& texture, int across, double allowed_px);
 
 }  // namespace mapproof
