@@ -1,7 +1,5 @@
 #include "reports/diff/shape_changes.hpp"
 
-#include <cmath>
-
 namespace mapproof {
 namespace {
 
