@@ -11,6 +11,7 @@
 #include "core/statistics/paired_change.hpp"
 #include "core/statistics/signed_rank.hpp"
 #include "reports/history/regression_rules.hpp"
+#include "reports/history/shown_names.hpp"
 
 namespace mapproof {
 namespace {
@@ -116,7 +117,7 @@ void add_family(Work& work, const StudyEvidence& evidence, const RegressionRules
     comparison.before = known_median(evidence.reference->scores.at(*steps.back()));
     comparison.after = known_median(evidence.tonight.at(*steps.back()));
     if (std::cmp_less(comparison.differences.size(), rules.least_units))
-      work.too_few.insert(method_of(*steps.back()));
+      work.too_few.insert(shown_subject(method_of(*steps.back())));
     else
       work.comparisons.push_back(std::move(comparison));
   };
@@ -148,7 +149,7 @@ double sign_p(int lost, int gained) {
 }
 
 std::string percent_range(double low, double high) {
-  return fmt::format("{:.1f} to {:.1f} %", 100.0 * std::expm1(low), 100.0 * std::expm1(high));
+  return fmt::format("{:.1f} to {:.1f}\u00a0%", 100.0 * std::expm1(low), 100.0 * std::expm1(high));
 }
 
 std::string p_text(double p) { return p < 1e-9 ? "p < 1e-9" : fmt::format("p = {:.2g}", p); }
@@ -159,19 +160,21 @@ NightFinding finding_of(const Comparison& comparison, const PairedChange& change
   const bool ratio = quantity.compared == Compared::kRatio;
   const std::string interval =
       ratio ? percent_range(change.low, change.high)
-            : fmt::format("{:.2f} to {:.2f} points", change.low, change.high);
+            : fmt::format("{:.2f} to {:.2f}\u00a0points", change.low, change.high);
   const std::string units = counted(change.units, comparison.by_layout ? "layout" : "run");
   return {.study = evidence.trend.name,
           .rule = NightRule::kAccuracy,
           .subject = comparison.subject,
           .quantity = std::string(quantity.name),
           .since = evidence.trend.nights.back().number,
-          .sentence = fmt::format(
-              "{}: {} {} than on night {}, 95 % interval {}; median {:.4g} → {:.4g} {} at the last "
-              "step; {}, {} corrected for {}",
-              comparison.subject, quantity.label, change_words(change.shift, ratio, "higher"),
-              evidence.reference->night, interval, comparison.before, comparison.after,
-              quantity.unit, units, p_text(p), counted(static_cast<long long>(tests), "test"))};
+          .sentence =
+              fmt::format("{}: {} {} than on night {}, 95\u00a0% interval {}; median {:.4g} → "
+                          "{:.4g}\u00a0{} at the last "
+                          "step; {}, {} corrected for {}",
+                          shown_subject(comparison.subject), quantity.label,
+                          change_words(change.shift, ratio, "higher"), evidence.reference->night,
+                          interval, comparison.before, comparison.after, quantity.unit, units,
+                          p_text(p), counted(static_cast<long long>(tests), "test"))};
 }
 
 NightFinding finding_of(const Losses& losses, double p, const StudyEvidence& evidence) {
@@ -182,15 +185,15 @@ NightFinding finding_of(const Losses& losses, double p, const StudyEvidence& evi
           .since = evidence.trend.nights.back().number,
           .sentence = fmt::format(
               "{}: {} of the {} results of night {} no longer come out, {} do that did not; {}",
-              losses.subject, losses.lost, losses.of, evidence.reference->night, losses.gained,
-              p_text(p))};
+              shown_subject(losses.subject), losses.lost, losses.of, evidence.reference->night,
+              losses.gained, p_text(p))};
 }
 
 }  // namespace
 
 std::string change_words(double change, bool ratio, const std::string& word) {
-  return ratio ? fmt::format("{:.1f} % {}", 100.0 * std::expm1(change), word)
-               : fmt::format("{:.2f} points {}", change, word);
+  return ratio ? fmt::format("{:.1f}\u00a0% {}", 100.0 * std::expm1(change), word)
+               : fmt::format("{:.2f}\u00a0points {}", change, word);
 }
 
 RuleOutcome judge_accuracy(const StudyEvidence& evidence, const RegressionRules& rules) {

@@ -8,6 +8,7 @@
 #include "core/statistics/intervals.hpp"
 #include "core/statistics/robust_noise.hpp"
 #include "reports/history/regression_rules.hpp"
+#include "reports/history/shown_names.hpp"
 
 namespace mapproof {
 namespace {
@@ -100,9 +101,10 @@ NightFinding finding_of(const NightSeries& series, const Limit& limit, const Stu
           .quantity = series.quantity,
           .since = since,
           .sentence = fmt::format(
-              "{}: {} {} than usual in {} good nights, where the limit is {}{}", series.subject,
-              label, change_words(series.values.back() - limit.usual, series.ratio, word),
-              limit.nights, change_words(limit.most - limit.usual, series.ratio, word),
+              "{}: {} {} than usual in {} good nights, where the limit is {}{}",
+              shown_subject(series.subject), label,
+              change_words(series.values.back() - limit.usual, series.ratio, word), limit.nights,
+              change_words(limit.most - limit.usual, series.ratio, word),
               since == trend.nights.back().number ? "" : fmt::format("; since night {}", since))};
 }
 

@@ -7,6 +7,7 @@
 #include "core/statistics/change_point.hpp"
 #include "core/statistics/signed_rank.hpp"
 #include "reports/history/regression_rules.hpp"
+#include "reports/history/shown_names.hpp"
 
 namespace mapproof {
 namespace {
@@ -73,7 +74,7 @@ NightFinding finding_of(const Known& known, double p, std::size_t tests, const S
       .since = since,
       .sentence = fmt::format(
           "{}: {} {} since about night {}, {}; p = {:.2g} corrected for {} series of {} nights",
-          series.subject, label,
+          shown_subject(series.subject), label,
           change_words(known.change.rise, series.ratio,
                        series.quantity == "seconds" ? "slower" : "higher"),
           since, known.change.gradual ? "a slow drift" : "a step", p, tests, known.values.size())};

@@ -8,9 +8,9 @@
 #include <fmt/format.h>
 
 #include "core/base/words.hpp"
-#include "core/model/method.hpp"
 #include "render/figures/error_lines.hpp"
 #include "reports/history/history_tables.hpp"
+#include "reports/history/shown_names.hpp"
 
 namespace mapproof {
 namespace {
@@ -21,35 +21,12 @@ constexpr std::size_t kMostLines = 12;
 /// As many findings of a study stand at the head of a page; its page over the nights has all.
 constexpr std::size_t kMostTold = 3;
 
-/// "smacof-knn" of "smacof-knn-K6"; a range-only method's own name.
-std::string base_method(const std::string& method) {
-  std::string best;
-  for (const MethodInfo& known : all_methods())
-    if (method.starts_with(known.name) && known.name.size() > best.size() &&
-        (method.size() == known.name.size() || method[known.name.size()] == '-'))
-      best = known.name;
-  return best.empty() ? method : best;
-}
-
 /// [a-z0-9-]+ of any name.
 std::string id_of(const std::string& name) {
   std::string id;
   for (const char c : lower_case(name))
     id += (c >= 'a' && c <= 'z') || (c >= '0' && c <= '9') ? c : '-';
   return id;
-}
-
-/// "ISOMAP, K = 6" of "isomap-K6"; what is no method stays as it is.
-std::string shown_method(const std::string& method) {
-  const std::optional<Method> known = method_named(base_method(method));
-  if (!known) return method;
-  const std::string label(info(*known).label);
-  const std::string_view name = info(*known).name;
-  const auto& parameter = info(*known).parameter;
-  if (!parameter || method.size() <= name.size() + 1 + parameter->symbol.size()) return label;
-  std::string value = method.substr(name.size() + 1 + parameter->symbol.size());
-  if (value.starts_with('-')) value.erase(0, 1);  // Of "sigma2-10": no parameter is below 0.
-  return fmt::format("{}, {} = {}", label, parameter->shown, value);
 }
 
 double median_or_last(const std::vector<double>& values) {

@@ -6,6 +6,8 @@
 
 #include <fmt/format.h>
 
+#include "reports/history/shown_names.hpp"
+
 namespace mapproof {
 namespace {
 
@@ -114,10 +116,10 @@ Table accuracy_table(const StudyTrend& trend) {
     const HistoryQuantity& quantity = history_quantity(id.quantity);
     const std::vector<double>& values = trend.medians.at(id);
     const double before = values.size() > 1 ? values[values.size() - 2] : std::nan("");
-    table.rows.push_back(
-        {{text(subject_of(id)), text(std::string(quantity.label)), text(std::string(quantity.unit)),
-          number(values.front(), 4), number(before, 4), number(values.back(), 4)},
-         "medians over runs"});
+    table.rows.push_back({{text(shown_subject(id)), text(std::string(quantity.label)),
+                           text(std::string(quantity.unit)), number(values.front(), 4),
+                           number(before, 4), number(values.back(), 4)},
+                          "medians over runs"});
   }
   return table;
 }

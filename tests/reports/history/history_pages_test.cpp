@@ -6,6 +6,7 @@
 #include "reports/history/history_export.hpp"
 #include "reports/history/history_pages.hpp"
 #include "reports/history/history_store.hpp"
+#include "reports/history/shown_names.hpp"
 #include "tests/reports/history/sample_nights.hpp"
 #include "tests/support/temporary_folder.hpp"
 
@@ -46,6 +47,17 @@ TEST(HistoryPages, BeginWithThreeFindingsAndSayHowManyMore) {
   for (const Block& block : index.sections.front().blocks)
     if (const auto* list = std::get_if<BulletList>(&block)) items += list->items.size();
   EXPECT_EQ(items, 4U);
+}
+
+TEST(HistoryPages, NameMethodsAsTheStudysReportDoes) {
+  EXPECT_EQ(shown_method("isomap-K6"), "ISOMAP, K = 6");
+  EXPECT_EQ(shown_method("smacof-knn-K6"), "SMACOF, kNN weights, K = 6");
+  EXPECT_EQ(shown_method("kpca-gaussian-sigma2-10"), "KPCA, Gaussian, σ² = 10");
+  EXPECT_EQ(shown_method("isomap-K6 anchor-count=5"), "ISOMAP, K = 6, anchor-count=5");
+  EXPECT_EQ(shown_method("dead-reckoning"), "dead reckoning");
+  EXPECT_EQ(shown_method("factorization-of-9"), "factorization-of-9");
+  EXPECT_EQ(shown_subject("bearing, lpca, 150 steps"), "bearing, LPCA, 150 steps");
+  EXPECT_EQ(shown_subject("all methods"), "all methods");
 }
 
 TEST(HistoryExport, HasALineAValue) {

@@ -38,6 +38,9 @@ TEST(HistoryWeek, PlantedRegressionsAreNamedOnNightFiveAndNothingElseIs) {
     EXPECT_EQ(subjects(night), (std::vector<std::string>{"accuracy: bearing, isomap-K6, 2000 steps",
                                                          "seconds: bearing, lle-K6"}));
     for (const NightFinding& finding : night.findings) EXPECT_EQ(finding.since, 5);
+    const std::string& sentence = night.findings.front().sentence;
+    EXPECT_TRUE(sentence.starts_with("bearing, ISOMAP, K = 6, 2000 steps: MPE ")) << sentence;
+    EXPECT_EQ(sentence.find(" %"), std::string::npos) << "no line ends before its unit";
   }
 }
 
