@@ -1,124 +1,17 @@
 #include "reports/history/history_pages.hpp"
 
 #include <algorithm>
-#include <cmath>
-#include <set>
-#include <tuple>
 
 #include <fmt/format.h>
 
 #include "core/base/words.hpp"
-#include "render/figures/error_lines.hpp"
 #include "reports/history/history_tables.hpp"
-#include "reports/history/shown_names.hpp"
 
 namespace mapproof {
 namespace {
 
-/// More would hide each other; the table has all.
-constexpr std::size_t kMostLines = 12;
-
 /// As many findings of a study stand at the head of a page; its page over the nights has all.
 constexpr std::size_t kMostTold = 3;
-
-/// [a-z0-9-]+ of any name.
-std::string id_of(const std::string& name) {
-  std::string id;
-  for (const char c : lower_case(name))
-    id += (c >= 'a' && c <= 'z') || (c >= '0' && c <= '9') ? c : '-';
-  return id;
-}
-
-double median_or_last(const std::vector<double>& values) {
-  for (auto value = values.rbegin(); value != values.rend(); ++value)
-    if (std::isfinite(*value)) return *value;
-  return INFINITY;
-}
-
-using Line = std::pair<SeriesId, const std::vector<double>*>;
-
-/// Of each method the setting that is best tonight, at its last step.
-std::vector<Line> best_settings(const StudyTrend& trend, const std::string& sensor,
-                                const std::string& quantity) {
-  std::map<std::string, Line> best;
-  for (const auto& [id, values] : trend.medians) {
-    if (id.sensor != sensor || id.quantity != quantity) continue;
-    if (id.method.find(' ') != std::string::npos) continue;  // A variation.
-    Line& line = best[base_method(id.method)];
-    const bool later = line.second != nullptr && line.first.method == id.method;
-    if (line.second == nullptr || later || median_or_last(values) < median_or_last(*line.second))
-      line = {id, &values};
-  }
-  std::vector<Line> lines;
-  for (const auto& [method, line] : best)
-    if (std::isfinite(median_or_last(*line.second))) lines.push_back(line);
-  if (lines.size() > kMostLines) lines.resize(kMostLines);
-  return lines;
-}
-
-ErrorPanel panel_of(const StudyTrend& trend) {
-  ErrorPanel panel;
-  panel.x.label = "night";
-  panel.x.whole = true;
-  // A single night, too, has an axis.
-  const double first = trend.nights.front().number;
-  panel.x.limits = Range{first - 0.5, std::max<double>(trend.nights.back().number, first) + 0.5};
-  return panel;
-}
-
-std::vector<double> night_numbers(const StudyTrend& trend) {
-  std::vector<double> x;
-  for (const NightFacts& night : trend.nights) x.push_back(night.number);
-  return x;
-}
-
-std::optional<Figure> lines_figure(const StudyTrend& trend, const std::string& sensor,
-                                   const std::string& quantity) {
-  const std::vector<Line> lines = best_settings(trend, sensor, quantity);
-  if (lines.empty()) return std::nullopt;
-  const HistoryQuantity& facts = history_quantity(quantity);
-  ErrorLinesSpec spec;
-  spec.id = "trend-" + id_of(quantity) + "-" + id_of(sensor);
-  spec.title = fmt::format("{}: {}, night by night", sensor, facts.label);
-  spec.y_label = facts.unit.empty() ? std::string(facts.label)
-                                    : fmt::format("{} [{}]", facts.label, facts.unit);
-  spec.quantity = facts.label;
-  spec.caption = fmt::format(
-      "Lines: median over runs of {} at the last step, of each method the setting that is best "
-      "tonight.",
-      facts.label);
-  ErrorPanel panel = panel_of(trend);
-  for (const auto& [id, values] : lines) {
-    panel.lines.push_back({.label = shown_method(id.method),
-                           .key = id_of(id.method),
-                           .x = night_numbers(trend),
-                           .mean = *values});
-  }
-  spec.panels.push_back(std::move(panel));
-  Figure figure = error_lines_figure(spec);
-  figure.varies = facts.compared == Compared::kDuration;
-  return figure;
-}
-
-std::optional<Figure> memory_figure(const StudyTrend& trend) {
-  if (std::ranges::none_of(trend.peak_memory_mib, [](double mib) { return std::isfinite(mib); }))
-    return std::nullopt;
-  ErrorLinesSpec spec;
-  spec.id = "trend-memory";
-  spec.title = "Peak memory, night by night";
-  spec.y_label = "peak memory [MiB]";
-  spec.quantity = "peak memory";
-  spec.caption = "Peak memory of the process that made the study.";
-  ErrorPanel panel = panel_of(trend);
-  panel.lines.push_back({.label = "peak memory",
-                         .key = "peak-memory",
-                         .x = night_numbers(trend),
-                         .mean = trend.peak_memory_mib});
-  spec.panels.push_back(std::move(panel));
-  Figure figure = error_lines_figure(spec);
-  figure.varies = true;
-  return figure;
-}
 
 FigureBlock block_of(const Figure& figure) {
   return {figure.id, figure.title, figure.caption, figure.alt, figure.record_ids};
@@ -171,23 +64,9 @@ std::vector<std::string> studies_of(int night, const NightFindings& findings) {
 
 }  // namespace
 
-std::vector<Figure> trend_figures(const StudyTrend& trend) {
-  // The order of history_quantity()'s table: errors first.
-  std::set<std::tuple<const HistoryQuantity*, std::string, std::string>> shown;
-  for (const auto& [id, values] : trend.medians)
-    if (const HistoryQuantity& quantity = history_quantity(id.quantity);
-        quantity.compared != Compared::kNot)
-      shown.insert({&quantity, id.quantity, id.sensor});
-  std::vector<Figure> figures;
-  for (const auto& [place, quantity, sensor] : shown)
-    if (auto figure = lines_figure(trend, sensor, quantity)) figures.push_back(std::move(*figure));
-  if (auto figure = memory_figure(trend)) figures.push_back(std::move(*figure));
-  return figures;
-}
-
 HistoryPage trend_page(const StudyTrend& trend, const NightFindings& findings) {
   HistoryPage page;
-  page.figures = trend_figures(trend);
+  page.figures = trend_figures(trend, findings);
   page.report.title = trend.name + ", night by night";
   page.report.subtitle =
       fmt::format("Nights {} to {}", trend.nights.front().number, trend.nights.back().number);

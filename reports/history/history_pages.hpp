@@ -7,6 +7,7 @@
 
 #include "render/plot/figure.hpp"
 #include "reports/history/night.hpp"
+#include "reports/history/trend_figures.hpp"
 #include "reports/model/report.hpp"
 
 namespace mapproof {
@@ -17,14 +18,11 @@ struct HistoryPage {
   std::vector<Figure> figures;
 };
 
-/// Findings by night.
-using NightFindings = std::map<int, std::vector<NightFinding>>;
-
 /// Names of the studies by night.
 using NightStudies = std::map<int, std::vector<std::string>>;
 
-/// One study over the nights: what was found, accuracy of the best setting of each method, seconds
-/// and memory. Pure: the same values give the same page.
+/// One study over the nights: what was found, accuracy, seconds and memory of what
+/// trend_figures() shows. Pure: the same values give the same page.
 /// @param trend  At least one night.
 HistoryPage trend_page(const StudyTrend& trend, const NightFindings& findings);
 
@@ -37,9 +35,6 @@ Report index_page(std::span<const NightFacts> nights, const NightFindings& findi
 /// How a study of a judged night stands.
 /// @param is_compared  Whether the night of reference has the study, ordered in the same way.
 Standing standing(const Night& night, const std::string& study, bool is_compared);
-
-/// Figures of a trend: one a sensor and quantity of accuracy, seconds, memory.
-std::vector<Figure> trend_figures(const StudyTrend& trend);
 
 /// "Nothing got worse.", "Accuracy got worse: 2 findings.", …
 std::string verdict_sentence(const NightFacts& night, std::size_t findings);

@@ -49,6 +49,41 @@ TEST(HistoryPages, BeginWithThreeFindingsAndSayHowManyMore) {
   EXPECT_EQ(items, 4U);
 }
 
+/// A trend of two settings of ISOMAP, the first of which was best until the last night.
+StudyTrend best_got_worse() {
+  StudyTrend trend{.name = "mine"};
+  for (int number = 1; number <= 4; ++number) trend.nights.push_back({.number = number});
+  trend.peak_memory_mib = {80, 80, 80, 80};
+  trend.medians[{"bearing", "isomap-K5", 150, "mpe_m"}] = {0.10, 0.10, 0.10, 0.20};
+  trend.medians[{"bearing", "isomap-K6", 150, "mpe_m"}] = {0.15, 0.15, 0.15, 0.15};
+  trend.medians[{"bearing", "isomap-K7", 150, "mpe_m"}] = {0.12, 0.12, 0.12, 0.12};
+  return trend;
+}
+
+std::vector<std::string> curves(const Figure& figure) {
+  std::vector<std::string> labels;
+  for (const Layer& layer : figure.panels.front().layers)
+    if (const auto* line = std::get_if<Polyline>(&layer)) labels.push_back(line->label);
+  return labels;
+}
+
+TEST(HistoryPages, ShowTheSettingThatWasBestAndGotWorseAndMarkTheNight) {
+  const StudyTrend trend = best_got_worse();
+  EXPECT_EQ(curves(trend_figures(trend, {}).front()), std::vector<std::string>{"ISOMAP, K = 5"});
+  const NightFindings findings = {
+      {4,
+       {{.study = "mine", .subject = "bearing, isomap-K5, 150 steps", .quantity = "mpe_m"},
+        {.study = "mine", .subject = "bearing, isomap-K6, 150 steps", .quantity = "mpe_m"},
+        {.study = "another", .subject = "bearing, isomap-K7, 150 steps", .quantity = "mpe_m"}}}};
+  const Figure figure = trend_figures(trend, findings).front();
+  EXPECT_EQ(curves(figure), (std::vector<std::string>{"ISOMAP, K = 5", "ISOMAP, K = 6"}));
+  std::vector<std::pair<double, double>> marked;
+  for (const Layer& layer : figure.panels.front().layers)
+    if (const auto* mark = std::get_if<Scatter>(&layer))
+      marked.emplace_back(mark->x.front(), mark->y.front());
+  EXPECT_EQ(marked, (std::vector<std::pair<double, double>>{{4, 0.20}, {4, 0.15}}));
+}
+
 TEST(HistoryPages, NameMethodsAsTheStudysReportDoes) {
   EXPECT_EQ(shown_method("isomap-K6"), "ISOMAP, K = 6");
   EXPECT_EQ(shown_method("smacof-knn-K6"), "SMACOF, kNN weights, K = 6");

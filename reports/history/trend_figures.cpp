@@ -1,0 +1,245 @@
+#include "reports/history/trend_figures.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <iterator>
+#include <optional>
+#include <set>
+#include <tuple>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "core/base/words.hpp"
+#include "core/statistics/intervals.hpp"
+#include "render/figures/error_lines.hpp"
+#include "reports/history/shown_names.hpp"
+
+namespace mapproof {
+namespace {
+
+/// More would hide each other; the table has all.
+constexpr std::size_t kMostLines = 12;
+
+/// Of a figure.
+constexpr std::size_t kLongestId = 120;
+
+constexpr const char* kFound = "a finding";
+
+/// [a-z0-9-]+ of any name.
+std::string id_of(const std::string& name) {
+  std::string id;
+  for (const char c : lower_case(name))
+    id += (c >= 'a' && c <= 'z') || (c >= '0' && c <= '9') ? c : '-';
+  return id;
+}
+
+/// Over the nights; infinite if none has a value.
+double level_over_nights(const std::vector<double>& values) {
+  std::vector<double> known;
+  std::ranges::copy_if(values, std::back_inserter(known),
+                       [](double v) { return std::isfinite(v); });
+  return known.empty() ? INFINITY : median(known);
+}
+
+/// A trend with what was found of it.
+struct Told {
+  const StudyTrend& trend;
+  std::vector<std::pair<std::size_t, const NightFinding*>> findings;  ///< By the night's place.
+  const TrendPlace& place;
+};
+
+Told told_of(const StudyTrend& trend, const NightFindings& findings, const TrendPlace& place) {
+  Told told{trend, {}, place};
+  for (std::size_t i = 0; i < trend.nights.size(); ++i)
+    if (const auto night = findings.find(trend.nights[i].number); night != findings.end())
+      for (const NightFinding& finding : night->second)
+        if (finding.study == trend.name) told.findings.emplace_back(i, &finding);
+  return told;
+}
+
+/// Whether a finding is about this line: about its method, or about all.
+bool is_about(const NightFinding& finding, const SeriesId& id) {
+  if (finding.quantity != id.quantity) return false;
+  const std::string method = method_of(id);
+  return finding.subject == "all methods" || finding.subject == method ||
+         finding.subject.starts_with(method + ", ");
+}
+
+/// Whether one is about it by name.
+bool is_found(const Told& told, const SeriesId& id) {
+  return std::ranges::any_of(told.findings, [&](const auto& found) {
+    return found.second->subject != "all methods" && is_about(*found.second, id);
+  });
+}
+
+struct Line {
+  SeriesId id = {};
+  const std::vector<double>* values = nullptr;
+  bool is_found = false;
+};
+
+/// The last step of each setting that has values.
+std::vector<Line> all_settings(const Told& told, const std::string& sensor,
+                               const std::string& quantity) {
+  std::map<std::string, Line> last;  // Series ascend by step.
+  for (const auto& [id, values] : told.trend.medians)
+    if (id.sensor == sensor && id.quantity == quantity)
+      last[id.method] = {id, &values, is_found(told, id)};
+  std::vector<Line> lines;
+  for (const auto& [method, line] : last)
+    if (std::isfinite(level_over_nights(*line.values))) lines.push_back(line);
+  return lines;
+}
+
+/// Of each method the setting that was best over the nights, and all that have findings: one that
+/// got worse may have been the best. In the order of their names.
+std::vector<Line> shown_settings(const Told& told, const std::string& sensor,
+                                 const std::string& quantity) {
+  const std::vector<Line> all = all_settings(told, sensor, quantity);
+  std::map<std::string, const Line*> best;
+  for (const Line& line : all) {
+    if (line.id.method.find(' ') != std::string::npos) continue;  // A variation.
+    const Line*& known = best[base_method(line.id.method)];
+    if (known == nullptr || level_over_nights(*line.values) < level_over_nights(*known->values))
+      known = &line;
+  }
+  std::vector<Line> lines;
+  for (const Line& line : all)
+    if (line.is_found) lines.push_back(line);
+  for (const auto& [method, line] : best)
+    if (!line->is_found) lines.push_back(*line);
+  if (lines.size() > kMostLines) lines.resize(kMostLines);
+  std::ranges::sort(lines, {}, &Line::id);
+  return lines;
+}
+
+ErrorPanel panel_of(const StudyTrend& trend) {
+  ErrorPanel panel;
+  panel.x.label = "night";
+  panel.x.whole = true;
+  // A single night, too, has an axis.
+  const double first = trend.nights.front().number;
+  panel.x.limits = Range{first - 0.5, std::max<double>(trend.nights.back().number, first) + 0.5};
+  return panel;
+}
+
+std::vector<double> night_numbers(const StudyTrend& trend) {
+  std::vector<double> x;
+  for (const NightFacts& night : trend.nights) x.push_back(night.number);
+  return x;
+}
+
+/// A mark at each night's value of a line that a finding is about.
+template <typename Predicate>
+void mark_findings(const Told& told, const std::string& label, const std::vector<double>& values,
+                   const Predicate& is_about_it, ErrorPanel& panel) {
+  std::set<std::size_t> marked;
+  for (const auto& [night, finding] : told.findings)
+    if (is_about_it(*finding) && std::isfinite(values[night]) && marked.insert(night).second)
+      panel.points.push_back({.label = kFound,
+                              .line = label,
+                              .x = static_cast<double>(told.trend.nights[night].number),
+                              .y = values[night]});
+}
+
+/// What all figures of a trend have in common.
+ErrorLinesSpec named_spec(const Told& told, const std::string& id, const std::string& title) {
+  ErrorLinesSpec spec;
+  const bool named = told.place.among_others;
+  spec.id = ("trend-" + (named ? id_of(told.trend.name) + "-" : "") + id).substr(0, kLongestId);
+  spec.title = (named ? told.trend.name + ", " : "") + title + ", night by night";
+  return spec;
+}
+
+/// Ends the caption and draws it.
+Figure drawn(ErrorLinesSpec spec, ErrorPanel panel, bool varies) {
+  if (!panel.points.empty()) spec.caption += " Large marks: nights that have a finding about it.";
+  spec.panels.push_back(std::move(panel));
+  Figure figure = error_lines_figure(spec);
+  figure.varies = varies;
+  return figure;
+}
+
+std::optional<Figure> lines_figure(const Told& told, const std::string& sensor,
+                                   const std::string& quantity) {
+  const std::vector<Line> lines = shown_settings(told, sensor, quantity);
+  if (lines.empty()) return std::nullopt;
+  const HistoryQuantity& facts = history_quantity(quantity);
+  ErrorLinesSpec spec = named_spec(told, id_of(quantity) + "-" + id_of(sensor),
+                                   fmt::format("{}: {}", sensor, facts.label));
+  spec.y_label = facts.unit.empty() ? std::string(facts.label)
+                                    : fmt::format("{} [{}]", facts.label, facts.unit);
+  spec.quantity = facts.label;
+  spec.caption = fmt::format(
+      "Lines: median over runs of {} at the last step, of each method the setting that was best "
+      "over these nights, and every setting that got worse.",
+      facts.label);
+  ErrorPanel panel = panel_of(told.trend);
+  for (const Line& line : lines) {
+    const std::string label = shown_method(line.id.method);
+    panel.lines.push_back({.label = label,
+                           .key = id_of(line.id.method),
+                           .x = night_numbers(told.trend),
+                           .mean = *line.values});
+    const auto is_about_it = [&](const NightFinding& finding) {
+      return is_about(finding, line.id);
+    };
+    mark_findings(told, label, *line.values, is_about_it, panel);
+  }
+  return drawn(std::move(spec), std::move(panel), facts.compared == Compared::kDuration);
+}
+
+std::optional<Figure> memory_figure(const Told& told) {
+  const std::vector<double>& mib = told.trend.peak_memory_mib;
+  if (std::ranges::none_of(mib, [](double value) { return std::isfinite(value); }))
+    return std::nullopt;
+  ErrorLinesSpec spec = named_spec(told, "memory", "Peak memory");
+  spec.y_label = "peak memory [MiB]";
+  spec.quantity = "peak memory";
+  spec.caption = "Peak memory of the process that made the study.";
+  ErrorPanel panel = panel_of(told.trend);
+  panel.lines.push_back(
+      {.label = "peak memory", .key = "peak-memory", .x = night_numbers(told.trend), .mean = mib});
+  const auto is_memory = [](const NightFinding& finding) { return finding.quantity == "memory"; };
+  mark_findings(told, "peak memory", mib, is_memory, panel);
+  return drawn(std::move(spec), std::move(panel), true);
+}
+
+/// Sensor and quantity of a figure, errors first: the order of history_quantity()'s table.
+using Subject = std::tuple<bool, const HistoryQuantity*, std::string, std::string>;
+
+/// @param worst_first  Whether those that tonight's findings are about go before the others.
+std::set<Subject> subjects_of(const Told& told, bool worst_first) {
+  const std::size_t tonight = told.trend.nights.size() - 1;
+  std::set<std::tuple<std::string, std::string>> found;
+  for (const auto& [id, values] : told.trend.medians)
+    for (const auto& [night, finding] : told.findings)
+      if (night == tonight && is_about(*finding, id)) found.insert({id.quantity, id.sensor});
+  std::set<Subject> subjects;
+  for (const auto& [id, values] : told.trend.medians)
+    if (const HistoryQuantity& quantity = history_quantity(id.quantity);
+        quantity.compared != Compared::kNot) {
+      const bool later = worst_first && !found.contains({id.quantity, id.sensor});
+      subjects.insert({later, &quantity, id.quantity, id.sensor});
+    }
+  return subjects;
+}
+
+}  // namespace
+
+std::vector<Figure> trend_figures(const StudyTrend& trend, const NightFindings& findings,
+                                  const TrendPlace& place) {
+  const Told told = told_of(trend, findings, place);
+  std::vector<Figure> figures;
+  const auto is_full = [&] { return place.most > 0 && figures.size() >= place.most; };
+  for (const auto& [later, facts, quantity, sensor] : subjects_of(told, place.most > 0)) {
+    if (is_full()) break;
+    if (auto figure = lines_figure(told, sensor, quantity)) figures.push_back(std::move(*figure));
+  }
+  if (!is_full())
+    if (auto figure = memory_figure(told)) figures.push_back(std::move(*figure));
+  return figures;
+}
+
+}  // namespace mapproof
