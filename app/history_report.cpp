@@ -22,9 +22,10 @@ fs::path write_history_pages(HistoryStore& history, const fs::path& out,
   }
   if (!nights.empty())
     for (const StudyNight& study : history.studies(nights.back().number)) {
+      const std::optional<int> reference = nights.back().reference;
       HistoryPage trend = trend_page(
           history.trend(study.name, study.order_digest, kTrendNights, nights.back().number),
-          findings);
+          findings, reference && has_study(history, *reference, study));
       const FolderReport report{.folder = out / "trends" / study.name,
                                 .report = std::move(trend.report),
                                 .in_company = {},

@@ -15,6 +15,7 @@
 #include <fmt/format.h>
 
 #include "core/base/errors.hpp"
+#include "reports/history/night_scores.hpp"
 
 namespace mapproof {
 namespace {
@@ -57,6 +58,14 @@ std::vector<StudyOrder> read_nightly_orders(const std::vector<std::string>& expe
   }
   check_data_used(orders, options);
   return orders;
+}
+
+std::vector<StudyNight> planned_studies(const std::vector<StudyOrder>& orders) {
+  std::vector<StudyNight> studies;
+  for (const StudyOrder& order : orders)
+    studies.push_back(
+        {.name = order.name, .order_digest = order_digest(study_json(order), order.name)});
+  return studies;
 }
 
 int make_apart(const StudyOrder& order, const fs::path& folder, int jobs,

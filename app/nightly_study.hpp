@@ -6,6 +6,7 @@
 
 #include "app/console.hpp"
 #include "app/study_order.hpp"
+#include "reports/history/night.hpp"
 
 namespace mapproof {
 
@@ -15,6 +16,9 @@ namespace mapproof {
 /// @throws IoError, InvalidInput: among others if two have one name.
 std::vector<StudyOrder> read_nightly_orders(const std::vector<std::string>& experiments,
                                             OrderOptions options);
+
+/// What the studies of a night will be, before they are made: names and what they are compared by.
+std::vector<StudyNight> planned_studies(const std::vector<StudyOrder>& orders);
 
 /// Makes the records of a study in a process of its own, so that the peak of its memory is its own
 /// and its crash is its own.

@@ -4,15 +4,19 @@
 
 #include <fmt/format.h>
 
+#include "app/build_facts.hpp"
 #include "app/study_run.hpp"
 #include "app/trial_outputs.hpp"
 #include "core/base/errors.hpp"
 #include "core/base/sha256.hpp"
 #include "core/records/experiment_json.hpp"
+#include "core/records/run_json.hpp"
 #include "core/records/slam_experiment_json.hpp"
+#include "core/records/slam_run_json.hpp"
 #include "core/records/slam_store.hpp"
 #include "core/records/study_store.hpp"
 #include "core/records/trial_experiment_json.hpp"
+#include "core/records/trial_json.hpp"
 
 namespace mapproof {
 namespace {
@@ -139,6 +143,15 @@ std::vector<std::string> words_of(std::span<const StudyOrder> orders, const Orde
   if (options.plaza) words.insert(words.end(), {"--plaza", *options.plaza});
   if (options.data) words.insert(words.end(), {"--data", *options.data});
   return words;
+}
+
+std::string study_json(const StudyOrder& order) {
+  const Provenance provenance = build_provenance();
+  if (const auto* slam = std::get_if<LoggedSlam>(&order.experiment))
+    return slam_study_json(slam->experiment, provenance);
+  if (const auto* trials = std::get_if<TrialOrder>(&order.experiment))
+    return trial_study_json(planned_study(trials->experiment, provenance));
+  return study_json(std::get<Experiment>(order.experiment), provenance);
 }
 
 void make_study(const StudyOrder& order, const std::filesystem::path& folder, int jobs,

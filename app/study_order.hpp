@@ -59,6 +59,9 @@ void check_data_used(std::span<const StudyOrder> orders, const OrderOptions& opt
 /// the rest.
 std::vector<std::string> words_of(std::span<const StudyOrder> orders, const OrderOptions& options);
 
+/// The text of the study.json that make_study() writes. @throws InvalidInput.
+std::string study_json(const StudyOrder& order);
+
 /// Runs what a folder does not hold yet, with a progress line, and notes the session.
 /// @param command  What makes the study again. @throws IoError, InvalidInput.
 void make_study(const StudyOrder& order, const std::filesystem::path& folder, int jobs,

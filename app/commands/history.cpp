@@ -29,7 +29,7 @@ struct Arguments {
 int list(HistoryStore& history, const Console& console) {
   std::string text;
   for (const NightFacts& night : history.nights()) {
-    text += fmt::format("{:>5}  {}  {:<8}{}", night.number, night.started_utc, name(night.verdict),
+    text += fmt::format("{:>5}  {}  {:<12}{}", night.number, night.started_utc, verdict_word(night),
                         night.pinned ? "  pinned" : "");
     for (const StudyNight& study : history.studies(night.number))
       text += fmt::format("  {} ({})", study.name, counted(study.runs, "run"));

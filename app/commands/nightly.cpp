@@ -27,6 +27,7 @@
 #include "reports/history/history_prune.hpp"
 #include "reports/history/judge_night.hpp"
 #include "reports/history/night_scores.hpp"
+#include "reports/history/night_standing.hpp"
 #include "reports/history/object_folder.hpp"
 
 namespace mapproof {
@@ -113,7 +114,8 @@ bool write_all(Night& night, HistoryStore& history, const fs::path& folder, cons
         read_folder_report(folder / study.name, invocation.command, invocation.command);
     const bool is_compared =
         night.facts.reference && has_study(history, *night.facts.reference, study);
-    report.report.opening.standing = standing(night, study.name, is_compared);
+    report.report.opening.standing =
+        study_standing(night.facts, night.findings, study.name, is_compared);
     scenes_drawn &= draw(report, page, arguments.jobs, invocation.console);
     study.figures = objects.keep(folder / study.name / "figures");
   }
@@ -157,7 +159,10 @@ int nightly(const Arguments& arguments, const Invocation& invocation) {
   for (const std::string& remark : history.remarks()) console.warning(remark);
 
   Night night{.facts = begun(next_night(history, store), arguments.jobs, invocation.command)};
-  if (asked) reference_night(history, night, asked);  // Refused before hours of work.
+  if (asked) {  // Refused before hours of work.
+    night.studies = planned_studies(orders);
+    reference_night(history, night, asked);
+  }
   const fs::path folder = night_folder(store, night.facts.number);
   begin_night(folder, orders, console);
   const int made = make_all(orders, folder, arguments.jobs, invocation.command, console);
@@ -192,7 +197,8 @@ Action nightly_verb(CLI::App& app) {
       "Examples:\n"
       "  mapproof nightly yairi2007 --store history\n"
       "  mapproof nightly mine.json boots2013 --profile quick --store history --reference 12\n\n"
-      "Exit code 0: nothing got worse; 1: accuracy did; 4: seconds or memory alone grew.\n"
+      "Exit code 0: nothing got worse, or there was nothing to compare with, which is said;\n"
+      "1: accuracy did; 4: seconds or memory alone grew.\n"
       "docs/nightly.md says by which rules, and how to run it by a timer.\n");
   app.add_option("EXPERIMENT", arguments->experiments,
                  fmt::format("Experiments' JSON files, or {}", fmt::join(experiment_names(), ", ")))
@@ -201,7 +207,8 @@ Action nightly_verb(CLI::App& app) {
       ->required();
   add_out_option(app, arguments->out, "Folder for index and trend pages, instead of the store");
   app.add_option("--reference", arguments->reference,
-                 "Night to compare with: its number, or last-good (the pinned one if there is one)")
+                 "Night to compare with: its number, refused if it had other settings or another "
+                 "seed, or last-good (the pinned one if there is one)")
       ->capture_default_str();
   app.add_option("--profile", arguments->order.profile,
                  "Profile of those experiments that have it");

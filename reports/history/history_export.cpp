@@ -78,7 +78,7 @@ ordered_json night_value(const NightFacts& facts, const std::vector<NightFinding
                      {"jobs", facts.jobs},
                      {"reference", nullptr},
                      {"pinned", facts.pinned},
-                     {"verdict", name(facts.verdict)},
+                     {"verdict", verdict_word(facts)},
                      {"findings", ordered_json::array()}};
   if (facts.reference) value["reference"] = *facts.reference;
   for (const NightFinding& finding : findings)

@@ -6,6 +6,7 @@
 
 #include "core/base/words.hpp"
 #include "reports/history/history_tables.hpp"
+#include "reports/history/night_standing.hpp"
 
 namespace mapproof {
 namespace {
@@ -25,31 +26,23 @@ std::vector<std::string> told_of(std::span<const NightFinding> findings, const s
   return sentences;
 }
 
+/// The findings of a night.
+std::span<const NightFinding> found_on(int night, const NightFindings& findings) {
+  const auto found = findings.find(night);
+  return found == findings.end() ? std::span<const NightFinding>{} : found->second;
+}
+
 std::vector<std::string> told_of(const NightFindings& findings, int night,
                                  const std::string& study) {
   const auto of_night = findings.find(night);
   return of_night == findings.end() ? std::vector<std::string>{} : told_of(of_night->second, study);
 }
 
-Section summary_section(const StudyTrend& trend, const NightFindings& findings) {
-  Section section{"summary", "Tonight", {}};
-  const NightFacts& tonight = trend.nights.back();
-  const std::vector<std::string> found = told_of(findings, tonight.number, trend.name);
-  if (found.empty())
-    section.blocks.emplace_back(
-        Paragraph{{{fmt::format("Night {}: nothing got worse in this study.", tonight.number)}}});
-  BulletList list;
-  for (const std::string& sentence : std::span(found).first(std::min(found.size(), kMostTold)))
-    list.items.push_back({{{sentence}}});
-  if (found.size() > kMostTold)
-    list.items.push_back(
-        {{{fmt::format("And {} more, under Findings.", found.size() - kMostTold)}}});
-  if (!list.items.empty()) section.blocks.emplace_back(std::move(list));
-  section.blocks.emplace_back(Paragraph{
-      {{fmt::format("{} from night {} on are shown: those that had the same order as the last.",
-                    counted(static_cast<long long>(trend.nights.size()), "night"),
-                    trend.nights.front().number)}}});
-  return section;
+/// Which nights the page is of.
+Paragraph nights_shown(const StudyTrend& trend) {
+  return {{{fmt::format("{} from night {} on are shown: those that had the same order as the last.",
+                        counted(static_cast<long long>(trend.nights.size()), "night"),
+                        trend.nights.front().number)}}};
 }
 
 /// The studies that have findings of a night, in the order of these.
@@ -64,14 +57,16 @@ std::vector<std::string> studies_of(int night, const NightFindings& findings) {
 
 }  // namespace
 
-HistoryPage trend_page(const StudyTrend& trend, const NightFindings& findings) {
+HistoryPage trend_page(const StudyTrend& trend, const NightFindings& findings, bool is_compared) {
   HistoryPage page;
   page.figures = trend_figures(trend, findings);
   page.report.title = trend.name + ", night by night";
   page.report.subtitle =
       fmt::format("Nights {} to {}", trend.nights.front().number, trend.nights.back().number);
-  page.report.sections.push_back(summary_section(trend, findings));
-  Section figures{"trends", "Trends", {}};
+  const NightFacts& tonight = trend.nights.back();
+  page.report.opening.standing =
+      study_standing(tonight, found_on(tonight.number, findings), trend.name, is_compared);
+  Section figures{"trends", "Trends", {nights_shown(trend)}};
   Gallery gallery;
   for (const Figure& figure : page.figures) gallery.figures.push_back(block_of(figure));
   figures.blocks.emplace_back(std::move(gallery));
@@ -80,40 +75,6 @@ HistoryPage trend_page(const StudyTrend& trend, const NightFindings& findings) {
   if (Table found = findings_table(findings, trend.name); !found.rows.empty())
     page.report.sections.push_back({"findings", "Findings", {std::move(found)}});
   return page;
-}
-
-std::string verdict_sentence(const NightFacts& night, std::size_t findings) {
-  const std::string count = counted(static_cast<long long>(findings), "finding");
-  switch (night.verdict) {
-    case NightVerdict::kGood:
-      return night.reference ? fmt::format("Nothing got worse than on night {}.", *night.reference)
-                             : "There was nothing to compare with.";
-    case NightVerdict::kCost:
-      return "Accuracy is as it was; seconds or memory grew: " + count + ".";
-    default:
-      return "Accuracy got worse: " + count + ".";
-  }
-}
-
-Standing standing(const Night& night, const std::string& study, bool is_compared) {
-  Standing result;
-  result.sentences = told_of(night.findings, study);
-  const std::size_t count = result.sentences.size();
-  const std::string tonight = fmt::format("Night {}: ", night.facts.number);
-  result.worse = count > 0;
-  if (count > kMostTold) {
-    result.sentences.resize(kMostTold);
-    result.sentences.push_back(
-        fmt::format("And {} more, on the page of this study over the nights.", count - kMostTold));
-  }
-  if (result.worse)
-    result.title = tonight + counted(static_cast<long long>(count), "thing") + " got worse";
-  else if (is_compared && night.facts.reference)
-    result.title =
-        tonight + fmt::format("nothing got worse than on night {}", *night.facts.reference);
-  else
-    result.title = tonight + "there was nothing to compare with";
-  return result;
 }
 
 Report index_page(std::span<const NightFacts> nights, const NightFindings& findings,

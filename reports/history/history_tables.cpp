@@ -18,10 +18,10 @@ Cell number(double value, int decimals) {
   return NumberCell{value, decimals};
 }
 
-std::string words_of(NightVerdict verdict) {
-  switch (verdict) {
+std::string words_of(const NightFacts& night) {
+  switch (night.verdict) {
     case NightVerdict::kGood:
-      return "good";
+      return std::string(verdict_word(night));
     case NightVerdict::kCost:
       return "slower or larger";
     default:
@@ -75,7 +75,7 @@ Table nights_table(std::span<const NightFacts> nights, const NightFindings& find
       place += made->second.front() + "/report.html";
     const Cell against = night.reference ? Cell{number(*night.reference, 0)} : Cell{MissingCell{}};
     table.rows.push_back({{number(night.number, 0), text(to_the_minute(night.started_utc)),
-                           text(words_of(night.verdict) + (night.pinned ? ", pinned" : "")),
+                           text(words_of(night) + (night.pinned ? ", pinned" : "")),
                            number(static_cast<double>(count), 0), against,
                            TextCell{night.host, Emphasis::kData}, TextCell{place, Emphasis::kFile}},
                           fmt::format("night {}", night.number)});

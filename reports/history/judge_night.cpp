@@ -97,6 +97,11 @@ std::optional<int> reference_night(HistoryStore& store, const Night& tonight,
   if (asked) {
     if (std::ranges::find(nights, *asked, &NightFacts::number) == nights.end())
       throw InvalidInput(fmt::format("--reference: there is no night {}", *asked));
+    if (!can_be_compared(store, *asked, tonight))
+      throw InvalidInput(
+          fmt::format("--reference: night {} made nothing of what is asked for with these settings "
+                      "and this seed",
+                      *asked));
     return asked;
   }
   for (const NightFacts& night : nights)
@@ -111,7 +116,7 @@ std::vector<std::string> judge_night(HistoryStore& store, Night& tonight,
                                      std::optional<int> asked_reference,
                                      const RegressionRules& rules) {
   tonight.facts.reference = reference_night(store, tonight, asked_reference);
-  // A night that was asked for or pinned may have made nothing of what tonight made.
+  // A night that was pinned may have made nothing of what tonight made.
   if (tonight.facts.reference && !can_be_compared(store, *tonight.facts.reference, tonight))
     tonight.facts.reference.reset();
   const std::vector<NightFacts> nights = store.nights();

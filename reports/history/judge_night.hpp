@@ -17,10 +17,11 @@ RuleOutcome judge_study(const StudyEvidence& evidence, const RegressionRules& ru
 /// Whether a night of the store has the study, ordered just as tonight. @throws IoError.
 bool has_study(HistoryStore& store, int night, const StudyNight& tonight);
 
-/// The night that tonight is compared with.
+/// The night that tonight is compared with: of its studies name and order are asked for alone.
 /// @param asked  Its number; empty: the pinned night, or else the last good one that has a study of
 ///               tonight's.
-/// @throws InvalidInput if there is no night of that number.
+/// @throws InvalidInput if there is no night of that number, or none of tonight's studies can be
+///         compared with it.
 std::optional<int> reference_night(HistoryStore& store, const Night& tonight,
                                    std::optional<int> asked);
 

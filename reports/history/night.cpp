@@ -103,6 +103,11 @@ NightVerdict verdict_of(const std::vector<NightFinding>& findings) {
   return verdict;
 }
 
+std::string_view verdict_word(const NightFacts& night) {
+  const bool unjudged = night.verdict == NightVerdict::kGood && !night.reference;
+  return unjudged ? "not compared" : name(night.verdict);
+}
+
 bool same_machine(const NightFacts& a, const NightFacts& b) {
   return a.host == b.host && a.processor == b.processor && a.cores == b.cores && a.jobs == b.jobs;
 }

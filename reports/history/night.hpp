@@ -134,6 +134,10 @@ struct NightFacts {
   NightVerdict verdict = NightVerdict::kGood;
 };
 
+/// The verdict in a word: its name, but "not compared" where nothing got worse because there was
+/// nothing to compare with.
+std::string_view verdict_word(const NightFacts& night);
+
 /// Whether seconds of the two can be compared.
 bool same_machine(const NightFacts& a, const NightFacts& b);
 

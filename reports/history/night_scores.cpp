@@ -100,14 +100,6 @@ void add_sessions(StudyNight& night, const std::vector<Session>& sessions) {
   }
 }
 
-/// study.json without what made it: the experiment as it was ordered.
-std::string order_digest(const std::filesystem::path& folder) {
-  const std::filesystem::path path = folder / "study.json";
-  JsonDocument document = parse_json(read_file(path), path.string());
-  document.root.erase("provenance");
-  return sha256_hex(json_text(nlohmann::ordered_json(document.root)));
-}
-
 }  // namespace
 
 Scores night_scores(const Study& study, std::span<const Timing> timings) {
@@ -162,8 +154,15 @@ Scores night_scores(const TrialStudy& study) {
   return scores;
 }
 
+std::string order_digest(const std::string& study_json, const std::string& source) {
+  JsonDocument document = parse_json(study_json, source);
+  document.root.erase("provenance");
+  return sha256_hex(json_text(nlohmann::ordered_json(document.root)));
+}
+
 StudyNight read_study_night(const std::filesystem::path& folder, const std::string& name) {
-  StudyNight night{.name = name, .order_digest = order_digest(folder)};
+  const std::filesystem::path head = folder / "study.json";
+  StudyNight night{.name = name, .order_digest = order_digest(read_file(head), head.string())};
   if (is_slam_study(folder)) {
     const SlamStudy study = read_slam_study(folder);
     night.kind = "mapproof.slam_study";

@@ -2,6 +2,7 @@
 
 #include <filesystem>
 #include <span>
+#include <string>
 #include <vector>
 
 #include "core/model/slam_study.hpp"
@@ -19,6 +20,10 @@ Scores night_scores(const Study& study, std::span<const Timing> timings);
 /// seconds of each method.
 Scores night_scores(const SlamStudy& study, const SlamTimings& timings);
 Scores night_scores(const TrialStudy& study);
+
+/// What nights are compared by: the SHA-256 of a study.json without what made it, which leaves the
+/// experiment as it was ordered. @throws IoError if the text is no JSON.
+std::string order_digest(const std::string& study_json, const std::string& source);
 
 /// The study in a folder as a night keeps it, its figures apart. @throws IoError.
 StudyNight read_study_night(const std::filesystem::path& folder, const std::string& name);

@@ -34,6 +34,13 @@ json history(const fs::path& store) {
   return json::parse(outcome.out);
 }
 
+std::size_t lines_with(const std::string& text, const std::string& part) {
+  std::istringstream lines(text);
+  std::size_t count = 0;
+  for (std::string line; std::getline(lines, line);) count += line.find(part) != std::string::npos;
+  return count;
+}
+
 /// Runs statements on the store's file from beside the program.
 void change(const fs::path& store, const std::string& statements) {
   sqlite3* database = nullptr;
@@ -65,8 +72,7 @@ TEST(Nightly, RecordsANightAndItsReportAndFindsNothingWorseInTheNext) {
   const auto report_of = [&](const char* number) {
     return read_file(store / "nights" / number / "small/report.html");
   };
-  EXPECT_NE(report_of("0001").find("Night 1: there was nothing to compare with"),
-            std::string::npos);
+  EXPECT_NE(report_of("0001").find("Night 1: not compared"), std::string::npos);
   EXPECT_NE(report_of("0002").find("Night 2: nothing got worse than on night 1"),
             std::string::npos);
 }
@@ -90,21 +96,42 @@ TEST(Nightly, RefusesANightToCompareWithThatIsNotThereBeforeAnyWork) {
   EXPECT_FALSE(fs::exists(folder / "h/nights/0001/small"));
 }
 
-TEST(Nightly, SaysThatTheNightItWasToCompareWithMadeSomethingElse) {
+/// small.json with another seed, under the same name.
+std::string of_another_seed(const TemporaryFolder& folder) {
+  std::string other = read_file(kSmall);
+  const std::size_t seed = other.find("\"seed\": ");
+  EXPECT_NE(seed, std::string::npos);
+  other.insert(seed + 8, "1");
+  return folder.file("small.json", other);
+}
+
+TEST(Nightly, RefusesANightToCompareWithThatMadeSomethingElseBeforeAnyWork) {
   const TemporaryFolder folder;
   const fs::path store = folder / "history";
   ASSERT_EQ(night(store).exit_code, 0);
-  std::string other = read_file(kSmall);
-  const std::size_t seed = other.find("\"seed\": ");
-  ASSERT_NE(seed, std::string::npos);
-  other.insert(seed + 8, "1");
-  const std::string file = folder.file("small.json", other);
-  const Outcome outcome = night(store, {"--reference", "1"}, file);
+  const Outcome outcome = night(store, {"--reference", "1"}, of_another_seed(folder));
+  EXPECT_EQ(outcome.exit_code, 2);
+  EXPECT_EQ(lines_with(outcome.error, "--reference: night 1"), 1U) << outcome.error;
+  EXPECT_FALSE(fs::exists(store / "nights/0002"));
+  EXPECT_EQ(night(store, {"--reference", "1"}).exit_code, 0) << "the same order can be compared";
+}
+
+TEST(Nightly, ThatHasNoNightToCompareWithIsNotCalledGood) {
+  const TemporaryFolder folder;
+  const fs::path store = folder / "history";
+  ASSERT_EQ(night(store).exit_code, 0);
+  const Outcome outcome = night(store, {}, of_another_seed(folder));
   EXPECT_EQ(outcome.exit_code, 0) << outcome.error;
   const json told = json::parse(outcome.out);
   EXPECT_TRUE(told.at("reference").is_null());
+  EXPECT_EQ(told.at("verdict"), "not compared");
   EXPECT_NE(told.at("remarks").dump().find("no night to compare with"), std::string::npos);
-  EXPECT_EQ(read_file(store / "index.html").find("Nothing got worse"), std::string::npos);
+  EXPECT_EQ(lines_with(mapproof({"history", store}).out, "not compared"), 2U);
+  const std::string index = read_file(store / "index.html");
+  EXPECT_EQ(index.find("Nothing got worse"), std::string::npos);
+  EXPECT_NE(index.find(">not compared<"), std::string::npos);
+  for (const char* page : {"trends/small/report.html", "nights/0002/small/report.html"})
+    EXPECT_NE(read_file(store / page).find("Night 2: not compared"), std::string::npos) << page;
 }
 
 TEST(Nightly, AfterPruningTheIndexNamesTheNightsThatAreLeft) {
@@ -134,13 +161,6 @@ TEST(Nightly, OnAFullDiskSaysSoAndLosesNoNight) {
     EXPECT_TRUE(mapproof({"history", store, "--export", "csv"}).out == before) << bytes;
   }
   EXPECT_EQ(night(store).exit_code, 0) << "goes on once there is room";
-}
-
-std::size_t lines_with(const std::string& text, const std::string& part) {
-  std::istringstream lines(text);
-  std::size_t count = 0;
-  for (std::string line; std::getline(lines, line);) count += line.find(part) != std::string::npos;
-  return count;
 }
 
 TEST(Nightly, WithNoRoomForTheCommitNamesTheStoreInOneLineAndLosesNoNight) {

@@ -6,6 +6,7 @@
 #include "reports/history/history_export.hpp"
 #include "reports/history/history_pages.hpp"
 #include "reports/history/history_store.hpp"
+#include "reports/history/night_standing.hpp"
 #include "reports/history/shown_names.hpp"
 #include "tests/reports/history/sample_nights.hpp"
 #include "tests/support/temporary_folder.hpp"
@@ -22,7 +23,7 @@ TEST(HistoryPages, AreValidReportsAndFigures) {
     if (number >= 5) plant.error = {{"lpca", 1.1}};
     findings[number] = judged(store, sample_night(number, 1, plant)).findings;
   }
-  const HistoryPage page = trend_page(store.trend("sample", "d", 60, 6), findings);
+  const HistoryPage page = trend_page(store.trend("sample", "d", 60, 6), findings, true);
   EXPECT_NO_THROW(check(page.report));
   ASSERT_EQ(page.figures.size(), 3U);  // MPE, seconds, memory.
   for (const Figure& figure : page.figures) EXPECT_EQ(problem(figure), "");
@@ -34,7 +35,7 @@ TEST(HistoryPages, BeginWithThreeFindingsAndSayHowManyMore) {
   Night night{.facts = {.number = 5, .started_utc = "2026-11-22T02:30:07Z"}};
   for (int i = 1; i <= 7; ++i)
     night.findings.push_back({.study = "mine", .sentence = fmt::format("worse {}", i)});
-  const Standing stands = standing(night, "mine", true);
+  const Standing stands = study_standing(night.facts, night.findings, "mine", true);
   EXPECT_EQ(stands.title, "Night 5: 7 things got worse");
   ASSERT_EQ(stands.sentences.size(), 4U);
   EXPECT_EQ(stands.sentences[2], "worse 3.");
@@ -82,6 +83,17 @@ TEST(HistoryPages, ShowTheSettingThatWasBestAndGotWorseAndMarkTheNight) {
     if (const auto* mark = std::get_if<Scatter>(&layer))
       marked.emplace_back(mark->x.front(), mark->y.front());
   EXPECT_EQ(marked, (std::vector<std::pair<double, double>>{{4, 0.20}, {4, 0.15}}));
+}
+
+TEST(HistoryPages, SayOfANightThatWasNotComparedThatItWasNot) {
+  const StudyTrend trend = best_got_worse();
+  const auto& stands = trend_page(trend, {}, false).report.opening.standing;
+  ASSERT_TRUE(stands.has_value());
+  EXPECT_TRUE(stands->title.starts_with("Night 4: not compared")) << stands->title;
+  const NightFacts night{.number = 4};
+  EXPECT_EQ(verdict_word(night), "not compared");
+  EXPECT_EQ(verdict_word({.number = 4, .reference = 2}), "good");
+  EXPECT_TRUE(night_standing(night, {}).title.starts_with("Night 4: not compared"));
 }
 
 TEST(HistoryPages, NameMethodsAsTheStudysReportDoes) {
