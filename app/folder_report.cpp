@@ -172,7 +172,9 @@ fs::path write_report(const FolderReport& report, const Templates& page, int job
     return found == drawn.svg.end() ? std::string() : found->second;
   };
   const fs::path path = report.folder / "report.html";
-  write_file(path, report_html(shown, page, drawing));
+  HtmlOptions options;
+  options.link_words = report.link_words;
+  write_file(path, report_html(shown, page, drawing, options));
   if (!drawn.scene_error.empty()) throw SceneError(drawn.scene_error);
   return path;
 }

@@ -26,7 +26,8 @@ struct FolderReport {
   std::vector<Scene> scenes;        ///< Likewise.
   std::vector<Film> films;          ///< Of some of the scenes.
   std::size_t runs = 0;
-  std::vector<std::string> missing;  ///< Data asked for that are not there.
+  std::vector<std::string> missing;                    ///< Data asked for that are not there.
+  std::map<std::string, std::string> link_words = {};  ///< See HtmlOptions.
 };
 
 /// Reads the records of a folder and makes report and figures of them; no solver runs. The folder

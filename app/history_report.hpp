@@ -10,11 +10,18 @@
 
 namespace mapproof {
 
+/// Where a history's pages lie as seen from one in `folder`.
+HistoryPlaces places_from(const std::filesystem::path& folder, const std::filesystem::path& out,
+                          const std::filesystem::path& store);
+
 /// Writes index.html and, of every study of the last night, trends/STUDY/report.html with its
 /// figures, anew from the history.
+/// @param store    Where nights/ lies, and what is left of nights that were lost.
+/// @param out      For the pages: the store or another folder.
 /// @param remarks  On the last night.
 /// @return The path of index.html. @throws IoError.
-std::filesystem::path write_history_pages(HistoryStore& history, const std::filesystem::path& out,
+std::filesystem::path write_history_pages(HistoryStore& history, const std::filesystem::path& store,
+                                          const std::filesystem::path& out,
                                           std::span<const std::string> remarks,
                                           const Templates& page, int jobs);
 

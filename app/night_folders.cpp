@@ -36,6 +36,17 @@ int finished_number(const fs::path& folder) {
   return is_number && fs::exists(end_file(folder), ignored) ? number : 0;
 }
 
+/// The names of what a folder holds, ascending; none if it is not there.
+std::vector<std::string> names_in(const fs::path& folder) {
+  std::vector<std::string> names;
+  std::error_code error;
+  for (fs::directory_iterator entry(folder, error), end; !error && entry != end;
+       entry.increment(error))
+    names.push_back(entry->path().filename().string());
+  std::ranges::sort(names);
+  return names;
+}
+
 }  // namespace
 
 int next_night(HistoryStore& history, const fs::path& store) {
@@ -70,6 +81,25 @@ void begin_night(const fs::path& folder, const std::vector<StudyOrder>& orders,
 
 void end_night(const fs::path& folder, const Night& night) {
   write_file(end_file(folder), json_text(night_value(night.facts, night.findings)));
+}
+
+LostNights lost_nights(const fs::path& store, std::span<const NightFacts> known) {
+  LostNights lost;
+  for (const std::string& name : names_in(store))
+    if (name.starts_with("history.sqlite.damaged-") && !name.ends_with("-journal") &&
+        !name.ends_with("-wal") && !name.ends_with("-shm"))
+      lost.kept_as.push_back(name);
+  if (lost.kept_as.empty()) return lost;
+  for (const std::string& name : names_in(store / "nights")) {
+    const fs::path night = store / "nights" / name;
+    const int number = finished_number(night);
+    if (number == 0 || std::ranges::find(known, number, &NightFacts::number) != known.end())
+      continue;
+    std::error_code error;
+    for (const std::string& study : names_in(night))
+      if (fs::exists(night / study / "report.html", error)) lost.reports[number].push_back(study);
+  }
+  return lost;
 }
 
 }  // namespace mapproof

@@ -1,11 +1,13 @@
 #pragma once
 
 #include <filesystem>
+#include <span>
 #include <string>
 #include <vector>
 
 #include "app/console.hpp"
 #include "app/nightly_study.hpp"
+#include "reports/history/history_pages.hpp"
 #include "reports/history/history_store.hpp"
 
 namespace mapproof {
@@ -22,5 +24,10 @@ void begin_night(const std::filesystem::path& folder, const std::vector<StudyOrd
 /// Notes in the folder what the night found; its presence says that the night was finished.
 /// @throws IoError.
 void end_night(const std::filesystem::path& folder, const Night& night);
+
+/// What is left of nights that no history knows any more, since theirs was damaged: empty if none
+/// was.
+/// @param known  Those that the history has.
+LostNights lost_nights(const std::filesystem::path& store, std::span<const NightFacts> known);
 
 }  // namespace mapproof

@@ -62,7 +62,7 @@ int prune_by(HistoryStore& history, const Arguments& arguments, const Console& c
   const Pruned pruned = prune(history, arguments.store, parse_prune_rule(*arguments.prune));
   std::error_code error;
   if (fs::exists(fs::path(arguments.store) / "index.html", error))  // Its links are to be true.
-    write_history_pages(history, arguments.store, {}, load_templates(), 1);
+    write_history_pages(history, arguments.store, arguments.store, {}, load_templates(), 1);
   console.result(fmt::format("{} and {} removed\n",
                              counted(static_cast<long long>(pruned.nights.size()), "night"),
                              counted(pruned.files, "figure file")),

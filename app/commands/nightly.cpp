@@ -103,19 +103,27 @@ bool draw(const FolderReport& report, const Templates& page, int jobs, const Con
   }
 }
 
+/// Where index and trends go.
+fs::path out_of(const Arguments& arguments) {
+  return arguments.out.empty() ? arguments.store : arguments.out;
+}
+
 /// Draws the report of each study of a night that has been judged, and keeps its figures.
 /// @return Whether all scenes could be drawn.
 bool write_all(Night& night, HistoryStore& history, const fs::path& folder, const Templates& page,
                const Arguments& arguments, const Invocation& invocation) {
   const ObjectFolder objects(fs::path(arguments.store) / "objects");
+  const LostNights lost =
+      history.was_damaged() ? lost_nights(arguments.store, history.nights()) : LostNights{};
   bool scenes_drawn = true;
   for (StudyNight& study : night.studies) {
     FolderReport report =
         read_folder_report(folder / study.name, invocation.command, invocation.command);
     const bool is_compared =
         night.facts.reference && has_study(history, *night.facts.reference, study);
-    report.report.opening.standing =
-        study_standing(night.facts, night.findings, study.name, is_compared);
+    NightLinks links(places_from(folder / study.name, out_of(arguments), arguments.store));
+    add_night(report.report, night, study.name, is_compared, lost, links);
+    report.link_words = links.words();
     scenes_drawn &= draw(report, page, arguments.jobs, invocation.console);
     study.figures = objects.keep(folder / study.name / "figures");
   }
@@ -178,8 +186,7 @@ int nightly(const Arguments& arguments, const Invocation& invocation) {
   history.append(night);
   end_night(folder, night);
   const fs::path index =
-      write_history_pages(history, arguments.out.empty() ? store : fs::path(arguments.out), remarks,
-                          page, arguments.jobs);
+      write_history_pages(history, store, out_of(arguments), remarks, page, arguments.jobs);
 
   nlohmann::ordered_json object = night_value(night.facts, night.findings);
   object["remarks"] = remarks;

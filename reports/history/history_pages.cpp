@@ -1,41 +1,39 @@
 #include "reports/history/history_pages.hpp"
 
 #include <algorithm>
+#include <iterator>
+#include <set>
+#include <span>
+#include <utility>
 
 #include <fmt/format.h>
 
 #include "core/base/words.hpp"
-#include "reports/history/history_tables.hpp"
 #include "reports/history/night_standing.hpp"
 
 namespace mapproof {
 namespace {
 
-/// As many findings of a study stand at the head of a page; its page over the nights has all.
-constexpr std::size_t kMostTold = 3;
+/// Figures of the index: its reader sees the course at a glance, the trends have all.
+constexpr std::size_t kMostOnIndex = 2;
+
+/// Links to nights that stand in one sentence; the index has all.
+constexpr std::size_t kMostLinked = 10;
 
 FigureBlock block_of(const Figure& figure) {
   return {figure.id, figure.title, figure.caption, figure.alt, figure.record_ids};
 }
 
-/// The sentences of one study's findings of a night.
-std::vector<std::string> told_of(std::span<const NightFinding> findings, const std::string& study) {
-  std::vector<std::string> sentences;
-  for (const NightFinding& finding : findings)
-    if (finding.study == study) sentences.push_back(finding.sentence + ".");
-  return sentences;
+Gallery gallery_of(const std::vector<Figure>& figures) {
+  Gallery gallery;
+  for (const Figure& figure : figures) gallery.figures.push_back(block_of(figure));
+  return gallery;
 }
 
 /// The findings of a night.
 std::span<const NightFinding> found_on(int night, const NightFindings& findings) {
   const auto found = findings.find(night);
   return found == findings.end() ? std::span<const NightFinding>{} : found->second;
-}
-
-std::vector<std::string> told_of(const NightFindings& findings, int night,
-                                 const std::string& study) {
-  const auto of_night = findings.find(night);
-  return of_night == findings.end() ? std::vector<std::string>{} : told_of(of_night->second, study);
 }
 
 /// Which nights the page is of.
@@ -45,20 +43,90 @@ Paragraph nights_shown(const StudyTrend& trend) {
                         trend.nights.front().number)}}};
 }
 
-/// The studies that have findings of a night, in the order of these.
-std::vector<std::string> studies_of(int night, const NightFindings& findings) {
-  std::vector<std::string> studies;
-  if (const auto of_night = findings.find(night); of_night != findings.end())
-    for (const NightFinding& finding : of_night->second)
-      if (std::ranges::find(studies, finding.study) == studies.end())
-        studies.push_back(finding.study);
-  return studies;
+/// "all nights, trends of tiny, report of night 9, which it was compared with".
+Paragraph ways(std::vector<Phrase> to, const std::optional<Phrase>& reference) {
+  Paragraph all{{{"See "}}};
+  for (std::size_t i = 0; i < to.size(); ++i) {
+    if (i > 0) all.phrases.push_back({", "});
+    all.phrases.push_back(std::move(to[i]));
+  }
+  if (reference) {
+    all.phrases.push_back({", "});
+    all.phrases.push_back(*reference);
+    all.phrases.push_back({", which it was compared with"});
+  }
+  all.phrases.push_back({"."});
+  return all;
+}
+
+/// Figures of the last night's studies, those that have findings first.
+std::vector<Figure> course(const IndexFacts& facts) {
+  std::vector<const StudyTrend*> trends;
+  for (const StudyTrend& trend : facts.trends) trends.push_back(&trend);
+  const auto found = found_on(facts.nights.back().number, facts.findings);
+  std::ranges::stable_partition(trends, [&](const StudyTrend* trend) {
+    return std::ranges::find(found, trend->name, &NightFinding::study) != found.end();
+  });
+  const bool among_others = trends.size() > 1;
+  std::vector<Figure> figures;
+  std::set<std::string> ids;
+  for (const StudyTrend* trend : trends)
+    for (Figure& figure :
+         trend_figures(*trend, facts.findings,
+                       {.among_others = among_others, .most = among_others ? 1 : kMostOnIndex}))
+      if (figures.size() < kMostOnIndex && ids.insert(figure.id).second)
+        figures.push_back(std::move(figure));
+  return figures;
+}
+
+/// What is left of nights that were lost; nothing if none was.
+std::optional<Callout> told_of(const LostNights& lost) {
+  if (lost.kept_as.empty()) return std::nullopt;
+  const bool one = lost.kept_as.size() == 1;
+  std::string text = fmt::format(
+      "{} kept as {}, and a new one was begun: nights are compared with none before that. ",
+      one ? "It is" : "They are", listed(lost.kept_as, 4));
+  text += lost.reports.empty()
+              ? "No report of its nights is left in nights/."
+              : fmt::format(
+                    "The reports of {} from before that are still in nights/; they are "
+                    "listed at the end of this page.",
+                    counted(static_cast<long long>(lost.reports.size()), "night"));
+  return Callout{Callout::Tone::kWarning,
+                 one ? "A history was damaged" : "Histories were damaged",
+                 {{{text}}}};
+}
+
+Section last_section(const IndexFacts& facts, NightLinks& links) {
+  Section last{"last", "The last night", {}};
+  const NightFacts& tonight = facts.nights.back();
+  if (auto damage = told_of(facts.lost)) last.blocks.emplace_back(std::move(*damage));
+  if (const auto made = facts.studies.find(tonight.number); made != facts.studies.end())
+    for (const std::string& study : made->second)
+      last.blocks.emplace_back(Paragraph{{{study + ": ", Emphasis::kStrong},
+                                          links.report(tonight.number, study),
+                                          {", "},
+                                          links.trends(study)}});
+  BulletList list;
+  for (const std::string& remark : facts.remarks) list.items.push_back({{{remark + "."}}});
+  if (!list.items.empty()) last.blocks.emplace_back(std::move(list));
+  return last;
+}
+
+Section lost_section(const LostNights& lost, NightLinks& links) {
+  BulletList list;
+  for (const auto& [night, studies] : lost.reports)
+    for (const std::string& study : studies)
+      list.items.push_back({{{study + ": ", Emphasis::kStrong}, links.report(night, study)}});
+  return {"lost", "Nights of a damaged history", {std::move(list)}};
 }
 
 }  // namespace
 
-HistoryPage trend_page(const StudyTrend& trend, const NightFindings& findings, bool is_compared) {
+HistoryPage trend_page(const StudyTrend& trend, const NightFindings& findings, bool is_compared,
+                       const HistoryPlaces& places) {
   HistoryPage page;
+  NightLinks links(places);
   page.figures = trend_figures(trend, findings);
   page.report.title = trend.name + ", night by night";
   page.report.subtitle =
@@ -66,57 +134,71 @@ HistoryPage trend_page(const StudyTrend& trend, const NightFindings& findings, b
   const NightFacts& tonight = trend.nights.back();
   page.report.opening.standing =
       study_standing(tonight, found_on(tonight.number, findings), trend.name, is_compared);
-  Section figures{"trends", "Trends", {nights_shown(trend)}};
-  Gallery gallery;
-  for (const Figure& figure : page.figures) gallery.figures.push_back(block_of(figure));
-  figures.blocks.emplace_back(std::move(gallery));
-  page.report.sections.push_back(std::move(figures));
+  std::optional<Phrase> reference;
+  if (is_compared && tonight.reference) reference = links.report(*tonight.reference, trend.name);
+  page.report.opening.findings.push_back(
+      ways({links.index(), links.report(tonight.number, trend.name)}, reference));
+  page.report.sections.push_back(
+      {"trends", "Trends", {nights_shown(trend), gallery_of(page.figures)}});
   page.report.sections.push_back({"values", "Values", {accuracy_table(trend)}});
   if (Table found = findings_table(findings, trend.name); !found.rows.empty())
     page.report.sections.push_back({"findings", "Findings", {std::move(found)}});
+  page.link_words = links.words();
   return page;
 }
 
-Report index_page(std::span<const NightFacts> nights, const NightFindings& findings,
-                  const NightStudies& studies, std::span<const std::string> remarks) {
-  Report report{.title = "Nights", .subtitle = "", .sections = {}, .footer = ""};
-  Section last{"last", "The last night", {}};
-  if (nights.empty()) {
-    last.blocks.emplace_back(Paragraph{{{"No night was recorded yet."}}});
-    report.sections.push_back(std::move(last));
-    return report;
+HistoryPage index_page(const IndexFacts& facts, const HistoryPlaces& places) {
+  HistoryPage page;
+  Report& report = page.report;
+  report.title = "Nights";
+  if (facts.nights.empty()) {
+    report.sections.push_back(
+        {"last", "The last night", {Paragraph{{{"No night was recorded yet."}}}}});
+    return page;
   }
-  const NightFacts& tonight = nights.back();
+  NightLinks links(places);
+  const NightFacts& tonight = facts.nights.back();
   report.subtitle = fmt::format("{}, the last begun {} UTC",
-                                counted(static_cast<long long>(nights.size()), "night"),
+                                counted(static_cast<long long>(facts.nights.size()), "night"),
                                 to_the_minute(tonight.started_utc));
-  const auto found = findings.find(tonight.number);
-  const std::size_t count = found == findings.end() ? 0 : found->second.size();
-  last.blocks.emplace_back(
-      Paragraph{{{fmt::format("Night {}: ", tonight.number), Emphasis::kStrong},
-                 {verdict_sentence(tonight, count)}}});
-  BulletList list;
-  for (const std::string& study : studies_of(tonight.number, findings)) {
-    const std::vector<std::string> told = told_of(findings, tonight.number, study);
-    for (const std::string& sentence : std::span(told).first(std::min(told.size(), kMostTold)))
-      list.items.push_back({{{study + ": ", Emphasis::kStrong}, {sentence}}});
-    if (told.size() > kMostTold)
-      list.items.push_back({{{study + ": ", Emphasis::kStrong},
-                             {fmt::format("and {} more, in ", told.size() - kMostTold)},
-                             {fmt::format("trends/{}/report.html", study), Emphasis::kFile}}});
+  report.opening.standing = night_standing(tonight, found_on(tonight.number, facts.findings));
+  report.sections.push_back(last_section(facts, links));
+  page.figures = course(facts);
+  if (!page.figures.empty())
+    report.sections.push_back({"course", "Over the nights", {gallery_of(page.figures)}});
+  report.sections.push_back(
+      {"nights", "All nights", {nights_table(facts.nights, facts.findings, facts.studies, links)}});
+  if (!facts.lost.reports.empty()) report.sections.push_back(lost_section(facts.lost, links));
+  page.link_words = links.words();
+  return page;
+}
+
+void add_night(Report& report, const Night& night, const std::string& study, bool is_compared,
+               const LostNights& lost, NightLinks& links) {
+  Opening& opening = report.opening;
+  opening.standing = study_standing(night.facts, night.findings, study, is_compared);
+  std::optional<Phrase> reference;
+  if (is_compared && night.facts.reference) reference = links.report(*night.facts.reference, study);
+  std::vector<Paragraph> head = {ways({links.index(), links.trends(study)}, reference)};
+  if (!lost.kept_as.empty()) {
+    opening.standing->worse = true;
+    opening.standing->sentences.push_back(
+        fmt::format("The history was damaged. It is kept as {}, and a new one begins with this "
+                    "night: there is none before it to compare with.",
+                    lost.kept_as.back()));
+    std::vector<Phrase> reports;
+    for (const auto& [number, studies] : lost.reports)
+      if (std::ranges::find(studies, study) != studies.end())
+        reports.push_back(links.report(number, study));
+    if (reports.size() > kMostLinked)
+      reports.erase(reports.begin(), reports.end() - static_cast<long>(kMostLinked));
+    if (!reports.empty()) {
+      head.push_back(ways(std::move(reports), std::nullopt));
+      head.back().phrases.front().text = "Reports from before that are still there: ";
+    }
   }
-  for (const std::string& remark : remarks) list.items.push_back({{{remark + "."}}});
-  if (!list.items.empty()) last.blocks.emplace_back(std::move(list));
-  const auto made = studies.find(tonight.number);
-  for (const std::string& study : made == studies.end() ? std::vector<std::string>() : made->second)
-    last.blocks.emplace_back(Paragraph{
-        {{study + ": ", Emphasis::kStrong},
-         {fmt::format("nights/{:04}/{}/report.html", tonight.number, study), Emphasis::kFile},
-         {", over the nights "},
-         {fmt::format("trends/{}/report.html", study), Emphasis::kFile}}});
-  report.sections.push_back(std::move(last));
-  report.sections.push_back({"nights", "All nights", {nights_table(nights, findings, studies)}});
-  return report;
+  opening.findings.insert(opening.findings.begin(), std::make_move_iterator(head.begin()),
+                          std::make_move_iterator(head.end()));
 }
 
 }  // namespace mapproof

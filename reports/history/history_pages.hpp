@@ -1,12 +1,13 @@
 #pragma once
 
 #include <map>
-#include <span>
 #include <string>
 #include <vector>
 
 #include "render/plot/figure.hpp"
+#include "reports/history/history_tables.hpp"
 #include "reports/history/night.hpp"
+#include "reports/history/night_links.hpp"
 #include "reports/history/trend_figures.hpp"
 #include "reports/model/report.hpp"
 
@@ -16,22 +17,41 @@ namespace mapproof {
 struct HistoryPage {
   Report report;
   std::vector<Figure> figures;
+  std::map<std::string, std::string> link_words;  ///< See HtmlOptions.
 };
 
-/// Names of the studies by night.
-using NightStudies = std::map<int, std::vector<std::string>>;
+/// Nights of histories that were damaged and set aside: they are in no history any more.
+struct LostNights {
+  std::vector<std::string> kept_as;  ///< File names: "history.sqlite.damaged-1".
+  NightStudies reports;              ///< The studies of each whose reports are still there.
+};
 
-/// One study over the nights: what was found, accuracy, seconds and memory of what
-/// trend_figures() shows. Pure: the same values give the same page.
+/// All that the index tells.
+struct IndexFacts {
+  std::vector<NightFacts> nights = {};
+  NightFindings findings = {};
+  NightStudies studies = {};              ///< Of the nights whose reports are to be linked.
+  std::vector<std::string> remarks = {};  ///< What could not be judged of the last night, or is
+                                          ///< only suspected.
+  std::vector<StudyTrend> trends = {};    ///< Of the last night's studies.
+  LostNights lost = {};
+};
+
+/// One study over the nights: what was found, accuracy, seconds and memory of what trend_figures()
+/// shows. Pure: the same values give the same page.
 /// @param trend        At least one night.
 /// @param is_compared  Whether the last one's night of reference has the study, ordered in the same
 ///                     way.
-HistoryPage trend_page(const StudyTrend& trend, const NightFindings& findings, bool is_compared);
+HistoryPage trend_page(const StudyTrend& trend, const NightFindings& findings, bool is_compared,
+                       const HistoryPlaces& places);
 
-/// All nights, the last one first, and what the last one says.
-/// @param studies  Of the nights whose reports are to be linked.
-/// @param remarks  What could not be judged, or is only suspected, of the last night.
-Report index_page(std::span<const NightFacts> nights, const NightFindings& findings,
-                  const NightStudies& studies, std::span<const std::string> remarks);
+/// How the last night stands, a figure or two of its course, and all nights, the last one first.
+HistoryPage index_page(const IndexFacts& facts, const HistoryPlaces& places);
+
+/// Puts at the head of a study's report how its night stands, and where else to look.
+/// @param is_compared  As for trend_page().
+/// @param lost         Not empty: told of, since the history was found damaged that night.
+void add_night(Report& report, const Night& night, const std::string& study, bool is_compared,
+               const LostNights& lost, NightLinks& links);
 
 }  // namespace mapproof

@@ -79,6 +79,7 @@ HistoryStore HistoryStore::open(const fs::path& store) {
                     path.string(), version, schema_version(), backup.filename().string()));
   HistoryStore opened(std::move(database));
   opened.remarks_ = std::move(remarks);
+  opened.was_damaged_ = !damage.empty();
   return opened;
 }
 

@@ -29,6 +29,9 @@ class HistoryStore {
 
   const std::vector<std::string>& remarks() const { return remarks_; }
 
+  /// Whether open() kept a damaged one aside.
+  bool was_damaged() const { return was_damaged_; }
+
   /// All, in order of number. @throws IoError.
   std::vector<NightFacts> nights();
   /// Of one night, in the order they were found. @throws IoError.
@@ -70,6 +73,7 @@ class HistoryStore {
 
   std::unique_ptr<Database> database_;
   std::vector<std::string> remarks_;
+  bool was_damaged_ = false;
 };
 
 }  // namespace mapproof

@@ -54,7 +54,7 @@ std::string to_the_minute(const std::string& utc) {
 }
 
 Table nights_table(std::span<const NightFacts> nights, const NightFindings& findings,
-                   const NightStudies& studies) {
+                   const NightStudies& studies, NightLinks& links) {
   Table table{.id = "nights",
               .caption = "Every night, the last one first.",
               .columns = {{"Night", "", "", "Its number: the order of nights, whatever clocks say"},
@@ -69,16 +69,20 @@ Table nights_table(std::span<const NightFacts> nights, const NightFindings& find
   for (const NightFacts& night : nights | std::views::reverse) {
     const auto found = findings.find(night.number);
     const std::size_t count = found == findings.end() ? 0 : found->second.size();
-    std::string place = fmt::format("nights/{:04}/", night.number);
-    if (const auto made = studies.find(night.number);
-        made != studies.end() && made->second.size() == 1)
-      place += made->second.front() + "/report.html";
+    const auto made = studies.find(night.number);
+    const Phrase place = made != studies.end() && made->second.size() == 1
+                             ? links.report(night.number, made->second.front())
+                             : links.folder(night.number);
+    // What got worse is not to be told by its words alone.
+    const Emphasis weight =
+        night.verdict == NightVerdict::kGood ? Emphasis::kPlain : Emphasis::kStrong;
     const Cell against = night.reference ? Cell{number(*night.reference, 0)} : Cell{MissingCell{}};
-    table.rows.push_back({{number(night.number, 0), text(to_the_minute(night.started_utc)),
-                           text(words_of(night) + (night.pinned ? ", pinned" : "")),
-                           number(static_cast<double>(count), 0), against,
-                           TextCell{night.host, Emphasis::kData}, TextCell{place, Emphasis::kFile}},
-                          fmt::format("night {}", night.number)});
+    table.rows.push_back(
+        {{number(night.number, 0), text(to_the_minute(night.started_utc)),
+          TextCell{words_of(night) + (night.pinned ? ", pinned" : ""), weight},
+          number(static_cast<double>(count), 0), against, TextCell{night.host, Emphasis::kData},
+          TextCell{place.text, place.emphasis}},
+         fmt::format("night {}", night.number)});
   }
   return table;
 }

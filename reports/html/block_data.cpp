@@ -20,14 +20,15 @@ using kainjow::mustache::list;
 /// Longer texts scroll in a box of their own.
 constexpr std::size_t kLong = 200;
 
-data phrase_data(const Phrase& phrase) {
+data phrase_data(const Phrase& phrase, const HtmlOptions& options) {
   data out;
-  out.set("text", phrase.text);
+  const bool is_file = phrase.emphasis == Emphasis::kFile;
+  out.set("text", is_file ? link_words(phrase.text, options) : phrase.text);
   out.set("plain", phrase.emphasis == Emphasis::kPlain);
   out.set("strong", phrase.emphasis == Emphasis::kStrong);
   out.set("code", phrase.emphasis == Emphasis::kCode);
-  out.set("file", phrase.emphasis == Emphasis::kFile);
-  out.set("link", phrase.emphasis == Emphasis::kFile ? file_link(phrase.text) : "");
+  out.set("file", is_file);
+  out.set("link", is_file ? file_link(phrase.text) : "");
   out.set("data", phrase.emphasis == Emphasis::kData);
   out.set("long", phrase.text.size() > kLong);
   return out;
@@ -35,9 +36,9 @@ data phrase_data(const Phrase& phrase) {
 
 }  // namespace
 
-data phrases_data(const Paragraph& paragraph) {
+data phrases_data(const Paragraph& paragraph, const HtmlOptions& options) {
   list phrases;
-  for (const Phrase& phrase : paragraph.phrases) phrases.push_back(phrase_data(phrase));
+  for (const Phrase& phrase : paragraph.phrases) phrases.push_back(phrase_data(phrase, options));
   return phrases;
 }
 
@@ -57,14 +58,14 @@ class BlockVisitor {
 
   void operator()(const Paragraph& paragraph) {
     data out;
-    out.set("phrases", phrases_data(paragraph));
+    out.set("phrases", phrases_data(paragraph, options_));
     block_.set("paragraph", out);
   }
 
   void operator()(const BulletList& bullets) {
     list items;
     for (const Paragraph& item : bullets.items)
-      items.push_back(data("phrases", phrases_data(item)));
+      items.push_back(data("phrases", phrases_data(item, options_)));
     block_.set("bullet_list", data("items", items));
   }
 
@@ -84,7 +85,7 @@ class BlockVisitor {
     data out;
     out.set("title", callout.title);
     out.set("warning", callout.tone == Callout::Tone::kWarning);
-    out.set("phrases", phrases_data(callout.text));
+    out.set("phrases", phrases_data(callout.text, options_));
     block_.set("callout", out);
   }
 
@@ -104,7 +105,7 @@ class BlockVisitor {
   void operator()(const KeyValues& pairs) {
     list items;
     for (const KeyValues::Item& item : pairs.items) {
-      data out = phrase_data(item.value);
+      data out = phrase_data(item.value, options_);
       out.set("key", item.key);
       items.push_back(std::move(out));
     }

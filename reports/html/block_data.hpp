@@ -14,6 +14,6 @@ kainjow::mustache::data block_data(const Block& block, const FigureContext& draw
                                    const HtmlOptions& options);
 
 /// The phrases of a paragraph, for the template of that name.
-kainjow::mustache::data phrases_data(const Paragraph& paragraph);
+kainjow::mustache::data phrases_data(const Paragraph& paragraph, const HtmlOptions& options);
 
 }  // namespace mapproof

@@ -72,11 +72,12 @@ std::string linked_words(const Report& report, std::size_t linked, const HtmlOpt
                      format_number(static_cast<double>(options.drawing_bytes) / 1e6, 1), where);
 }
 
-void set_opening(data& page, const Report& report, const std::string& linked) {
+void set_opening(data& page, const Report& report, const std::string& linked,
+                 const HtmlOptions& options) {
   const Opening& opening = report.opening;
   list findings;
   for (const Paragraph& finding : opening.findings)
-    findings.push_back(data("phrases", phrases_data(finding)));
+    findings.push_back(data("phrases", phrases_data(finding, options)));
   page.set("any_opening", data(!opening.findings.empty() || !opening.figure_ids.empty() ||
                                opening.standing || !linked.empty()));
   page.set("standing", opening.standing ? standing_data(*opening.standing) : data(false));
@@ -88,6 +89,11 @@ void set_opening(data& page, const Report& report, const std::string& linked) {
 
 }  // namespace
 
+const std::string& link_words(const std::string& path, const HtmlOptions& options) {
+  const auto found = options.link_words.find(path);
+  return found == options.link_words.end() ? path : found->second;
+}
+
 std::string report_html(const Report& report, const Templates& templates, const SvgLookup& svg,
                         const HtmlOptions& options) {
   check(report);
@@ -98,7 +104,7 @@ std::string report_html(const Report& report, const Templates& templates, const 
   set_page_frame(page, "report", templates);
   const FigureContext drawn{.svg = svg,
                             .linked = linked_figures(report, svg, options.drawing_bytes)};
-  set_opening(page, report, linked_words(report, drawn.linked.size(), options));
+  set_opening(page, report, linked_words(report, drawn.linked.size(), options), options);
   list sections;
   for (const Section& section : report.sections)
     sections.push_back(section_data(section, report, drawn, options));

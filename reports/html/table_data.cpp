@@ -83,18 +83,21 @@ struct SortKey {
   }
 };
 
-data cell_data(const Table& table, const Row& row, std::size_t index) {
+data cell_data(const Table& table, const Row& row, std::size_t index, const HtmlOptions& options) {
   const Cell& cell = row.cells[index];
   const auto* text = std::get_if<TextCell>(&cell);
   const auto emphasis = text != nullptr ? text->emphasis : Emphasis::kPlain;
   data out;
-  out.set("value", format_cell(cell));
+  const bool is_file = emphasis == Emphasis::kFile;
+  out.set("value", is_file ? link_words(text->text, options) : format_cell(cell));
   out.set("heads", index == 0);
   out.set("is_text", text != nullptr || holds_text(table, index));
   out.set("code", emphasis == Emphasis::kCode);
-  out.set("file", emphasis == Emphasis::kFile);
-  out.set("link", emphasis == Emphasis::kFile ? file_link(text->text) : "");
-  out.set("data", emphasis != Emphasis::kCode && emphasis != Emphasis::kFile);
+  out.set("file", is_file);
+  out.set("link", is_file ? file_link(text->text) : "");
+  const bool is_strong = emphasis == Emphasis::kStrong;
+  out.set("strong", is_strong);
+  out.set("data", emphasis != Emphasis::kCode && !is_file && !is_strong);
   out.set("long", text != nullptr && text->text.size() > kLongCell);
   const std::string key = std::visit(SortKey{}, cell);
   out.set("sort", text == nullptr ? data("key", key) : data(false));
@@ -103,11 +106,12 @@ data cell_data(const Table& table, const Row& row, std::size_t index) {
   return out;
 }
 
-data row_data(const Table& table, const Row& row) {
+data row_data(const Table& table, const Row& row, const HtmlOptions& options) {
   data out;
   list cells;
   cells.reserve(row.cells.size());
-  for (std::size_t i = 0; i < row.cells.size(); ++i) cells.push_back(cell_data(table, row, i));
+  for (std::size_t i = 0; i < row.cells.size(); ++i)
+    cells.push_back(cell_data(table, row, i, options));
   out.set("cells", cells);
   out.set("marked", row.marked);
   out.set("source", text_or_false(row.source));
@@ -120,7 +124,8 @@ std::string without_line_end(std::string text) {
 }
 
 /// The rows, each with the lines that stand for it where the table is copied as text.
-list rows_data(const Table& table, bool copies) {
+list rows_data(const Table& table, const HtmlOptions& options) {
+  const bool copies = options.copies_tables;
   TableLines csv, latex;
   if (copies) {
     csv = csv_lines(table);
@@ -129,7 +134,7 @@ list rows_data(const Table& table, bool copies) {
   list rows;
   rows.reserve(table.rows.size());
   for (std::size_t i = 0; i < table.rows.size(); ++i) {
-    data row = row_data(table, table.rows[i]);
+    data row = row_data(table, table.rows[i], options);
     row.set("lines", data(copies));
     row.set("csv", copies ? without_line_end(csv.rows[i]) : "");
     row.set("latex", copies ? without_line_end(latex.rows[i]) : "");
@@ -155,7 +160,7 @@ data table_data(const Table& table, const HtmlOptions& options) {
   out.set("caption", table.caption);
   out.set("folder", text_or_false(options.table_folder));
   add_headings(table, out);
-  const list rows = rows_data(table, options.copies_tables);
+  const list rows = rows_data(table, options);
   add_frames(table, options.copies_tables, out);
   out.set("any_rows", !rows.empty());
   out.set("folded", data(table.rows.size() > kMostRowsOpen));

@@ -235,6 +235,11 @@ TEST(Nightly, KeepsAHistoryThatWasCutShortAndBeginsANewOne) {
   EXPECT_EQ(outcome.exit_code, 0) << outcome.error;
   EXPECT_EQ(read_file(store / "history.sqlite.damaged-1"), bytes);
   EXPECT_EQ(history(store).at("nights").at(0).at("night"), 2) << "night 1 keeps its folder";
+  for (const char* page : {"index.html", "nights/0002/small/report.html"}) {
+    const std::string told = read_file(store / page);
+    EXPECT_NE(told.find("history.sqlite.damaged-1"), std::string::npos) << page;
+    EXPECT_NE(told.find("nights/0001/small/report.html"), std::string::npos) << page;
+  }
 }
 
 TEST(Nightly, KilledAtAnyTimeLosesNoFinishedNight) {

@@ -38,11 +38,15 @@ for (const [folder, file] of pages) {
   });
 }
 
-test("the index says how the last night stands and leads to it", async () => {
+test("the index says how the last night stands and leads to it, and it leads back", async () => {
   const { page, close } = await open({}, history, "index.html");
-  const last = page.locator("#section-last");
-  assert.match(await last.innerText(), /Night 2: /);
-  await last.getByRole("link", { name: "nights/0002/small/report.html" }).click();
   assert.match(await page.locator(".standing").innerText(), /Night 2: /);
+  assert.ok(await page.locator("#section-course svg").count() > 0);
+  await page.locator("#section-last").getByRole("link", { name: "report of night 2" }).click();
+  assert.match(await page.locator(".standing").innerText(), /Night 2: /);
+  await page.getByRole("link", { name: "trends of small" }).click();
+  assert.match(await page.locator(".standing").innerText(), /Night 2: /);
+  await page.getByRole("link", { name: "all nights" }).click();
+  await page.locator("#section-nights").waitFor();
   await close();
 });

@@ -23,12 +23,19 @@ TEST(HistoryPages, AreValidReportsAndFigures) {
     if (number >= 5) plant.error = {{"lpca", 1.1}};
     findings[number] = judged(store, sample_night(number, 1, plant)).findings;
   }
-  const HistoryPage page = trend_page(store.trend("sample", "d", 60, 6), findings, true);
+  const HistoryPage page =
+      trend_page(store.trend("sample", "d", 60, 6), findings, true, {"../../", "../../"});
   EXPECT_NO_THROW(check(page.report));
   ASSERT_EQ(page.figures.size(), 3U);  // MPE, seconds, memory.
   for (const Figure& figure : page.figures) EXPECT_EQ(problem(figure), "");
-  EXPECT_NO_THROW(check(index_page(store.nights(), findings, {}, {})));
-  EXPECT_NO_THROW(check(index_page({}, {}, {}, {})));
+  const HistoryPage index = index_page({.nights = store.nights(),
+                                        .findings = findings,
+                                        .trends = {store.trend("sample", "d", 60, 6)}},
+                                       {});
+  EXPECT_NO_THROW(check(index.report));
+  ASSERT_EQ(index.figures.size(), 2U);
+  EXPECT_EQ(index.figures.front().id, "trend-mpe-m-bearing") << "what got worse goes first";
+  EXPECT_NO_THROW(check(index_page({}, {}).report));
 }
 
 TEST(HistoryPages, BeginWithThreeFindingsAndSayHowManyMore) {
@@ -42,12 +49,14 @@ TEST(HistoryPages, BeginWithThreeFindingsAndSayHowManyMore) {
   EXPECT_TRUE(stands.sentences[3].starts_with("And 4 more"));
 
   const Report index =
-      index_page(std::vector{night.facts}, {{5, night.findings}}, {{5, {"small"}}}, {});
+      index_page(
+          {.nights = {night.facts}, .findings = {{5, night.findings}}, .studies = {{5, {"mine"}}}},
+          {})
+          .report;
   EXPECT_EQ(index.subtitle, "1 night, the last begun 2026-11-22 02:30 UTC");
-  std::size_t items = 0;
-  for (const Block& block : index.sections.front().blocks)
-    if (const auto* list = std::get_if<BulletList>(&block)) items += list->items.size();
-  EXPECT_EQ(items, 4U);
+  ASSERT_TRUE(index.opening.standing.has_value());
+  EXPECT_TRUE(index.opening.standing->worse);
+  EXPECT_EQ(index.opening.standing->sentences.size(), 4U);
 }
 
 /// A trend of two settings of ISOMAP, the first of which was best until the last night.
@@ -87,13 +96,57 @@ TEST(HistoryPages, ShowTheSettingThatWasBestAndGotWorseAndMarkTheNight) {
 
 TEST(HistoryPages, SayOfANightThatWasNotComparedThatItWasNot) {
   const StudyTrend trend = best_got_worse();
-  const auto& stands = trend_page(trend, {}, false).report.opening.standing;
+  const auto& stands = trend_page(trend, {}, false, {}).report.opening.standing;
   ASSERT_TRUE(stands.has_value());
   EXPECT_TRUE(stands->title.starts_with("Night 4: not compared")) << stands->title;
   const NightFacts night{.number = 4};
   EXPECT_EQ(verdict_word(night), "not compared");
   EXPECT_EQ(verdict_word({.number = 4, .reference = 2}), "good");
   EXPECT_TRUE(night_standing(night, {}).title.starts_with("Night 4: not compared"));
+}
+
+/// The links of a paragraph, by what they say.
+std::map<std::string, std::string> links_of(const Paragraph& paragraph,
+                                            const std::map<std::string, std::string>& words) {
+  std::map<std::string, std::string> links;
+  for (const Phrase& phrase : paragraph.phrases)
+    if (phrase.emphasis == Emphasis::kFile) links[words.at(phrase.text)] = phrase.text;
+  return links;
+}
+
+TEST(HistoryPages, LeadToEachOtherInWords) {
+  Night night{.facts = {.number = 5, .reference = 3}};
+  Report report;
+  NightLinks links({.pages = "../../../", .nights = "../../../"});
+  add_night(report, night, "mine", true, {}, links);
+  EXPECT_EQ(links_of(report.opening.findings.front(), links.words()),
+            (std::map<std::string, std::string>{
+                {"all nights", "../../../index.html"},
+                {"trends of mine", "../../../trends/mine/report.html"},
+                {"report of night 3", "../../../nights/0003/mine/report.html"}}));
+  const HistoryPage trends = trend_page(best_got_worse(), {}, false, {"../../", "../../"});
+  EXPECT_EQ(links_of(trends.report.opening.findings.front(), trends.link_words),
+            (std::map<std::string, std::string>{
+                {"all nights", "../../index.html"},
+                {"report of night 4", "../../nights/0004/mine/report.html"}}));
+}
+
+TEST(HistoryPages, SayThatAHistoryWasDamagedAndWhereItsReportsAre) {
+  const Night night{.facts = {.number = 5}};
+  const LostNights lost{.kept_as = {"history.sqlite.damaged-1"}, .reports = {{4, {"mine"}}}};
+  Report report;
+  NightLinks links({});
+  add_night(report, night, "mine", false, lost, links);
+  EXPECT_TRUE(report.opening.standing->worse);
+  EXPECT_NE(report.opening.standing->sentences.back().find("history.sqlite.damaged-1"),
+            std::string::npos);
+  EXPECT_TRUE(links_of(report.opening.findings.at(1), links.words()).contains("report of night 4"));
+  const HistoryPage index = index_page({.nights = {night.facts}, .lost = lost}, {});
+  EXPECT_NO_THROW(check(index.report));
+  EXPECT_EQ(index.report.sections.back().id, "lost");
+  const auto* damage = std::get_if<Callout>(&index.report.sections.front().blocks.front());
+  ASSERT_NE(damage, nullptr);
+  EXPECT_NE(damage->text.phrases.front().text.find("history.sqlite.damaged-1"), std::string::npos);
 }
 
 TEST(HistoryPages, NameMethodsAsTheStudysReportDoes) {
