@@ -50,3 +50,10 @@ test("the index says how the last night stands and leads to it, and it leads bac
   await page.locator("#section-nights").waitFor();
   await close();
 });
+
+test("the table of nights has its first column as wide as a number", async () => {
+  const { page, close } = await open({ viewport: { width: 390, height: 844 } }, history, "index.html");
+  const { width } = await page.locator("#table-nights tbody th").first().boundingBox();
+  assert.ok(width < 80, `${width}`);
+  await close();
+});
