@@ -1,5 +1,13 @@
 // Starts what the parts of the script (report_*.js) do; the table of contents follows its reader.
 
+// Within a list that is longer than the window, without moving the page.
+function keepInSight(link) {
+  const list = link.closest(".contents");
+  const { top, bottom } = link.getBoundingClientRect(), box = list.getBoundingClientRect();
+  if (top < box.top) list.scrollTop -= box.top - top;
+  if (bottom > box.bottom) list.scrollTop += bottom - box.bottom;
+}
+
 // The entry of the section being read stands out in the table of contents.
 function followReading() {
   const links = new Map();
@@ -10,7 +18,9 @@ function followReading() {
     for (const entry of entries) {
       if (!entry.isIntersecting) continue;
       for (const link of links.values()) link.removeAttribute("aria-current");
-      links.get(entry.target.id)?.setAttribute("aria-current", "true");
+      const link = links.get(entry.target.id);
+      link?.setAttribute("aria-current", "true");
+      if (link) keepInSight(link);
     }
   }, { rootMargin: "-10% 0px -80% 0px" });
   for (const section of document.querySelectorAll("main > section")) observer.observe(section);

@@ -4,6 +4,7 @@
 const landmarks = new Map();  // <svg> → its landmarks.
 const kReach = 14;  // Pixels from a mark that still mean it.
 let lit = "";  // The key of the landmark that is lit.
+let tipIn = null;  // The <svg> that names it.
 let isPinned = false;  // It stays when the pointer leaves.
 
 // Marks of one landmark in one panel have ids "FIGURE[-PANEL]-KIND-ROW".
@@ -44,11 +45,22 @@ function linesOf(entry) {
   return lines;
 }
 
+function isWithin({ x, y, width, height }, place) {
+  return place.x >= x && place.x <= x + width && place.y >= y && place.y <= y + height;
+}
+
+// The landmark of that key in the panel that is looked at, if it is in one.
+function entryOf(svg, key) {
+  const all = landmarks.get(svg).filter((entry) => keyOf(svg, entry) === key);
+  return all.find((entry) => isWithin(viewOf(svg).marks, entry.places.at(-1))) ?? all[0];
+}
+
 function addRings(svg, entry) {
   const layer = svg.querySelector("g.lit") ??
     svg.appendChild(document.createElementNS(svg.namespaceURI, "g"));
   layer.setAttribute("class", "lit");
-  for (const { x, y } of entry.places) {
+  const { marks } = viewOf(svg);  // A step shows one panel alone.
+  for (const { x, y } of entry.places.filter((place) => isWithin(marks, place))) {
     const ring = document.createElementNS(svg.namespaceURI, "circle");
     for (const [name, value] of [["cx", x], ["cy", y], ["r", 6]]) ring.setAttribute(name, value);
     layer.append(ring);
@@ -95,7 +107,17 @@ function light(svg, entry) {
       if (list) list.value = [...list.options].some((option) => option.value === lit) ? lit : "";
     }
   }
+  tipIn = entry ? svg : null;
   if (entry) showTip(svg, entry);
+}
+
+// What is shown of the drawing has changed: the words go with their landmark.
+function followView(svg) {
+  lightIn(svg);
+  svg.parentElement.querySelector(".tip")?.remove();
+  if (tipIn !== svg) return;
+  const entry = entryOf(svg, lit);
+  if (entry && isWithin(viewOf(svg).now, entry.places.at(-1))) showTip(svg, entry);
 }
 
 function nearest(svg, event) {
@@ -103,7 +125,7 @@ function nearest(svg, event) {
   const reach = kReach / svg.getScreenCTM().a;
   let best = null, least = reach;
   for (const entry of landmarks.get(svg)) {
-    for (const { x, y } of entry.places) {
+    for (const { x, y } of entry.places.filter((place) => isWithin(viewOf(svg).marks, place))) {
       const distance = Math.hypot(x - at.x, y - at.y);
       if (distance < least) [best, least] = [entry, distance];
     }
@@ -117,11 +139,17 @@ function chooseLandmark(svg, entry) {
   announce(entry ? [entry.name, ...linesOf(entry)].join(", ") : "");
 }
 
+// Every landmark's key once, by name: "L2" before "L10".
+function keysByName(svg) {
+  const names = new Map(landmarks.get(svg).map((entry) => [keyOf(svg, entry), entry.name]));
+  return [...names].sort(([, a], [, b]) => a.localeCompare(b, "en", { numeric: true }));
+}
+
 function stepLandmark(svg, count) {
-  const entries = landmarks.get(svg);
-  const at = entries.findIndex((entry) => keyOf(svg, entry) === lit);
-  const next = at < 0 ? (count > 0 ? 0 : entries.length - 1) : at + count;
-  chooseLandmark(svg, entries[(next + entries.length) % entries.length]);
+  const keys = keysByName(svg).map(([key]) => key);
+  const at = keys.indexOf(lit);
+  const next = at < 0 ? (count > 0 ? 0 : keys.length - 1) : at + count;
+  chooseLandmark(svg, entryOf(svg, keys[(next + keys.length) % keys.length]));
 }
 
 // By name, for those who use no pointer.
@@ -130,14 +158,8 @@ function addLandmarkList(figure, svg) {
   list.className = "landmark";
   list.setAttribute("aria-label", `Landmark in ${titleOf(figure)}`);
   list.append(new Option("Landmark \u2026", ""));
-  const seen = new Set();
-  for (const entry of landmarks.get(svg)) {
-    const key = keyOf(svg, entry);
-    if (!seen.has(key)) list.append(new Option(entry.name, key));
-    seen.add(key);
-  }
-  list.addEventListener("change", () => chooseLandmark(svg,
-    landmarks.get(svg).find((entry) => keyOf(svg, entry) === list.value)));
+  for (const [key, name] of keysByName(svg)) list.append(new Option(name, key));
+  list.addEventListener("change", () => chooseLandmark(svg, entryOf(svg, list.value)));
   figure.querySelector(".tools").append(list);
 }
 
@@ -162,7 +184,7 @@ function followLandmarks(figure, svg) {
     else if (event.key === "p") stepLandmark(svg, -1);
     else if (event.key === "Escape") chooseLandmark(svg, null);
   });
-  box.addEventListener("viewchange", () => box.querySelector(".tip")?.remove());
+  box.addEventListener("viewchange", () => followView(svg));
   addLandmarkList(figure, svg);
   lightIn(svg);
 }

@@ -1,32 +1,115 @@
 // A figure whose panels are one map at several times can be gone through step by step: each panel
-// fills the box in turn, so that the map forms in one place.
+// fills the box in turn, with the axes that all share, so that the map forms in one place.
 
-// Frames of the panels, in their order, with room for what stands above them.
-function panelBoxes(figure, svg, count) {
-  const boxes = [];
+const kRoomAbove = 40, kRoomBelow = 24, kRoomBeside = 10;  // Of a panel's frame, in points.
+
+// Frames of the panels, in their order; none if they are not all there.
+function panelFrames(figure, svg, count) {
+  const frames = [];
   for (let i = 0; i < count; ++i) {
     const rect = svg.querySelector(`#${CSS.escape(`${figure.dataset.id}-c${i}`)} > rect`);
     if (!rect) return [];
     const [x, y, width, height] = ["x", "y", "width", "height"].map(
       (name) => Number(rect.getAttribute(name)));
-    boxes.push({ x: x - 6, y: y - 34, width: width + 12, height: height + 40 });
+    frames.push({ x, y, width, height, right: x + width, bottom: y + height });
   }
-  return boxes;
+  return frames;
+}
+
+// What a drawing is made of: the parts of each panel, from its heading on; the names of the axes;
+// the rest.
+function partsOf(svg) {
+  const parts = { panels: [], axes: [], rest: [] };
+  for (const part of svg.querySelectorAll(":scope > g")) {
+    const kind = part.getAttribute("class") ?? "";
+    if (kind === "axis-label") parts.axes.push(...part.children);
+    else if (kind === "panel-title") parts.panels.push([part]);
+    else if (kind.startsWith("legend") || parts.panels.length === 0) parts.rest.push(part);
+    else parts.panels.at(-1).push(part);
+  }
+  return parts;
+}
+
+function placeOf(label) {
+  const [, x, y] = /translate\(([-\d.]+)(?:[ ,]([-\d.]+))?\)/.exec(label.getAttribute("transform")) ?? [];
+  return { x: Number(x ?? 0), y: Number(y ?? 0) };
+}
+
+// The numbers at a panel's axes: beside its frame, and below it.
+function numbersOf(panel, frame) {
+  const all = panel.filter((part) => part.classList.contains("tick-label"))
+    .flatMap((part) => [...part.children]);
+  const isBelow = (label) => placeOf(label).y > frame.bottom + 8;
+  return { beside: all.filter((label) => !isBelow(label)), below: all.filter(isBelow) };
+}
+
+function addCopy(layer, label, right, down) {
+  const moved = layer.appendChild(document.createElementNS(layer.namespaceURI, "g"));
+  moved.setAttribute("transform", `translate(${right} ${down})`);
+  moved.setAttribute("fill", label.parentElement.getAttribute("fill") ?? "currentColor");
+  moved.append(label.cloneNode(true));
+}
+
+// The axes of a panel that it has in common with others: their names and numbers, moved to it.
+function sharedAxes(svg, parts, frames, step) {
+  const layer = document.createElementNS(svg.namespaceURI, "g");
+  layer.setAttribute("class", "step-axes");
+  const frame = frames[step];
+  const numbers = parts.panels.map((panel, i) => numbersOf(panel, frames[i]));
+  for (const side of ["beside", "below"]) {
+    const from = numbers.findIndex((each) => each[side].length > 0);
+    if (from < 0 || numbers[step][side].length > 0) continue;
+    for (const label of numbers[from][side]) {
+      addCopy(layer, label, frame.x - frames[from].x, frame.y - frames[from].y);
+    }
+  }
+  const left = Math.min(...frames.map((each) => each.x)), top = Math.min(...frames.map((each) => each.y));
+  const right = Math.max(...frames.map((each) => each.right));
+  const bottom = Math.max(...frames.map((each) => each.bottom));
+  for (const name of parts.axes) {
+    const upright = /rotate/.test(name.getAttribute("transform"));
+    addCopy(layer, name, upright ? frame.x - left : (frame.x + frame.right - left - right) / 2,
+      upright ? (frame.y + frame.bottom - top - bottom) / 2 : frame.bottom - bottom);
+  }
+  return layer;
+}
+
+// The part of the drawing that holds one panel whole, with its heading and its axes.
+function stepBox(parts, frames, step) {
+  const frame = frames[step];
+  const left = Math.min(...frames.map((each) => each.x));
+  const bottom = Math.max(...frames.map((each) => each.bottom));
+  const lowest = Math.max(bottom + kRoomBelow, ...parts.axes.map((name) => placeOf(name).y + 6));
+  return { x: frame.x - left, y: frame.y - kRoomAbove, width: left + frame.width + kRoomBeside,
+    height: kRoomAbove + frame.height + lowest - bottom };
+}
+
+// Shows one panel alone, or, with -1, all side by side.
+function showStep(svg, parts, frames, home, step) {
+  svg.querySelector(":scope > .step-axes")?.remove();
+  parts.panels.forEach((panel, i) => panel.forEach(
+    (part) => part.classList.toggle("off", step >= 0 && i !== step)));
+  const others = [...parts.rest, ...new Set(parts.axes.map((name) => name.parentElement))];
+  for (const part of others) part.classList.toggle("off", step >= 0);
+  if (step < 0) return setHome(svg, home);
+  svg.append(sharedAxes(svg, parts, frames, step));
+  return setHome(svg, stepBox(parts, frames, step), frames[step]);
 }
 
 function addSteps(figure, svg) {
   const words = Array.from(figure.querySelectorAll(".steps > li"), (item) => item.textContent);
-  const boxes = panelBoxes(figure, svg, words.length);
-  if (boxes.length < 2) return;
+  const frames = panelFrames(figure, svg, words.length);
+  const parts = partsOf(svg);
+  if (frames.length < 2 || parts.panels.length !== frames.length) return;
   const { home } = viewOf(svg);
   const label = document.createElement("label");
   label.className = "step";
   const slider = document.createElement("input");
-  Object.assign(slider, { type: "range", min: 0, max: boxes.length, value: 0 });
+  Object.assign(slider, { type: "range", min: 0, max: frames.length, value: 0 });
   const said = document.createElement("output");
   const show = () => {
     const step = Number(slider.value);
-    setHome(svg, step === 0 ? home : boxes[step - 1]);
+    showStep(svg, parts, frames, home, step - 1);
     said.textContent = step === 0 ? "All side by side" : words[step - 1];
     slider.setAttribute("aria-valuetext", said.textContent);
   };

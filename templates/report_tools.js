@@ -29,8 +29,17 @@ function titleOf(figure) {
 
 function leaveOnEscape(figure) {
   figure.addEventListener("keydown", (event) => {
-    if (event.key === "Escape") figure.classList.remove("filling");
+    if (event.key !== "Escape") return;
+    figure.classList.remove("filling");
+    sayFullScreen(figure);
   });
+}
+
+// The button says what it does now.
+function sayFullScreen(figure) {
+  const fills = document.fullscreenElement === figure || figure.classList.contains("filling");
+  figure.querySelector("button.full").textContent = fills ? "Leave full screen" : "Full screen";
+  showView(figure.querySelector(".drawing > svg"));
 }
 
 function addTools(figure, svg) {
@@ -46,7 +55,8 @@ function addTools(figure, svg) {
   addButton(tools, "\u2212", "Zoom out", () => zoomView(svg, 1 / 1.4));
   addButton(tools, "+", "Zoom in", () => zoomView(svg, 1.4));
   addButton(tools, "Fit", "Fit the whole figure", () => fitView(svg));
-  addButton(tools, "Full screen", "", () => toggleFullScreen(figure));
+  addButton(tools, "Full screen", "", () => toggleFullScreen(figure)).className = "full";
+  figure.addEventListener("fullscreenchange", () => sayFullScreen(figure));
   box.after(tools);
   followPointers(box, svg);
   followWheel(box, svg);

@@ -1,13 +1,16 @@
 // Every drawing can be looked at closely: wheel, drag, two fingers, keys and buttons change the part
 // of it that its box shows.
 
-const views = new WeakMap();  // <svg> → { home, now }, both { x, y, width, height } in its units.
+// <svg> → { home, now, marks }, all { x, y, width, height } in its units: what "fit" shows, what is
+// shown, and where marks are looked for.
+const views = new WeakMap();
 const kClosest = 40;
 
 function viewOf(svg) {
   if (!views.has(svg)) {
     const { x, y, width, height } = svg.viewBox.baseVal;
-    views.set(svg, { home: { x, y, width, height }, now: { x, y, width, height } });
+    const box = { x, y, width, height };
+    views.set(svg, { home: { ...box }, now: { ...box }, marks: { ...box } });
   }
   return views.get(svg);
 }
@@ -22,13 +25,13 @@ function showView(svg) {
 }
 
 // Another part of the drawing is what "fit" shows.
-function setHome(svg, box) {
-  views.set(svg, { home: { ...box }, now: { ...box } });
+function setHome(svg, box, marks = box) {
+  views.set(svg, { home: { ...box }, now: { ...box }, marks: { ...marks } });
   showView(svg);
 }
 
 function fitView(svg) {
-  setHome(svg, viewOf(svg).home);
+  setHome(svg, viewOf(svg).home, viewOf(svg).marks);
 }
 
 // Zooms about a point of the drawing, by default the middle of what is shown.
@@ -127,10 +130,12 @@ function followKeys(box, svg) {
 // Where the browser has no full screen, or refuses, the figure fills the window.
 async function toggleFullScreen(figure) {
   if (document.fullscreenElement === figure) return document.exitFullscreen();
-  if (figure.classList.toggle("filling", false)) return undefined;
+  const filled = figure.classList.contains("filling");
+  figure.classList.remove("filling");
   try {
-    return await figure.requestFullscreen();
+    if (!filled) await figure.requestFullscreen();
   } catch {
-    return figure.classList.add("filling");
+    figure.classList.add("filling");
   }
+  return sayFullScreen(figure);
 }

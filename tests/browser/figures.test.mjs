@@ -112,15 +112,17 @@ test("a figure fills the screen and comes back, also where the browser refuses",
   const button = shown.getByRole("button", { name: "Full screen" });
   await button.click();
   await page.waitForFunction(() => document.fullscreenElement?.dataset.id === "map-bearing-isomap");
-  await button.click();
+  await shown.getByRole("button", { name: "Leave full screen" }).click();
   await page.waitForFunction(() => !document.fullscreenElement);
   await shown.evaluate((each) => { each.requestFullscreen = () => Promise.reject(new Error("no")); });
   await button.click();
   await shown.and(page.locator(".filling")).waitFor();
+  assert.equal(await button.textContent(), "Leave full screen");
   const { width } = await shown.boundingBox();
   assert.equal(width, 1400);
   await page.keyboard.press("Escape");
   assert.equal(await page.locator(".filling").count(), 0);
+  assert.equal(await button.textContent(), "Full screen");
   await close();
 });
 
@@ -140,6 +142,24 @@ test("the step slider forms the map in one place", async () => {
   }
   assert.ok(seen[0].startsWith("500 steps") && seen[2].startsWith("2000 steps"), seen.join());
   assert.equal(await shown.locator(".drawing").evaluate((box) => box.clientHeight), height);
+  // One panel alone, whole within what is shown, with the names and numbers of both axes.
+  const parts = await shown.locator("svg").evaluate((svg) => {
+    const { x, y, width, height } = svg.viewBox.baseVal;
+    const isWhole = (part) => {
+      const box = part.getBBox();
+      return x <= box.x && y <= box.y && box.x + box.width <= x + width && box.y + box.height <= y + height;
+    };
+    const seen = (kind) => [...svg.querySelectorAll(`:scope > .${kind}`)]
+      .filter((part) => getComputedStyle(part).display !== "none");
+    const whole = ["panel-title", "frame", "tick-label", "step-axes"].map((kind) => seen(kind).map(isWhole));
+    return { whole: whole.map(String), others: seen("title").length + seen("legend-text").length,
+      axes: svg.querySelectorAll(".step-axes > g").length };
+  });
+  assert.deepEqual(parts.whole, ["true", "true", "true", "true"]);
+  assert.equal(parts.others, 0);
+  assert.ok(parts.axes >= 4, `${parts.axes}`);  // Two names, and the numbers of one axis at least.
+  await slider.fill("0");
+  assert.equal(await shown.locator(".off, .step-axes").count(), 0);
   // The landmarks stand still while it forms: their true places are the same in every panel.
   await close();
 });

@@ -73,6 +73,28 @@ test("n and p go through the landmarks and say them, Escape ends it", async () =
   await close();
 });
 
+test("the words of a chosen landmark stay while it is in view, and come back with it", async () => {
+  const { page, close } = await open();
+  const shown = await figure(page, "map-bearing-isomap");
+  const names = (await shown.locator("select.landmark option").allTextContents()).slice(1);
+  assert.deepEqual(names, names.toSorted((a, b) => a.localeCompare(b, "en", { numeric: true })));
+  await shown.getByRole("combobox").selectOption({ label: names[4] });
+  for (let i = 0; i < 12; ++i) {
+    await shown.getByRole("button", { name: "Zoom in" }).click();
+    const { inView, told } = await shown.locator("svg").evaluate((svg) => {
+      const { x, y, width, height } = svg.viewBox.baseVal;
+      const at = svg.querySelector("g.lit circle:last-child");
+      const [cx, cy] = ["cx", "cy"].map((name) => Number(at.getAttribute(name)));
+      return { inView: cx >= x && cx <= x + width && cy >= y && cy <= y + height,
+        told: svg.parentElement.querySelectorAll(".tip").length };
+    });
+    assert.equal(told, inView ? 1 : 0);
+  }
+  await shown.getByRole("button", { name: "Fit the whole figure" }).click();
+  assert.equal(await shown.locator(".tip bdi").textContent(), names[4]);
+  await close();
+});
+
 test("a landmark can be chosen by its name, and drawings put in later have it lit", async () => {
   const { page, close } = await open();
   const shown = await figure(page, "map-bearing-isomap");

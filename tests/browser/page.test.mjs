@@ -31,6 +31,18 @@ test("the first screen says what was run and found, and leads to figures", async
   await close();
 });
 
+test("the contents follow their reader, also where they are longer than the window", async () => {
+  const { page, close } = await open({ viewport: { width: 1400, height: 300 } });
+  await page.locator("main > section").last().evaluate((section) => section.scrollIntoView());
+  await page.waitForFunction(() => {
+    const link = document.querySelector(".contents a[aria-current]")?.getBoundingClientRect();
+    const list = document.querySelector(".contents").getBoundingClientRect();
+    return link && list.height < 300 && link.top >= list.top - 1 && link.bottom <= list.bottom + 1 &&
+      document.querySelector(".contents").scrollTop > 0;
+  });
+  await close();
+});
+
 test("every entry of the contents leads to its section", async () => {
   const { page, close } = await open();
   const links = await page.locator(".contents a").evaluateAll(
