@@ -207,9 +207,10 @@ RuleOutcome judge_accuracy(const StudyEvidence& evidence, const RegressionRules&
   const Work work = compare_all(evidence, rules);
   const std::size_t tests = work.comparisons.size() + work.losses.size();
   if (!work.too_few.empty())
-    outcome.remarks.push_back(fmt::format("{}: too few runs to pair for {}; judged over nights",
-                                          evidence.trend.name,
-                                          listed({work.too_few.begin(), work.too_few.end()}, 4)));
+    outcome.remarks.push_back(fmt::format(
+        "{}: too few runs to pair for {}{}; judged over nights", evidence.trend.name,
+        *work.too_few.begin(),
+        work.too_few.size() == 1 ? "" : fmt::format(" and {} more", work.too_few.size() - 1)));
   if (tests == 0) return outcome;
   // Ranks only where they can pass the correction with room to spare.
   const PairedChangeOptions options{.finest_p = 0.1 * rules.alpha / static_cast<double>(tests)};
