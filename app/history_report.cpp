@@ -54,7 +54,9 @@ IndexFacts read_facts(HistoryStore& history, const fs::path& store,
 
 HistoryPlaces places_from(const fs::path& folder, const fs::path& out, const fs::path& store) {
   const auto to = [&](const fs::path& target) {
-    const std::string path = fs::relative(target, folder).generic_string();
+    // Neither need be there yet.
+    const std::string path =
+        fs::relative(fs::absolute(target), fs::absolute(folder)).generic_string();
     return path == "." ? "" : path + "/";
   };
   return {.pages = to(out), .nights = to(store)};
