@@ -123,6 +123,20 @@ void require_readable(const fs::path& file) {
   }
 }
 
+void require_no_folder(const fs::path& file) {
+  std::error_code error;
+  if (fs::is_directory(file, error))
+    throw InvalidInput("not approved: " + file.string() + ": is a folder");
+}
+
+/// A baseline's file goes only if nothing stands in its place: a folder, say, is no absence.
+void require_gone(const fs::path& file) {
+  require_no_folder(file);
+  std::error_code error;
+  if (fs::exists(fs::symlink_status(file, error)))
+    throw InvalidInput("not approved: " + file.string() + ": is no file that can be read");
+}
+
 /// The runs whose records a figure was made from.
 std::vector<std::string> runs_of(const Figure& figure, const fs::path& study) {
   std::set<std::string> runs;
@@ -179,6 +193,7 @@ class Planner {
     const fs::path from = current_ / relative, to = baseline_ / relative;
     if (!planned_.insert(relative).second || same_bytes(from, to)) return false;
     require_readable(from);
+    require_no_folder(to);
     steps_.push_back({from, to});
     return true;
   }
@@ -198,8 +213,10 @@ class Planner {
         if (add(path)) remove_keyed(id, path.extension());
     if (before == before_.end()) return;
     for (const fs::path& path : before->second)
-      if (after == after_.end() || !after->second.contains(path))
+      if (after == after_.end() || !after->second.contains(path)) {
+        require_gone(current_ / path);
         steps_.push_back({{}, baseline_ / path});
+      }
   }
 
   /// Pictures alone, under names of their own.

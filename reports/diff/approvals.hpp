@@ -29,6 +29,7 @@ struct ApprovalPlan {
 /// its records, ID.figure.json, ID.scene.json, SVG, PNG and PDF; of a table its formats; of
 /// "records" all of the study with its timings. Records come before what is drawn of them. Items
 /// are taken whole or not at all: of all together those that cannot be are refused, else it throws.
+/// A file of the baseline goes only where the current has nothing of its name, no folder either.
 /// @throws InvalidInput for an id that is on neither side, a key that cannot be part of a name, a
 ///         current file that cannot be read, or a figure whose records are of another experiment
 ///         than the baseline's: these go as a whole.

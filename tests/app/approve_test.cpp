@@ -70,6 +70,24 @@ TEST(ApproveVerb, TakesAllThatCanBeTakenAndNamesTheRest) {
             read_file(two.after + "/runs/layout-1-pose-1.json"));
 }
 
+TEST(ApproveVerb, TakesAFolderInAFilesPlaceForNoAbsence) {
+  for (const bool is_current : {true, false})
+    for (const std::string name : {"figures/map-usual.png", "runs/layout-1-pose-1.json"}) {
+      SCOPED_TRACE(name);
+      const TwoStudies two;
+      const std::string file = two.before + "/" + name, was = read_file(file);
+      const std::string place = (is_current ? two.after : two.before) + "/" + name;
+      fs::remove(place);
+      write_file(place + "/inside.txt", "Not of mapproof.");
+      EXPECT_EQ(mapproof({"diff", two.before, two.after}).exit_code, 1);
+      const Outcome outcome = mapproof({"approve", two.before, two.after, "--all"});
+      EXPECT_EQ(outcome.exit_code, 1) << outcome.out;
+      EXPECT_NE(outcome.error.find(place), std::string::npos) << outcome.error;
+      EXPECT_TRUE(fs::exists(place + "/inside.txt"));
+      if (is_current) EXPECT_EQ(read_file(file), was);
+    }
+}
+
 TEST(ApproveVerb, NeverTakesRecordsThatCannotBeRead) {
   const TwoStudies two;
   fs::resize_file(two.after + "/runs/layout-1-pose-1.json", 100);
