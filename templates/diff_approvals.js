@@ -23,6 +23,7 @@ function quoted(word) {
 const path = (text) => quoted(text.startsWith("-") ? `./${text}` : text);
 
 const tickOf = (item) => item.querySelector(".tick input");
+const isRecords = (item) => /^records(\/|$)/.test(item.dataset.code);
 const tickedItems = () => items.filter((item) => tickOf(item)?.checked);
 
 function command() {
@@ -36,7 +37,20 @@ function command() {
   return [...words, ...(dashed ? ["--"] : []), ...ids.map(quoted)].join(" ");
 }
 
+// Some go with the records alone, some not at all: a command that fails is never offered.
+function settleTicks() {
+  const whole = tickedItems().some(isRecords);
+  for (const item of items) {
+    const tick = tickOf(item);
+    if (!tick || tick.dataset.needs === undefined) continue;
+    tick.disabled = !whole || tick.dataset.needs !== "records" || decoded(item.dataset.code) === null;
+    if (tick.disabled) tick.checked = false;
+    by(tick.getAttribute("aria-describedby")).hidden = !tick.disabled;
+  }
+}
+
 function tellTicks() {
+  settleTicks();
   const count = tickedItems().length;
   by("ticked").value = String(count);
   document.querySelector(".approvals").hidden = items.every((item) => !tickOf(item));
@@ -77,7 +91,10 @@ async function copy() {
 }
 
 function tickAll(all, value) {
-  for (const item of all) if (tickOf(item) && !tickOf(item).disabled) tickOf(item).checked = value;
+  for (const some of [all.filter(isRecords), all]) {
+    for (const item of some) if (tickOf(item) && !tickOf(item).disabled) tickOf(item).checked = value;
+    settleTicks();
+  }
   tellTicks();
 }
 

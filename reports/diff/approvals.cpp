@@ -180,6 +180,22 @@ class Planner {
     return plan;
   }
 
+  /// Why the item cannot be taken; empty if it can.
+  /// @param whole  The records go with it.
+  std::string refusal(const std::string& id, bool whole) {
+    planned_.clear();
+    steps_.clear();
+    try {
+      if (!before_.contains(id) && !after_.contains(id)) throw InvalidInput("has no files to take");
+      add_id(id, "", whole);
+      return "";
+    } catch (const InvalidInput& error) {
+      return error.what();
+    }
+  }
+
+  bool has_records() const { return after_.contains(kRecords); }
+
  private:
   /// @param whole  The records go as a whole.
   void add_id(const std::string& id, const std::string& key, bool whole) {
@@ -253,7 +269,7 @@ class Planner {
     if (same_bytes(current_ / relative, baseline_ / relative)) return;
     if (!same_bytes(StudyFiles{current_}.study(), StudyFiles{baseline_}.study()))
       throw InvalidInput(id + ": its records are of another experiment or solver than the " +
-                         "baseline's; approve records, or --all");
+                         "baseline's; approve records with it, or --all");
     add(relative);
   }
 
@@ -284,6 +300,19 @@ ApprovalPlan approval_plan(const fs::path& baseline, const fs::path& current,
     return {.steps = {{current, baseline}}};
   }
   return Planner(baseline, current).plan(order);
+}
+
+std::map<std::string, ApprovalRefusal> approval_refusals(const fs::path& baseline,
+                                                         const fs::path& current,
+                                                         const std::vector<std::string>& ids) {
+  std::map<std::string, ApprovalRefusal> refusals;
+  std::error_code error;
+  if (!fs::is_directory(current, error)) return refusals;
+  Planner planner(baseline, current);
+  for (const std::string& id : ids)
+    if (const std::string why = planner.refusal(id, false); !why.empty())
+      refusals[id] = {why, planner.has_records() && planner.refusal(id, true).empty()};
+  return refusals;
 }
 
 void apply(const ApprovalStep& step) {

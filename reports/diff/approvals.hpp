@@ -1,6 +1,7 @@
 #pragma once
 
 #include <filesystem>
+#include <map>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -36,6 +37,19 @@ struct ApprovalPlan {
 /// @throws IoError if a folder cannot be listed.
 ApprovalPlan approval_plan(const std::filesystem::path& baseline,
                            const std::filesystem::path& current, const ApprovalOrder& order);
+
+/// Why an item cannot be approved by itself.
+struct ApprovalRefusal {
+  std::string why;
+  bool goes_with_records = false;  ///< It can be, together with all records.
+};
+
+/// Those of the items that cannot be approved by themselves; none where the current is no folder.
+/// @throws IoError if a folder cannot be listed.
+/// @note Reads the items' files of the current, as approval_plan does.
+std::map<std::string, ApprovalRefusal> approval_refusals(const std::filesystem::path& baseline,
+                                                         const std::filesystem::path& current,
+                                                         const std::vector<std::string>& ids);
 
 /// Does one step: after a kill at any moment the file is the old or the new one, whole.
 /// @throws IoError.

@@ -1,6 +1,7 @@
 #include "reports/html/diff/diff_html.hpp"
 
 #include <filesystem>
+#include <map>
 #include <system_error>
 #include <utility>
 
@@ -10,6 +11,7 @@
 #include "core/base/errors.hpp"
 #include "core/base/version.hpp"
 #include "core/base/words.hpp"
+#include "reports/diff/approvals.hpp"
 #include "reports/diff/tables/item_blocks.hpp"
 #include "reports/html/block_data.hpp"
 #include "reports/html/diff/item_data.hpp"
@@ -57,7 +59,16 @@ list notes_data(const DiffResult& result, const std::vector<ShownPictures>& show
   return out;
 }
 
+/// Of the items that differ: identical ones are not taken.
+std::map<std::string, ApprovalRefusal> refusals_of(const DiffResult& result) {
+  std::vector<std::string> ids;
+  for (const DiffItem& item : result.items)
+    if (item.judgement.verdict != Verdict::kIdentical) ids.push_back(item.id);
+  return approval_refusals(result.baseline, result.current, ids);
+}
+
 void set_items(data& page, const DiffResult& result, const std::vector<ShownPictures>& shown) {
+  const auto refusals = refusals_of(result);
   list changed, items, identical;
   for (std::size_t i = 0; i < result.items.size(); ++i) {
     const DiffItem& item = result.items[i];
@@ -66,7 +77,9 @@ void set_items(data& page, const DiffResult& result, const std::vector<ShownPict
       continue;
     }
     changed.push_back(entry_data(item));
-    items.push_back(item_data(item, result, shown[i], i + 1));
+    const auto refused = refusals.find(item.id);
+    items.push_back(item_data(item, result, shown[i],
+                              refused == refusals.end() ? nullptr : &refused->second, i + 1));
   }
   page.set("identical_count", fmt::format("{}", identical.size()));
   page.set("any_identical", !identical.empty());

@@ -78,7 +78,7 @@ data entry_data(const DiffItem& item) {
 }
 
 data item_data(const DiffItem& item, const DiffResult& all, const ShownPictures& shown,
-               std::size_t number) {
+               const ApprovalRefusal* refusal, std::size_t number) {
   data out = entry_data(item);
   const std::string id = printable(item.id, kMostName);
   out.set("number", fmt::format("{}", number));
@@ -86,6 +86,9 @@ data item_data(const DiffItem& item, const DiffResult& all, const ShownPictures&
   out.set("passes", item.passes);
   out.set("cause", text_or_false(printable(item.judgement.cause, kMostCause)));
   out.set("approvable", item.judgement.verdict != Verdict::kUnreadable);
+  out.set("refused", refusal != nullptr);
+  out.set("with_records", refusal != nullptr && refusal->goes_with_records);
+  out.set("refusal", refusal ? printable(refusal->why, kMostCause) : std::string());
   out.set("stage", stage_data(shown, id));
   out.set("cluster", cluster_data(shown));
   out.set("absent", text_or_false(shown.absent));

@@ -17,7 +17,8 @@ const SmallStudy& base() {
   return study;
 }
 
-/// Writes the records anew, and draws the figures that are others than the baseline's.
+}  // namespace
+
 void write_changed(const SmallStudy& study, const fs::path& folder) {
   for (const char* part : {"study.json", "runs", "maps", "details", "timings.jsonl"})
     fs::remove_all(folder / part);
@@ -30,6 +31,8 @@ void write_changed(const SmallStudy& study, const fs::path& folder) {
     if (std::ranges::find(before, figure) == before.end())
       write_study_figure(figure, report_theme(), folder);
 }
+
+namespace {
 
 ValueCase changed_study(const std::string& name, const std::string& id, Verdict verdict,
                         std::vector<std::string> cause,

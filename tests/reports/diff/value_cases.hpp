@@ -24,6 +24,10 @@ struct ValueCase {
 /// Writes the study that all cases begin from.
 void write_base_study(const std::filesystem::path& folder);
 
+struct SmallStudy;
+/// Writes the records in a copy of that study anew, and draws the figures that are others.
+void write_changed(const SmallStudy& study, const std::filesystem::path& folder);
+
 /// Tables, a report's page and a PDF, to stand beside it.
 void write_base_documents(const std::filesystem::path& folder);
 /// A range-only study with something in every field.

@@ -162,6 +162,7 @@ DiffResult compared_folders(const fs::path& folder, int same) {
   DiffResult result = folder_diff(a, b);
   result.items.insert(std::ranges::find(result.items, "resized", &DiffItem::id),
                       drawn_item(folder));
+  write_file(b / "drawn.svg", read_file(folder / "drawn-b.svg"));  // To be approved.
   return result;
 }
 
