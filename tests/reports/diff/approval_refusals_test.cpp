@@ -36,9 +36,10 @@ TEST(ApprovalRefusals, AFigureOfAnotherExperimentGoesWithTheRecordsAlone) {
   ASSERT_TRUE(refusals.contains("of-neither-side"));
   EXPECT_FALSE(refusals.at("of-neither-side").goes_with_records);
   // What is said is what happens.
-  EXPECT_THROW(approval_plan(two.before, two.after, {.ids = {"map-isomap"}}), InvalidInput);
-  EXPECT_FALSE(
-      approval_plan(two.before, two.after, {.ids = {"map-isomap", "records"}}).steps.empty());
+  EXPECT_THROW(approval_plan(two.before, two.after, {.ids = {"map-isomap"}, .key = ""}),
+               InvalidInput);
+  EXPECT_FALSE(approval_plan(two.before, two.after, {.ids = {"map-isomap", "records"}, .key = ""})
+                   .steps.empty());
 }
 
 TEST(ApprovalRefusals, WhatCannotBeReadGoesInNoWayAndTheRestDoes) {
