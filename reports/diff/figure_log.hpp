@@ -10,6 +10,9 @@ namespace mapproof {
 /// FigureChange::what of a figure that was made of other records.
 inline constexpr std::string_view kRecordsWord = "records";
 
+/// How the cause begins of a figure that differs in nothing else.
+inline constexpr std::string_view kMadeOfOthers = "made of other records";
+
 /// Gathers what two figures differ in, within bounds.
 class FigureLog {
  public:

@@ -68,7 +68,7 @@ std::string data_cause(const FigureDiff& diff) {
   if (!more.empty()) text += (text.empty() ? "" : "; ") + more;
   const auto records = std::ranges::find(diff.changes, kRecordsWord, &FigureChange::what);
   if (text.empty() && records != diff.changes.end())
-    text = "made of other records, " + records->baseline + " \u2192 " + records->current;
+    text = std::string(kMadeOfOthers) + ", " + records->baseline + " \u2192 " + records->current;
   if (direction(diff) != Verdict::kChanged)
     text +=
         fmt::format("; mean error {}", change_text(*diff.baseline_error, *diff.current_error, ""));

@@ -200,6 +200,10 @@ RecordDiff record_diff(const RecordSet& a, const RecordSet& b, const RecordOptio
   match(a.runs, b.runs, diff.missing_runs, diff.new_runs,
         [](const std::string&, const std::string&, const std::string&) {});
   compare_subjects(a, b, diff);
+  for (const RecordSet* side : {&a, &b}) {
+    for (const auto& [subject, family] : side->families) diff.called[family.name].insert(subject);
+    for (const auto& [id, subject] : side->called) diff.called[id].insert(subject);
+  }
   diff.comparisons = compare_series(a, b, diff.same_seeds, options, diff.values);
   compare_points(a, b, options.tolerances, diff);
   compare_rest(a, b, diff);
@@ -225,13 +229,22 @@ RecordTie tie(const RecordDiff& diff, const std::string& id) {
   RecordTie found;
   found.run = name.run;
   const std::string record = name.run.empty() ? name.subject : name.run + "/" + name.subject;
+  const auto called = diff.called.find(name.subject);
+  const auto is_called = [&](const std::string& subject) {
+    return subject == name.subject ||
+           (called != diff.called.end() && called->second.contains(subject));
+  };
   for (const PointsDiff& points : diff.points)
-    if (points.record == record || points.record == record + "/path")
+    if (points.record == record || points.record == record + "/path" || is_called(points.record))
       found.points.push_back(&points);
   for (const Comparison& comparison : diff.comparisons)
-    if (comparison.subject == name.subject || comparison.current_subject == name.subject ||
+    if (is_called(comparison.subject) || is_called(comparison.current_subject) ||
         comparison.subject.starts_with(name.subject + "/"))
       found.comparisons.push_back(&comparison);
+  for (const OtherDiff& other : diff.others)
+    if ((other.beyond > 0 || other.shape) &&
+        (other.file == name.subject + ".json" || other.file == "runs/" + name.subject + ".json"))
+      found.others.push_back(&other);
   return found;
 }
 

@@ -1,6 +1,8 @@
 #pragma once
 
+#include <map>
 #include <optional>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -57,6 +59,8 @@ struct Comparison {
   int equal = 0;
   int within = 0;
   int beyond = 0;
+  int worse = 0;  ///< Of them, by the quantity's direction, where seeds are equal.
+  int better = 0;
   int lost = 0;                ///< Runs with a value in the baseline alone; not in `pairs`.
   int gained = 0;              ///< Runs with a value in the current alone.
   double baseline_mean = 0.0;  ///< Over the pairs, or without pairs over all; NaN: none.
@@ -127,12 +131,15 @@ struct RecordDiff {
   std::vector<std::string> anchors;  ///< Runs whose anchors are others.
   std::vector<OtherDiff> others;
   std::vector<RecordProblem> problems;
+  /// What figures call subjects that have another name: their families, the id of a map.
+  std::map<std::string, std::set<std::string>> called;
   Judgement judgement;
 };
 
 /// Compares records run by run. Where six or more pairs of equal seeds are there, Wilcoxon's signed
 /// rank test, corrected by Holm over all quantities that differ beyond tolerance, and its effect
-/// size decide between better, worse and changed; with fewer pairs all have to point one way.
+/// size decide between better, worse and changed; with fewer pairs all errors that differ, of
+/// whatever quantity and subject, have to point one way, and what is of the solver tells none.
 ///
 /// Tests are of what differs at all: under the hypothesis that is tested, signs as likely up as
 /// down, leaving out the quantities without a difference changes no chance.
@@ -154,11 +161,12 @@ RecordName subject_of(const std::string& id);
 struct RecordTie {
   std::vector<const Comparison*> comparisons;  ///< Of its subject; empty: all equal.
   std::vector<const PointsDiff*> points;       ///< Of that one record.
+  std::vector<const OtherDiff*> others;        ///< Files of it alone, beyond tolerance.
   std::string run;                             ///< Empty: over all runs.
 };
 
 /// @param id  Of Figure::record_ids: "layout-1-pose-2/bearing/lpca/2000", "bearing/lpca/2000 of 5
-///            runs".
+///            runs", "histories/range/isomap", "space".
 RecordTie tie(const RecordDiff& diff, const std::string& id);
 
 /// "MPE 0.138 → 0.152 m, p = 0.003": of one run where `run` names one that differs, else the means.

@@ -67,6 +67,8 @@ RecordSet read_single(const fs::path& file) {
   if (schema == "mapproof.map") {
     const MapRecord map = parse_map(text, source);
     const std::string subject = add_subject(set, map.sensor, map.setting, std::to_string(map.step));
+    set.called[map.id] = subject;
+    set.settings["/method"] = label(map.setting);
     set.runs[""] = "";
     add_score(set, subject, "", map.score);
     add_statuses(set, map.id, map.statuses);

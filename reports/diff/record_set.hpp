@@ -55,6 +55,8 @@ struct RecordSet {
   std::map<std::string, PlacedPoints> worlds;     ///< By run: the true places.
   std::map<std::string, std::string> anchors;     ///< By run: their rows, as text.
   std::map<std::string, SubjectFamily> families;  ///< By subject, where it has a parameter.
+  /// What figures call subjects that have another name: of one map its id.
+  std::map<std::string, std::string> called;
   /// Numbers by run; NaN: no map came out, or there is nothing to judge.
   std::map<SeriesKey, std::map<std::string, double>> values;
   std::map<std::string, std::string> statuses;  ///< Of a record: its codes, in order.

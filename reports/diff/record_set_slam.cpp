@@ -47,7 +47,7 @@ void add_record(RecordSet& set, const SlamRun& run, const SlamRecord& record) {
 
 void add_convergence(RecordSet& set, const ConvergenceCurve& curve) {
   for (const ConvergencePoint& point : curve.points) {
-    const std::string subject = fmt::format("convergence-{}/{}", curve.id, point.steps);
+    const std::string subject = fmt::format("convergence/{}/{}", curve.id, point.steps);
     add_value(set, subject, "observation_error", kOnce, point.observation.mean);
     add_value(set, subject, "landmarks_m", kOnce, point.landmarks_m.mean);
     add_value(set, subject, "positions_m", kOnce, point.positions_m.mean);
@@ -57,9 +57,13 @@ void add_convergence(RecordSet& set, const ConvergenceCurve& curve) {
 
 void add_histories(RecordSet& set, const RangeHistoryStudy& histories) {
   for (const RangeHistoryMap& map : histories.maps) {
+    // As figures name them, but for the parameter: it may follow from the data.
+    const std::string place = map.squared ? "histories/squared/" : "histories/range/";
     const std::string subject =
-        fmt::format("histories/{}{}", map.setting ? slug(*map.setting) : std::string("spectral"),
-                    map.squared ? "-squared" : "");
+        place + (map.setting ? slug(*map.setting) : std::string("spectral"));
+    if (map.setting && map.setting->parameter)
+      set.families[subject] = {place + std::string(info(map.setting->method).name),
+                               parameter_text(*map.setting)};
     add_score(set, subject, kOnce, map.score);
     add_statuses(set, subject, map.statuses);
     set.points[subject] = {.quantity = "landmark_m",

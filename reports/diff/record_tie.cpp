@@ -15,6 +15,7 @@ struct Ties {
   std::vector<const Comparison*> comparisons;  ///< Beyond tolerance.
   std::string run;                             ///< Of the point that moved farthest.
   const PointsDiff* farthest = nullptr;
+  const OtherDiff* other = nullptr;  ///< A file of what the figure names alone.
 };
 
 Ties ties_of(const std::vector<std::string>& ids, const RecordContext& context) {
@@ -25,6 +26,7 @@ Ties ties_of(const std::vector<std::string>& ids, const RecordContext& context) 
       for (const Comparison* comparison : one.comparisons)
         if (verdict_of(comparison->outcome) > Verdict::kWithinTolerance)
           ties.comparisons.push_back(comparison);
+      if (ties.other == nullptr && !one.others.empty()) ties.other = one.others[0];
       for (const PointsDiff* points : one.points) {
         if (points->moves.empty()) continue;
         if (ties.farthest && points->moves[0].moved <= ties.farthest->moves[0].moved) continue;
@@ -54,17 +56,48 @@ std::string pixels_of(const FigureDiff& diff, const std::string& landmark) {
   return "";
 }
 
-/// What moved: a landmark of a record, else what the figure itself says.
-std::string what_moved(const FigureDiff& diff, const Ties& ties, const Judgement& own) {
-  if (ties.farthest == nullptr) return own.cause;
-  const PointMove& move = ties.farthest->moves[0];
-  return fmt::format("{}{} in record {}", move_text(move, ties.farthest->quantity),
-                     pixels_of(diff, move.name), ties.farthest->record);
-}
-
 const FigureChange* other_records(const FigureDiff& diff) {
   const auto found = std::ranges::find(diff.changes, kRecordsWord, &FigureChange::what);
   return found == diff.changes.end() ? nullptr : &*found;
+}
+
+/// What the records say where no score and no position of those that the figure names changed.
+std::string elsewhere_text(const Ties& ties, const RecordContext& context) {
+  if (ties.other != nullptr) return other_text(*ties.other);
+  Verdict heaviest = Verdict::kIdentical;
+  for (const RecordDiff* records : context.records) {
+    if (!settings_text(*records).empty()) return "";
+    heaviest = heavier(heaviest, records->judgement.verdict);
+  }
+  if (heaviest <= Verdict::kWithinTolerance)
+    return "its records did not change: it is made of them otherwise";
+  // Of runs and files that are on one side alone nobody knows.
+  return heaviest < Verdict::kMissing && heaviest != Verdict::kNew
+             ? "no score and no position of its records changed"
+             : "";
+}
+
+/// What differs, beside scores: the experiment, the records that it shows, what moved, and why.
+std::vector<std::string> reasons(const FigureDiff& diff, const Ties& ties, const Judgement& own,
+                                 bool names_records, const RecordContext& context) {
+  std::vector<std::string> why;
+  for (const RecordDiff* records : context.records)
+    if (const std::string settings = settings_text(*records); !settings.empty() && why.empty())
+      why.push_back(settings);
+  const FigureChange* others = other_records(diff);
+  if (others != nullptr)
+    why.push_back(
+        fmt::format("it shows other records, {} \u2192 {}", others->baseline, others->current));
+  if (ties.farthest != nullptr) {
+    const PointMove& move = ties.farthest->moves[0];
+    why.push_back(fmt::format("{}{} in record {}", move_text(move, ties.farthest->quantity),
+                              pixels_of(diff, move.name), ties.farthest->record));
+    return why;
+  }
+  if (others == nullptr || !own.cause.starts_with(kMadeOfOthers)) why.push_back(own.cause);
+  if (others == nullptr && ties.comparisons.empty() && names_records)
+    if (const std::string text = elsewhere_text(ties, context); !text.empty()) why.push_back(text);
+  return why;
 }
 
 }  // namespace
@@ -75,12 +108,8 @@ Judgement tied_judgement(const std::string& id, const FigureDiff& diff, const Ju
   const Ties ties = ties_of(record_ids, context);
   Judgement judgement{Verdict::kChanged, true, ""};
   std::string why;
-  for (const RecordDiff* records : context.records)
-    if (const std::string settings = settings_text(*records); !settings.empty() && why.empty())
-      why = settings + "; ";
-  if (const FigureChange* change = other_records(diff))
-    why += fmt::format("it shows other records, {} \u2192 {}; ", change->baseline, change->current);
-  why += what_moved(diff, ties, own);
+  for (const std::string& reason : reasons(diff, ties, own, !record_ids.empty(), context))
+    why += (why.empty() ? "" : "; ") + reason;
 
   const std::vector<const Comparison*> shown = primary(id, ties.comparisons);
   if (const Comparison* first = most_telling(shown)) {
@@ -96,9 +125,8 @@ Judgement tied_judgement(const std::string& id, const FigureDiff& diff, const Ju
     });
     why += ", " + (of_run != shown.end() && !ties.run.empty()
                        ? comparison_text(**of_run, ties.run)
-                       : comparison_text(*first) + " of " + first->subject);
-  } else if (ties.farthest == nullptr) {
-    why += record_ids.empty() ? "" : "; its records did not change: it is made of them otherwise";
+                       : comparison_text(*first) + " of " + first->subject) +
+           directions_text(ties.comparisons, *first);
   }
   judgement.cause = fmt::format("{} changed because {}", id, why);
   return judgement;

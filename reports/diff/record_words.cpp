@@ -87,8 +87,9 @@ void judge_comparisons(const RecordDiff& diff, Judgement& whole, std::vector<std
   const auto beyond = std::ranges::count_if(
       all, [](const Comparison* c) { return verdict_of(c->outcome) > Verdict::kWithinTolerance; });
   causes.push_back(fmt::format(
-      "{} of {}{}{}", comparison_text(*first), first->subject, test_words(*first),
-      beyond > 1 ? fmt::format(", and {} of other quantities or records", beyond - 1) : ""));
+      "{} of {}{}{}{}", comparison_text(*first), first->subject, test_words(*first),
+      beyond > 1 ? fmt::format(", and {} of other quantities or records", beyond - 1) : "",
+      directions_text(all, *first)));
 }
 
 /// Subjects of which a quantity says already what their change is worth.
@@ -138,19 +139,6 @@ void judge_rest(const RecordDiff& diff, Judgement& whole, std::vector<std::strin
     whole.verdict = heavier(whole.verdict, Verdict::kChanged);
     causes.push_back("other anchors in " + names_text(diff.anchors));
   }
-}
-
-/// "space.json is missing"; "maps/layout-1-pose-2.json: 2 numbers differ, the first at …".
-std::string other_text(const OtherDiff& other) {
-  if (other.presence == Presence::kBaseline) return printable(other.file) + " is missing";
-  if (other.presence == Presence::kCurrent) return printable(other.file) + " is new";
-  const std::string file = other.file.empty() ? "the file" : printable(other.file);
-  const std::string what = other.beyond == 0
-                               ? std::string("its keys, words or lengths differ")
-                               : fmt::format("{} {}", counted(other.beyond, "number"),
-                                             other.beyond == 1 ? "differs" : "differ");
-  return fmt::format("{}: {}, the first at {} {} \u2192 {}", file, what, printable(other.first),
-                     printable(other.baseline), printable(other.current));
 }
 
 void judge_others(const RecordDiff& diff, Judgement& whole, std::vector<std::string>& causes) {
@@ -208,6 +196,36 @@ const Comparison* most_telling(const std::vector<const Comparison*>& comparisons
   for (const Comparison* comparison : comparisons)
     if (first == nullptr || tells_more(*comparison, *first)) first = comparison;
   return first;
+}
+
+std::string directions_text(const std::vector<const Comparison*>& all, const Comparison& first) {
+  if (first.outcome != Outcome::kChanged || (first.test && first.test->powerless_of == 0))
+    return "";
+  int worse = 0, better = 0, both = 0;
+  for (const Comparison* c : all) {
+    if (find_quantity(c->quantity)->of_solver) continue;
+    const bool is_worse = c->worse + c->lost > 0, is_better = c->better + c->gained > 0;
+    both += is_worse && is_better;
+    worse += is_worse && !is_better;
+    better += is_better && !is_worse;
+  }
+  std::string text;
+  for (const auto& [count, word] :
+       {std::pair(worse, "worse"), {better, "better"}, {both, "both ways"}})
+    if (count > 0) text += fmt::format("{}{} {}", text.empty() ? "" : ", ", count, word);
+  return (worse > 0) + (better > 0) + (both > 0) > 1 ? " (errors: " + text + ")" : "";
+}
+
+std::string other_text(const OtherDiff& other) {
+  if (other.presence == Presence::kBaseline) return printable(other.file) + " is missing";
+  if (other.presence == Presence::kCurrent) return printable(other.file) + " is new";
+  const std::string file = other.file.empty() ? "the file" : printable(other.file);
+  const std::string what = other.beyond == 0
+                               ? std::string("its keys, words or lengths differ")
+                               : fmt::format("{} {}", counted(other.beyond, "number"),
+                                             other.beyond == 1 ? "differs" : "differ");
+  return fmt::format("{}: {}, the first at {} {} \u2192 {}", file, what, printable(other.first),
+                     printable(other.baseline), printable(other.current));
 }
 
 std::string settings_text(const RecordDiff& diff) {
