@@ -27,7 +27,8 @@ struct QuantityFacts {
   std::string_view label;  ///< For readers: "MPE".
   std::string_view unit;   ///< "m", "%"; empty: none.
   Direction direction = Direction::kNeither;
-  Tolerance tolerance;  ///< Unless settings say otherwise.
+  Tolerance tolerance;     ///< Unless settings say otherwise.
+  bool of_solver = false;  ///< Of how it went, no error of what came out: a hint, never a proof.
 };
 
 /// All that the records are compared by. The tolerances are what rounding may do on another

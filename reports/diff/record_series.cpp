@@ -52,7 +52,6 @@ double mean_of(const Values& values) {
 struct Differences {
   std::map<std::string, std::vector<double>> by_layout;
   std::vector<double> by_run;
-  int up = 0, down = 0;  ///< Beyond tolerance.
 };
 
 void compare_pair(const std::string& run, const std::string& layout, double a, double b,
@@ -82,7 +81,7 @@ void compare_pair(const std::string& run, const std::string& layout, double a, d
     }
   }
   ++out.beyond;
-  ++(b > a ? differences.up : differences.down);
+  ++(b > a ? out.worse : out.better);
   out.largest.push_back({run, a, b});
 }
 
@@ -147,9 +146,22 @@ Open compare(const RecordSet& a, const RecordSet& b, const Values& before, const
   return open;
 }
 
-Outcome outcome_of(const Open& open, bool same_seeds, const QuantityFacts& quantity,
+/// Whether all errors that differ, of whatever quantity and subject, got worse, or all better.
+bool point_one_way(const std::vector<Open>& all) {
+  bool worse = false, better = false;
+  for (const Open& open : all) {
+    const Comparison& c = open.comparison;
+    if (find_quantity(c.quantity)->of_solver) continue;
+    worse = worse || c.worse + c.lost > 0;
+    better = better || c.better + c.gained > 0;
+  }
+  return !worse || !better;
+}
+
+/// @param one_way  As point_one_way says of all.
+Outcome outcome_of(const Comparison& c, bool same_seeds, bool one_way,
                    const RecordOptions& options) {
-  const Comparison& c = open.comparison;
+  const QuantityFacts& quantity = *find_quantity(c.quantity);
   if (c.beyond + c.lost + c.gained == 0)
     return c.within > 0 ? Outcome::kWithinTolerance : Outcome::kEqual;
   if (quantity.direction == Direction::kNeither || !same_seeds) return Outcome::kChanged;
@@ -160,10 +172,10 @@ Outcome outcome_of(const Open& open, bool same_seeds, const QuantityFacts& quant
     if (!decides) return Outcome::kChanged;
     return (c.test->test.effect > 0.0) == up_is_worse ? Outcome::kWorse : Outcome::kBetter;
   }
-  const auto [up, down] = std::pair(open.differences.up, open.differences.down);
-  const int worse = (up_is_worse ? up : down) + c.lost;
-  const int better = (up_is_worse ? down : up) + c.gained;
-  if (worse > 0 && better > 0) return Outcome::kChanged;
+  const int worse = c.worse + c.lost, better = c.better + c.gained;
+  if (quantity.of_solver || (worse > 0 && better > 0)) return Outcome::kChanged;
+  // That there is no score any more needs no others beside it.
+  if (!one_way && c.lost + c.gained == 0) return Outcome::kChanged;
   return worse > 0 ? Outcome::kWorse : Outcome::kBetter;
 }
 
@@ -228,14 +240,16 @@ std::vector<Comparison> compare_series(const RecordSet& a, const RecordSet& b, b
       c.subject = subject;
       c.current_subject = other;
       c.quantity = quantity.name;
+      if (quantity.direction == Direction::kHigherIsBetter) std::swap(c.worse, c.better);
+      if (quantity.direction == Direction::kNeither || !same_seeds) c.worse = c.better = 0;
       if (c.within + c.beyond + c.lost + c.gained > 0) all.push_back(std::move(open));
     }
   }
   correct(all, options.significance);
+  const bool one_way = point_one_way(all);
   std::vector<Comparison> compared;
   for (Open& open : all) {
-    open.comparison.outcome =
-        outcome_of(open, same_seeds, *find_quantity(open.comparison.quantity), options);
+    open.comparison.outcome = outcome_of(open.comparison, same_seeds, one_way, options);
     compared.push_back(std::move(open.comparison));
   }
   return compared;

@@ -28,6 +28,12 @@ std::map<std::string, double>& values(RecordSet& set) {
   return set.values[{"bearing/lpca/100", "mpe_m"}];
 }
 
+Outcome outcome_of(const RecordDiff& diff, const std::string& quantity) {
+  for (const Comparison& comparison : diff.comparisons)
+    if (comparison.quantity == quantity) return comparison.outcome;
+  return Outcome::kEqual;
+}
+
 TEST(RecordDiff, GivesNoPWithFewerThanSixPairsButADirectionIfAllAgree) {
   for (const int layouts : {1, 2, 5}) {
     const RecordSet before = set_of(layouts);
@@ -43,6 +49,47 @@ TEST(RecordDiff, GivesNoPWithFewerThanSixPairsButADirectionIfAllAgree) {
   double sign = 1.0;
   for (auto& [run, value] : values(after)) value += 0.01 * (sign = -sign);
   EXPECT_EQ(record_diff(before, after).judgement.verdict, Verdict::kChanged);
+}
+
+TEST(RecordDiff, HasNoDirectionOfSoFewPairsWhereErrorsPointBothWays) {
+  RecordSet before = set_of(1);
+  const auto with = [](RecordSet set, const char* quantity, double value) {
+    set.values[{"bearing/lpca/100", quantity}]["layout-1-pose-1"] = value;
+    return set;
+  };
+  before = with(with(with(before, "moe_percent", 4.0), "mpe_all_fitted_m", 0.5), "stress", 0.1);
+  const RecordSet worse = with(with(before, "mpe_m", 2.0), "moe_percent", 5.0);
+  EXPECT_EQ(record_diff(before, worse).judgement.verdict, Verdict::kWorse);
+  const RecordDiff both = record_diff(before, with(worse, "mpe_all_fitted_m", 0.4));
+  EXPECT_EQ(both.judgement.verdict, Verdict::kChanged);
+  EXPECT_NE(both.judgement.cause.find("errors: 2 worse, 1 better"), std::string::npos)
+      << both.judgement.cause;
+  // That of another method counts too; a score that is lost counts whatever the others do.
+  RecordSet other = before, others_better = worse;
+  other.values[{"bearing/isomap/100", "mpe_m"}]["layout-1-pose-1"] = 1.0;
+  others_better.values[{"bearing/isomap/100", "mpe_m"}]["layout-1-pose-1"] = 0.5;
+  EXPECT_EQ(record_diff(other, others_better).judgement.verdict, Verdict::kChanged);
+  others_better.values[{"bearing/lpca/100", "moe_percent"}]["layout-1-pose-1"] = std::nan("");
+  EXPECT_EQ(record_diff(other, others_better).judgement.verdict, Verdict::kWorse);
+}
+
+TEST(RecordDiff, NeverTakesTheSolversStressForAnErrorOfTheMap) {
+  for (const int layouts : {1, 5, 8}) {
+    RecordSet before = set_of(layouts);
+    before.values[{"bearing/lpca/100", "stress"}] = values(before);
+    for (const char* subject : {"a", "b", "c", "d", "e", "f", "g"})  // Too many for any test.
+      before.values[{subject, "stress"}] = values(before);
+    RecordSet after = before;
+    for (auto& [key, runs] : after.values)
+      if (key.quantity == "stress")
+        for (auto& [run, value] : runs) value += 0.01;
+    EXPECT_EQ(record_diff(before, after).judgement.verdict, Verdict::kChanged) << layouts;
+    // Nor does it speak against errors that point one way.
+    for (auto& [run, value] : values(after)) value -= 0.01;
+    const RecordDiff diff = record_diff(before, after);
+    EXPECT_EQ(diff.judgement.verdict, Verdict::kChanged);
+    EXPECT_EQ(outcome_of(diff, "mpe_m"), Outcome::kBetter) << layouts;
+  }
 }
 
 TEST(RecordDiff, CountsLayoutsNotPosesWhereThereAreEnough) {
