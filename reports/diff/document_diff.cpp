@@ -6,12 +6,14 @@
 #include <map>
 #include <optional>
 #include <set>
+#include <tuple>
 
 #include <fmt/format.h>
 
 #include "core/base/errors.hpp"
 #include "core/base/files.hpp"
 #include "core/base/words.hpp"
+#include "reports/diff/excerpts.hpp"
 #include "reports/diff/number_words.hpp"
 #include "reports/diff/page_text.hpp"
 #include "reports/diff/record_set_parts.hpp"
@@ -126,11 +128,10 @@ OtherDiff words_diff(const std::string& a, const std::string& b) {
       ++line;
     }
   const auto line_at = [&](const std::string& text) {
-    return printable(text.substr(at, text.find('\n', at) - at), kMostWords);
+    return at < text.size() ? text.substr(at, text.find('\n', at) - at) : "nothing";
   };
   diff.first = fmt::format("line {} of its text", line);
-  diff.baseline = at < a.size() ? line_at(a) : "nothing";
-  diff.current = at < b.size() ? line_at(b) : "nothing";
+  std::tie(diff.baseline, diff.current) = excerpts(line_at(a), line_at(b), kMostWords);
   diff.shape = true;
   return diff;
 }

@@ -5,6 +5,7 @@
 
 #include "core/base/errors.hpp"
 #include "core/base/words.hpp"
+#include "reports/diff/excerpts.hpp"
 #include "reports/diff/figure_diff.hpp"
 #include "reports/diff/figure_log.hpp"
 
@@ -20,8 +21,7 @@ std::string length_text(double length, const std::string& unit) {
 }
 
 std::string change_sentence(const FigureChange& change) {
-  const std::string before = printable(change.baseline, kMostWords);
-  const std::string after = printable(change.current, kMostWords);
+  const auto [before, after] = excerpts(change.baseline, change.current, kMostWords);
   std::string text = change.place + ": " + change.what;
   if (change.baseline.empty() && change.current.empty()) return text;
   if (change.current.empty()) return text + " (was " + before + ")";

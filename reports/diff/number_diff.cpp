@@ -1,12 +1,14 @@
 #include "reports/diff/number_diff.hpp"
 
 #include <array>
+#include <tuple>
 
 #include <fmt/format.h>
 
 #include "core/base/errors.hpp"
 #include "core/base/files.hpp"
 #include "core/json/json_cursor.hpp"
+#include "reports/diff/excerpts.hpp"
 #include "reports/diff/number_words.hpp"
 
 namespace mapproof {
@@ -72,6 +74,9 @@ class Comparer {
       diff_.first = place.empty() ? "/" : place;
       diff_.baseline = shown(a);
       diff_.current = shown(b);
+      if (a.is_string() && b.is_string())
+        std::tie(diff_.baseline, diff_.current) =
+            excerpts(a.get<std::string>(), b.get<std::string>(), kMostWords);
     }
     diff_.shape |= shape;
     if (!shape) ++diff_.beyond;

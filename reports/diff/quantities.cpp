@@ -59,14 +59,17 @@ std::string quantity_text(double value) {
   return std::isfinite(value) ? fmt::format("{:.4g}", value) : std::string("none");
 }
 
+std::pair<std::string, std::string> told_apart(double baseline, double current, int digits) {
+  constexpr int kAll = 17;
+  const auto text = [&](double value) {
+    return std::isfinite(value) ? fmt::format("{:.{}g}", value, digits) : std::string("none");
+  };
+  while (digits < kAll && baseline != current && text(baseline) == text(current)) ++digits;
+  return {text(baseline), text(current)};
+}
+
 std::string change_text(double baseline, double current, std::string_view unit) {
-  std::string from, to;
-  for (int digits = 3; digits <= 17 && (digits == 3 || (from == to && baseline != current));
-       ++digits) {
-    from = std::isfinite(baseline) ? fmt::format("{:.{}g}", baseline, digits) : "none";
-    to = std::isfinite(current) ? fmt::format("{:.{}g}", current, digits) : "none";
-    if (!std::isfinite(baseline) && !std::isfinite(current)) break;
-  }
+  const auto [from, to] = told_apart(baseline, current, 3);
   return fmt::format("{} \u2192 {}{}{}", from, to, unit.empty() ? "" : " ", unit);
 }
 

@@ -5,6 +5,7 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <utility>
 
 namespace mapproof {
 
@@ -45,6 +46,9 @@ Tolerance tolerance_of(const QuantityFacts& quantity, const Tolerances& changed)
 
 /// "0.152", four digits, without its unit.
 std::string quantity_text(double value);
+
+/// Both in as many digits as tell the two apart, at least so many; "none" for what is no number.
+std::pair<std::string, std::string> told_apart(double baseline, double current, int digits);
 
 /// "0.138 → 0.152 m": as many digits as tell the two apart, at least three.
 std::string change_text(double baseline, double current, std::string_view unit);

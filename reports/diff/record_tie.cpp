@@ -123,9 +123,10 @@ Judgement tied_judgement(const std::string& id, const FigureDiff& diff, const Ju
              std::ranges::any_of(c->largest,
                                  [&](const PairedValue& pair) { return pair.run == ties.run; });
     });
-    why += ", " + (of_run != shown.end() && !ties.run.empty()
-                       ? comparison_text(**of_run, ties.run)
-                       : comparison_text(*first) + " of " + first->subject) +
+    why += ", " +
+           (of_run != shown.end() && !ties.run.empty()
+                ? comparison_text(**of_run, ties.run)
+                : comparison_text(*first) + " of " + first->subject) +
            directions_text(ties.comparisons, *first);
   }
   judgement.cause = fmt::format("{} changed because {}", id, why);

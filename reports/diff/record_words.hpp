@@ -11,8 +11,8 @@ Judgement judge(const RecordDiff& diff);
 /// Null if there is none.
 const Comparison* most_telling(const std::vector<const Comparison*>& comparisons);
 
-/// " (errors: 1 worse, 3 better)" where they point both ways, and `first`, the most telling of them,
-/// has no test that tells more; else empty.
+/// " (errors: 1 worse, 3 better)" where they point both ways, and `first`, the most telling of
+/// them, has no test that tells more; else empty.
 std::string directions_text(const std::vector<const Comparison*>& all, const Comparison& first);
 
 /// "space.json is missing"; "maps/layout-1-pose-2.json: 2 numbers differ, the first at …".

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <tuple>
 
 #include <fmt/format.h>
 
@@ -93,6 +94,11 @@ class SceneComparer {
       return;
     }
     if (difference.count++ > 0) return;
+    if (a.is_number() && b.is_number()) {
+      std::tie(difference.baseline, difference.current) =
+          told_apart(a.get<double>(), b.get<double>(), 6);
+      return;
+    }
     difference.baseline = short_text(a);
     difference.current = short_text(b);
     if (difference.baseline == difference.current) difference.current += ", others";
@@ -100,7 +106,7 @@ class SceneComparer {
 
   static std::string short_text(const Json& value) {
     if (value.is_structured()) return counted(static_cast<long long>(value.size()), "value");
-    return value.is_number_float() ? fmt::format("{:.6g}", value.get<double>()) : text_of(value);
+    return text_of(value);
   }
 
   const FigureOptions& options_;

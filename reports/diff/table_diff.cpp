@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <tuple>
 #include <vector>
 
 #include <fmt/format.h>
@@ -10,6 +11,7 @@
 #include "core/base/files.hpp"
 #include "core/base/words.hpp"
 #include "core/records/table_reader.hpp"
+#include "reports/diff/excerpts.hpp"
 #include "reports/diff/number_words.hpp"
 
 namespace mapproof {
@@ -121,8 +123,7 @@ class Comparer {
   void note(const std::string& place, const std::string& before, const std::string& after) {
     if (!found_.cells.first.empty()) return;
     found_.cells.first = place;
-    found_.cells.baseline = printable(before, kMostWords);
-    found_.cells.current = printable(after, kMostWords);
+    std::tie(found_.cells.baseline, found_.cells.current) = excerpts(before, after, kMostWords);
   }
 
   void compare_row(std::size_t row) {
