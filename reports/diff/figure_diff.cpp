@@ -22,15 +22,26 @@ std::string text_of(const std::optional<Range>& limits) {
                 : std::string("what the data need");
 }
 
+/// Words are no data, the numbers in them are, but of a figure that varies.
+ChangeKind kind_of(const std::string& a, const std::string& b, bool varies, ChangeKind of_words) {
+  return varies || same_numbers(a, b) ? of_words : ChangeKind::kData;
+}
+
 void compare_words(const Figure& a, const Figure& b, FigureLog& log) {
+  const bool varies = a.varies && b.varies;
+  const auto words = [&](std::string_view what, const std::string& before,
+                         const std::string& after) {
+    log.change(kind_of(before, after, varies, ChangeKind::kMetadata), "figure", what, before,
+               after);
+  };
   log.change(ChangeKind::kMetadata, "figure", "id", a.id, b.id);
-  log.change(ChangeKind::kMetadata, "figure", "title", a.title, b.title);
-  log.change(ChangeKind::kMetadata, "figure", "caption", a.caption, b.caption);
+  words("title", a.title, b.title);
+  words("caption", a.caption, b.caption);
   // Of a figure that varies it tells the values, and may name them in another order.
-  if (a.alt != b.alt && a.varies && b.varies)
+  if (a.alt != b.alt && varies)
     log.mask();
   else
-    log.change(ChangeKind::kMetadata, "figure", "alternative text", a.alt, b.alt);
+    words("alternative text", a.alt, b.alt);
   // No word alone: of a figure that varies nothing more is judged next time.
   log.change(ChangeKind::kData, "figure", "varies from run to run", a.varies ? "yes" : "no",
              b.varies ? "yes" : "no");
@@ -43,9 +54,7 @@ void compare_words(const Figure& a, const Figure& b, FigureLog& log) {
   for (std::size_t i = 0; i < std::max(a.notes.size(), b.notes.size()); ++i) {
     const bool before = i < a.notes.size(), after = i < b.notes.size();
     const std::string first = before ? a.notes[i].text : "", second = after ? b.notes[i].text : "";
-    const bool other_words = without_numbers(first) != without_numbers(second);
-    log.change(other_words ? ChangeKind::kStyle : ChangeKind::kData, "figure", "note", first,
-               second);
+    log.change(kind_of(first, second, varies, ChangeKind::kStyle), "figure", "note", first, second);
     if (before && after)
       log.change(ChangeKind::kStyle, "figure", "colour of a note",
                  std::string(name(a.notes[i].ink)), std::string(name(b.notes[i].ink)));

@@ -13,7 +13,7 @@ namespace mapproof {
 
 /// What a difference of two figures is about.
 enum class ChangeKind {
-  kMetadata,  ///< Words that explain: title, caption, alternative text.
+  kMetadata,  ///< Words that explain: title, caption, alternative text; numbers in them are data.
   kStyle,     ///< How it is shown: colour, dash, marker, label, scale, limits, legend, layout.
   kData,      ///< What is shown.
 };

@@ -9,6 +9,7 @@
 
 #include "core/base/errors.hpp"
 #include "core/base/words.hpp"
+#include "reports/diff/number_words.hpp"
 
 namespace mapproof {
 namespace {
@@ -132,7 +133,10 @@ void LayerDiff::compare_point(const LayerView& a, std::size_t i, const LayerView
     if (!farthest || move.distance > farthest->distance) farthest = std::move(move);
   }
   if (i < a.texts.size() && j < b.texts.size() && shared_ == nullptr)
-    log_.change(ChangeKind::kStyle, place_, "text", a.texts[i], b.texts[j]);
+    // Labels are what points are called, texts may be the values of cells.
+    log_.change(a.kind == "labels" || !same_numbers(a.texts[i], b.texts[j]) ? ChangeKind::kData
+                                                                            : ChangeKind::kStyle,
+                place_, "text", a.texts[i], b.texts[j]);
   if (farthest) {
     log_.move(*std::move(farthest));
     return;
@@ -195,8 +199,9 @@ void LayerDiff::compare_data(const Mark& a, const Mark& b) {
     const std::string other(data_of(b, key));
     const auto first = number_of(value), second = number_of(other);
     if (first && second && Tolerance{1e-9, kWritten}.holds(*first, *second)) continue;
-    log_.change(first && second ? ChangeKind::kData : ChangeKind::kStyle, place_, "data-" + key,
-                value, other);
+    const bool is_data = (first && second) || key == "landmark";
+    log_.change(is_data ? ChangeKind::kData : ChangeKind::kStyle, place_, "data-" + key, value,
+                other);
   }
   for (const auto& [key, value] : b.data)
     if (std::ranges::none_of(a.data, [&](const auto& item) { return item.first == key; }))

@@ -66,6 +66,8 @@ std::vector<double> numbers_in(std::string_view text) {
   return numbers;
 }
 
+bool same_numbers(std::string_view a, std::string_view b) { return numbers_in(a) == numbers_in(b); }
+
 TextChange text_change(std::string_view a, std::string_view b, const Tolerance& tolerance) {
   if (a == b) return TextChange::kNone;
   if (without_numbers(a) != without_numbers(b)) return TextChange::kWords;

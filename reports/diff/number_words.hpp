@@ -24,4 +24,7 @@ enum class TextChange {
 
 TextChange text_change(std::string_view a, std::string_view b, const Tolerance& tolerance);
 
+/// Whether the numbers of both are the same, one by one, whatever words stand between them.
+bool same_numbers(std::string_view a, std::string_view b);
+
 }  // namespace mapproof

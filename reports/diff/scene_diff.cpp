@@ -10,6 +10,7 @@
 #include "core/json/json_cursor.hpp"
 #include "render/scene/scene_json.hpp"
 #include "reports/diff/figure_log.hpp"
+#include "reports/diff/number_words.hpp"
 
 namespace mapproof {
 namespace {
@@ -73,7 +74,12 @@ class SceneComparer {
     if (difference.count == 0) return;
     const std::string what =
         difference.count == 1 ? key : fmt::format("{}, {} values", key, difference.count);
-    log_.change(kind_of(key, place), place, what, difference.baseline, difference.current);
+    ChangeKind kind = kind_of(key, place);
+    // Words are no data, the numbers in them are.
+    if (kind == ChangeKind::kMetadata && a.is_string() && b.is_string() &&
+        !same_numbers(text_of(a), text_of(b)))
+      kind = ChangeKind::kData;
+    log_.change(kind, place, what, difference.baseline, difference.current);
   }
 
   struct Difference {

@@ -184,6 +184,20 @@ void add_data(std::vector<ValueCase>& cases) {
       return points != nullptr && points->label == "anchor";
     });
   });
+  // Numbers in words are data, and so is what a landmark is called.
+  const auto turn = [](std::string& text) {
+    const std::size_t at = text.find_last_of("0123456789");
+    if (at == std::string::npos) throw std::out_of_range("no number in: " + text);
+    text[at] = text[at] == '9' ? '1' : static_cast<char>(text[at] + 1);
+  };
+  data(map, "a number in the alternative text", {"alternative text"},
+       [=](Figure& f) { turn(f.alt); });
+  data(map, "a number in the caption", {"caption"}, [=](Figure& f) { turn(f.caption); });
+  data(curve, "a number in the title", {"title"}, [](Figure& f) { f.title += ", 2"; });
+  data(map, "another name of a landmark", {"data-landmark L5 \u2192 L55"}, [](Figure& f) {
+    for (auto& [key, value] : layer<Scatter>(f, 2).marks[4].data)
+      if (key == "landmark") value = "L55";
+  });
   data(curve, "a point of a curve", {"point 2 of ISOMAP, K = 6 moved"},
        [](Figure& f) { layer<Polyline>(f, 1).y[1] += 0.004; });
   data(curve, "a point of a curve lost", {"1 point removed"}, [](Figure& f) {

@@ -29,6 +29,7 @@ TEST(SceneDiff, TellsDataFromStyleAndWords) {
     return diff.changes.at(0).kind;
   };
   EXPECT_EQ(kind_after([](Scene& s) { s.title += " again"; }), ChangeKind::kMetadata);
+  EXPECT_EQ(kind_after([](Scene& s) { s.caption += " MPE 0.2 m."; }), ChangeKind::kData);
   EXPECT_EQ(kind_after([](Scene& s) { s.record_ids.emplace_back("another"); }), ChangeKind::kData);
   EXPECT_EQ(kind_after([](Scene& s) { s.views[0].camera.eye.x() += 1.0; }), ChangeKind::kStyle);
   EXPECT_EQ(kind_after([](Scene& s) {
