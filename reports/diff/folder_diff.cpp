@@ -231,7 +231,7 @@ DiffResult folder_diff(const fs::path& baseline, const fs::path& current,
   }
   std::vector<DiffItem> pictures =
       picture_items(before, after, file_id(current), context, settings);
-  name_swapped(pictures);
+  name_swapped(pictures, settings.allowed);
   remark_not_compared(pictures, result);
   remark_ignored(pictures, settings, result);
   std::ranges::move(pictures, std::back_inserter(result.items));

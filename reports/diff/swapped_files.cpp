@@ -56,7 +56,7 @@ const DiffItem* owner_of(const DiffItem& item, const BySize& files) {
 
 }  // namespace
 
-void name_swapped(std::vector<DiffItem>& items) {
+void name_swapped(std::vector<DiffItem>& items, std::span<const Verdict> allowed) {
   BySize files;
   for (const DiffItem& item : items) {
     if (!is_suspect(item)) continue;
@@ -76,7 +76,14 @@ void name_swapped(std::vector<DiffItem>& items) {
                          : fmt::format("its file is the baseline's {}: swapped", owner->id));
     if (is_rename) renamed[owner->id] = item.id;
   }
-  for (auto& [item, text] : words) item->judgement.cause += "; " + text;
+  for (auto& [item, text] : words) {
+    Judgement& told = item->judgement;
+    // No renderer did it, and no other looks: the picture is another one.
+    told.cause = told.verdict == Verdict::kRenderer ? text : told.cause + "; " + text;
+    if (told.verdict != Verdict::kNew) told.verdict = heavier(told.verdict, Verdict::kChanged);
+    told.visible = true;
+    item->passes = passes(told, allowed);
+  }
   for (DiffItem& item : items)
     if (const auto to = renamed.find(item.id);
         to != renamed.end() && item.judgement.verdict == Verdict::kMissing)

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <span>
 #include <vector>
 
 #include "reports/diff/diff_result.hpp"
@@ -7,7 +8,7 @@
 namespace mapproof {
 
 /// Adds to the causes of items whose current file is, byte by byte, the baseline's file of another
-/// item: swapped, or renamed.
-void name_swapped(std::vector<DiffItem>& items);
+/// item: swapped, or renamed. What was swapped is at least changed, whatever drew it.
+void name_swapped(std::vector<DiffItem>& items, std::span<const Verdict> allowed);
 
 }  // namespace mapproof

@@ -77,7 +77,7 @@ void add_whole(Files& files, const std::string& id, const std::string& other) {
             false, rename);
   files.add(id + " renamed, as the other", "renamed", Verdict::kNew,
             {"the baseline has it as " + id + ": renamed"}, false, rename);
-  files.add(id + ".png swapped", id, Verdict::kRenderer, {"the baseline's " + other, "swapped"},
+  files.add(id + ".png swapped", id, Verdict::kChanged, {"the baseline's " + other, "swapped"},
             false, [=](const fs::path& folder) {
               swap(folder / "figures" / (id + ".png"), folder / "figures" / (other + ".png"));
             });
