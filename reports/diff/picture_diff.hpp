@@ -41,7 +41,7 @@ struct PictureOptions {
   double mean_noise = 0.4;        ///< Of 255, 0 to 64: what the mean of a flat region may differ.
   double displacement_px = 0.35;  ///< 0 to 4: how far a piece of a picture may be moved.
   double changed_share = 0.0;     ///< 0 to 1: share of changed pixels that still is tolerated.
-  double svg_distance = 0.05;     ///< User units, >= 0: what a number of SVG geometry may differ.
+  double svg_distance = 0.15;     ///< Pixels as drawn, >= 0: how far SVG geometry may be moved.
   double svg_colour = 0.0;        ///< Of 255, 0 to 255: what a channel of an SVG colour may differ.
 
   /// Names the first field that cannot be used; empty if none.

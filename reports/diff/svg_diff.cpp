@@ -7,7 +7,9 @@
 #include <fmt/format.h>
 
 #include "core/base/errors.hpp"
+#include "reports/diff/excerpts.hpp"
 #include "reports/diff/svg_match.hpp"
+#include "reports/diff/svg_units.hpp"
 #include "reports/diff/svg_values.hpp"
 
 namespace mapproof {
@@ -16,6 +18,7 @@ namespace {
 constexpr std::size_t kMostChanges = 200;
 constexpr std::size_t kMostShown = 120;  // Characters of a value.
 constexpr double kStyleNumber = 0.001;
+constexpr double kTurn = 1e-4;  // Of a transform's matrix: a tenth of a pixel over 1000.
 
 bool is_one_of(const std::string& name, const std::set<std::string_view>& names) {
   return names.contains(name);
@@ -62,7 +65,12 @@ bool is_remark_element(const SvgElement& element) {
 class Differ {
  public:
   Differ(const SvgTree& a, const SvgTree& b, const PictureOptions& options)
-      : a_(a), b_(b), options_(options), match_(match_svgs(a, b)) {
+      : a_(a),
+        b_(b),
+        options_(options),
+        match_(match_svgs(a, b)),
+        units_(svg_units(a)),
+        moved_(a.elements.size(), 0.0) {
     mark_remarks(a_, remarks_a_);
     mark_remarks(b_, remarks_b_);
     for (std::size_t i = 0; i < a.elements.size(); ++i)
@@ -109,6 +117,7 @@ class Differ {
            .baseline = "",
            .current = b_.path(j),
            .tolerated = is_remark_here});
+    const bool is_nudged = nudge(i, a, b);
     if (a.id != b.id) add_value(i, "id", a.id, b.id, SvgChangeKind::kMetadata, {}, true);
     if (a.text != b.text) compare_text(i, a, b, is_remark_here);
     auto one = a.values.begin();
@@ -121,7 +130,7 @@ class Differ {
       const std::string& name = only_b ? other->first : one->first;
       if (only_a || only_b || one->second != other->second)
         compare_value(i, name, only_b ? none : one->second, only_a ? none : other->second,
-                      is_remark_here);
+                      is_remark_here, is_nudged);
       if (!only_b) ++one;
       if (!only_a) ++other;
     }
@@ -138,7 +147,7 @@ class Differ {
   }
 
   void compare_value(int i, const std::string& name, const std::string& before,
-                     const std::string& after, bool is_remark_here) {
+                     const std::string& after, bool is_remark_here, bool is_nudged) {
     // That of the root tells of the whole; below it stands for text drawn as outlines.
     if (name == "aria-label" && i > 0 && !is_remark_here)
       return add_value(i, name, before, after, SvgChangeKind::kText, {}, false);
@@ -148,10 +157,36 @@ class Differ {
     const ValueDistance found = value_distance(name, before, after);
     if (found.is_number && found.distance == 0.0) return;
     const SvgChangeKind kind = is_geometry(name) ? SvgChangeKind::kGeometry : SvgChangeKind::kStyle;
-    const double bound = found.is_colour                    ? options_.svg_colour
-                         : kind == SvgChangeKind::kGeometry ? options_.svg_distance
-                                                            : kStyleNumber;
-    add_value(i, name, before, after, kind, found, found.is_number && found.distance <= bound);
+    const bool is_near =
+        name == "transform" ? is_nudged
+        : kind == SvgChangeKind::kGeometry
+            ? is_near_enough(i, name, before, after, found)
+            : found.distance <= (found.is_colour ? options_.svg_colour : kStyleNumber);
+    add_value(i, name, before, after, kind, found, found.is_number && is_near);
+  }
+
+  /// Whether the element's transform moves it by so little that nobody sees it, all that its groups
+  /// did added; what is moved farther is told once, and not of all below it.
+  bool nudge(int i, const SvgElement& a, const SvgElement& b) {
+    if (a.parent >= 0) moved_[i] = moved_[a.parent];
+    const auto before = a.values.find("transform"), after = b.values.find("transform");
+    const auto distance = transform_distance(before == a.values.end() ? "" : before->second,
+                                             after == b.values.end() ? "" : after->second);
+    const double moved = distance ? moved_[i] + distance->shift * units_.outer[i] : 0.0;
+    const bool is_nudged = distance && distance->linear <= kTurn && moved <= options_.svg_distance;
+    moved_[i] = is_nudged ? moved : 0.0;
+    return is_nudged;
+  }
+
+  bool is_near_enough(int i, const std::string& name, const std::string& before,
+                      const std::string& after, const ValueDistance& found) const {
+    double distance = found.distance;
+    if (name.ends_with("Transform")) {
+      const auto apart = transform_distance(before, after);
+      if (!apart || apart->linear > kTurn) return false;
+      distance = apart->shift;
+    }
+    return moved_[i] + distance * units_.inner[i] <= options_.svg_distance;
   }
 
   /// The value with references to elements of the baseline led to what they are now.
@@ -169,11 +204,12 @@ class Differ {
                  bool is_tolerated) {
     if (!count_one(kind, is_tolerated)) return;
     const double distance = found.is_number ? found.distance : 0.0;
+    const auto [first, second] = excerpts(before, after, kMostShown);
     add({.kind = kind,
          .element = a_.path(i),
          .what = name,
-         .baseline = printable(before, kMostShown),
-         .current = printable(after, kMostShown),
+         .baseline = first,
+         .current = second,
          .distance = distance,
          .tolerated = is_tolerated});
   }
@@ -227,6 +263,8 @@ class Differ {
   const SvgTree &a_, &b_;
   const PictureOptions& options_;
   SvgMatch match_;
+  SvgUnits units_;             ///< Of the baseline.
+  std::vector<double> moved_;  ///< Pixels, by transforms that are within tolerance.
   std::vector<bool> remarks_a_, remarks_b_;
   std::map<std::string, std::string> new_id_;
   SvgDiff diff_;

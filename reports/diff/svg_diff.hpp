@@ -6,7 +6,7 @@
 namespace mapproof {
 
 /// Compares two SVG files element by element, never by bytes: what is written otherwise and means
-/// the same is no change. Numbers of geometry may differ by options.svg_distance, channels of
+/// the same is no change. Geometry may move by options.svg_distance pixels, channels of
 /// colours by options.svg_colour, numbers of style by 0.001; remarks (metadata, data-*, ids that
 /// nothing else tells) are listed as changes and always tolerated.
 /// @throws InvalidInput if the options cannot be used.

@@ -93,6 +93,59 @@ TEST(SvgDiff, NumbersHaveATolerance) {
   EXPECT_EQ(body_diff(R"(<g stroke-width="1"/>)", R"(<g/>)").style, 1);
 }
 
+/// A page of a width and a viewBox, with circles in a group.
+std::string page(const std::string& width, double box, const std::string& group, double shift) {
+  return fmt::format(R"(<svg xmlns="http://www.w3.org/2000/svg" width="{}" viewBox="0 0 {} {}">)",
+                     width, box, box) +
+         "<g" + group + ">" + row_of_circles(40, -1, shift) + "</g></svg>";
+}
+
+bool passes(const std::string& a, const std::string& b) {
+  const SvgDiff found = diff_of(a, b);
+  return found.total > 0 && found.tolerated == found.total;
+}
+
+TEST(SvgDiff, ATenthOfAPixelPassesAndAWholeOneDoesNotHoweverItIsWritten) {
+  const auto moved = [](double by) { return fmt::format(" transform='translate({} 0)'", by); };
+  for (const auto& [width, box] : {std::pair("400", 400.0),
+                                   {"300pt", 400.0},
+                                   {"300pt", 300.0},
+                                   {"1000", 1.0},
+                                   {"10cm", 4000.0},
+                                   {"100%", 400.0}}) {
+    const double px = box * (width == std::string("300pt")  ? 1.0 / 400.0
+                             : width == std::string("10cm") ? 1.0 / (10 * 96 / 2.54)
+                             : width == std::string("1000") ? 1.0 / 1000.0
+                                                            : 1.0 / 400.0);
+    SCOPED_TRACE(fmt::format("{} {}", width, box));
+    const std::string before = page(width, box, "", 0.0);
+    for (const double by : {0.02, 0.1}) {
+      EXPECT_TRUE(passes(before, page(width, box, moved(by * px), 0.0))) << by;
+      EXPECT_TRUE(passes(before, page(width, box, "", by * px))) << by;
+      EXPECT_TRUE(passes(page(width, box, " transform='scale(2)'", 0.0),
+                         page(width, box, " transform='scale(2)'", by * px / 2)))
+          << by;
+    }
+    for (const double by : {0.3, 1.0, -1.0}) {
+      EXPECT_FALSE(passes(before, page(width, box, moved(by * px), 0.0))) << by;
+      EXPECT_FALSE(passes(before, page(width, box, "", by * px))) << by;
+    }
+  }
+}
+
+TEST(SvgDiff, SmallMovementsOfGroupsAddUp) {
+  const auto nested = [](int groups, double by) {
+    std::string text;
+    for (int i = 0; i < groups; ++i) text += fmt::format("<g transform='translate({} 0)'>", by);
+    text += "<circle r='3'/>";
+    for (int i = 0; i < groups; ++i) text += "</g>";
+    return svg(text);
+  };
+  EXPECT_TRUE(passes(nested(1, 5.0), nested(1, 5.1)));
+  EXPECT_FALSE(passes(nested(10, 5.0), nested(10, 5.1)));
+  EXPECT_FALSE(passes(svg("<g transform='scale(1)'/>"), svg("<g transform='scale(1.04)'/>")));
+}
+
 TEST(SvgDiff, ColoursHaveADistance) {
   const SvgDiff found = body_diff(R"(<g style="fill:#102030"/>)", R"(<g fill="#102034"/>)");
   EXPECT_EQ(found.style, 1);
