@@ -113,6 +113,7 @@ class Builder {
       return refuse("a " + element.name + " element");
     for (; *attributes; attributes += 2)
       if (!add(element, short_name(attributes[0]), attributes[1])) return;
+    if (animates_reference(element)) return refuse("an animation of a reference or of a handler");
     if (!open_.empty()) {
       element.parent = open_.back();
       tree.elements[element.parent].children.push_back(index);
@@ -157,6 +158,14 @@ class Builder {
         return true;
     }
     return false;
+  }
+
+  /// Whether it sets, later, what would be refused at once.
+  static bool animates_reference(const SvgElement& element) {
+    const auto target = element.values.find("attributeName");
+    if (target == element.values.end()) return false;
+    const std::string name = lower(target->second);
+    return name == "href" || name.ends_with(":href") || name.starts_with("on");
   }
 
   /// False if the attribute is refused.

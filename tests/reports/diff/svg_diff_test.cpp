@@ -217,6 +217,9 @@ TEST(SvgParser, RefusesWhatRunsOrLoadsOrBlowsUp) {
         svg("<script>1</script>"), svg("<g onclick='x()'/>"),
         svg("<image xlink:href='http://example.org/a.png'/>"), svg("<use href='other.svg#a'/>"),
         svg("<a href='javascript:x()'/>"), svg("<g fill='url(http://example.org/#a)'/>"),
+        svg("<a><set attributeName='href' to='javascript:x()'/></a>"),
+        svg("<a><animate values='javascript:x()' attributeName='xlink:href'/></a>"),
+        svg("<g><set attributeName='onclick' to='x()'/></g>"),
         svg("<style>@import 'x.css';</style>"), svg("<foreignObject/>"), svg(deep)})
     EXPECT_THROW(parse_svg(text), InvalidInput) << text.substr(0, 200);
 }
