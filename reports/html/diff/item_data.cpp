@@ -90,6 +90,7 @@ data item_data(const DiffItem& item, const DiffResult& all, const ShownPictures&
   out.set("with_records", refusal != nullptr && refusal->goes_with_records);
   out.set("refusal", refusal ? printable(refusal->why, kMostCause) : std::string());
   out.set("stage", stage_data(shown, id));
+  out.set("no_heat", text_or_false(shown.no_heat));
   out.set("cluster", cluster_data(shown));
   out.set("absent", text_or_false(shown.absent));
   list blocks;

@@ -115,13 +115,20 @@ std::vector<Plan> plans(const DiffResult& result, const PictureBudget& budget) {
     }
     if (plan.file != nullptr) {
       used += bytes_of(*plan.file);
-      plan.heat = plan.file->format == "png" && has_both(*plan.file) &&
-                  plan.file->diff.state == PictureState::kDifferent && heat_maps < budget.heat_maps;
+      plan.heat =
+          plan.file->format == "png" && has_both(*plan.file) && heat_maps < budget.heat_maps;
       heat_maps += plan.heat ? 1 : 0;
     }
     all.push_back(std::move(plan));
   }
   return all;
+}
+
+/// Of two pictures that are shown without one.
+std::string no_heat_reason(const Plan& plan) {
+  if (plan.file->format != "png") return "No heat map: only PNGs have one.";
+  return plan.heat ? "No heat map: the sizes differ."
+                   : "No heat map: as many as a page holds are made of others.";
 }
 
 std::optional<ShownPicture> heat_picture(const PictureFile& file, const PictureOptions& options) {
@@ -148,6 +155,7 @@ ShownPictures read_all(const Plan& plan, const PictureOptions& options, std::siz
     return shown;
   }
   shown.format = file.format;
+  if (has_both(file) && !shown.heat) shown.no_heat = no_heat_reason(plan);
   if (file.diff.pixels && file.diff.pixels->largest_cluster_pixels > 0)
     shown.cluster = file.diff.pixels->largest_cluster;
   return shown;

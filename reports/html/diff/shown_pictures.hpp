@@ -21,6 +21,7 @@ struct ShownPictures {
   std::string format;  ///< "png", "svg"; empty: none is shown.
   std::optional<ShownPicture> baseline, current, heat;
   std::optional<PixelBox> cluster;  ///< The largest, where there is one.
+  std::string no_heat;              ///< Why two pictures have no heat map; empty if they have.
   std::string absent;  ///< Why nothing is shown; empty if something is, or there is nothing.
 };
 
@@ -31,7 +32,8 @@ struct PictureBudget {
 };
 
 /// Reads what the page shows of each item, in their order, and makes the heat maps of PNGs that
-/// differ. Identical and unreadable pictures are not shown. Files stay as they are on disk.
+/// differ, within tolerance too. Identical and unreadable pictures are not shown. Files stay as
+/// they are on disk.
 /// @note Several items at a time, by oneTBB; the result does not depend on it. Holds all.
 std::vector<ShownPictures> shown_pictures(const DiffResult& result, const DiffSettings& settings,
                                           const PictureBudget& budget = {});

@@ -63,6 +63,18 @@ TEST(DiffPage, MakesAHeatMapOnlyOfPngsOfOneSizeThatDiffer) {
   const std::string page = page_of(test::compared_folders(folder.path()));
   EXPECT_EQ(count_of(page, "class=\"pane heat\""), 1);
   EXPECT_NE(page.find("alt=\"Heat map of moved\""), std::string::npos);
+  EXPECT_EQ(count_of(page, "No heat map: only PNGs have one."), 1);
+  EXPECT_EQ(count_of(page, "No heat map: the sizes differ."), 1);
+}
+
+TEST(DiffPage, MakesAHeatMapOfWhatIsWithinToleranceToo) {
+  const test::TemporaryFolder folder;
+  DiffResult result = test::compared_folders(folder.path());
+  for (DiffItem& item : result.items)
+    for (PictureFile& file : item.pictures)
+      if (file.diff.state == PictureState::kDifferent)
+        file.diff.state = PictureState::kWithinTolerance;
+  EXPECT_EQ(count_of(page_of(result), "class=\"pane heat\""), 1);
 }
 
 TEST(DiffPage, SaysThatSizesDifferAndWhyAPictureIsNotShown) {
