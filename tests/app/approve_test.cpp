@@ -84,7 +84,9 @@ TEST(ApproveVerb, TakesAFolderInAFilesPlaceForNoAbsence) {
       EXPECT_EQ(outcome.exit_code, 1) << outcome.out;
       EXPECT_NE(outcome.error.find(place), std::string::npos) << outcome.error;
       EXPECT_TRUE(fs::exists(place + "/inside.txt"));
-      if (is_current) EXPECT_EQ(read_file(file), was);
+      if (is_current) {
+        EXPECT_EQ(read_file(file), was);
+      }
     }
 }
 
