@@ -11,61 +11,25 @@
 #include "core/json/json_cursor.hpp"
 #include "core/records/study_files.hpp"
 #include "core/records/study_store.hpp"
-#include "core/records/validate.hpp"
-#include "render/image/png_read.hpp"
 #include "render/plot/figure_json.hpp"
-#include "render/scene/scene_json.hpp"
+#include "reports/diff/approval_files.hpp"
 #include "reports/diff/item_files.hpp"
 #include "reports/diff/record_files.hpp"
 #include "reports/diff/record_set.hpp"
 #include "reports/diff/record_set_parts.hpp"
-#include "reports/diff/svg_tree.hpp"
 
 namespace mapproof {
 namespace {
 
 namespace fs = std::filesystem;
 
-constexpr const char* kRecords = "records";
 constexpr std::size_t kMostIds = 100'000;
 constexpr std::size_t kLongestName = 4096;  // Characters, as printed.
 
-/// Files of the items on one side, below its folder: id, and the paths of it.
-using Files = std::map<std::string, std::set<fs::path>>;
-
-void add_records(Files& files, const std::string& id, const fs::path& place, const fs::path& root) {
-  for (const fs::path& file : record_files(place))
-    files[id].insert((place / file).lexically_relative(root));
-  std::error_code error;
-  if (fs::is_regular_file(place / "timings.jsonl", error))
-    files[id].insert((place / "timings.jsonl").lexically_relative(root));
-}
-
-Files files_of(const fs::path& root) {
-  Files files;
-  std::error_code error;
-  if (!fs::exists(root, error)) return files;
-  if (!fs::is_directory(root, error)) throw IoError(root.string(), "is no folder");
-  if (holds_records(root)) add_records(files, kRecords, root, root);
-  fs::recursive_directory_iterator entry(root, error), end;
-  for (; !error && entry != end; entry.increment(error)) {
-    if (entry.depth() == 0 && !files.contains(kRecords) && entry->is_directory(error) &&
-        holds_records(entry->path()))
-      add_records(files, std::string(kRecords) + "/" + entry->path().filename().string(),
-                  entry->path(), root);
-    std::error_code unknown;
-    if (entry->is_directory(unknown)) continue;
-    const ItemName name = item_name(entry->path(), root);
-    if (!name.kind.empty()) files[name.id].insert(entry->path().lexically_relative(root));
-  }
-  if (error) throw IoError(root.string(), "cannot be listed: " + error.message());
-  return files;
-}
-
-std::vector<std::string> chosen_ids(const ApprovalOrder& order, const Files& before,
-                                    const Files& after) {
+std::vector<std::string> chosen_ids(const ApprovalOrder& order, const ApprovalFiles& before,
+                                    const ApprovalFiles& after) {
   std::set<std::string> known;
-  for (const Files* side : {&before, &after})
+  for (const ApprovalFiles* side : {&before, &after})
     for (const auto& [id, paths] : *side) known.insert(id);
   if (order.all) {
     // Other valid baselines of an item go with it, or stay with it.
@@ -92,51 +56,6 @@ std::vector<std::string> chosen_ids(const ApprovalOrder& order, const Files& bef
   return ids;
 }
 
-void read_as_what_it_is(const fs::path& file) {
-  const std::string name = file.filename().string();
-  const std::string kind = item_name(file, file.parent_path()).kind;
-  require_file(file);
-  if (name.ends_with(".figure.json")) {
-    figure_from_json(read_file(file), file.string());
-  } else if (name.ends_with(".scene.json")) {
-    scene_from_json(read_file(file), file.string());
-  } else if (name.ends_with(".json")) {
-    for (const Finding& finding : validate(file))
-      if (!finding.problem.empty()) throw InvalidInput(finding.problem);
-  } else if (kind == "png") {
-    read_png(read_file(file));
-  } else if (kind == "svg") {
-    parse_svg(read_file(file));
-  }
-}
-
-/// What cannot be read is never made a baseline.
-void require_readable(const fs::path& file) {
-  try {
-    read_as_what_it_is(file);
-  } catch (const IoError& error) {
-    throw InvalidInput(std::string("not approved: ") + error.what());
-  } catch (const InvalidInput& error) {
-    const std::string what = error.what();
-    const bool is_named = what.find(file.string()) != std::string::npos;
-    throw InvalidInput("not approved: " + (is_named ? what : file.string() + ": " + what));
-  }
-}
-
-void require_no_folder(const fs::path& file) {
-  std::error_code error;
-  if (fs::is_directory(file, error))
-    throw InvalidInput("not approved: " + file.string() + ": is a folder");
-}
-
-/// A baseline's file goes only if nothing stands in its place: a folder, say, is no absence.
-void require_gone(const fs::path& file) {
-  require_no_folder(file);
-  std::error_code error;
-  if (fs::exists(fs::symlink_status(file, error)))
-    throw InvalidInput("not approved: " + file.string() + ": is no file that can be read");
-}
-
 /// The runs whose records a figure was made from.
 std::vector<std::string> runs_of(const Figure& figure, const fs::path& study) {
   std::set<std::string> runs;
@@ -155,13 +74,13 @@ class Planner {
   Planner(const fs::path& baseline, const fs::path& current)
       : baseline_(baseline),
         current_(current),
-        before_(files_of(baseline)),
-        after_(files_of(current)) {}
+        before_(approval_files(baseline)),
+        after_(approval_files(current)) {}
 
   ApprovalPlan plan(const ApprovalOrder& order) {
     std::vector<std::string> ids = chosen_ids(order, before_, after_);
     const auto is_records = [](const std::string& id) {
-      return id == kRecords || id.starts_with("records/");
+      return id == kRecordsItem || id.starts_with("records/");
     };
     std::ranges::stable_partition(ids, is_records);
     const bool whole = !ids.empty() && is_records(ids.front());
@@ -194,7 +113,7 @@ class Planner {
     }
   }
 
-  bool has_records() const { return after_.contains(kRecords); }
+  bool has_records() const { return after_.contains(kRecordsItem); }
 
  private:
   /// @param whole  The records go as a whole.
@@ -274,7 +193,7 @@ class Planner {
   }
 
   fs::path baseline_, current_;
-  Files before_, after_;
+  ApprovalFiles before_, after_;
   std::set<fs::path> planned_;
   std::vector<ApprovalStep> steps_;
 };
