@@ -90,27 +90,16 @@ SightingLog check_pairs(LabelOutcome& outcome, bool repair) {
   return std::move(check.repaired);
 }
 
-/// Landmarks of a log that no sighting shows.
-std::vector<int> unseen_in(const SightingLog& log) {
-  std::vector<bool> is_seen(log.names.size(), false);
-  for (const Sighting& seen : log.sightings)
-    is_seen[static_cast<std::size_t>(seen.landmark)] = true;
-  std::vector<int> unseen;
-  for (std::size_t k = 0; k < is_seen.size(); ++k)
-    if (!is_seen[k]) unseen.push_back(static_cast<int>(k));
-  return unseen;
-}
-
 /// A label that two landmarks bear. @return The log with two labels then.
 SightingLog check_shared(LabelOutcome& outcome, SightingLog log, bool repair) {
   const std::optional<SharedLabel> shared = shared_label(log);
   if (!shared) return log;
-  const std::vector<int> unseen = unseen_in(log);
+  const std::vector<Eigen::Index> unseen = unseen_in(log);
   const std::string first = label(log, shared->label);
   std::string second;
   int row = static_cast<int>(log.names.size());
   if (unseen.size() == 1) {
-    row = unseen.front();
+    row = static_cast<int>(unseen.front());
     second = label(log, row);
   } else {
     log.names.push_back(first + " (second place)");

@@ -29,16 +29,6 @@ int keep_first(SightingSource& source, int steps) {
   return all;
 }
 
-std::vector<Eigen::Index> unseen_in(const SightingLog& log) {
-  std::vector<bool> seen(log.names.size(), false);
-  for (const Sighting& sighting : log.sightings)
-    seen[static_cast<std::size_t>(sighting.landmark)] = true;
-  std::vector<Eigen::Index> rows;
-  for (std::size_t i = 0; i < seen.size(); ++i)
-    if (!seen[i]) rows.push_back(static_cast<Eigen::Index>(i));
-  return rows;
-}
-
 void require_three(const SightingSource& source) {
   const auto M = std::ssize(source.log.names);
   if (M < 3)

@@ -39,8 +39,7 @@ SightingLog MovedWatch::split(const FollowedLog& looks, SightingLog log) const {
       if (seen.landmark == moved.landmark && is_later) seen.landmark = fresh;
     }
   }
-  std::ranges::stable_sort(log.sightings, {},
-                           [](const Sighting& one) { return std::pair(one.step, one.landmark); });
+  sort_sightings(log.sightings);
   return log;
 }
 

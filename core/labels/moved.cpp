@@ -207,8 +207,7 @@ MovedCheck find_moved(const SightingLog& log, const MovedOptions& options) {
   check.split.names = tried.names;
   for (std::size_t k = 0; k < tried.labels.size(); ++k)
     check.split.sightings[k].landmark = tried.labels[k];
-  std::ranges::stable_sort(check.split.sightings, {},
-                           [](const Sighting& one) { return std::pair(one.step, one.landmark); });
+  sort_sightings(check.split.sightings);
   return check;
 }
 

@@ -129,13 +129,16 @@ std::optional<SharedLabel> two_places(const SightingLog& log, int label) {
   return shared;
 }
 
-/// Cost of the pairs of a log in their map at a width, and the width that the map asks for.
-RobustMap mapped(const SightingLog& log, std::optional<double> width_m) {
-  const LabelledLooks looks = labelled_looks(log, kBlocks);
-  const std::vector<PairItem> items = pair_items(looks.pairs, given_labels(log), looks.blocks);
-  const Points start = sighted_map(log).embedding.coordinates;
-  return lowered_map(items, start, width_m.value_or(width_of(items, start)));
-}
+/// The pairs of a log, and the map that they are costed from.
+struct Mapped {
+  explicit Mapped(const SightingLog& log) : start(sighted_map(log).embedding.coordinates) {
+    const LabelledLooks looks = labelled_looks(log, kBlocks);
+    items = pair_items(looks.pairs, given_labels(log), looks.blocks);
+  }
+
+  std::vector<PairItem> items;
+  Points start;
+};
 
 }  // namespace
 
@@ -148,8 +151,7 @@ SightingLog split_label(const SightingLog& log, const SharedLabel& shared, int s
     if (shared.place[k] == 2) seen.landmark = second;
     split.sightings.push_back(seen);
   }
-  const auto key = [](const Sighting& one) { return std::pair(one.step, one.landmark); };
-  std::ranges::stable_sort(split.sightings, {}, key);
+  sort_sightings(split.sightings);
   return split;
 }
 
@@ -162,11 +164,14 @@ std::optional<SharedLabel> shared_label(const SightingLog& log) {
   candidates.resize(std::min(candidates.size(), kTriedLabels));
   // While one label folds the map, others seem to stand at two places as well.
   std::optional<SharedLabel> best;
+  std::optional<Mapped> whole;
   for (SharedLabel& candidate : candidates) {
     SightingLog split = split_label(log, candidate, static_cast<int>(log.names.size()));
     split.names.push_back(log.names[static_cast<std::size_t>(candidate.label)] + " (2)");
-    const RobustMap two = mapped(split, std::nullopt);
-    candidate.loss_before_m = mapped(log, two.width_m).loss_m;
+    const Mapped parts(split);
+    const RobustMap two = lowered_map(parts.items, parts.start, width_of(parts.items, parts.start));
+    if (!whole) whole.emplace(log);
+    candidate.loss_before_m = lowered_map(whole->items, whole->start, two.width_m).loss_m;
     candidate.loss_after_m = two.loss_m;
     if (std::pow(candidate.loss_after_m / candidate.loss_before_m, 2) > 1.0 - kLeastFall) continue;
     if (!best || candidate.loss_after_m < best->loss_after_m) best = std::move(candidate);

@@ -1,10 +1,27 @@
 #include "core/model/sighting_log.hpp"
 
+#include <algorithm>
+#include <utility>
+
 #include <fmt/format.h>
 
 #include "core/base/errors.hpp"
 
 namespace mapproof {
+
+std::vector<Eigen::Index> unseen_in(const SightingLog& log) {
+  std::vector<bool> is_seen(log.names.size(), false);
+  for (const Sighting& one : log.sightings) is_seen[static_cast<std::size_t>(one.landmark)] = true;
+  std::vector<Eigen::Index> rows;
+  for (std::size_t i = 0; i < is_seen.size(); ++i)
+    if (!is_seen[i]) rows.push_back(static_cast<Eigen::Index>(i));
+  return rows;
+}
+
+void sort_sightings(std::vector<Sighting>& sightings) {
+  std::ranges::stable_sort(sightings, {},
+                           [](const Sighting& one) { return std::pair(one.step, one.landmark); });
+}
 
 std::string look_words(const SightingLog& log, int step) {
   const auto look = static_cast<std::size_t>(step);

@@ -38,6 +38,12 @@ struct SightingLog {
   std::vector<std::string> robots = {};  ///< By LookKey::robot; empty: they have no names.
 };
 
+/// Rows of landmarks that no sighting shows, ascending.
+std::vector<Eigen::Index> unseen_in(const SightingLog& log);
+
+/// Brings sightings into their order again, after their labels changed.
+void sort_sightings(std::vector<Sighting>& sightings);
+
 /// How a look is called in words, by its file's own step or time: "step 1200", "12.5 s".
 std::string look_words(const SightingLog& log, int step);
 

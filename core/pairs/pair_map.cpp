@@ -135,14 +135,13 @@ std::vector<SeenTurn> turns_of(const std::vector<SeenTurn>& turns,
 /// @param start  Of the group; empty: looked for.
 Embedding solve(PairProblem& problem, const Points& start, const std::vector<SeenTurn>& turns,
                 const PairMapOptions& options) {
-  const std::vector<std::vector<double>> starts = first_shares(problem);
-  if (!options.refined) return path_map(problem, starts.front());
+  if (!options.refined) return path_map(problem, shares_by_triangles(problem));
   PairSolution best =
       start.rows() > 0 && start.allFinite()
           ? lowered(problem, start,
-                    without_gross(problem, start, starts.front(), options.tolerance),
+                    without_gross(problem, start, shares_by_triangles(problem), options.tolerance),
                     Width::kNarrow, options)
-          : searched(problem, starts, turns, options);
+          : searched(problem, turns, options);
   for (std::size_t k = 0; k < best.left.size(); ++k) problem.pairs[k].precision *= best.left[k];
   return best.map;
 }

@@ -137,8 +137,9 @@ class Unfolding {
 
 }  // namespace
 
-PairSolution searched(PairProblem& problem, const std::vector<std::vector<double>>& starts,
-                      const std::vector<SeenTurn>& turns, const PairMapOptions& options) {
+PairSolution searched(PairProblem& problem, const std::vector<SeenTurn>& turns,
+                      const PairMapOptions& options) {
+  const std::vector<std::vector<double>> starts = first_shares(problem);
   PairMapOptions rough = options;  // Tells which map it will be.
   rough.smacof.relative_fall = std::max(rough.smacof.relative_fall, 1e-6);
   rough.smacof.max_iterations = std::min(rough.smacof.max_iterations, 300);

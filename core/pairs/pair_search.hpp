@@ -9,8 +9,8 @@ namespace mapproof {
 /// The best of what several starts come to, the first of those that are about as good: the map that
 /// most looks agree with, by what they measured and by the way round that they show landmarks.
 /// Folds that distances alone leave are taken back.
-/// @param starts  Of first_shares(). @param turns  In the problem's rows; may be empty.
-PairSolution searched(PairProblem& problem, const std::vector<std::vector<double>>& starts,
-                      const std::vector<SeenTurn>& turns, const PairMapOptions& options);
+/// @param turns  In the problem's rows; may be empty.
+PairSolution searched(PairProblem& problem, const std::vector<SeenTurn>& turns,
+                      const PairMapOptions& options);
 
 }  // namespace mapproof

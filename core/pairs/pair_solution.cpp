@@ -109,11 +109,16 @@ PairSolution polished(PairProblem& problem, const PairSolution& rough,
   return fine;
 }
 
+std::vector<double> shares_by_triangles(const PairProblem& problem) {
+  std::vector<double> left;
+  for (const bool is_against : against_triangles(problem.pairs, problem.distances.rows()))
+    left.push_back(is_against ? kLeastWeight : 1.0);
+  return left;
+}
+
 std::vector<std::vector<double>> first_shares(const PairProblem& problem) {
   const auto n = static_cast<std::size_t>(problem.distances.rows());
-  std::vector<std::vector<double>> starts(1);
-  for (const bool is_against : against_triangles(problem.pairs, problem.distances.rows()))
-    starts.front().push_back(is_against ? kLeastWeight : 1.0);
+  std::vector<std::vector<double>> starts = {shares_by_triangles(problem)};
   for (const int fewest : kFewestLooksOfStarts) {
     const std::vector<bool> is_taken = are_trusted(problem.pairs, n, fewest);
     std::vector<double> left = starts.front();

@@ -46,9 +46,12 @@ PairSolution lowered_widely(PairProblem& problem, const Points& start,
 PairSolution polished(PairProblem& problem, const PairSolution& rough,
                       const PairMapOptions& options);
 
-/// Shares of the weights to begin with, a set for each of several starts. The first leaves out what
-/// triangles speak against; the others, one by one, also what was seen in ever more looks: pairs
-/// that none but wrong ids made agree with one another, and can only be told by being few.
+/// Shares of the weights to begin with: without what triangles speak against.
+std::vector<double> shares_by_triangles(const PairProblem& problem);
+
+/// A set of them for each of several starts. The first is shares_by_triangles(); the others, one by
+/// one, also what was seen in ever more looks: pairs that none but wrong ids made agree with one
+/// another, and can only be told by being few.
 std::vector<std::vector<double>> first_shares(const PairProblem& problem);
 
 /// Shares of the weights without pairs that a map makes out to be wholly wrong.

@@ -139,18 +139,17 @@ Made make_map(const Way& way, const RealSet& set, const TrialContext& context) {
   MethodSetting setting{*way.method, std::nullopt};
   if (on_graph(*way.method)) setting.parameter = number_option(context.experiment, "neighbours");
   // Landmarks without a sighting would only make the others' map fail.
-  std::vector<bool> seen(set.source.log.names.size(), false);
-  for (const Sighting& sighting : set.source.log.sightings)
-    seen[static_cast<std::size_t>(sighting.landmark)] = true;
+  const std::vector<Eigen::Index> unseen = unseen_in(set.source.log);
+  const auto landmarks = std::ssize(set.source.log.names);
   std::vector<Eigen::Index> rows;
-  for (std::size_t i = 0; i < seen.size(); ++i)
-    if (seen[i]) rows.push_back(static_cast<Eigen::Index>(i));
+  for (Eigen::Index i = 0; i < landmarks; ++i)
+    if (!std::ranges::binary_search(unseen, i)) rows.push_back(i);
   Proximities all = sighted_proximities(set.source.log, way.sensor);
   all.inner_products = Eigen::MatrixXd(all.inner_products(rows, rows));
   all.squared_distances = Eigen::MatrixXd(all.squared_distances(rows, rows));
   const Embedding some = Embedder(std::move(all)).embed(setting);
   Made made{some, {}, setting};
-  made.embedding.coordinates.setConstant(std::ssize(seen), 2, kNan);
+  made.embedding.coordinates.setConstant(landmarks, 2, kNan);
   made.embedding.coordinates(rows, Eigen::all) = some.coordinates;
   return made;
 }

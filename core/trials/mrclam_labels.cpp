@@ -24,11 +24,6 @@ std::vector<int> by_sightings(const SightingLog& log) {
   return order;
 }
 
-void sort(SightingLog& log) {
-  std::ranges::stable_sort(log.sightings, {},
-                           [](const Sighting& one) { return std::pair(one.step, one.landmark); });
-}
-
 SightingLog swapped_in_half(SightingLog log, int a, int b, std::uint64_t seed) {
   Random random(seed);
   std::vector<bool> is_wrong;
@@ -36,7 +31,7 @@ SightingLog swapped_in_half(SightingLog log, int a, int b, std::uint64_t seed) {
   for (Sighting& seen : log.sightings)
     if (is_wrong[static_cast<std::size_t>(seen.step)] && (seen.landmark == a || seen.landmark == b))
       seen.landmark = seen.landmark == a ? b : a;
-  sort(log);
+  sort_sightings(log.sightings);
   return log;
 }
 
@@ -50,17 +45,8 @@ SightingLog misnamed(SightingLog log, int a, int b) {
   });
   for (Sighting& seen : log.sightings)
     if (seen.landmark == a) seen.landmark = b;
-  sort(log);
+  sort_sightings(log.sightings);
   return log;
-}
-
-std::vector<int> unseen_in(const SightingLog& log) {
-  std::set<int> seen;
-  for (const Sighting& one : log.sightings) seen.insert(one.landmark);
-  std::vector<int> unseen;
-  for (int k = 0; k < std::ssize(log.names); ++k)
-    if (!seen.contains(k)) unseen.push_back(k);
-  return unseen;
 }
 
 }  // namespace
@@ -74,11 +60,11 @@ std::vector<SpoiltLabels> spoilt_labels(const SightingLog& log, std::uint64_t se
 
 MendedLabels mended_log(const SightingLog& log, const std::optional<Points>& known_m) {
   MendedLabels mended{.faults = 0, .log = log};
-  const std::vector<int> unseen = unseen_in(log);
+  const std::vector<Eigen::Index> unseen = unseen_in(log);
   if (unseen.size() == 1)
     if (const auto shared = shared_label(log)) {
       ++mended.faults;
-      mended.log = split_label(log, *shared, unseen.front());
+      mended.log = split_label(log, *shared, static_cast<int>(unseen.front()));
     }
   LabelCheck check = check_labels(mended.log);
   mended.faults += static_cast<int>(check.findings.size());
