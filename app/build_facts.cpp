@@ -30,9 +30,9 @@ Provenance build_provenance() {
        fmt::format("{}.{}.{}", FMT_VERSION / 10000, FMT_VERSION / 100 % 100, FMT_VERSION % 100)},
       {"spdlog", fmt::format("{}.{}.{}", SPDLOG_VER_MAJOR, SPDLOG_VER_MINOR, SPDLOG_VER_PATCH)},
       {"CLI11", CLI11_VERSION},
-      {"VTK", MAPPROOF_VTK_VERSION},
-      {"g++", __VERSION__},
   };
+  if (MAPPROOF_HAS_SCENES) provenance.libraries.emplace_back("VTK", MAPPROOF_VTK_VERSION);
+  provenance.libraries.emplace_back("g++", __VERSION__);
   for (auto& library : render_library_versions()) provenance.libraries.push_back(library);
   return provenance;
 }
@@ -42,6 +42,8 @@ std::string version_text() {
   std::string text = fmt::format("mapproof {}\ncommit {}\n", provenance.version, provenance.commit);
   for (const auto& [library, version] : provenance.libraries)
     text += fmt::format("{} {}\n", library, version);
+  if (!MAPPROOF_HAS_SCENES) text += "3-D figures: left out (MAPPROOF_SCENES=OFF)\n";
+  if (!MAPPROOF_HAS_ANIMATION) text += "animations: left out (MAPPROOF_ANIMATION=OFF)\n";
   return text;
 }
 

@@ -1,17 +1,15 @@
 #include "app/known_so_far.hpp"
 
 #include <algorithm>
-#include <limits>
 
 #include <fmt/format.h>
 
+#include "core/base/not_finite.hpp"
 #include "core/base/words.hpp"
 #include "core/linalg/planarity.hpp"
 
 namespace mapproof {
 namespace {
-
-constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
 
 /// Writes the positions of the landmarks that there are. @return Their rows, ascending.
 std::vector<Eigen::Index> matched(const MapRecord& record, const NamedPoints& points,
@@ -40,7 +38,7 @@ Reference known_so_far(MapRecord& record, const std::optional<NamedPointsFile>& 
                        const std::optional<NamedPointsFile>& truth) {
   const auto M = static_cast<Eigen::Index>(record.names.size());
   Reference known{
-      .positions_m = Points::Constant(M, 2, kUnknown), .has_truth = false, .anchors = {}};
+      .positions_m = Points::Constant(M, 2, kNaN), .has_truth = false, .anchors = {}};
   if (truth) known.has_truth = !matched(record, truth->points, known.positions_m).empty();
   if (!anchors) return known;
   known.anchors = matched(record, anchors->points, known.positions_m);

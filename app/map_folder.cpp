@@ -16,7 +16,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-const fs::path& made(const fs::path& folder) {
+const fs::path& made_map_folder(const fs::path& folder) {
   check_map_folder(folder);
   make_folder(folder);
   return folder;
@@ -100,7 +100,7 @@ void check_may_become(const fs::path& folder, const MapRecord& map, bool any_met
 }
 
 MapFolder::MapFolder(const fs::path& folder, const MapRecord& map)
-    : path_(folder), lock_(made(folder)) {
+    : path_(folder), lock_(made_map_folder(folder)) {
   check_same_map(folder, map);
   remove_leftovers(folder);
 }

@@ -1,16 +1,15 @@
 #include "app/mixed_report.hpp"
 
 #include <algorithm>
-#include <limits>
 
 #include "app/result_json.hpp"
 #include "core/align/laid_on.hpp"
+#include "core/base/not_finite.hpp"
 #include "render/figures/map_grid.hpp"
 
 namespace mapproof {
 
 namespace {
-constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
 }
 
 Section mixed_section(const OwnMixed& mixed) {
@@ -41,11 +40,11 @@ Section mixed_section(const OwnMixed& mixed) {
                  NumberCell{static_cast<double>(map.record.step), 0}};
     const SensorShare share = own ? mixed.sensors.sensors[k - 1] : SensorShare{};
     for (const double value : {share.reliability, share.weight, share.share})
-      row.cells.emplace_back(NumberCell{own ? value : kUnknown, 3});
+      row.cells.emplace_back(NumberCell{own ? value : kNaN, 3});
     row.cells.emplace_back(NumberCell{map.continuity, 3});
     const std::optional<Score>& score = map.record.score;
     row.cells.emplace_back(NumberCell{map.mpe_m(), 3});
-    row.cells.emplace_back(NumberCell{score ? score->moe_unmirrored_percent : kUnknown, 2});
+    row.cells.emplace_back(NumberCell{score ? score->moe_unmirrored_percent : kNaN, 2});
     table.rows.push_back(std::move(row));
   }
   table.notes.emplace_back(

@@ -1,17 +1,15 @@
 #include "app/mixed_sources.hpp"
 
 #include <algorithm>
-#include <limits>
 
 #include <fmt/format.h>
 
 #include "core/base/errors.hpp"
+#include "core/base/not_finite.hpp"
 #include "core/base/words.hpp"
 
 namespace mapproof {
 namespace {
-
-constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
 
 void require_different(const std::vector<ObservationSource>& sources) {
   for (std::size_t b = 0; b < sources.size(); ++b)
@@ -26,7 +24,7 @@ void require_different(const std::vector<ObservationSource>& sources) {
 ObservationHistory in_rows(const ObservationHistory& history,
                            const std::vector<std::string>& names) {
   ObservationHistory result{.sensor = history.sensor, .names = names, .values = {}};
-  result.values = Eigen::MatrixXd::Constant(std::ssize(names), history.steps(), kUnknown);
+  result.values = Eigen::MatrixXd::Constant(std::ssize(names), history.steps(), kNaN);
   for (std::size_t i = 0; i < history.names.size(); ++i) {
     const auto row = std::ranges::find(names, history.names[i]) - names.begin();
     result.values.row(row) = history.values.row(static_cast<Eigen::Index>(i));
@@ -121,7 +119,7 @@ std::optional<Points> own_truth(const std::vector<ObservationSource>& sources,
   const auto source = std::ranges::find_if(
       sources, [](const ObservationSource& one) { return one.truth_m.has_value(); });
   if (source == sources.end()) return std::nullopt;
-  Points truth_m = Points::Constant(std::ssize(names), 2, kUnknown);
+  Points truth_m = Points::Constant(std::ssize(names), 2, kNaN);
   for (std::size_t i = 0; i < source->history.names.size(); ++i)
     truth_m.row(std::ranges::find(names, source->history.names[i]) - names.begin()) =
         source->truth_m->row(static_cast<Eigen::Index>(i));

@@ -80,29 +80,29 @@ void check_csv(const std::string& bytes, const std::string& source) {
 }
 
 /// A kind of file that is written and never read again.
-struct Output {
+struct StagedOutput {
   std::string_view extension;
   std::string_view kind;
   void (*check)(const std::string& bytes, const std::string& source);
 };
 
 constexpr std::array kOutputs = {
-    Output{".svg", "figure, SVG", check_svg},    Output{".png", "figure, PNG", check_png},
-    Output{".pdf", "figure, PDF", check_pdf},    Output{".html", "report", check_page},
-    Output{".tex", "table, LaTeX", check_latex}, Output{".md", "table, Markdown", check_markdown},
-    Output{".csv", "table, CSV", check_csv},
+    StagedOutput{".svg", "figure, SVG", check_svg},    StagedOutput{".png", "figure, PNG", check_png},
+    StagedOutput{".pdf", "figure, PDF", check_pdf},    StagedOutput{".html", "report", check_page},
+    StagedOutput{".tex", "table, LaTeX", check_latex}, StagedOutput{".md", "table, Markdown", check_markdown},
+    StagedOutput{".csv", "table, CSV", check_csv},
 };
 
 /// The kind of an output file; null for files that core reads. A table's CSV is told from
 /// observations by its folder.
-const Output* output_of(const fs::path& path) {
-  const auto* found = std::ranges::find(kOutputs, path.extension().string(), &Output::extension);
+const StagedOutput* output_of(const fs::path& path) {
+  const auto* found = std::ranges::find(kOutputs, path.extension().string(), &StagedOutput::extension);
   if (found == kOutputs.end()) return nullptr;
   if (found->extension == ".csv" && path.parent_path().filename() != "tables") return nullptr;
   return found;
 }
 
-Finding check_output(const fs::path& path, const Output& output) {
+Finding check_output(const fs::path& path, const StagedOutput& output) {
   Finding finding{.path = path.string(), .kind = std::string(output.kind), .problem = ""};
   try {
     output.check(read_file(path), finding.path);
@@ -128,7 +128,7 @@ std::vector<fs::path> outputs_below(const fs::path& folder) {
 std::vector<Finding> validate_all(const fs::path& path, const ForeignReader& foreign) {
   std::error_code error;
   if (!fs::is_directory(path, error)) {
-    if (const Output* output = output_of(path)) return {check_output(path, *output)};
+    if (const StagedOutput* output = output_of(path)) return {check_output(path, *output)};
     return validate(path, foreign);
   }
   std::vector<Finding> findings = validate(path, foreign);

@@ -2,13 +2,13 @@
 
 #include <algorithm>
 #include <filesystem>
-#include <limits>
 #include <system_error>
 #include <utility>
 
 #include <fmt/format.h>
 
 #include "core/base/errors.hpp"
+#include "core/base/not_finite.hpp"
 #include "core/base/words.hpp"
 #include "core/labels/anchor_labels.hpp"
 #include "core/labels/mislabelled.hpp"
@@ -21,7 +21,6 @@ namespace {
 
 /// Times the loss that known places may be missed by: on sound logs it is less than the loss.
 constexpr double kMissed = 3.0;
-constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
 
 std::string label(const SightingLog& log, int landmark) {
   return log.names[static_cast<std::size_t>(landmark)];
@@ -31,7 +30,7 @@ std::string label(const SightingLog& log, int landmark) {
 Points known_places(const SightingLog& log, const std::optional<Points>& own_m,
                     const std::optional<NamedPointsFile>& anchors,
                     const std::optional<NamedPointsFile>& truth) {
-  Points known_m = own_m ? *own_m : Points::Constant(std::ssize(log.names), 2, kUnknown);
+  Points known_m = own_m ? *own_m : Points::Constant(std::ssize(log.names), 2, kNaN);
   for (const auto* file : {&truth, &anchors}) {
     if (!file->has_value()) continue;
     const NamedPoints& points = (*file)->points;
@@ -169,7 +168,7 @@ SightingLog check_looks(LabelOutcome& outcome, bool repair) {
 
 void check_and_repair(LabelOutcome& outcome, bool repair, const Points& known_m) {
   SightingLog mended = check_looks(outcome, repair);
-  Points places_m = Points::Constant(std::ssize(mended.names), 2, kUnknown);
+  Points places_m = Points::Constant(std::ssize(mended.names), 2, kNaN);
   places_m.topRows(known_m.rows()) = known_m;
   mended = check_places(outcome, mended, places_m, repair);
   for (const LabelFact& fact : outcome.facts)
@@ -207,7 +206,7 @@ LabelOutcome checked(Source& source, const SightingLog& log, const LabelChoice& 
   const std::size_t landmarks = outcome.log.names.size();
   source.places.resize(landmarks, source.places.empty() ? std::string() : source.places.front());
   if (source.truth_m) {
-    Points truth_m = Points::Constant(static_cast<Eigen::Index>(landmarks), 2, kUnknown);
+    Points truth_m = Points::Constant(static_cast<Eigen::Index>(landmarks), 2, kNaN);
     truth_m.topRows(source.truth_m->rows()) = *source.truth_m;
     source.truth_m = truth_m;
   }

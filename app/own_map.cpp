@@ -16,8 +16,6 @@
 namespace mapproof {
 namespace {
 
-std::string quoted(const std::string& name) { return "\"" + printable(name) + "\""; }
-
 /// Landmarks with nothing observed of them: an error at the first, or a remark.
 void check_unseen(const ObservationSource& source, Eigen::Index steps, const OwnMapOptions& options,
                   std::vector<std::string>& remarks) {
@@ -30,7 +28,7 @@ void check_unseen(const ObservationSource& source, Eigen::Index steps, const Own
         source.path, source.places[first],
         fmt::format("landmark {} is never observed{}; remove it, or pass --drop-unseen "
                     "to map the others",
-                    quoted(source.history.names[first]),
+                    quoted_name(source.history.names[first]),
                     source.history.sensor == Sensor::kVisibility ? " (no 1 in its row)" : ""));
   remarks.push_back(fmt::format("{} of {} landmarks were never observed and are left out.",
                                 unseen.size(), source.history.landmarks()));

@@ -2,13 +2,13 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <map>
 
 #include <fmt/format.h>
 
 #include "core/align/diagonal_anchors.hpp"
 #include "core/base/errors.hpp"
+#include "core/base/not_finite.hpp"
 #include "core/base/words.hpp"
 #include "core/linalg/planarity.hpp"
 #include "core/score/map_score.hpp"
@@ -17,9 +17,6 @@ namespace mapproof {
 namespace {
 
 constexpr double kFarOut = 2.0;  ///< The median landmark so many times as far out as any anchor.
-constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
-
-std::string quoted(const std::string& name) { return "\"" + printable(name) + "\""; }
 
 /// The row of each landmark by its name.
 std::map<std::string, Eigen::Index> rows_of(const OwnLandmarks& source) {
@@ -33,7 +30,7 @@ std::map<std::string, Eigen::Index> rows_of(const OwnLandmarks& source) {
 Points matched_truth(const OwnLandmarks& source, const NamedPointsFile& truth,
                      std::vector<std::string>& remarks) {
   const auto rows = rows_of(source);
-  Points positions = Points::Constant(source.landmarks(), 2, kUnknown);
+  Points positions = Points::Constant(source.landmarks(), 2, kNaN);
   Eigen::Index matched = 0;
   for (std::size_t i = 0; i < truth.points.names.size(); ++i) {
     const auto row = rows.find(truth.points.names[i]);
@@ -44,7 +41,7 @@ Points matched_truth(const OwnLandmarks& source, const NamedPointsFile& truth,
   const auto given = std::ssize(truth.points.names);
   if (matched == 0)
     throw IoError(truth.path, fmt::format("none of its {} names is a landmark of {} ({}, ...)",
-                                          given, source.path, quoted(source.names.at(0))));
+                                          given, source.path, quoted_name(source.names.at(0))));
   if (matched < given)
     remarks.push_back(fmt::format(
         "True positions of landmarks that were not observed, not used: {}.", given - matched));
@@ -65,8 +62,8 @@ std::vector<Eigen::Index> matched_anchors(const OwnLandmarks& source,
     if (row == rows.end())
       throw IoError(
           anchors.path, anchors.points.places[i],
-          fmt::format("anchor {} is not among the {} landmarks of {} ({}, ...)", quoted(name),
-                      source.landmarks(), source.path, quoted(source.names.at(0))));
+          fmt::format("anchor {} is not among the {} landmarks of {} ({}, ...)", quoted_name(name),
+                      source.landmarks(), source.path, quoted_name(source.names.at(0))));
     if (std::ranges::binary_search(source.unseen, row->second)) continue;
     positions.row(row->second) = anchors.points.positions_m.row(static_cast<Eigen::Index>(i));
     chosen.push_back(row->second);
@@ -87,7 +84,7 @@ std::vector<Eigen::Index> matched_anchors(const OwnLandmarks& source,
 std::optional<Score> anchor_free_score(const Points& coordinates, const Points& truth_m,
                                        AffineFit fit) {
   std::optional<Score> score = score_map(coordinates, truth_m, {}, fit);
-  if (score) score->mpe_m = score->moe_percent = kUnknown;
+  if (score) score->mpe_m = score->moe_percent = kNaN;
   return score;
 }
 
@@ -95,7 +92,7 @@ std::optional<Score> anchor_free_score(const Points& coordinates, const Points& 
 /// none, with a remark, if they lie on one line.
 std::vector<Eigen::Index> own_anchors(const OwnLandmarks& source, Points positions_m,
                                       std::vector<std::string>& remarks) {
-  for (const Eigen::Index row : source.unseen) positions_m.row(row).setConstant(kUnknown);
+  for (const Eigen::Index row : source.unseen) positions_m.row(row).setConstant(kNaN);
   std::vector<Eigen::Index> anchors = diagonal_anchors(positions_m);
   if (planarity(positions_m(anchors, Eigen::all)) > kFlatPlanarity) return anchors;
   remarks.emplace_back("The observed landmarks lie on one line: none of them can be an anchor.");
@@ -117,10 +114,12 @@ void remark_disagreement(const Points& truth_m, const Reference& known,
 
 }  // namespace
 
+std::string quoted_name(const std::string& name) { return "\"" + printable(name) + "\""; }
+
 Reference reference_of(const OwnLandmarks& source, const std::optional<NamedPointsFile>& anchors,
                        const std::optional<NamedPointsFile>& truth,
                        std::vector<std::string>& remarks) {
-  Reference known{.positions_m = Points::Constant(source.landmarks(), 2, kUnknown),
+  Reference known{.positions_m = Points::Constant(source.landmarks(), 2, kNaN),
                   .has_truth = truth.has_value() || source.truth_m.has_value(),
                   .anchors = {}};
   if (truth) {

@@ -10,6 +10,9 @@
 
 namespace mapproof {
 
+/// A name from a file, between quotation marks.
+std::string quoted_name(const std::string& name);
+
 /// Positions read from a file, with its name for messages.
 struct NamedPointsFile {
   std::string path;

@@ -73,7 +73,7 @@ std::string difference(const SlamRun& there, const SlamRun& here) {
   return "";
 }
 
-const fs::path& made(const fs::path& folder) {
+const fs::path& made_slam_folder(const fs::path& folder) {
   check_result_folder(folder, kSlamFile, "range-only map");
   make_folder(folder);
   return folder;
@@ -123,7 +123,7 @@ const SlamRecord* best_record(const SlamRun& run) {
 }
 
 SlamFolder::SlamFolder(const fs::path& folder, const SlamRun& run)
-    : path_(folder), lock_(made(folder)) {
+    : path_(folder), lock_(made_slam_folder(folder)) {
   const fs::path file = folder / kSlamFile;
   std::error_code error;
   if (fs::exists(file, error)) {

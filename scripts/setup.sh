@@ -1,51 +1,92 @@
 # Sourced by the other scripts: installs what is missing and builds.
+# say WORDS...               a line about what is being done
 # install_packages PART...   the parts of scripts/packages.txt
 # build_mapproof [CMAKE_OPTION...] -- [TARGET...]   into $BUILD (default: build)
 
 ROOT=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
 BUILD=${BUILD:-$ROOT/build}
 
+say() { printf '%s\n' "$*" >&2; }
+
 packages_of() {
   awk -v part="[$1]" '/^\[/ { on = ($0 == part); next } on && NF && !/^#/ { print $1 }' \
     "$ROOT/scripts/packages.txt"
 }
 
+as_root() {
+  if [ "$(id -u)" -eq 0 ]; then "$@"; else sudo "$@"; fi
+}
+
+# Runs apt-get; waits up to ten minutes while another apt or dpkg holds the lock.
+run_apt() {
+  local log tries
+  log=$(mktemp)
+  for ((tries = 0; ; ++tries)); do
+    if as_root env DEBIAN_FRONTEND=noninteractive \
+      apt-get -o DPkg::Lock::Timeout=600 "$@" 2> >(tee "$log" >&2) >&2; then
+      rm -f "$log"
+      return 0
+    fi
+    if ! grep -q 'Could not get lock' "$log" || [ "$tries" -ge 120 ]; then
+      rm -f "$log"
+      return 2
+    fi
+    [ "$tries" -eq 0 ] && say "waiting for another apt or dpkg to end"
+    sleep 5
+  done
+}
+
+# The names on standard input that no package source of this machine has.
+unknown_packages() {
+  local name
+  while read -r name; do
+    [ -n "$(apt-cache madison "$name" 2>/dev/null)" ] || printf '%s\n' "$name"
+  done
+}
+
 install_packages() {
-  local part wanted=() missing=() package
+  local part package wanted=() missing=() names=() unknown=() installed
   for part in "$@"; do
     while read -r package; do wanted+=("$package"); done < <(packages_of "$part")
   done
   # One query for all: dpkg knows which of them are not installed.
-  local installed
   installed=$(dpkg-query -W -f '${Package} ${db:Status-Status}\n' 2>/dev/null |
     awk '$2 == "installed" { print $1 }')
   for package in "${wanted[@]}"; do
-    grep -qxF "$package" <<<"$installed" || missing+=("$package")
+    grep -qxF "${package%\?}" <<<"$installed" || missing+=("$package")
   done
   [ ${#missing[@]} -eq 0 ] && return 0
 
-  local as_root=()
-  if [ "$(id -u)" -ne 0 ]; then
-    if ! command -v sudo >/dev/null; then
-      echo "needs root or sudo to install: ${missing[*]}" >&2
-      return 2
-    fi
-    as_root=(sudo)
+  if [ "$(id -u)" -ne 0 ] && ! command -v sudo >/dev/null; then
+    say "needs root or sudo to install: ${missing[*]%\?}"
+    return 2
   fi
-  echo "installing ${#missing[@]} packages: ${missing[*]}" >&2
-  "${as_root[@]}" apt-get update -qq >&2
-  "${as_root[@]}" env DEBIAN_FRONTEND=noninteractive \
-    apt-get install -y -qq --no-install-recommends "${missing[@]}" >&2
+  run_apt update -qq || return 2
+  local nowhere
+  nowhere=$(printf '%s\n' "${missing[@]%\?}" | unknown_packages)
+  for package in "${missing[@]}"; do
+    if ! grep -qxF "${package%\?}" <<<"$nowhere"; then
+      names+=("${package%\?}")
+    elif [ "$package" = "${package%\?}" ]; then
+      unknown+=("$package")
+    fi
+  done
+  if [ ${#unknown[@]} -ne 0 ]; then
+    say "this system's package sources do not have: ${unknown[*]} (mapproof is built on Debian 12 and 13)"
+    return 2
+  fi
+  [ ${#names[@]} -eq 0 ] && return 0
+  say "installing ${#names[@]} packages: ${names[*]}"
+  run_apt install -y -qq --no-install-recommends "${names[@]}"
 }
 
 # Whether the build folder was last configured with the tests: `report` leaves it so.
 builds_tests() { grep -qs '^MAPPROOF_TESTS:BOOL=ON' "$BUILD/CMakeCache.txt"; }
 
 build_mapproof() {
-  local options=()
+  local options=() log units minutes
   while [ $# -gt 0 ] && [ "$1" != -- ]; do options+=("$1"); shift; done
   shift
-  local log
   log=$(mktemp)
   if ! cmake -S "$ROOT" -B "$BUILD" -G Ninja "${options[@]}" >"$log" 2>&1; then
     cat "$log" >&2
@@ -53,5 +94,11 @@ build_mapproof() {
     return 3
   fi
   rm -f "$log"
-  cmake --build "$BUILD" --target "$@" >&2
+  # A unit takes some 8 processor seconds (docs/testing.md).
+  units=$(ninja -C "$BUILD" -n "$@" | grep -c 'Building CXX')
+  if [ "$units" -gt 0 ]; then
+    minutes=$(((units * 8 + 60 * $(nproc) - 1) / (60 * $(nproc))))
+    say "building: $units units of C++, about $minutes min on $(nproc) processors"
+  fi
+  NINJA_STATUS='[%f of %t, %e s] ' cmake --build "$BUILD" --target "$@" >&2
 }

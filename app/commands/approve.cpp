@@ -17,7 +17,7 @@ namespace fs = std::filesystem;
 constexpr std::size_t kLongestName = 4096;                  // Bytes.
 constexpr std::size_t kLargestFile = std::size_t{1} << 26;  // Bytes, of approvals.
 
-struct Arguments {
+struct ApproveArguments {
   std::string baseline;
   std::string current;
   std::string from;
@@ -25,12 +25,12 @@ struct Arguments {
 };
 
 /// Two files need no ids.
-bool are_files(const Arguments& arguments) {
+bool are_files(const ApproveArguments& arguments) {
   std::error_code error;
   return fs::exists(arguments.current, error) && !fs::is_directory(arguments.current, error);
 }
 
-ApprovalOrder order_of(const Arguments& arguments) {
+ApprovalOrder order_of(const ApproveArguments& arguments) {
   ApprovalOrder order = arguments.order;
   if (!arguments.from.empty())
     for (std::string& id : parse_approvals(read_file(arguments.from, kLargestFile), arguments.from))
@@ -42,7 +42,7 @@ ApprovalOrder order_of(const Arguments& arguments) {
   return order;
 }
 
-int approve(const Arguments& arguments, const Invocation& invocation) {
+int approve(const ApproveArguments& arguments, const Invocation& invocation) {
   const ApprovalOrder order = order_of(arguments);
   std::optional<FolderLock> lock;
   if (!are_files(arguments)) {
@@ -73,7 +73,7 @@ int approve(const Arguments& arguments, const Invocation& invocation) {
 }  // namespace
 
 Action approve_verb(CLI::App& app) {
-  auto arguments = std::make_shared<Arguments>();
+  auto arguments = std::make_shared<ApproveArguments>();
   app.description("Take changes as the new baseline, one file at a time");
   app.footer(
       "Examples:\n"

@@ -17,7 +17,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-struct Arguments {
+struct CheckArguments {
   std::string experiment;
   std::string baseline;
   std::string out = "out/check";
@@ -27,7 +27,7 @@ struct Arguments {
 };
 
 /// Makes the records of the experiment, its figures and its report.
-void make_candidate(const Arguments& arguments, const Invocation& invocation) {
+void make_candidate(const CheckArguments& arguments, const Invocation& invocation) {
   const StudyOrder order = read_study_order(experiment_of(arguments.experiment), arguments.order);
   check_data_used({&order, 1}, arguments.order);
   make_study(order, arguments.out, arguments.jobs, invocation.command, invocation.console);
@@ -36,7 +36,7 @@ void make_candidate(const Arguments& arguments, const Invocation& invocation) {
 }
 
 /// The candidate never writes over the baseline, nor an output over either.
-void check_places(const Arguments& arguments) {
+void check_places(const CheckArguments& arguments) {
   if (overlap(arguments.baseline, arguments.out))
     throw InvalidInput(fmt::format("--baseline {} and --out {}: one is the other or lies in it",
                                    printable(arguments.baseline), printable(arguments.out)));
@@ -45,7 +45,7 @@ void check_places(const Arguments& arguments) {
   check_output_places(arguments.options, inputs);
 }
 
-int check(const Arguments& arguments, const Invocation& invocation) {
+int check(const CheckArguments& arguments, const Invocation& invocation) {
   check_places(arguments);
   const DiffSettings settings = diff_settings(arguments.options, arguments.baseline);
   make_candidate(arguments, invocation);
@@ -69,7 +69,7 @@ int check(const Arguments& arguments, const Invocation& invocation) {
 }  // namespace
 
 Action check_verb(CLI::App& app) {
-  auto arguments = std::make_shared<Arguments>();
+  auto arguments = std::make_shared<CheckArguments>();
   app.description("Run an experiment and compare it with a baseline in one go");
   app.footer(
       "Examples:\n"

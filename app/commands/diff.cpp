@@ -10,13 +10,13 @@
 namespace mapproof {
 namespace {
 
-struct Arguments {
+struct DiffArguments {
   std::string baseline;
   std::string current;
   DiffOptions options;
 };
 
-int diff(const Arguments& arguments, const Invocation& invocation) {
+int diff(const DiffArguments& arguments, const Invocation& invocation) {
   const std::array<std::filesystem::path, 3> inputs = {arguments.baseline, arguments.current,
                                                        arguments.options.settings};
   check_output_places(arguments.options, inputs);
@@ -28,7 +28,7 @@ int diff(const Arguments& arguments, const Invocation& invocation) {
 }  // namespace
 
 Action diff_verb(CLI::App& app) {
-  auto arguments = std::make_shared<Arguments>();
+  auto arguments = std::make_shared<DiffArguments>();
   app.description("Compare two studies, folders of pictures or files, and say why they differ");
   app.footer(
       "Examples:\n"

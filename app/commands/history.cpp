@@ -18,7 +18,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-struct Arguments {
+struct HistoryArguments {
   std::string store;
   std::optional<std::string> prune;
   std::optional<std::string> format;
@@ -55,7 +55,7 @@ int verify(HistoryStore& history, const fs::path& store, const Console& console)
   return problems.empty() ? kDone : kNo;
 }
 
-int prune_by(HistoryStore& history, const Arguments& arguments, const Console& console) {
+int prune_by(HistoryStore& history, const HistoryArguments& arguments, const Console& console) {
   const FolderLock lock(arguments.store, [&] {
     console.warning(arguments.store + ": a night is being made in it; waiting for its end");
   });
@@ -70,7 +70,7 @@ int prune_by(HistoryStore& history, const Arguments& arguments, const Console& c
   return kDone;
 }
 
-int history_of(const Arguments& arguments, const Invocation& invocation) {
+int history_of(const HistoryArguments& arguments, const Invocation& invocation) {
   const Console& console = invocation.console;
   if (arguments.prune) parse_prune_rule(*arguments.prune);
   std::error_code error;
@@ -96,7 +96,7 @@ int history_of(const Arguments& arguments, const Invocation& invocation) {
 }  // namespace
 
 Action history_verb(CLI::App& app) {
-  auto arguments = std::make_shared<Arguments>();
+  auto arguments = std::make_shared<HistoryArguments>();
   app.description("List, check, export or prune the nights of a history");
   app.footer(
       "Examples:\n"

@@ -37,7 +37,7 @@ namespace fs = std::filesystem;
 
 constexpr const char* kLastGood = "last-good";
 
-struct Arguments {
+struct NightlyArguments {
   std::vector<std::string> experiments;
   std::string store;
   std::string out;
@@ -104,14 +104,14 @@ bool draw(const FolderReport& report, const Templates& page, int jobs, const Con
 }
 
 /// Where index and trends go.
-fs::path out_of(const Arguments& arguments) {
+fs::path out_of(const NightlyArguments& arguments) {
   return arguments.out.empty() ? arguments.store : arguments.out;
 }
 
 /// Draws the report of each study of a night that has been judged, and keeps its figures.
 /// @return Whether all scenes could be drawn.
 bool write_all(Night& night, HistoryStore& history, const fs::path& folder, const Templates& page,
-               const Arguments& arguments, const Invocation& invocation) {
+               const NightlyArguments& arguments, const Invocation& invocation) {
   const ObjectFolder objects(fs::path(arguments.store) / "objects");
   const LostNights lost =
       history.was_damaged() ? lost_nights(arguments.store, history.nights()) : LostNights{};
@@ -150,7 +150,7 @@ std::string night_text(const Night& night, const std::vector<std::string>& remar
   return text;
 }
 
-int nightly(const Arguments& arguments, const Invocation& invocation) {
+int nightly(const NightlyArguments& arguments, const Invocation& invocation) {
   const Console& console = invocation.console;
   const Templates page = load_templates(arguments.templates);
   const std::optional<int> asked = asked_reference(arguments.reference);
@@ -198,7 +198,7 @@ int nightly(const Arguments& arguments, const Invocation& invocation) {
 }  // namespace
 
 Action nightly_verb(CLI::App& app) {
-  auto arguments = std::make_shared<Arguments>();
+  auto arguments = std::make_shared<NightlyArguments>();
   app.description("Run experiments, add them to a history, and say what got worse");
   app.footer(
       "Examples:\n"

@@ -13,7 +13,7 @@
 namespace mapproof {
 namespace {
 
-struct Arguments {
+struct RenderArguments {
   std::string study;
   std::string out;
   std::string theme = "report";
@@ -39,7 +39,7 @@ std::vector<std::string> without_repeats(const std::vector<std::string>& ids) {
 }
 
 /// Those of the ids that were asked for, all if none was.
-Pictures chosen_pictures(const Arguments& arguments, const FolderReport& view) {
+Pictures chosen_pictures(const RenderArguments& arguments, const FolderReport& view) {
   const Pictures all = pictures_of(view);
   if (arguments.ids.empty()) return all;
   Pictures chosen;
@@ -56,7 +56,7 @@ Pictures chosen_pictures(const Arguments& arguments, const FolderReport& view) {
 }
 
 /// The films that were asked for. @throws InvalidInput for an id that none has.
-std::vector<const Film*> chosen_films(const Arguments& arguments, const FolderReport& view) {
+std::vector<const Film*> chosen_films(const RenderArguments& arguments, const FolderReport& view) {
   std::vector<const Film*> chosen;
   std::vector<std::string> ids;
   for (const Film& film : view.films) ids.push_back(film.id);
@@ -71,7 +71,7 @@ std::vector<const Film*> chosen_films(const Arguments& arguments, const FolderRe
   return chosen;
 }
 
-int render(const Arguments& arguments, const Invocation& invocation) {
+int render(const RenderArguments& arguments, const Invocation& invocation) {
   const FolderReport view = read_folder_report(arguments.study, std::nullopt, "");
   const std::vector<const Film*> films = chosen_films(arguments, view);
   // Animations alone, if nothing else was named.
@@ -106,7 +106,7 @@ int render(const Arguments& arguments, const Invocation& invocation) {
 }  // namespace
 
 Action render_verb(CLI::App& app) {
-  auto arguments = std::make_shared<Arguments>();
+  auto arguments = std::make_shared<RenderArguments>();
   app.description(
       "Draw a study's figures and scenes again from its records (SVG, PNG, PDF), or animate a "
       "scene");

@@ -8,13 +8,13 @@
 namespace mapproof {
 namespace {
 
-struct Arguments {
+struct ReportArguments {
   std::string study;
   std::optional<std::string> templates;
   int jobs = 1;
 };
 
-int report(const Arguments& arguments, const Invocation& invocation) {
+int report(const ReportArguments& arguments, const Invocation& invocation) {
   const Templates page = load_templates(arguments.templates);
   const FolderReport view = read_folder_report(arguments.study, std::nullopt, invocation.command);
   const std::filesystem::path path = write_report(view, page, arguments.jobs);
@@ -30,7 +30,7 @@ int report(const Arguments& arguments, const Invocation& invocation) {
 }  // namespace
 
 Action report_verb(CLI::App& app) {
-  auto arguments = std::make_shared<Arguments>();
+  auto arguments = std::make_shared<ReportArguments>();
   app.description("Write a study's report again from its records: figures, tables, report.html");
   app.footer(
       "Examples:\n"

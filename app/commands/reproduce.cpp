@@ -20,7 +20,7 @@ namespace fs = std::filesystem;
 constexpr const char* kAll = "all";                ///< Both papers.
 constexpr const char* kExtensions = "extensions";  ///< The studies beyond them.
 
-struct Arguments {
+struct ReproduceArguments {
   std::string name;
   std::string out = "out";
   int jobs = 1;
@@ -29,7 +29,7 @@ struct Arguments {
 };
 
 /// The experiments that a name stands for.
-std::vector<std::string> names_of(const Arguments& arguments) {
+std::vector<std::string> names_of(const ReproduceArguments& arguments) {
   if (arguments.name == kAll) return paper_names();
   if (arguments.name != kExtensions) return {arguments.name};
   const std::vector<std::string> papers = paper_names();
@@ -43,7 +43,7 @@ std::vector<std::string> names_of(const Arguments& arguments) {
 }
 
 /// All that is ordered, read and checked before anything is made.
-std::vector<StudyOrder> read_orders(const Arguments& arguments) {
+std::vector<StudyOrder> read_orders(const ReproduceArguments& arguments) {
   const std::vector<std::string> names = names_of(arguments);
   OrderOptions options = arguments.options;
   options.one_of_several = options.profile_if_there = names.size() > 1;
@@ -72,7 +72,7 @@ void check_folder_of_all(const fs::path& folder) {
 }
 
 /// The command that makes the same studies and report again, wherever it was typed.
-std::string command_again(const Arguments& arguments, const std::vector<StudyOrder>& orders) {
+std::string command_again(const ReproduceArguments& arguments, const std::vector<StudyOrder>& orders) {
   std::vector<std::string> words = {"mapproof", "reproduce", arguments.name};
   const std::vector<std::string> more = words_of(orders, arguments.options);
   words.insert(words.end(), more.begin(), more.end());
@@ -80,7 +80,7 @@ std::string command_again(const Arguments& arguments, const std::vector<StudyOrd
   return quoted_command(words);
 }
 
-int reproduce(const Arguments& arguments, const Invocation& invocation) {
+int reproduce(const ReproduceArguments& arguments, const Invocation& invocation) {
   // First of all, so that a template or data that cannot be used cost no study.
   const Templates page = load_templates(arguments.templates);
   const std::vector<StudyOrder> orders = read_orders(arguments);
@@ -113,7 +113,7 @@ int reproduce(const Arguments& arguments, const Invocation& invocation) {
 }  // namespace
 
 Action reproduce_verb(CLI::App& app) {
-  auto arguments = std::make_shared<Arguments>();
+  auto arguments = std::make_shared<ReproduceArguments>();
   app.description("Run a known experiment and write its figures and report");
   app.footer(
       "Examples:\n"

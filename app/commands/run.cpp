@@ -6,7 +6,7 @@
 namespace mapproof {
 namespace {
 
-struct Arguments {
+struct RunArguments {
   std::string experiment;
   std::string out;
   int jobs = 1;
@@ -14,7 +14,7 @@ struct Arguments {
 };
 
 /// The two commands that make the same study and a report of it, wherever they are typed.
-std::string command_again(const Arguments& arguments, const StudyOrder& order) {
+std::string command_again(const RunArguments& arguments, const StudyOrder& order) {
   std::vector<std::string> words = {"mapproof", "run", arguments.experiment};
   const std::vector<std::string> more = words_of({&order, 1}, arguments.options);
   words.insert(words.end(), more.begin(), more.end());
@@ -22,7 +22,7 @@ std::string command_again(const Arguments& arguments, const StudyOrder& order) {
   return quoted_command(words) + " && " + quoted_command({"mapproof", "report", arguments.out});
 }
 
-int run(const Arguments& arguments, const Invocation& invocation) {
+int run(const RunArguments& arguments, const Invocation& invocation) {
   const StudyOrder order = read_study_order(experiment_of(arguments.experiment), arguments.options);
   check_data_used({&order, 1}, arguments.options);
   make_study(order, arguments.out, arguments.jobs, command_again(arguments, order),
@@ -36,7 +36,7 @@ int run(const Arguments& arguments, const Invocation& invocation) {
 }  // namespace
 
 Action run_verb(CLI::App& app) {
-  auto arguments = std::make_shared<Arguments>();
+  auto arguments = std::make_shared<RunArguments>();
   app.description("Run an experiment and write its records, nothing else");
   app.footer(
       "Examples:\n"

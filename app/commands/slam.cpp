@@ -20,7 +20,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-struct Arguments {
+struct SlamArguments {
   std::string data;
   std::string out;
   std::string known;
@@ -43,7 +43,7 @@ SlamStudy study_of(const SlamRun& run) {
   return study;
 }
 
-void write_outputs(const Arguments& arguments, const SlamRunResult& result, const Templates& page,
+void write_outputs(const SlamArguments& arguments, const SlamRunResult& result, const Templates& page,
                    const std::string& command) {
   const SlamRun& run = result.run;
   const SlamFolder folder(arguments.out, run);
@@ -97,7 +97,7 @@ std::string slam_text(const SlamRun& run, const fs::path& out) {
   return text + (out / "report.html").string() + "\n";
 }
 
-int map_ranges(Arguments arguments, const Invocation& invocation) {
+int map_ranges(SlamArguments arguments, const Invocation& invocation) {
   const Templates page = load_templates(arguments.templates);
   check_result_folder(arguments.out, kSlamFile, "range-only map");
   arguments.log.odometry_file = arguments.odometry;
@@ -124,7 +124,7 @@ int map_ranges(Arguments arguments, const Invocation& invocation) {
 }  // namespace
 
 Action slam_verb(CLI::App& app) {
-  auto arguments = std::make_shared<Arguments>();
+  auto arguments = std::make_shared<SlamArguments>();
   app.description("Map landmarks and path from your own log of ranges and odometry");
   app.footer(
       "Examples:\n"

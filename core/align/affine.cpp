@@ -2,9 +2,8 @@
 
 #include <algorithm>
 
-#include <Eigen/QR>
-
 #include "core/base/errors.hpp"
+#include "core/linalg/decompositions.hpp"
 
 namespace mapproof {
 namespace {

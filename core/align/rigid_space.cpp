@@ -1,9 +1,7 @@
 #include "core/align/rigid_space.hpp"
 
-#include <Eigen/LU>
-#include <Eigen/SVD>
-
 #include "core/base/errors.hpp"
+#include "core/linalg/decompositions.hpp"
 
 namespace mapproof {
 

@@ -18,12 +18,12 @@ namespace {
 
 namespace fs = std::filesystem;
 
-std::string reason() { return std::strerror(errno); }
+std::string errno_reason() { return std::strerror(errno); }
 
 std::size_t size_of(const Descriptor& file, const fs::path& path) {
-  if (file.get() < 0) throw IoError(path.string(), "cannot be opened: " + reason());
+  if (file.get() < 0) throw IoError(path.string(), "cannot be opened: " + errno_reason());
   struct stat facts {};
-  if (::fstat(file.get(), &facts) != 0) throw IoError(path.string(), reason());
+  if (::fstat(file.get(), &facts) != 0) throw IoError(path.string(), errno_reason());
   if (S_ISDIR(facts.st_mode)) throw IoError(path.string(), "is a folder, a file was expected");
   return static_cast<std::size_t>(facts.st_size);
 }
@@ -36,7 +36,7 @@ struct PackedFile::State {
         descriptor(::open(path.c_str(), O_RDONLY | O_CLOEXEC)),
         size(size_of(descriptor, path)),
         stream(::gzdopen(::dup(descriptor.get()), "rb")) {
-    if (stream == nullptr) throw IoError(source, "cannot be opened: " + reason());
+    if (stream == nullptr) throw IoError(source, "cannot be opened: " + errno_reason());
     ::gzbuffer(stream, 1U << 17);
   }
   ~State() { ::gzclose(stream); }
@@ -67,7 +67,7 @@ bool PackedFile::append(std::string& bytes, std::size_t count) {
   int error = Z_OK;
   const char* words = ::gzerror(state_->stream, &error);
   if (got < 0 || error == Z_BUF_ERROR) {
-    if (error == Z_ERRNO) throw IoError(state_->source, "cannot be read: " + reason());
+    if (error == Z_ERRNO) throw IoError(state_->source, "cannot be read: " + errno_reason());
     if (error == Z_BUF_ERROR) throw IoError(state_->source, "the gzip'ed file is cut off");
     throw IoError(state_->source, std::string("the gzip'ed file is damaged: ") + words);
   }

@@ -6,6 +6,7 @@
 
 #include "core/align/laid_on.hpp"
 #include "core/base/errors.hpp"
+#include "core/base/not_finite.hpp"
 #include "core/certainty/block_length.hpp"
 #include "core/certainty/map_bootstrap.hpp"
 #include "core/certainty/resampled_maps.hpp"
@@ -17,7 +18,6 @@
 namespace mapproof {
 namespace {
 
-constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
 constexpr int kGraphNeighbours = 8;
 constexpr int kNeighbourhood = 10;
 
@@ -56,7 +56,7 @@ MapJudge::MapJudge(const ObservationHistory& history, Eigen::Index steps,
   HistoryEmbedder embedder(history, steps, options.embedder, options.rule);
   for (const MethodSetting& setting : options.settings) {
     JudgedMap map{.setting = setting, .embedding = embedder.embed(setting), .positions = {}};
-    map.values.fill(kUnknown);
+    map.values.fill(kNaN);
     map.mapped = !failed(map.embedding);
     maps_.push_back(std::move(map));
   }
@@ -131,7 +131,7 @@ std::vector<JudgedMap> MapJudge::in(const CertaintyFrame& frame) const {
     if (map.mapped)
       judge(map, frame);
     else
-      map.values.fill(kUnknown);
+      map.values.fill(kNaN);
   }
   combine(maps);
   return maps;

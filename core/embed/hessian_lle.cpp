@@ -4,17 +4,17 @@
 #include <vector>
 
 #include <fmt/format.h>
-#include <Eigen/Eigenvalues>
 
 #include "core/embed/bottom_eigenmap.hpp"
 #include "core/embed/local_gram.hpp"
 #include "core/linalg/centering.hpp"
+#include "core/linalg/decompositions.hpp"
 
 namespace mapproof {
 namespace {
 
 /// A second eigenvalue up to this share of the first is rounding: no tangent plane.
-constexpr double kFlat = 1e-12;
+constexpr double kFlatNeighbourhood = 1e-12;
 /// A column is dependent on those before it if this share of it is left.
 constexpr double kDependent = 1e-8;
 
@@ -55,7 +55,7 @@ Embedding hessian_lle(const Eigen::MatrixXd& squared_distances, const NeighbourL
     gram_about(squared_distances, i, edges, G);
     solver.compute(centered(G));
     const Eigen::Index k = G.rows();
-    if (solver.eigenvalues()(k - 2) <= kFlat * solver.eigenvalues()(k - 1)) ++flat;
+    if (solver.eigenvalues()(k - 2) <= kFlatNeighbourhood * solver.eigenvalues()(k - 1)) ++flat;
     support.clear();
     for (const Edge& edge : edges) support.push_back(edge.to);
     H.add(support, hessian_directions(solver.eigenvectors().rightCols<2>()));

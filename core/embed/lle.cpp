@@ -4,18 +4,17 @@
 #include <vector>
 
 #include <fmt/format.h>
-#include <Eigen/Cholesky>
-#include <Eigen/Eigenvalues>
 
 #include "core/base/errors.hpp"
 #include "core/embed/bottom_eigenmap.hpp"
 #include "core/embed/local_gram.hpp"
+#include "core/linalg/decompositions.hpp"
 
 namespace mapproof {
 namespace {
 
 /// Below this share of the squared trace the local Gram matrix has rank one.
-constexpr double kFlat = 1e-12;
+constexpr double kFlatGram = 1e-12;
 
 /// The nearest matrix that inner products of points can be, with trace 1: negative eigenvalues cut.
 Eigen::MatrixXd without_negative_part(const Eigen::MatrixXd& G) {
@@ -67,7 +66,7 @@ Embedding lle(const Eigen::MatrixXd& squared_distances, const NeighbourLists& ne
     gram_about(squared_distances, i, edges, G);
     const double trace = G.trace();
     if (trace > 0.0) G /= trace;
-    all_flat = all_flat && (trace == 0.0 || 1.0 - G.squaredNorm() <= kFlat);
+    all_flat = all_flat && (trace == 0.0 || 1.0 - G.squaredNorm() <= kFlatGram);
     if (!blend(G, options.regularization, factor, weights)) ++not_euclidean;
 
     support.assign(1, i);

@@ -11,9 +11,9 @@ namespace mapproof {
 namespace {
 
 /// Eigenvalues up to this share of the largest, or of the matrix, are rounding.
-constexpr double kRounding = 1e-12;
+constexpr double kCoordinateRounding = 1e-12;
 /// Eigenvalues nearer to each other than this share of the largest count as one.
-constexpr double kSame = 1e-10;
+constexpr double kEqualEigenvalues = 1e-10;
 
 }  // namespace
 
@@ -22,7 +22,7 @@ Embedding principal_coordinates(const Eigen::MatrixXd& B, double size) {
   Embedding result;
   result.spectrum = pairs.values;
   result.coordinates.setZero(B.rows(), 2);
-  const double floor = kRounding * std::max(pairs.values(0), size);
+  const double floor = kCoordinateRounding * std::max(pairs.values(0), size);
   int rank = 0;
   for (; rank < 2 && pairs.values(rank) > floor; ++rank)
     result.coordinates.col(rank) = std::sqrt(pairs.values(rank)) * pairs.vectors.col(rank);
@@ -35,7 +35,7 @@ Embedding principal_coordinates(const Eigen::MatrixXd& B, double size) {
          fmt::format("The distances that the map is made of spread in {} direction{}, a map needs "
                      "two.",
                      rank, rank == 1 ? "" : "s")});
-  } else if (pairs.values(1) - pairs.values(2) <= kSame * pairs.values(0)) {
+  } else if (pairs.values(1) - pairs.values(2) <= kEqualEigenvalues * pairs.values(0)) {
     result.statuses.push_back(
         {StatusCode::kUndetermined,
          fmt::format("The second and third eigenvalue are equal ({:.4g}): which directions the "

@@ -2,9 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <utility>
 
+#include "core/base/not_finite.hpp"
 #include "core/embed/observation_manifold.hpp"
 #include "core/observe/proximities.hpp"
 #include "core/simulate/sensors.hpp"
@@ -14,7 +14,6 @@ namespace {
 
 constexpr Eigen::Index kFirstSteps = 60;
 constexpr int kManifoldNeighbours = 5;
-constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 
 /// Counted from 0.
 Eigen::Index telling_look(const SensorStudy& study, const World& world, const Path& path,

@@ -1,18 +1,16 @@
 #include <cmath>
-#include <limits>
 #include <numeric>
 
 #include <tbb/parallel_for.h>
 
 #include "core/base/errors.hpp"
+#include "core/base/not_finite.hpp"
 #include "core/base/random.hpp"
 #include "core/experiment/seeds.hpp"
 #include "core/experiment/slam_worlds.hpp"
 
 namespace mapproof {
 namespace {
-
-constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 
 /// Mean over independent values; NaN if there is none.
 MeanEstimate mean_of(const std::vector<double>& values) {

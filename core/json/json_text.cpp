@@ -9,7 +9,7 @@
 namespace mapproof {
 namespace {
 
-using Json = nlohmann::ordered_json;
+using OrderedJson = nlohmann::ordered_json;
 
 constexpr std::size_t kColumns = 100;
 constexpr std::size_t kUnlimited = std::numeric_limits<std::size_t>::max();
@@ -27,10 +27,10 @@ void append_number(std::string& out, double value) {
 }
 
 void append_string(std::string& out, const std::string& text) {
-  out += Json(text).dump(-1, ' ', false, Json::error_handler_t::replace);
+  out += OrderedJson(text).dump(-1, ' ', false, OrderedJson::error_handler_t::replace);
 }
 
-void append_plain(std::string& out, const Json& value) {
+void append_plain(std::string& out, const OrderedJson& value) {
   if (value.is_number_float()) {
     append_number(out, value.get<double>());
   } else if (value.is_string()) {
@@ -41,7 +41,7 @@ void append_plain(std::string& out, const Json& value) {
 }
 
 /// Appends on one line; false, with `out` in disorder, if it grows beyond `limit` bytes.
-bool append_inline(std::string& out, const Json& value, std::size_t limit) {
+bool append_inline(std::string& out, const OrderedJson& value, std::size_t limit) {
   if (!value.is_structured()) {
     append_plain(out, value);
     return out.size() <= limit;
@@ -61,13 +61,13 @@ bool append_inline(std::string& out, const Json& value, std::size_t limit) {
   return out.size() <= limit;
 }
 
-bool is_row(const Json& value) {
+bool is_row(const OrderedJson& value) {
   return value.is_array() &&
-         std::ranges::none_of(value, [](const Json& item) { return item.is_structured(); });
+         std::ranges::none_of(value, [](const OrderedJson& item) { return item.is_structured(); });
 }
 
 /// `column`: where the value starts on its line.
-void append(std::string& out, const Json& value, std::size_t indent, std::size_t column) {
+void append(std::string& out, const OrderedJson& value, std::size_t indent, std::size_t column) {
   if (!value.is_structured()) return append_plain(out, value);
   const std::size_t start = out.size();
   const std::size_t room =
@@ -93,13 +93,13 @@ void append(std::string& out, const Json& value, std::size_t indent, std::size_t
 
 }  // namespace
 
-std::string json_text(const Json& value) {
+std::string json_text(const OrderedJson& value) {
   std::string out;
   append(out, value, 0, 0);
   return out + '\n';
 }
 
-std::string json_line(const Json& value) {
+std::string json_line(const OrderedJson& value) {
   std::string out;
   append_inline(out, value, kUnlimited);
   return out + '\n';

@@ -22,7 +22,7 @@ using Exchange = std::pair<int, int>;
 using Exchanges = std::vector<Exchange>;
 
 constexpr std::size_t kMostDoubted = 40;  ///< Known places whose labels are doubted.
-constexpr double kWidths = 2.0;           ///< Of Huber's cost, in standard deviations of a place.
+constexpr double kHuberWidths = 2.0;           ///< Of Huber's cost, in standard deviations of a place.
 constexpr double kLeastEvidence = 30.0;   ///< Variances that an exchange has to explain,
 constexpr double kLeastLead = 10.0;       ///< and those by which it has to lead before any other.
 constexpr double kMostLeft = 5.0;         ///< Deviations that its landmarks may be off then.
@@ -56,7 +56,7 @@ class KnownPlaces {
     std::vector<std::complex<double>> from = places(exchanges);
     if (mirrored)
       for (std::complex<double>& z : from) z = std::conj(z);
-    const double width = kWidths * deviation_m;
+    const double width = kHuberWidths * deviation_m;
     std::vector<double> weights(from.size(), 1.0);
     Fit fit;
     for (int round = 0; round < 12; ++round) {

@@ -4,10 +4,9 @@
 #include <cmath>
 #include <vector>
 
-#include <Eigen/Cholesky>
-
 #include "core/base/errors.hpp"
 #include "core/labels/assignment.hpp"
+#include "core/linalg/decompositions.hpp"
 #include "core/linalg/symmetric_eigen.hpp"
 
 namespace mapproof {

@@ -10,7 +10,7 @@ namespace {
 
 constexpr int kMostRounds = 12;
 constexpr double kPrice = 2.0;   ///< Of another label, variances.
-constexpr double kWidths = 1.5;  ///< Standard deviations in a width.
+constexpr double kScanWidths = 1.5;  ///< Standard deviations in a width.
 
 RobustMap freshly_mapped(const std::vector<PairItem>& items, int landmarks, double width_m) {
   return lowered_map(items, robust_map(items, landmarks).positions_m, width_m);
@@ -21,7 +21,7 @@ RobustMap freshly_mapped(const std::vector<PairItem>& items, int landmarks, doub
 std::vector<int> labels_look_by_look(const LabelledLooks& looks, const std::vector<int>& given,
                                      const std::vector<int>& labels, const LabelHypothesis& fault,
                                      const Points& map, double width_m) {
-  const double price = kPrice * width_m * width_m / (kWidths * kWidths);
+  const double price = kPrice * width_m * width_m / (kScanWidths * kScanWidths);
   const bool both = fault.fault == LabelFault::kSwapped;
   // The label that a sighting bears if it does not keep its present one.
   const auto otherwise = [&](std::size_t row) {

@@ -2,12 +2,12 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <optional>
 
 #include <fmt/format.h>
 
 #include "core/base/errors.hpp"
+#include "core/base/not_finite.hpp"
 #include "core/base/words.hpp"
 #include "core/labels/fault_trials.hpp"
 #include "core/labels/look_costs.hpp"
@@ -19,7 +19,6 @@ namespace {
 
 constexpr double kFitsNot = 8.0;  ///< A sighting's cost, in variances, under a label not its own.
 constexpr double kNearlyAll = 0.97;  ///< Of the sightings that a fault may hold for.
-constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
 
 /// How well the fall of the cost is explained by the labels tried.
 struct Explanation {
@@ -114,7 +113,7 @@ LabelFinding found(const LabelledLooks& looks, const std::vector<int>& labels,
   finding.all_of_robot = is_all_of_robot(looks.log, labels, finding);
   const std::vector<double>& times = looks.log.times_s;
   const auto time = [&](int step) {
-    return times.empty() ? kUnknown : times[static_cast<std::size_t>(step)];
+    return times.empty() ? kNaN : times[static_cast<std::size_t>(step)];
   };
   finding.first_time_s = time(finding.first_step);
   finding.last_time_s = time(finding.last_step);

@@ -6,6 +6,7 @@
 #include <tuple>
 
 #include "core/base/errors.hpp"
+#include "core/base/not_finite.hpp"
 #include "core/embed/lpca.hpp"
 #include "core/embed/smacof.hpp"
 #include "core/graph/components.hpp"
@@ -17,7 +18,6 @@ namespace {
 constexpr double kWidths = 1.5;       ///< Standard deviations in RobustMap::width_m.
 constexpr double kFewestLooks = 3.0;  ///< Of a pair that the start of a map is made of,
 constexpr int kPairsToPlace = 3;      ///< if each of its landmarks has so many.
-constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
 constexpr double kInfinite = std::numeric_limits<double>::infinity();
 constexpr int kMostLandmarks = 2000;
 
@@ -200,7 +200,7 @@ RobustMap lowered_map(const std::vector<PairItem>& items, const Points& start, d
   std::ranges::fill(mapped.row, -1);
   for (std::size_t k = 0; k < mapped.landmarks.size(); ++k)
     mapped.row[static_cast<std::size_t>(mapped.landmarks[k])] = static_cast<int>(k);
-  Points map = Points::Constant(start.rows(), 2, kUnknown);
+  Points map = Points::Constant(start.rows(), 2, kNaN);
   const auto n = static_cast<Eigen::Index>(mapped.landmarks.size());
   if (n < 3) return finished(items, std::move(map), width_m);
   Points Z = start(mapped.landmarks, Eigen::all);
@@ -226,7 +226,7 @@ RobustMap robust_map(const std::vector<PairItem>& items, int landmarks) {
     if (item.first < 0 || item.second >= landmarks)
       throw InvalidInput("a pair of landmarks that are not there");
   const Mapped mapped = largest_group(items, landmarks);
-  Points start = Points::Constant(landmarks, 2, kUnknown);
+  Points start = Points::Constant(landmarks, 2, kNaN);
   if (mapped.landmarks.size() < 3) return finished(items, std::move(start), 1.0);
   const Eigen::MatrixXd D = completed_distances(median_distances(items, mapped));
   start(mapped.landmarks, Eigen::all) = lpca(D.cwiseAbs2()).coordinates;

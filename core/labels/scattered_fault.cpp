@@ -10,7 +10,7 @@
 namespace mapproof {
 namespace {
 
-constexpr std::size_t kTried = 4;   ///< Twos of labels that are settled.
+constexpr std::size_t kSettledPairs = 4;   ///< Twos of labels that are settled.
 constexpr double kLeastGain = 0.3;  ///< Of the first one's.
 /// So rare, and so much rarer than the other label's, one label's changes are chance.
 constexpr double kByChance = 0.1;
@@ -157,7 +157,7 @@ FaultTrial simplified(const LabelledLooks& looks, const std::vector<int>& labels
 std::optional<FaultTrial> scattered_trial(const LabelledLooks& looks,
                                           const std::vector<int>& labels, const RobustMap& map) {
   std::optional<FaultTrial> best;
-  const std::vector<SharedPlaces> all = shared_places(looks, labels, map, kTried);
+  const std::vector<SharedPlaces> all = shared_places(looks, labels, map, kSettledPairs);
   for (const SharedPlaces& shared : all) {
     if (shared.gain < kLeastGain * all.front().gain) break;
     FaultTrial trial = simpler_trial(looks, labels, shared, map.width_m);

@@ -130,8 +130,8 @@ std::optional<SharedLabel> two_places(const SightingLog& log, int label) {
 }
 
 /// The pairs of a log, and the map that they are costed from.
-struct Mapped {
-  explicit Mapped(const SightingLog& log) : start(sighted_map(log).embedding.coordinates) {
+struct MappedLabels {
+  explicit MappedLabels(const SightingLog& log) : start(sighted_map(log).embedding.coordinates) {
     const LabelledLooks looks = labelled_looks(log, kBlocks);
     items = pair_items(looks.pairs, given_labels(log), looks.blocks);
   }
@@ -164,11 +164,11 @@ std::optional<SharedLabel> shared_label(const SightingLog& log) {
   candidates.resize(std::min(candidates.size(), kTriedLabels));
   // While one label folds the map, others seem to stand at two places as well.
   std::optional<SharedLabel> best;
-  std::optional<Mapped> whole;
+  std::optional<MappedLabels> whole;
   for (SharedLabel& candidate : candidates) {
     SightingLog split = split_label(log, candidate, static_cast<int>(log.names.size()));
     split.names.push_back(log.names[static_cast<std::size_t>(candidate.label)] + " (2)");
-    const Mapped parts(split);
+    const MappedLabels parts(split);
     const RobustMap two = lowered_map(parts.items, parts.start, width_of(parts.items, parts.start));
     if (!whole) whole.emplace(log);
     candidate.loss_before_m = lowered_map(whole->items, whole->start, two.width_m).loss_m;

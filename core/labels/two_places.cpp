@@ -13,7 +13,7 @@
 namespace mapproof {
 namespace {
 
-constexpr int kFewestLooks = 10;              ///< Of two landmarks, to ask for two distances.
+constexpr int kFewestOfTwo = 10;              ///< Of two landmarks, to ask for two distances.
 constexpr std::size_t kAskedLooks = 200;      ///< Of two landmarks, at most.
 constexpr std::size_t kAskedSightings = 250;  ///< Of a label, at most.
 constexpr std::size_t kLabels = 4;            ///< Of either kind of doubt, asked in twos.
@@ -190,7 +190,7 @@ std::vector<int> labels_of_two_distances(const LabelledLooks& looks, const std::
       distances[std::minmax(labels[pair.first], labels[pair.second])].push_back(pair.distance_m);
   std::vector<double> gains(static_cast<std::size_t>(landmarks), 0.0);
   for (auto& [pair, values] : distances) {
-    if (std::ssize(values) < kFewestLooks) continue;
+    if (std::ssize(values) < kFewestOfTwo) continue;
     thin_out(values, kAskedLooks);
     const double gain = gain_of_two(values, width_m);
     gains[static_cast<std::size_t>(pair.first)] += gain;

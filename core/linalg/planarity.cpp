@@ -1,6 +1,6 @@
 #include "core/linalg/planarity.hpp"
 
-#include <Eigen/SVD>
+#include "core/linalg/decompositions.hpp"
 
 namespace mapproof {
 

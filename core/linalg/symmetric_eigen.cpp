@@ -4,10 +4,10 @@
 #include <cmath>
 
 #include <Spectra/SymEigsSolver.h>
-#include <Eigen/Eigenvalues>
 #include <Eigen/SparseCholesky>
 
 #include "core/base/errors.hpp"
+#include "core/linalg/decompositions.hpp"
 #include "core/linalg/sign.hpp"
 
 namespace mapproof {

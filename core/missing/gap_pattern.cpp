@@ -15,7 +15,7 @@
 namespace mapproof {
 namespace {
 
-constexpr std::array kNames = {std::string_view("common-steps"), std::string_view("ppca"),
+constexpr std::array kRecommendationNames = {std::string_view("common-steps"), std::string_view("ppca"),
                                std::string_view("covisible")};
 constexpr double kFewSteps = 5.0;
 constexpr double kPatterned = 2.0;     ///< Dispersion above this is no chance.
@@ -89,7 +89,7 @@ GapPattern gap_pattern(const ObservationHistory& history, Eigen::Index steps) {
   return pattern;
 }
 
-std::string_view name(GapWay way) { return kNames[static_cast<std::size_t>(way)]; }
+std::string_view name(GapWay way) { return kRecommendationNames[static_cast<std::size_t>(way)]; }
 
 GapAdvice advised_way(const GapPattern& pattern, Sensor sensor) {
   if (pattern.missing_share == 0.0) return {GapWay::kCommonSteps, "nothing is missing"};

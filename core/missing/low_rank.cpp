@@ -5,9 +5,9 @@
 #include <map>
 
 #include <fmt/format.h>
-#include <Eigen/Cholesky>
 
 #include "core/base/errors.hpp"
+#include "core/linalg/decompositions.hpp"
 #include "core/linalg/gram.hpp"
 #include "core/linalg/symmetric_eigen.hpp"
 

@@ -5,9 +5,9 @@
 #include <numbers>
 
 #include <fmt/format.h>
-#include <Eigen/Cholesky>
 
 #include "core/base/errors.hpp"
+#include "core/linalg/decompositions.hpp"
 
 namespace mapproof {
 namespace {

@@ -6,18 +6,18 @@
 namespace mapproof {
 namespace {
 
-constexpr std::array kNames = {std::string_view("walls"), std::string_view("random"),
+constexpr std::array kPlacementNames = {std::string_view("walls"), std::string_view("random"),
                                std::string_view("cluster")};
 
 }  // namespace
 
 std::string_view name(AnchorPlacement placement) {
-  return kNames[static_cast<std::size_t>(placement)];
+  return kPlacementNames[static_cast<std::size_t>(placement)];
 }
 
 std::optional<AnchorPlacement> anchor_placement_named(std::string_view name) {
-  for (std::size_t i = 0; i < kNames.size(); ++i)
-    if (kNames[i] == name) return static_cast<AnchorPlacement>(i);
+  for (std::size_t i = 0; i < kPlacementNames.size(); ++i)
+    if (kPlacementNames[i] == name) return static_cast<AnchorPlacement>(i);
   return std::nullopt;
 }
 

@@ -52,6 +52,9 @@ struct MapRecord {
   bool of_pairs = false;
 };
 
+/// Whether the position of that landmark was given.
+bool is_anchor(const MapRecord& map, Eigen::Index row);
+
 /// What was mapped, in words: "range and bearing", or the sensor's name.
 std::string observed(const MapRecord& map);
 

@@ -6,16 +6,16 @@
 namespace mapproof {
 namespace {
 
-constexpr std::array kNames = {std::string_view("visible"), std::string_view("hidden"),
+constexpr std::array kOutcomeNames = {std::string_view("visible"), std::string_view("hidden"),
                                std::string_view("out_of_reach")};
 
 }  // namespace
 
-std::string_view name(View view) { return kNames[static_cast<std::size_t>(view)]; }
+std::string_view name(View view) { return kOutcomeNames[static_cast<std::size_t>(view)]; }
 
 std::optional<View> view_named(std::string_view name) {
-  for (std::size_t i = 0; i < kNames.size(); ++i)
-    if (kNames[i] == name) return static_cast<View>(i);
+  for (std::size_t i = 0; i < kOutcomeNames.size(); ++i)
+    if (kOutcomeNames[i] == name) return static_cast<View>(i);
   return std::nullopt;
 }
 

@@ -44,7 +44,7 @@ constexpr ParameterInfo kDegree{.symbol = "d",
                                 .minimum = 1,
                                 .maximum = 20};
 
-constexpr std::array kMethods = {
+constexpr std::array kMappingMethods = {
     MethodInfo{.method = Method::kLpca,
                .name = "lpca",
                .label = "LPCA",
@@ -111,9 +111,9 @@ constexpr std::array kMethods = {
 
 }  // namespace
 
-std::span<const MethodInfo> all_methods() { return kMethods; }
+std::span<const MethodInfo> all_methods() { return kMappingMethods; }
 
-const MethodInfo& info(Method method) { return kMethods[static_cast<std::size_t>(method)]; }
+const MethodInfo& info(Method method) { return kMappingMethods[static_cast<std::size_t>(method)]; }
 
 bool on_graph(Method method) {
   const std::optional<ParameterInfo>& parameter = info(method).parameter;
@@ -121,14 +121,14 @@ bool on_graph(Method method) {
 }
 
 std::optional<Method> method_named(std::string_view name) {
-  for (const MethodInfo& candidate : kMethods)
+  for (const MethodInfo& candidate : kMappingMethods)
     if (candidate.name == name) return candidate.method;
   return std::nullopt;
 }
 
 std::string_view nearest_method_name(std::string_view name) {
   std::vector<std::string_view> names;
-  for (const MethodInfo& method : kMethods) names.push_back(method.name);
+  for (const MethodInfo& method : kMappingMethods) names.push_back(method.name);
   return nearest_word(name, names);
 }
 

@@ -6,7 +6,7 @@
 namespace mapproof {
 namespace {
 
-constexpr std::array<std::pair<Alignment, std::string_view>, 4> kNames{{
+constexpr std::array<std::pair<Alignment, std::string_view>, 4> kAlignmentNames{{
     {Alignment::kNone, "none"},
     {Alignment::kRigid, "rigid"},
     {Alignment::kRigidWithReflection, "rigid-with-reflection"},
@@ -16,13 +16,13 @@ constexpr std::array<std::pair<Alignment, std::string_view>, 4> kNames{{
 }  // namespace
 
 std::string_view name(Alignment alignment) {
-  for (const auto& [value, text] : kNames)
+  for (const auto& [value, text] : kAlignmentNames)
     if (value == alignment) return text;
   return {};
 }
 
 std::optional<Alignment> alignment_named(std::string_view name) {
-  for (const auto& [value, text] : kNames)
+  for (const auto& [value, text] : kAlignmentNames)
     if (text == name) return value;
   return std::nullopt;
 }

@@ -5,7 +5,7 @@
 namespace mapproof {
 namespace {
 
-constexpr std::array kMethods = {
+constexpr std::array kSlamMethods = {
     SlamMethodInfo{.method = SlamMethod::kDeadReckoning,
                    .name = "dead-reckoning",
                    .label = "dead reckoning",
@@ -58,12 +58,12 @@ constexpr std::array kMethods = {
 
 }  // namespace
 
-std::span<const SlamMethodInfo> all_slam_methods() { return kMethods; }
+std::span<const SlamMethodInfo> all_slam_methods() { return kSlamMethods; }
 
-const SlamMethodInfo& info(SlamMethod method) { return kMethods[static_cast<std::size_t>(method)]; }
+const SlamMethodInfo& info(SlamMethod method) { return kSlamMethods[static_cast<std::size_t>(method)]; }
 
 std::optional<SlamMethod> slam_method_named(std::string_view name) {
-  for (const SlamMethodInfo& candidate : kMethods)
+  for (const SlamMethodInfo& candidate : kSlamMethods)
     if (candidate.name == name) return candidate.method;
   return std::nullopt;
 }

@@ -5,7 +5,7 @@
 namespace mapproof {
 namespace {
 
-constexpr std::array kNames = {
+constexpr std::array kStatusNames = {
     std::string_view("bridged"),
     std::string_view("not_converged"),
     std::string_view("unproved"),
@@ -24,11 +24,11 @@ constexpr std::array kNames = {
 
 }  // namespace
 
-std::string_view name(StatusCode code) { return kNames[static_cast<std::size_t>(code)]; }
+std::string_view name(StatusCode code) { return kStatusNames[static_cast<std::size_t>(code)]; }
 
 std::optional<StatusCode> status_code_named(std::string_view name) {
-  for (std::size_t i = 0; i < kNames.size(); ++i)
-    if (kNames[i] == name) return static_cast<StatusCode>(i);
+  for (std::size_t i = 0; i < kStatusNames.size(); ++i)
+    if (kStatusNames[i] == name) return static_cast<StatusCode>(i);
   return std::nullopt;
 }
 

@@ -1,14 +1,14 @@
 #include "core/pairs/triangles.hpp"
 
 #include <algorithm>
-#include <limits>
+
+#include "core/base/not_finite.hpp"
 
 namespace mapproof {
 
 std::vector<bool> against_triangles(const std::vector<MeasuredPair>& pairs, Eigen::Index landmarks,
                                     double slack) {
-  constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
-  Eigen::MatrixXd sides = Eigen::MatrixXd::Constant(landmarks, landmarks, kUnknown);
+  Eigen::MatrixXd sides = Eigen::MatrixXd::Constant(landmarks, landmarks, kNaN);
   for (const MeasuredPair& pair : pairs)
     sides(pair.first, pair.second) = sides(pair.second, pair.first) = pair.distance_m;
 

@@ -1,6 +1,6 @@
 #include "core/range_slam/chain_information.hpp"
 
-#include <Eigen/Cholesky>
+#include "core/linalg/decompositions.hpp"
 
 namespace mapproof {
 namespace {

@@ -6,10 +6,9 @@
 #include <vector>
 
 #include <fmt/format.h>
-#include <Eigen/Eigenvalues>
-#include <Eigen/LU>
 
 #include "core/base/errors.hpp"
+#include "core/linalg/decompositions.hpp"
 #include "core/range_slam/dead_reckoning.hpp"
 #include "core/range_slam/log_checks.hpp"
 #include "core/range_slam/spread_rows.hpp"
@@ -21,9 +20,9 @@ namespace {
 constexpr Eigen::Index kMostFiltered = 500;
 constexpr Eigen::Index kScale = 3;  ///< In the state: x, y, heading, range scale, landmarks.
 /// Nearer than this a landmark has no direction.
-constexpr double kLeastDistance_m = 1e-9;
+constexpr double kNearestRange_m = 1e-9;
 /// Readings that a first place needs.
-constexpr std::size_t kLeastReadings = 5;
+constexpr std::size_t kReadingsToStart = 5;
 /// Share of the initial way after which a landmark that found no place is tried again.
 constexpr double kNextTry = 0.5;
 
@@ -123,7 +122,7 @@ class Filter {
     const Eigen::Vector2d gap = x_.head<2>() - x_.segment<2>(at);
     const double distance = gap.norm();
     ++updates_;
-    if (!(distance > kLeastDistance_m)) return;
+    if (!(distance > kNearestRange_m)) return;
     const Eigen::Vector2d slope = x_(kScale) * gap / distance;
     const Eigen::VectorXd PHt =
         P_.leftCols<2>() * slope - P_.middleCols<2>(at) * slope + P_.col(kScale) * distance;
@@ -142,7 +141,7 @@ class Filter {
   void place(std::size_t landmark, Eigen::Index row) {
     Waiting& waiting = waiting_[landmark];
     waiting.next_try_m = way_m_ + kNextTry * options_.initial_way_m;
-    if (waiting.readings.size() < kLeastReadings) return;
+    if (waiting.readings.size() < kReadingsToStart) return;
     RangeLog part;
     part.landmarks = {log_.landmarks[landmark]};
     for (const RangeReading& reading : waiting.readings)
@@ -173,7 +172,7 @@ class Filter {
       const Eigen::Vector2d gap =
           (place - path.positions_m.row(std::min<Eigen::Index>(after, path.size() - 1)))
               .transpose();
-      if (gap.norm() > kLeastDistance_m)
+      if (gap.norm() > kNearestRange_m)
         information += gap * gap.transpose() / gap.squaredNorm() /
                        (options_.range_sigma_m * options_.range_sigma_m);
     }

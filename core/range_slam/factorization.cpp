@@ -3,10 +3,9 @@
 #include <limits>
 
 #include <fmt/format.h>
-#include <Eigen/Eigenvalues>
-#include <Eigen/SVD>
 
 #include "core/base/errors.hpp"
+#include "core/linalg/decompositions.hpp"
 #include "core/linalg/sign.hpp"
 #include "core/range_slam/quadric.hpp"
 

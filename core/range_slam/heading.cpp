@@ -3,16 +3,16 @@
 #include <cmath>
 
 #include <fmt/format.h>
-#include <Eigen/QR>
 
 #include "core/base/errors.hpp"
+#include "core/linalg/decompositions.hpp"
 #include "core/range_slam/metric_upgrade.hpp"
 
 namespace mapproof {
 namespace {
 
-constexpr Eigen::Index kRank = 7;
-constexpr Eigen::Index kLeastLandmarks = 4;
+constexpr Eigen::Index kRankWithHeading = 7;
+constexpr Eigen::Index kLeastLandmarksRank7 = 4;
 constexpr Eigen::Index kLeastColumns = 8;
 
 /// Directions from the bottom block: [m, 1] [-cos, -sin, ...]' by regression on the map.
@@ -51,14 +51,14 @@ HeadingMap map_with_heading(const HeadingColumns& columns,
                             const std::optional<KnownLandmarks>& known) {
   const Eigen::Index N = columns.Y.rows() / 2, K = columns.Y.cols();
   HeadingMap result;
-  if (N < kLeastLandmarks || K < kLeastColumns) {
+  if (N < kLeastLandmarksRank7 || K < kLeastColumns) {
     result.map.statuses.push_back(
         {StatusCode::kTooFewObservations,
          fmt::format("{} landmarks and {} steps with motion; {} and {} are needed.", N, K,
-                     kLeastLandmarks, kLeastColumns)});
+                     kLeastLandmarksRank7, kLeastColumns)});
     return result;
   }
-  const Factorization factors = factorize(columns.Y, kRank);
+  const Factorization factors = factorize(columns.Y, kRankWithHeading);
   const Factorization top = factorize(factors.U.topRows(N) * factors.V, 4);
   result.singular_values = factors.singular_values;
   result.map = known ? map_from_known_landmarks(top, *known) : metric_upgrade(top).map;

@@ -3,10 +3,10 @@
 #include <algorithm>
 #include <cmath>
 
-#include <Eigen/Cholesky>
 #include <Eigen/Geometry>
 
 #include "core/base/errors.hpp"
+#include "core/linalg/decompositions.hpp"
 
 namespace mapproof {
 namespace {

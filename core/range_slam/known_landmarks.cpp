@@ -4,11 +4,9 @@
 #include <limits>
 
 #include <fmt/format.h>
-#include <Eigen/LU>
-#include <Eigen/QR>
-#include <Eigen/SVD>
 
 #include "core/base/errors.hpp"
+#include "core/linalg/decompositions.hpp"
 #include "core/range_slam/log_checks.hpp"
 #include "core/range_slam/squared_ranges.hpp"
 

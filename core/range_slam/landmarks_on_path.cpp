@@ -2,9 +2,8 @@
 
 #include <cmath>
 
-#include <Eigen/QR>
-
 #include "core/base/errors.hpp"
+#include "core/linalg/decompositions.hpp"
 #include "core/linalg/planarity.hpp"
 
 namespace mapproof {

@@ -4,10 +4,8 @@
 #include <cmath>
 #include <vector>
 
-#include <Eigen/Cholesky>
-#include <Eigen/QR>
-
 #include "core/base/errors.hpp"
+#include "core/linalg/decompositions.hpp"
 
 namespace mapproof {
 namespace {

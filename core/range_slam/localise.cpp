@@ -1,8 +1,7 @@
 #include "core/range_slam/localise.hpp"
 
-#include <Eigen/QR>
-
 #include "core/base/errors.hpp"
+#include "core/linalg/decompositions.hpp"
 #include "core/linalg/planarity.hpp"
 
 namespace mapproof {

@@ -3,11 +3,9 @@
 #include <cmath>
 
 #include <fmt/format.h>
-#include <Eigen/Cholesky>
-#include <Eigen/LU>
-#include <Eigen/QR>
 
 #include "core/base/errors.hpp"
+#include "core/linalg/decompositions.hpp"
 #include "core/range_slam/quadric.hpp"
 #include "core/range_slam/upgrade_transform.hpp"
 

@@ -7,9 +7,9 @@
 #include <vector>
 
 #include <fmt/format.h>
-#include <Eigen/Eigenvalues>
 
 #include "core/base/errors.hpp"
+#include "core/linalg/decompositions.hpp"
 #include "core/linalg/gram.hpp"
 #include "core/linalg/packed_product.hpp"
 #include "core/linalg/sign.hpp"
@@ -21,7 +21,7 @@ namespace {
 
 constexpr Eigen::Index kRank = 4;
 /// Steps that settle a quadric.
-constexpr Eigen::Index kLeastSteps = 8;
+constexpr Eigen::Index kLeastStepsToMap = 8;
 /// Coordinates whose fourth moments are kept.
 constexpr Eigen::Index kFrame = 8;
 /// Steps that wait before they are folded in: of each landmark, so that the eigenvectors, O(N^3),
@@ -29,7 +29,7 @@ constexpr Eigen::Index kFrame = 8;
 constexpr Eigen::Index kBlockALandmark = 4;
 constexpr Eigen::Index kLeastBlock = 32;
 /// Eigenvalues of the Gram matrix below this share of the largest are rounding.
-constexpr double kRounding = 1e-14;
+constexpr double kGramRounding = 1e-14;
 
 /// The matrix that takes quadratic_monomials() of z to those of A z.
 Eigen::MatrixXd on_monomials(const Eigen::MatrixXd& A) {
@@ -96,7 +96,7 @@ void OnlineSpectralMap::fold() {
   // The frame of the new Gram matrix, and the moments of old columns in it.
   const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver(gram_ / double(steps_));
   eigenvalues_ = solver.eigenvalues().reverse();
-  const double least = kRounding * eigenvalues_(0);
+  const double least = kGramRounding * eigenvalues_(0);
   const Eigen::Index q = std::min<Eigen::Index>(kFrame, (eigenvalues_.array() > least).count());
   Eigen::MatrixXd U = solver.eigenvectors().rowwise().reverse().leftCols(q);
   fix_signs(U);
@@ -115,7 +115,7 @@ void OnlineSpectralMap::fold() {
 
 Factorization OnlineSpectralMap::spectrum() const {
   Factorization result;
-  const double least = kRounding * eigenvalues_(0);
+  const double least = kGramRounding * eigenvalues_(0);
   result.singular_values =
       (eigenvalues_.array() > least).select(double(steps_) * eigenvalues_.array(), 0.0).sqrt();
   judge_rank(result, kRank);
@@ -166,7 +166,7 @@ SpectralMap OnlineSpectralMap::map(const KnownLandmarks& known) const {
 SpectralMap OnlineSpectralMap::map() const {
   OnlineSpectralMap all = *this;
   all.fold();
-  if (const auto none = all.without_map(kLeastSteps, StatusCode::kDegenerateGeometry)) return *none;
+  if (const auto none = all.without_map(kLeastStepsToMap, StatusCode::kDegenerateGeometry)) return *none;
   const Eigen::MatrixXd U = all.frame_.leftCols(kRank);
   const UpgradeTransform transform =
       upgrade_transform(U, all.mean_state(),

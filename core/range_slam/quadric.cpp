@@ -2,7 +2,7 @@
 
 #include <numbers>
 
-#include <Eigen/QR>
+#include "core/linalg/decompositions.hpp"
 
 namespace mapproof {
 

@@ -8,7 +8,8 @@
 #include <ceres/problem.h>
 #include <ceres/solver.h>
 #include <glog/logging.h>
-#include <Eigen/Cholesky>
+
+#include "core/linalg/decompositions.hpp"
 
 namespace mapproof {
 namespace {

@@ -13,17 +13,17 @@
 namespace mapproof {
 namespace {
 
-constexpr Eigen::Index kRank = 5;
-constexpr Eigen::Index kLeastSteps = 13;  // All but two coefficients of a quadric of 5 variables.
+constexpr Eigen::Index kRankInSpace = 5;
+constexpr Eigen::Index kLeastStepsInSpace = 13;  // All but two coefficients of a quadric of 5 variables.
 
 /// A condition of the factors, squares being squares: from here on the heights, or the other
 /// direction that is missing, are ten thousand times less than the extent.
-constexpr double kFlat = 1e8;
+constexpr double kFlatCondition = 1e8;
 
 Factorization factors_of(const Eigen::MatrixXd& Y, const RangeNoise& noise) {
   if (noise.sigma_m > 0.0 || noise.share > 0.0)
-    return factorize_without_noise(Y, half_square_variances(Y, noise), kRank);
-  return factorize(Y, kRank);
+    return factorize_without_noise(Y, half_square_variances(Y, noise), kRankInSpace);
+  return factorize(Y, kRankInSpace);
 }
 
 /// Whether the fifth dimension is there; adds why not. It is not where it has less of the squares
@@ -31,8 +31,8 @@ Factorization factors_of(const Eigen::MatrixXd& Y, const RangeNoise& noise) {
 bool spans_space(const Factorization& factors, double noise_square, std::vector<Status>& statuses) {
   const bool is_noise = std::ranges::any_of(
       factors.statuses, [](const Status& s) { return s.code == StatusCode::kRankDeficient; });
-  const double least = factors.singular_values(kRank - 1);
-  if (!is_noise && factors.condition < kFlat && least * least > noise_square) return true;
+  const double least = factors.singular_values(kRankInSpace - 1);
+  if (!is_noise && factors.condition < kFlatCondition && least * least > noise_square) return true;
   statuses.push_back({StatusCode::kDegenerateGeometry,
                       fmt::format("Landmarks or path lie on one plane or sphere, as far as the "
                                   "ranges tell: condition number {:.3g}.",
@@ -52,16 +52,16 @@ SpaceEstimate space_slam(const Eigen::MatrixXd& ranges_m,
   SpaceEstimate estimate;
   estimate.positions_m.resize(0, 3);
   estimate.landmarks_m = SpacePoints::Constant(N, 3, std::numeric_limits<double>::quiet_NaN());
-  if (N < kRank || T < kLeastSteps) {
+  if (N < kRankInSpace || T < kLeastStepsInSpace) {
     estimate.statuses.push_back(
         {StatusCode::kTooFewObservations,
          fmt::format("{} landmarks, ranged to together at {} times; {} at {} are needed.", N, T,
-                     kRank, kLeastSteps)});
+                     kRankInSpace, kLeastStepsInSpace)});
     return estimate;
   }
   const Factorization factors = factors_of(Y, noise);
   estimate.singular_values = factors.singular_values;
-  if (N > kRank) estimate.noise_level = factors.noise_floor;
+  if (N > kRankInSpace) estimate.noise_level = factors.noise_floor;
   estimate.statuses = factors.statuses;
   const double noise_square = static_cast<double>(T) * half_square_variances(Y, noise).mean();
   if (!spans_space(factors, noise_square, estimate.statuses)) return estimate;

@@ -3,10 +3,8 @@
 #include <cmath>
 #include <numbers>
 
-#include <Eigen/QR>
-#include <Eigen/SVD>
-
 #include "core/base/errors.hpp"
+#include "core/linalg/decompositions.hpp"
 
 namespace mapproof {
 namespace {

@@ -1,20 +1,13 @@
 #include "core/range_slam/synchronous_slam.hpp"
 
-#include <limits>
-
 #include <fmt/format.h>
 
 #include "core/base/errors.hpp"
+#include "core/base/not_finite.hpp"
 #include "core/linalg/planarity.hpp"
 #include "core/range_slam/localise.hpp"
 
 namespace mapproof {
-namespace {
-
-constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
-
-}  // namespace
-
 SynchronousRanges synchronous_ranges(const std::vector<RangeReading>& ranges,
                                      Eigen::Index landmarks) {
   SynchronousRanges common;

@@ -4,9 +4,8 @@
 #include <cmath>
 #include <limits>
 
-#include <Eigen/LU>
-
 #include "core/base/errors.hpp"
+#include "core/linalg/decompositions.hpp"
 #include "core/range_slam/windowed_ranges.hpp"
 
 namespace mapproof {

@@ -16,7 +16,7 @@ namespace {
 /// Windows that lie over any one time.
 constexpr double kOverlap = 4.0;
 /// Readings that a window needs.
-constexpr Eigen::Index kLeastReadings = 6;
+constexpr Eigen::Index kReadingsToInterpolate = 6;
 
 /// Windows to a landmark.
 constexpr double kMostWindows = 1e6;
@@ -121,7 +121,7 @@ Eigen::VectorXd windowed_half_squares(const LandmarkReadings& readings,
   for (Eigen::Index i = 0; i < grid.count; ++i) {
     const double from_s = grid.center_s(i) - grid.half_s, to_s = grid.center_s(i) + grid.half_s;
     const Slice inside(readings.time_s, from_s, to_s);
-    if (inside.count < kLeastReadings) continue;
+    if (inside.count < kReadingsToInterpolate) continue;
     const LocalRange local =
         fit_local_range(readings, inside.first, inside.count, options.range_scale);
     const Slice asked(time_s, from_s, to_s);

@@ -12,11 +12,6 @@ using Json = nlohmann::ordered_json;
 
 constexpr int kMostReplicates = 1'000'000;
 
-Json covariance_value(const Eigen::Matrix2d& C) {
-  if (!C.allFinite()) return nullptr;
-  return {C(0, 0), C(0, 1), C(1, 1)};
-}
-
 Eigen::Matrix2d read_covariance(const JsonCursor& value) {
   if (value.is_null()) return Eigen::Matrix2d::Constant(std::numeric_limits<double>::quiet_NaN());
   constexpr double kMost = 1e300;
@@ -34,12 +29,17 @@ Eigen::Matrix2d read_covariance(const JsonCursor& value) {
 
 }  // namespace
 
+Json covariances_value(const std::vector<Eigen::Matrix2d>& covariances) {
+  Json values = Json::array();
+  for (const Eigen::Matrix2d& C : covariances)
+    values.push_back(C.allFinite() ? Json::array({C(0, 0), C(0, 1), C(1, 1)}) : Json(nullptr));
+  return values;
+}
+
 Json certainty_value(const MapCertainty& certainty) {
-  Json covariances = Json::array();
-  for (const Eigen::Matrix2d& C : certainty.covariances) covariances.push_back(covariance_value(C));
   return {{"confidence", certainty.confidence},   {"squared_radius", certainty.squared_radius},
           {"replicates", certainty.replicates},   {"maps", certainty.maps},
-          {"block_steps", certainty.block_steps}, {"covariances", std::move(covariances)}};
+          {"block_steps", certainty.block_steps}, {"covariances", covariances_value(certainty.covariances)}};
 }
 
 MapCertainty read_certainty(const JsonCursor& value, std::size_t landmarks) {

@@ -1,5 +1,8 @@
 #pragma once
 
+#include <vector>
+
+#include <Eigen/Core>
 #include <nlohmann/json.hpp>
 
 #include "core/json/json_cursor.hpp"
@@ -7,7 +10,9 @@
 
 namespace mapproof {
 
-/// Covariances are [xx, xy, yy], null where they are not known.
+/// [[xx, xy, yy], null, ...]: null where one is not finite.
+nlohmann::ordered_json covariances_value(const std::vector<Eigen::Matrix2d>& covariances);
+
 nlohmann::ordered_json certainty_value(const MapCertainty& certainty);
 
 /// @param landmarks  As many covariances as it must have.

@@ -1,14 +1,13 @@
 #include "core/records/certificate_values.hpp"
 
 #include <cmath>
-#include <limits>
+
+#include "core/base/not_finite.hpp"
 
 namespace mapproof {
 namespace {
 
 using Json = nlohmann::ordered_json;
-
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 /// null for infinity: no bound was proved.
 Json finite_value(double number) { return std::isfinite(number) ? Json(number) : Json(nullptr); }

@@ -1,9 +1,9 @@
 #include <algorithm>
-#include <limits>
 #include <utility>
 
 #include <fmt/format.h>
 
+#include "core/base/not_finite.hpp"
 #include "core/json/json_text.hpp"
 #include "core/json/text_input.hpp"
 #include "core/records/json_values.hpp"
@@ -13,8 +13,6 @@ namespace mapproof {
 namespace {
 
 using Json = nlohmann::ordered_json;
-
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 Eigen::VectorXd read_numbers(const JsonCursor& value, std::optional<std::size_t> size = {}) {
   const std::vector<double> numbers = value.numbers_or_null(-kInfinity, kInfinity, size);

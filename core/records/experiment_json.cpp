@@ -12,7 +12,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-constexpr std::string_view kSchema = "mapproof.experiment";
+constexpr std::string_view kExperimentSchema = "mapproof.experiment";
 
 Json sensor_value(const SensorStudy& study) {
   Json value = Json::object();
@@ -50,7 +50,7 @@ Json experiment_value(const Experiment& experiment) {
   Json sensors = Json::object();
   for (const SensorStudy& study : experiment.sensors)
     sensors[std::string(name(study.sensor.sensor))] = sensor_value(study);
-  Json value = {{"schema", schema_value(kSchema)},
+  Json value = {{"schema", schema_value(kExperimentSchema)},
                 {"name", experiment.name},
                 {"title", experiment.title},
                 {"seed", experiment.seed},
@@ -76,12 +76,12 @@ std::string experiment_json(const Experiment& experiment) {
 
 Experiment parse_experiment(std::string_view text, const std::string& source,
                             const std::string& profile) {
-  const JsonDocument document = parse_with_profile(text, source, kSchema, profile);
+  const JsonDocument document = parse_with_profile(text, source, kExperimentSchema, profile);
   return read_experiment(document.cursor());
 }
 
 std::vector<std::string> profiles(std::string_view text, const std::string& source) {
-  return profile_names(text, source, kSchema);
+  return profile_names(text, source, kExperimentSchema);
 }
 
 }  // namespace mapproof

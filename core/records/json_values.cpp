@@ -8,14 +8,13 @@
 
 #include <fmt/format.h>
 
+#include "core/base/not_finite.hpp"
 #include "core/json/text_input.hpp"
 
 namespace mapproof {
 namespace {
 
 using Json = nlohmann::ordered_json;
-
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 }  // namespace
 

@@ -31,7 +31,7 @@ std::size_t column_named(std::string_view cell) {
   return 3;
 }
 
-bool is_header(const TableRow& row) {
+bool is_landmarks_header(const TableRow& row) {
   return row.cells.size() == 3 && !number_in(row.cells[1]) && !number_in(row.cells[2]) &&
          !is_missing(row.cells[1]) && !is_missing(row.cells[2]);
 }
@@ -72,7 +72,7 @@ NamedPoints parse_table(std::string_view text, const std::string& source) {
     if (row.cells.size() != columns.size())
       throw IoError(source, fmt::format("line {}", row.line),
                     fmt::format("has {} cells, expected name, x, y", row.cells.size()));
-    if (is_first && is_header(row)) {
+    if (is_first && is_landmarks_header(row)) {
       columns = columns_of(row, source);
       continue;
     }
@@ -109,7 +109,7 @@ bool is_landmarks_table(std::string_view text, const std::string& source) {
   TableReader reader(text, source);
   TableRow row;
   if (!reader.next(row)) return false;
-  if (row.cells.size() == 3 && is_header(row)) {
+  if (row.cells.size() == 3 && is_landmarks_header(row)) {
     const auto names = [&](std::size_t column) {
       return std::ranges::find(row.cells, column, column_named) != row.cells.end();
     };

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <limits>
 
+#include "core/base/not_finite.hpp"
 #include "core/json/json_text.hpp"
 #include "core/records/certificate_values.hpp"
 #include "core/records/experiment_values.hpp"
@@ -15,7 +16,6 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr int kMostIterations = std::numeric_limits<int>::max();
 constexpr std::size_t kMostRecords = 1'000'000;
 

@@ -26,7 +26,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr const char* kSchema = "mapproof.sightings";
+constexpr const char* kSightingsSchema = "mapproof.sightings";
 
 /// Whether a file is JSON, by its name or its first character.
 bool starts_as_json(const fs::path& path) {
@@ -77,7 +77,7 @@ AngleUnit read_angle_unit(const JsonCursor& object) {
 SightingSource parse_sightings(std::string_view text, const std::string& source) {
   const JsonDocument document = parse_json(text, source);
   const JsonCursor root = document.cursor();
-  expect_schema(root, kSchema);
+  expect_schema(root, kSightingsSchema);
   root.allow_only({"schema", "landmarks", "unit", "steps", "sightings"});
   const AngleUnit unit = read_angle_unit(root);
   SightingSource result{.log = {}, .truth_m = {}, .remarks = {}, .places = {}, .path = source};
@@ -108,7 +108,7 @@ std::string sightings_json(const SightingLog& log) {
   nlohmann::ordered_json rows = nlohmann::ordered_json::array();
   for (const Sighting& seen : log.sightings)
     rows.push_back({seen.step, seen.landmark, seen.range_m, seen.bearing_rad});
-  return json_text({{"schema", schema_value(kSchema)},
+  return json_text({{"schema", schema_value(kSightingsSchema)},
                     {"landmarks", log.names},
                     {"unit", "rad"},
                     {"steps", log.steps},
@@ -123,7 +123,7 @@ bool is_sightings(const fs::path& path) {
     const std::string source = path.string();
     const JsonDocument document = parse_json(checked_text(bytes, source), source);
     return document.root.is_object() && document.root.contains("schema") &&
-           schema_of(document.cursor()).name == kSchema;
+           schema_of(document.cursor()).name == kSightingsSchema;
   }
   TableStream stream(path);
   TableRow row;

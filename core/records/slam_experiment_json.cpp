@@ -9,7 +9,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-constexpr std::string_view kSchema = "mapproof.slam_experiment";
+constexpr std::string_view kSlamExperimentSchema = "mapproof.slam_experiment";
 
 Json noise_value(const RangeNoiseModel& noise) {
   return {{"id", noise.id},
@@ -68,7 +68,7 @@ Json slam_experiment_value(const SlamExperiment& experiment) {
   const SlamWorldOptions& world = experiment.world;
   Json methods = Json::array();
   for (const SlamMethod method : experiment.methods) methods.push_back(info(method).name);
-  Json value = {{"schema", schema_value(kSchema)},
+  Json value = {{"schema", schema_value(kSlamExperimentSchema)},
                 {"name", experiment.name},
                 {"title", experiment.title},
                 {"seed", experiment.seed},
@@ -100,17 +100,17 @@ std::string slam_experiment_json(const SlamExperiment& experiment) {
 
 SlamExperiment parse_slam_experiment(std::string_view text, const std::string& source,
                                      const std::string& profile) {
-  const JsonDocument document = parse_with_profile(text, source, kSchema, profile);
+  const JsonDocument document = parse_with_profile(text, source, kSlamExperimentSchema, profile);
   return read_slam_experiment(document.cursor());
 }
 
 std::vector<std::string> slam_profiles(std::string_view text, const std::string& source) {
-  return profile_names(text, source, kSchema);
+  return profile_names(text, source, kSlamExperimentSchema);
 }
 
 bool is_slam_experiment(std::string_view text, const std::string& source) {
   const JsonDocument document = parse_json(text, source);
-  return schema_of(document.cursor()).name == kSchema;
+  return schema_of(document.cursor()).name == kSlamExperimentSchema;
 }
 
 }  // namespace mapproof

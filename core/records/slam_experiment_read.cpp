@@ -34,7 +34,7 @@ RangeNoiseModel read_noise(const JsonCursor& object) {
   return noise;
 }
 
-SlamWorldOptions read_world(const JsonCursor& object) {
+SlamWorldOptions read_slam_world(const JsonCursor& object) {
   object.allow_only({"landmarks", "known", "half_width_m", "step_m", "turn_sigma_rad"});
   SlamWorldOptions world;
   read_if_there(object, "landmarks", 4, kMostLandmarks, world.landmarks);
@@ -166,7 +166,7 @@ SlamExperiment read_slam_experiment(const JsonCursor& document) {
   experiment.title = experiment.name;
   if (const auto title = document.find("title")) experiment.title = title->text(200);
   if (const auto seed = document.find("seed")) experiment.seed = seed->unsigned_integer();
-  if (const auto world = document.find("world")) experiment.world = read_world(*world);
+  if (const auto world = document.find("world")) experiment.world = read_slam_world(*world);
   if (const auto example = document.find("example")) experiment.example = read_example(*example);
   if (const auto convergence = document.find("convergence"))
     experiment.convergence = read_convergence(*convergence);

@@ -1,7 +1,9 @@
 #include <cmath>
 #include <limits>
 
+#include "core/base/not_finite.hpp"
 #include "core/json/text_input.hpp"
+#include "core/records/certainty_values.hpp"
 #include "core/records/json_values.hpp"
 #include "core/records/slam_values.hpp"
 
@@ -10,18 +12,9 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr std::size_t kMostAlignments = 4;
 
 /// [[xx, xy, yy], null, ...]: null where it is not finite.
-Json covariances_value(const std::vector<Eigen::Matrix2d>& covariances) {
-  Json values = Json::array();
-  for (const Eigen::Matrix2d& cov : covariances)
-    values.push_back(cov.allFinite() ? Json::array({cov(0, 0), cov(0, 1), cov(1, 1)})
-                                     : Json(nullptr));
-  return values;
-}
-
 std::vector<Eigen::Matrix2d> read_covariances(const JsonCursor& value, std::size_t least,
                                               std::size_t most) {
   std::vector<Eigen::Matrix2d> covariances;

@@ -2,6 +2,7 @@
 
 #include <limits>
 
+#include "core/base/not_finite.hpp"
 #include "core/json/json_text.hpp"
 #include "core/json/text_input.hpp"
 #include "core/records/json_values.hpp"
@@ -14,8 +15,6 @@ namespace mapproof {
 namespace {
 
 using Json = nlohmann::ordered_json;
-
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 Json windows_value(const std::optional<WindowCurve>& windows) {
   if (!windows) return nullptr;
@@ -50,7 +49,7 @@ Json starts_value(const std::vector<RefinementStart>& starts) {
   return values;
 }
 
-RefinementStart read_start(const JsonCursor& value) {
+RefinementStart read_refinement_start(const JsonCursor& value) {
   constexpr int kMost = std::numeric_limits<int>::max();
   value.allow_only({"method", "number", "cost", "mean_m", "iterations", "converged"});
   return {.method = read_slam_method(value.at("method")),
@@ -144,7 +143,7 @@ SlamRun parse_slam_run(std::string_view text, const std::string& source) {
   for (const JsonCursor& record : root.at("records").elements(0, all_slam_methods().size()))
     run.records.push_back(read_slam_record(record, landmarks));
   for (const JsonCursor& start : root.at("starts").elements(0, 1000))
-    run.starts.push_back(read_start(start));
+    run.starts.push_back(read_refinement_start(start));
   // Not in studies of older versions.
   if (const auto upgrade = root.find("upgrade"); upgrade && !upgrade->is_null())
     run.upgrade = read_upgrade(*upgrade);

@@ -21,7 +21,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-StudyHead read_head(const std::string& text, const std::string& source) {
+StudyHead read_slam_head(const std::string& text, const std::string& source) {
   const SlamOrder order = parse_slam_study(text, source);
   return {.experiment = slam_experiment_value(order.experiment),
           .solver_digest = order.provenance.solver_digest};
@@ -75,7 +75,7 @@ SlamStore SlamStore::open(const fs::path& folder, const SlamExperiment& experime
   make_folder(folder);
   auto state = std::make_unique<State>(folder);
   const SlamFiles& files = state->files;
-  state->is_redone = take_up_study(folder, slam_study_json(experiment, provenance), read_head,
+  state->is_redone = take_up_study(folder, slam_study_json(experiment, provenance), read_slam_head,
                                    {files.runs(), files.paths(), files.curves(), files.histories(),
                                     files.space(), files.timings()});
   return SlamStore(std::move(state));

@@ -18,7 +18,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-bool is_there(const fs::path& path) {
+bool run_is_there(const fs::path& path) {
   std::error_code error;
   return fs::exists(path, error);
 }
@@ -26,7 +26,7 @@ bool is_there(const fs::path& path) {
 /// The run of that id, if it was made. @throws IoError if it is damaged.
 std::optional<SlamRun> read_run(const SlamFiles& files, const std::string& id) {
   const fs::path path = files.run(id);
-  if (!is_there(path)) return std::nullopt;
+  if (!run_is_there(path)) return std::nullopt;
   SlamRun run = parse_slam_run(read_file(path), path.string());
   if (run.id != id) throw IoError(path.string(), "/id", "says that it is " + run.id);
   return run;
@@ -48,7 +48,7 @@ void read_convergence(const SlamFiles& files, const SlamExperiment& experiment, 
   if (!experiment.convergence) return;
   for (const RangeNoiseModel& noise : experiment.convergence->noises) {
     const fs::path path = files.curve(noise.id);
-    if (!is_there(path)) continue;
+    if (!run_is_there(path)) continue;
     study.convergence.push_back(parse_convergence(read_file(path), path.string()));
     if (study.convergence.back().id != noise.id)
       throw IoError(path.string(), "/id", "says that it is " + study.convergence.back().id);
@@ -66,7 +66,7 @@ bool is_slam_study(const fs::path& folder) {
 
 SlamStudy read_slam_study(const fs::path& folder) {
   const SlamFiles files{folder};
-  if (!is_there(folder)) throw IoError(folder.string(), "does not exist");
+  if (!run_is_there(folder)) throw IoError(folder.string(), "does not exist");
   if (!is_study(folder)) throw IoError(folder.string(), "holds no study: study.json is missing");
   SlamOrder order = parse_slam_study(read_file(files.study()), files.study().string());
   SlamStudy study;
@@ -77,17 +77,17 @@ SlamStudy read_slam_study(const fs::path& folder) {
   study.provenance = std::move(order.provenance);
   read_runs(files, order.experiment, study);
   read_convergence(files, order.experiment, study);
-  if (order.experiment.histories && is_there(files.histories()))
+  if (order.experiment.histories && run_is_there(files.histories()))
     study.histories =
         parse_range_histories(read_file(files.histories()), files.histories().string());
-  if (order.experiment.space && is_there(files.space()))
+  if (order.experiment.space && run_is_there(files.space()))
     study.space = parse_space_run(read_file(files.space()), files.space().string());
   return study;
 }
 
 SlamTimings read_slam_timings(const fs::path& folder) {
   const fs::path path = SlamFiles{folder}.timings();
-  if (!is_there(path)) return {};
+  if (!run_is_there(path)) return {};
   const Timings all = parse_timings(read_file(path), path.string());
   std::map<std::pair<std::string, SlamMethod>, SlamTiming> methods;
   for (const SlamTiming& timing : all.slam.methods)

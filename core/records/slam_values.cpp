@@ -7,6 +7,7 @@
 
 #include <fmt/format.h>
 
+#include "core/base/not_finite.hpp"
 #include "core/base/spelling.hpp"
 #include "core/json/text_input.hpp"
 #include "core/records/json_values.hpp"
@@ -14,12 +15,6 @@
 namespace mapproof {
 
 using Json = nlohmann::ordered_json;
-
-namespace {
-
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
-
-}  // namespace
 
 SlamMethod read_slam_method(const JsonCursor& value) {
   const std::string text = value.text();

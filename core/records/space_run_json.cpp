@@ -1,7 +1,6 @@
 #include "core/records/space_run_json.hpp"
 
-#include <limits>
-
+#include "core/base/not_finite.hpp"
 #include "core/json/json_text.hpp"
 #include "core/json/text_input.hpp"
 #include "core/records/json_values.hpp"
@@ -12,8 +11,6 @@ namespace mapproof {
 namespace {
 
 using Json = nlohmann::ordered_json;
-
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 Json record_value(const SpaceRecord& record) {
   const SpaceEstimate& estimate = record.estimate;

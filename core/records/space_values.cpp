@@ -2,14 +2,13 @@
 
 #include <limits>
 
+#include "core/base/not_finite.hpp"
 #include "core/records/json_values.hpp"
 
 namespace mapproof {
 namespace {
 
 using Json = nlohmann::ordered_json;
-
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 Json cloud_value(const QuadricPoints& cloud) {
   Json rows = Json::array();

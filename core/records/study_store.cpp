@@ -19,7 +19,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-StudyHead read_head(const std::string& text, const std::string& source) {
+StudyHead read_study_head(const std::string& text, const std::string& source) {
   const Study study = parse_study(text, source);
   return {.experiment = experiment_value(study.experiment),
           .solver_digest = study.provenance.solver_digest};
@@ -62,7 +62,7 @@ StudyStore StudyStore::open(const fs::path& folder, const Experiment& experiment
   auto state = std::make_unique<State>(folder, experiment);
   const StudyFiles& files = state->files;
   state->is_redone =
-      take_up_study(folder, study_json(experiment, provenance), read_head,
+      take_up_study(folder, study_json(experiment, provenance), read_study_head,
                     {files.runs(), files.maps(), files.details(), files.timings()});
   return StudyStore(std::move(state));
 }

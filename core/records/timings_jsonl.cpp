@@ -15,7 +15,7 @@
 namespace mapproof {
 namespace {
 
-constexpr std::string_view kSchema = "mapproof.timings";
+constexpr std::string_view kTimingsSchema = "mapproof.timings";
 constexpr double kLongest_s = std::numeric_limits<double>::max();
 
 Timing read_timing(const JsonCursor& value) {
@@ -71,7 +71,7 @@ void read_line(std::string_view line, const std::string& source, Timings& timing
   const JsonCursor root = document.cursor();
   if (root.is_object() && root.find("schema")) {
     root.allow_only({"schema"});
-    return expect_schema(root, kSchema);
+    return expect_schema(root, kTimingsSchema);
   }
   const std::string kind = root.at("kind").text();
   if (kind == "map")
@@ -91,7 +91,7 @@ void read_line(std::string_view line, const std::string& source, Timings& timing
 
 }  // namespace
 
-std::string timings_header() { return json_line({{"schema", schema_value(kSchema)}}); }
+std::string timings_header() { return json_line({{"schema", schema_value(kTimingsSchema)}}); }
 
 std::string timing_line(const Timing& timing) {
   nlohmann::ordered_json value = {{"kind", "map"},

@@ -14,8 +14,8 @@
 namespace mapproof {
 namespace {
 
-constexpr std::string_view kSchema = "mapproof.trial_experiment";
-constexpr double kLargest = std::numeric_limits<double>::max();
+constexpr std::string_view kTrialExperimentSchema = "mapproof.trial_experiment";
+constexpr double kLargestOption = std::numeric_limits<double>::max();
 constexpr std::size_t kMostLevels = 1000;
 
 /// One number, or an array of ascending ones.
@@ -46,7 +46,7 @@ std::map<std::string, std::vector<double>> read_any_options(const JsonCursor& ob
   std::map<std::string, std::vector<double>> options;
   for (const auto& [key, value] : object.members())
     for (const JsonCursor& item : value.elements(1, kMostLevels))
-      options[key].push_back(item.number(-kLargest, kLargest));
+      options[key].push_back(item.number(-kLargestOption, kLargestOption));
   return options;
 }
 
@@ -63,7 +63,7 @@ std::vector<TrialDataSet> read_data(const JsonCursor& array) {
 }
 
 /// All but the options and the data.
-TrialExperiment read_frame(const JsonCursor& document) {
+TrialExperiment read_experiment_frame(const JsonCursor& document) {
   TrialExperiment experiment;
   experiment.name = read_study_name(document.at("name"));
   experiment.title = experiment.name;
@@ -92,11 +92,11 @@ TrialExperiment read_frame(const JsonCursor& document) {
 TrialExperiment parse_trial_experiment(std::string_view text, const std::string& source,
                                        const OptionsOfTopic& options_of,
                                        const std::string& profile) {
-  const JsonDocument document = parse_with_profile(text, source, kSchema, profile);
+  const JsonDocument document = parse_with_profile(text, source, kTrialExperimentSchema, profile);
   const JsonCursor root = document.cursor();
   root.allow_only({"schema", "name", "title", "topic", "seed", "layouts", "poses", "steps", "world",
                    "walk", "anchors", "options"});
-  TrialExperiment experiment = read_frame(root);
+  TrialExperiment experiment = read_experiment_frame(root);
   const std::vector<TrialOption>* known = options_of(experiment.topic);
   if (known == nullptr) root.at("topic").fail("no topic " + in_quotes(experiment.topic));
   experiment.options = read_options(root.find("options"), *known);
@@ -104,7 +104,7 @@ TrialExperiment parse_trial_experiment(std::string_view text, const std::string&
 }
 
 nlohmann::ordered_json trial_experiment_value(const TrialExperiment& experiment) {
-  nlohmann::ordered_json value = {{"schema", schema_value(kSchema)},
+  nlohmann::ordered_json value = {{"schema", schema_value(kTrialExperimentSchema)},
                                   {"name", experiment.name},
                                   {"title", experiment.title},
                                   {"topic", experiment.topic},
@@ -125,22 +125,22 @@ nlohmann::ordered_json trial_experiment_value(const TrialExperiment& experiment)
 }
 
 TrialExperiment read_trial_experiment(const JsonCursor& document) {
-  expect_schema(document, kSchema);
+  expect_schema(document, kTrialExperimentSchema);
   document.allow_only({"schema", "name", "title", "topic", "seed", "layouts", "poses", "steps",
                        "world", "walk", "anchors", "options", "data"});
-  TrialExperiment experiment = read_frame(document);
+  TrialExperiment experiment = read_experiment_frame(document);
   experiment.options = read_any_options(document.at("options"));
   experiment.data = read_data(document.at("data"));
   return experiment;
 }
 
 std::vector<std::string> trial_profiles(std::string_view text, const std::string& source) {
-  return profile_names(text, source, kSchema);
+  return profile_names(text, source, kTrialExperimentSchema);
 }
 
 bool is_trial_experiment(std::string_view text, const std::string& source) {
   const JsonDocument document = parse_json(text, source);
-  return schema_of(document.cursor()).name == kSchema;
+  return schema_of(document.cursor()).name == kTrialExperimentSchema;
 }
 
 }  // namespace mapproof

@@ -6,6 +6,7 @@
 
 #include "core/json/json_text.hpp"
 #include "core/json/text_input.hpp"
+#include "core/records/certainty_values.hpp"
 #include "core/records/json_values.hpp"
 #include "core/records/map_values.hpp"
 #include "core/records/provenance_values.hpp"
@@ -26,7 +27,7 @@ Json quantity_value(const TrialQuantity& quantity) {
           {"lower_is_better", quantity.lower_is_better}};
 }
 
-TrialQuantity read_quantity(const JsonCursor& value) {
+TrialQuantity read_trial_quantity(const JsonCursor& value) {
   value.allow_only({"id", "label", "unit", "lower_is_better"});
   return {.id = value.at("id").text(100),
           .label = value.at("label").text(200),
@@ -86,7 +87,7 @@ TrialDesign read_design(const JsonCursor& value) {
     design.series.push_back({.id = read_id(item.at("id")), .label = item.at("label").text(200)});
   }
   for (const JsonCursor& item : value.at("quantities").elements(1, kMost))
-    design.quantities.push_back(read_quantity(item));
+    design.quantities.push_back(read_trial_quantity(item));
   check_ids(design.setups, value.at("setups"));
   check_ids(design.series, value.at("series"));
   check_ids(design.quantities, value.at("quantities"));
@@ -149,13 +150,6 @@ MeasuredPair read_pair(const JsonCursor& value, Eigen::Index landmarks) {
 }
 
 /// [xx, xy, yy] a landmark, null for one without.
-Json covariances_value(const std::vector<Eigen::Matrix2d>& covariances) {
-  Json value = Json::array();
-  for (const Eigen::Matrix2d& C : covariances)
-    value.push_back(C.allFinite() ? Json{C(0, 0), C(0, 1), C(1, 1)} : Json(nullptr));
-  return value;
-}
-
 std::vector<Eigen::Matrix2d> read_covariances(const JsonCursor& array, std::size_t landmarks) {
   std::vector<Eigen::Matrix2d> covariances;
   for (const JsonCursor& item : array.elements(0, landmarks)) {

@@ -15,20 +15,22 @@
 #include "core/records/trial_json.hpp"
 
 namespace mapproof {
+
+/// Where things stand in the folder of a study of trials.
+struct TrialFiles {
+  std::filesystem::path folder;
+
+  std::filesystem::path study() const { return folder / "study.json"; }
+  std::filesystem::path timings() const { return folder / "timings.jsonl"; }
+  std::filesystem::path parts() const { return folder / "parts"; }
+  std::filesystem::path part(const std::string& id) const { return parts() / (id + ".json"); }
+};
+
 namespace {
 
 namespace fs = std::filesystem;
 
-struct TrialFiles {
-  fs::path folder;
-
-  fs::path study() const { return folder / "study.json"; }
-  fs::path timings() const { return folder / "timings.jsonl"; }
-  fs::path parts() const { return folder / "parts"; }
-  fs::path part(const std::string& id) const { return parts() / (id + ".json"); }
-};
-
-StudyHead read_head(const std::string& text, const std::string& source) {
+StudyHead read_trial_head(const std::string& text, const std::string& source) {
   const TrialStudy study = parse_trial_study(text, source);
   return {.experiment = trial_experiment_value(study.experiment),
           .solver_digest = study.provenance.solver_digest};
@@ -88,7 +90,7 @@ TrialStore::~TrialStore() = default;
 TrialStore TrialStore::open(const fs::path& folder, const TrialStudy& study) {
   make_folder(folder);
   auto state = std::make_unique<State>(folder, study.design);
-  state->is_redone = take_up_study(folder, trial_study_json(study), read_head,
+  state->is_redone = take_up_study(folder, trial_study_json(study), read_trial_head,
                                    {state->files.parts(), state->files.timings()});
   return TrialStore(std::move(state));
 }

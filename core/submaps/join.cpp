@@ -7,12 +7,10 @@
 #include <span>
 
 #include <fmt/format.h>
-#include <Eigen/Cholesky>
-#include <Eigen/LU>
-#include <Eigen/QR>
 
 #include "core/base/errors.hpp"
 #include "core/base/words.hpp"
+#include "core/linalg/decompositions.hpp"
 #include "core/statistics/intervals.hpp"
 #include "core/submaps/overlaps.hpp"
 

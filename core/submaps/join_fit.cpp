@@ -4,9 +4,7 @@
 #include <cmath>
 #include <span>
 
-#include <Eigen/QR>
-#include <Eigen/SVD>
-
+#include "core/linalg/decompositions.hpp"
 #include "core/statistics/intervals.hpp"
 
 namespace mapproof {

@@ -2,19 +2,17 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <map>
 
 #include <fmt/format.h>
 
+#include "core/base/not_finite.hpp"
 #include "core/base/words.hpp"
 #include "core/statistics/intervals.hpp"
 #include "core/submaps/join.hpp"
 
 namespace mapproof {
 namespace {
-
-constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
 
 /// Of some rows, without the steps that show none of them.
 ObservationHistory seen_by(const ObservationHistory& history, Eigen::Index steps,
@@ -79,7 +77,7 @@ double median_residual(const std::vector<SubmapJoin>& joins) {
   std::vector<double> residuals;
   for (const SubmapJoin& join : joins)
     if (std::isfinite(join.residual)) residuals.push_back(join.residual);
-  return residuals.empty() ? kUnknown : median(residuals);
+  return residuals.empty() ? kNaN : median(residuals);
 }
 
 }  // namespace
@@ -98,8 +96,8 @@ SubmapEmbedding embed_submaps(const ObservationHistory& history, Eigen::Index st
   for (Eigen::Index i = 0; i < M; ++i)
     if (!std::ranges::binary_search(unseen, i)) seen.push_back(i);
   SubmapEmbedding result;
-  result.embedding.coordinates.setConstant(M, 2, kUnknown);
-  result.median_residual = kUnknown;
+  result.embedding.coordinates.setConstant(M, 2, kNaN);
+  result.median_residual = kNaN;
   Mapped mapped;
   std::vector<LandmarkGroup> groups;
   if (seen.size() > 1) {

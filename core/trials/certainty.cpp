@@ -32,7 +32,7 @@ std::string series_id(const MethodSetting& setting) {
   return std::string(info(setting.method).name);
 }
 
-TrialDesign design(const TrialExperiment& experiment) {
+TrialDesign certainty_design(const TrialExperiment& experiment) {
   TrialDesign design;
   design.question = fmt::format(
       "In each layout {:g} walks are mapped; the mean of these maps is what a method tends to. "
@@ -139,7 +139,7 @@ void add(TrialPart& part, Trial trial, const char* setup, double level) {
   part.trials.push_back(std::move(trial));
 }
 
-TrialPart make(const TrialContext& context) {
+TrialPart make_certainty(const TrialContext& context) {
   TrialPart part;
   for (const auto& [id, sensor] : kSensors) {
     const WalkedWorld walked(context, sensor);
@@ -172,7 +172,7 @@ std::pair<double, double> range_of(const TrialStudy& study, const TrialSetup& se
   return {low, high};
 }
 
-std::vector<std::string> conclude(const TrialStudy& study) {
+std::vector<std::string> certainty_conclusions(const TrialStudy& study) {
   std::vector<std::string> sentences;
   for (const TrialSetup& setup : study.design.setups) {
     const auto [low, high] = range_of(study, setup, "mean_covered_percent");
@@ -201,8 +201,8 @@ const Topic kCertaintyTopic = {.name = "certainty",
                                            {"replicates", {100}, 10, 10000, true, false},
                                            {"observations", {500, 2000}, 10, 100000, true, true},
                                            {"blocks", {0.5, 1, 2, 4}, 0.01, 100, false, true}},
-                               .design = design,
-                               .make = make,
-                               .conclude = conclude};
+                               .design = certainty_design,
+                               .make = make_certainty,
+                               .conclude = certainty_conclusions};
 
 }  // namespace mapproof

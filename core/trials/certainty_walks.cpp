@@ -4,9 +4,8 @@
 #include <cmath>
 #include <limits>
 
-#include <Eigen/LU>
-
 #include "core/base/random.hpp"
+#include "core/linalg/decompositions.hpp"
 #include "core/simulate/robot_walk.hpp"
 #include "core/simulate/sensors.hpp"
 

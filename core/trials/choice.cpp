@@ -3,10 +3,10 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
-#include <limits>
 
 #include <fmt/format.h>
 
+#include "core/base/not_finite.hpp"
 #include "core/base/random.hpp"
 #include "core/choice/judged_maps.hpp"
 #include "core/score/map_score.hpp"
@@ -18,21 +18,20 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
-constexpr std::pair<const char*, Sensor> kSensors[] = {{"visibility", Sensor::kVisibility},
+constexpr std::pair<const char*, Sensor> kChoiceSensors[] = {{"visibility", Sensor::kVisibility},
                                                        {"bearing", Sensor::kBearing}};
 constexpr const char* kRandom = "random";
 constexpr const char* kFixed = "fixed";
 const MethodSetting kFixedSetting{Method::kIsomap, 6.0};
 
-TrialDesign design(const TrialExperiment& experiment) {
+TrialDesign choice_design(const TrialExperiment& experiment) {
   TrialDesign design;
   design.question =
       "All methods with several parameters map the same observations. How much worse than the best "
       "of these maps is the one that a criterion picks which knows nothing of the truth? With "
       "anchors it judges maps fitted to them, and is judged by their MPE; without, it judges the "
       "shapes alone, and is judged by the MPE with the affine map fitted on all landmarks.";
-  for (const auto& [id, sensor] : kSensors)
+  for (const auto& [id, sensor] : kChoiceSensors)
     design.setups.push_back({id, fmt::format("Picking among maps from {}", name(sensor)),
                              "observations", list_option(experiment, "observations")});
   for (const CriterionInfo& criterion : all_criteria())
@@ -59,12 +58,12 @@ struct Errors {
       mean += error;
       ++count;
     }
-    mean = count > 0 ? mean / count : kUnknown;
+    mean = count > 0 ? mean / count : kNaN;
   }
 
   /// Of the first of some maps, best by some criterion first.
   double first(const std::vector<std::size_t>& order) const {
-    return order.empty() ? kUnknown : of[order.front()];
+    return order.empty() ? kNaN : of[order.front()];
   }
 };
 
@@ -77,7 +76,7 @@ Errors errors_of(const std::vector<JudgedMap>& maps, const TrialContext& context
                                            ? score_map(map.positions, context.world->landmarks_m,
                                                        context.anchors, AffineFit::kLeastDistances)
                                            : std::nullopt;
-    errors.push_back(!score ? kUnknown : fitted ? score->mpe_all_fitted_m : score->mpe_m);
+    errors.push_back(!score ? kNaN : fitted ? score->mpe_all_fitted_m : score->mpe_m);
   }
   return Errors(std::move(errors));
 }
@@ -96,7 +95,7 @@ class Picks {
     for (const CriterionInfo& criterion : all_criteria()) {
       const double error = errors_.first(ranked(anchored_, criterion.criterion));
       const double shape_error = criterion.needs_anchors
-                                     ? kUnknown
+                                     ? kNaN
                                      : shape_errors_.first(ranked(shapes_, criterion.criterion));
       trials.push_back(trial(criterion.name, error, shape_error));
     }
@@ -117,7 +116,7 @@ class Picks {
   double of_fixed(const Errors& errors) const {
     const auto found = std::ranges::find(anchored_, kFixedSetting, &JudgedMap::setting);
     return found == anchored_.end()
-               ? kUnknown
+               ? kNaN
                : errors.of[static_cast<std::size_t>(found - anchored_.begin())];
   }
 
@@ -127,9 +126,9 @@ class Picks {
   Errors shape_errors_;
 };
 
-TrialPart make(const TrialContext& context) {
+TrialPart make_choice(const TrialContext& context) {
   TrialPart part;
-  for (const auto& [id, sensor] : kSensors) {
+  for (const auto& [id, sensor] : kChoiceSensors) {
     SensorOptions options;
     options.sensor = sensor;
     Random noise(derive_seed(context.seed, {static_cast<std::uint64_t>(sensor)}));
@@ -165,7 +164,7 @@ double mean_over_all(const TrialStudy& study, std::string_view series, const cha
         sum += value;
         ++count;
       }
-  return count > 0 ? sum / count : kUnknown;
+  return count > 0 ? sum / count : kNaN;
 }
 
 std::string sentence(const TrialStudy& study, const char* quantity, const char* when) {
@@ -186,7 +185,7 @@ std::string sentence(const TrialStudy& study, const char* quantity, const char* 
       mean_over_all(study, kRandom, quantity));
 }
 
-std::vector<std::string> conclude(const TrialStudy& study) {
+std::vector<std::string> choice_conclusions(const TrialStudy& study) {
   return {sentence(study, "regret_m", "With anchors"),
           sentence(study, "regret_shape_m", "Without anchors")};
 }
@@ -197,8 +196,8 @@ const Topic kChoiceTopic = {.name = "choice",
                             .of_data = false,
                             .options = {{"observations", {200, 500, 2000}, 10, 100000, true, true},
                                         {"replicates", {10}, 1, 1000, true, false}},
-                            .design = design,
-                            .make = make,
-                            .conclude = conclude};
+                            .design = choice_design,
+                            .make = make_choice,
+                            .conclude = choice_conclusions};
 
 }  // namespace mapproof

@@ -27,7 +27,7 @@ constexpr const char* kGiven = "given";
 constexpr const char* kLeftOut = "left-out";
 constexpr const char* kEstimated = "estimated";
 
-TrialDesign design(const TrialExperiment& experiment) {
+TrialDesign labels_design(const TrialExperiment& experiment) {
   TrialDesign design;
   std::vector<double> percent;
   for (const double share : list_option(experiment, "shares")) percent.push_back(100.0 * share);
@@ -165,7 +165,7 @@ class ConfusedMaps {
     TrialMap shown;
     shown.id = id;
     shown.title = fmt::format("{}, {}: {}", setup_.title, level_words(setup_, level_),
-                              series_label(design(context_.experiment), series));
+                              series_label(labels_design(context_.experiment), series));
     shown.map.id = id;
     shown.map.sensor = truth_.sensor;
     shown.map.setting = setting;
@@ -187,12 +187,12 @@ class ConfusedMaps {
   TrialPart& part_;
 };
 
-TrialPart make(const TrialContext& context) {
+TrialPart make_labels(const TrialContext& context) {
   TrialPart part{.id = context.part, .run = context.run, .trials = {}, .maps = {}, .seconds = {}};
   Random random(context.seed);
   const ObservationHistory truth =
       observe(*context.world, *context.path, {.sensor = Sensor::kBearing}, random);
-  const TrialDesign plan = design(context.experiment);
+  const TrialDesign plan = labels_design(context.experiment);
   for (const TrialSetup& setup : plan.setups)
     for (const double level : setup.levels) {
       const auto stretch =
@@ -203,7 +203,7 @@ TrialPart make(const TrialContext& context) {
   return part;
 }
 
-std::vector<std::string> conclude(const TrialStudy& study) {
+std::vector<std::string> labels_conclusions(const TrialStudy& study) {
   std::vector<std::string> sentences;
   for (const TrialSetup& setup : study.design.setups) {
     std::vector<std::string> levels, right, given, estimated;
@@ -241,9 +241,9 @@ const Topic kLabelsTopic = {
                 {"change_cost", {10}, 0, 1e6, false, false},
                 {"rounds", {20}, 1, 1000, true, false},
                 {"neighbours", {8}, 1, 1000, true, false}},
-    .design = design,
-    .make = make,
-    .conclude = conclude,
+    .design = labels_design,
+    .make = make_labels,
+    .conclude = labels_conclusions,
     .data_sets = nullptr};
 
 }  // namespace mapproof

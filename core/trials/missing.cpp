@@ -59,7 +59,7 @@ std::vector<double> percent(const std::vector<double>& shares) {
   return levels;
 }
 
-TrialDesign design(const TrialExperiment& experiment) {
+TrialDesign missing_design(const TrialExperiment& experiment) {
   TrialDesign design;
   design.question = fmt::format(
       "Bearings of all landmarks are simulated and a share of them is taken away: at random, those "
@@ -183,7 +183,7 @@ class GappedHistory {
     part_.maps.push_back(
         {.id = id,
          .title = fmt::format("{}, {}: {}", setup_.title, level_words(setup_, level_),
-                              series_label(design(context_.experiment), series)),
+                              series_label(missing_design(context_.experiment), series)),
          .map = {.id = id,
                  .sensor = history_.sensor,
                  .setting = setting,
@@ -218,12 +218,12 @@ Losses losses_of(const TrialSetup& setup, const TrialContext& context, Random& r
   return random_losses(context.world->landmarks_m.rows(), context.path->positions_m.rows(), random);
 }
 
-TrialPart make(const TrialContext& context) {
+TrialPart make_missing(const TrialContext& context) {
   TrialPart part{.id = context.part, .run = context.run, .trials = {}, .maps = {}, .seconds = {}};
   Random random(context.seed);
   const ObservationHistory history =
       observe(*context.world, *context.path, {.sensor = Sensor::kBearing}, random);
-  const TrialDesign plan = design(context.experiment);
+  const TrialDesign plan = missing_design(context.experiment);
   for (const TrialSetup& setup : plan.setups) {
     const Losses losses = losses_of(setup, context, random);
     for (const double level : setup.levels)
@@ -281,7 +281,7 @@ std::string advice_words(const TrialStudy& study) {
       regret_m(study, series_id(Filling::kPpca, setting)));
 }
 
-std::vector<std::string> conclude(const TrialStudy& study) {
+std::vector<std::string> missing_conclusions(const TrialStudy& study) {
   std::vector<std::string> sentences;
   if (const double regret = regret_m(study, kAuto); !std::isnan(regret))
     sentences.push_back(advice_words(study));
@@ -307,9 +307,9 @@ const Topic kMissingTopic = {
                 {"smacof_neighbours", {8}, 1, 1000, true, false},
                 {"isomap_neighbours", {9}, 1, 1000, true, false},
                 {"covisible_neighbours", {8}, 1, 1000, true, false}},
-    .design = design,
-    .make = make,
-    .conclude = conclude,
+    .design = missing_design,
+    .make = make_missing,
+    .conclude = missing_conclusions,
     .data_sets = nullptr};
 
 }  // namespace mapproof

@@ -2,11 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <numbers>
 
 #include <fmt/format.h>
 
+#include "core/base/not_finite.hpp"
 #include "core/base/random.hpp"
 #include "core/choice/mixed_quality.hpp"
 #include "core/embed/embedder.hpp"
@@ -19,7 +19,6 @@
 namespace mapproof {
 namespace {
 
-constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
 constexpr const char* kBearingNoise = "bearing-noise";
 constexpr const char* kVisibilityErrors = "visibility-errors";
 constexpr const char* kRangeToo = "range-too";
@@ -27,7 +26,7 @@ constexpr const char* kSingles[] = {"visibility",       "bearing",       "range"
                                     "visibility-order", "bearing-order", "range-order"};
 constexpr const char* kMixes[] = {"equal", "reliable", "joint"};
 
-TrialDesign design(const TrialExperiment& experiment) {
+TrialDesign mixed_design(const TrialExperiment& experiment) {
   TrialDesign design;
   design.question = fmt::format(
       "Is one map of several sensors better than that of the best of them? Singly, visibility is "
@@ -108,7 +107,7 @@ class MixedTrials {
     Trial trial{.setup = setup_,
                 .series = series,
                 .level = level_,
-                .values = {kUnknown, kUnknown,
+                .values = {kNaN, kNaN,
                            mixed_continuity(distances_, weights_, embedding.coordinates)},
                 .statuses = embedding.statuses};
     trial.statuses.insert(trial.statuses.end(), map.statuses.begin(), map.statuses.end());
@@ -130,7 +129,7 @@ class MixedTrials {
 
 double in_rad(double degrees) { return degrees * std::numbers::pi / 180.0; }
 
-TrialPart make(const TrialContext& context) {
+TrialPart make_mixed(const TrialContext& context) {
   TrialPart part;
   const TrialExperiment& experiment = context.experiment;
   const double usual_deg = number_option(experiment, "usual_bearing_noise_deg");
@@ -192,7 +191,7 @@ std::string choice_words(const TrialStudy& study, const TrialSetup& setup) {
   for (const TrialPart& part : study.parts)
     for (const double level : setup.levels) {
       const Trial* pick = nullptr;
-      double best_m = HUGE_VAL, joint_m = kUnknown;
+      double best_m = HUGE_VAL, joint_m = kNaN;
       for (const Trial& trial : part.trials) {
         if (trial.setup != setup.id || trial.level != level || !std::isfinite(trial.values[0]))
           continue;
@@ -210,7 +209,7 @@ std::string choice_words(const TrialStudy& study, const TrialSetup& setup) {
       setup.title, picked / count, joint / count);
 }
 
-std::vector<std::string> conclude(const TrialStudy& study) {
+std::vector<std::string> mixed_conclusions(const TrialStudy& study) {
   std::vector<std::string> sentences;
   for (const TrialSetup& setup : study.design.setups) {
     std::vector<std::string> ends = {words_at(study, setup, setup.levels.front())};
@@ -236,8 +235,8 @@ const Topic kMixedTopic = {
                 {"visibility_errors_percent", {0, 2, 5, 10}, 0, 50, false, true},
                 {"usual_bearing_noise_deg", {20}, 0, 180, false, false},
                 {"range_noise_m", {0.1}, 0, 100, false, false}},
-    .design = design,
-    .make = make,
-    .conclude = conclude};
+    .design = mixed_design,
+    .make = make_mixed,
+    .conclude = mixed_conclusions};
 
 }  // namespace mapproof

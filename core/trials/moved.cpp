@@ -2,11 +2,11 @@
 
 #include <chrono>
 #include <cmath>
-#include <limits>
 #include <numbers>
 
 #include <fmt/format.h>
 
+#include "core/base/not_finite.hpp"
 #include "core/base/random.hpp"
 #include "core/labels/moved.hpp"
 #include "core/trials/simulated_sightings.hpp"
@@ -20,9 +20,8 @@ using Clock = std::chrono::steady_clock;
 constexpr const char* kDistance = "distance";
 constexpr const char* kNoise = "noise";
 constexpr const char* kTest = "permutations";
-constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
 
-TrialDesign design(const TrialExperiment& experiment) {
+TrialDesign moved_design(const TrialExperiment& experiment) {
   TrialDesign design;
   design.question = fmt::format(
       "Landmarks seen with range and bearing from up to {:g} m; one of them stands elsewhere from "
@@ -70,8 +69,8 @@ struct Tally {
 
   /// @param moves  False: nothing moved, so that nothing could be named.
   std::vector<double> values(bool moves) const {
-    return {moves ? 100.0 * named / tried : kNone, 100.0 * wrong / tried,
-            named > 0 ? step_error / named : kNone, named > 0 ? length_error_m / named : kNone};
+    return {moves ? 100.0 * named / tried : kNaN, 100.0 * wrong / tried,
+            named > 0 ? step_error / named : kNaN, named > 0 ? length_error_m / named : kNaN};
   }
 };
 
@@ -105,7 +104,7 @@ Tally tallied(const TrialContext& context, double length, double noise, Random& 
   return tally;
 }
 
-TrialPart make(const TrialContext& context) {
+TrialPart make_moved(const TrialContext& context) {
   TrialPart part{.id = context.part, .run = context.run, .trials = {}, .maps = {}, .seconds = {}};
   Random random(context.seed);
   const double usual = number_option(context.experiment, "noise");
@@ -142,7 +141,7 @@ double greatest_mean(const TrialStudy& study, const TrialSetup& setup, const cha
   return greatest;
 }
 
-std::vector<std::string> conclude(const TrialStudy& study) {
+std::vector<std::string> moved_conclusions(const TrialStudy& study) {
   std::vector<std::string> sentences;
   const double still = trial_mean(study, kDistance, kTest, 0.0, "false_percent");
   if (!std::isnan(still))
@@ -177,9 +176,9 @@ const Topic kMovedTopic = {
                 {"reach_m", {0.8}, 1e-3, 1e3, false, false},
                 {"least_move", {0}, 0, 100, false, false},
                 {"tried", {8}, 1, 1000, true, false}},
-    .design = design,
-    .make = make,
-    .conclude = conclude,
+    .design = moved_design,
+    .make = make_moved,
+    .conclude = moved_conclusions,
     .data_sets = nullptr};
 
 }  // namespace mapproof

@@ -3,13 +3,13 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
-#include <limits>
 
 #include <fmt/format.h>
 
 #include "core/align/diagonal_anchors.hpp"
 #include "core/align/rigid.hpp"
 #include "core/base/errors.hpp"
+#include "core/base/not_finite.hpp"
 #include "core/base/words.hpp"
 #include "core/certainty/pair_certainty.hpp"
 #include "core/embed/embedder.hpp"
@@ -27,7 +27,6 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 constexpr AffineFit kFit = AffineFit::kLeastDistances;
 constexpr int kFewestReplicates = 10;  ///< Of a bootstrap.
 constexpr const char* kSetup = "sensors";
@@ -41,7 +40,7 @@ constexpr std::pair<const char*, const char*> kSpoilt[] = {
     {"misnamed-mended", "The name mended"}};
 
 /// One way from a set's looks to a map.
-struct Way {
+struct RealWay {
   const char* id;
   const char* label;
   Sensor sensor;                 ///< Of those that take one alone.
@@ -50,7 +49,7 @@ struct Way {
 };
 
 /// CMDS is what LPCA computes.
-const Way kWays[] = {
+const RealWay kWays[] = {
     {"visibility-cmds", "Visibility, CMDS", Sensor::kVisibility, Method::kLpca, {}},
     {"visibility-isomap", "Visibility, ISOMAP", Sensor::kVisibility, Method::kIsomap, {}},
     {"bearing-cmds", "Bearing, CMDS", Sensor::kBearing, Method::kLpca, {}},
@@ -62,7 +61,7 @@ const Way kWays[] = {
     {"pairs", "Range and bearing, SMACOF reweighted", Sensor::kRange, {}, {}},
 };
 
-TrialDesign design(const TrialExperiment&) {
+TrialDesign mrclam_design(const TrialExperiment&) {
   TrialDesign design;
   design.question =
       "Robots in a hall see landmarks by their barcodes, with range and bearing. How good a map "
@@ -73,7 +72,7 @@ TrialDesign design(const TrialExperiment&) {
       "can they be found from the looks themselves, and mended?";
   design.setups = {{kSetup, "A map per sensor and method", "", {0.0}},
                    {kLabels, "Range and bearing with labels made wrong", "", {0.0}}};
-  for (const Way& way : kWays) design.series.push_back({way.id, way.label});
+  for (const RealWay& way : kWays) design.series.push_back({way.id, way.label});
   for (const auto& [id, label] : kSpoilt) design.series.push_back({id, label});
   design.quantities = {{"mpe_m", "MPE", "m"},
                        {"moe_percent", "MOE", "%"},
@@ -93,7 +92,7 @@ struct RealSet {
 
 std::vector<Eigen::Index> anchors_of(const SightingSource& source) {
   if (!source.truth_m) return {};
-  Points known = Points::Constant(source.truth_m->rows(), 2, kNan);
+  Points known = Points::Constant(source.truth_m->rows(), 2, kNaN);
   for (const Sighting& seen : source.log.sightings)
     known.row(seen.landmark) = source.truth_m->row(seen.landmark);
   const std::vector<Eigen::Index> anchors = diagonal_anchors(known);
@@ -103,11 +102,11 @@ std::vector<Eigen::Index> anchors_of(const SightingSource& source) {
 
 /// Mean distance from the truth after the turn, mirror and shift that fit best.
 double rigid_error(const Points& map, const std::optional<Points>& truth_m) {
-  if (!truth_m) return kNan;
+  if (!truth_m) return kNaN;
   std::vector<Eigen::Index> both;
   for (Eigen::Index i = 0; i < map.rows(); ++i)
     if (map.row(i).allFinite() && truth_m->row(i).allFinite()) both.push_back(i);
-  if (both.size() < 3) return kNan;
+  if (both.size() < 3) return kNaN;
   const Points from = map(both, Eigen::all);
   const Points to = (*truth_m)(both, Eigen::all);
   return (fit_similarity(from, to, Alignment::kRigidWithReflection)(from) - to)
@@ -121,7 +120,7 @@ double median_residual(const Points& map, const std::vector<MeasuredPair>& pairs
   for (const MeasuredPair& pair : pairs)
     residuals.push_back(
         std::abs(pair.distance_m - (map.row(pair.first) - map.row(pair.second)).norm()));
-  return residuals.empty() ? kNan : median(residuals);
+  return residuals.empty() ? kNaN : median(residuals);
 }
 
 /// What one way makes of a set.
@@ -131,7 +130,7 @@ struct Made {
   MethodSetting setting;
 };
 
-Made make_map(const Way& way, const RealSet& set, const TrialContext& context) {
+Made make_map(const RealWay& way, const RealSet& set, const TrialContext& context) {
   if (!way.method) {
     PairMap map = sighted_map(set.source.log, {}, way.pairs);
     return {std::move(map.embedding), std::move(map.pairs), {Method::kSmacof, std::nullopt}};
@@ -149,12 +148,12 @@ Made make_map(const Way& way, const RealSet& set, const TrialContext& context) {
   all.squared_distances = Eigen::MatrixXd(all.squared_distances(rows, rows));
   const Embedding some = Embedder(std::move(all)).embed(setting);
   Made made{some, {}, setting};
-  made.embedding.coordinates.setConstant(landmarks, 2, kNan);
+  made.embedding.coordinates.setConstant(landmarks, 2, kNaN);
   made.embedding.coordinates(rows, Eigen::all) = some.coordinates;
   return made;
 }
 
-MapRecord record_of(const Way& way, const RealSet& set, const Made& made) {
+MapRecord record_of(const RealWay& way, const RealSet& set, const Made& made) {
   MapRecord map;
   map.id = way.id;
   map.sensor = way.sensor;
@@ -177,9 +176,9 @@ MapRecord record_of(const Way& way, const RealSet& set, const Made& made) {
   return map;
 }
 
-Trial trial_of(const char* setup, const std::string& series, const Way& way, const RealSet& set,
+Trial trial_of(const char* setup, const std::string& series, const RealWay& way, const RealSet& set,
                const Made& made, const MapRecord& map) {
-  const Score score = map.score.value_or(Score{kNan, kNan, kNan, kNan});
+  const Score score = map.score.value_or(Score{kNaN, kNaN, kNaN, kNaN});
   const double mapped =
       static_cast<double>((map.estimate.col(0).array() == map.estimate.col(0).array()).count());
   const Points& own = made.embedding.coordinates;
@@ -187,12 +186,12 @@ Trial trial_of(const char* setup, const std::string& series, const Way& way, con
           .series = series,
           .level = 0.0,
           .values = {score.mpe_m, score.moe_percent, score.mpe_all_fitted_m,
-                     way.method ? kNan : rigid_error(own, set.source.truth_m),
-                     median_residual(own, made.pairs), mapped, kNan},
+                     way.method ? kNaN : rigid_error(own, set.source.truth_m),
+                     median_residual(own, made.pairs), mapped, kNaN},
           .statuses = map.statuses};
 }
 
-void add_way(const Way& way, const RealSet& set, const TrialContext& context, TrialPart& part) {
+void add_way(const RealWay& way, const RealSet& set, const TrialContext& context, TrialPart& part) {
   const Clock::time_point start = Clock::now();
   const Made made = make_map(way, set, context);
   part.seconds.push_back(
@@ -224,7 +223,7 @@ void add_way(const Way& way, const RealSet& set, const TrialContext& context, Tr
 
 /// The map of measured pairs of looks whose labels were made wrong, and mended.
 void add_labels(const RealSet& set, const TrialContext& context, TrialPart& part) {
-  const Way& way = kWays[std::size(kWays) - 1];
+  const RealWay& way = kWays[std::size(kWays) - 1];
   const auto add = [&](const std::string& series, const SightingLog& log, Clock::time_point start) {
     RealSet other = set;
     other.source.log = log;
@@ -242,25 +241,25 @@ void add_labels(const RealSet& set, const TrialContext& context, TrialPart& part
   }
 }
 
-TrialPart make(const TrialContext& context) {
+TrialPart make_mrclam(const TrialContext& context) {
   TrialPart part;
   RealSet set;
   set.source = read_mrclam_sightings(context.data);
   set.anchors = anchors_of(set.source);
-  for (const Way& way : kWays) add_way(way, set, context, part);
+  for (const RealWay& way : kWays) add_way(way, set, context, part);
   add_labels(set, context, part);
   return part;
 }
 
 double value_of(const TrialPart& part, std::string_view series, std::size_t quantity) {
   const auto trial = std::ranges::find(part.trials, series, &Trial::series);
-  return trial == part.trials.end() ? kNan : trial->values.at(quantity);
+  return trial == part.trials.end() ? kNaN : trial->values.at(quantity);
 }
 
 /// "Visibility, ISOMAP (1.46 m)": the best of some series on a set; empty if none has an error.
 std::string best_of(const TrialPart& part, std::string_view start) {
-  const Way* best = nullptr;
-  for (const Way& way : kWays) {
+  const RealWay* best = nullptr;
+  for (const RealWay& way : kWays) {
     const double error = value_of(part, way.id, 0);
     if (!std::string_view(way.id).starts_with(start) || std::isnan(error)) continue;
     if (best == nullptr || error < value_of(part, best->id, 0)) best = &way;
@@ -269,7 +268,7 @@ std::string best_of(const TrialPart& part, std::string_view start) {
                          : fmt::format("{} ({:.3f} m)", best->label, value_of(part, best->id, 0));
 }
 
-std::vector<std::string> conclude(const TrialStudy& study) {
+std::vector<std::string> mrclam_conclusions(const TrialStudy& study) {
   std::vector<std::string> sentences;
   for (const TrialPart& part : study.parts) {
     const double error = value_of(part, "pairs", 0);
@@ -307,9 +306,9 @@ const Topic kMrclamTopic = {
     .options = {{"neighbours", {5}, 1, 100, true, false},
                 {"replicates", {200}, 0, 10'000, true, false},
                 {"block_looks", {0}, 0, 100'000, true, false}},
-    .design = design,
-    .make = make,
-    .conclude = conclude,
+    .design = mrclam_design,
+    .make = make_mrclam,
+    .conclude = mrclam_conclusions,
     .data_sets = mrclam_sets,
 };
 

@@ -17,7 +17,7 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-constexpr Sensor kSensors[] = {Sensor::kBearing, Sensor::kVisibility, Sensor::kRange};
+constexpr Sensor kFollowedSensors[] = {Sensor::kBearing, Sensor::kVisibility, Sensor::kRange};
 
 /// A method, with one setting for all histories, and its two series.
 struct Followed {
@@ -32,14 +32,14 @@ const Followed kMethods[] = {
     {{Method::kIsomap, 6.0}, "isomap", "isomap-anew"},
 };
 
-TrialDesign design(const TrialExperiment& experiment) {
+TrialDesign online_design(const TrialExperiment& experiment) {
   TrialDesign design;
   design.question = fmt::format(
       "Observations arrive one by one, and every {:g} of them the map is made from sums over pairs "
       "that are carried on. How far is it from the map that all observations so far make anew, and "
       "through how many of them does each go?",
       number_option(experiment, "every"));
-  for (const Sensor sensor : kSensors)
+  for (const Sensor sensor : kFollowedSensors)
     design.setups.push_back({std::string(name(sensor)),
                              fmt::format("Maps from {}, carried on", name(sensor)),
                              "observations so far", list_option(experiment, "observations")});
@@ -124,9 +124,9 @@ void follow(const TrialContext& context, const Followed& method, const Observati
   add_seconds(part, method.anew, anew_s);
 }
 
-TrialPart make(const TrialContext& context) {
+TrialPart make_online(const TrialContext& context) {
   TrialPart part;
-  for (const Sensor sensor : kSensors) {
+  for (const Sensor sensor : kFollowedSensors) {
     SensorOptions options;
     options.sensor = sensor;
     Random noise(derive_seed(context.seed, {static_cast<std::uint64_t>(sensor)}));
@@ -136,7 +136,7 @@ TrialPart make(const TrialContext& context) {
   return part;
 }
 
-std::vector<std::string> conclude(const TrialStudy& study) {
+std::vector<std::string> online_conclusions(const TrialStudy& study) {
   std::vector<std::string> sentences;
   for (const TrialSetup& setup : study.design.setups) {
     const double last = setup.levels.back();
@@ -171,8 +171,8 @@ const Topic kOnlineTopic = {
     .of_data = false,
     .options = {{"observations", {200, 500, 1000, 2000, 4000}, 10, 100000, true, true},
                 {"every", {20}, 1, 100000, true, false}},
-    .design = design,
-    .make = make,
-    .conclude = conclude};
+    .design = online_design,
+    .make = make_online,
+    .conclude = online_conclusions};
 
 }  // namespace mapproof

@@ -21,7 +21,7 @@ using Clock = std::chrono::steady_clock;
 
 constexpr const char* kSize = "size";
 constexpr const char* kOverlap = "overlap";
-constexpr const char* kLimitedRange = "sensor-range";
+constexpr const char* kSubmapsRange = "sensor-range";
 constexpr const char* kFilled = "-filled";  ///< Ends the series whose gaps PPCA fills.
 
 std::vector<MethodSetting> settings_of(const TrialExperiment& experiment) {
@@ -33,7 +33,7 @@ std::string series_id(bool whole, const MethodSetting& setting) {
   return fmt::format("{}-{}", whole ? "whole" : "parts", info(setting.method).name);
 }
 
-TrialDesign design(const TrialExperiment& experiment) {
+TrialDesign submaps_design(const TrialExperiment& experiment) {
   TrialDesign design;
   design.question = fmt::format(
       "Bearings are mapped as a whole, and in overlapping groups of landmarks whose maps are "
@@ -51,7 +51,7 @@ TrialDesign design(const TrialExperiment& experiment) {
   design.setups = {
       {kSize, "Sub-maps by size", "most landmarks of a sub-map", list_option(experiment, "sizes")},
       {kOverlap, "Sub-maps by overlap", "share borrowed [%]", percent("overlaps")},
-      {kLimitedRange, "Distant landmarks not observed", "share missing [%]",
+      {kSubmapsRange, "Distant landmarks not observed", "share missing [%]",
        percent("shares_sensor_range")}};
   for (const bool whole : {true, false})
     for (const MethodSetting& setting : settings_of(experiment))
@@ -130,16 +130,16 @@ void add_level(const TrialContext& context, const TrialSetup& setup, double leve
     }
 }
 
-TrialPart make(const TrialContext& context) {
+TrialPart make_submaps(const TrialContext& context) {
   TrialPart part{.id = context.part, .run = context.run, .trials = {}, .maps = {}, .seconds = {}};
   Random random(context.seed);
   const ObservationHistory history =
       observe(*context.world, *context.path, {.sensor = Sensor::kBearing}, random);
   const Losses losses = range_losses(*context.world, *context.path);
   Trials trials(context, part);
-  for (const TrialSetup& setup : design(context.experiment).setups)
+  for (const TrialSetup& setup : submaps_design(context.experiment).setups)
     for (const double level : setup.levels) {
-      if (setup.id != kLimitedRange) {
+      if (setup.id != kSubmapsRange) {
         add_level(context, setup, level, history, trials);
         continue;
       }
@@ -180,7 +180,7 @@ std::string comparison(const TrialStudy& study, const TrialSetup& setup,
   return words + (worse.empty() && better.empty() ? "; no difference is beyond chance." : ".");
 }
 
-std::vector<std::string> conclude(const TrialStudy& study) {
+std::vector<std::string> submaps_conclusions(const TrialStudy& study) {
   std::vector<std::string> sentences;
   for (const TrialSetup& setup : study.design.setups)
     for (const MethodSetting& setting : settings_of(study.experiment))
@@ -199,9 +199,9 @@ const Topic kSubmapsTopic = {
                 {"shares_sensor_range", {0.5, 0.7, 0.89}, 0, 0.95, false, true},
                 {"usual_size", {24}, 6, 5000, true, false},
                 {"neighbours", {8}, 1, 1000, true, false}},
-    .design = design,
-    .make = make,
-    .conclude = conclude,
+    .design = submaps_design,
+    .make = make_submaps,
+    .conclude = submaps_conclusions,
     .data_sets = nullptr};
 
 }  // namespace mapproof

@@ -63,6 +63,9 @@ std::string content_of(const Descriptor& file, const std::filesystem::path& prog
 
 /// Runs the program on an input and gives its output.
 std::string run(const std::filesystem::path& program, const Descriptor& input) {
+  if (::access(program.c_str(), X_OK) != 0 && !MAPPROOF_HAS_ANIMATION)
+    throw AnimationError(
+        "animations are left out: this program was built without them (MAPPROOF_ANIMATION=OFF)");
   if (::access(program.c_str(), X_OK) != 0)
     fail(program, fmt::format("{} is no program: {}", program.string(), std::strerror(errno)));
   const Descriptor output = memory_file(program), messages = memory_file(program);

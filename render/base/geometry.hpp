@@ -1,6 +1,7 @@
 #pragma once
 
 #include <algorithm>
+#include <cmath>
 #include <cstdint>
 #include <vector>
 
@@ -13,6 +14,8 @@ struct Point {
 
   bool operator==(const Point&) const = default;
 };
+
+inline bool is_finite(Point p) { return std::isfinite(p.x) && std::isfinite(p.y); }
 
 /// An upright rectangle; empty unless x0 < x1 and y0 < y1.
 struct Box {

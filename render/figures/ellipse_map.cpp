@@ -16,7 +16,7 @@
 namespace mapproof {
 namespace {
 
-constexpr double kReach = 0.15;  // Room sides about the room that are shown.
+constexpr double kRoomReach = 0.15;  // Room sides about the room that are shown.
 
 void require_consistent(const EllipseMapSpec& spec) {
   const auto refuse = [&spec](const std::string& what) {
@@ -39,7 +39,7 @@ PanelLimits limits_of(const Points& truth_m) {
   for (Eigen::Index i = 0; i < truth_m.rows(); ++i) x.see(truth_m(i, 0)), y.see(truth_m(i, 1));
   if (!x.known()) return {{0.0, 1.0}, {0.0, 1.0}};
   const double side = std::max(x.high - x.low, y.high - y.low);
-  const double by = side > 0.0 ? kReach * side : 1.0;
+  const double by = side > 0.0 ? kRoomReach * side : 1.0;
   return {{x.low - by, x.high + by}, {y.low - by, y.high + by}};
 }
 

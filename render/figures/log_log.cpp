@@ -14,7 +14,7 @@ namespace mapproof {
 namespace {
 
 constexpr double kAbove = 1.8;      // Factor of a guide over the highest first value.
-constexpr double kMargin = 0.06;    // Of an axis' length, at both ends.
+constexpr double kAxisMargin = 0.06;    // Of an axis' length, at both ends.
 constexpr double kLeastSpan = 2.0;  // Of the greatest over the least value on an axis.
 
 bool is_shown(double value) { return value > 0.0 && std::isfinite(value); }
@@ -36,7 +36,7 @@ Range widened(const Span& span) {
   if (!span.known()) return {0.1, 1.0};
   const double least = std::max(kLeastSpan / (span.high / span.low), 1.0);
   const double factor =
-      std::sqrt(least) * std::pow(std::max(span.high / span.low, kLeastSpan), kMargin);
+      std::sqrt(least) * std::pow(std::max(span.high / span.low, kLeastSpan), kAxisMargin);
   return {span.low / factor, span.high * factor};
 }
 
@@ -118,7 +118,7 @@ class PanelBuilder {
   double low_end_ = 0.0;
 };
 
-std::string words_of(const ErrorLine& line) {
+std::string line_words(const ErrorLine& line) {
   std::size_t first = line.x.size(), last = first;
   for (std::size_t i = 0; i < line.x.size(); ++i) {
     if (!is_shown(line.x[i]) || !is_shown(line.mean[i])) continue;
@@ -141,7 +141,7 @@ std::string alt_of(const LogLogSpec& spec) {
     text += fmt::format("{}{} over {}, both axes logarithmic:", text.empty() ? "" : " ",
                         panel.y_label, panel.x_label);
     for (const auto* lines : {&panel.lines, &panel.bounds})
-      for (const ErrorLine& line : *lines) text += words_of(line);
+      for (const ErrorLine& line : *lines) text += line_words(line);
     if (panel.lines.empty()) text += " nothing.";
   }
   return text;

@@ -14,7 +14,7 @@
 namespace mapproof {
 namespace {
 
-constexpr int kMostNamed = 14;  // Of more settings only those on the front are named.
+constexpr int kMostNamedSettings = 14;  // Of more settings only those on the front are named.
 
 bool usable(const CostedSetting& setting) {
   return setting.seconds > 0.0 && !std::isnan(setting.mpe_m);
@@ -55,7 +55,7 @@ ParetoLayers layers_of(const std::vector<CostedSetting>& settings) {
     layers.words.push_back(
         fmt::format("{} ({} m in {})", one.label, significant(one.mpe_m), duration(one.seconds)));
   }
-  const bool crowded = std::ranges::count_if(settings, usable) > kMostNamed;
+  const bool crowded = std::ranges::count_if(settings, usable) > kMostNamedSettings;
   for (std::size_t i = 0; i < settings.size(); ++i) {
     const CostedSetting& one = settings[i];
     if (!usable(one) || std::ranges::find(front, i) != front.end()) continue;

@@ -47,7 +47,7 @@ double first_time(std::span<const SlamRecord* const> records) {
   return times.known() ? times.low : 0.0;
 }
 
-std::string label_of(const SlamRecord& record) {
+std::string label_with_error(const SlamRecord& record) {
   const std::string label(info(record.method).label);
   if (record.errors.empty()) return label;
   const TrajectoryError& error = record.errors.front();
@@ -60,7 +60,7 @@ Polyline error_line(const SlamRecord& record, const ErrorAxis& axis, double star
   for (double& time : thin.x) time -= start_s;
   const Marker marker = thin.x.size() == 1 ? Marker::kCircle : Marker::kNone;
   const SlamLook look = slam_look(record.method);
-  return {.label = label_of(record),
+  return {.label = label_with_error(record),
           .x = std::move(thin.x),
           .y = axis.raised(std::move(thin.y)),
           .ink = look.ink,

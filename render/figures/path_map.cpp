@@ -19,7 +19,7 @@ namespace {
 
 using Eigen::Index;
 
-constexpr std::size_t kMostNamed = 12;  // Landmarks with a name beside them.
+constexpr std::size_t kMostNamedLandmarks = 12;  // Landmarks with a name beside them.
 
 std::string label_of(const SlamRecord& record) { return std::string(info(record.method).label); }
 
@@ -155,7 +155,7 @@ class PathMap {
   PointLabels names() const {
     PointLabels labels;
     const auto& all = spec_.run.log.landmarks;
-    if (all.size() > kMostNamed) return labels;
+    if (all.size() > kMostNamedLandmarks) return labels;
     for (Index i = 0; i < std::ssize(all); ++i)
       if (const auto at = place_of(i)) add_label(labels, *at, all[i]);
     return labels;

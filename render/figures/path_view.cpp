@@ -15,7 +15,7 @@ namespace {
 
 using Eigen::Index;
 
-constexpr double kReach = 0.5;     // Sides about the core that paths may take up.
+constexpr double kPathReach = 0.5;     // Sides about the core that paths may take up.
 constexpr double kMargin = 0.05;   // Of the picture's side.
 constexpr double kVisible = 0.06;  // Half axis of the largest ellipse, of the side, at most.
 constexpr double kTolerance = 1.0 / 3600.0;  // Of the side.
@@ -46,7 +46,7 @@ void require_consistent(const PathMapSpec& spec) {
   }
 }
 
-struct Extent {
+struct PathExtent {
   Span x, y;
 
   void see(const Eigen::RowVector2d& point) {
@@ -75,8 +75,8 @@ Range middle_of(const Points& points, Index column) {
 }
 
 /// Where a reader's eye belongs.
-Extent core_of(const SlamRun& run, const PathView& view) {
-  Extent core;
+PathExtent core_of(const SlamRun& run, const PathView& view) {
+  PathExtent core;
   if (run.log.truth) core.see(run.log.truth->positions_m);
   if (run.log.true_landmarks) core.see(*run.log.true_landmarks);
   if (core.side() > 0.0) return core;
@@ -91,13 +91,13 @@ Extent core_of(const SlamRun& run, const PathView& view) {
 }
 
 void find_limits(const SlamRun& run, PathView& view) {
-  const Extent core = core_of(run, view);
+  const PathExtent core = core_of(run, view);
   if (!core.x.known()) {
     view.limits = {{0.0, 1.0}, {0.0, 1.0}};
     return;
   }
-  const double reach = core.side() > 0.0 ? kReach * core.side() : 1.0;
-  Extent all = core;
+  const double reach = core.side() > 0.0 ? kPathReach * core.side() : 1.0;
+  PathExtent all = core;
   for (const SlamRecord* record : view.shown) {
     bool leaves = false;
     for (const Points* points : {&record->estimate.path.positions_m, &record->estimate.landmarks_m})

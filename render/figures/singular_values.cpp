@@ -12,8 +12,8 @@
 namespace mapproof {
 namespace {
 
-constexpr double kLeastShare = 1e-12;  // Of the greatest value; smaller ones stand at the foot.
-constexpr std::size_t kMostShown = 16;
+constexpr double kLeastValue = 1e-12;  // Of the greatest value; smaller ones stand at the foot.
+constexpr std::size_t kMostSingularValues = 16;
 
 void require_values(const SingularValuesSpec& spec) {
   for (const SingularValues& one : spec.panels)
@@ -44,9 +44,9 @@ Range limits_of(const std::vector<const SingularValues*>& shown) {
     for (const double value : one->values) most = std::max(most, value);
   for (const SingularValues* one : shown) {
     for (const double value : one->values)
-      if (value > kLeastShare * most) least = std::min(least, value);
+      if (value > kLeastValue * most) least = std::min(least, value);
     if (const auto floor = floor_of(*one))
-      least = std::min(least, std::max(*floor, kLeastShare * most));
+      least = std::min(least, std::max(*floor, kLeastValue * most));
   }
   return most > 0.0 ? Range{least / 3.0, most * 3.0} : Range{0.1, 1.0};
 }
@@ -59,7 +59,7 @@ Panel panel_of(const SingularValues& one, std::size_t index, const Range& y, dou
   Segments stems{.ink = Ink::kMuted, .width = 0.7};
   Scatter kept{.label = "kept", .ink = Ink::kSeries1};
   Scatter dropped{.label = "dropped", .ink = Ink::kText, .filled = false};
-  for (std::size_t i = 0; i < std::min(one.values.size(), kMostShown); ++i) {
+  for (std::size_t i = 0; i < std::min(one.values.size(), kMostSingularValues); ++i) {
     if (std::isnan(one.values[i])) continue;
     const Point at{static_cast<double>(i + 1), std::max(one.values[i], y.low)};
     add_line(stems, {at.x, y.low}, at);
@@ -87,7 +87,7 @@ Figure singular_values_figure(const SingularValuesSpec& spec) {
   for (const SingularValues& one : spec.panels) {
     if (one.values.empty()) continue;
     shown.push_back(&one);
-    last = std::max(last, static_cast<double>(std::min(one.values.size(), kMostShown)));
+    last = std::max(last, static_cast<double>(std::min(one.values.size(), kMostSingularValues)));
   }
   Figure figure;
   figure.id = spec.id;
@@ -102,7 +102,7 @@ Figure singular_values_figure(const SingularValuesSpec& spec) {
   for (const SingularValues* one : shown) {
     figure.panels.push_back(panel_of(*one, figure.panels.size(), y, last));
     figure.alt += fmt::format(" {}:", one->title);
-    for (std::size_t i = 0; i < std::min(one->values.size(), kMostShown); ++i)
+    for (std::size_t i = 0; i < std::min(one->values.size(), kMostSingularValues); ++i)
       figure.alt += fmt::format("{} {}", i == 0 ? "" : ",", significant(one->values[i]));
     figure.alt += ".";
   }

@@ -5,16 +5,12 @@
 #include <fmt/format.h>
 #include <libdeflate.h>
 
+#include "render/image/png_chunks.hpp"
+
 namespace mapproof {
 namespace {
 
 constexpr std::string_view kSignature = "\x89PNG\r\n\x1A\n";
-
-std::uint32_t big_endian(std::string_view bytes) {
-  std::uint32_t value = 0;
-  for (const char byte : bytes.substr(0, 4)) value = value << 8 | static_cast<unsigned char>(byte);
-  return value;
-}
 
 std::uint32_t checksum(std::string_view bytes) {
   return libdeflate_crc32(0, bytes.data(), bytes.size());

@@ -14,7 +14,7 @@
 namespace mapproof {
 namespace {
 
-constexpr double kGreatest = 1e150;  // Squares of it are still finite.
+constexpr double kGreatestNumber = 1e150;  // Squares of it are still finite.
 
 bool is_slug(std::string_view text) {
   if (text.empty()) return false;
@@ -188,7 +188,7 @@ class Inspector {
 
   static bool is_range(const Range& range) {
     return std::isfinite(range.low) && std::isfinite(range.high) && range.low < range.high &&
-           std::max(-range.low, range.high) <= kGreatest;
+           std::max(-range.low, range.high) <= kGreatestNumber;
   }
 
   static std::string size(double size, std::string_view name) {
@@ -199,7 +199,7 @@ class Inspector {
                             std::string_view name) {
     for (std::size_t i = 0; i < values.size(); ++i) {
       if (std::isinf(values[i])) return fmt::format("{}/{}: infinite", name, i);
-      if (std::abs(values[i]) > kGreatest) return fmt::format("{}/{}: beyond 1e150", name, i);
+      if (std::abs(values[i]) > kGreatestNumber) return fmt::format("{}/{}: beyond 1e150", name, i);
       if (axis.scale == Scale::kLog && values[i] <= 0.0)
         return fmt::format("{}/{}: not positive on a log axis", name, i);
     }

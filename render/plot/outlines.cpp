@@ -12,7 +12,7 @@ namespace {
 constexpr int kCurvePieces = 8;
 constexpr int kSlices = 8;
 constexpr int kShades = 32;
-constexpr double kMostOfPage = 0.37;  // The width of a text at a point.
+constexpr double kTextShareOfPage = 0.37;  // The width of a text at a point.
 
 Point cubic_at(Point a, Point b, Point c, Point d, double t) {
   const double s = 1.0 - t;
@@ -146,7 +146,7 @@ std::optional<TextLine> placed_text(const Texts& texts, std::size_t i, const Pan
   if (std::isnan(at.x + at.y)) return std::nullopt;
   const double em = theme.tick_font_pt;
   TextLine line{
-      .shaped = shape_text_within(texts.text[i], kMostOfPage * theme.width_pt / em, Elide::kMiddle),
+      .shaped = shape_text_within(texts.text[i], kTextShareOfPage * theme.width_pt / em, Elide::kMiddle),
       .size = em,
       .colour = theme.of(texts.ink)};
   if (line.shaped.text != texts.text[i]) line.whole = texts.text[i];

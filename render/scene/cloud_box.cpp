@@ -8,7 +8,7 @@ namespace {
 
 constexpr double kPadding = 0.06;    // Of each side.
 constexpr double kLeastSide = 0.05;  // Of the diagonal.
-constexpr double kLabelRoom = 0.1;   // Of the diagonal.
+constexpr double kBoxLabelRoom = 0.1;   // Of the diagonal.
 
 }  // namespace
 
@@ -62,7 +62,7 @@ std::vector<Rule> CloudBox::rules(const std::array<std::string, 3>& labels) cons
 }
 
 Camera CloudBox::camera(double aspect) const {
-  const double room = kLabelRoom * size();
+  const double room = kBoxLabelRoom * size();
   std::vector<Point3> shown;
   for (const Point3& corner : corners()) shown.push_back(corner);
   shown.emplace_back(low.x() - room, low.y() - room, low.z() - 0.5 * room);

@@ -14,9 +14,9 @@ namespace mapproof {
 namespace {
 
 constexpr double kHighest = 0.35;  // The surface at the ramp's end, of the room's side.
-constexpr double kAspect = 1.35;   // Several views share a page.
+constexpr double kErrorFieldAspect = 1.35;   // Several views share a page.
 constexpr double kLift = 0.004;    // Of the side: no error still lies above the floor.
-constexpr double kPercentile = 0.95;
+constexpr double kErrorPercentile = 0.95;
 constexpr int kMostLevels = 6;
 
 /// A landmark that has a truth and a place.
@@ -58,7 +58,7 @@ struct ErrorRamp {
   explicit ErrorRamp(std::vector<double> errors_m) {
     std::ranges::sort(errors_m);
     const auto rank = static_cast<std::size_t>(
-        std::lround(kPercentile * static_cast<double>(errors_m.size() - 1)));
+        std::lround(kErrorPercentile * static_cast<double>(errors_m.size() - 1)));
     most_m = std::max(errors_m[rank], 1e-6);
     const double step = tick_step(0.0, most_m, kMostLevels);
     for (double level = step; level < most_m; level += step) levels.push_back(level);
@@ -111,7 +111,7 @@ Scene error_field_scene(const ErrorFieldSpec& spec) {
               .columns = spec.columns};
   scene.parts = {floor_of(spec.side_m), walls_of(spec.side_m)};
   for (std::size_t i = 0; i < spec.maps.size(); ++i) {
-    Shot view = room_view(spec.side_m, kHighest * spec.side_m, {}, kAspect);
+    Shot view = room_view(spec.side_m, kHighest * spec.side_m, {}, kErrorFieldAspect);
     view.title = spec.maps[i].title;
     view.parts = {0, 1, scene.parts.size()};
     scene.parts.emplace_back(field_of(samples[i], scale, spec.side_m));

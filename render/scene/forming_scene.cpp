@@ -16,7 +16,7 @@ namespace {
 
 constexpr double kPercentile = 0.95;
 constexpr std::size_t kColumns = 3;
-constexpr double kAspect = 1.4;
+constexpr double kFormingAspect = 1.4;
 
 void require_usable(const FormingSceneSpec& spec) {
   const World& world = spec.world;
@@ -63,7 +63,7 @@ class Forming {
     const std::size_t shared = scene.parts.size();
     Displacements lost;
     for (const std::size_t i : shown) {
-      Shot view = room_view(side_, landmark_height(side_), ends_, kAspect);
+      Shot view = room_view(side_, landmark_height(side_), ends_, kFormingAspect);
       if (shown.size() > 1) view.rules.clear();
       view.title = title_of(i);
       for (std::size_t part = 0; part < shared; ++part) view.parts.push_back(part);

@@ -15,7 +15,7 @@
 namespace mapproof {
 namespace {
 
-constexpr double kAspect = 1.25;  // Two views share a page.
+constexpr double kManifoldAspect = 1.25;  // Two views share a page.
 
 void require_usable(const ManifoldSceneSpec& spec) {
   const Eigen::Index rows = spec.manifold.coordinates.rows();
@@ -91,7 +91,7 @@ Scene manifold_scene(const ManifoldSceneSpec& spec) {
   scene.notes = {
       {fmt::format("The three coordinates hold {:.0f}, {:.0f} and {:.0f} % of all spread.",
                    100.0 * shares[0], 100.0 * shares[1], 100.0 * shares[2])}};
-  const Shot view{.camera = box.camera(kAspect), .rules = box.rules({"1st", "2nd", "3rd"})};
+  const Shot view{.camera = box.camera(kManifoldAspect), .rules = box.rules({"1st", "2nd", "3rd"})};
   scene.views = {view, view};
   scene.views[0].title = "By true x";
   scene.views[0].parts = {0, 1, 2};

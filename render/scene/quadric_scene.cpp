@@ -14,7 +14,7 @@
 namespace mapproof {
 namespace {
 
-constexpr double kAspect = 1.25;
+constexpr double kQuadricAspect = 1.25;
 constexpr double kTallness = 0.6;  // Height of the drawn paraboloid, of its width.
 
 double height_of(const SpacePoints& points) {
@@ -79,7 +79,7 @@ class QuadricScene {
     std::vector<Point3> shown = quadric.sheet.points;
     for (const auto& point : cloud.points.rowwise()) shown.emplace_back(point.transpose());
     const CloudBox box(shown);
-    Shot view{.title = title, .camera = box.camera(kAspect), .rules = box.rules(labels)};
+    Shot view{.title = title, .camera = box.camera(kQuadricAspect), .rules = box.rules(labels)};
     view.rules[2].range = {view.rules[2].range.low / lift, view.rules[2].range.high / lift};
     const auto add = [&](Part part) {
       view.parts.push_back(scene_.parts.size());

@@ -14,7 +14,7 @@ constexpr int kRays = 72;
 constexpr int kLineRings = 4;
 constexpr int kLineRays = 8;
 constexpr double kBeyond = 1.06;     // The sheet's edge, of the farthest point.
-constexpr double kFarthest = 10.0;   // A point of the sheet this far out, in sizes of the cloud,
+constexpr double kFarthestSheet = 10.0;   // A point of the sheet this far out, in sizes of the cloud,
                                      // is none.
 constexpr double kStraight = 1e-12;  // A curvature below this share of the largest is none.
 
@@ -57,7 +57,7 @@ class Sheet {
     const double a = along.dot(Q_ * along), b = 2.0 * along.dot(Q_ * from), c = from.dot(Q_ * from);
     const double root = std::sqrt(b * b - 4.0 * a * c);
     const Point3 point = foot - 2.0 * c / (b + std::copysign(root, b)) * axis_;
-    return (point - center_).norm() <= kFarthest * size_ ? point : Point3::Constant(NAN);
+    return (point - center_).norm() <= kFarthestSheet * size_ ? point : Point3::Constant(NAN);
   }
 
  private:

@@ -17,8 +17,6 @@ constexpr double kStep = 0.2;      // In the search for its place.
 constexpr double kFarthest = 12.0;
 constexpr double kApart = 0.35;  // Least space between texts.
 
-bool known(Point p) { return std::isfinite(p.x) && std::isfinite(p.y); }
-
 bool overlap(const Box& a, const Box& b) {
   return a.x0 < b.x1 && b.x0 < a.x1 && a.y0 < b.y1 && b.y0 < a.y1;
 }
@@ -72,7 +70,7 @@ std::vector<RuleLayers::Text> RuleLayers::tick_labels(const Rule& rule, Point ou
     for (std::size_t i = 0; i < ticks.at.size(); ++i) {
       const double share = (ticks.at[i] - rule.range.low) / (rule.range.high - rule.range.low);
       const Point foot = project_(rule.from + share * (rule.to - rule.from));
-      if (!known(foot)) continue;
+      if (!is_finite(foot)) continue;
       feet.push_back(foot);
       texts.push_back(text_at(foot, outward, kLabelGap, align, ticks.labels[i]));
     }
@@ -85,7 +83,7 @@ std::vector<RuleLayers::Text> RuleLayers::tick_labels(const Rule& rule, Point ou
 std::vector<Layer> RuleLayers::add(const Rule& rule) {
   const Point from = project_(rule.from), to = project_(rule.to);
   const Point outward = direction(rule, project_);
-  if (!known(from) || !known(to) || !known(outward)) return {};
+  if (!is_finite(from) || !is_finite(to) || !is_finite(outward)) return {};
   Polyline line{.x = {from.x, to.x}, .y = {from.y, to.y}, .ink = Ink::kText, .width = 0.5};
   Segments marks{.ink = Ink::kText, .width = 0.5};
   Texts texts{.align = align_of(outward)};
@@ -107,7 +105,7 @@ std::vector<Layer> RuleLayers::add(const Rule& rule) {
     marks.y1.push_back(foot.y + kTick * em_ * outward.y);
   }
   const Point middle = project_((rule.from + rule.to) / 2.0);
-  if (known(middle) && !rule.label.empty())
+  if (is_finite(middle) && !rule.label.empty())
     for (double ems = kNameGap; ems < kFarthest; ems += kStep)
       if (write(text_at(middle, outward, ems, texts.align, rule.label))) break;
   return {std::move(line), std::move(marks), std::move(texts)};

@@ -11,10 +11,10 @@
 namespace mapproof {
 namespace {
 
-constexpr double kGreatest = 1e9;  // Single precision, which a graphics library takes, bears it.
+constexpr double kGreatestCoordinate = 1e9;  // Single precision, which a graphics library takes, bears it.
 constexpr double kLeastAngle = 1e-6;
 
-bool is_place(const Point3& p) { return p.allFinite() && p.cwiseAbs().maxCoeff() <= kGreatest; }
+bool is_place(const Point3& p) { return p.allFinite() && p.cwiseAbs().maxCoeff() <= kGreatestCoordinate; }
 
 std::string places(const std::vector<Point3>& points, const char* name) {
   for (std::size_t i = 0; i < points.size(); ++i)
@@ -28,7 +28,7 @@ bool is_range(const Range& range) {
   return std::isfinite(range.low) && std::isfinite(range.high) && range.low < range.high;
 }
 
-bool is_length(double length) { return length > 0.0 && length <= kGreatest; }
+bool is_length(double length) { return length > 0.0 && length <= kGreatestCoordinate; }
 
 std::string problem_of(const Look& look) {
   if (!(look.share >= 0.0 && look.share <= 1.0)) return "look/share: not in [0, 1]";

@@ -13,8 +13,6 @@ namespace {
 constexpr int kMostClear = 12;    // Squares along a rod.
 constexpr double kMostEm = 0.22;  // Of a picture's half height.
 
-bool known(Point p) { return std::isfinite(p.x) && std::isfinite(p.y); }
-
 Fill fill_of(const Look& look) {
   return look.share * look.opacity > 0.6 ? Fill::kSolid : Fill::kTint;
 }
@@ -104,7 +102,7 @@ class ViewPanel {
 
   void add_clear(const Point3& at, double radius) {
     const Point p = project_(at);
-    if (!known(p)) return;
+    if (!is_finite(p)) return;
     picture_.clear_x.push_back(p.x);
     picture_.clear_y.push_back(p.y);
     picture_.clear_by.push_back(project_.size_at(at, radius));
@@ -114,7 +112,7 @@ class ViewPanel {
     PointLabels layer{.ink = labels.ink};
     for (std::size_t i = 0; i < labels.at.size(); ++i) {
       const Point p = project_(labels.at[i]);
-      if (!known(p)) continue;
+      if (!is_finite(p)) continue;
       layer.x.push_back(p.x);
       layer.y.push_back(p.y);
       layer.text.push_back(labels.text[i]);

@@ -17,7 +17,7 @@
 namespace mapproof {
 namespace {
 
-constexpr double kAspect = 2.0;  // One view under the other.
+constexpr double kSpaceAspect = 2.0;  // One view under the other.
 constexpr double kSeen = 0.035;  // A rod this long is seen, of the box.
 
 void require_usable(const SpaceRun& run) {
@@ -112,7 +112,7 @@ class SpaceScene {
                      ? fmt::format("{} known",
                                    counted(static_cast<long long>(run_.known.size()), "landmark"))
                      : "No landmark known",
-        .camera = box_.camera(kAspect),
+        .camera = box_.camera(kSpaceAspect),
         .rules = box_.rules({"x [m]", "y [m]", "z [m]"})};
     for (std::size_t i = 0; i < shared; ++i) view.parts.push_back(i);
     const auto add = [&](Part part) {

@@ -75,6 +75,9 @@ SceneClient::~SceneClient() {
 }
 
 void SceneClient::start() {
+  if (::access(program_.c_str(), X_OK) != 0 && !MAPPROOF_HAS_SCENES)
+    throw SceneError(
+        "3-D figures are left out: this program was built without them (MAPPROOF_SCENES=OFF)");
   if (::access(program_.c_str(), X_OK) != 0)
     throw SceneError(fmt::format("scenes cannot be drawn: {} is no program: {}", program_.string(),
                                  std::strerror(errno)));

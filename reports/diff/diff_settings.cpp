@@ -9,13 +9,13 @@
 namespace mapproof {
 namespace {
 
-constexpr double kMost = 1e300;
+constexpr double kGreatestTolerance = 1e300;
 constexpr std::size_t kMostRegions = 10'000;
 constexpr int kMostPixels = 1 << 20;
 
 Tolerance read_tolerance(const JsonCursor& at, Tolerance tolerance) {
   at.allow_only({"absolute", "relative"});
-  if (const auto value = at.find("absolute")) tolerance.absolute = value->number(0.0, kMost);
+  if (const auto value = at.find("absolute")) tolerance.absolute = value->number(0.0, kGreatestTolerance);
   if (const auto value = at.find("relative")) tolerance.relative = value->number(0.0, 1.0);
   return tolerance;
 }
@@ -43,7 +43,7 @@ void read_pictures(const JsonCursor& at, PictureOptions& options) {
   read("mean_noise", 64.0, options.mean_noise);
   read("displacement_px", 4.0, options.displacement_px);
   read("changed_share", 1.0, options.changed_share);
-  read("svg_distance", kMost, options.svg_distance);
+  read("svg_distance", kGreatestTolerance, options.svg_distance);
   read("svg_colour", 255.0, options.svg_colour);
   if (const std::string problem = options.problem(); !problem.empty()) at.fail(problem);
 }

@@ -25,7 +25,7 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr std::size_t kLargestPage = std::size_t{1} << 28;  // Bytes.
-constexpr std::size_t kMostWords = 80;
+constexpr std::size_t kMostTextLength = 80;
 
 bool is_page(const ItemFiles& files) { return files.documents.contains("html"); }
 
@@ -131,7 +131,7 @@ OtherDiff words_diff(const std::string& a, const std::string& b) {
     return at < text.size() ? text.substr(at, text.find('\n', at) - at) : "nothing";
   };
   diff.first = fmt::format("line {} of its text", line);
-  std::tie(diff.baseline, diff.current) = excerpts(line_at(a), line_at(b), kMostWords);
+  std::tie(diff.baseline, diff.current) = excerpts(line_at(a), line_at(b), kMostTextLength);
   diff.shape = true;
   return diff;
 }

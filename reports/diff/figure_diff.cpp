@@ -15,7 +15,7 @@
 namespace mapproof {
 namespace {
 
-constexpr std::size_t kMostNames = 3;
+constexpr std::size_t kMostRecordIds = 3;
 
 std::string text_of(const std::optional<Range>& limits) {
   return limits ? fmt::format("{} to {}", limits->low, limits->high)
@@ -46,8 +46,8 @@ void compare_words(const Figure& a, const Figure& b, FigureLog& log) {
   log.change(ChangeKind::kData, "figure", "varies from run to run", a.varies ? "yes" : "no",
              b.varies ? "yes" : "no");
   if (a.record_ids != b.record_ids) {
-    const std::string before = listed(a.record_ids, kMostNames);
-    const std::string after = listed(b.record_ids, kMostNames);
+    const std::string before = listed(a.record_ids, kMostRecordIds);
+    const std::string after = listed(b.record_ids, kMostRecordIds);
     log.change(ChangeKind::kData, "figure", kRecordsWord, before,
                before == after ? "others" : after);
   }

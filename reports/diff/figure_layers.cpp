@@ -14,7 +14,7 @@ std::string_view name_in(const Names& names, Enum value) {
   return names[static_cast<std::size_t>(value)];
 }
 
-std::string number(double value) { return fmt::format("{}", value); }
+std::string layer_number(double value) { return fmt::format("{}", value); }
 std::string yes_or_no(bool value) { return value ? "yes" : "no"; }
 std::string range(const Range& range) { return fmt::format("{} to {}", range.low, range.high); }
 
@@ -24,7 +24,7 @@ struct Viewer {
             .label = l.label,
             .looks = {{"colour", std::string(name(l.ink))},
                       {"dash", std::string(name(l.dash))},
-                      {"width", number(l.width)},
+                      {"width", layer_number(l.width)},
                       {"marker", std::string(name(l.marker))}},
             .coordinates = {{"x", l.x}, {"y", l.y}},
             .places = {{0, 1}},
@@ -50,7 +50,7 @@ struct Viewer {
             .looks = {{"colour", std::string(name(l.ink))},
                       {"marker", std::string(name(l.marker))},
                       {"filled", yes_or_no(l.filled)},
-                      {"size", number(l.size)}},
+                      {"size", layer_number(l.size)}},
             .coordinates = {{"x", l.x}, {"y", l.y}},
             .places = {{0, 1}},
             .extents = {},
@@ -62,7 +62,7 @@ struct Viewer {
             .label = l.label,
             .looks = {{"colour", std::string(name(l.ink))},
                       {"dash", std::string(name(l.dash))},
-                      {"width", number(l.width)},
+                      {"width", layer_number(l.width)},
                       {"arrow", yes_or_no(l.arrow)}},
             .coordinates = {{"x0", l.x0}, {"y0", l.y0}, {"x1", l.x1}, {"y1", l.y1}},
             .places = {{0, 1}, {2, 3}},
@@ -87,7 +87,7 @@ struct Viewer {
                       {"fill", std::string(name_in(figure_json::kFills, l.fill))},
                       {"outlined", yes_or_no(l.outlined)},
                       {"dash", std::string(name(l.dash))},
-                      {"width", number(l.width)}},
+                      {"width", layer_number(l.width)}},
             .coordinates = {{"x", l.x}, {"y", l.y}},
             .places = {{0, 1}},
             .extents = {},
@@ -101,7 +101,7 @@ struct Viewer {
             .looks = {{"colour", std::string(name(l.ink))},
                       {"fill", std::string(name_in(figure_json::kFills, l.fill))},
                       {"dash", std::string(name(l.dash))},
-                      {"width", number(l.width)}},
+                      {"width", layer_number(l.width)}},
             .coordinates = {{"x", l.x}, {"y", l.y}, {"a", l.a}, {"b", l.b}, {"turn", l.turn_rad}},
             .places = {{0, 1}},
             .extents = {},
@@ -114,7 +114,7 @@ struct Viewer {
             .looks = {{"limits of the ramp", range(l.limits)},
                       {"ramp", std::string(name_in(figure_json::kRamps, l.ramp))},
                       {"colour", std::string(name(l.ink))},
-                      {"columns", number(static_cast<double>(l.columns))}},
+                      {"columns", layer_number(static_cast<double>(l.columns))}},
             .coordinates = {{"value", l.values}},
             .places = {},
             .extents = {{"left edge", l.x.low},
@@ -139,7 +139,7 @@ struct Viewer {
   LayerView operator()(const Picture& l) const {
     return {.kind = "picture",
             .label = "",
-            .looks = {{"source", number(static_cast<double>(l.source))}},
+            .looks = {{"source", layer_number(static_cast<double>(l.source))}},
             .coordinates = {{"x", l.clear_x}, {"y", l.clear_y}, {"half a side", l.clear_by}},
             .places = {{0, 1}},
             .extents = {{"left edge", l.x.low},

@@ -8,14 +8,14 @@
 namespace mapproof {
 namespace {
 
-constexpr std::size_t kMost = 200;
+constexpr std::size_t kMostEntries = 200;
 
 void keep_farthest(std::vector<MarkMove>& moves) {
   const auto far = [](const MarkMove& move) {
     return std::pair(move.distance_px.value_or(0.0), move.distance);
   };
   std::ranges::stable_sort(moves, std::ranges::greater(), far);
-  if (moves.size() > kMost) moves.resize(kMost);
+  if (moves.size() > kMostEntries) moves.resize(kMostEntries);
 }
 
 }  // namespace
@@ -30,7 +30,7 @@ void FigureLog::change(ChangeKind kind, const std::string& place, std::string_vi
   ++diff_.total_changes;
   // Of each kind the first ones, so that many of one do not hide another.
   const auto same_kind = std::ranges::count(diff_.changes, kind, &FigureChange::kind);
-  if (same_kind < static_cast<std::ptrdiff_t>(kMost))
+  if (same_kind < static_cast<std::ptrdiff_t>(kMostEntries))
     diff_.changes.push_back({kind, place, std::string(what), baseline, current});
 }
 
@@ -41,7 +41,7 @@ void FigureLog::move(MarkMove move) {
   }
   ++diff_.moved;
   diff_.moves.push_back(std::move(move));
-  if (diff_.moves.size() > 8 * kMost) keep_farthest(diff_.moves);
+  if (diff_.moves.size() > 8 * kMostEntries) keep_farthest(diff_.moves);
 }
 
 void FigureLog::errors(double baseline, double current, double count) {
@@ -58,7 +58,7 @@ FigureDiff FigureLog::take() {
   }
   const auto kind = [](const FigureChange& change) { return -static_cast<int>(change.kind); };
   std::ranges::stable_sort(diff_.changes, {}, kind);
-  if (diff_.changes.size() > kMost) diff_.changes.resize(kMost);
+  if (diff_.changes.size() > kMostEntries) diff_.changes.resize(kMostEntries);
   keep_farthest(diff_.moves);
   return std::move(diff_);
 }

@@ -12,7 +12,7 @@
 namespace mapproof {
 namespace {
 
-constexpr std::size_t kMostWords = 60;  // Characters of a value in a sentence.
+constexpr std::size_t kMostValueText = 60;  // Characters of a value in a sentence.
 
 /// "41 mm", "1.2 m"; other units as they are.
 std::string length_text(double length, const std::string& unit) {
@@ -21,7 +21,7 @@ std::string length_text(double length, const std::string& unit) {
 }
 
 std::string change_sentence(const FigureChange& change) {
-  const auto [before, after] = excerpts(change.baseline, change.current, kMostWords);
+  const auto [before, after] = excerpts(change.baseline, change.current, kMostValueText);
   std::string text = change.place + ": " + change.what;
   if (change.baseline.empty() && change.current.empty()) return text;
   if (change.current.empty()) return text + " (was " + before + ")";

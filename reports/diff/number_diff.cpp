@@ -14,9 +14,9 @@
 namespace mapproof {
 namespace {
 
-using Json = nlohmann::json;
+using ParsedJson = nlohmann::json;
 
-constexpr std::size_t kMostWords = 60;  // Of a value that is told.
+constexpr std::size_t kMostNumberText = 60;  // Of a value that is told.
 
 /// What keys are of that do not have a quantity's name.
 struct KeyQuantity {
@@ -31,26 +31,26 @@ constexpr std::array kKeys = {KeyQuantity{"estimate", "landmark_m"},
                               KeyQuantity{"error_m", "path_m"},
                               KeyQuantity{"positions_m", "path_m"}};
 
-std::string shown(const Json& value) {
-  if (value.is_string()) return printable(value.get<std::string>(), kMostWords);
+std::string shown(const ParsedJson& value) {
+  if (value.is_string()) return printable(value.get<std::string>(), kMostNumberText);
   if (value.is_structured())
     return fmt::format("{} of {}", value.is_array() ? "an array" : "an object", value.size());
-  return value.dump(-1, ' ', false, Json::error_handler_t::replace);
+  return value.dump(-1, ' ', false, ParsedJson::error_handler_t::replace);
 }
 
-double largest(const Json& value) {
+double largest(const ParsedJson& value) {
   if (value.is_number()) return std::abs(value.get<double>());
   double most = 0.0;
   if (value.is_array())
-    for (const Json& item : value) most = std::max(most, largest(item));
+    for (const ParsedJson& item : value) most = std::max(most, largest(item));
   return most;
 }
 
-class Comparer {
+class NumberComparer {
  public:
-  Comparer(const Tolerances& tolerances, OtherDiff& diff) : tolerances_(tolerances), diff_(diff) {}
+  NumberComparer(const Tolerances& tolerances, OtherDiff& diff) : tolerances_(tolerances), diff_(diff) {}
 
-  void compare(const Json& a, const Json& b, const std::string& pointer,
+  void compare(const ParsedJson& a, const ParsedJson& b, const std::string& pointer,
                const Tolerance& tolerance) {
     if (a.is_number() && b.is_number()) return number(a, b, pointer, tolerance);
     if (a.is_string() && b.is_string()) return text(a, b, pointer, tolerance);
@@ -69,20 +69,20 @@ class Comparer {
   }
 
  private:
-  void beyond(const Json& a, const Json& b, const std::string& place, bool shape) {
+  void beyond(const ParsedJson& a, const ParsedJson& b, const std::string& place, bool shape) {
     if (diff_.first.empty()) {
       diff_.first = place.empty() ? "/" : place;
       diff_.baseline = shown(a);
       diff_.current = shown(b);
       if (a.is_string() && b.is_string())
         std::tie(diff_.baseline, diff_.current) =
-            excerpts(a.get<std::string>(), b.get<std::string>(), kMostWords);
+            excerpts(a.get<std::string>(), b.get<std::string>(), kMostNumberText);
     }
     diff_.shape |= shape;
     if (!shape) ++diff_.beyond;
   }
 
-  void number(const Json& a, const Json& b, const std::string& place, const Tolerance& tolerance) {
+  void number(const ParsedJson& a, const ParsedJson& b, const std::string& place, const Tolerance& tolerance) {
     ++diff_.numbers;
     const double first = a.get<double>(), second = b.get<double>();
     if (first == second) return;
@@ -92,21 +92,21 @@ class Comparer {
       beyond(a, b, place, false);
   }
 
-  void text(const Json& a, const Json& b, const std::string& place, const Tolerance& tolerance) {
+  void text(const ParsedJson& a, const ParsedJson& b, const std::string& place, const Tolerance& tolerance) {
     const TextChange change =
         text_change(a.get_ref<const std::string&>(), b.get_ref<const std::string&>(), tolerance);
     if (change == TextChange::kWithin) ++diff_.within;
     if (change > TextChange::kWithin) beyond(a, b, place, change == TextChange::kWords);
   }
 
-  void array(const Json& a, const Json& b, const std::string& pointer, Tolerance tolerance) {
+  void array(const ParsedJson& a, const ParsedJson& b, const std::string& pointer, Tolerance tolerance) {
     if (a.size() != b.size()) return beyond(a, b, pointer, true);
     tolerance.absolute += tolerance.relative * largest(a);
     for (std::size_t i = 0; i < a.size(); ++i)
       compare(a[i], b[i], fmt::format("{}/{}", pointer, i), tolerance);
   }
 
-  void object(const Json& a, const Json& b, const std::string& pointer,
+  void object(const ParsedJson& a, const ParsedJson& b, const std::string& pointer,
               const Tolerance& tolerance) {
     const bool is_shape = a.contains("frame") && a["frame"] == "similarity";
     for (const auto& [key, value] : a.items()) {
@@ -121,7 +121,7 @@ class Comparer {
       if (!a.contains(key)) beyond("not there", value, pointer + "/" + key, true);
   }
 
-  Tolerance tolerance_at(const std::string& key, const Json& value, const Tolerance& outer) const {
+  Tolerance tolerance_at(const std::string& key, const ParsedJson& value, const Tolerance& outer) const {
     if (value.is_structured())  // Of scores there are numbers of the same names.
       for (const KeyQuantity& known : kKeys)
         if (known.key == key) return tolerance_of(*find_quantity(known.quantity), tolerances_);
@@ -146,7 +146,7 @@ OtherDiff number_diff(const std::string& name, const std::filesystem::path& base
                       const std::filesystem::path& current, const Tolerances& tolerances) {
   OtherDiff diff;
   diff.file = name;
-  Comparer comparer(tolerances, diff);
+  NumberComparer comparer(tolerances, diff);
   const Tolerance tolerance = tolerance_of(*find_quantity("other"), tolerances);
   const std::string before = read_file(baseline), after = read_file(current);
   if (baseline.extension() == ".json")

@@ -38,7 +38,7 @@ std::size_t number_end(std::string_view text, std::size_t at) {
   return end;
 }
 
-double number_of(std::string_view text) {
+double parsed_number(std::string_view text) {
   std::string plain(text);
   if (text.starts_with(kMinus)) plain.replace(0, kMinus.size(), "-");
   return std::strtod(plain.c_str(), nullptr);
@@ -60,7 +60,7 @@ std::vector<double> numbers_in(std::string_view text) {
   std::vector<double> numbers;
   for (std::size_t at = 0; at < text.size();) {
     const std::size_t end = number_end(text, at);
-    if (end > at) numbers.push_back(number_of(text.substr(at, end - at)));
+    if (end > at) numbers.push_back(parsed_number(text.substr(at, end - at)));
     at = end > at ? end : at + 1;
   }
   return numbers;

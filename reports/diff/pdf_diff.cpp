@@ -12,7 +12,7 @@ namespace mapproof {
 namespace {
 
 constexpr std::size_t kMostBytes = std::size_t{1} << 28;
-constexpr std::size_t kMostWords = 200;
+constexpr std::size_t kMostPdfText = 200;
 
 std::string problem_of(std::string_view bytes) {
   if (bytes.empty()) return "is empty";
@@ -27,7 +27,7 @@ std::string producer_of(std::string_view bytes) {
   const std::size_t at = bytes.find(kKey);
   if (at == std::string_view::npos) return "";
   const std::string_view rest = bytes.substr(at + kKey.size());
-  return printable(std::string(rest.substr(0, rest.find(" ("))), kMostWords);
+  return printable(std::string(rest.substr(0, rest.find(" ("))), kMostPdfText);
 }
 
 }  // namespace

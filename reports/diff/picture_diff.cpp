@@ -19,7 +19,7 @@
 namespace mapproof {
 namespace {
 
-constexpr std::size_t kMostBytes = std::size_t{1} << 28;
+constexpr std::size_t kMostPictureBytes = std::size_t{1} << 28;
 
 /// A PNG file, or why there is none.
 struct Side {
@@ -232,8 +232,8 @@ PictureDiff picture_diff(const std::filesystem::path& baseline,
                          const std::filesystem::path& current, const PictureOptions& options,
                          Image* heat) {
   if (const std::string problem = options.problem(); !problem.empty()) throw InvalidInput(problem);
-  const std::string before = read_file(baseline, kMostBytes);
-  const std::string after = read_file(current, kMostBytes);
+  const std::string before = read_file(baseline, kMostPictureBytes);
+  const std::string after = read_file(current, kMostPictureBytes);
   PictureDiff diff;
   diff.baseline_bytes = before.size();
   diff.current_bytes = after.size();

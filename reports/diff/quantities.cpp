@@ -2,14 +2,14 @@
 
 #include <algorithm>
 #include <array>
-#include <limits>
 
 #include <fmt/format.h>
+
+#include "core/base/not_finite.hpp"
 
 namespace mapproof {
 namespace {
 
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr auto kLower = Direction::kLowerIsBetter;
 constexpr auto kHigher = Direction::kHigherIsBetter;
 constexpr auto kNeither = Direction::kNeither;

@@ -1,15 +1,14 @@
 #include "reports/diff/record_points.hpp"
 
 #include <algorithm>
-#include <limits>
 
 #include "core/align/rigid.hpp"
+#include "core/base/not_finite.hpp"
 
 namespace mapproof {
 namespace {
 
 constexpr std::size_t kMostMoves = 20;
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 /// NaN in the same places, else equal numbers.
 bool equal(const Points& a, const Points& b) {

@@ -5,6 +5,7 @@
 #include <limits>
 #include <set>
 
+#include "core/base/not_finite.hpp"
 #include "reports/diff/record_points.hpp"
 
 namespace mapproof {
@@ -12,7 +13,6 @@ namespace {
 
 constexpr std::size_t kMostPairs = 20;
 constexpr int kLeastTested = 6;  // Below it, no p can be less than 0.05.
-constexpr double kNothing = std::numeric_limits<double>::quiet_NaN();
 
 using Values = std::map<std::string, double>;
 
@@ -38,7 +38,7 @@ std::map<std::string, std::vector<std::string>> lone_subjects(const RecordSet& s
 double mean(const std::vector<double>& values) {
   double sum = 0.0;
   for (const double value : values) sum += value;
-  return values.empty() ? kNothing : sum / static_cast<double>(values.size());
+  return values.empty() ? kNaN : sum / static_cast<double>(values.size());
 }
 
 double mean_of(const Values& values) {
@@ -118,7 +118,7 @@ struct Open {
 std::optional<double> value_of(const RecordSet& set, const Values& values, const std::string& run) {
   const auto found = values.find(run);
   if (found != values.end()) return found->second;
-  return run.empty() || set.runs.contains(run) ? std::optional(kNothing) : std::nullopt;
+  return run.empty() || set.runs.contains(run) ? std::optional(kNaN) : std::nullopt;
 }
 
 Open compare(const RecordSet& a, const RecordSet& b, const Values& before, const Values& after,

@@ -1,13 +1,13 @@
 #include "reports/diff/record_set.hpp"
 
 #include <fstream>
-#include <limits>
 #include <system_error>
 
 #include <fmt/format.h>
 
 #include "core/base/errors.hpp"
 #include "core/base/files.hpp"
+#include "core/base/not_finite.hpp"
 #include "core/json/json_cursor.hpp"
 #include "core/records/map_files.hpp"
 #include "core/records/slam_run_json.hpp"
@@ -21,8 +21,6 @@ namespace mapproof {
 namespace {
 
 namespace fs = std::filesystem;
-
-constexpr double kNothing = std::numeric_limits<double>::quiet_NaN();
 
 bool is_plain(const nlohmann::json& value) {
   if (!value.is_array()) return value.is_primitive();
@@ -124,11 +122,11 @@ void add_value(RecordSet& set, const std::string& subject, std::string_view quan
 
 void add_score(RecordSet& set, const std::string& subject, const std::string& run,
                const std::optional<Score>& score) {
-  add_value(set, subject, "mpe_m", run, score ? score->mpe_m : kNothing);
-  add_value(set, subject, "moe_percent", run, score ? score->moe_percent : kNothing);
-  add_value(set, subject, "mpe_all_fitted_m", run, score ? score->mpe_all_fitted_m : kNothing);
+  add_value(set, subject, "mpe_m", run, score ? score->mpe_m : kNaN);
+  add_value(set, subject, "moe_percent", run, score ? score->moe_percent : kNaN);
+  add_value(set, subject, "mpe_all_fitted_m", run, score ? score->mpe_all_fitted_m : kNaN);
   add_value(set, subject, "moe_unmirrored_percent", run,
-            score ? score->moe_unmirrored_percent : kNothing);
+            score ? score->moe_unmirrored_percent : kNaN);
 }
 
 void add_map(RecordSet& set, const std::string& id, const MapRecord& map) {

@@ -12,7 +12,7 @@
 namespace mapproof {
 namespace {
 
-constexpr std::size_t kMostNames = 3;
+constexpr std::size_t kMostRecordNames = 3;
 
 constexpr double kSignificant = 0.05;
 
@@ -45,7 +45,7 @@ bool tells_more(const Comparison& a, const Comparison& b) {
 std::string names_text(const std::vector<std::string>& names) {
   std::vector<std::string> shown;
   for (const std::string& name : names) shown.push_back(printable(name));
-  return listed(shown, kMostNames);
+  return listed(shown, kMostRecordNames);
 }
 
 /// One side of the records has what the other lacks.
@@ -152,7 +152,7 @@ void judge_others(const RecordDiff& diff, Judgement& whole, std::vector<std::str
       whole.verdict = heavier(whole.verdict, Verdict::kWithinTolerance);
     else if (whole.verdict <= Verdict::kWithinTolerance)  // Else scores say what it is worth.
       whole.verdict = Verdict::kChanged;
-    if (beyond && (causes.empty() || (lone && causes.size() < kMostNames)))
+    if (beyond && (causes.empty() || (lone && causes.size() < kMostRecordNames)))
       causes.push_back(other_text(other));
   }
 }
@@ -237,7 +237,7 @@ std::string settings_text(const RecordDiff& diff) {
     parts.push_back(fmt::format("{} {} \u2192 {}", printable(change.pointer.substr(1)),
                                 shown(change.baseline), shown(change.current)));
   }
-  std::string text = parts.empty() ? "" : listed(parts, kMostNames);
+  std::string text = parts.empty() ? "" : listed(parts, kMostRecordNames);
   if (!diff.same_seeds) text += text.empty() ? "other worlds" : ": other worlds";
   return text;
 }

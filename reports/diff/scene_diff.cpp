@@ -15,12 +15,12 @@
 namespace mapproof {
 namespace {
 
-using Json = nlohmann::json;
+using ParsedJson = nlohmann::json;
 
 constexpr std::array<std::string_view, 8> kData = {"points", "from",   "to",     "at",
                                                    "values", "levels", "limits", "triangles"};
 constexpr std::array<std::string_view, 4> kWords = {"title", "caption", "alt", "id"};
-constexpr std::size_t kMostNames = 3;
+constexpr std::size_t kMostSceneNames = 3;
 
 /// What a key of a part or of the scene is about. Lights and rules have `from` and `to` as well.
 ChangeKind kind_of(std::string_view key, std::string_view place) {
@@ -31,16 +31,16 @@ ChangeKind kind_of(std::string_view key, std::string_view place) {
   return ChangeKind::kStyle;
 }
 
-std::string text_of(const Json& value) {
+std::string text_of(const ParsedJson& value) {
   return value.is_string() ? value.get<std::string>()
-                           : value.dump(-1, ' ', false, Json::error_handler_t::replace);
+                           : value.dump(-1, ' ', false, ParsedJson::error_handler_t::replace);
 }
 
 class SceneComparer {
  public:
   SceneComparer(const FigureOptions& options, FigureLog& log) : options_(options), log_(log) {}
 
-  void compare(const Json& a, const Json& b, const std::string& place) {
+  void compare(const ParsedJson& a, const ParsedJson& b, const std::string& place) {
     for (const auto& [key, value] : a.items()) {
       if (key == "schema" || key == "records") continue;
       if (key == "parts" && place == "scene")
@@ -53,9 +53,9 @@ class SceneComparer {
   }
 
  private:
-  void compare_parts(const Json& a, const Json& b) {
+  void compare_parts(const ParsedJson& a, const ParsedJson& b) {
     for (std::size_t i = 0; i < std::max(a.size(), b.size()); ++i) {
-      const Json& part = i < a.size() ? a[i] : b[i];
+      const ParsedJson& part = i < a.size() ? a[i] : b[i];
       const std::string place = fmt::format("part {}, {}", i + 1, text_of(part.at("kind")));
       const bool both = i < a.size() && i < b.size() && a[i].at("kind") == b[i].at("kind");
       if (both)
@@ -66,7 +66,7 @@ class SceneComparer {
     }
   }
 
-  void compare_value(const Json& a, const Json& b, const std::string& place,
+  void compare_value(const ParsedJson& a, const ParsedJson& b, const std::string& place,
                      const std::string& key) {
     Difference difference;
     walk(a, b, difference);
@@ -88,7 +88,7 @@ class SceneComparer {
     std::string baseline, current;  ///< Of the first.
   };
 
-  void walk(const Json& a, const Json& b, Difference& difference) const {
+  void walk(const ParsedJson& a, const ParsedJson& b, Difference& difference) const {
     if (a == b) return;
     if (a.is_number() && b.is_number() &&
         options_.position.holds(a.get<double>(), b.get<double>())) {
@@ -110,7 +110,7 @@ class SceneComparer {
     if (difference.baseline == difference.current) difference.current += ", others";
   }
 
-  static std::string short_text(const Json& value) {
+  static std::string short_text(const ParsedJson& value) {
     if (value.is_structured()) return counted(static_cast<long long>(value.size()), "value");
     return text_of(value);
   }
@@ -119,7 +119,7 @@ class SceneComparer {
   FigureLog& log_;
 };
 
-Json parse(std::string_view text, const std::string& name, SceneWords& words) {
+ParsedJson parse(std::string_view text, const std::string& name, SceneWords& words) {
   const Scene scene = scene_from_json(text, name);
   for (const std::string& id : scene.record_ids)
     if (std::ranges::find(words.record_ids, id) == words.record_ids.end())
@@ -133,13 +133,13 @@ Json parse(std::string_view text, const std::string& name, SceneWords& words) {
 FigureDiff scene_diff(std::string_view baseline, const std::string& baseline_name,
                       std::string_view current, const std::string& current_name,
                       const FigureOptions& options, SceneWords& words) {
-  const Json a = parse(baseline, baseline_name, words);
-  const Json b = parse(current, current_name, words);
+  const ParsedJson a = parse(baseline, baseline_name, words);
+  const ParsedJson b = parse(current, current_name, words);
   FigureLog log(a.value("varies", false) && b.value("varies", false));
   if (a.at("records") != b.at("records"))
     log.change(ChangeKind::kData, "figure", kRecordsWord,
-               listed(a.at("records").get<std::vector<std::string>>(), kMostNames),
-               "others: " + listed(b.at("records").get<std::vector<std::string>>(), kMostNames));
+               listed(a.at("records").get<std::vector<std::string>>(), kMostSceneNames),
+               "others: " + listed(b.at("records").get<std::vector<std::string>>(), kMostSceneNames));
   SceneComparer(options, log).compare(a, b, "scene");
   return log.take();
 }

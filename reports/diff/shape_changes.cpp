@@ -4,7 +4,7 @@ namespace mapproof {
 namespace {
 
 // Found on the mutations of tests/reports/diff and on pictures by matplotlib with three hints.
-constexpr int kFewPixels = 4;         // That tell little of a tile;
+constexpr int kFewShapePixels = 4;         // That tell little of a tile;
 constexpr int kShapePixels = 8;       // of its shape.
 constexpr double kKeptLeft = 0.1;     // Of the difference, what a movement leaves of a kept shape.
 constexpr double kMoved = 0.45;       // Pixels beyond what a piece may be moved.
@@ -77,7 +77,7 @@ struct ShapeCounts {
   int right = 0, left = 0, down = 0, up = 0;  ///< Tiles that moved so.
 
   void add(const TileEvidence& tile, int x, int y) {
-    if (tile.beyond_noise >= kFewPixels) differing.add(x, y);
+    if (tile.beyond_noise >= kFewShapePixels) differing.add(x, y);
     if (tile.beyond_noise < kShapePixels) return;
     ++tiles;
     const bool is_copy = tile.kept.left < kCopiedLeft;

@@ -20,7 +20,7 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr std::size_t kLargestTable = std::size_t{1} << 26;  // Bytes.
-constexpr std::size_t kMostWords = 60;                       // Of a cell that is told.
+constexpr std::size_t kMostCellText = 60;                       // Of a cell that is told.
 constexpr std::array<std::string_view, 4> kVarying = {"durations", "sessions", "slam-seconds",
                                                       "slam-sessions"};
 
@@ -32,7 +32,7 @@ struct Rows {
   bool has_heading = false;
 };
 
-std::string trimmed(std::string_view text) {
+std::string trimmed_cell(std::string_view text) {
   const std::size_t first = text.find_first_not_of(" \t\r");
   if (first == std::string_view::npos) return "";
   return std::string(text.substr(first, text.find_last_not_of(" \t\r") - first + 1));
@@ -45,7 +45,7 @@ Row cells_of(std::string_view line, char separator) {
     while (end != std::string_view::npos && end > 0 && line[end - 1] == '\\')
       end = line.find(separator, end + 1);
     end = std::min(end, line.size());
-    cells.push_back(trimmed(line.substr(at, end - at)));
+    cells.push_back(trimmed_cell(line.substr(at, end - at)));
     at = end + 1;
   }
   return cells;
@@ -91,16 +91,16 @@ std::string place_of(const Rows& table, std::size_t row, std::size_t column) {
   const std::size_t label = table.has_heading && cells[0].empty() && cells.size() > 1 ? 1 : 0;
   std::string text = fmt::format("row {}", row + 1);
   if (row != table.heading && !cells[label].empty() && column != label)
-    text += " (" + printable(cells[label], kMostWords) + ")";
+    text += " (" + printable(cells[label], kMostCellText) + ")";
   const bool named = table.has_heading && column < table.rows[table.heading].size();
   return text + ", " +
-         (named ? printable(table.rows[table.heading][column], kMostWords)
+         (named ? printable(table.rows[table.heading][column], kMostCellText)
                 : fmt::format("cell {}", column + 1));
 }
 
-class Comparer {
+class TableComparer {
  public:
-  Comparer(const Rows& a, const Rows& b, const Tolerance& tolerance)
+  TableComparer(const Rows& a, const Rows& b, const Tolerance& tolerance)
       : a_(a), b_(b), tolerance_(tolerance) {}
 
   TableDiff compare() {
@@ -123,7 +123,7 @@ class Comparer {
   void note(const std::string& place, const std::string& before, const std::string& after) {
     if (!found_.cells.first.empty()) return;
     found_.cells.first = place;
-    std::tie(found_.cells.baseline, found_.cells.current) = excerpts(before, after, kMostWords);
+    std::tie(found_.cells.baseline, found_.cells.current) = excerpts(before, after, kMostCellText);
   }
 
   void compare_row(std::size_t row) {
@@ -162,7 +162,7 @@ bool varies(std::string_view table) { return std::ranges::find(kVarying, table) 
 TableDiff table_diff(const std::string& format, const fs::path& baseline, const fs::path& current,
                      const Tolerance& tolerance) {
   const Rows a = read_table(format, baseline), b = read_table(format, current);
-  TableDiff diff = Comparer(a, b, tolerance).compare();
+  TableDiff diff = TableComparer(a, b, tolerance).compare();
   diff.cells.file = baseline.filename().string();
   return diff;
 }

@@ -11,7 +11,7 @@ namespace mapproof {
 namespace {
 
 // A pixel is lost if the other picture lacks this share of the contrast around it.
-constexpr double kLostShare = 0.8;
+constexpr double kLostTileShare = 0.8;
 
 // Fewer pixels beyond noise show no shape.
 constexpr int kFewestShapePixels = 8;
@@ -45,7 +45,7 @@ int contrast_at(const PatchPair& pair, int c, int i) {
 bool is_lost(const PatchPair& pair, int i, double noise) {
   for (int c = 0; c < 3; ++c)
     if (const int gap = gap_at(pair, c, i);
-        gap > 1.25 * noise * kSmoothScale && gap > kLostShare * contrast_at(pair, c, i))
+        gap > 1.25 * noise * kSmoothScale && gap > kLostTileShare * contrast_at(pair, c, i))
       return true;
   return false;
 }

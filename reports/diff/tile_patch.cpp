@@ -39,7 +39,7 @@ std::int16_t most(std::int16_t a, std::int16_t b, std::int16_t c) { return std::
 // As types, so that each is inlined into its loops.
 constexpr auto kBinomial = [](auto... v) { return binomial(v...); };
 constexpr auto kLeast = [](auto... v) { return least(v...); };
-constexpr auto kMost = [](auto... v) { return most(v...); };
+constexpr auto kMostOfNine = [](auto... v) { return most(v...); };
 
 }  // namespace
 
@@ -57,7 +57,7 @@ void load_patch(const Image& image, int x0, int y0, Patch& patch) {
 
 void neighbour_bounds(const Plane& plane, Plane& low, Plane& high) {
   separable(plane, low, kLeast);
-  separable(plane, high, kMost);
+  separable(plane, high, kMostOfNine);
 }
 
 int PatchPair::difference(int cell) const {

@@ -1,10 +1,10 @@
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <utility>
 
 #include <fmt/format.h>
 
+#include "core/base/not_finite.hpp"
 #include "core/statistics/intervals.hpp"
 #include "core/statistics/robust_noise.hpp"
 #include "reports/history/regression_rules.hpp"
@@ -13,12 +13,11 @@
 namespace mapproof {
 namespace {
 
-constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
 constexpr std::size_t kMethodsForCommon = 4;
 
 double median_of(const std::vector<double>& values) {
   const RobustNoise noise = robust_noise(values);
-  return noise.values == 0 ? kNone : noise.median;
+  return noise.values == 0 ? kNaN : noise.median;
 }
 
 std::vector<double> picked(const std::vector<double>& values,
@@ -210,7 +209,7 @@ std::vector<NightSeries> memory_series(const StudyTrend& trend, const Regression
                      .floor = rules.memory_floor};
   bool known = false;
   for (const double mib : trend.peak_memory_mib) {
-    series.values.push_back(mib > 0.0 ? std::log(mib) : kNone);
+    series.values.push_back(mib > 0.0 ? std::log(mib) : kNaN);
     known = known || mib > 0.0;
   }
   return known ? std::vector{series} : std::vector<NightSeries>{};

@@ -9,6 +9,7 @@
 #include <fmt/format.h>
 
 #include "core/base/errors.hpp"
+#include "core/base/not_finite.hpp"
 #include "reports/history/schema.hpp"
 #include "reports/history/whole_database.hpp"
 
@@ -236,12 +237,11 @@ void HistoryStore::append(const Night& night) {
 }
 
 void HistoryStore::append_study(int night, const StudyNight& study) {
-  constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
   Statement insert(*database_,
                    "INSERT INTO studies (night, name, kind, order_digest, runs, seconds, "
                    "peak_memory_mib) VALUES (?, ?, ?, ?, ?, ?, ?)");
   insert.bind(night).bind(study.name).bind(study.kind).bind(study.order_digest).bind(study.runs);
-  insert.bind(study.seconds.value_or(kNone)).bind(study.peak_memory_mib.value_or(kNone)).run();
+  insert.bind(study.seconds.value_or(kNaN)).bind(study.peak_memory_mib.value_or(kNaN)).run();
   const std::int64_t id = database_->last_row();
 
   Statement find_series(*database_,

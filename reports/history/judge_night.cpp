@@ -2,16 +2,14 @@
 
 #include <algorithm>
 #include <iterator>
-#include <limits>
 
 #include <fmt/format.h>
 
 #include "core/base/errors.hpp"
+#include "core/base/not_finite.hpp"
 
 namespace mapproof {
 namespace {
-
-constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
 
 void append(RuleOutcome& all, RuleOutcome more) {
   std::ranges::move(more.findings, std::back_inserter(all.findings));
@@ -54,14 +52,14 @@ StudyEvidence evidence_of(HistoryStore& store, const Night& tonight, const Study
 void add_tonight(StudyTrend& trend, const NightFacts& facts, const StudyNight& study) {
   const std::size_t before = trend.nights.size();
   trend.nights.push_back(facts);
-  trend.peak_memory_mib.push_back(study.peak_memory_mib.value_or(kNone));
+  trend.peak_memory_mib.push_back(study.peak_memory_mib.value_or(kNaN));
   const auto add = [&](auto& all, const auto& value_of) {
-    for (const auto& [series, values] : study.scores) all.try_emplace(series, before, kNone);
+    for (const auto& [series, values] : study.scores) all.try_emplace(series, before, kNaN);
     for (auto& [series, of_nights] : all) {
       if (of_nights.size() != before)
         throw InvalidInput("add_tonight: a series has another number of nights");
       const auto found = study.scores.find(series);
-      of_nights.push_back(found == study.scores.end() ? kNone : value_of(series, found->second));
+      of_nights.push_back(found == study.scores.end() ? kNaN : value_of(series, found->second));
     }
   };
   add(trend.medians, [](const SeriesId&, const auto& values) { return known_median(values); });

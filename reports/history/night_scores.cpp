@@ -9,6 +9,7 @@
 #include <fmt/format.h>
 
 #include "core/base/files.hpp"
+#include "core/base/not_finite.hpp"
 #include "core/base/sha256.hpp"
 #include "core/json/json_cursor.hpp"
 #include "core/json/json_text.hpp"
@@ -20,8 +21,6 @@
 namespace mapproof {
 namespace {
 
-constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
-
 std::string unit_of(const RunId& run) { return fmt::format("layout-{}", run.layout); }
 
 /// Adds the four numbers of a map's score.
@@ -29,7 +28,7 @@ void add_score(Scores& scores, SeriesId series, const std::string& run, const st
                const std::optional<Score>& score) {
   const auto add = [&](const char* quantity, double Score::*field) {
     series.quantity = quantity;
-    scores[series].push_back({run, unit, score ? (*score).*field : kNone});
+    scores[series].push_back({run, unit, score ? (*score).*field : kNaN});
   };
   add("mpe_m", &Score::mpe_m);
   add("moe_percent", &Score::moe_percent);
@@ -64,11 +63,11 @@ void add_log(Scores& scores, const SlamRun& run) {
     const std::string method(info(record.method).name);
     const TrajectoryError* error = record.errors.empty() ? nullptr : &record.errors.front();
     add_value(scores, {kind, method, 0, "path_mean_m"}, run.id,
-              error != nullptr ? error->mean_m : kNone);
+              error != nullptr ? error->mean_m : kNaN);
     add_value(scores, {kind, method, 0, "path_rmse_m"}, run.id,
-              error != nullptr ? error->rmse_m : kNone);
+              error != nullptr ? error->rmse_m : kNaN);
     add_value(scores, {kind, method, 0, "landmarks_m"}, run.id,
-              error != nullptr ? error->landmarks_m.value_or(kNone) : kNone);
+              error != nullptr ? error->landmarks_m.value_or(kNaN) : kNaN);
   }
 }
 

@@ -3,6 +3,7 @@
 #include <cstddef>
 #include <optional>
 #include <string>
+#include <utility>
 #include <variant>
 #include <vector>
 
@@ -22,6 +23,12 @@ struct Phrase {
   std::string text;
   Emphasis emphasis = Emphasis::kPlain;
 };
+
+/// Words set as the text around them.
+inline Phrase phrase(std::string text) { return {std::move(text), Emphasis::kPlain}; }
+
+/// Words that stand out.
+inline Phrase strong(std::string text) { return {std::move(text), Emphasis::kStrong}; }
 
 struct Paragraph {
   std::vector<Phrase> phrases;

@@ -1,8 +1,8 @@
 #include <algorithm>
-#include <limits>
 
 #include <fmt/format.h>
 
+#include "core/base/not_finite.hpp"
 #include "reports/sections/cells.hpp"
 #include "reports/sections/study_tables.hpp"
 #include "reports/sections/wording.hpp"
@@ -10,7 +10,6 @@
 namespace mapproof {
 namespace {
 
-constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 constexpr const char* kMpe = "MPE";
 constexpr const char* kMoe = "MOE";
 constexpr const char* kInterval = "Of the mean; layouts are the units.";
@@ -44,8 +43,8 @@ void add_error_columns(std::vector<Column>& columns, bool published) {
 
 void add_error_cells(std::vector<Cell>& cells, const SettingSummary& s, bool published,
                      int decimals) {
-  const double paper_mpe = s.published ? s.published->mpe_m : kNan;
-  const double paper_moe = s.published ? s.published->moe_percent : kNan;
+  const double paper_mpe = s.published ? s.published->mpe_m : kNaN;
+  const double paper_moe = s.published ? s.published->moe_percent : kNaN;
   cells.push_back(mean_cell(s.mpe_m, decimals));
   cells.push_back(interval_cell(s.mpe_m, decimals));
   if (published) {

@@ -10,6 +10,7 @@
 #include <fmt/format.h>
 
 #include "core/base/errors.hpp"
+#include "core/base/not_finite.hpp"
 #include "core/base/words.hpp"
 #include "core/statistics/intervals.hpp"
 #include "render/figures/map_ellipses.hpp"
@@ -20,12 +21,6 @@ namespace mapproof {
 namespace {
 
 using Eigen::Index;
-
-constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
-
-bool is_anchor(const MapRecord& record, Index row) {
-  return std::ranges::find(record.anchors, row) != record.anchors.end();
-}
 
 Table ellipse_table(const MapRecord& record, const std::vector<std::optional<Ellipse>>& ellipses) {
   const std::string unit = record.frame == Frame::kTruth ? "m" : "";
@@ -45,11 +40,11 @@ Table ellipse_table(const MapRecord& record, const std::vector<std::optional<Ell
   });
   for (const std::size_t i : order) {
     const std::optional<Ellipse>& ellipse = ellipses[i];
-    const double turn = ellipse ? ellipse->turn_rad * 180.0 / std::numbers::pi : kUnknown;
+    const double turn = ellipse ? ellipse->turn_rad * 180.0 / std::numbers::pi : kNaN;
     Row row;
     row.cells = {TextCell{record.names[i], Emphasis::kData},
-                 NumberCell{ellipse ? ellipse->a : kUnknown, 3},
-                 NumberCell{ellipse ? ellipse->b : kUnknown, 3}, NumberCell{turn, 0},
+                 NumberCell{ellipse ? ellipse->a : kNaN, 3},
+                 NumberCell{ellipse ? ellipse->b : kNaN, 3}, NumberCell{turn, 0},
                  TextCell{is_anchor(record, static_cast<Index>(i)) ? "yes" : "no"}};
     row.source = record.id;
     table.rows.push_back(std::move(row));

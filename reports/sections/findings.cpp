@@ -18,9 +18,6 @@ namespace {
 
 constexpr std::size_t kMostNamed = 4;
 
-Phrase words(std::string text) { return {std::move(text), Emphasis::kPlain}; }
-Phrase strong(std::string text) { return {std::move(text), Emphasis::kStrong}; }
-
 std::string percent(double value, int decimals = 2) {
   return format_number(value, decimals) + " %";
 }
@@ -53,19 +50,19 @@ Paragraph best_finding(std::span<const SettingSummary> methods) {
   const SettingSummary& best = *best_of(methods);
   Paragraph text;
   text.phrases.push_back(strong(title_of(best.sensor)));
-  text.phrases.push_back(words(fmt::format(": after {} observations ", best.step)));
+  text.phrases.push_back(phrase(fmt::format(": after {} observations ", best.step)));
   text.phrases.push_back(strong(label(best.setting)));
-  text.phrases.push_back(words(fmt::format(
+  text.phrases.push_back(phrase(fmt::format(
       " is the most accurate of {}: MPE {}, MOE {}.", counted(std::ssize(methods), "method"),
       with_interval(*best.mpe_m), percent(best.moe_percent->mean))));
   if (best.published)
     text.phrases.push_back(
-        words(fmt::format(" The paper printed {} and {} for this method: ours differs by {}.",
+        phrase(fmt::format(" The paper printed {} and {} for this method: ours differs by {}.",
                           metres(best.published->mpe_m), percent(best.published->moe_percent),
                           relative(best.mpe_m->mean, best.published->mpe_m))));
   const SettingSummary* paper_best = best_published(methods);
   if (paper_best != nullptr && paper_best->setting.method != best.setting.method)
-    text.phrases.push_back(words(fmt::format(" The paper\u2019s best of these methods is {}, {}.",
+    text.phrases.push_back(phrase(fmt::format(" The paper\u2019s best of these methods is {}, {}.",
                                              label(paper_best->published->setting),
                                              metres(paper_best->published->mpe_m))));
   return text;
@@ -105,10 +102,10 @@ Paragraph order_finding(Sensor sensor, std::vector<SettingSummary> methods) {
   for (const SettingSummary& s : methods)
     order += fmt::format("{}{} ({})", order.empty() ? "" : " < ", method_label(s.setting.method),
                          metres(s.mpe_m->mean));
-  Paragraph text{{strong(title_of(sensor)), words(", by MPE: " + order + ".")}};
+  Paragraph text{{strong(title_of(sensor)), phrase(", by MPE: " + order + ".")}};
   std::erase_if(methods,
                 [](const SettingSummary& s) { return !s.published || !s.published->note.empty(); });
-  if (methods.size() >= 2) text.phrases.push_back(words(pairs_text(methods)));
+  if (methods.size() >= 2) text.phrases.push_back(phrase(pairs_text(methods)));
   return text;
 }
 
@@ -146,7 +143,7 @@ Paragraph agreement_finding(Sensor sensor, std::span<const SettingSummary> metho
                         label(farthest->setting), metres(farthest->mpe_m->mean),
                         metres(farthest->published->mpe_m));
   if (text.ends_with("; ")) text.replace(text.size() - 2, 2, ".");
-  return {{strong(title_of(sensor)), words(text)}};
+  return {{strong(title_of(sensor)), phrase(text)}};
 }
 
 /// "3 of 4 orderings hold: not SDE < SMACOF."
@@ -166,7 +163,7 @@ Paragraph ordering_finding(Sensor sensor, std::span<const OrderingClaim> claims)
       "0 out.",
       tried - std::ssize(broken), counted(tried, "ordering"), sure);
   if (!broken.empty()) text += " Not: " + in_series(broken) + ".";
-  return {{strong(title_of(sensor)), words(text)}};
+  return {{strong(title_of(sensor)), phrase(text)}};
 }
 
 }  // namespace
@@ -213,7 +210,7 @@ BulletList sensor_findings(const Study& study, const SensorStudy& sensor,
     findings.items.push_back(ordering_finding(which, claims));
   if (const std::string optimism = optimism_words(half_choices(study, sensor)); !optimism.empty())
     findings.items.push_back({{strong(title_of(which)),
-                               words(": the parameters are chosen by the runs that they are then "
+                               phrase(": the parameters are chosen by the runs that they are then "
                                      "judged by, as in the paper; " +
                                      optimism)}});
   return findings;

@@ -26,10 +26,6 @@ Index mapped_count(const MapRecord& record) {
   return count;
 }
 
-bool is_anchor(const MapRecord& record, Index row) {
-  return std::ranges::find(record.anchors, row) != record.anchors.end();
-}
-
 bool any_truth(const MapRecord& record) {
   return record.truth_m && record.truth_m->array().isFinite().any();
 }

@@ -2,18 +2,16 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <map>
 #include <tuple>
 
 #include <fmt/format.h>
 
+#include "core/base/not_finite.hpp"
 #include "reports/sections/run_scores.hpp"
 
 namespace mapproof {
 namespace {
-
-constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 
 /// What the records of one setting at one step hold, value by value.
 struct Samples {
@@ -44,7 +42,7 @@ double mean_of_finite(std::span<const double> values) {
     sum += value;
     ++count;
   }
-  return count > 0 ? sum / count : kNan;
+  return count > 0 ? sum / count : kNaN;
 }
 
 std::optional<PublishedValue> published_for(const SensorStudy& sensor, Method method) {
@@ -142,12 +140,12 @@ int last_step(const SensorStudy& sensor) {
 }
 
 double mpe_difference_m(const SettingSummary& summary) {
-  if (!summary.mpe_m || !summary.published) return kNan;
+  if (!summary.mpe_m || !summary.published) return kNaN;
   return summary.mpe_m->mean - summary.published->mpe_m;
 }
 
 double moe_difference_percent(const SettingSummary& summary) {
-  if (!summary.moe_percent || !summary.published) return kNan;
+  if (!summary.moe_percent || !summary.published) return kNaN;
   return summary.moe_percent->mean - summary.published->moe_percent;
 }
 

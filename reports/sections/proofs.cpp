@@ -15,13 +15,13 @@ namespace mapproof {
 namespace {
 
 /// What the rows of the table are made for.
-struct Kind {
+struct ProofKind {
   Sensor sensor;
   Method method;
   double parameter;
   SdpSolver solver;
 
-  auto operator<=>(const Kind&) const = default;
+  auto operator<=>(const ProofKind&) const = default;
 };
 
 struct Proofs {
@@ -33,7 +33,7 @@ struct Proofs {
   std::string worst;  ///< Record of the largest gap.
 };
 
-using ProofsByKind = std::map<Kind, Proofs>;
+using ProofsByKind = std::map<ProofKind, Proofs>;
 
 std::string_view title_of_solver(SdpSolver solver) {
   switch (solver) {

@@ -16,9 +16,9 @@ namespace {
 constexpr std::size_t kPlacesShown = 5;
 
 /// Sensor, method, parameter: what statuses are counted by.
-using Kind = std::tuple<Sensor, Method, double>;
+using StatusKind = std::tuple<Sensor, Method, double>;
 
-Kind kind_of(const RunRecord& record) {
+StatusKind kind_of(const RunRecord& record) {
   return {record.sensor, record.setting.method, record.setting.parameter.value_or(0.0)};
 }
 
@@ -39,8 +39,8 @@ bool before(const StatusList::Item& a, const StatusList::Item& b) {
 }
 
 StatusList status_list(const Study& study) {
-  std::map<Kind, int> totals;
-  std::map<std::pair<Kind, StatusCode>, StatusList::Item> items;
+  std::map<StatusKind, int> totals;
+  std::map<std::pair<StatusKind, StatusCode>, StatusList::Item> items;
   for (const Run& run : study.runs)
     for (const RunRecord& record : run.records) {
       ++totals[kind_of(record)];

@@ -20,16 +20,13 @@ constexpr int kPaperPoses = 5;
 constexpr int kPaperSteps = 2000;
 constexpr int kPaperLandmarks = 50;
 
-Phrase words(std::string text) { return {std::move(text), Emphasis::kPlain}; }
-Phrase strong(std::string text) { return {std::move(text), Emphasis::kStrong}; }
-
 void add_sensor(const Study& study, const SensorStudy& sensor, BulletList& findings,
                 Highlights& highlights) {
   const auto methods = best_of_each_method(summarize(study, sensor, last_step(sensor)));
   const SettingSummary* best = best_of(methods);
   const std::string title = title_of(sensor.sensor.sensor);
   if (best == nullptr) {
-    findings.items.push_back({{strong(title), words(": no map could be scored.")}});
+    findings.items.push_back({{strong(title), phrase(": no map could be scored.")}});
     highlights.items.push_back({title + ", best MPE", kMissingText, "no map could be scored"});
     return;
   }
@@ -59,7 +56,7 @@ void add_ends(const Study& study, BulletList& findings, Highlights& highlights) 
                 ": of {}, {} without a score and {} with a status, all listed below with "
                 "the reason.",
                 maps, counts.unscored, counts.with_status);
-  findings.items.push_back({{strong("Failures"), words(text)}});
+  findings.items.push_back({{strong("Failures"), phrase(text)}});
 }
 
 /// In what the study is smaller than the paper's; empty if in nothing.

@@ -76,7 +76,7 @@ std::string_view ascii(char c) {
   }
 }
 
-std::string escaped(const std::string& raw) {
+std::string escaped_latex(const std::string& raw) {
   const std::string text = displayable(raw);
   std::string out;
   for (std::size_t at = 0; at < text.size();) {
@@ -101,7 +101,7 @@ std::string heading(const Table& table, std::size_t index) {
   const Column& column = table.columns[index];
   const std::string title =
       column.unit.empty() ? column.title : column.title + " [" + column.unit + "]";
-  if (table.columns.size() < kManyColumns || title.size() <= kShortHeading) return escaped(title);
+  if (table.columns.size() < kManyColumns || title.size() <= kShortHeading) return escaped_latex(title);
   std::string lines;
   std::size_t length = 0;  ///< Of the last line.
   for (std::size_t at = 0; at < title.size();) {
@@ -110,7 +110,7 @@ std::string heading(const Table& table, std::size_t index) {
     const bool fits = length > 0 && length + 1 + word.size() <= kShortHeading;
     if (length > 0) lines += fits ? " " : "\\\\";
     length = fits ? length + 1 + word.size() : word.size();
-    lines += escaped(word);
+    lines += escaped_latex(word);
     at = end + 1;
   }
   return fmt::format("\\shortstack[{}]{{{}}}", holds_text(table, index) ? 'l' : 'r', lines);
@@ -130,7 +130,7 @@ std::string group_line(const Table& table) {
       for (std::size_t k = i + 1; k < end; ++k) line += "& ";
     } else {
       any = true;
-      line += fmt::format("\\multicolumn{{{}}}{{c}}{{{}}}", end - i, escaped(columns[i].group));
+      line += fmt::format("\\multicolumn{{{}}}{{c}}{{{}}}", end - i, escaped_latex(columns[i].group));
       rules += fmt::format("\\cmidrule(lr){{{}-{}}}", i + 1, end);
     }
     i = end;
@@ -152,20 +152,20 @@ TableLines latex_lines(const Table& table) {
   lines.head =
       fmt::format("\\begin{{table}}\n  \\centering\n  \\{}\n  \\setlength{{\\tabcolsep}}{{{}pt}}\n",
                   tight ? "scriptsize" : "footnotesize", tight ? 2 : 3) +
-      "  \\caption{" + escaped(table.caption) + "}\n  \\label{tab:" + table.id +
+      "  \\caption{" + escaped_latex(table.caption) + "}\n  \\label{tab:" + table.id +
       "}\n  \\makebox[\\linewidth]{\\begin{tabular}{" + format + "}\n  \\toprule\n" +
       group_line(table) + "  " + titles + " \\\\\n  \\midrule\n";
   for (const Row& row : table.rows) {
     std::string line;
     for (std::size_t i = 0; i < row.cells.size(); ++i) {
-      const std::string cell = escaped(format_cell(row.cells[i]));
+      const std::string cell = escaped_latex(format_cell(row.cells[i]));
       line += (i > 0 ? " & " : "") + (row.marked ? "\\textbf{" + cell + "}" : cell);
     }
     lines.rows.push_back("  " + line + " \\\\\n");
   }
   lines.tail = "  \\bottomrule\n  \\end{tabular}}\n";
   for (const std::string& note : table.notes)
-    lines.tail += "  \\par\\smallskip{\\footnotesize\\raggedright " + escaped(note) + "\\par}\n";
+    lines.tail += "  \\par\\smallskip{\\footnotesize\\raggedright " + escaped_latex(note) + "\\par}\n";
   lines.tail += "\\end{table}\n";
   return lines;
 }

@@ -7,7 +7,7 @@ namespace mapproof {
 namespace {
 
 /// What Markdown or the HTML in it would read as its own, as character references or escapes.
-std::string escaped(const std::string& text) {
+std::string escaped_markdown(const std::string& text) {
   std::string out;
   for (const char c : displayable(text)) {
     switch (c) {
@@ -36,15 +36,15 @@ std::string escaped(const std::string& text) {
 
 /// Words are escaped; numbers need none ("+0.01" and "1.00e+07" are read as they stand).
 std::string cell_text(const Cell& cell) {
-  if (const auto* text = std::get_if<TextCell>(&cell)) return escaped(text->text);
+  if (const auto* text = std::get_if<TextCell>(&cell)) return escaped_markdown(text->text);
   return format_cell(cell);
 }
 
 }  // namespace
 
 std::string table_markdown(const Table& table) {
-  std::string text = "**" + escaped(table.caption) + "**\n\n|";
-  for (const Column& column : table.columns) text += " " + escaped(full_heading(column)) + " |";
+  std::string text = "**" + escaped_markdown(table.caption) + "**\n\n|";
+  for (const Column& column : table.columns) text += " " + escaped_markdown(full_heading(column)) + " |";
   text += "\n|";
   for (std::size_t i = 0; i < table.columns.size(); ++i)
     text += holds_text(table, i) ? " :--- |" : " ---: |";
@@ -55,7 +55,7 @@ std::string table_markdown(const Table& table) {
       text += row.marked ? " **" + cell_text(cell) + "** |" : " " + cell_text(cell) + " |";
     text += '\n';
   }
-  for (const std::string& note : table.notes) text += "\n" + escaped(note) + "\n";
+  for (const std::string& note : table.notes) text += "\n" + escaped_markdown(note) + "\n";
   return text;
 }
 

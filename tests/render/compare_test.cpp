@@ -16,14 +16,14 @@
 namespace mapproof::test {
 namespace {
 
-Figure usual_map() { return map_figure(sample_map(20, 0.15, 2), "map"); }
+Figure map_to_compare() { return map_figure(sample_map(20, 0.15, 2), "map"); }
 
 Image drawn(const Figure& figure) { return to_image(lay_out(figure, baseline_theme())); }
 
 /// The picture of the usual map after a change to what is drawn.
 template <typename Change>
 Image changed_map(Change change) {
-  Drawing drawing = lay_out(usual_map(), baseline_theme());
+  Drawing drawing = lay_out(map_to_compare(), baseline_theme());
   change(drawing);
   return to_image(drawing);
 }
@@ -38,14 +38,14 @@ Image shifted(const Image& image, int by) {
 bool alike(const Image& a, const Image& b) { return is_alike(compare_images(a, b)); }
 
 TEST(ImageComparison, ADrawingIsLikeItself) {
-  const ImageDifference difference = compare_images(drawn(usual_map()), drawn(usual_map()));
+  const ImageDifference difference = compare_images(drawn(map_to_compare()), drawn(map_to_compare()));
   EXPECT_TRUE(difference.same_size);
   EXPECT_EQ(difference.changed_share, 0.0);
   EXPECT_EQ(difference.structure, 1.0);
 }
 
 TEST(ImageComparison, ForgivesSlightlyOtherSmoothing) {
-  const Image image = drawn(usual_map());
+  const Image image = drawn(map_to_compare());
   Image other = image;
   for (std::uint32_t& pixel : other.pixels)
     if ((pixel & 0xFF) > 8 && (pixel & 0xFF) < 0xF0) pixel -= 4;
@@ -53,7 +53,7 @@ TEST(ImageComparison, ForgivesSlightlyOtherSmoothing) {
 }
 
 TEST(ImageComparison, SeesAnotherSize) {
-  Image wide = drawn(usual_map());
+  Image wide = drawn(map_to_compare());
   Image narrow = wide;
   --narrow.height;
   EXPECT_FALSE(alike(wide, narrow));
@@ -61,7 +61,7 @@ TEST(ImageComparison, SeesAnotherSize) {
 }
 
 TEST(ImageComparison, SeesAShiftOfOnePixel) {
-  const Image image = drawn(usual_map());
+  const Image image = drawn(map_to_compare());
   EXPECT_FALSE(alike(image, shifted(image, 1)));
 }
 
@@ -70,7 +70,7 @@ TEST(ImageComparison, SeesAMissingMarker) {
     const auto marker = std::ranges::find(drawing.items, Role::kMarker, &Item::role);
     drawing.items.erase(marker);
   });
-  EXPECT_FALSE(alike(drawn(usual_map()), missing));
+  EXPECT_FALSE(alike(drawn(map_to_compare()), missing));
 }
 
 TEST(ImageComparison, SeesSwappedColours) {
@@ -94,7 +94,7 @@ TEST(ImageComparison, SeesOneMarkerOfAnotherColour) {
         return;
       }
   });
-  EXPECT_FALSE(alike(drawn(usual_map()), recoloured));
+  EXPECT_FALSE(alike(drawn(map_to_compare()), recoloured));
 }
 
 TEST(ImageComparison, SeesADroppedLegendEntry) {
@@ -102,13 +102,13 @@ TEST(ImageComparison, SeesADroppedLegendEntry) {
     const auto text = std::ranges::find(drawing.items, Role::kLegendText, &Item::role);
     drawing.items.erase(text);
   });
-  EXPECT_FALSE(alike(drawn(usual_map()), dropped));
+  EXPECT_FALSE(alike(drawn(map_to_compare()), dropped));
 }
 
 TEST(ImageComparison, SeesAnotherDigit) {
-  Figure other = usual_map();
+  Figure other = map_to_compare();
   other.notes[0].text.replace(other.notes[0].text.find("4.70"), 4, "4.76");
-  EXPECT_FALSE(alike(drawn(usual_map()), drawn(other)));
+  EXPECT_FALSE(alike(drawn(map_to_compare()), drawn(other)));
 }
 
 TEST(PngEncoder, KeepsImagesOfFewColoursExactly) {

@@ -1,15 +1,12 @@
 #include "reports/sections/map_report.hpp"
 
-#include <limits>
-
 #include <gtest/gtest.h>
 
 #include "core/base/errors.hpp"
+#include "core/base/not_finite.hpp"
 
 namespace mapproof {
 namespace {
-
-constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 
 /// Three landmarks: right, 3-4-5 off, not mapped.
 MapRecord triangle() {
@@ -20,7 +17,7 @@ MapRecord triangle() {
   record.step = 10;
   record.names = {"a", "b", "c"};
   record.estimate.resize(3, 2);
-  record.estimate << 0, 0, 3, 4, kNan, kNan;
+  record.estimate << 0, 0, 3, 4, kNaN, kNaN;
   record.truth_m = Points(3, 2);
   *record.truth_m << 0, 0, 0, 0, 1, 1;
   record.anchors = {0};
@@ -66,13 +63,13 @@ TEST(MapReport, HasNoErrorsWithoutTruthAndNoMetresWithoutAnchors) {
 
 TEST(MapReport, SaysOnlyErrorsThatAreKnown) {
   MapRecord record = triangle();
-  record.score = Score{kNan, kNan, 0.31, 4.2};
+  record.score = Score{kNaN, kNaN, 0.31, 4.2};
   const Report report = report_of(record);
   const auto& items = std::get<Highlights>(report.sections[0].blocks[0]).items;
   EXPECT_EQ(items[1].value, "0.310 m");
   EXPECT_EQ(items[1].detail, "mean position error, after the best affine fit to all landmarks");
   EXPECT_EQ(items[2].value, "4.20 %");
-  record.score = Score{kNan, kNan, kNan, kNan};
+  record.score = Score{kNaN, kNaN, kNaN, kNaN};
   const Report unknown = report_of(record);
   for (const auto& item : std::get<Highlights>(unknown.sections[0].blocks[0]).items) {
     EXPECT_EQ(item.value.find("nan"), std::string::npos) << item.label;

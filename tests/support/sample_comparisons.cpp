@@ -72,7 +72,7 @@ void add_distances(std::vector<Figure>& figures) {
   figures.push_back(spectrum_figure(with_id(sample_spectra(0), "spectrum-none")));
 }
 
-void add_maps(std::vector<Figure>& figures) {
+void add_map_comparisons(std::vector<Figure>& figures) {
   figures.push_back(film_strip_figure(with_id(sample_maps(10), "film-usual")));
   figures.push_back(film_strip_figure(with_id(sample_maps(4), "film-four")));
   figures.push_back(film_strip_figure(with_id(sample_maps(1), "film-one")));
@@ -277,7 +277,7 @@ std::vector<Figure> sample_comparison_figures() {
   add_ranks(figures);
   add_runs(figures);
   add_distances(figures);
-  add_maps(figures);
+  add_map_comparisons(figures);
   add_errors(figures);
   return figures;
 }

@@ -21,15 +21,15 @@
 namespace mapproof::test {
 namespace {
 
-constexpr double kRoom_m = 2.5;
+constexpr double kSceneRoom_m = 2.5;
 
 Points spiral(int steps) {
   Points path(steps, 2);
   for (int i = 0; i < steps; ++i) {
     const double share = static_cast<double>(i) / steps;
     const double radius = 0.2 + share;
-    path.row(i) << kRoom_m / 2.0 + radius * std::cos(20.0 * share),
-        kRoom_m / 2.0 + radius * std::sin(20.0 * share);
+    path.row(i) << kSceneRoom_m / 2.0 + radius * std::cos(20.0 * share),
+        kSceneRoom_m / 2.0 + radius * std::sin(20.0 * share);
   }
   return path;
 }
@@ -38,8 +38,8 @@ Points spiral(int steps) {
 Points walk(int steps) {
   Points path(steps, 2);
   for (int i = 0; i < steps; ++i)
-    path.row(i) << kRoom_m / 2.0 + 1.15 * std::sin(0.0701 * i),
-        kRoom_m / 2.0 + 1.15 * std::sin(0.0533 * i + 0.4);
+    path.row(i) << kSceneRoom_m / 2.0 + 1.15 * std::sin(0.0701 * i),
+        kSceneRoom_m / 2.0 + 1.15 * std::sin(0.0533 * i + 0.4);
   return path;
 }
 
@@ -50,7 +50,7 @@ WorldSceneSpec world_spec(const std::string& id, double error_m) {
                       .world = {},
                       .path_m = spiral(400),
                       .map = sample_map(50, error_m, 7)};
-  spec.world = {kRoom_m, 0.048, *spec.map.truth_m};
+  spec.world = {kSceneRoom_m, 0.048, *spec.map.truth_m};
   return spec;
 }
 
@@ -72,7 +72,7 @@ Scene bent_sheet() {
   spec.title = "Observation manifold";
   spec.caption = "Principal coordinates of a bent sheet.";
   spec.truth_m = *map.truth_m;
-  spec.side_m = kRoom_m;
+  spec.side_m = kSceneRoom_m;
   spec.record_ids = {"r/1"};
   spec.manifold.shares = {0.48, 0.44, 0.05};
   spec.manifold.neighbours = 4;
@@ -99,7 +99,7 @@ FormingSceneSpec forming_spec() {
     spec.maps.back().step = 200 * i;
     spec.maps.back().id += fmt::format("/{}", i);
   }
-  spec.world = {kRoom_m, 0.048, *spec.maps[0].truth_m};
+  spec.world = {kSceneRoom_m, 0.048, *spec.maps[0].truth_m};
   return spec;
 }
 
@@ -203,7 +203,7 @@ std::vector<Scene> sample_scenes() {
       world_scene(world_spec("world-plan", 0.12), WorldView::kPlan), hard_world(), bent_sheet()};
   scenes.push_back(error_field_scene({.id = "field-two",
                                       .title = "Where maps are wrong",
-                                      .side_m = kRoom_m,
+                                      .side_m = kSceneRoom_m,
                                       .maps = {{"ISOMAP, K = 7", sample_map(50, 0.1, 7)},
                                                {"LLE, K = 9", sample_map(50, 0.3, 7)}}}));
   scenes.push_back(

@@ -8,9 +8,9 @@
 
 #include <csdp/declarations.h>
 #include <fmt/format.h>
-#include <Eigen/Eigenvalues>
 
 #include "core/base/errors.hpp"
+#include "core/linalg/decompositions.hpp"
 
 namespace mapproof::unfolding {
 namespace {

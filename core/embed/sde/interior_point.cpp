@@ -5,11 +5,10 @@
 #include <optional>
 #include <utility>
 
-#include <Eigen/Eigenvalues>
-
 #include "core/embed/sde/kkt_newton.hpp"
 #include "core/embed/sde/reduced.hpp"
 #include "core/linalg/cholesky.hpp"
+#include "core/linalg/decompositions.hpp"
 #include "core/linalg/gram.hpp"
 
 namespace mapproof::unfolding {

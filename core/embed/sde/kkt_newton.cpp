@@ -2,9 +2,8 @@
 
 #include <algorithm>
 
-#include <Eigen/Eigenvalues>
-
 #include "core/linalg/cholesky.hpp"
+#include "core/linalg/decompositions.hpp"
 
 namespace mapproof::unfolding {
 namespace {

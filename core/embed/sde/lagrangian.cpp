@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include <Eigen/Cholesky>
+#include "core/linalg/decompositions.hpp"
 
 namespace mapproof::unfolding {
 namespace {

@@ -4,9 +4,8 @@
 #include <cmath>
 #include <utility>
 
-#include <Eigen/Eigenvalues>
-
 #include "core/embed/sde/lagrangian.hpp"
+#include "core/linalg/decompositions.hpp"
 
 namespace mapproof::unfolding {
 namespace {

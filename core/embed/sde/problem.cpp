@@ -6,7 +6,7 @@
 #include <numeric>
 #include <tuple>
 
-#include <Eigen/Eigenvalues>
+#include "core/linalg/decompositions.hpp"
 
 namespace mapproof::unfolding {
 namespace {

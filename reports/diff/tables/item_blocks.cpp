@@ -19,7 +19,7 @@ namespace mapproof {
 namespace {
 
 constexpr std::size_t kLargestFigure = std::size_t{1} << 28;  // Bytes.
-constexpr std::size_t kMostNames = 6;
+constexpr std::size_t kMostItemNames = 6;
 
 /// The records that either side of the figure was made of.
 std::set<std::string> record_ids(const DiffItem& item) {
@@ -100,14 +100,14 @@ KeyValues whole_facts(const DiffResult& result) {
   std::vector<std::string> allowed;
   for (const Verdict verdict : result.allowed) allowed.emplace_back(label(verdict));
   add("Passes as well", listed(allowed, kVerdicts.size()), Emphasis::kPlain);
-  add("Versions that differ", listed(version_changes(result), kMostNames), Emphasis::kData);
+  add("Versions that differ", listed(version_changes(result), kMostItemNames), Emphasis::kData);
   const auto before = renderers(result, &PictureDiff::baseline_renderer);
   const auto after = renderers(result, &PictureDiff::current_renderer);
   if (before == after) {
-    add("Pictures drawn by", listed(before, kMostNames), Emphasis::kData);
+    add("Pictures drawn by", listed(before, kMostItemNames), Emphasis::kData);
   } else {
-    add("Baseline drawn by", listed(before, kMostNames), Emphasis::kData);
-    add("Current drawn by", listed(after, kMostNames), Emphasis::kData);
+    add("Baseline drawn by", listed(before, kMostItemNames), Emphasis::kData);
+    add("Current drawn by", listed(after, kMostItemNames), Emphasis::kData);
   }
   return facts;
 }

@@ -1,8 +1,8 @@
 #include <algorithm>
-#include <limits>
 
 #include <fmt/format.h>
 
+#include "core/base/not_finite.hpp"
 #include "core/base/words.hpp"
 #include "render/figures/anchor_count.hpp"
 #include "render/figures/error_lines.hpp"
@@ -15,14 +15,12 @@
 namespace mapproof {
 namespace {
 
-constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
-
 void add_point(ErrorLine& line, double x, const std::optional<MeanEstimate>& estimate) {
   const auto interval = interval_of(estimate);
   line.x.push_back(x);
-  line.mean.push_back(estimate ? estimate->mean : kNan);
-  line.low.push_back(interval ? interval->low : kNan);
-  line.high.push_back(interval ? interval->high : kNan);
+  line.mean.push_back(estimate ? estimate->mean : kNaN);
+  line.low.push_back(interval ? interval->low : kNaN);
+  line.high.push_back(interval ? interval->high : kNaN);
 }
 
 ErrorLine line_over_levels(const Variation& variation, const VariedSetting& setting) {
@@ -155,7 +153,7 @@ void add_occlusion(FigureSource& source, std::vector<Figure>& figures) {
                record.step == best.step;
       });
       method.mpe_m.push_back(found != run->records.end() && found->score ? found->score->mpe_m
-                                                                         : kNan);
+                                                                         : kNaN);
     }
     spec.methods.push_back(std::move(method));
     spec.record_ids.push_back(source_of(best));

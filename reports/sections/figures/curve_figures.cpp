@@ -1,16 +1,14 @@
 #include <algorithm>
-#include <limits>
 
 #include <fmt/format.h>
 
+#include "core/base/not_finite.hpp"
 #include "render/figures/error_curve.hpp"
 #include "reports/sections/figures/builders.hpp"
 #include "reports/sections/wording.hpp"
 
 namespace mapproof {
 namespace {
-
-constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 
 using Steps = std::vector<SettingSummary>;
 
@@ -43,9 +41,9 @@ ErrorLine curve(const Steps& steps, const Measure& measure) {
     const auto& estimate = summary.*measure.estimate;
     const auto interval = interval_of(estimate);
     curve.x.push_back(summary.step);
-    curve.mean.push_back(estimate ? estimate->mean : kNan);
-    curve.low.push_back(interval ? interval->low : kNan);
-    curve.high.push_back(interval ? interval->high : kNan);
+    curve.mean.push_back(estimate ? estimate->mean : kNaN);
+    curve.low.push_back(interval ? interval->low : kNaN);
+    curve.high.push_back(interval ? interval->high : kNaN);
     any_interval = any_interval || interval;
   }
   if (!any_interval) {

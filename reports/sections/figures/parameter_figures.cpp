@@ -1,8 +1,8 @@
 #include <algorithm>
-#include <limits>
 
 #include <fmt/format.h>
 
+#include "core/base/not_finite.hpp"
 #include "core/base/words.hpp"
 #include "render/figures/error_by_parameter.hpp"
 #include "reports/sections/figures/builders.hpp"
@@ -10,8 +10,6 @@
 
 namespace mapproof {
 namespace {
-
-constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 
 /// A map off by this many sides of the room says nothing but that it is wrong.
 constexpr double kOffTheRoom = 10.0;
@@ -29,12 +27,12 @@ ParameterLine parameter_line(const std::vector<SettingSummary>& values, Estimate
     const auto& mean = summary.*estimate;
     const auto interval = interval_of(mean);
     line.line.x.push_back(*summary.setting.parameter);
-    line.line.mean.push_back(mean ? mean->mean : kNan);
-    line.line.low.push_back(interval ? interval->low : kNan);
-    line.line.high.push_back(interval ? interval->high : kNan);
+    line.line.mean.push_back(mean ? mean->mean : kNaN);
+    line.line.low.push_back(interval ? interval->low : kNaN);
+    line.line.high.push_back(interval ? interval->high : kNaN);
   }
   if (const SettingSummary* best = best_of(values))
-    line.ours = ParameterValue{*best->setting.parameter, kNan};
+    line.ours = ParameterValue{*best->setting.parameter, kNaN};
   if (const auto& published = values.front().published; published && published->setting.parameter)
     line.published = ParameterValue{*published->setting.parameter, (*published).*printed};
   return line;

@@ -16,8 +16,6 @@ namespace {
 constexpr std::size_t kMostRuns = 2;  ///< Told before anything else.
 constexpr std::size_t kMostThumbnails = 6;
 
-Phrase strong(std::string text) { return {std::move(text), Emphasis::kStrong}; }
-
 /// "Plaza 1: 0.19 m refined, 0.36 m spectral (rigid), 16 m dead reckoning (unaligned). "; an
 /// alignment is told once for methods in a row that share it. Empty if no method has an error.
 std::vector<Phrase> errors_of(const SlamRun& run) {

@@ -14,9 +14,6 @@
 namespace mapproof {
 namespace {
 
-Phrase strong(std::string text) { return {std::move(text), Emphasis::kStrong}; }
-Phrase words(std::string text) { return {std::move(text), Emphasis::kPlain}; }
-
 std::string metres_of(double value) { return significant(value, 2) + " m"; }
 
 /// ".58 m for spectral, 4-D (rigid)"; empty if the method has no error.
@@ -28,7 +25,7 @@ std::string error_words_of(const SlamRun& run, SlamMethod method) {
 }
 
 /// The mean errors that a reader wants first.
-std::string errors_of(const SlamRun& run) {
+std::string error_sentence_of(const SlamRun& run) {
   std::vector<std::string> parts;
   for (const SlamMethod method : {SlamMethod::kRefined, SlamMethod::kSpectral,
                                   SlamMethod::kSpectralKnown, SlamMethod::kDeadReckoning})
@@ -62,13 +59,13 @@ std::string start_words(const SlamRun& run) {
 }
 
 void add_run(const SlamRun& run, BulletList& findings, Highlights& highlights) {
-  const std::string errors = errors_of(run);
+  const std::string errors = error_sentence_of(run);
   std::string text = errors.empty()
                          ? fmt::format(": {} mapped, no error claimed, there being no true path.",
                                        counted(std::ssize(run.log.landmarks), "landmark"))
                          : ": mean position error " + errors + ".";
   findings.items.push_back(
-      {{strong(title_of(run)), words(text + scale_words(run) + start_words(run))}});
+      {{strong(title_of(run)), phrase(text + scale_words(run) + start_words(run))}});
   for (const SlamMethod method : {SlamMethod::kRefined, SlamMethod::kSpectral}) {
     const TrajectoryError* error = error_of(run, method);
     if (error == nullptr || run.simulated) continue;
@@ -102,7 +99,7 @@ void add_convergence(const SlamStudy& study, BulletList& findings, Highlights& h
       {"Convergence of \u0108, slope", text, "theory: \u22121/2 in the logarithms"});
   findings.items.push_back(
       {{strong("Convergence"),
-        words(fmt::format(": the error of the observation model changes as the readings to the "
+        phrase(fmt::format(": the error of the observation model changes as the readings to the "
                           "power {} ({}); theory tells \u22121/2.{}",
                           text, curve.title, end_words(curve)))}});
 }
@@ -110,7 +107,7 @@ void add_convergence(const SlamStudy& study, BulletList& findings, Highlights& h
 void add_remarks_on_paper(BulletList& findings) {
   findings.items.push_back(
       {{strong("The paper\u2019s numbers"),
-        words(": its text prints no errors; it refers to its technical report for them. So ours "
+        phrase(": its text prints no errors; it refers to its technical report for them. So ours "
               "stand alone. Fig. 2A is a photograph of the robot: left out.")}});
 }
 

@@ -2,10 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include <fmt/format.h>
 
+#include "core/base/not_finite.hpp"
 #include "render/figures/level_curve.hpp"
 #include "render/figures/measured_map.hpp"
 #include "render/figures/pair_distances.hpp"
@@ -14,8 +14,6 @@
 
 namespace mapproof {
 namespace {
-
-constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 
 /// Bands of more lines than these hide each other.
 constexpr std::size_t kMostBands = 4;
@@ -42,9 +40,9 @@ std::vector<ErrorLine> lines_of(const TrialStudy& study, const TrialSeries& seri
     const std::optional<MeanEstimate>& mean = cell->means[quantity];
     const auto interval = interval_of(mean);
     line->x.push_back(cell->level);
-    line->mean.push_back(mean ? mean->mean : kNan);
-    line->low.push_back(interval ? interval->low : kNan);
-    line->high.push_back(interval ? interval->high : kNan);
+    line->mean.push_back(mean ? mean->mean : kNaN);
+    line->low.push_back(interval ? interval->low : kNaN);
+    line->high.push_back(interval ? interval->high : kNaN);
   }
   return lines;
 }

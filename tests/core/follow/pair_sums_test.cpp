@@ -25,7 +25,7 @@ ObservationHistory random_history(Sensor sensor, double missing, std::uint64_t s
   return history;
 }
 
-std::vector<StepEntry> step_of(const ObservationHistory& history, Eigen::Index t) {
+std::vector<StepEntry> column_at(const ObservationHistory& history, Eigen::Index t) {
   std::vector<StepEntry> step;
   for (Eigen::Index i = 0; i < history.landmarks(); ++i)
     if (!std::isnan(history.values(i, t))) step.push_back({i, history.values(i, t)});
@@ -51,7 +51,7 @@ TEST_P(SumsOfEverySensor, GiveTheProximitiesOfTheHistoryAfterEveryStep) {
     PairSums sums(sensor);
     sums.grow(6);
     for (Eigen::Index t = 0; t < history.steps(); ++t) {
-      sums.add(step_of(history, t));
+      sums.add(column_at(history, t));
       if (t < 2) continue;
       const std::vector<Eigen::Index> seen = sums.seen();
       const std::vector<Eigen::Index> unseen = unseen_landmarks(history, t + 1);
@@ -76,7 +76,7 @@ TEST(PairSums, TakeWhatIsNotListedAsNotSeenWhereSightingsAloneAreListed) {
   PairSums all(Sensor::kVisibility), sightings(Sensor::kVisibility);
   all.grow(6);
   for (Eigen::Index t = 0; t < history.steps(); ++t) {
-    std::vector<StepEntry> step = step_of(history, t);
+    std::vector<StepEntry> step = column_at(history, t);
     all.add(step);
     std::erase_if(step, [](const StepEntry& entry) { return entry.value == 0.0; });
     if (t == 0) sightings.grow(3);

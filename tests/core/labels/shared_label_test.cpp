@@ -11,11 +11,11 @@
 namespace mapproof::test {
 namespace {
 
-bool always(int) { return true; }
+bool in_every_scan(int) { return true; }
 
 TEST(SharedLabel, IsThatOfALandmarkCalledByAnothersNameThroughout) {
   for (const auto& [landmark, other] : {std::pair(0, 14), std::pair(7, 2), std::pair(12, 4)}) {
-    const SightingLog wrong = called(noisy_looks(1500, 3), landmark, other, always);
+    const SightingLog wrong = called(noisy_looks(1500, 3), landmark, other, in_every_scan);
     const auto shared = shared_label(wrong);
     ASSERT_TRUE(shared.has_value()) << landmark << " called " << other;
     EXPECT_EQ(shared->label, other);
@@ -26,7 +26,7 @@ TEST(SharedLabel, IsThatOfALandmarkCalledByAnothersNameThroughout) {
 }
 
 TEST(SharedLabel, SplitGivesTheMapOfBoth) {
-  const SightingLog wrong = called(noisy_looks(1500, 4), 7, 2, always);
+  const SightingLog wrong = called(noisy_looks(1500, 4), 7, 2, in_every_scan);
   const auto shared = shared_label(wrong);
   ASSERT_TRUE(shared.has_value());
   const SightingLog split = split_label(wrong, *shared, 7);

@@ -10,22 +10,22 @@ namespace mapproof {
 namespace {
 
 // Leaves, one over, several levels of the recursion, more columns than a block of the product has.
-constexpr Eigen::Index kSizes[] = {1, 2, 7, 23, 24, 25, 47, 48, 49, 96, 97, 150, 333};
+constexpr Eigen::Index kCholeskySizes[] = {1, 2, 7, 23, 24, 25, 47, 48, 49, 96, 97, 150, 333};
 
-Eigen::MatrixXd noise(Eigen::Index rows, Eigen::Index columns, std::uint64_t seed) {
+Eigen::MatrixXd random_matrix(Eigen::Index rows, Eigen::Index columns, std::uint64_t seed) {
   Random random(seed);
   return Eigen::MatrixXd::NullaryExpr(
       rows, columns, [&](Eigen::Index, Eigen::Index) { return random.uniform() - 0.5; });
 }
 
 Eigen::MatrixXd positive(Eigen::Index n) {
-  Eigen::MatrixXd A = gram(noise(n, n + 3, 8));
+  Eigen::MatrixXd A = gram(random_matrix(n, n + 3, 8));
   A.diagonal().array() += 0.1;
   return A;
 }
 
 TEST(Cholesky, FactorsAsEigenDoesAndLeavesTheOtherHalfAlone) {
-  for (const Eigen::Index n : kSizes) {
+  for (const Eigen::Index n : kCholeskySizes) {
     const Eigen::MatrixXd A = positive(n);
     Eigen::MatrixXd L = A;
     ASSERT_TRUE(factor_cholesky(L)) << n;
@@ -39,7 +39,7 @@ TEST(Cholesky, FactorsAsEigenDoesAndLeavesTheOtherHalfAlone) {
 }
 
 TEST(Cholesky, FactorsABlockOfAMatrixAndNothingBeside) {
-  Eigen::MatrixXd whole = noise(140, 140, 3);
+  Eigen::MatrixXd whole = random_matrix(140, 140, 3);
   const Eigen::MatrixXd before = whole;
   const Eigen::MatrixXd A = positive(110);
   whole.block(20, 10, 110, 110) = A;
@@ -51,9 +51,9 @@ TEST(Cholesky, FactorsABlockOfAMatrixAndNothingBeside) {
 }
 
 TEST(Cholesky, SolvesAsEigenDoes) {
-  for (const Eigen::Index n : kSizes) {
+  for (const Eigen::Index n : kCholeskySizes) {
     const Eigen::MatrixXd A = positive(n);
-    const Eigen::VectorXd b = noise(n, 1, 4);
+    const Eigen::VectorXd b = random_matrix(n, 1, 4);
     Eigen::MatrixXd L = A;
     ASSERT_TRUE(factor_cholesky(L));
     const Eigen::VectorXd x = solve_cholesky(L, b);
@@ -63,7 +63,7 @@ TEST(Cholesky, SolvesAsEigenDoes) {
 }
 
 TEST(Cholesky, RefusesAMatrixThatIsNotPositiveWhereverItFails) {
-  for (const Eigen::Index n : kSizes)
+  for (const Eigen::Index n : kCholeskySizes)
     for (const Eigen::Index place : {Eigen::Index{0}, n / 2, n - 1}) {
       Eigen::MatrixXd A = positive(n);
       A(place, place) = -1.0;

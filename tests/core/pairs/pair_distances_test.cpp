@@ -7,14 +7,13 @@
 #include <gtest/gtest.h>
 
 #include "core/base/errors.hpp"
+#include "core/base/not_finite.hpp"
 #include "core/base/random.hpp"
 #include "tests/support/looks.hpp"
 #include "tests/support/worlds.hpp"
 
 namespace mapproof {
 namespace {
-
-constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 
 /// One look at A and B.
 SightingLog one_look(Sighting a, Sighting b) {

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "core/base/errors.hpp"
+#include "core/base/not_finite.hpp"
 #include "tests/core/records/samples.hpp"
 
 namespace mapproof {
@@ -13,8 +14,6 @@ namespace {
 using test::data_file;
 using test::error_of;
 using test::TemporaryFolder;
-
-constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 
 ObservationSource read_text(const std::string& text, Sensor sensor, Layout layout = Layout::kAuto) {
   const TemporaryFolder folder;
@@ -47,7 +46,7 @@ TEST(WideObservations, AreReadWithNamesHeaderAndComments) {
             (std::vector<std::string>{"door", "window", "desk, left", "shelf"}));
   EXPECT_EQ(source.places[2], "line 5");
   Eigen::MatrixXd expected(4, 5);
-  expected << 1, 1, 0, 0, 0, 0, 1, 1, 0, 0, 0, 0, 1, 1, kNan, 1, 0, 0, 1, 1;
+  expected << 1, 1, 0, 0, 0, 0, 1, 1, 0, 0, 0, 0, 1, 1, kNaN, 1, 0, 0, 1, 1;
   expect_values(source.history, expected);
 }
 
@@ -56,7 +55,7 @@ TEST(WideObservations, AreNamedByTheirRowsWithoutNames) {
       read_observations(data_file("observations/wide_plain.csv"), Sensor::kVisibility);
   EXPECT_EQ(source.history.names, (std::vector<std::string>{"L1", "L2", "L3", "L4"}));
   Eigen::MatrixXd expected(4, 4);
-  expected << 1, 1, 0, 0, 0, 1, 1, 0, 0, 0, 1, 1, 1, 0, kNan, 1;
+  expected << 1, 1, 0, 0, 0, 1, 1, 0, 0, 0, 1, 1, 1, 0, kNaN, 1;
   expect_values(source.history, expected);
 }
 
@@ -65,7 +64,7 @@ TEST(WideObservations, MayBeSeparatedBySemicolonsWithWindowsLineEnds) {
       read_observations(data_file("observations/wide_semicolon.csv"), Sensor::kBearing);
   EXPECT_EQ(source.history.names, (std::vector<std::string>{"A", "B", "C"}));
   Eigen::MatrixXd expected(3, 3);
-  expected << 0.5, -1.25, 3.1, kNan, 0.75, -3.1, 1e-3, 2, kNan;
+  expected << 0.5, -1.25, 3.1, kNaN, 0.75, -3.1, 1e-3, 2, kNaN;
   expect_values(source.history, expected);
 }
 
@@ -74,7 +73,7 @@ TEST(WideObservations, MayBeSeparatedByTabsUnderNumberedSteps) {
       read_observations(data_file("observations/wide_tabs.tsv"), Sensor::kRange);
   EXPECT_EQ(source.history.names, (std::vector<std::string>{"red", "green", "blue"}));
   Eigen::MatrixXd expected(3, 3);
-  expected << 2.5, 1.5, kNan, kNan, 0.25, 4, 3, 3.5, 1;
+  expected << 2.5, 1.5, kNaN, kNaN, 0.25, 4, 3, 3.5, 1;
   expect_values(source.history, expected);
 }
 
@@ -157,7 +156,7 @@ TEST(LongObservations, AreReadByTheNamesOfTheirColumns) {
       read_observations(data_file("observations/long.csv"), Sensor::kBearing);
   EXPECT_EQ(source.history.names, (std::vector<std::string>{"oak", "ash", "elm"}));
   Eigen::MatrixXd expected(3, 3);
-  expected << 0.5, 0.75, kNan, -0.5, kNan, 1.5, kNan, kNan, -2;
+  expected << 0.5, 0.75, kNaN, -0.5, kNaN, 1.5, kNaN, kNaN, -2;
   expect_values(source.history, expected);
   EXPECT_TRUE(source.remarks.empty());
   EXPECT_EQ(source.places[2], "line 5");
@@ -187,7 +186,7 @@ TEST(LongObservations, AreReadAlikeByStepOrByTime) {
   const ObservationSource times =
       read("Time [s],object,value,note\n1e9,a,0.5,x\n999999999.25,b,1,y\n1e9,b,2,z\n");
   Eigen::MatrixXd expected(2, 2);
-  expected << kNan, 0.5, 1, 2;
+  expected << kNaN, 0.5, 1, 2;
   expect_values(steps.history, expected);
   expect_values(times.history, expected);
   EXPECT_TRUE(steps.remarks.empty());
@@ -207,7 +206,7 @@ TEST(LongObservations, OfSeveralRobotsAreLooksOfTheirOwn) {
                                 "robot,time,landmark,value\n"
                                 "R1,0.5,a,1\nR2,0.5,a,2\nR1,0.25,b,3\n");
   Eigen::MatrixXd expected(2, 3);
-  expected << kNan, 1, 2, 3, kNan, kNan;
+  expected << kNaN, 1, 2, 3, kNaN, kNaN;
   expect_values(read_observations(path, Sensor::kRange).history, expected);
 }
 
@@ -240,7 +239,7 @@ TEST(JsonObservations, NameTheirOwnSensorAndComeBackTheSame) {
   const ObservationSource source = read_observations(path, std::nullopt);
   EXPECT_EQ(source.history.sensor, Sensor::kBearing);
   Eigen::MatrixXd expected(3, 4);
-  expected << 0.5, kNan, -1.5, 3, -0.25, 1.75, kNan, 0.125, 2.5, -2.5, 0, kNan;
+  expected << 0.5, kNaN, -1.5, 3, -0.25, 1.75, kNaN, 0.125, 2.5, -2.5, 0, kNaN;
   expect_values(source.history, expected);
   EXPECT_EQ(source.places[1], "/values/1");
   const TemporaryFolder folder;

@@ -11,7 +11,7 @@ namespace {
 
 using test::error_of;
 
-constexpr const char* kText =
+constexpr const char* kScansText =
     "Robot;Time [s];Tag;Range [m];Bearing [deg];battery\n"
     "r1;0.5;door;1.5;90;9\n"
     "r2;0.5;door;2.5;;9\n"
@@ -33,10 +33,10 @@ bool same(double a, double b) { return a == b || (std::isnan(a) && std::isnan(b)
 
 TEST(SightingStream, GivesTheLooksOfTheFileHoweverItsBytesCome) {
   test::TemporaryFolder folder;
-  const SightingLog whole = read_sightings(folder.file("looks.csv", kText)).log;
+  const SightingLog whole = read_sightings(folder.file("looks.csv", kScansText)).log;
   for (std::size_t piece = 1; piece < 200; ++piece) {
     SightingStream stream("looks.csv", {});
-    std::vector<StreamedLook> looks = streamed(kText, piece, stream);
+    std::vector<StreamedLook> looks = streamed(kScansText, piece, stream);
     // As the reader pools them: robot by robot.
     std::ranges::sort(looks, {}, &StreamedLook::look);
     ASSERT_EQ(std::ssize(looks), whole.steps);

@@ -1,11 +1,9 @@
 #include "tests/core/records/slam_samples.hpp"
 
-#include <limits>
+#include "core/base/not_finite.hpp"
 
 namespace mapproof::test {
 namespace {
-
-constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 
 Trajectory short_path(double shift_m, bool has_heading) {
   Trajectory path{

@@ -1,12 +1,12 @@
 #include "core/records/trial_store.hpp"
 
 #include <cmath>
-#include <limits>
 
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
 #include "core/base/files.hpp"
+#include "core/base/not_finite.hpp"
 #include "core/records/study_store.hpp"
 #include "core/records/trial_experiment_json.hpp"
 #include "core/records/trial_json.hpp"
@@ -16,8 +16,6 @@
 
 namespace mapproof {
 namespace {
-
-constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 
 TrialStudy small_trials() {
   TrialStudy study;
@@ -48,7 +46,7 @@ TrialPart made_up_part(const RunId& run) {
        .level = 0.1,
        .values = {0.05, 100.0},
        .statuses = {{StatusCode::kNotConverged, "after 9 steps"}}},
-      {.setup = "random", .series = "fill", .level = 0.5, .values = {kNan, 0.0}, .statuses = {}}};
+      {.setup = "random", .series = "fill", .level = 0.5, .values = {kNaN, 0.0}, .statuses = {}}};
   TrialMap map{.id = "ppca",
                .title = "PPCA",
                .map = test::made_up_result({1, 1}).maps[0],
@@ -56,7 +54,7 @@ TrialPart made_up_part(const RunId& run) {
                .covariances = {}};
   map.pairs = {{.first = 0, .second = 1, .distance_m = 2.0, .precision = 4.0, .looks = 9}};
   map.covariances.assign(map.map.names.size(), Eigen::Matrix2d::Identity());
-  map.covariances.back().setConstant(kNan);
+  map.covariances.back().setConstant(kNaN);
   part.maps = {map};
   part.seconds = {{.part = part.id, .series = "ppca", .seconds = 1.0},
                   {.part = part.id, .series = "ppca", .seconds = 0.5}};

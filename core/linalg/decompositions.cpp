@@ -1,0 +1,10 @@
+#include "core/linalg/decompositions.hpp"
+
+template class Eigen::LLT<Eigen::MatrixXd>;
+template class Eigen::PartialPivLU<Eigen::MatrixXd>;
+template class Eigen::HouseholderQR<Eigen::MatrixXd>;
+template class Eigen::ColPivHouseholderQR<Eigen::MatrixXd>;
+template class Eigen::CompleteOrthogonalDecomposition<Eigen::MatrixXd>;
+template class Eigen::JacobiSVD<Eigen::MatrixXd>;
+template class Eigen::BDCSVD<Eigen::MatrixXd>;
+template class Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>;
