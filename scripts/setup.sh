@@ -94,11 +94,11 @@ build_mapproof() {
     return 3
   fi
   rm -f "$log"
-  # A unit takes some 8 processor seconds (docs/testing.md).
-  units=$(ninja -C "$BUILD" -n "$@" | grep -c 'Building CXX')
-  if [ "$units" -gt 0 ]; then
+  if [ ! -f "$BUILD/.ninja_log" ]; then
+    # A unit takes some 8 processor seconds (docs/testing.md).
+    units=$(ninja -C "$BUILD" -t commands "$@" | grep -c -- ' -c .*\.c[px][px]$')
     minutes=$(((units * 8 + 60 * $(nproc) - 1) / (60 * $(nproc))))
-    say "building: $units units of C++, about $minutes min on $(nproc) processors"
+    say "building $units units of C++, about $minutes min on $(nproc) processors"
   fi
   NINJA_STATUS='[%f of %t, %e s] ' cmake --build "$BUILD" --target "$@" >&2
 }

@@ -21,7 +21,7 @@ const std::filesystem::path kTemplate =
     std::filesystem::path(MAPPROOF_SOURCE_DIR) / "templates/experiments/yairi2007.json";
 
 /// The error for small.json with one value replaced, or removed if it is null.
-std::string error_with(const std::string& pointer, const json& value) {
+std::string experiment_error(const std::string& pointer, const json& value) {
   json experiment = json::parse(read_file(test::data_file("experiments/small.json")));
   const json::json_pointer place(pointer);
   if (value.is_null())
@@ -138,7 +138,7 @@ TEST(ExperimentJson, KeepsWhatIsSaidAboutPublishedValues) {
 }
 
 TEST(ExperimentJson, RefusesTableIdsThatOthersCouldTake) {
-  EXPECT_EQ(error_with("/sensors/visibility/published/table", "accuracy-bearing"),
+  EXPECT_EQ(experiment_error("/sensors/visibility/published/table", "accuracy-bearing"),
             "e.json: /sensors/visibility/published/table: expected \"table-\" and small letters, "
             "digits or '-', got \"accuracy-bearing\"");
   json experiment = json::parse(read_file(test::data_file("experiments/small.json")));
@@ -154,26 +154,26 @@ TEST(ExperimentJson, RefusesTableIdsThatOthersCouldTake) {
 
 TEST(ExperimentJson, RefusesOrderingsThatOrderNothing) {
   const std::string place = "/sensors/visibility/published/orderings";
-  EXPECT_EQ(error_with(place, json::array({json::array({"lpca"})})),
+  EXPECT_EQ(experiment_error(place, json::array({json::array({"lpca"})})),
             "e.json: " + place + "/0: expected at least 2 elements, got 1");
-  EXPECT_EQ(error_with(place, json::array({json::array({"lpca", "isomap", "lpca"})})),
+  EXPECT_EQ(experiment_error(place, json::array({json::array({"lpca", "isomap", "lpca"})})),
             "e.json: " + place + "/0/2: lpca stands twice in one ordering");
-  EXPECT_EQ(error_with(place, json::array({json::array({"lpca", "smakof"})})),
+  EXPECT_EQ(experiment_error(place, json::array({json::array({"lpca", "smakof"})})),
             "e.json: " + place + "/0/1: unknown method \"smakof\": did you mean \"smacof\"?");
 }
 
 TEST(ExperimentJson, RefusesACountOfABillion) {
-  EXPECT_EQ(error_with("/layouts", 1'000'000'000),
+  EXPECT_EQ(experiment_error("/layouts", 1'000'000'000),
             "e.json: /layouts: expected an integer from 1 to 10000, got 1000000000");
-  EXPECT_EQ(error_with("/world/landmarks", 1e9),
+  EXPECT_EQ(experiment_error("/world/landmarks", 1e9),
             "e.json: /world/landmarks: expected an integer from 4 to 5000, got 1000000000");
-  EXPECT_EQ(error_with("/sensors/range/checkpoints/0", 1'000'000'000),
+  EXPECT_EQ(experiment_error("/sensors/range/checkpoints/0", 1'000'000'000),
             "e.json: /sensors/range/checkpoints/0: expected an integer from 3 to 1000000, got "
             "1000000000");
 }
 
 TEST(ExperimentJson, RefusesWalksThatWouldNotEnd) {
-  EXPECT_EQ(error_with("/walk", {{"step_m", 1000}, {"substep_m", 0.0001}}),
+  EXPECT_EQ(experiment_error("/walk", {{"step_m", 1000}, {"substep_m", 0.0001}}),
             "e.json: /walk: step_m = 1000 in substeps of substep_m = 0.0001 are 10000000 a step; "
             "at most 10000");
   json sensors = json::parse(read_file(test::data_file("experiments/small.json")))["sensors"];
@@ -198,49 +198,49 @@ TEST(ExperimentJson, RefusesAWalkWithoutRoomEvenByDefault) {
 }
 
 TEST(ExperimentJson, AsksWhichMethodWasMeant) {
-  EXPECT_EQ(error_with("/sensors/range/methods/isomapp", {{"K", {4}}}),
+  EXPECT_EQ(experiment_error("/sensors/range/methods/isomapp", {{"K", {4}}}),
             "e.json: /sensors/range/methods/isomapp: unknown method \"isomapp\": did you mean "
             "\"isomap\"?");
 }
 
 TEST(ExperimentJson, RefusesKThatIsNotBelowTheNumberOfLandmarks) {
-  EXPECT_EQ(error_with("/sensors/visibility/methods/isomap/K", {5, 12}),
+  EXPECT_EQ(experiment_error("/sensors/visibility/methods/isomap/K", {5, 12}),
             "e.json: /sensors/visibility/methods/isomap/K/1: K must be below the number of "
             "landmarks, 12, got 12");
 }
 
 TEST(ExperimentJson, RefusesKThatIsNoInteger) {
-  EXPECT_EQ(error_with("/sensors/visibility/methods/isomap/K", {4.5}),
+  EXPECT_EQ(experiment_error("/sensors/visibility/methods/isomap/K", {4.5}),
             "e.json: /sensors/visibility/methods/isomap/K/0: expected an integer from 1 to 1000, "
             "got 4.5");
 }
 
 TEST(ExperimentJson, RefusesAParameterForAMethodWithoutOne) {
-  EXPECT_EQ(error_with("/sensors/visibility/methods/lpca/K", {4}),
+  EXPECT_EQ(experiment_error("/sensors/visibility/methods/lpca/K", {4}),
             "e.json: /sensors/visibility/methods/lpca: lpca has no parameter: expected {}");
 }
 
 TEST(ExperimentJson, RefusesCheckpointsThatDoNotAscend) {
-  EXPECT_EQ(error_with("/sensors/range/checkpoints", {200, 100}),
+  EXPECT_EQ(experiment_error("/sensors/range/checkpoints", {200, 100}),
             "e.json: /sensors/range/checkpoints/1: expected values in ascending order, got 100 "
             "after 200");
-  EXPECT_EQ(error_with("/sensors/range/checkpoints", json::array()),
+  EXPECT_EQ(experiment_error("/sensors/range/checkpoints", json::array()),
             "e.json: /sensors/range/checkpoints: expected at least 1 elements, got 0");
 }
 
 TEST(ExperimentJson, RefusesLandmarksThatDoNotFitTheRoom) {
-  EXPECT_EQ(error_with("/world/landmarks", 5000),
+  EXPECT_EQ(experiment_error("/world/landmarks", 5000),
             "e.json: /world: 5000 landmarks of 0.048 m, 0.01 m apart, do not fit into a room of "
             "1.5 m: at most 292 do");
-  EXPECT_EQ(error_with("/world/side_m", 0.2),
+  EXPECT_EQ(experiment_error("/world/side_m", 0.2),
             "e.json: /world: a room of 0.2 m has no place for a landmark of 0.048 m that keeps "
             "0.1 m from the walls");
 }
 
 TEST(ExperimentJson, RefusesWhatOneSensorHasNoUseFor) {
-  EXPECT_EQ(error_with("/sensors/range/occlusion", true),
+  EXPECT_EQ(experiment_error("/sensors/range/occlusion", true),
             "e.json: /sensors/range: unknown key \"occlusion\"");
-  EXPECT_EQ(error_with("/sensors/visibility/noise", 0.75),
+  EXPECT_EQ(experiment_error("/sensors/visibility/noise", 0.75),
             "e.json: /sensors/visibility/noise: expected a number from 0 to 0.5, got 0.75");
 }
 
@@ -258,36 +258,36 @@ TEST(ExperimentJson, ReadsVariationsAndThePapersFigures) {
 }
 
 TEST(ExperimentJson, RefusesVariationsThatTheExperimentCannotMake) {
-  EXPECT_EQ(error_with("/variations/0/sensor", "bearing"),
+  EXPECT_EQ(experiment_error("/variations/0/sensor", "bearing"),
             "e.json: /variations/0/sensor: the experiment has no sensor bearing");
-  EXPECT_EQ(error_with("/variations/0/levels", {0.1, 0.6}),
+  EXPECT_EQ(experiment_error("/variations/0/levels", {0.1, 0.6}),
             "e.json: /variations/0/levels/1: expected a number from 0 to 0.5, got 0.6");
-  EXPECT_EQ(error_with("/variations/1/levels", {3, 12}),
+  EXPECT_EQ(experiment_error("/variations/1/levels", {3, 12}),
             "e.json: /variations/1/levels/1: expected an integer from 3 to 11, got 12");
-  EXPECT_EQ(error_with("/variations/1/id", "noise"), "e.json: /variations/1/id: is there twice");
-  EXPECT_EQ(error_with("/variations/0/methods/isomap/K", {12}),
+  EXPECT_EQ(experiment_error("/variations/1/id", "noise"), "e.json: /variations/1/id: is there twice");
+  EXPECT_EQ(experiment_error("/variations/0/methods/isomap/K", {12}),
             "e.json: /variations/0/methods/isomap/K/0: K must be below the number of landmarks, "
             "12, got 12");
-  EXPECT_EQ(error_with("/figures/0/id", "../fig"),
+  EXPECT_EQ(experiment_error("/figures/0/id", "../fig"),
             "e.json: /figures/0/id: expected lower-case letters, digits and '-', a letter first, "
             "got \"../fig\"");
-  EXPECT_EQ(error_with("/figures/0/id", "map-visibility-lpca"),
+  EXPECT_EQ(experiment_error("/figures/0/id", "map-visibility-lpca"),
             "e.json: /figures/0/id: expected \"fig-\" first, got \"map-visibility-lpca\"");
-  EXPECT_EQ(error_with("/figures/1/methods", {"isomap", "isomap"}),
+  EXPECT_EQ(experiment_error("/figures/1/methods", {"isomap", "isomap"}),
             "e.json: /figures/1/methods/1: \"isomap\" is there twice");
   EXPECT_EQ(
-      error_with("/figures/0", {{"id", "fig-2"}, {"kind", "measurement"}, {"sensor", "range"}}),
+      experiment_error("/figures/0", {{"id", "fig-2"}, {"kind", "measurement"}, {"sensor", "range"}}),
       "e.json: /figures/0/sensor: a look of ranges has no figure; expected visibility or "
       "bearing");
 }
 
 TEST(ExperimentJson, RefusesWhatHasNoNameOrNoSensors) {
-  EXPECT_EQ(error_with("/name", nullptr), "e.json: /: lacks the key \"name\"");
-  EXPECT_EQ(error_with("/name", "../x"),
+  EXPECT_EQ(experiment_error("/name", nullptr), "e.json: /: lacks the key \"name\"");
+  EXPECT_EQ(experiment_error("/name", "../x"),
             "e.json: /name: expected letters, digits, '-' and '_', got \"../x\"");
-  EXPECT_EQ(error_with("/sensors", json::object()),
+  EXPECT_EQ(experiment_error("/sensors", json::object()),
             "e.json: /sensors: expected at least one of visibility, bearing, range");
-  EXPECT_EQ(error_with("/sensors/range/methods", json::object()),
+  EXPECT_EQ(experiment_error("/sensors/range/methods", json::object()),
             "e.json: /sensors/range/methods: expected at least one method");
 }
 

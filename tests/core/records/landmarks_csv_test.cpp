@@ -10,7 +10,7 @@ namespace {
 using test::data_file;
 using test::error_of;
 
-std::string error_with(const std::string& text) {
+std::string landmarks_error(const std::string& text) {
   const test::TemporaryFolder folder;
   const std::string path = folder.file("a.csv", text).string();
   return error_of([&] { read_landmarks(path); }).substr(path.size() + 2);
@@ -39,18 +39,18 @@ TEST(LandmarksCsv, ReadsMrclamsGroundtruthToo) {
 }
 
 TEST(LandmarksCsv, NamesTheLineThatIsWrong) {
-  EXPECT_EQ(error_with("a,0,0\nb,nan,0\n"), "line 2: a coordinate is missing");
-  EXPECT_EQ(error_with("a,0,0\nb,,0\n"), "line 2: a coordinate is missing");
-  EXPECT_EQ(error_with("a,0,inf\n"),
+  EXPECT_EQ(landmarks_error("a,0,0\nb,nan,0\n"), "line 2: a coordinate is missing");
+  EXPECT_EQ(landmarks_error("a,0,0\nb,,0\n"), "line 2: a coordinate is missing");
+  EXPECT_EQ(landmarks_error("a,0,inf\n"),
             "line 1: coordinates are in metres, at most 1000000000, got \"inf\"");
-  EXPECT_EQ(error_with("a,0,0\nb,0,zero\n"), "line 2: \"zero\" is not a number");
-  EXPECT_EQ(error_with("a,0,0\nb,0\n"), "line 2: has 2 cells, expected name, x, y");
-  EXPECT_EQ(error_with("a,0,0\nb,1,1\na,2,2\n"), "line 3: landmark \"a\" is already on line 1");
-  EXPECT_EQ(error_with(",0,0\n"), "line 1: a landmark without a name");
-  EXPECT_EQ(error_with("name,north,east\na,0,0\n"),
+  EXPECT_EQ(landmarks_error("a,0,0\nb,0,zero\n"), "line 2: \"zero\" is not a number");
+  EXPECT_EQ(landmarks_error("a,0,0\nb,0\n"), "line 2: has 2 cells, expected name, x, y");
+  EXPECT_EQ(landmarks_error("a,0,0\nb,1,1\na,2,2\n"), "line 3: landmark \"a\" is already on line 1");
+  EXPECT_EQ(landmarks_error(",0,0\n"), "line 1: a landmark without a name");
+  EXPECT_EQ(landmarks_error("name,north,east\na,0,0\n"),
             "line 1: expected the columns name, x, y; got \"north\"");
-  EXPECT_EQ(error_with("name,x,y\n"), "holds no landmarks");
-  EXPECT_EQ(error_with(""), "is empty");
+  EXPECT_EQ(landmarks_error("name,x,y\n"), "holds no landmarks");
+  EXPECT_EQ(landmarks_error(""), "is empty");
 }
 
 }  // namespace

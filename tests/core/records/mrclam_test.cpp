@@ -16,7 +16,7 @@ using test::data_file;
 using test::error_of;
 
 /// A copy of tests/data/mrclam in which one file has other bytes; the error behind its path.
-std::string error_with(const std::string& file, const std::string& bytes) {
+std::string mrclam_error(const std::string& file, const std::string& bytes) {
   const test::TemporaryFolder folder;
   fs::copy(data_file("mrclam"), folder / "set");
   const std::string path = folder.file("set/" + file, bytes).string();
@@ -77,17 +77,17 @@ TEST(Mrclam, NeedsTheBarcodes) {
 }
 
 TEST(Mrclam, NamesTheLineThatIsWrong) {
-  EXPECT_EQ(error_with("Robot1_Measurement.dat", "# x\n1 63 2\n"),
+  EXPECT_EQ(mrclam_error("Robot1_Measurement.dat", "# x\n1 63 2\n"),
             "line 2: has 3 numbers, expected 4");
-  EXPECT_EQ(error_with("Robot1_Measurement.dat", "1 63 2 x\n"), "line 1: \"x\" is not a number");
-  EXPECT_EQ(error_with("Robot1_Measurement.dat", "1 63 2 nan\n"), "line 1: \"nan\" is not finite");
-  EXPECT_EQ(error_with("Robot1_Measurement.dat", "1 63 -2 0\n"),
+  EXPECT_EQ(mrclam_error("Robot1_Measurement.dat", "1 63 2 x\n"), "line 1: \"x\" is not a number");
+  EXPECT_EQ(mrclam_error("Robot1_Measurement.dat", "1 63 2 nan\n"), "line 1: \"nan\" is not finite");
+  EXPECT_EQ(mrclam_error("Robot1_Measurement.dat", "1 63 -2 0\n"),
             "line 1: a range cannot be negative, got -2");
-  EXPECT_EQ(error_with("Robot2_Measurement.dat", "1 6.3 2 0\n"),
+  EXPECT_EQ(mrclam_error("Robot2_Measurement.dat", "1 6.3 2 0\n"),
             "line 1: expected a number without decimals, got \"6.3\"");
-  EXPECT_EQ(error_with("Barcodes.dat", "6 63\n7 63\n"), "line 2: barcode 63 is there twice");
-  EXPECT_EQ(error_with("Barcodes.dat", "1 63\n"), "names no landmark: none above 5");
-  EXPECT_EQ(error_with("Landmark_Groundtruth.dat", "6 1 2 0 0\n6 1 2 0 0\n"),
+  EXPECT_EQ(mrclam_error("Barcodes.dat", "6 63\n7 63\n"), "line 2: barcode 63 is there twice");
+  EXPECT_EQ(mrclam_error("Barcodes.dat", "1 63\n"), "names no landmark: none above 5");
+  EXPECT_EQ(mrclam_error("Landmark_Groundtruth.dat", "6 1 2 0 0\n6 1 2 0 0\n"),
             "line 2: landmark \"6\" is already on line 1");
 }
 

@@ -21,14 +21,14 @@ using test::made_up_result;
 using test::small_experiment;
 using test::TemporaryFolder;
 
-StudyStore open(const fs::path& folder) {
+StudyStore open_store(const fs::path& folder) {
   return StudyStore::open(folder, small_experiment(), made_up_provenance());
 }
 
 TEST(StudyStore, GivesBackWhatWasWritten) {
   const TemporaryFolder folder;
   {
-    StudyStore store = open(folder / "study");
+    StudyStore store = open_store(folder / "study");
     store.write(made_up_result({.layout = 2, .pose = 1}));
     store.write(made_up_result({.layout = 1, .pose = 2}));
     store.write_session(test::made_up_session());
@@ -55,7 +55,7 @@ TEST(StudyStore, GivesBackVariationsAndDetails) {
   const TemporaryFolder folder;
   const RunId id{.layout = 1, .pose = 2};
   const RunResult written = made_up_result(id);
-  open(folder.path()).write(written);
+  open_store(folder.path()).write(written);
   const mapproof::Run run = read_study(folder.path()).runs.at(0);
   ASSERT_EQ(run.variations.size(), 2U);
   EXPECT_EQ(run.variations[0].level, 0.125);
@@ -87,7 +87,7 @@ TEST(StudyStore, KeepsTheMapsOfARunWithTheirHoles) {
   result.maps[1].anchors = {2};
   result.maps[1].truth_m.reset();
   result.maps[1].frame = Frame::kSimilarity;
-  open(folder.path()).write(result);
+  open_store(folder.path()).write(result);
   const std::vector<MapRecord> maps = read_maps(folder.path(), id);
   ASSERT_EQ(maps.size(), 2U);
   for (std::size_t i = 0; i < maps.size(); ++i) {
@@ -104,9 +104,9 @@ TEST(StudyStore, KeepsTheMapsOfARunWithTheirHoles) {
 TEST(StudyStore, WritesTheSameBytesInWhateverOrderRunsEnd) {
   const TemporaryFolder folder;
   std::vector<RunId> ids = {{1, 1}, {1, 2}, {2, 1}, {2, 2}};
-  StudyStore forwards = open(folder / "forwards");
+  StudyStore forwards = open_store(folder / "forwards");
   for (const RunId& id : ids) forwards.write(made_up_result(id));
-  StudyStore at_once = open(folder / "at-once");
+  StudyStore at_once = open_store(folder / "at-once");
   std::vector<std::thread> threads;
   for (auto id = ids.rbegin(); id != ids.rend(); ++id)
     threads.emplace_back([&at_once, id] { at_once.write(made_up_result(*id)); });
@@ -119,7 +119,7 @@ TEST(StudyStore, WritesTheSameBytesInWhateverOrderRunsEnd) {
 /// raise the version of the schema, keep reading the old one, and only then renew tests/data/study.
 TEST(StudyStore, StillWritesTheStudyThatTheTestDataHold) {
   const TemporaryFolder folder;
-  StudyStore store = open(folder.path());
+  StudyStore store = open_store(folder.path());
   for (const RunId& id : {RunId{1, 1}, {1, 2}, {2, 1}, {2, 2}}) store.write(made_up_result(id));
   EXPECT_EQ(contents(folder.path()), contents(test::data_file("study")));
 }
@@ -127,7 +127,7 @@ TEST(StudyStore, StillWritesTheStudyThatTheTestDataHold) {
 TEST(StudyStore, ResumesWithTheRunsThatAreWhole) {
   const TemporaryFolder folder;
   {
-    StudyStore store = open(folder.path());
+    StudyStore store = open_store(folder.path());
     store.write(made_up_result({1, 1}));
     store.write(made_up_result({1, 2}));
     store.write(made_up_result({2, 1}));
@@ -137,7 +137,7 @@ TEST(StudyStore, ResumesWithTheRunsThatAreWhole) {
   write_file(folder / "runs/layout-1-pose-1.json", run.substr(0, run.size() / 2));
   fs::remove(folder / "maps/layout-1-pose-2.json");
   folder.file("runs/layout-9-pose-9.json", "{}");
-  StudyStore store = open(folder.path());
+  StudyStore store = open_store(folder.path());
   EXPECT_FALSE(store.redone());
   EXPECT_EQ(store.finished(), (std::vector<RunId>{{2, 1}}));
   fs::remove(folder / "runs/layout-9-pose-9.json");
@@ -148,7 +148,7 @@ TEST(StudyStore, ResumesWithTheRunsThatAreWhole) {
 
 TEST(StudyStore, RedoesTheRunsOfAnotherSolver) {
   const TemporaryFolder folder;
-  open(folder.path()).write(made_up_result({1, 1}));
+  open_store(folder.path()).write(made_up_result({1, 1}));
   StudyStore store =
       StudyStore::open(folder.path(), small_experiment(), made_up_provenance("another"));
   EXPECT_TRUE(store.redone());
@@ -159,7 +159,7 @@ TEST(StudyStore, RedoesTheRunsOfAnotherSolver) {
 
 TEST(StudyStore, NamesTheDifferenceToTheExperimentInTheFolder) {
   const TemporaryFolder folder;
-  open(folder / "study");
+  open_store(folder / "study");
   Experiment other = small_experiment();
   other.seed = 8;
   const std::string path = (folder / "study").string();
@@ -178,7 +178,7 @@ TEST(StudyStore, NamesTheDifferenceToTheExperimentInTheFolder) {
 TEST(StudyStore, LeavesAFolderWithOtherFilesAlone) {
   const TemporaryFolder folder;
   folder.file("thesis.tex", "years of work");
-  EXPECT_EQ(error_of([&] { open(folder.path()); }),
+  EXPECT_EQ(error_of([&] { open_store(folder.path()); }),
             folder.path().string() + ": is not empty and holds no study; choose another folder");
   EXPECT_EQ(contents(folder.path()), "== thesis.tex\nyears of work");
 }
@@ -186,28 +186,28 @@ TEST(StudyStore, LeavesAFolderWithOtherFilesAlone) {
 TEST(StudyStore, RefusesAFileInPlaceOfTheFolder) {
   const TemporaryFolder folder;
   const fs::path file = folder.file("file", "");
-  EXPECT_NE(error_of([&] { open(file); }).find("file: "), std::string::npos);
-  EXPECT_NE(error_of([&] { open(file / "below"); }).find("cannot be made"), std::string::npos);
+  EXPECT_NE(error_of([&] { open_store(file); }).find("file: "), std::string::npos);
+  EXPECT_NE(error_of([&] { open_store(file / "below"); }).find("cannot be made"), std::string::npos);
 }
 
 TEST(StudyStore, RefusesARunThatIsNotOfItsExperiment) {
   const TemporaryFolder folder;
-  StudyStore store = open(folder.path());
+  StudyStore store = open_store(folder.path());
   EXPECT_THROW(store.write(made_up_result({3, 1})), InvalidInput);
   EXPECT_THROW(store.write(made_up_result({1, 0})), InvalidInput);
 }
 
 TEST(StudyStore, RemovesWhatAKilledProcessLeft) {
   const TemporaryFolder folder;
-  open(folder / "study").write(made_up_result({1, 1}));
+  open_store(folder / "study").write(made_up_result({1, 1}));
   const std::string before = contents(folder.path());
   folder.file("study/study.json.part-999999999", "half");
   folder.file("study/runs/layout-1-pose-2.json.part-999999999", "half");
   folder.file("study/figures/map.svg.part-999999999", "half");
   folder.file("new/study.json.part-999999999", "half");
-  open(folder / "study");
+  open_store(folder / "study");
   EXPECT_EQ(contents(folder / "study"), contents(folder / "study"));
-  open(folder / "new");
+  open_store(folder / "new");
   fs::remove_all(folder / "new");
   EXPECT_EQ(contents(folder.path()), before);
 }
@@ -220,14 +220,14 @@ TEST(StudyReader, TellsAStudyFromOtherFolders) {
             folder.path().string() + ": holds no study: study.json is missing");
   EXPECT_EQ(error_of([&] { read_study(folder / "missing"); }),
             (folder / "missing").string() + ": does not exist");
-  open(folder.path());
+  open_store(folder.path());
   EXPECT_TRUE(is_study(folder.path()));
   EXPECT_TRUE(read_study(folder.path()).runs.empty());
 }
 
 TEST(StudyReader, NamesADamagedFile) {
   const TemporaryFolder folder;
-  open(folder.path()).write(made_up_result({1, 1}));
+  open_store(folder.path()).write(made_up_result({1, 1}));
   const fs::path path = folder / "runs/layout-1-pose-1.json";
   const std::string run = read_file(path);
   write_file(path, run.substr(0, run.size() / 2));
@@ -239,7 +239,7 @@ TEST(StudyReader, NamesADamagedFile) {
 
 TEST(StudyReader, NoticesAFileUnderAnotherRunsName) {
   const TemporaryFolder folder;
-  open(folder.path()).write(made_up_result({1, 1}));
+  open_store(folder.path()).write(made_up_result({1, 1}));
   fs::rename(folder / "runs/layout-1-pose-1.json", folder / "runs/layout-2-pose-2.json");
   fs::rename(folder / "maps/layout-1-pose-1.json", folder / "maps/layout-2-pose-2.json");
   EXPECT_NE(error_of([&] { read_study(folder.path()); }).find("says that it is layout-1-pose-1"),
@@ -248,12 +248,12 @@ TEST(StudyReader, NoticesAFileUnderAnotherRunsName) {
               read_maps(folder.path(), {2, 2});
             }).find("layout-1-pose-1"),
             std::string::npos);
-  EXPECT_TRUE(open(folder.path()).finished().empty());
+  EXPECT_TRUE(open_store(folder.path()).finished().empty());
 }
 
 TEST(Timings, AreSortedAndTheLaterOfTwoCounts) {
   const TemporaryFolder folder;
-  StudyStore store = open(folder.path());
+  StudyStore store = open_store(folder.path());
   store.write(made_up_result({2, 1}));
   RunResult again = made_up_result({1, 1});
   store.write(again);
@@ -270,7 +270,7 @@ TEST(Timings, AreSortedAndTheLaterOfTwoCounts) {
 TEST(Timings, LoseOnlyALineThatAKillTore) {
   const TemporaryFolder folder;
   {
-    StudyStore store = open(folder.path());
+    StudyStore store = open_store(folder.path());
     store.write_session(test::made_up_session());
     store.write(made_up_result({1, 1}));
   }
@@ -278,7 +278,7 @@ TEST(Timings, LoseOnlyALineThatAKillTore) {
   write_file(folder / "timings.jsonl", text.substr(0, text.size() - 20));
   EXPECT_EQ(read_timings(folder.path()).size(), 1U);
   EXPECT_EQ(read_sessions(folder.path()).size(), 1U);
-  open(folder.path()).write_session(test::made_up_session());
+  open_store(folder.path()).write_session(test::made_up_session());
   EXPECT_EQ(read_timings(folder.path()).size(), 1U);
   ASSERT_EQ(read_sessions(folder.path()).size(), 2U);
   EXPECT_EQ(read_sessions(folder.path())[1].command, test::made_up_session().command);
@@ -286,7 +286,7 @@ TEST(Timings, LoseOnlyALineThatAKillTore) {
 
 TEST(Timings, NameTheLineThatIsDamaged) {
   const TemporaryFolder folder;
-  open(folder.path());
+  open_store(folder.path());
   folder.file("timings.jsonl", "{\"kind\": \"nap\"}\n");
   EXPECT_EQ(
       error_of([&] { read_timings(folder.path()); }),
