@@ -3,11 +3,11 @@
 #include <Spectra/Util/Version.h>
 #include <fmt/format.h>
 #include <spdlog/version.h>
-#include <tbb/version.h>
 #include <CLI/Version.hpp>
 #include <Eigen/Core>
 #include <nlohmann/json.hpp>
 
+#include "core/base/parallel.hpp"
 #include "core/base/version.hpp"
 #include "render/cairo/library_versions.hpp"
 
@@ -23,7 +23,7 @@ Provenance build_provenance() {
        fmt::format("{}.{}.{}", EIGEN_WORLD_VERSION, EIGEN_MAJOR_VERSION, EIGEN_MINOR_VERSION)},
       {"Spectra", fmt::format("{}.{}.{}", SPECTRA_MAJOR_VERSION, SPECTRA_MINOR_VERSION,
                               SPECTRA_PATCH_VERSION)},
-      {"oneTBB", TBB_runtime_version()},
+      {"oneTBB", parallel_library_version()},
       {"nlohmann-json", fmt::format("{}.{}.{}", NLOHMANN_JSON_VERSION_MAJOR,
                                     NLOHMANN_JSON_VERSION_MINOR, NLOHMANN_JSON_VERSION_PATCH)},
       {"fmt",

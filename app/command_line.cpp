@@ -85,11 +85,16 @@ void apply(const ExperimentChanges& changes, TrialExperiment& experiment, bool o
   apply_all(changes, experiment);
 }
 
-CLI::Option* add_out_option(CLI::App& app, std::string& out, const std::string& what) {
-  const auto has_name = [](const std::string& text) {
-    return text.empty() ? std::string("an empty name is no folder") : std::string();
+CLI::Validator names_folder() {
+  const auto problem = [](const std::string& text) -> std::string {
+    if (text == "-") return "standard input is no folder";
+    return text.empty() ? "an empty name is no folder" : "";
   };
-  return app.add_option("--out", out, what)->check(CLI::Validator(has_name, ""));
+  return {problem, ""};
+}
+
+CLI::Option* add_out_option(CLI::App& app, std::string& out, const std::string& what) {
+  return app.add_option("--out", out, what)->check(names_folder());
 }
 
 }  // namespace mapproof

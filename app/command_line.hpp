@@ -53,6 +53,9 @@ void apply(const ExperimentChanges& changes, SlamExperiment& experiment);
 /// The same of an experiment of trials; one that is made of data has no layouts and poses.
 void apply(const ExperimentChanges& changes, TrialExperiment& experiment, bool of_data);
 
+/// Refuses the empty name and "-": standard input is no folder.
+CLI::Validator names_folder();
+
 /// Adds --out to a verb: a folder, with a name.
 CLI::Option* add_out_option(CLI::App& app, std::string& out, const std::string& what);
 

@@ -71,7 +71,8 @@ void add_diff_options(CLI::App& app, DiffOptions& options) {
   app.remove_option(app.get_option("--json"));
   app.add_option("--json", options.json, "Write all that was found as JSON; - to standard output");
   app.add_option("--templates", options.templates,
-                 "Folder whose templates replace those of the page");
+                 "Folder whose templates replace those of the page")
+      ->check(names_folder());
   app.add_option("--junit", options.junit, "Write the verdicts as JUnit XML; - to standard output");
   app.add_option("--markdown", options.markdown,
                  "Write a summary for a comment on a change; - to standard output");

@@ -6,8 +6,10 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include "core/base/byte_source.hpp"
 #include "core/base/errors.hpp"
 #include "core/base/files.hpp"
+#include "core/base/input_file.hpp"
 
 namespace mapproof {
 
@@ -56,14 +58,10 @@ ExperimentText experiment_text(const std::string& name,
 
 ExperimentText experiment_of(const std::string& file_or_name) {
   std::error_code error;
-  if (std::filesystem::is_regular_file(file_or_name, error))
-    return {.text = read_file(file_or_name), .source = file_or_name};
-  const std::vector<std::string> known = experiment_names();
-  if (std::ranges::find(known, file_or_name) != known.end())
-    return experiment_text(file_or_name, std::nullopt);
   // Names have no dot and no slash: what has one was meant to be a file.
-  if (file_or_name.find_first_of("./") != std::string::npos)
-    return {.text = read_file(file_or_name), .source = file_or_name};
+  if (handed_in(file_or_name) || std::filesystem::is_regular_file(file_or_name, error) ||
+      file_or_name.find_first_of("./") != std::string::npos)
+    return {.text = read_input(file_or_name), .source = input_name(file_or_name)};
   return experiment_text(file_or_name, std::nullopt);
 }
 

@@ -6,9 +6,6 @@
 #include <utility>
 
 #include <fmt/format.h>
-#include <tbb/global_control.h>
-#include <tbb/parallel_for_each.h>
-#include <tbb/parallel_invoke.h>
 
 #include "app/command_line.hpp"
 #include "app/embedded_experiments.hpp"
@@ -17,6 +14,7 @@
 #include "app/trial_outputs.hpp"
 #include "core/base/errors.hpp"
 #include "core/base/files.hpp"
+#include "core/base/parallel.hpp"
 #include "core/records/slam_store.hpp"
 #include "core/records/study_store.hpp"
 #include "core/records/trial_store.hpp"
@@ -137,14 +135,13 @@ Pictures pictures_of(const FolderReport& report) {
 
 Drawn write_pictures(const Pictures& pictures, const Theme& theme, const fs::path& folder, int jobs,
                      SceneClient& client) {
-  const tbb::global_control limit(tbb::global_control::max_allowed_parallelism,
-                                  static_cast<std::size_t>(jobs));
   Drawn drawn;
   for (const Figure* figure : pictures.figures) drawn.svg[figure->id];  // None in parallel.
   for (const Scene* scene : pictures.scenes) drawn.svg[scene->id];
   const auto draw_figures = [&] {
-    tbb::parallel_for_each(pictures.figures, [&](const Figure* figure) {
-      drawn.svg.at(figure->id) = write_figure(*figure, theme, folder);
+    parallel_for(pictures.figures.size(), [&](std::size_t i) {
+      const Figure& figure = *pictures.figures[i];
+      drawn.svg.at(figure.id) = write_figure(figure, theme, folder);
     });
   };
   const auto draw_scenes = [&] {
@@ -156,7 +153,7 @@ Drawn write_pictures(const Pictures& pictures, const Theme& theme, const fs::pat
     }
     drawn.renderer = client.renderer();
   };
-  tbb::parallel_invoke(draw_scenes, draw_figures);
+  parallel_for(jobs, 2, [&](std::size_t i) { i == 0 ? draw_scenes() : draw_figures(); });
   return drawn;
 }
 

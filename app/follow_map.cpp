@@ -10,7 +10,7 @@
 #include "app/pair_follower.hpp"
 #include "app/value_follower.hpp"
 #include "core/base/errors.hpp"
-#include "core/base/inflater.hpp"
+#include "core/base/unpacker.hpp"
 #include "core/json/text_input.hpp"
 
 namespace mapproof {
@@ -60,7 +60,7 @@ FollowInterval follow_interval(const std::string& text) {
 OwnMap follow_map(const FollowOrder& order, const Console& console, const WriteFollowed& write) {
   const EndSignals signals;
   GrowingFile file(order.path);
-  Inflater inflater(file.name());
+  Unpacker unpacker(file.name());
   FollowedTable table = order.table;
   table.source = file.name();
   const std::unique_ptr<Follower> follower =
@@ -79,7 +79,7 @@ OwnMap follow_map(const FollowOrder& order, const Console& console, const WriteF
                         "before. Start again to follow the new file.");
       break;
     }
-    follower->take(inflater.take(bytes));
+    follower->take(unpacker.take(bytes));
     if (!due.after(follower->take_steps())) continue;
     const OwnMap map = follower->update();
     write(map, false);
@@ -87,12 +87,15 @@ OwnMap follow_map(const FollowOrder& order, const Console& console, const WriteF
     console.detail(fmt::format("{} steps, {} landmarks", map.record.step, map.record.names.size()));
     due.done();
   }
-  if (ended) follower->take(inflater.end());
-  if (ended && inflater.is_cut())
-    remarks.push_back(file.name() +
-                      " is gzip'ed and stops before its end: the map is of what "
-                      "there was.");
-  if (!ended || inflater.is_cut()) follower->drop_half_line();
+  if (ended) {
+    unpacker.end();
+    follower->take(unpacker.take({}));
+  }
+  if (ended && unpacker.is_cut())
+    remarks.push_back(
+        fmt::format("{} is {}'ed and stops before its end: the map is of what there was.",
+                    file.name(), unpacker.packing()));
+  if (!ended || unpacker.is_cut()) follower->drop_half_line();
   follower->end();
   follower->take_steps();
   if (follower->steps() == 0) throw IoError(file.name(), "held no observations");

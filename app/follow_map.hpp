@@ -19,7 +19,7 @@ FollowInterval follow_interval(const std::string& text);
 
 /// What is followed, and how it is mapped.
 struct FollowOrder {
-  std::string path;     ///< "-": standard input. Gzip'ed or not.
+  std::string path;     ///< "-": standard input. Packed or not.
   FollowedTable table;  ///< Its source is set from the path.
   FollowInterval every;
 };

@@ -9,6 +9,7 @@
 #include "app/map_folder.hpp"
 #include "app/map_words.hpp"
 #include "core/base/files.hpp"
+#include "core/base/input_file.hpp"
 #include "core/records/folder_lock.hpp"
 #include "core/records/map_files.hpp"
 #include "render/figures/map.hpp"
@@ -27,8 +28,8 @@ void write_report(const FollowedPlace& place, const OwnMap& map, const Figure& f
                   const std::string& svg) {
   const Report report =
       map_report({.record = map.record,
-                  .title = "Map of " + fs::path(place.observations).filename().string(),
-                  .facts = {{"Observations", place.observations},
+                  .title = map_title(place.observations),
+                  .facts = {{"Observations", input_name(place.observations)},
                             {"Sensor", observed_words(map)},
                             {"Landmarks", std::to_string(map.record.names.size())},
                             {"Steps followed", std::to_string(map.record.step)},

@@ -1,6 +1,5 @@
 #include "app/growing_file.hpp"
 
-#include <fcntl.h>
 #include <poll.h>
 #include <sys/stat.h>
 #include <unistd.h>
@@ -11,6 +10,7 @@
 #include <cstring>
 
 #include "core/base/errors.hpp"
+#include "core/base/input_file.hpp"
 
 namespace mapproof {
 namespace {
@@ -22,26 +22,20 @@ extern "C" void ask_to_end(int) { g_asked = 1; }
 }  // namespace
 
 GrowingFile::GrowingFile(const std::string& path)
-    : path_(path), name_(path == "-" ? "standard input" : path) {
-  file_ = path == "-" ? STDIN_FILENO : ::open(path.c_str(), O_RDONLY | O_CLOEXEC);
+    : path_(path), name_(input_name(path)), file_(open_followed(path)) {
   struct stat status {};
-  if (file_ < 0 || ::fstat(file_, &status) != 0) throw IoError(name_, std::strerror(errno));
-  if (S_ISDIR(status.st_mode)) throw IoError(name_, "is a folder; only a file can be followed");
+  if (::fstat(file_.get(), &status) != 0) throw IoError(name_, std::strerror(errno));
   regular_ = S_ISREG(status.st_mode);
-}
-
-GrowingFile::~GrowingFile() {
-  if (file_ > STDIN_FILENO) ::close(file_);
 }
 
 GrowingFile::State GrowingFile::read(std::string& bytes, double seconds) {
   bytes.clear();
-  pollfd wait{.fd = file_, .events = POLLIN, .revents = 0};
+  pollfd wait{.fd = file_.get(), .events = POLLIN, .revents = 0};
   // A regular file is always ready: only others are waited for here.
   if (!regular_ && ::poll(&wait, 1, static_cast<int>(std::ceil(1000.0 * seconds))) <= 0)
     return State::kNothing;
   std::array<char, 65536> buffer;
-  const ssize_t count = ::read(file_, buffer.data(), buffer.size());
+  const ssize_t count = ::read(file_.get(), buffer.data(), buffer.size());
   if (count < 0 && (errno == EINTR || errno == EAGAIN)) return State::kNothing;
   if (count < 0) throw IoError(name_, std::strerror(errno));
   at_ += count;
@@ -58,7 +52,7 @@ GrowingFile::State GrowingFile::read(std::string& bytes, double seconds) {
 bool GrowingFile::replaced() const {
   struct stat here {
   }, there{};
-  if (::fstat(file_, &here) != 0 || here.st_size < at_) return true;
+  if (::fstat(file_.get(), &here) != 0 || here.st_size < at_) return true;
   if (path_ == "-") return false;
   return ::stat(path_.c_str(), &there) != 0 || here.st_ino != there.st_ino ||
          here.st_dev != there.st_dev;

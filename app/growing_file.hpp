@@ -3,16 +3,15 @@
 #include <csignal>
 #include <string>
 
+#include "core/base/descriptor.hpp"
+
 namespace mapproof {
 
-/// A file that others write to while it is read, or standard input.
+/// A file that others write to while it is read, a pipe or a device.
 class GrowingFile {
  public:
   /// @param path  "-": standard input. @throws IoError if it cannot be opened.
   explicit GrowingFile(const std::string& path);
-  ~GrowingFile();
-  GrowingFile(const GrowingFile&) = delete;
-  GrowingFile& operator=(const GrowingFile&) = delete;
 
   enum class State {
     kMore,      ///< Bytes came.
@@ -33,7 +32,7 @@ class GrowingFile {
 
   std::string path_;
   std::string name_;
-  int file_ = -1;
+  Descriptor file_;
   bool regular_ = false;
   long long at_ = 0;
 };

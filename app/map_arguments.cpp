@@ -133,8 +133,8 @@ void settle(MapArguments& arguments) {
   input.rigid = arguments.fit == "rigid";
   if (input.kind.empty() && arguments.method == kPairs) input.kind = kRangeBearing;
   arguments.options.choose = lower_case(arguments.method) == "auto";
-  // What grows, or comes by a pipe, cannot be looked into first.
-  if (!arguments.follow) input.kind = kind_of(input);
+  // What grows cannot be looked into first.
+  if (!arguments.follow) open_observations(input);
   take_others(arguments);
   require_pairs(arguments);
   if (input.kind != kRangeBearing) arguments.options.setting = chosen_setting(arguments);

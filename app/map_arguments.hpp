@@ -32,7 +32,7 @@ struct MapArguments {
 };
 
 /// Fills in what the words ask for: input, options and setting. Unless the file is followed, it is
-/// looked into where nothing says what it holds.
+/// opened, and looked into where nothing says what it holds.
 /// @throws InvalidInput for what does not go together; IoError if the file cannot be read.
 void settle(MapArguments& arguments);
 

@@ -12,6 +12,7 @@
 #include "app/map_words.hpp"
 #include "app/mixed_report.hpp"
 #include "core/base/files.hpp"
+#include "core/base/input_file.hpp"
 #include "core/records/map_files.hpp"
 #include "render/figures/map.hpp"
 #include "render/figures/map_ellipses.hpp"
@@ -30,8 +31,8 @@ namespace fs = std::filesystem;
 std::vector<std::pair<std::string, std::string>> facts(const MapArguments& arguments,
                                                        const OwnMap& map) {
   const MapRecord& record = map.record;
-  std::vector<std::pair<std::string, std::string>> items = {{"Observations", arguments.input.path},
-                                                            {"Sensor", observed_words(map)}};
+  std::vector<std::pair<std::string, std::string>> items = {
+      {"Observations", input_name(arguments.input.path)}, {"Sensor", observed_words(map)}};
   items.insert(items.end(), map.read.begin(), map.read.end());
   items.emplace_back("Method", method_words(map));
   if (record.anchors.empty()) {
@@ -69,7 +70,7 @@ Report report_of(const MapArguments& arguments, const OwnMap& map,
   std::vector<FigureBlock> more;
   for (std::size_t k = 1; k < figures.size(); ++k) more.push_back(figure_block(figures[k]));
   return map_report({.record = map.record,
-                     .title = "Map of " + fs::path(arguments.input.path).filename().string(),
+                     .title = map_title(arguments.input.path),
                      .facts = facts(arguments, map),
                      .remarks = map.remarks,
                      .warnings = map.warnings,

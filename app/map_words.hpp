@@ -13,4 +13,7 @@ std::string method_words(const OwnMap& map);
 /// What the record does not say of either; empty if it does.
 std::string what_words(const OwnMap& map);
 
+/// "Map of seen.csv", for a report.
+std::string map_title(const std::string& observations);
+
 }  // namespace mapproof

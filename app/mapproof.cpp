@@ -3,10 +3,8 @@
 
 #include <algorithm>
 #include <csignal>
-#include <exception>
 #include <functional>
 #include <iostream>
-#include <new>
 #include <string_view>
 #include <utility>
 #include <vector>
@@ -15,10 +13,9 @@
 
 #include "app/build_facts.hpp"
 #include "app/commands/verbs.hpp"
+#include "app/failures.hpp"
 #include "core/base/errors.hpp"
 #include "core/base/spelling.hpp"
-#include "render/animation/animation.hpp"
-#include "render/scene_client/scene_client.hpp"
 
 namespace mapproof {
 namespace {
@@ -124,11 +121,6 @@ void open_standard_streams() {
     if (::fcntl(stream, F_GETFD) < 0) (void)::open("/dev/null", O_RDWR);  // The lowest free number.
 }
 
-int fail(const std::string& what, ExitCode code) {
-  std::cerr << "mapproof: " << printable(what, 4000) << "\n";
-  return code;
-}
-
 }  // namespace
 }  // namespace mapproof
 
@@ -137,20 +129,8 @@ int main(int argc, char** argv) {
   open_standard_streams();
   // A limit on file sizes then fails the write, which says so and cleans up, not the program.
   std::signal(SIGXFSZ, SIG_IGN);
-  try {
+  return exit_code_of([&] {
     std::vector<char*> words = with_help(argc, argv);
     return run_verb_of(static_cast<int>(words.size()), words.data());
-  } catch (const IoError& error) {
-    return fail(error.what(), kUsage);
-  } catch (const InvalidInput& error) {
-    return fail(error.what(), kUsage);
-  } catch (const SceneError& error) {
-    return fail(error.what(), kInternal);
-  } catch (const AnimationError& error) {
-    return fail(error.what(), kInternal);
-  } catch (const std::bad_alloc&) {
-    return fail("out of memory", kInternal);
-  } catch (const std::exception& error) {
-    return fail(std::string("internal error: ") + error.what(), kInternal);
-  }
+  });
 }

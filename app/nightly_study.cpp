@@ -14,36 +14,13 @@
 
 #include <fmt/format.h>
 
+#include "app/failures.hpp"
 #include "core/base/errors.hpp"
 #include "reports/history/night_scores.hpp"
 
 namespace mapproof {
-namespace {
 
 namespace fs = std::filesystem;
-
-/// What the process apart does; its errors are told here as the program tells them.
-int run_apart(const StudyOrder& order, const fs::path& folder, int jobs, const std::string& command,
-              const Console& console) {
-  try {
-    make_study(order, folder, jobs, command, console);
-    return kDone;
-  } catch (const IoError& error) {
-    console.warning(error.what());
-    return kUsage;
-  } catch (const InvalidInput& error) {
-    console.warning(error.what());
-    return kUsage;
-  } catch (const std::bad_alloc&) {
-    console.warning(order.name + ": out of memory");
-    return kInternal;
-  } catch (const std::exception& error) {
-    console.warning(order.name + ": internal error: " + error.what());
-    return kInternal;
-  }
-}
-
-}  // namespace
 
 std::vector<StudyOrder> read_nightly_orders(const std::vector<std::string>& experiments,
                                             OrderOptions options) {
@@ -79,7 +56,8 @@ int make_apart(const StudyOrder& order, const fs::path& folder, int jobs,
     // A night that is killed takes its study with it: its locks are free at once.
     ::prctl(PR_SET_PDEATHSIG, SIGKILL);
     if (::getppid() != parent) ::_exit(kInternal);
-    const int code = run_apart(order, folder, jobs, command, console);
+    const auto make = [&] { return make_study(order, folder, jobs, command, console), kDone; };
+    const int code = exit_code_of(make, order.name + ": ");
     std::fflush(nullptr);
     ::_exit(code);
   }

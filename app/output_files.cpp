@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <array>
+#include <functional>
 #include <memory>
+#include <new>
 #include <string>
 #include <string_view>
 #include <system_error>
@@ -12,6 +14,7 @@
 
 #include "core/base/errors.hpp"
 #include "core/base/files.hpp"
+#include "core/base/input_file.hpp"
 #include "core/records/table_reader.hpp"
 #include "render/image/png_check.hpp"
 
@@ -23,9 +26,11 @@ namespace fs = std::filesystem;
 void check_svg(const std::string& bytes, const std::string& source) {
   const std::unique_ptr<XML_ParserStruct, decltype(&XML_ParserFree)> parser(
       XML_ParserCreate("UTF-8"), &XML_ParserFree);
+  if (!parser) throw std::bad_alloc();
   if (XML_Parse(parser.get(), bytes.data(), static_cast<int>(bytes.size()), XML_TRUE) ==
       XML_STATUS_OK)
     return;
+  if (XML_GetErrorCode(parser.get()) == XML_ERROR_NO_MEMORY) throw std::bad_alloc();
   throw IoError(source,
                 fmt::format("line {}, column {}", XML_GetCurrentLineNumber(parser.get()),
                             XML_GetCurrentColumnNumber(parser.get()) + 1),
@@ -82,30 +87,49 @@ void check_csv(const std::string& bytes, const std::string& source) {
 /// A kind of file that is written and never read again.
 struct StagedOutput {
   std::string_view extension;
+  std::array<std::string_view, 2> starts;  ///< Of no other files; empty: none.
   std::string_view kind;
   void (*check)(const std::string& bytes, const std::string& source);
 };
 
 constexpr std::array kOutputs = {
-    StagedOutput{".svg", "figure, SVG", check_svg},    StagedOutput{".png", "figure, PNG", check_png},
-    StagedOutput{".pdf", "figure, PDF", check_pdf},    StagedOutput{".html", "report", check_page},
-    StagedOutput{".tex", "table, LaTeX", check_latex}, StagedOutput{".md", "table, Markdown", check_markdown},
-    StagedOutput{".csv", "table, CSV", check_csv},
+    StagedOutput{".svg", {"<svg", "<?xml"}, "figure, SVG", check_svg},
+    StagedOutput{".png", {"\x89PNG"}, "figure, PNG", check_png},
+    StagedOutput{".pdf", {"%PDF-"}, "figure, PDF", check_pdf},
+    StagedOutput{".html", {"<!DOCTYPE html>"}, "report", check_page},
+    StagedOutput{".tex", {"\\begin{table}"}, "table, LaTeX", check_latex},
+    StagedOutput{".md", {}, "table, Markdown", check_markdown},
+    StagedOutput{".csv", {}, "table, CSV", check_csv},
 };
 
-/// The kind of an output file; null for files that core reads. A table's CSV is told from
-/// observations by its folder.
-const StagedOutput* output_of(const fs::path& path) {
-  const auto* found = std::ranges::find(kOutputs, path.extension().string(), &StagedOutput::extension);
+/// The kind of an output file by its name; null for files that core reads. A table's CSV is told
+/// from observations by its folder.
+const StagedOutput* output_named(const fs::path& path) {
+  const auto* found =
+      std::ranges::find(kOutputs, path.extension().string(), &StagedOutput::extension);
   if (found == kOutputs.end()) return nullptr;
   if (found->extension == ".csv" && path.parent_path().filename() != "tables") return nullptr;
   return found;
 }
 
-Finding check_output(const fs::path& path, const StagedOutput& output) {
-  Finding finding{.path = path.string(), .kind = std::string(output.kind), .problem = ""};
+/// By its name; where that says nothing, as of a stream, by its first bytes.
+const StagedOutput* output_of(ByteSource& source) {
+  if (source.path().has_extension()) return output_named(unpacked_name(source.path()));
+  const std::string_view bytes = source.peek();
+  const auto begins = [&](std::string_view start) {
+    return !start.empty() && bytes.starts_with(start);
+  };
+  const auto* found = std::ranges::find_if(kOutputs, [&](const StagedOutput& output) {
+    return std::ranges::any_of(output.starts, begins);
+  });
+  return found == kOutputs.end() ? nullptr : found;
+}
+
+Finding check_output(const std::string& name, const StagedOutput& output,
+                     const std::function<std::string()>& read) {
+  Finding finding{.path = name, .kind = std::string(output.kind), .problem = ""};
   try {
-    output.check(read_file(path), finding.path);
+    output.check(read(), finding.path);
   } catch (const IoError& error) {
     finding.problem = error.what();
   }
@@ -118,22 +142,31 @@ std::vector<fs::path> outputs_below(const fs::path& folder) {
   std::error_code error;
   for (fs::recursive_directory_iterator entry(folder, error), end; !error && entry != end;
        entry.increment(error))
-    if (output_of(entry->path()) != nullptr) paths.push_back(entry->path());
+    if (output_named(entry->path()) != nullptr) paths.push_back(entry->path());
   std::ranges::sort(paths);
   return paths;
+}
+
+Finding check_file(const fs::path& path, const ForeignReader& foreign) {
+  try {
+    ByteSource source(path);
+    if (const StagedOutput* output = output_of(source))
+      return check_output(source.name(), *output, [&] { return source.rest(); });
+    return validate(source, foreign);
+  } catch (const IoError& error) {
+    return {.path = input_name(path), .kind = "", .problem = error.what()};
+  }
 }
 
 }  // namespace
 
 std::vector<Finding> validate_all(const fs::path& path, const ForeignReader& foreign) {
-  std::error_code error;
-  if (!fs::is_directory(path, error)) {
-    if (const StagedOutput* output = output_of(path)) return {check_output(path, *output)};
-    return validate(path, foreign);
-  }
+  if (!is_folder(path)) return {check_file(path, foreign)};
   std::vector<Finding> findings = validate(path, foreign);
+  // Nobody unpacks a picture of a folder: there it has to be one as it is.
   for (const fs::path& output : outputs_below(path))
-    findings.push_back(check_output(output, *output_of(output)));
+    findings.push_back(
+        check_output(output.string(), *output_named(output), [&] { return read_file(output); }));
   return findings;
 }
 

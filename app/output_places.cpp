@@ -1,15 +1,15 @@
 #include "app/output_places.hpp"
 
-#include <algorithm>
 #include <array>
-#include <fstream>
 #include <string>
 #include <string_view>
 #include <system_error>
 
 #include <fmt/format.h>
 
+#include "core/base/byte_source.hpp"
 #include "core/base/errors.hpp"
+#include "core/base/paths.hpp"
 #include "reports/diff/item_files.hpp"
 
 namespace mapproof {
@@ -24,29 +24,12 @@ struct Output {
   std::string_view mark;
 };
 
-/// The place behind links, as far as it is there.
-fs::path real_place(const fs::path& path) {
-  std::error_code error;
-  fs::path place = fs::weakly_canonical(fs::absolute(path, error), error);
-  if (error) place = fs::absolute(path, error).lexically_normal();
-  return place.has_filename() ? place : place.parent_path();
-}
-
-/// The same or below it.
-bool lies_in(const fs::path& place, const fs::path& folder) {
-  return std::ranges::mismatch(folder, place).in1 == folder.end();
-}
-
 bool is_earlier_output(const Output& output) {
-  std::string head(4096, '\0');
-  std::ifstream file(output.place, std::ios::binary);
-  file.read(head.data(), static_cast<std::streamsize>(head.size()));
-  head.resize(static_cast<std::size_t>(file.gcount()));
-  return head.find(output.mark) != std::string::npos;
+  return ByteSource(output.place).peek(4096).find(output.mark) != std::string_view::npos;
 }
 
 void check_place(const Output& output, const fs::path& input) {
-  const fs::path place = real_place(output.place), compared = real_place(input);
+  const fs::path place = real_path(output.place), compared = real_path(input);
   const auto refuse = [&](const char* why) {
     throw InvalidInput(
         fmt::format("{} {}: {}", output.option, printable(output.place.string()), why));
@@ -69,11 +52,6 @@ void require_replaceable(const fs::path& place) {
 
 }  // namespace
 
-bool overlap(const fs::path& a, const fs::path& b) {
-  const fs::path first = real_place(a), second = real_place(b);
-  return lies_in(first, second) || lies_in(second, first);
-}
-
 void check_output_places(const DiffOptions& options, std::span<const fs::path> inputs) {
   const std::array outputs = {
       Output{"the page", options.page, "content=\"mapproof\""},
@@ -89,7 +67,7 @@ void check_output_places(const DiffOptions& options, std::span<const fs::path> i
     require_replaceable(output.place);
     for (const Output& other : outputs)
       if (&other != &output && is_file(other) &&
-          real_place(other.place) == real_place(output.place))
+          real_path(other.place) == real_path(output.place))
         throw InvalidInput(fmt::format("{} and {} are one file: {}", output.option, other.option,
                                        printable(output.place.string())));
   }

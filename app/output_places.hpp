@@ -7,9 +7,6 @@
 
 namespace mapproof {
 
-/// Whether one of two folders is the other, or lies in it, links followed. They need not be there.
-bool overlap(const std::filesystem::path& a, const std::filesystem::path& b);
-
 /// Refuses outputs that would replace what is compared: one of `inputs` itself, the place of a
 /// figure, picture, table or page in one that is a folder, or a file there that is no earlier
 /// output of the same kind. Two outputs cannot share a place either.

@@ -1,6 +1,5 @@
 #include "app/own_input.hpp"
 
-#include <filesystem>
 #include <utility>
 #include <vector>
 
@@ -9,6 +8,7 @@
 #include "app/own_mixed.hpp"
 #include "app/own_sightings.hpp"
 #include "core/base/errors.hpp"
+#include "core/base/input_file.hpp"
 #include "core/records/sightings.hpp"
 
 namespace mapproof {
@@ -19,22 +19,30 @@ void add_labels(CheckedLabels labels, OwnMap& map) {
   map.warnings.insert(map.warnings.begin(), labels.warnings.begin(), labels.warnings.end());
 }
 
+ObservationSource read_own(const OwnInput& input, std::optional<Sensor> sensor) {
+  return input.source ? read_observations(*input.source, sensor, input.layout, input.unit)
+                      : read_observations(input.path, sensor, input.layout, input.unit);
+}
+
+SightingSource read_own_sightings(const OwnInput& input, std::optional<Sensor> value) {
+  const SightingFormat format{.unit = input.unit, .value = value};
+  return input.source ? read_sightings(*input.source, format) : read_sightings(input.path, format);
+}
+
 }  // namespace
 
-std::string kind_of(const OwnInput& input) {
-  std::error_code error;
-  if (!input.kind.empty() || std::filesystem::is_directory(input.path, error)) return input.kind;
-  return input.layout == Layout::kAuto && is_sightings(input.path) ? std::string(kRangeBearing)
-                                                                   : std::string();
+void open_observations(OwnInput& input) {
+  if (is_folder(input.path)) return;
+  input.source = std::make_shared<ByteSource>(input.path);
+  if (input.kind.empty() && input.layout == Layout::kAuto && is_sightings(*input.source))
+    input.kind = kRangeBearing;
 }
 
 OwnMap map_input(const OwnInput& input, const std::optional<NamedPointsFile>& anchors,
                  const std::optional<NamedPointsFile>& truth, const OwnMapOptions& options) {
-  const std::string kind = kind_of(input);
-  const std::optional<Sensor> sensor = kind.empty() ? std::nullopt : sensor_named(kind);
+  const std::optional<Sensor> sensor = input.kind.empty() ? std::nullopt : sensor_named(input.kind);
   if (!input.others.empty()) {
-    std::vector<ObservationSource> sources = {
-        read_observations(input.path, sensor, input.layout, input.unit)};
+    std::vector<ObservationSource> sources = {read_own(input, sensor)};
     for (const OtherInput& other : input.others)
       sources.push_back(
           read_observations(other.path, sensor_named(other.kind), input.layout, input.unit));
@@ -44,8 +52,8 @@ OwnMap map_input(const OwnInput& input, const std::optional<NamedPointsFile>& an
                       "a reading without a label: not with --with");
     return map_mixed(sources, anchors, truth, options);
   }
-  if (kind == kRangeBearing) {
-    SightingSource source = read_sightings(input.path, {.unit = input.unit, .value = std::nullopt});
+  if (input.kind == kRangeBearing) {
+    SightingSource source = read_own_sightings(input, std::nullopt);
     CheckedLabels labels = check_labels_of(source, input.labels, anchors, truth);
     OwnMap map = map_pairs(std::move(source), anchors, truth, options, input.rigid);
     add_labels(std::move(labels), map);
@@ -54,10 +62,10 @@ OwnMap map_input(const OwnInput& input, const std::optional<NamedPointsFile>& an
   const bool as_usual = options.missing.way == MissingChoice().way && options.submaps == 0 &&
                         !input.labels.asked() && input.unsure.empty() && !options.choose &&
                         options.ellipse_replicates == 0;
-  if (sensor && as_usual && input.layout != Layout::kWide && is_large_long_table(input.path))
-    return map_sparse(read_sightings(input.path, {.unit = input.unit, .value = sensor}), *sensor,
-                      anchors, truth, options);
-  ObservationSource source = read_observations(input.path, sensor, input.layout, input.unit);
+  if (sensor && as_usual && input.layout != Layout::kWide && input.source &&
+      is_large_long_table(*input.source))
+    return map_sparse(read_own_sightings(input, sensor), *sensor, anchors, truth, options);
+  ObservationSource source = read_own(input, sensor);
   CheckedLabels labels = check_labels_of(source, input.labels, anchors, truth);
   const bool doubtful = !source.unlabelled.empty() || !input.unsure.empty();
   const EstimatedLabels estimated = estimate_labels(source, input.unsure);

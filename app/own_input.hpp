@@ -1,11 +1,13 @@
 #pragma once
 
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "app/own_labels.hpp"
 #include "app/own_map.hpp"
+#include "core/base/byte_source.hpp"
 
 namespace mapproof {
 
@@ -18,6 +20,7 @@ struct OtherInput {
 /// A person's observations as the command line names them.
 struct OwnInput {
   std::string path;
+  std::shared_ptr<ByteSource> source = {};  ///< Opened; none: the path is a folder.
   std::string kind;  ///< A sensor's name, kRangeBearing, or empty: as the file says.
   Layout layout = Layout::kAuto;
   AngleUnit unit = AngleUnit::kRadians;
@@ -27,11 +30,11 @@ struct OwnInput {
   std::vector<OtherInput> others = {};   ///< To be mapped together with it.
 };
 
-/// The kind of the input: what was given, or range-bearing for a file of sightings.
-/// @throws IoError if the file cannot be read.
-std::string kind_of(const OwnInput& input);
+/// Opens the input, and looks into it for its kind where that was not given: range-bearing of
+/// sightings. @throws IoError if it cannot be read.
+void open_observations(OwnInput& input);
 
-/// Reads and maps observations of a kind from kind_of(), by options.setting or, of range and
+/// Reads and maps observations that were opened, by options.setting or, of range and
 /// bearing, by pairs. Long tables of more than some 64 MB are never held as an array of landmarks
 /// times steps. With others, one map of all (see map_mixed()).
 /// @throws IoError as the readers and map_own().

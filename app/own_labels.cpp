@@ -1,13 +1,12 @@
 #include "app/own_labels.hpp"
 
 #include <algorithm>
-#include <filesystem>
-#include <system_error>
 #include <utility>
 
 #include <fmt/format.h>
 
 #include "core/base/errors.hpp"
+#include "core/base/input_file.hpp"
 #include "core/base/not_finite.hpp"
 #include "core/base/words.hpp"
 #include "core/labels/anchor_labels.hpp"
@@ -236,8 +235,7 @@ CheckedLabels check_labels_of(ObservationSource& source, const LabelChoice& choi
                               const std::optional<NamedPointsFile>& anchors,
                               const std::optional<NamedPointsFile>& truth) {
   if (!choice.asked()) return {};
-  std::error_code error;
-  if (!std::filesystem::is_directory(source.path, error) || !is_mrclam(source.path))
+  if (!is_folder(source.path) || !is_mrclam(source.path))
     throw IoError(source.path,
                   fmt::format("{} by range and bearing seen together: sightings mapped with "
                               "--kind range-bearing, or a folder of MRCLAM",

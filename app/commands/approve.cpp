@@ -6,7 +6,9 @@
 #include "app/commands/verbs.hpp"
 #include "core/base/errors.hpp"
 #include "core/base/files.hpp"
+#include "core/base/paths.hpp"
 #include "core/records/folder_lock.hpp"
+#include "core/records/folder_replacement.hpp"
 #include "reports/diff/approvals.hpp"
 
 namespace mapproof {
@@ -42,25 +44,40 @@ ApprovalOrder order_of(const ApproveArguments& arguments) {
   return order;
 }
 
+/// @return What was done.
+ApprovalPlan take_file(const fs::path& baseline, const fs::path& current) {
+  approve_file(baseline, current);
+  return {.steps = {{current, {}}}};
+}
+
+ApprovalPlan take_folder(const fs::path& baseline, const fs::path& current,
+                         const ApprovalOrder& order) {
+  const fs::path real = real_path(baseline);
+  recover_folder(real);
+  std::optional<FolderLock> lock;
+  if (std::error_code error; fs::exists(real, error)) {
+    lock.emplace(real);
+    remove_leftovers(real);
+  }
+  ApprovalPlan plan = approval_plan(baseline, current, order);
+  apply(plan, baseline);
+  return plan;
+}
+
 int approve(const ApproveArguments& arguments, const Invocation& invocation) {
   const ApprovalOrder order = order_of(arguments);
-  std::optional<FolderLock> lock;
-  if (!are_files(arguments)) {
-    make_folder(arguments.baseline);
-    lock.emplace(arguments.baseline);
-    remove_leftovers(arguments.baseline);
-  }
+  const fs::path baseline = arguments.baseline, current = arguments.current;
+  const ApprovalPlan plan =
+      are_files(arguments) ? take_file(baseline, current) : take_folder(baseline, current, order);
   nlohmann::ordered_json object{{"baseline", arguments.baseline},
                                 {"written", nlohmann::ordered_json::array()},
                                 {"removed", nlohmann::ordered_json::array()}};
   std::string text;
-  const ApprovalPlan plan = approval_plan(arguments.baseline, arguments.current, order);
   for (const ApprovalStep& step : plan.steps) {
-    apply(step);
-    const bool removed = step.from.empty();
-    object[removed ? "removed" : "written"].push_back(step.to.string());
-    text += fmt::format("{}  {}\n", removed ? "removed" : "written",
-                        printable(step.to.string(), kLongestName));
+    const char* what = step.from.empty() ? "removed" : "written";
+    const std::string file = (step.file.empty() ? baseline : baseline / step.file).string();
+    object[what].push_back(file);
+    text += fmt::format("{}  {}\n", what, printable(file, kLongestName));
   }
   object["refused"] = plan.refused;
   for (const std::string& refusal : plan.refused)
@@ -74,22 +91,28 @@ int approve(const ApproveArguments& arguments, const Invocation& invocation) {
 
 Action approve_verb(CLI::App& app) {
   auto arguments = std::make_shared<ApproveArguments>();
-  app.description("Take changes as the new baseline, one file at a time");
+  app.description("Take changes as the new baseline");
   app.footer(
       "Examples:\n"
       "  mapproof approve baseline out map-bearing-isomap\n"
       "  mapproof approve baseline out --from approvals.json\n"
       "  mapproof approve baseline out --all\n"
       "  mapproof approve baseline out -- -id-that-begins-with-a-dash\n\n"
-      "Records, ID.figure.json, SVG, PNG and PDF of a figure go together. Stopped at any moment,\n"
-      "every file is the old or the new one. With --all the baseline holds what the current "
-      "holds;\n"
-      "what cannot be read is named and left as it was, and the exit code is 1.\n");
+      "Records, ID.figure.json, SVG, PNG and PDF of a figure go together. A folder is replaced in\n"
+      "one step: stopped at any moment, it is wholly the old or the new one. With --all the "
+      "baseline\n"
+      "holds what the current holds; what cannot be read is named and left as it was, and the exit\n"
+      "code is 1.\n");
   app.add_option("BASELINE", arguments->baseline, "The folder or file that is replaced")
-      ->required();
-  app.add_option("CURRENT", arguments->current, "The one that is taken")->required();
+      ->required()
+      ->check(names_folder());
+  app.add_option("CURRENT", arguments->current, "The one that is taken")
+      ->required()
+      ->check(names_folder());
   app.add_option("ID", arguments->order.ids, "Figures, pictures, or \"records\"");
   app.add_flag("--all", arguments->order.all, "Everything; what the current lacks is removed");
+  app.add_flag("--force", arguments->order.force,
+               "--all may remove more than half of the baseline's files");
   app.add_option("--from", arguments->from, "File of approvals, as the page of a diff writes it");
   app.add_option("--key", arguments->order.key,
                  "Keep the pictures beside the others, as ID@KEY: another valid renderer's");

@@ -10,6 +10,7 @@
 #include "app/output_places.hpp"
 #include "app/study_order.hpp"
 #include "core/base/errors.hpp"
+#include "core/base/paths.hpp"
 #include "reports/diff/folder_diff.hpp"
 
 namespace mapproof {
@@ -80,7 +81,9 @@ Action check_verb(CLI::App& app) {
   app.add_option("EXPERIMENT", arguments->experiment,
                  "The experiment's JSON file, or a name that reproduce takes")
       ->required();
-  app.add_option("--baseline", arguments->baseline, "The study to compare with")->required();
+  app.add_option("--baseline", arguments->baseline, "The study to compare with")
+      ->required()
+      ->check(names_folder());
   add_out_option(app, arguments->out, "Folder for records, figures and report")
       ->capture_default_str();
   app.add_option("--profile", arguments->order.profile, "One of the profiles in the experiment");

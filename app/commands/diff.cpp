@@ -4,6 +4,7 @@
 
 #include "app/commands/verbs.hpp"
 #include "app/diff_options.hpp"
+#include "app/input_streams.hpp"
 #include "app/output_places.hpp"
 #include "reports/diff/folder_diff.hpp"
 
@@ -16,7 +17,11 @@ struct DiffArguments {
   DiffOptions options;
 };
 
-int diff(const DiffArguments& arguments, const Invocation& invocation) {
+int diff(DiffArguments arguments, const Invocation& invocation) {
+  refuse_shared_streams(
+      std::array{arguments.baseline, arguments.current, arguments.options.settings});
+  // Files are read more than once: for the verdict, for the page.
+  for (std::string* path : {&arguments.baseline, &arguments.current}) *path = made_file(*path);
   const std::array<std::filesystem::path, 3> inputs = {arguments.baseline, arguments.current,
                                                        arguments.options.settings};
   check_output_places(arguments.options, inputs);
@@ -35,7 +40,8 @@ Action diff_verb(CLI::App& app) {
       "  mapproof diff baseline out\n"
       "  mapproof diff baseline out --out diff.html\n"
       "  mapproof diff baseline out --junit diff.junit.xml --markdown diff.md\n"
-      "  mapproof diff old.png new.png\n\n"
+      "  mapproof diff old.png new.png\n"
+      "  mapproof diff <(git show HEAD:map.png) map.png\n\n"
       "Exit code 0 if all is identical, within tolerance, or drawn otherwise without being seen;\n"
       "1 for any other verdict that --allow does not name; 2 if nothing could be compared.\n"
       "docs/diff.md says what the verdicts mean.\n");

@@ -105,7 +105,9 @@ Action history_verb(CLI::App& app) {
       "  mapproof history history --export csv > nights.csv\n\n"
       "A pinned night is what later ones are compared with: pin one to accept what it changed.\n"
       "--verify ends with 1 if the history or a figure in it is not whole.\n");
-  app.add_option("DIR", arguments->store, "Folder of the history")->required();
+  app.add_option("DIR", arguments->store, "Folder of the history")
+      ->required()
+      ->check(names_folder());
   auto* what = app.add_option_group("what");
   what->add_option("--prune", arguments->prune,
                    "Remove all nights but the last N, those whose number K divides, the pinned and "

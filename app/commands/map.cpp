@@ -6,17 +6,19 @@
 #include "app/follow_map.hpp"
 #include "app/followable.hpp"
 #include "app/followed_outputs.hpp"
+#include "app/input_streams.hpp"
 #include "app/map_arguments.hpp"
 #include "app/map_folder.hpp"
 #include "app/map_outputs.hpp"
 #include "app/map_result.hpp"
+#include "core/base/input_file.hpp"
 
 namespace mapproof {
 namespace {
 
 std::optional<NamedPointsFile> read_points(const std::string& path) {
   if (path.empty()) return std::nullopt;
-  return NamedPointsFile{.path = path, .points = read_landmarks(path)};
+  return NamedPointsFile{.path = input_name(path), .points = read_landmarks(path)};
 }
 
 int follow_file(const MapArguments& arguments, const Templates& page,
@@ -50,6 +52,9 @@ int follow_file(const MapArguments& arguments, const Templates& page,
 int make_map(MapArguments arguments, const Invocation& invocation) {
   const Templates page = load_templates(arguments.templates);
   check_map_folder(arguments.out);
+  std::vector<std::string> inputs = {arguments.input.path, arguments.anchors, arguments.truth};
+  inputs.insert(inputs.end(), arguments.with.begin(), arguments.with.end());
+  refuse_shared_streams(inputs);
   settle(arguments);
   if (arguments.follow) return follow_file(arguments, page, invocation);
   const bool any_method = arguments.options.choose;
@@ -59,7 +64,8 @@ int make_map(MapArguments arguments, const Invocation& invocation) {
   OwnMap map = map_input(arguments.input, read_points(arguments.anchors),
                          read_points(arguments.truth), arguments.options);
   for (const auto& [what, value] : map.read)
-    invocation.console.detail(fmt::format("{}: {}: {}", arguments.input.path, what, value));
+    invocation.console.detail(
+        fmt::format("{}: {}: {}", input_name(arguments.input.path), what, value));
   for (std::string& warning : frame_warnings(map.record)) map.warnings.push_back(warning);
   for (const std::string& remark : map.remarks) invocation.console.info(remark);
   for (const std::string& warning : map.warnings) invocation.console.warning(warning);
@@ -86,8 +92,9 @@ Action map_verb(CLI::App& app) {
       "OBSERVATIONS: wide CSV (a row a landmark, a column a step; empty or nan: missing), long "
       "CSV\n"
       "(step, landmark, value), sightings (step or time, landmark, range, bearing), JSON of\n"
-      "mapproof.observations or mapproof.sightings, or a folder of MRCLAM files; all of them may "
-      "be\ngzip'ed. Bearings are relative to the robot's heading, counter-clockwise, in radians.\n"
+      "mapproof.observations or mapproof.sightings, or a folder of MRCLAM files. Files may be\n"
+      "packed by gzip or xz; here as in the options a pipe does, too, or standard input (-).\n"
+      "Bearings are relative to the robot's heading, counter-clockwise, in radians.\n"
       "Range and bearing seen together measure distances: their map is in metres without anchors.\n"
       "Exit code 1 if no map came out; the report then says why.\n");
   app.add_option("OBSERVATIONS", arguments->input.path, "File or folder")->required();
@@ -157,7 +164,7 @@ Action map_verb(CLI::App& app) {
       ->default_str("200")
       ->check(CLI::Range(10, 10000));
   app.add_flag("--follow", arguments->follow,
-               "Follow long CSV or sightings as they grow (-: standard input; gzip'ed or not) and "
+               "Follow long CSV or sightings as they grow (-: standard input; packed or not) and "
                "write map and figure again and again, to their end, SIGINT or SIGTERM; not with "
                "--method auto, --ellipses, --missing, --submaps, --steps, --drop-unseen, "
                "--check-labels or --repair-labels");
@@ -177,7 +184,8 @@ Action map_verb(CLI::App& app) {
                  "estimated together with the map (as of readings under the label ? in long CSV)")
       ->delimiter(',');
   app.add_option("--templates", arguments->templates,
-                 "Folder whose templates replace the embedded ones");
+                 "Folder whose templates replace the embedded ones")
+      ->check(names_folder());
   return [arguments](const Invocation& invocation) { return make_map(*arguments, invocation); };
 }
 

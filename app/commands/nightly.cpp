@@ -113,8 +113,8 @@ fs::path out_of(const NightlyArguments& arguments) {
 bool write_all(Night& night, HistoryStore& history, const fs::path& folder, const Templates& page,
                const NightlyArguments& arguments, const Invocation& invocation) {
   const ObjectFolder objects(fs::path(arguments.store) / "objects");
-  const LostNights lost =
-      history.was_damaged() ? lost_nights(arguments.store, history.nights()) : LostNights{};
+  const bool begins = history.nights().empty();
+  const LostNights lost = begins ? lost_nights(arguments.store, {}) : LostNights{};
   bool scenes_drawn = true;
   for (StudyNight& study : night.studies) {
     FolderReport report =
@@ -211,7 +211,8 @@ Action nightly_verb(CLI::App& app) {
                  fmt::format("Experiments' JSON files, or {}", fmt::join(experiment_names(), ", ")))
       ->required();
   app.add_option("--store", arguments->store, "Folder of the history; made if it is not there")
-      ->required();
+      ->required()
+      ->check(names_folder());
   add_out_option(app, arguments->out, "Folder for index and trend pages, instead of the store");
   app.add_option("--reference", arguments->reference,
                  "Night to compare with: its number, refused if it had other settings or another "
@@ -221,7 +222,8 @@ Action nightly_verb(CLI::App& app) {
                  "Profile of those experiments that have it");
   add_jobs_option(app, arguments->jobs);
   app.add_option("--templates", arguments->templates,
-                 "Folder whose templates replace the embedded ones");
+                 "Folder whose templates replace the embedded ones")
+      ->check(names_folder());
   add_data_options(app, arguments->order);
   return [arguments](const Invocation& invocation) { return nightly(*arguments, invocation); };
 }

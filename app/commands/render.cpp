@@ -115,7 +115,7 @@ Action render_verb(CLI::App& app) {
       "  mapproof render out\n"
       "  mapproof render out --theme paper --width 6.75 --figure map-bearing-isomap\n"
       "  mapproof render out --animate scene-forming-bearing\n");
-  app.add_option("DIR", arguments->study, "The study's folder")->required();
+  app.add_option("DIR", arguments->study, "The study's folder")->required()->check(names_folder());
   add_out_option(app, arguments->out,
                  "Folder for the figures (default: DIR/figures, DIR/figures-paper)");
   app.add_option("--theme", arguments->theme, "report (screen) or paper (8 pt, 300 dpi)")

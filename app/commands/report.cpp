@@ -37,9 +37,11 @@ Action report_verb(CLI::App& app) {
       "  mapproof report out\n"
       "  mapproof report out --templates my-templates\n");
   app.add_option("DIR", arguments->study, "The study's folder, or that of several studies")
-      ->required();
+      ->required()
+      ->check(names_folder());
   app.add_option("--templates", arguments->templates,
-                 "Folder whose templates replace the embedded ones");
+                 "Folder whose templates replace the embedded ones")
+      ->check(names_folder());
   add_jobs_option(app, arguments->jobs);
   return [arguments](const Invocation& invocation) { return report(*arguments, invocation); };
 }

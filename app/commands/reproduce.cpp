@@ -72,7 +72,8 @@ void check_folder_of_all(const fs::path& folder) {
 }
 
 /// The command that makes the same studies and report again, wherever it was typed.
-std::string command_again(const ReproduceArguments& arguments, const std::vector<StudyOrder>& orders) {
+std::string command_again(const ReproduceArguments& arguments,
+                          const std::vector<StudyOrder>& orders) {
   std::vector<std::string> words = {"mapproof", "reproduce", arguments.name};
   const std::vector<std::string> more = words_of(orders, arguments.options);
   words.insert(words.end(), more.begin(), more.end());
@@ -138,7 +139,8 @@ Action reproduce_verb(CLI::App& app) {
   add_jobs_option(app, arguments->jobs);
   add_experiment_options(app, arguments->options.changes);
   app.add_option("--templates", arguments->templates,
-                 "Folder whose templates and experiments replace the embedded ones");
+                 "Folder whose templates and experiments replace the embedded ones")
+      ->check(names_folder());
   add_data_options(app, arguments->options);
   return [arguments](const Invocation& invocation) { return reproduce(*arguments, invocation); };
 }

@@ -1,9 +1,11 @@
+#include <array>
 #include <memory>
 
 #include <fmt/format.h>
 
 #include "app/build_facts.hpp"
 #include "app/commands/verbs.hpp"
+#include "app/input_streams.hpp"
 #include "app/map_folder.hpp"
 #include "app/own_slam.hpp"
 #include "app/result_json.hpp"
@@ -43,8 +45,8 @@ SlamStudy study_of(const SlamRun& run) {
   return study;
 }
 
-void write_outputs(const SlamArguments& arguments, const SlamRunResult& result, const Templates& page,
-                   const std::string& command) {
+void write_outputs(const SlamArguments& arguments, const SlamRunResult& result,
+                   const Templates& page, const std::string& command) {
   const SlamRun& run = result.run;
   const SlamFolder folder(arguments.out, run);
   const fs::path& out = folder.path();
@@ -100,6 +102,8 @@ std::string slam_text(const SlamRun& run, const fs::path& out) {
 int map_ranges(SlamArguments arguments, const Invocation& invocation) {
   const Templates page = load_templates(arguments.templates);
   check_result_folder(arguments.out, kSlamFile, "range-only map");
+  refuse_shared_streams(std::array{arguments.data, arguments.known, arguments.truth,
+                                   arguments.true_landmarks, arguments.odometry});
   arguments.log.odometry_file = arguments.odometry;
   arguments.log.truth_file = arguments.truth;
   arguments.log.landmarks_file = arguments.true_landmarks;
@@ -133,7 +137,9 @@ Action slam_verb(CLI::App& app) {
       "  mapproof slam run7_TD.txt --known-landmarks beacons.csv --truth gps.csv --out out/run7\n\n"
       "DATA: a folder with ranges.csv (and odometry.csv, groundtruth.csv, landmarks.csv), "
       "NAME.mat\n"
-      "of the Plaza sets, NAME_DR.txt with NAME_TD.txt, or NAME.pyfg. Ranges are single distances\n"
+      "of the Plaza sets, NAME_DR.txt with NAME_TD.txt, or NAME.pyfg. Files may be packed by gzip\n"
+      "or xz; here as in the options a pipe does, too, or standard input (-): the ranges are then\n"
+      "all there is of the log, odometry comes by --odometry. Ranges are single distances\n"
       "to named landmarks, at any times; how they are brought together is chosen by what it\n"
       "predicts. Without a truth no error is told; without odometry the map may be mirrored.\n"
       "Exit code 1 if no map came out; the report then says why.\n");
@@ -148,7 +154,8 @@ Action slam_verb(CLI::App& app) {
                  "Odometry in place of that in DATA: CSV of t, ddist, dheading");
   app.add_option("--name", arguments->log.name, "Of the log, for titles");
   app.add_option("--templates", arguments->templates,
-                 "Folder whose templates replace the embedded ones");
+                 "Folder whose templates replace the embedded ones")
+      ->check(names_folder());
   add_jobs_option(app, arguments->jobs);
   return [arguments](const Invocation& invocation) { return map_ranges(*arguments, invocation); };
 }

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include "app/commands/verbs.hpp"
+#include "app/input_streams.hpp"
 #include "app/output_files.hpp"
 #include "core/base/errors.hpp"
 #include "core/records/trial_experiment_json.hpp"
@@ -33,20 +34,13 @@ bool read_foreign(std::string_view schema, std::string_view text, const std::str
   return true;
 }
 
-/// What a path holds; one that is not there is a finding as well.
-std::vector<Finding> findings_at(const std::string& path) {
-  std::error_code error;
-  if (std::filesystem::exists(path, error)) return validate_all(path, read_foreign);
-  const IoError missing(path, error ? error.message() : "is not there");
-  return {{.path = path, .kind = "", .problem = missing.what()}};
-}
-
 int validate_files(const std::vector<std::string>& paths, const Invocation& invocation) {
+  refuse_shared_streams(paths);
   nlohmann::ordered_json object{{"valid", true}, {"files", nlohmann::ordered_json::array()}};
   std::string text;
   bool all_valid = true;
   for (const std::string& path : paths)
-    for (const Finding& finding : findings_at(path)) {
+    for (const Finding& finding : validate_all(path, read_foreign)) {
       const bool valid = finding.problem.empty();
       all_valid &= valid;
       object["files"].push_back({{"path", finding.path},

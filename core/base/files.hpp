@@ -6,8 +6,7 @@
 
 namespace mapproof {
 
-/// The whole file. Named pipes and devices are refused at once; what a shell hands in under
-/// /dev/fd or as /dev/stdin is read to its end.
+/// The whole file, as it is: see open_input(), and read_input() for what may be packed.
 /// @throws IoError if it cannot be read or holds more than `limit` bytes.
 std::string read_file(const std::filesystem::path& path, std::size_t limit = std::size_t{1} << 31);
 

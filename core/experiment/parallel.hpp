@@ -4,10 +4,7 @@
 #include <mutex>
 #include <vector>
 
-#include <tbb/global_control.h>
-#include <tbb/parallel_for_each.h>
-#include <tbb/task_arena.h>
-
+#include "core/base/parallel.hpp"
 #include "core/experiment/run_experiment.hpp"
 
 namespace mapproof {
@@ -20,16 +17,11 @@ template <typename Item, typename Work>
 void for_each_in_parallel(const std::vector<Item>& items, int jobs, Progress& state,
                           const std::function<void(const Progress&)>& progress, const Work& work) {
   std::mutex reporting;
-  const tbb::global_control limit(tbb::global_control::max_allowed_parallelism,
-                                  static_cast<std::size_t>(jobs));
-  tbb::task_arena arena(jobs);
-  arena.execute([&] {
-    tbb::parallel_for_each(items, [&](const Item& item) {
-      work(item);
-      const std::lock_guard lock(reporting);
-      ++state.finished;
-      progress(state);
-    });
+  parallel_for(jobs, items.size(), [&](std::size_t i) {
+    work(items[i]);
+    const std::lock_guard lock(reporting);
+    ++state.finished;
+    progress(state);
   });
 }
 

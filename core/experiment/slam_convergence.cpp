@@ -1,10 +1,9 @@
 #include <cmath>
 #include <numeric>
 
-#include <tbb/parallel_for.h>
-
 #include "core/base/errors.hpp"
 #include "core/base/not_finite.hpp"
+#include "core/base/parallel.hpp"
 #include "core/base/random.hpp"
 #include "core/experiment/seeds.hpp"
 #include "core/experiment/slam_worlds.hpp"
@@ -79,7 +78,7 @@ ConvergenceCurve make_convergence(const SlamExperiment& experiment, const RangeN
       experiment.world, noise, experiment.world.landmarks, convergence.steps.back());
 
   std::vector<std::vector<ModelError>> pairs(static_cast<std::size_t>(convergence.pairs));
-  tbb::parallel_for(std::size_t{0}, pairs.size(), [&](std::size_t pair) {
+  parallel_for(pairs.size(), [&](std::size_t pair) {
     pairs[pair] = errors_of_pair(experiment, noise, options, pair);
   });
 

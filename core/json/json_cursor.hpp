@@ -87,6 +87,10 @@ struct SchemaId {
 /// @throws IoError if the document does not say what it is.
 SchemaId schema_of(const JsonCursor& document);
 
+/// The name of the schema that a JSON text says it is of, before anything else is known of it: the
+/// text may be cut off, or wrong behind the name. Empty if there is none.
+std::string schema_name_in(std::string_view text);
+
 /// @throws IoError unless the document is of that schema, version 1.
 void expect_schema(const JsonCursor& document, std::string_view name);
 

@@ -100,6 +100,49 @@ class Builder : public nlohmann::json_sax<Json> {
   Json* slot_ = nullptr;
 };
 
+/// Stops at the name of the schema.
+class SchemaFinder : public nlohmann::json_sax<Json> {
+ public:
+  std::string name;
+
+  bool null() override { return true; }
+  bool boolean(bool) override { return true; }
+  bool number_integer(std::int64_t) override { return true; }
+  bool number_unsigned(std::uint64_t) override { return true; }
+  bool number_float(double, const std::string&) override { return true; }
+  bool binary(Json::binary_t&) override { return true; }
+  bool string(std::string& value) override {
+    if (depth_ != 2 || !is_schema_ || key_ != "name") return true;
+    name = value;
+    return false;
+  }
+  bool key(std::string& word) override {
+    key_ = word;
+    return true;
+  }
+  bool start_object(std::size_t) override { return enter(key_ == "schema"); }
+  bool start_array(std::size_t) override { return enter(false); }
+  bool end_object() override { return leave(); }
+  bool end_array() override { return leave(); }
+  bool parse_error(std::size_t, const std::string&, const nlohmann::detail::exception&) override {
+    return false;
+  }
+
+ private:
+  bool enter(bool is_schema) {
+    if (++depth_ == 2) is_schema_ = is_schema;
+    return depth_ <= kDepth;
+  }
+  bool leave() {
+    --depth_;
+    return true;
+  }
+
+  std::size_t depth_ = 0;
+  std::string key_;
+  bool is_schema_ = false;  ///< The second level is the root's schema.
+};
+
 /// Forwards the text byte by byte and counts, so that a stop has a place.
 class CountingIterator {
  public:
@@ -142,6 +185,12 @@ JsonDocument parse_json(std::string_view text, const std::string& source) {
   const std::size_t stopped = static_cast<std::size_t>(seen - text.data());
   const std::size_t offset = builder.offset.value_or(stopped == 0 ? 0 : stopped - 1);
   throw IoError(source, place_of(text, offset), builder.problem);
+}
+
+std::string schema_name_in(std::string_view text) {
+  SchemaFinder finder;
+  Json::sax_parse(text, &finder);
+  return finder.name;
 }
 
 }  // namespace mapproof

@@ -7,10 +7,8 @@
 #include <fmt/format.h>
 
 #include "core/base/errors.hpp"
-#include "core/base/files.hpp"
 #include "core/json/text_input.hpp"
 #include "core/records/limits.hpp"
-#include "core/records/table_reader.hpp"
 
 namespace mapproof {
 namespace {
@@ -54,10 +52,10 @@ std::string name_at(const TableRow& row, std::size_t cell, const std::string& so
 
 }  // namespace
 
-NumberTable read_columns(const std::filesystem::path& path, const std::vector<CsvColumn>& numbers,
+NumberTable read_columns(ByteSource& input, const std::vector<CsvColumn>& numbers,
                          const CsvColumn* names) {
-  const std::string source = path.string();
-  const std::string bytes = read_file(path);
+  const std::string& source = input.name();
+  const std::string bytes = input.rest();
   TableReader reader(checked_text(bytes, source), source);
   TableRow row;
   if (!reader.next(row)) throw IoError(source, "is empty");
@@ -83,11 +81,7 @@ NumberTable read_columns(const std::filesystem::path& path, const std::vector<Cs
   return table;
 }
 
-bool has_columns(std::string_view text, const std::vector<CsvColumn>& columns) {
-  const std::string source;
-  TableReader reader(text, source);
-  TableRow row;
-  if (!reader.next(row)) return false;
+bool names_columns(const TableRow& row, const std::vector<CsvColumn>& columns) {
   return std::ranges::all_of(columns, [&](const CsvColumn& column) {
     return !column.is_needed ||
            std::ranges::any_of(row.cells, [&](auto cell) { return is_called(column, cell); });

@@ -1,10 +1,11 @@
 #pragma once
 
-#include <filesystem>
 #include <string_view>
 #include <vector>
 
+#include "core/base/byte_source.hpp"
 #include "core/records/range_tables.hpp"
+#include "core/records/table_reader.hpp"
 
 namespace mapproof {
 
@@ -15,16 +16,16 @@ struct CsvColumn {
   bool is_needed = true;
 };
 
-/// The columns of a CSV file in the order asked for, whatever their order in the file; others are
+/// The columns of a CSV table in the order asked for, whatever their order there; others are
 /// passed over, and so are those that are neither needed nor there.
 ///
 /// @param names  A column of landmarks' names to read as well; nullptr: none.
 /// @throws IoError naming the line if there is no such header, a needed column is not there or
 ///         twice, or a cell of one is no finite number or an empty name.
-NumberTable read_columns(const std::filesystem::path& path, const std::vector<CsvColumn>& numbers,
+NumberTable read_columns(ByteSource& input, const std::vector<CsvColumn>& numbers,
                          const CsvColumn* names = nullptr);
 
-/// Whether the first row of a CSV text names all the columns that are needed.
-bool has_columns(std::string_view text, const std::vector<CsvColumn>& columns);
+/// Whether a table's first row names all the columns that are needed.
+bool names_columns(const TableRow& row, const std::vector<CsvColumn>& columns);
 
 }  // namespace mapproof

@@ -3,6 +3,7 @@
 #include <fcntl.h>
 #include <signal.h>
 #include <sys/file.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -12,6 +13,7 @@
 #include <optional>
 #include <string>
 #include <system_error>
+#include <utility>
 
 #include "core/base/errors.hpp"
 
@@ -48,23 +50,36 @@ bool locked(const Descriptor& folder, int how) {
   return result == 0 || errno != EWOULDBLOCK;
 }
 
+/// Whether the folder has the path still: another may have taken its place before it was locked.
+bool is_at(const Descriptor& folder, const fs::path& path) {
+  struct stat held {}, there {};
+  return ::fstat(folder.get(), &held) == 0 && ::stat(path.c_str(), &there) == 0 &&
+         held.st_dev == there.st_dev && held.st_ino == there.st_ino;
+}
+
 bool is_running(pid_t process) {
   return process != ::getpid() && (::kill(process, 0) == 0 || errno == EPERM);
 }
 
 }  // namespace
 
-FolderLock::FolderLock(const fs::path& folder) : folder_(opened(folder)) {
-  if (!locked(folder_, LOCK_EX | LOCK_NB))
-    throw IoError(folder.string(),
-                  "is in use by another mapproof; wait for it, or choose another folder");
+FolderLock::FolderLock(const fs::path& folder) : folder_(-1) {
+  do {
+    folder_ = opened(folder);
+    if (!locked(folder_, LOCK_EX | LOCK_NB))
+      throw IoError(folder.string(),
+                    "is in use by another mapproof; wait for it, or choose another folder");
+  } while (!is_at(folder_, folder));
 }
 
-FolderLock::FolderLock(const fs::path& folder, const std::function<void()>& busy)
-    : folder_(opened(folder)) {
-  if (locked(folder_, LOCK_EX | LOCK_NB)) return;
-  busy();
-  locked(folder_, LOCK_EX);
+FolderLock::FolderLock(const fs::path& folder, const std::function<void()>& busy) : folder_(-1) {
+  bool told = false;
+  do {
+    folder_ = opened(folder);
+    if (locked(folder_, LOCK_EX | LOCK_NB)) continue;
+    if (!std::exchange(told, true)) busy();
+    locked(folder_, LOCK_EX);
+  } while (!is_at(folder_, folder));
 }
 
 bool is_leftover(const fs::path& file) { return writer(file).has_value(); }

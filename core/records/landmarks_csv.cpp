@@ -9,7 +9,6 @@
 #include <fmt/format.h>
 
 #include "core/base/errors.hpp"
-#include "core/base/packed_file.hpp"
 #include "core/json/text_input.hpp"
 #include "core/records/limits.hpp"
 #include "core/records/mrclam.hpp"
@@ -94,10 +93,14 @@ bool is_groundtruth(std::string_view text, const std::string& source) {
 
 }  // namespace
 
+NamedPoints read_landmarks(ByteSource& source) {
+  const std::string bytes = source.rest();
+  return parse_landmarks(checked_text(bytes, source.name()), source.name());
+}
+
 NamedPoints read_landmarks(const std::filesystem::path& path) {
-  const std::string source = path.string();
-  const std::string bytes = read_packed_file(path);
-  return parse_landmarks(checked_text(bytes, source), source);
+  ByteSource source(path);
+  return read_landmarks(source);
 }
 
 NamedPoints parse_landmarks(std::string_view text, const std::string& source) {

@@ -5,6 +5,7 @@
 #include <string_view>
 #include <vector>
 
+#include "core/base/byte_source.hpp"
 #include "core/model/points.hpp"
 
 namespace mapproof {
@@ -18,6 +19,7 @@ struct NamedPoints {
 
 /// Reads CSV (name, x, y; header optional) or MRCLAM's Landmark_Groundtruth.dat.
 /// @throws IoError naming file and line.
+NamedPoints read_landmarks(ByteSource& source);
 NamedPoints read_landmarks(const std::filesystem::path& path);
 
 /// The same from the text of a file, which is from checked_text().

@@ -12,7 +12,7 @@
 #include <fmt/format.h>
 
 #include "core/base/errors.hpp"
-#include "core/base/files.hpp"
+#include "core/base/input_file.hpp"
 #include "core/records/limits.hpp"
 
 namespace mapproof {
@@ -110,12 +110,14 @@ NumberTable read_table(mat_t* file, matvar_t* variable, const std::string& sourc
 
 }  // namespace
 
-std::map<std::string, NumberTable> read_mat_tables(const std::filesystem::path& path) {
-  const std::string source = path.string();
-  const std::string bytes = read_file(path);
+std::map<std::string, NumberTable> read_mat_tables(ByteSource& input) {
+  const std::string& source = input.name();
+  const std::string bytes = input.rest();
   const bool is_swapped = check_header(bytes, source);
   const std::size_t count = count_variables(bytes, is_swapped, source);
-  const MatFile file(Mat_Open(source.c_str(), MAT_ACC_RDONLY));
+  // matio seeks, and opens by a name: it gets the very bytes that were checked.
+  const Descriptor seekable = anonymous_file(bytes, source);
+  const MatFile file(Mat_Open(path_of(seekable).c_str(), MAT_ACC_RDONLY));
   if (!file) throw IoError(source, "is no MATLAB file");
 
   // All heads first: reading numbers moves the place from which matio reads the next head.

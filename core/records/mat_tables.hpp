@@ -1,9 +1,9 @@
 #pragma once
 
-#include <filesystem>
 #include <map>
 #include <string>
 
+#include "core/base/byte_source.hpp"
 #include "core/records/range_tables.hpp"
 
 namespace mapproof {
@@ -14,6 +14,6 @@ namespace mapproof {
 /// @throws IoError naming the variable if the file is of another version, cut off or damaged; if a
 ///         table has more than 1e6 rows or 16 columns; or if a number is not finite.
 /// @note The frame of the file is checked here, since matio trusts it.
-std::map<std::string, NumberTable> read_mat_tables(const std::filesystem::path& path);
+std::map<std::string, NumberTable> read_mat_tables(ByteSource& input);
 
 }  // namespace mapproof

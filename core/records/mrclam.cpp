@@ -11,8 +11,9 @@
 
 #include <fmt/format.h>
 
+#include "core/base/byte_source.hpp"
 #include "core/base/errors.hpp"
-#include "core/base/packed_file.hpp"
+#include "core/base/input_file.hpp"
 #include "core/json/text_input.hpp"
 #include "core/records/limits.hpp"
 #include "core/records/name_list.hpp"
@@ -28,20 +29,13 @@ constexpr int kLastRobot = 5;
 
 std::map<int, int> read_barcodes(const fs::path& path) {
   const std::string source = path.string();
-  const std::string bytes = read_packed_file(path);
+  const std::string bytes = read_input(path);
   std::map<int, int> subject_of;
   NumberRows rows(checked_text(bytes, source), source, 2);
   while (rows.next())
     if (!subject_of.emplace(rows.id(1), rows.id(0)).second)
       rows.fail(fmt::format("barcode {} is there twice", rows.id(1)));
   return subject_of;
-}
-
-/// The file of that name, or the gzip'ed one beside its place.
-fs::path perhaps_packed(const fs::path& path) {
-  const fs::path packed = path.string() + ".gz";
-  std::error_code error;
-  return !fs::exists(path, error) && fs::exists(packed, error) ? packed : path;
 }
 
 /// RobotN_Measurement.dat of every N, ascending.
@@ -57,7 +51,8 @@ std::vector<fs::path> measurement_files(const fs::path& folder) {
     int robot = 0;
     const char* digits_end = name.data() + name.size() - kEnd.size();
     const auto [stop, problem] = std::from_chars(name.data() + kStart.size(), digits_end, robot);
-    if (problem == std::errc() && stop == digits_end) files.emplace(robot, entry->path());
+    if (problem == std::errc() && stop == digits_end)
+      files.emplace(robot, plain_or_packed(folder / name));
   }
   if (error) throw IoError(folder.string(), "cannot be listed: " + error.message());
   std::vector<fs::path> ordered;
@@ -97,7 +92,7 @@ class Looks {
 
   void add_robot(const fs::path& path) {
     const std::string source = path.string();
-    const std::string bytes = read_packed_file(path);
+    const std::string bytes = read_input(path);
     if (bytes.empty()) {
       empty_files_.push_back(path.filename().string());
       return;
@@ -204,7 +199,7 @@ std::optional<Points> read_truth(const fs::path& path, const std::vector<std::st
     return std::nullopt;
   }
   const std::string source = path.string();
-  const std::string bytes = read_packed_file(path);
+  const std::string bytes = read_input(path);
   const NamedPoints truth = parse_groundtruth(checked_text(bytes, source), source);
   Points positions = Points::Constant(static_cast<Eigen::Index>(names.size()), 2,
                                       std::numeric_limits<double>::quiet_NaN());
@@ -241,7 +236,7 @@ SightingSource read_mrclam_sightings(const fs::path& folder) {
   const std::vector<fs::path> robots = measurement_files(folder);
   if (robots.empty())
     throw IoError(folder.string(), "is a folder without MRCLAM's RobotN_Measurement.dat");
-  const fs::path barcodes = perhaps_packed(folder / "Barcodes.dat");
+  const fs::path barcodes = plain_or_packed(folder / "Barcodes.dat");
   const std::map<int, int> subject_of = read_barcodes(barcodes);
   Looks looks(subject_of);
   const std::size_t landmarks = looks.log().names.size();
@@ -257,8 +252,8 @@ SightingSource read_mrclam_sightings(const fs::path& folder) {
                         .path = folder.string()};
   if (result.log.steps == 0) throw IoError(folder.string(), "no look shows a landmark");
   for (const std::string& name : result.log.names) result.places.push_back("subject " + name);
-  result.truth_m = read_truth(perhaps_packed(folder / "Landmark_Groundtruth.dat"), result.log.names,
-                              result.remarks);
+  result.truth_m = read_truth(plain_or_packed(folder / "Landmark_Groundtruth.dat"),
+                              result.log.names, result.remarks);
   return result;
 }
 

@@ -2,14 +2,14 @@
 
 #include <cmath>
 #include <numbers>
-#include <system_error>
 
 #include <fmt/format.h>
 
 #include "core/base/errors.hpp"
-#include "core/base/packed_file.hpp"
+#include "core/base/input_file.hpp"
 #include "core/json/json_text.hpp"
 #include "core/json/text_input.hpp"
+#include "core/records/input_kind.hpp"
 #include "core/records/json_values.hpp"
 #include "core/records/mrclam.hpp"
 #include "core/records/observation_values.hpp"
@@ -90,33 +90,33 @@ ObservationSource observations_of(SightingSource source, Sensor sensor) {
           .path = std::move(source.path)};
 }
 
-ObservationSource read_observations(const std::filesystem::path& path, std::optional<Sensor> kind,
-                                    Layout layout, AngleUnit unit) {
-  std::error_code error;
-  if (std::filesystem::is_directory(path, error))
-    return read_mrclam(path, kind.value_or(Sensor::kVisibility));
-  const std::string source = path.string();
-  if (layout == Layout::kAuto && is_sightings(path)) {
+ObservationSource read_observations(ByteSource& source, std::optional<Sensor> kind, Layout layout,
+                                    AngleUnit unit) {
+  const std::string& name = source.name();
+  if (layout == Layout::kAuto && is_sightings(source)) {
     if (!kind)
-      throw IoError(source,
+      throw IoError(name,
                     "holds sightings: range-bearing, range, bearing or visibility has to be given");
-    return observations_of(read_sightings(path, {.unit = unit, .value = std::nullopt}), *kind);
+    return observations_of(read_sightings(source, {.unit = unit, .value = std::nullopt}), *kind);
   }
-  const std::string bytes = read_packed_file(path);
-  const std::string_view text = checked_text(bytes, source);
-  const std::size_t start = text.find_first_not_of(" \t\r\n");
-  if (unpacked_name(path).extension() == ".json" ||
-      (start != std::string_view::npos && text[start] == '{'))
-    return parse_observations(text, source, kind);
+  const bool holds_json = is_json(source);
+  const std::string bytes = source.rest();
+  const std::string_view text = checked_text(bytes, name);
+  if (holds_json) return parse_observations(text, name, kind);
   if (!kind)
-    throw IoError(source,
-                  "does not say what it holds: visibility, bearing or range has to be given");
-  if (layout == Layout::kAuto)
-    layout = has_long_header(text, source) ? Layout::kLong : Layout::kWide;
-  ObservationSource result = layout == Layout::kLong ? read_long(text, source, *kind, unit)
-                                                     : read_wide(text, source, *kind, unit);
+    throw IoError(name, "does not say what it holds: visibility, bearing or range has to be given");
+  if (layout == Layout::kAuto) layout = has_long_header(text, name) ? Layout::kLong : Layout::kWide;
+  ObservationSource result = layout == Layout::kLong ? read_long(text, name, *kind, unit)
+                                                     : read_wide(text, name, *kind, unit);
   if (is_cut_table(text)) result.remarks.emplace_back(kCutRemark);
   return result;
+}
+
+ObservationSource read_observations(const std::filesystem::path& path, std::optional<Sensor> kind,
+                                    Layout layout, AngleUnit unit) {
+  if (is_folder(path)) return read_mrclam(path, kind.value_or(Sensor::kVisibility));
+  ByteSource source(path);
+  return read_observations(source, kind, layout, unit);
 }
 
 }  // namespace mapproof

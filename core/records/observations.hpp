@@ -6,6 +6,7 @@
 #include <string_view>
 #include <vector>
 
+#include "core/base/byte_source.hpp"
 #include "core/model/observation_history.hpp"
 #include "core/model/points.hpp"
 #include "core/model/sensor.hpp"
@@ -43,18 +44,23 @@ struct ObservationSource {
   std::vector<UnlabelledReading> unlabelled = {};
 };
 
-/// Observations from CSV (wide or long), mapproof's JSON or a folder of MRCLAM [leung2011], files
-/// gzip'ed or not. Of sightings (see sightings.hpp), what one kind of sensor saw.
+/// Observations from CSV (wide or long) or mapproof's JSON. Of sightings (see sightings.hpp), what
+/// one kind of sensor saw.
 ///
 /// Rows without any observation are kept: whether they are trouble is for the caller to say.
 ///
-/// @param kind  What the values are. Required for CSV; must agree with a JSON file; for MRCLAM
-///              visibility if empty.
+/// @param kind  What the values are. Required for CSV; must agree with a JSON file.
 /// @param unit  Of bearings in CSV; JSON says it itself.
 /// @throws IoError naming file and place if the source cannot be read as such, breaks the bounds of
 ///         its kind (0 or 1; |rad| <= 2 pi; 0 <= m <= 1e6), repeats a name or a (step, landmark),
 ///         or exceeds 5000 landmarks, 1e6 steps or 2e8 entries.
 /// @note Linear in the size of the file; about 0.2 s for 50 x 100,000 entries.
+ObservationSource read_observations(ByteSource& source, std::optional<Sensor> kind,
+                                    Layout layout = Layout::kAuto,
+                                    AngleUnit unit = AngleUnit::kRadians);
+
+/// The same of a file or stream, or of a folder of MRCLAM [leung2011], then of visibility if `kind`
+/// is empty.
 ObservationSource read_observations(const std::filesystem::path& path, std::optional<Sensor> kind,
                                     Layout layout = Layout::kAuto,
                                     AngleUnit unit = AngleUnit::kRadians);

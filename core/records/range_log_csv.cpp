@@ -1,9 +1,8 @@
 #include <filesystem>
-#include <fstream>
 #include <system_error>
 
 #include "core/base/errors.hpp"
-#include "core/json/text_input.hpp"
+#include "core/base/input_file.hpp"
 #include "core/records/csv_columns.hpp"
 #include "core/records/range_log_parts.hpp"
 #include "core/records/range_log_readers.hpp"
@@ -26,17 +25,22 @@ const CsvColumn kLandmark{.label = "landmarks",
 const CsvColumn kRange{.label = "ranges", .words = {"range", "range_m"}};
 const CsvColumn kRobot{.label = "robots", .words = {"robot", "sender"}, .is_needed = false};
 
-/// Bytes within which a header ends.
-constexpr std::size_t kLongestHeader = 65'536;
-
-bool is_there(const fs::path& path) {
+/// The file of that name in a folder, packed or not; empty if there is none.
+fs::path file_in(const fs::path& folder, const std::string& name) {
+  const fs::path path = plain_or_packed(folder / name);
   std::error_code error;
-  return fs::exists(path, error);
+  return fs::exists(path, error) ? path : fs::path();
+}
+
+NumberTable read_table(const fs::path& path, const std::vector<CsvColumn>& numbers,
+                       const CsvColumn* names = nullptr) {
+  ByteSource source(path);
+  return read_columns(source, numbers, names);
 }
 
 StartPose read_start(const fs::path& path) {
-  const NumberTable table = read_columns(path, {kTime, kX, kY, kHeading});
-  if (table.values.rows() != 1) throw IoError(path.string(), "expected one row, that of the start");
+  const NumberTable table = read_table(path, {kTime, kX, kY, kHeading});
+  if (table.values.rows() != 1) throw IoError(table.source, "expected one row, that of the start");
   const Trajectory pose = trajectory_in(table);
   return {.time_s = pose.time_s(0),
           .x_m = pose.positions_m(0, 0),
@@ -45,60 +49,53 @@ StartPose read_start(const fs::path& path) {
 }
 
 std::vector<Motion> read_motions(const fs::path& path) {
-  return motions_in(read_columns(path, {kTime, kDistance, kTurn, kSideways}));
-}
-
-/// NAME.csv, and NAME_start.csv if it is there.
-void take_odometry(const fs::path& folder, const std::string& name, RangeLogParts& parts) {
-  parts.odometry = read_motions(folder / (name + ".csv"));
-  const fs::path start = folder / (name + "_start.csv");
-  if (is_there(start)) parts.start = read_start(start);
+  return motions_in(read_table(path, {kTime, kDistance, kTurn, kSideways}));
 }
 
 Trajectory read_truth(const fs::path& path) {
   CsvColumn heading = kHeading;
   heading.is_needed = false;
-  return trajectory_in(read_columns(path, {kTime, kX, kY, heading}));
+  return trajectory_in(read_table(path, {kTime, kX, kY, heading}));
 }
 
 NamedPoints read_true_landmarks(const fs::path& path) {
-  return landmarks_in(read_columns(path, {kX, kY}, &kLandmark));
+  return landmarks_in(read_table(path, {kX, kY}, &kLandmark));
+}
+
+/// What stands beside ranges.csv.
+void take_folder(const fs::path& folder, OdometrySource wanted, RangeLogParts& parts) {
+  const fs::path recovered = file_in(folder, "odometry_drp.csv");
+  const fs::path given = file_in(folder, "odometry.csv");
+  const bool takes_recovered =
+      !recovered.empty() && (wanted == OdometrySource::kRecovered || given.empty());
+  if (takes_recovered)
+    parts.remarks.push_back(
+        "The odometry is that of odometry_drp.csv, recovered from the dead-reckoned path.");
+  if (const fs::path& odometry = takes_recovered ? recovered : given; !odometry.empty())
+    parts.odometry = read_motions(odometry);
+  const std::string start_name = takes_recovered ? "odometry_drp_start.csv" : "odometry_start.csv";
+  if (const fs::path start = file_in(folder, start_name);
+      !start.empty() && (takes_recovered || !given.empty()))
+    parts.start = read_start(start);
+  if (const fs::path truth = file_in(folder, "groundtruth.csv"); !truth.empty())
+    parts.truth = read_truth(truth);
+  if (const fs::path landmarks = file_in(folder, "landmarks.csv"); !landmarks.empty())
+    parts.true_landmarks = read_true_landmarks(landmarks);
 }
 
 }  // namespace
 
-bool has_range_columns(const fs::path& path) {
-  std::ifstream file(path, std::ios::binary);
-  std::string start(kLongestHeader, '\0');
-  file.read(start.data(), std::ssize(start));
-  start.resize(static_cast<std::size_t>(file.gcount()));
-  if (start.size() == kLongestHeader) start.resize(start.rfind('\n') + 1);
-  try {
-    return has_columns(checked_text(start, path.string()), {kTime, kLandmark, kRange});
-  } catch (const IoError&) {
-    return false;  // No text: whoever reads it says what is wrong.
-  }
+bool names_range_columns(const TableRow& row) {
+  return names_columns(row, {kTime, kLandmark, kRange});
 }
 
-RangeLog read_range_log_csv(const fs::path& folder, const RangeLogOptions& options) {
-  RangeLogParts parts{.source = (folder / "ranges.csv").string(), .name = options.name};
-  const NumberTable ranges =
-      read_columns(folder / "ranges.csv", {kTime, kRange, kRobot}, &kLandmark);
+RangeLog read_range_log_csv(ByteSource& source, const RangeLogOptions& options) {
+  RangeLogParts parts{.source = source.name(), .name = options.name};
+  const NumberTable ranges = read_columns(source, {kTime, kRange, kRobot}, &kLandmark);
   if (ranges.values.cols() > 2) check_one_sender(ranges, 2);
   parts.readings = readings_in(ranges);
-  const bool has_recovered = is_there(folder / "odometry_drp.csv");
-  const bool has_given = is_there(folder / "odometry.csv");
-  if (has_recovered && (options.odometry == OdometrySource::kRecovered || !has_given)) {
-    take_odometry(folder, "odometry_drp", parts);
-    parts.remarks.push_back(
-        "The odometry is that of odometry_drp.csv, recovered from the dead-reckoned path.");
-  } else if (has_given) {
-    take_odometry(folder, "odometry", parts);
-  }
-  if (const fs::path truth = folder / "groundtruth.csv"; is_there(truth))
-    parts.truth = read_truth(truth);
-  if (const fs::path landmarks = folder / "landmarks.csv"; is_there(landmarks))
-    parts.true_landmarks = read_true_landmarks(landmarks);
+  if (unpacked_name(source.path()).filename() == "ranges.csv")
+    take_folder(source.path().parent_path(), options.odometry, parts);
   return assemble(std::move(parts), options);
 }
 

@@ -66,9 +66,9 @@ void check_given_turns(const Tables& tables, RangeLogParts& parts) {
 
 }  // namespace
 
-RangeLog read_range_log_mat(const std::filesystem::path& path, const RangeLogOptions& options) {
-  const Tables tables = read_mat_tables(path);
-  RangeLogParts parts{.source = path.string(), .name = options.name};
+RangeLog read_range_log_mat(ByteSource& source, const RangeLogOptions& options) {
+  const Tables tables = read_mat_tables(source);
+  RangeLogParts parts{.source = source.name(), .name = options.name};
   const NumberTable* ranges = table_of(tables, "TD", 4);
   if (ranges == nullptr)
     throw IoError(parts.source, "has no variable TD of ranges: time, sender, landmark, range");

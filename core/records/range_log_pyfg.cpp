@@ -8,7 +8,6 @@
 #include <fmt/format.h>
 
 #include "core/base/errors.hpp"
-#include "core/base/files.hpp"
 #include "core/base/words.hpp"
 #include "core/json/text_input.hpp"
 #include "core/records/limits.hpp"
@@ -210,9 +209,9 @@ class PyfgLines {
 
 }  // namespace
 
-RangeLog read_range_log_pyfg(const std::filesystem::path& path, const RangeLogOptions& options) {
-  RangeLogParts parts{.source = path.string(), .name = options.name};
-  const std::string bytes = read_file(path);
+RangeLog read_range_log_pyfg(ByteSource& source, const RangeLogOptions& options) {
+  RangeLogParts parts{.source = source.name(), .name = options.name};
+  const std::string bytes = source.rest();
   PyfgLines lines(checked_text(bytes, parts.source), parts.source);
   lines.read();
   parts.truth = lines.truth();

@@ -3,19 +3,21 @@
 #include <filesystem>
 
 #include "core/records/range_log_files.hpp"
+#include "core/records/table_reader.hpp"
 
 namespace mapproof {
 
-/// The readers of the several forms, as read_range_log() describes them.
-RangeLog read_range_log_csv(const std::filesystem::path& folder, const RangeLogOptions& options);
-RangeLog read_range_log_mat(const std::filesystem::path& path, const RangeLogOptions& options);
-RangeLog read_range_log_pyfg(const std::filesystem::path& path, const RangeLogOptions& options);
-/// @param stem  The path without _DR.txt or _TD.txt.
-RangeLog read_range_log_text(const std::filesystem::path& stem, const RangeLogOptions& options);
+/// The readers of the several forms, as read_range_log() describes them. What stands beside a file
+/// is found by its path.
+RangeLog read_range_log_csv(ByteSource& source, const RangeLogOptions& options);
+RangeLog read_range_log_mat(ByteSource& source, const RangeLogOptions& options);
+RangeLog read_range_log_pyfg(ByteSource& source, const RangeLogOptions& options);
+RangeLog read_range_log_text(ByteSource& source, const RangeLogOptions& options);
 
-/// Whether a CSV file names the columns of ranges: time, landmark, range. False if it cannot be
-/// read.
-/// @note Reads the start of the file alone.
-bool has_range_columns(const std::filesystem::path& path);
+/// Whether a table's first row names the columns of ranges: time, landmark, range.
+bool names_range_columns(const TableRow& row);
+
+/// The path of NAME_TD.txt or NAME_DR.txt, packed or not, without that end; empty for others.
+std::filesystem::path text_stem(const std::filesystem::path& path);
 
 }  // namespace mapproof

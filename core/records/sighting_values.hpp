@@ -17,7 +17,7 @@ std::string sighting_problem(std::string_view cell, Sensor sensor, AngleUnit uni
 /// The key "unit" of an object, rad or deg; radians if it is not there. @throws IoError.
 AngleUnit read_angle_unit(const JsonCursor& object);
 
-/// Long CSV, gzip'ed or not, as read_sightings() has it.
-SightingSource read_long_sightings(const std::filesystem::path& path, const SightingFormat& format);
+/// Long CSV, as read_sightings() has it.
+SightingSource read_long_sightings(ByteSource& source, const SightingFormat& format);
 
 }  // namespace mapproof

@@ -4,15 +4,15 @@
 #include <cmath>
 #include <map>
 #include <numbers>
-#include <system_error>
 #include <tuple>
 
 #include <fmt/format.h>
 
 #include "core/base/errors.hpp"
-#include "core/base/packed_file.hpp"
+#include "core/base/input_file.hpp"
 #include "core/json/json_text.hpp"
 #include "core/json/text_input.hpp"
+#include "core/records/input_kind.hpp"
 #include "core/records/json_values.hpp"
 #include "core/records/limits.hpp"
 #include "core/records/mrclam.hpp"
@@ -24,19 +24,7 @@
 namespace mapproof {
 namespace {
 
-namespace fs = std::filesystem;
-
 constexpr const char* kSightingsSchema = "mapproof.sightings";
-
-/// Whether a file is JSON, by its name or its first character.
-bool starts_as_json(const fs::path& path) {
-  if (unpacked_name(path).extension() == ".json") return true;
-  PackedFile file(path);
-  std::string bytes;
-  file.append(bytes, 4096);
-  const std::size_t start = bytes.find_first_not_of("\xEF\xBB\xBF \t\r\n");
-  return start != std::string::npos && bytes[start] == '{';
-}
 
 double read_value(const JsonCursor& value, Sensor sensor, AngleUnit unit) {
   const double number = value.number_or_null(-INFINITY, INFINITY);
@@ -115,38 +103,30 @@ std::string sightings_json(const SightingLog& log) {
                     {"sightings", std::move(rows)}});
 }
 
-bool is_sightings(const fs::path& path) {
-  std::error_code error;
-  if (fs::is_directory(path, error)) return is_mrclam(path);
-  if (starts_as_json(path)) {
-    const std::string bytes = read_packed_file(path);
-    const std::string source = path.string();
-    const JsonDocument document = parse_json(checked_text(bytes, source), source);
-    return document.root.is_object() && document.root.contains("schema") &&
-           schema_of(document.cursor()).name == kSightingsSchema;
-  }
-  TableStream stream(path);
-  TableRow row;
-  return stream.next(row) && names_sighting_columns(row);
+bool is_sightings(ByteSource& source) {
+  if (is_json(source)) return json_schema(source) == kSightingsSchema;
+  return first_row_is(source, names_sighting_columns);
 }
 
-bool is_large_long_table(const fs::path& path) {
-  constexpr double kLarge = 64e6;
-  std::error_code error;
-  if (fs::is_directory(path, error) || starts_as_json(path)) return false;
-  TableStream stream(path);
-  TableRow row;
-  return stream.next(row) && stream.expected_size() > kLarge &&
-         (names_sighting_columns(row) || names_value_columns(row));
+bool is_large_long_table(ByteSource& source) {
+  constexpr std::size_t kLarge = 64'000'000;
+  if (is_json(source)) return false;
+  const auto is_long = [](const TableRow& row) {
+    return names_sighting_columns(row) || names_value_columns(row);
+  };
+  return first_row_is(source, is_long) && source.holds_more_than(kLarge);
 }
 
-SightingSource read_sightings(const fs::path& path, const SightingFormat& format) {
-  std::error_code error;
-  if (fs::is_directory(path, error)) return read_mrclam_sightings(path);
-  if (!starts_as_json(path)) return read_long_sightings(path, format);
-  const std::string source = path.string();
-  const std::string bytes = read_packed_file(path);
-  return parse_sightings(checked_text(bytes, source), source);
+SightingSource read_sightings(ByteSource& source, const SightingFormat& format) {
+  if (!is_json(source)) return read_long_sightings(source, format);
+  const std::string bytes = source.rest();
+  return parse_sightings(checked_text(bytes, source.name()), source.name());
+}
+
+SightingSource read_sightings(const std::filesystem::path& path, const SightingFormat& format) {
+  if (is_folder(path)) return read_mrclam_sightings(path);
+  ByteSource source(path);
+  return read_sightings(source, format);
 }
 
 }  // namespace mapproof

@@ -6,6 +6,7 @@
 #include <string_view>
 #include <vector>
 
+#include "core/base/byte_source.hpp"
 #include "core/model/points.hpp"
 #include "core/model/sensor.hpp"
 #include "core/model/sighting_log.hpp"
@@ -31,8 +32,7 @@ struct SightingFormat {
   std::optional<Sensor> value;
 };
 
-/// Sightings from long CSV, mapproof's JSON (mapproof.sightings) or a folder of MRCLAM [leung2011],
-/// files gzip'ed or not.
+/// Sightings from long CSV or mapproof's JSON (mapproof.sightings).
 ///
 /// A row of CSV is a landmark in a look: step or time, landmark, range, bearing, where a look's
 /// rows have one step or time; a robot's name too, whose looks are then its own. The columns are
@@ -43,15 +43,18 @@ struct SightingFormat {
 ///         360; 0 <= m <= 1e6), a landmark is twice in one look, or for more than 5000 landmarks,
 ///         1e6 looks or 5e7 rows.
 /// @note A row takes 24 bytes while it is read and after; the text is never held as a whole.
+SightingSource read_sightings(ByteSource& source, const SightingFormat& format = {});
+
+/// The same of a file or stream, or of a folder of MRCLAM [leung2011].
 SightingSource read_sightings(const std::filesystem::path& path, const SightingFormat& format = {});
 
-/// Whether a file or folder holds sightings: MRCLAM, JSON of that schema, or a table whose header
-/// names a landmark and a range or bearing. @throws IoError if it cannot be read.
-bool is_sightings(const std::filesystem::path& path);
+/// Whether a source, which stays unread, holds sightings: JSON of that schema, or a table whose
+/// header names a landmark and a range or bearing. @throws IoError if it cannot be read.
+bool is_sightings(ByteSource& source);
 
-/// Whether a file is a long table, of sightings or of values, and its text larger than some 64 MB.
-/// @throws IoError if it cannot be read.
-bool is_large_long_table(const std::filesystem::path& path);
+/// Whether a source, which stays unread, is a long table, of sightings or of values, and its text
+/// larger than some 64 MB. @throws IoError if it cannot be read.
+bool is_large_long_table(ByteSource& source);
 
 /// mapproof.sightings from the text of a file.
 SightingSource parse_sightings(std::string_view text, const std::string& source);

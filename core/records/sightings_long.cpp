@@ -1,5 +1,6 @@
 #include <algorithm>
-#include <tuple>
+#include <cstdint>
+#include <iterator>
 #include <utility>
 
 #include <fmt/format.h>
@@ -14,7 +15,16 @@
 namespace mapproof {
 namespace {
 
-/// Gathers rows into looks. A sighting's step is at first the number of its run of rows.
+/// Rows of one look, one behind the other.
+struct RowRun {
+  double key;
+  int robot;
+  std::uint32_t line;  ///< Of its first row.
+
+  LookKey look() const { return {robot, key}; }
+};
+
+/// Gathers rows into looks. A sighting's step is at first the number of its run.
 class LongSightings {
  public:
   LongSightings(TableStream& stream, const SightingFormat& format)
@@ -40,26 +50,37 @@ class LongSightings {
     if (log_.sightings.size() == kMostSightings)
       rows_.looks().fail(row.line, fmt::format("more than {} rows", kMostSightings));
     const LookKey look = rows_.look_of(row);
-    if (looks_.empty() || looks_.back() != look) looks_.push_back(look);
+    if (runs_.empty() || runs_.back().look() != look)
+      runs_.push_back({look.key, look.robot, static_cast<std::uint32_t>(row.line)});
     log_.sightings.push_back(rows_.sighting_of(row));
-    log_.sightings.back().step = static_cast<int>(looks_.size()) - 1;
+    Sighting& seen = log_.sightings.back();
+    seen.step = static_cast<int>(runs_.size()) - 1;
+    const auto landmark = static_cast<std::size_t>(seen.landmark);
+    if (landmark >= last_.size()) last_.resize(landmark + 1);
+    if (last_[landmark].run == seen.step)
+      refuse_repeat(fmt::format("line {}", row.line), landmark,
+                    fmt::format("on line {}", last_[landmark].line));
+    last_[landmark] = {seen.step, row.line};
     reserve(row);
   }
 
-  /// After some rows the file's size tells about how many there will be.
+  /// After some rows a file's size tells about how many there will be.
   void reserve(const TableRow& row) {
     constexpr std::size_t kSample = 20'000;
     if (log_.sightings.size() > kSample) return;
     for (const std::string_view cell : row.cells) bytes_ += cell.size() + 1;
     if (log_.sightings.size() < kSample) return;
-    const double rows = stream_.expected_size() / static_cast<double>(bytes_) * kSample;
+    const double rows =
+        stream_.expected_size().value_or(0.0) / static_cast<double>(bytes_) * kSample;
     log_.sightings.reserve(static_cast<std::size_t>(
         std::clamp(1.05 * rows, double{kSample}, static_cast<double>(kMostSightings))));
   }
 
   /// Numbers the looks by robot and step, and sorts the sightings by look and landmark.
   void order() {
-    std::vector<LookKey> distinct = looks_;
+    std::vector<LookKey> distinct;
+    distinct.reserve(runs_.size());
+    std::ranges::transform(runs_, std::back_inserter(distinct), &RowRun::look);
     std::ranges::sort(distinct);
     const auto rest = std::ranges::unique(distinct);
     distinct.erase(rest.begin(), rest.end());
@@ -67,16 +88,17 @@ class LongSightings {
       throw IoError(stream_.source(), "as a whole",
                     fmt::format("{} looks; at most {}", distinct.size(), kMostSteps));
     std::vector<int> step;
-    for (const LookKey& look : looks_)
-      step.push_back(static_cast<int>(std::ranges::lower_bound(distinct, look) - distinct.begin()));
-    for (Sighting& seen : log_.sightings) seen.step = step[static_cast<std::size_t>(seen.step)];
-    const auto place = [](const Sighting& seen) { return std::tuple(seen.step, seen.landmark); };
+    for (const RowRun& run : runs_)
+      step.push_back(
+          static_cast<int>(std::ranges::lower_bound(distinct, run.look()) - distinct.begin()));
+    const auto place = [&](const Sighting& seen) {
+      return std::pair(step[static_cast<std::size_t>(seen.step)], seen.landmark);
+    };
     if (!std::ranges::is_sorted(log_.sightings, {}, place))
       std::ranges::sort(log_.sightings, {}, place);
     const auto repeat = std::ranges::adjacent_find(log_.sightings, {}, place);
-    if (repeat != log_.sightings.end())
-      refuse_repeat(distinct[static_cast<std::size_t>(repeat->step)],
-                    rows_.names().names()[static_cast<std::size_t>(repeat->landmark)]);
+    if (repeat != log_.sightings.end()) refuse_repeat(*repeat, *std::next(repeat));
+    for (Sighting& seen : log_.sightings) seen.step = step[static_cast<std::size_t>(seen.step)];
     log_.steps = static_cast<int>(distinct.size());
     log_.looks = distinct;
     log_.robots = rows_.looks().robots();
@@ -84,21 +106,24 @@ class LongSightings {
       for (const LookKey& look : distinct) log_.times_s.push_back(look.key);
   }
 
-  /// Reads the file again to find the lines, which are not kept.
-  [[noreturn]] void refuse_repeat(const LookKey& look, const std::string& name) {
-    TableStream again(stream_.source());
-    TableRow row;
-    std::size_t first = 0;
-    bool is_first = true;
-    while (again.next(row)) {
-      if (std::exchange(is_first, false) && rows_.begin(row)) continue;
-      const bool is_it = rows_.look_of(row) == look && rows_.looks().label(row) == name;
-      if (is_it && first > 0)
-        rows_.looks().fail(row.line, fmt::format("landmark {} is in that look already, on line {}",
-                                                 in_quotes(name), first));
-      if (is_it) first = row.line;
-    }
-    throw IoError(stream_.source(), "changed while it was read");
+  /// Two sightings of one landmark in different runs of one look.
+  [[noreturn]] void refuse_repeat(const Sighting& first, const Sighting& second) {
+    const auto [one, other] = std::minmax(first.step, second.step);
+    // The lines within a run are not kept.
+    const auto where = [&](int run, const char* exact) {
+      const auto rows = std::ranges::count(log_.sightings, run, &Sighting::step);
+      return fmt::format(fmt::runtime(rows == 1 ? exact : "from line {} on"),
+                         runs_[static_cast<std::size_t>(run)].line);
+    };
+    refuse_repeat(where(other, "line {}"), static_cast<std::size_t>(first.landmark),
+                  where(one, "on line {}"));
+  }
+
+  [[noreturn]] void refuse_repeat(const std::string& place, std::size_t landmark,
+                                  const std::string& first) {
+    throw IoError(stream_.source(), place,
+                  fmt::format("landmark {} is in that look already, {}",
+                              in_quotes(rows_.names().names()[landmark]), first));
   }
 
   std::vector<std::string> remarks() const {
@@ -110,15 +135,20 @@ class LongSightings {
   TableStream& stream_;
   SightingRows rows_;
   SightingLog log_;
-  std::vector<LookKey> looks_;  ///< A run of rows each.
-  std::size_t bytes_ = 0;       ///< Of the first rows.
+  std::vector<RowRun> runs_;
+  /// Where a landmark was seen last.
+  struct LastRow {
+    int run = -1;
+    std::size_t line = 0;
+  };
+  std::vector<LastRow> last_;  ///< By landmark.
+  std::size_t bytes_ = 0;      ///< Of the first rows.
 };
 
 }  // namespace
 
-SightingSource read_long_sightings(const std::filesystem::path& path,
-                                   const SightingFormat& format) {
-  TableStream stream(path);
+SightingSource read_long_sightings(ByteSource& source, const SightingFormat& format) {
+  TableStream stream(source);
   return LongSightings(stream, format).read();
 }
 

@@ -37,7 +37,20 @@ std::size_t whole_rows(std::string_view bytes) {
 
 }  // namespace
 
-TableStream::TableStream(const std::filesystem::path& path) : source_(path.string()), file_(path) {}
+bool first_row_is(ByteSource& source, const std::function<bool(const TableRow& row)>& sort,
+                  std::optional<char> separator) {
+  for (std::size_t count = ByteSource::kPeek;; count *= 4) {
+    const std::string_view start = source.peek(count);
+    const bool is_all = start.size() < count;
+    const std::size_t whole = is_all ? start.size() : whole_rows(start);
+    if (whole > 0 || is_all) {
+      const std::string_view text = checked_text(start.substr(0, whole), source.name());
+      TableReader reader(text, source.name(), separator.value_or(TableReader::separator_in(text)));
+      if (TableRow row; reader.next(row)) return sort(row);
+    }
+    if (is_all || start.size() > kLongestRow) return false;
+  }
+}
 
 /// The next rows to the front of bytes_; false: there are no more.
 bool TableStream::read_rows() {
@@ -45,21 +58,21 @@ bool TableStream::read_rows() {
   bytes_.erase(0, whole_);
   whole_ = 0;
   while (whole_ == 0 && !is_over_) {
-    is_over_ = !file_.append(bytes_, kBlock);
+    is_over_ = !source_.append(bytes_, kBlock);
     whole_ = is_over_ ? bytes_.size() : whole_rows(bytes_);
     if (whole_ == 0 && bytes_.size() > kLongestRow)
-      throw IoError(source_, fmt::format("line {}", lines_ + 1),
+      throw IoError(source(), fmt::format("line {}", lines_ + 1),
                     "a row of more than 16 MB: do its quotes end?");
   }
   if (is_over_) is_cut_ = is_cut_table(bytes_);
   if (whole_ == 0) {
-    if (lines_ == 0) throw IoError(source_, "is empty");
+    if (lines_ == 0) throw IoError(source(), "is empty");
     return false;
   }
   const std::string_view text =
-      checked_text(std::string_view(bytes_).substr(0, whole_), source_, lines_ + 1);
+      checked_text(std::string_view(bytes_).substr(0, whole_), source(), lines_ + 1);
   if (separator_ == '\0') separator_ = TableReader::separator_in(text);
-  reader_.emplace(text, source_, separator_, lines_ + 1);
+  reader_.emplace(text, source(), separator_, lines_ + 1);
   return true;
 }
 

@@ -2,16 +2,18 @@
 
 #include <algorithm>
 #include <array>
+#include <new>
 #include <system_error>
 
 #include <fmt/format.h>
 
 #include "core/base/errors.hpp"
-#include "core/base/packed_file.hpp"
+#include "core/base/input_file.hpp"
 #include "core/json/json_cursor.hpp"
 #include "core/json/text_input.hpp"
 #include "core/records/experiment_json.hpp"
 #include "core/records/folder_lock.hpp"
+#include "core/records/input_kind.hpp"
 #include "core/records/map_files.hpp"
 #include "core/records/mrclam.hpp"
 #include "core/records/observation_values.hpp"
@@ -90,42 +92,43 @@ void check_json(std::string_view text, const ForeignReader& foreign, Finding& fi
     document.cursor().at("schema").at("name").fail("unknown schema " + in_quotes(schema.name));
 }
 
-bool is_table(const fs::path& path) {
-  constexpr std::array<std::string_view, 4> kExtensions = {".csv", ".tsv", ".txt", ".dat"};
-  return std::ranges::find(kExtensions, path.extension()) != kExtensions.end();
+/// Whether a name is one that tables have: of their endings, or none at all.
+bool may_be_table(const fs::path& path) {
+  constexpr std::array<std::string_view, 5> kExtensions = {"", ".csv", ".tsv", ".txt", ".dat"};
+  return std::ranges::find(kExtensions, unpacked_name(path).extension()) != kExtensions.end();
 }
 
-void check_file(const fs::path& path, const ForeignReader& foreign, Finding& finding) {
-  const std::string bytes = read_packed_file(path);
-  if (path.filename() == "timings.jsonl") {
+/// Lines of JSON: a file of many values.
+bool is_timings(ByteSource& source) {
+  return source.path().filename() == "timings.jsonl" ||
+         (is_json(source) && json_schema(source) == "mapproof.timings");
+}
+
+void check_source(ByteSource& source, const ForeignReader& foreign, Finding& finding) {
+  if (is_range_log(source)) {
+    finding.kind = "range log";
+    read_range_log(source);
+  } else if (is_timings(source)) {
     finding.kind = "timings";
-    parse_timings(bytes, finding.path);
-    return;
-  }
-  const std::string_view text = checked_text(bytes, finding.path);
-  const std::size_t start = text.find_first_not_of(" \t\r\n");
-  const bool is_json = start != std::string_view::npos && text[start] == '{';
-  if (is_json || unpacked_name(path).extension() == ".json")
-    check_json(text, foreign, finding);
-  else if (is_table(unpacked_name(path)))
-    check_table(text, path, finding.kind);
-  else
+    parse_timings(source.rest(), finding.path);
+  } else if (is_json(source)) {
+    check_json(source.rest(), foreign, finding);
+  } else if (may_be_table(source.path())) {
+    check_table(source, finding.kind);
+  } else {
     throw IoError(finding.path, "is no file that mapproof reads or writes");
+  }
 }
 
 Finding check(const fs::path& path, const ForeignReader& foreign) {
-  Finding finding{.path = path.string(), .kind = {}, .problem = {}};
   try {
-    if (is_range_log(path)) {
-      finding.kind = "range log";
-      read_range_log(path);
-    } else {
-      check_file(path, foreign, finding);
-    }
+    ByteSource source(path);
+    return validate(source, foreign);
+  } catch (const std::bad_alloc&) {
+    throw;
   } catch (const std::exception& error) {
-    finding.problem = error.what();
+    return {.path = input_name(path), .kind = {}, .problem = error.what()};
   }
-  return finding;
 }
 
 /// What is read again of a study's or a map's folder; figures and pages are of other kinds.
@@ -145,29 +148,40 @@ std::vector<fs::path> our_files(const fs::path& folder) {
   return paths;
 }
 
-/// What a single file does not show: that the runs belong to the experiment and have their maps.
-Finding check_study(const fs::path& folder) {
-  Finding finding{.path = folder.string(), .kind = "study", .problem = {}};
+Finding check_as(const std::string& kind, const fs::path& folder,
+                 const std::function<void()>& read) {
+  Finding finding{.path = folder.string(), .kind = kind, .problem = {}};
   try {
-    if (is_slam_study(folder)) {
-      read_slam_study(folder);
-      return finding;
-    }
-    if (is_trial_study(folder)) {
-      read_trial_study(folder);
-      return finding;
-    }
-    for (const Run& run : read_study(folder).runs) {
-      const std::size_t maps = read_maps(folder, run.id).size();
-      if (maps > run.records.size())
-        throw IoError(StudyFiles{folder}.map(run.id).string(), "/maps",
-                      fmt::format("{} maps for {} records", maps, run.records.size()));
-      read_details(folder, run.id);
-    }
+    read();
+  } catch (const std::bad_alloc&) {
+    throw;
   } catch (const std::exception& error) {
     finding.problem = error.what();
   }
   return finding;
+}
+
+/// What a single file does not show: that the runs belong to the experiment and have their maps.
+void read_whole_study(const fs::path& folder) {
+  if (is_slam_study(folder)) {
+    read_slam_study(folder);
+    return;
+  }
+  if (is_trial_study(folder)) {
+    read_trial_study(folder);
+    return;
+  }
+  for (const Run& run : read_study(folder).runs) {
+    const std::size_t maps = read_maps(folder, run.id).size();
+    if (maps > run.records.size())
+      throw IoError(StudyFiles{folder}.map(run.id).string(), "/maps",
+                    fmt::format("{} maps for {} records", maps, run.records.size()));
+    read_details(folder, run.id);
+  }
+}
+
+Finding check_study(const fs::path& folder) {
+  return check_as("study", folder, [&] { read_whole_study(folder); });
 }
 
 /// The studies right below a folder that holds none itself.
@@ -197,21 +211,35 @@ std::vector<Finding> check_folder(const fs::path& folder, const ForeignReader& f
     }
     return findings;
   }
-  if (is_range_log(folder)) return {check(folder, foreign)};
-  if (!is_mrclam(folder))
-    throw IoError(folder.string(),
-                  "is a folder with no study, no map, no range log and no MRCLAM data in it");
-  read_mrclam(folder, Sensor::kVisibility);
-  return {{.path = folder.string(), .kind = "MRCLAM observations", .problem = {}}};
+  if (is_range_log_folder(folder))
+    return {check_as("range log", folder, [&] { read_range_log(folder); })};
+  if (is_mrclam(folder))
+    return {
+        check_as("MRCLAM observations", folder, [&] { read_mrclam(folder, Sensor::kVisibility); })};
+  throw IoError(folder.string(),
+                "is a folder with no study, no map, no range log and no MRCLAM data in it");
 }
 
 }  // namespace
 
+Finding validate(ByteSource& source, const ForeignReader& foreign) {
+  Finding finding{.path = source.name(), .kind = {}, .problem = {}};
+  try {
+    check_source(source, foreign, finding);
+  } catch (const std::bad_alloc&) {
+    throw;
+  } catch (const std::exception& error) {
+    finding.problem = error.what();
+  }
+  return finding;
+}
+
 std::vector<Finding> validate(const fs::path& path, const ForeignReader& foreign) {
-  std::error_code error;
-  if (!fs::is_directory(path, error)) return {check(path, foreign)};
+  if (!is_folder(path)) return {check(path, foreign)};
   try {
     return check_folder(path, foreign);
+  } catch (const std::bad_alloc&) {
+    throw;
   } catch (const std::exception& problem) {
     return {{.path = path.string(), .kind = {}, .problem = problem.what()}};
   }

@@ -6,13 +6,13 @@
 #include <fmt/format.h>
 
 #include "core/base/errors.hpp"
-#include "core/base/packed_file.hpp"
+#include "core/base/input_file.hpp"
 #include "core/json/text_input.hpp"
 #include "core/records/landmarks_csv.hpp"
 #include "core/records/observation_values.hpp"
 #include "core/records/sighting_columns.hpp"
 #include "core/records/sighting_values.hpp"
-#include "core/records/table_reader.hpp"
+#include "core/records/table_stream.hpp"
 
 namespace mapproof {
 namespace {
@@ -57,20 +57,22 @@ bool is_part_of_mrclam(const std::filesystem::path& path) {
 
 }  // namespace
 
-void check_table(std::string_view text, const std::filesystem::path& path, std::string& kind) {
-  const std::string source = path.string();
-  if (is_part_of_mrclam(path))
+void check_table(ByteSource& input, std::string& kind) {
+  const std::string& source = input.name();
+  if (is_part_of_mrclam(input.path()))
     throw IoError(source, "is one file of an MRCLAM data set: check the folder");
+  if (first_row_is(input, names_sighting_columns)) {
+    kind = "sightings";
+    read_long_sightings(input, {});
+    return;
+  }
+  const std::string bytes = input.rest();
+  const std::string_view text = checked_text(bytes, source);
   TableReader reader(text, source);
   TableRow first;
   if (reader.next(first) && is_map(first)) {
     kind = "map CSV";
     return check_map(reader, first, source);
-  }
-  if (names_sighting_columns(first)) {
-    kind = "sightings";
-    read_long_sightings(path, {});
-    return;
   }
   if (has_long_header(text, source) || starts_as_long(text, source)) {
     kind = "long CSV observations";

@@ -1,8 +1,8 @@
 #pragma once
 
-#include <filesystem>
 #include <string>
-#include <string_view>
+
+#include "core/base/byte_source.hpp"
 
 namespace mapproof {
 
@@ -11,6 +11,6 @@ namespace mapproof {
 /// observations are is not told by a table: visibility, bearing and range are tried.
 /// @param kind  Set to what it was taken for, before anything is thrown.
 /// @throws IoError if it is none, or is broken.
-void check_table(std::string_view text, const std::filesystem::path& path, std::string& kind);
+void check_table(ByteSource& source, std::string& kind);
 
 }  // namespace mapproof

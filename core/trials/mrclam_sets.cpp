@@ -5,8 +5,9 @@
 
 #include <fmt/format.h>
 
+#include "core/base/byte_source.hpp"
 #include "core/base/errors.hpp"
-#include "core/base/packed_file.hpp"
+#include "core/base/input_file.hpp"
 #include "core/base/sha256.hpp"
 #include "core/records/mrclam.hpp"
 
@@ -37,7 +38,7 @@ std::string digest_of(const fs::path& folder) {
   std::string digests;
   for (const fs::path& path : entries_of(folder)) {
     const std::string name = unpacked_name(path.filename()).string();
-    if (is_read(name)) digests += name + ' ' + sha256_hex(read_packed_file(path)) + '\n';
+    if (is_read(name)) digests += name + ' ' + sha256_hex(read_input(path)) + '\n';
   }
   return sha256_hex(digests);
 }

@@ -52,6 +52,6 @@ const Topic* topic_named(std::string_view name);
 
 /// An experiment's option. @throws InvalidInput if the experiment does not have it.
 double number_option(const TrialExperiment& experiment, const std::string& name);
-const std::vector<double>& list_option(const TrialExperiment& experiment, const std::string& name);
+std::vector<double> list_option(const TrialExperiment& experiment, const std::string& name);
 
 }  // namespace mapproof

@@ -32,7 +32,7 @@ const Topic* topic_named(std::string_view name) {
   return found == topics.end() ? nullptr : *found;
 }
 
-const std::vector<double>& list_option(const TrialExperiment& experiment, const std::string& name) {
+std::vector<double> list_option(const TrialExperiment& experiment, const std::string& name) {
   const auto found = experiment.options.find(name);
   if (found == experiment.options.end() || found->second.empty())
     throw InvalidInput(fmt::format("a study of {} without its option {}", experiment.topic, name));

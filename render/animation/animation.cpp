@@ -10,11 +10,13 @@
 #include <cerrno>
 #include <cstdlib>
 #include <cstring>
+#include <new>
 
 #include <fmt/format.h>
 
 #include "core/base/descriptor.hpp"
 #include "core/base/errors.hpp"
+#include "core/base/out_of_memory.hpp"
 #include "render/image/png.hpp"
 
 namespace mapproof {
@@ -85,11 +87,13 @@ std::string run(const std::filesystem::path& program, const Descriptor& input) {
   int status = 0;
   while (::waitpid(process, &status, 0) < 0 && errno == EINTR) continue;
   if (WIFEXITED(status) && WEXITSTATUS(status) == 0) return content_of(output, program);
-  const std::string said = content_of(messages, program);
+  const std::string all = content_of(messages, program);
+  const std::string said = all.substr(0, all.find('\n'));
+  if (said == kOutOfMemory) throw std::bad_alloc();
   const std::string end = WIFSIGNALED(status)
                               ? fmt::format("it was ended by signal {}", WTERMSIG(status))
                               : fmt::format("it ended with exit code {}", WEXITSTATUS(status));
-  fail(program, said.empty() ? end : said.substr(0, said.find('\n')));
+  fail(program, said.empty() ? end : said);
 }
 
 }  // namespace

@@ -1,9 +1,11 @@
 #include <cstdio>
 #include <exception>
+#include <new>
 #include <stdexcept>
 #include <string>
 #include <vector>
 
+#include "core/base/out_of_memory.hpp"
 #include "render/animation/apng_encoder.hpp"
 
 namespace mapproof {
@@ -43,6 +45,9 @@ void run() {
 int main() {
   try {
     mapproof::run();
+  } catch (const std::bad_alloc&) {
+    std::fprintf(stderr, "%s\n", mapproof::kOutOfMemory);
+    return 1;
   } catch (const std::exception& error) {
     std::fprintf(stderr, "%s\n", error.what());
     return 1;

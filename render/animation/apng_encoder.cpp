@@ -5,6 +5,7 @@
 #include <cstdio>
 #include <cstring>
 #include <memory>
+#include <new>
 #include <stdexcept>
 #include <utility>
 
@@ -19,17 +20,20 @@ namespace {
 
 constexpr int kMillisecondsASecond = 1000;
 
-/// @throws std::runtime_error if FFmpeg's answer is an error.
+/// @throws std::bad_alloc or std::runtime_error if FFmpeg's answer is an error.
 int checked(int answer, const char* what) {
   if (answer >= 0) return answer;
+  // zlib, which FFmpeg calls external, can fail here for want of memory alone.
+  if (answer == AVERROR(ENOMEM) || answer == AVERROR_EXTERNAL) throw std::bad_alloc();
   std::array<char, AV_ERROR_MAX_STRING_SIZE> words{};
   av_strerror(answer, words.data(), words.size());
   throw std::runtime_error(std::string(what) + ": " + words.data());
 }
 
+/// What FFmpeg makes, or has no memory for.
 template <typename Kind>
-Kind* there(Kind* pointer, const char* what) {
-  if (pointer == nullptr) throw std::runtime_error(std::string(what) + ": there is none");
+Kind* made(Kind* pointer) {
+  if (pointer == nullptr) throw std::bad_alloc();
   return pointer;
 }
 
@@ -57,10 +61,16 @@ struct MemoryFile {
   std::size_t at = 0;
 };
 
-int write_to_memory(void* opaque, std::uint8_t* data, int size) {
+/// Of const bytes from FFmpeg 7 on.
+template <typename Byte>
+int write_to_memory(void* opaque, Byte* data, int size) {
   auto& file = *static_cast<MemoryFile*>(opaque);
   const auto count = static_cast<std::size_t>(size);
-  if (file.bytes.size() < file.at + count) file.bytes.resize(file.at + count);
+  try {
+    if (file.bytes.size() < file.at + count) file.bytes.resize(file.at + count);
+  } catch (const std::bad_alloc&) {
+    return AVERROR(ENOMEM);
+  }
   std::memcpy(file.bytes.data() + file.at, data, count);
   file.at += count;
   return size;
@@ -79,10 +89,11 @@ std::int64_t seek_in_memory(void* opaque, std::int64_t offset, int whence) {
 
 AVIOContext* opened(MemoryFile& file) {
   constexpr int kBlock = 1 << 16;
-  auto* block = static_cast<std::uint8_t*>(there(av_malloc(kBlock), "memory"));
-  return there(
-      avio_alloc_context(block, kBlock, 1, &file, nullptr, write_to_memory, seek_in_memory),
-      "memory");
+  auto* block = static_cast<std::uint8_t*>(made(av_malloc(kBlock)));
+  AVIOContext* context =
+      avio_alloc_context(block, kBlock, 1, &file, nullptr, write_to_memory, seek_in_memory);
+  if (context == nullptr) av_free(block);
+  return made(context);
 }
 
 }  // namespace
@@ -100,8 +111,9 @@ struct ApngEncoder::State {
 ApngEncoder::ApngEncoder(const AnimationInput& input) : state_(nullptr) {
   auto state = std::make_unique<State>();
   state->frame_ms = input.frame_ms;
-  const AVCodec* kind = there(avcodec_find_encoder(AV_CODEC_ID_APNG), "encoder of APNG");
-  state->codec.reset(there(avcodec_alloc_context3(kind), "encoder"));
+  const AVCodec* kind = avcodec_find_encoder(AV_CODEC_ID_APNG);
+  if (kind == nullptr) throw std::runtime_error("FFmpeg has no encoder of APNG");
+  state->codec.reset(made(avcodec_alloc_context3(kind)));
   AVCodecContext& codec = *state->codec;
   codec.width = input.width;
   codec.height = input.height;
@@ -117,19 +129,19 @@ ApngEncoder::ApngEncoder(const AnimationInput& input) : state_(nullptr) {
   checked(avformat_alloc_output_context2(&format, nullptr, "apng", nullptr), "APNG");
   state->format.reset(format);
   format->flags |= AVFMT_FLAG_BITEXACT;
-  AVStream* stream = there(avformat_new_stream(format, nullptr), "stream");
+  AVStream* stream = made(avformat_new_stream(format, nullptr));
   stream->time_base = codec.time_base;
   checked(avcodec_parameters_from_context(stream->codecpar, &codec), "stream");
   checked(av_opt_set_int(format->priv_data, "plays", 0, 0), "endless play");
   format->pb = opened(state->file);
   checked(avformat_write_header(format, nullptr), "header");
 
-  state->frame.reset(there(av_frame_alloc(), "frame"));
+  state->frame.reset(made(av_frame_alloc()));
   state->frame->format = codec.pix_fmt;
   state->frame->width = input.width;
   state->frame->height = input.height;
   checked(av_frame_get_buffer(state->frame.get(), 0), "frame");
-  state->packet.reset(there(av_packet_alloc(), "packet"));
+  state->packet.reset(made(av_packet_alloc()));
   state_ = state.release();
 }
 
@@ -170,6 +182,7 @@ std::string ApngEncoder::finish() {
   drain();
   checked(av_write_trailer(state_->format.get()), "end");
   avio_flush(state_->format->pb);
+  checked(state_->format->pb->error, "end");
   return std::move(state_->file.bytes);
 }
 

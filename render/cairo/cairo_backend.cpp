@@ -1,7 +1,8 @@
 #include "render/cairo/cairo_backend.hpp"
 
+#include <cerrno>
 #include <cmath>
-#include <stdexcept>
+#include <new>
 
 #include <cairo-pdf.h>
 
@@ -33,6 +34,41 @@ const std::string& drawing_software() {
   return software;
 }
 
+cairo_status_t append_to(void* bytes, const unsigned char* data, unsigned length) {
+  try {
+    static_cast<std::string*>(bytes)->append(reinterpret_cast<const char*>(data), length);
+    return CAIRO_STATUS_SUCCESS;
+  } catch (const std::bad_alloc&) {  // Not through Cairo, which may hold a lock.
+    return CAIRO_STATUS_NO_MEMORY;
+  }
+}
+
+void set_words(const Drawing& drawing, cairo_surface_t* surface) {
+  const auto set = [surface](cairo_pdf_metadata_t what, const std::string& text) {
+    cairo_pdf_surface_set_metadata(surface, what, text.c_str());
+  };
+  set(CAIRO_PDF_METADATA_TITLE, visible_lines(drawing.title));
+  set(CAIRO_PDF_METADATA_SUBJECT, visible_lines(drawing.alt));
+  set(CAIRO_PDF_METADATA_KEYWORDS, drawing.id + " " + joined(drawing.record_ids) +
+                                       (drawing.renderer.empty() ? "" : " " + drawing.renderer));
+  set(CAIRO_PDF_METADATA_CREATOR, "mapproof");
+  set(CAIRO_PDF_METADATA_CREATE_DATE, kFixedDate);
+}
+
+/// Draws the only page and closes the file.
+void draw_pdf(const Drawing& drawing, cairo_surface_t* surface) {
+  set_words(drawing, surface);
+  const ContextHandle context(cairo_create(surface));
+  const Colour paper = drawing.background;
+  cairo_set_source_rgb(context.get(), paper.red / 255.0, paper.green / 255.0, paper.blue / 255.0);
+  cairo_paint(context.get());
+  paint(drawing, context.get(), true);
+  cairo_show_page(context.get());
+  check(cairo_status(context.get()));
+  cairo_surface_finish(surface);
+  check(cairo_surface_status(surface));
+}
+
 }  // namespace
 
 Image to_image(const Drawing& drawing) {
@@ -54,6 +90,7 @@ Image to_image(const Drawing& drawing) {
   paint(drawing, context.get(), false);
   check(cairo_status(context.get()));
   cairo_surface_flush(surface.get());
+  check(cairo_surface_status(surface.get()));
   return image;
 }
 
@@ -74,32 +111,18 @@ std::string to_png(const Drawing& drawing) {
 
 std::string to_pdf(const Drawing& drawing) {
   std::string bytes;
-  const auto collect = [](void* out, const unsigned char* data, unsigned length) {
-    static_cast<std::string*>(out)->append(reinterpret_cast<const char*>(data), length);
-    return CAIRO_STATUS_SUCCESS;
-  };
-  const SurfaceHandle surface(
-      cairo_pdf_surface_create_for_stream(collect, &bytes, drawing.width, drawing.height));
-  const auto set = [&surface](cairo_pdf_metadata_t what, const std::string& text) {
-    cairo_pdf_surface_set_metadata(surface.get(), what, text.c_str());
-  };
-  set(CAIRO_PDF_METADATA_TITLE, visible_lines(drawing.title));
-  set(CAIRO_PDF_METADATA_SUBJECT, visible_lines(drawing.alt));
-  set(CAIRO_PDF_METADATA_KEYWORDS, drawing.id + " " + joined(drawing.record_ids) +
-                                       (drawing.renderer.empty() ? "" : " " + drawing.renderer));
-  set(CAIRO_PDF_METADATA_CREATOR, "mapproof");
-  set(CAIRO_PDF_METADATA_CREATE_DATE, kFixedDate);
-  {
-    const ContextHandle context(cairo_create(surface.get()));
-    const Colour paper = drawing.background;
-    cairo_set_source_rgb(context.get(), paper.red / 255.0, paper.green / 255.0, paper.blue / 255.0);
-    cairo_paint(context.get());
-    paint(drawing, context.get(), true);
-    cairo_show_page(context.get());
-    check(cairo_status(context.get()));
+  errno = 0;
+  SurfaceHandle surface(
+      cairo_pdf_surface_create_for_stream(append_to, &bytes, drawing.width, drawing.height));
+  try {
+    draw_pdf(drawing, surface.get());
+  } catch (...) {
+    // Cairo goes on with what failed when such a surface is closed, up to an abort.
+    surface.release();
+    throw;
   }
-  cairo_surface_finish(surface.get());
-  check(cairo_surface_status(surface.get()));
+  // Cairo 1.16 says nothing of fonts that it found no memory for.
+  if (errno == ENOMEM) throw std::bad_alloc();
   return bytes;
 }
 

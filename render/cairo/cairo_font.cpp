@@ -1,5 +1,6 @@
 #include "render/cairo/cairo_font.hpp"
 
+#include <new>
 #include <stdexcept>
 
 #include <cairo-ft.h>
@@ -18,12 +19,14 @@ struct FreeTypeFace {
 
   FreeTypeFace() {
     const std::string_view bytes = font_bytes();
-    if (FT_Init_FreeType(&library) != 0 ||
-        FT_New_Memory_Face(library, reinterpret_cast<const FT_Byte*>(bytes.data()),
-                           static_cast<FT_Long>(bytes.size()), 0, &face) != 0) {
-      FT_Done_FreeType(library);
-      throw std::runtime_error("the embedded font cannot be read");
-    }
+    FT_Error error = FT_Init_FreeType(&library);
+    if (error == 0)
+      error = FT_New_Memory_Face(library, reinterpret_cast<const FT_Byte*>(bytes.data()),
+                                 static_cast<FT_Long>(bytes.size()), 0, &face);
+    if (error == 0) return;
+    FT_Done_FreeType(library);
+    if (FT_ERROR_BASE(error) == FT_Err_Out_Of_Memory) throw std::bad_alloc();
+    throw std::runtime_error("the embedded font cannot be read");
   }
   ~FreeTypeFace() {
     FT_Done_Face(face);
@@ -47,6 +50,7 @@ FontFaceHandle make_font_face() {
 }  // namespace
 
 void check(cairo_status_t status) {
+  if (status == CAIRO_STATUS_NO_MEMORY) throw std::bad_alloc();
   if (status != CAIRO_STATUS_SUCCESS)
     throw std::runtime_error(std::string("Cairo: ") + cairo_status_to_string(status));
 }

@@ -24,7 +24,8 @@ using ContextHandle = std::unique_ptr<cairo_t, ContextDelete>;
 using FontFaceHandle = std::unique_ptr<cairo_font_face_t, FontFaceDelete>;
 using FontOptionsHandle = std::unique_ptr<cairo_font_options_t, FontOptionsDelete>;
 
-/// @throws std::runtime_error with Cairo's words if something went wrong.
+/// @throws std::bad_alloc if it is for want of memory; std::runtime_error with Cairo's words if
+///         something else went wrong.
 void check(cairo_status_t status);
 
 }  // namespace mapproof

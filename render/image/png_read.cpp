@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <csetjmp>
+#include <cstdlib>
 #include <cstring>
+#include <new>
 
 #include <fmt/format.h>
 #include <png.h>
@@ -23,6 +25,7 @@ struct Source {
   std::size_t next = 0;
   std::string_view rest = signature;
   std::string reason = {};
+  bool is_out_of_memory = false;
 };
 
 bool is_needed(std::string_view type) {
@@ -51,6 +54,14 @@ void leave(png_structp png, png_const_charp why) {
 }
 
 void no_warning(png_structp, png_const_charp) {}
+
+png_voidp allocate(png_structp png, png_alloc_size_t bytes) {
+  void* memory = std::malloc(bytes);
+  if (!memory) static_cast<Source*>(png_get_mem_ptr(png))->is_out_of_memory = true;
+  return memory;
+}
+
+void release(png_structp, png_voidp memory) { std::free(memory); }
 
 /// Lays `colour` of `most` over white, as 0 to 255.
 std::uint32_t over_white(std::uint32_t colour, std::uint32_t alpha, std::uint32_t most) {
@@ -129,9 +140,13 @@ bool decode(png_structp png, png_infop info, Samples& samples, PngFile& file) {
 /// Fills the image, which has its size, and the digest.
 void decode(std::string_view bytes, const std::vector<PngChunk>& chunks, PngFile& file) {
   Source source{bytes.substr(0, 8), &chunks};
-  png_structp png = png_create_read_struct(PNG_LIBPNG_VER_STRING, &source, leave, no_warning);
+  png_structp png = png_create_read_struct_2(PNG_LIBPNG_VER_STRING, &source, leave, no_warning,
+                                             &source, allocate, release);
   png_infop info = png ? png_create_info_struct(png) : nullptr;
-  if (!info) throw std::bad_alloc();
+  if (!info) {
+    png_destroy_read_struct(&png, nullptr, nullptr);
+    throw std::bad_alloc();
+  }
   png_set_read_fn(png, &source, take);
   Samples samples;
   bool is_done = false;
@@ -142,6 +157,7 @@ void decode(std::string_view bytes, const std::vector<PngChunk>& chunks, PngFile
     throw;
   }
   png_destroy_read_struct(&png, &info, nullptr);
+  if (source.is_out_of_memory) throw std::bad_alloc();
   if (!is_done) throw InvalidInput("its pixels cannot be decoded: " + source.reason);
 }
 

@@ -2,6 +2,7 @@
 
 #include "core/base/files.hpp"
 #include "render/cairo/cairo_backend.hpp"
+#include "render/output/write_drawn.hpp"
 #include "render/plot/figure_json.hpp"
 #include "render/plot/layout.hpp"
 #include "render/svg/svg.hpp"
@@ -25,8 +26,8 @@ std::string write_figure(const Figure& figure, const Theme& theme,
   const Drawing drawing = lay_out(figure, theme);
   std::string svg = to_svg(drawing);
   write_file(folder / (figure.id + ".svg"), svg);
-  write_file(folder / (figure.id + ".png"), to_png(drawing));
-  write_file(folder / (figure.id + ".pdf"), to_pdf(drawing));
+  write_drawn(folder / (figure.id + ".png"), [&] { return to_png(drawing); });
+  write_drawn(folder / (figure.id + ".pdf"), [&] { return to_pdf(drawing); });
   write_file(folder / (figure.id + ".figure.json"), figure_to_json(figure));
   return svg;
 }

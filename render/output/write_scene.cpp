@@ -6,6 +6,7 @@
 #include "core/base/files.hpp"
 #include "render/cairo/cairo_backend.hpp"
 #include "render/image/halve.hpp"
+#include "render/output/write_drawn.hpp"
 #include "render/plot/layout.hpp"
 #include "render/scene/scene_figure.hpp"
 #include "render/scene/scene_json.hpp"
@@ -58,8 +59,8 @@ std::string write_scene(const Scene& scene, const Theme& theme, const std::files
   const SceneDrawing drawn = draw_scene(scene, theme, client);
   std::string svg = to_svg(drawn.screen);
   write_file(folder / (scene.id + ".svg"), svg);
-  write_file(folder / (scene.id + ".png"), to_png(drawn.poster));
-  write_file(folder / (scene.id + ".pdf"), to_pdf(drawn.poster));
+  write_drawn(folder / (scene.id + ".png"), [&] { return to_png(drawn.poster); });
+  write_drawn(folder / (scene.id + ".pdf"), [&] { return to_pdf(drawn.poster); });
   write_file(folder / (scene.id + ".scene.json"), scene_to_json(scene));
   return svg;
 }

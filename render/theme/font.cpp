@@ -3,6 +3,7 @@
 #include <array>
 #include <limits>
 #include <memory>
+#include <new>
 
 #include <fmt/format.h>
 #include <hb-ot.h>
@@ -33,10 +34,19 @@ hb_font_t* shared_font() {
     hb_face_t* face = hb_face_create(blob, 0);
     hb_blob_destroy(blob);
     hb_font_t* made = hb_font_create(face);
-    hb_face_destroy(face);
     hb_ot_font_set_funcs(made);
     hb_font_make_immutable(made);
-    return made;
+    // What HarfBuzz finds no memory for is empty for good, in silence. These make its tables.
+    hb_codepoint_t glyph = 0;
+    hb_glyph_extents_t ink{};
+    const bool is_whole = hb_ot_layout_has_substitution(face) && hb_ot_layout_has_positioning(face) &&
+                          hb_font_get_nominal_glyph(made, 'A', &glyph) != 0 &&
+                          hb_font_get_glyph_h_advance(made, glyph) > 0 &&
+                          hb_font_get_glyph_extents(made, glyph, &ink) != 0 && ink.width > 0;
+    hb_face_destroy(face);
+    if (is_whole) return made;
+    hb_font_destroy(made);
+    throw std::bad_alloc();
   }();
   return font;
 }
@@ -155,7 +165,9 @@ void shape_stretch(const Stretch& stretch, hb_buffer_t* buffer, ShapedText& shap
   hb_buffer_set_direction(buffer, stretch.right_to_left ? HB_DIRECTION_RTL : HB_DIRECTION_LTR);
   hb_buffer_set_language(buffer, hb_language_from_string("en", 2));
   hb_buffer_guess_segment_properties(buffer);
-  hb_shape(shared_font(), buffer, features.data(), features.size());
+  if (!hb_shape_full(shared_font(), buffer, features.data(), features.size(), nullptr) ||
+      !hb_buffer_allocation_successful(buffer))
+    throw std::bad_alloc();
 
   unsigned count = 0;
   const hb_glyph_info_t* infos = hb_buffer_get_glyph_infos(buffer, &count);

@@ -1,17 +1,19 @@
 #include "render/vtk/scene_renderer.hpp"
 
+#include <unistd.h>
+
 #include <algorithm>
 #include <array>
 #include <cstdlib>
 #include <numbers>
 #include <stdexcept>
+#include <string_view>
+#include <utility>
 
 #include <fmt/format.h>
-// Before GL's own headers.
-#include <vtk_glew.h>
-// After it.
 #include <vtkCamera.h>
 #include <vtkLight.h>
+#include <vtkLogger.h>
 #include <vtkNew.h>
 #include <vtkObjectFactory.h>
 #include <vtkOutputWindow.h>
@@ -20,8 +22,8 @@
 #include <vtkVersion.h>
 
 #include "core/base/errors.hpp"
+#include "render/vtk/offscreen_window.hpp"
 #include "render/vtk/part_props.hpp"
-#include "render/vtk/vtk_window.hpp"
 
 namespace mapproof {
 namespace {
@@ -42,9 +44,18 @@ class ErrorLog : public vtkOutputWindow {
 
 vtkStandardNewMacro(ErrorLog);
 
-std::string gl_text(GLenum what) {
-  const auto* text = reinterpret_cast<const char*>(glGetString(what));
-  return text == nullptr ? "unknown" : text;
+constexpr std::string_view kVersion = "OpenGL version string";
+constexpr std::string_view kDriver = "OpenGL renderer string";
+
+/// What VTK's list of what an OpenGL can says about one thing: "OpenGL version string:  4.5 ...".
+std::string capability(vtkRenderWindow* window, std::string_view what) {
+  const std::string_view all = window->ReportCapabilities();
+  const std::size_t found = all.find(what);
+  if (found == std::string_view::npos) return "unknown";
+  std::string_view text = all.substr(found + what.size());
+  text = text.substr(0, text.find('\n'));
+  text.remove_prefix(std::min(text.size(), text.find_first_not_of(": ")));
+  return std::string(text);
 }
 
 std::string one_line(std::string text) {
@@ -124,6 +135,11 @@ Image image_of(vtkUnsignedCharArray* bytes, int width, int height, int side) {
 struct SceneRenderer::Parts {
   vtkNew<ErrorLog> log;
   vtkSmartPointer<vtkRenderWindow> window;
+
+  void throw_what_was_logged() {
+    if (!log->errors.empty())
+      throw std::runtime_error("VTK: " + one_line(std::exchange(log->errors, {})));
+  }
 };
 
 void pin_driver() {
@@ -144,18 +160,27 @@ void pin_driver() {
   for (const auto& [name, value] : kept) ::setenv(name, value.c_str(), 1);
   ::setenv("GALLIUM_DRIVER", "llvmpipe", 1);
   ::setenv("LP_NATIVE_VECTOR_WIDTH", "128", 1);
+  // EGL's: no graphics card, whoever's.
+  ::setenv("LIBGL_ALWAYS_SOFTWARE", "1", 1);
+  constexpr const char* kMesaOfEgl = "/usr/share/glvnd/egl_vendor.d/50_mesa.json";
+  if (::access(kMesaOfEgl, R_OK) == 0) ::setenv("__EGL_VENDOR_LIBRARY_FILENAMES", kMesaOfEgl, 1);
 }
 
 SceneRenderer::SceneRenderer() : parts_(std::make_unique<Parts>()) {
   vtkOutputWindow::SetInstance(parts_->log);
+  vtkLogger::SetStderrVerbosity(vtkLogger::VERBOSITY_OFF);
   parts_->window = make_window();
+  parts_->throw_what_was_logged();
+  const std::string driver = capability(parts_->window, kDriver);
+  if (!driver.starts_with("llvmpipe"))
+    throw std::runtime_error("OpenGL is drawn by " + driver + ", not by llvmpipe");
 }
 
 SceneRenderer::~SceneRenderer() = default;
 
 std::string SceneRenderer::name() const {
-  return fmt::format("VTK {}, OpenGL {}, {}", vtkVersion::GetVTKVersion(), gl_text(GL_VERSION),
-                     gl_text(GL_RENDERER));
+  return fmt::format("VTK {}, OpenGL {}, {}", vtkVersion::GetVTKVersion(),
+                     capability(parts_->window, kVersion), capability(parts_->window, kDriver));
 }
 
 Image SceneRenderer::draw(const Scene& scene, const SceneRequest& request) {
@@ -182,8 +207,7 @@ Image SceneRenderer::draw(const Scene& scene, const SceneRequest& request) {
   vtkNew<vtkUnsignedCharArray> bytes;
   window->GetPixelData(0, 0, width - 1, height - 1, 0, bytes);
   window->RemoveRenderer(renderer);
-  if (!parts_->log->errors.empty())
-    throw std::runtime_error("VTK: " + one_line(std::exchange(parts_->log->errors, {})));
+  parts_->throw_what_was_logged();
   return image_of(bytes, request.width, request.height, side);
 }
 

@@ -15,10 +15,10 @@ namespace mapproof {
 /// before anything of OpenGL.
 void pin_driver();
 
-/// Draws scenes by VTK in one context of OSMesa. For one thread.
+/// Draws scenes by VTK in one context of llvmpipe. For one thread.
 class SceneRenderer {
  public:
-  /// @throws std::runtime_error, in one line, if there is no context.
+  /// @throws std::runtime_error, in one line, if there is no context, or not of llvmpipe.
   SceneRenderer();
   ~SceneRenderer();
 

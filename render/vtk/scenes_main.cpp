@@ -4,8 +4,11 @@
 #include <exception>
 #include <iostream>
 #include <memory>
+#include <new>
 #include <string>
 
+#include "core/base/errors.hpp"
+#include "core/base/out_of_memory.hpp"
 #include "render/scene/scene_json.hpp"
 #include "render/scene/scene_request.hpp"
 #include "render/vtk/scene_renderer.hpp"
@@ -15,6 +18,7 @@ namespace {
 
 constexpr int kUsage = 2;
 constexpr int kNoContext = 3;
+constexpr int kNoMemory = 4;
 
 void answer(const SceneReply& reply, const Image* image) {
   const std::string line = reply_to_line(reply);
@@ -32,7 +36,7 @@ void serve(SceneRenderer& renderer, const std::string& request_line,
     const Image image = renderer.draw(scene_from_json(scene_line, "scene"), request);
     answer({"", image.width, image.height, renderer.name()}, &image);
   } catch (const std::bad_alloc&) {
-    answer({.error = "out of memory"}, nullptr);
+    throw;
   } catch (const std::exception& error) {
     answer({.error = error.what()}, nullptr);
   }
@@ -48,6 +52,8 @@ int run() {
     }
     try {
       if (!renderer) renderer = std::make_unique<SceneRenderer>();
+    } catch (const std::bad_alloc&) {
+      throw;
     } catch (const std::exception& error) {
       answer({.error = error.what()}, nullptr);
       std::fprintf(stderr, "mapproof-scenes: %s\n", error.what());
@@ -77,5 +83,11 @@ int main() {
   keep_memory();
   mapproof::pin_driver();
   std::ios::sync_with_stdio(false);
-  return mapproof::run();
+  std::cin.exceptions(std::ios::badbit);  // What a line finds no memory for is no end of the input.
+  try {
+    return mapproof::run();
+  } catch (const std::bad_alloc&) {
+    std::fprintf(stderr, "mapproof-scenes: %s\n", mapproof::kOutOfMemory);
+    return mapproof::kNoMemory;
+  }
 }

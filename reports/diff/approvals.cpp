@@ -1,18 +1,24 @@
 #include "reports/diff/approvals.hpp"
 
 #include <algorithm>
+#include <iterator>
 #include <map>
 #include <set>
 #include <system_error>
 
+#include <fmt/format.h>
+
 #include "core/base/errors.hpp"
 #include "core/base/files.hpp"
+#include "core/base/paths.hpp"
 #include "core/base/spelling.hpp"
 #include "core/json/json_cursor.hpp"
+#include "core/records/folder_replacement.hpp"
 #include "core/records/study_files.hpp"
 #include "core/records/study_store.hpp"
 #include "render/plot/figure_json.hpp"
 #include "reports/diff/approval_files.hpp"
+#include "reports/diff/approval_sides.hpp"
 #include "reports/diff/item_files.hpp"
 #include "reports/diff/record_files.hpp"
 #include "reports/diff/record_set.hpp"
@@ -78,6 +84,7 @@ class Planner {
         after_(approval_files(current)) {}
 
   ApprovalPlan plan(const ApprovalOrder& order) {
+    require_comparable({baseline_, before_}, {current_, after_});
     std::vector<std::string> ids = chosen_ids(order, before_, after_);
     const auto is_records = [](const std::string& id) {
       return id == kRecordsItem || id.starts_with("records/");
@@ -96,6 +103,7 @@ class Planner {
       }
     }
     plan.steps = std::move(steps_);
+    if (order.all && !order.force) require_most_stays(plan.steps);
     return plan;
   }
 
@@ -106,6 +114,7 @@ class Planner {
     steps_.clear();
     try {
       if (!before_.contains(id) && !after_.contains(id)) throw InvalidInput("has no files to take");
+      require_comparable({baseline_, before_}, {current_, after_});
       add_id(id, "", whole);
       return "";
     } catch (const InvalidInput& error) {
@@ -123,14 +132,30 @@ class Planner {
     add_item(id);
   }
 
+  /// A mistaken CURRENT shows by what it lacks.
+  void require_most_stays(const std::vector<ApprovalStep>& steps) const {
+    std::set<fs::path> files;
+    for (const auto& [id, paths] : before_) files.insert(paths.begin(), paths.end());
+    const auto removed =
+        std::ranges::count_if(steps, [](const ApprovalStep& step) { return step.from.empty(); });
+    if (2 * removed > std::ssize(files))
+      throw InvalidInput(fmt::format("--all would remove {} of {} files of {}, which CURRENT {} does "
+                                     "not have; --force does so",
+                                     removed, files.size(), baseline_.string(), current_.string()));
+  }
+
   /// Whether the file is another one than the baseline's.
   bool add(const fs::path& relative) {
     const fs::path from = current_ / relative, to = baseline_ / relative;
     if (!planned_.insert(relative).second || same_bytes(from, to)) return false;
     require_readable(from);
     require_no_folder(to);
-    steps_.push_back({from, to});
+    steps_.push_back({from, relative});
     return true;
+  }
+
+  void remove(const fs::path& relative) {
+    if (planned_.insert(relative).second) steps_.push_back({{}, relative});
   }
 
   /// Other baselines of a picture that is replaced are of what it was.
@@ -138,7 +163,7 @@ class Planner {
     for (const auto& [other, paths] : before_)
       if (other.starts_with(id + "@") && !after_.contains(other))
         for (const fs::path& path : paths)
-          if (path.extension() == extension) steps_.push_back({{}, baseline_ / path});
+          if (path.extension() == extension) remove(path);
   }
 
   void add_item(const std::string& id) {
@@ -150,7 +175,7 @@ class Planner {
     for (const fs::path& path : before->second)
       if (after == after_.end() || !after->second.contains(path)) {
         require_gone(current_ / path);
-        steps_.push_back({{}, baseline_ / path});
+        remove(path);
       }
   }
 
@@ -163,7 +188,7 @@ class Planner {
       if (extension != ".png" && extension != ".svg") continue;
       require_readable(current_ / path);
       const fs::path name = path.stem().string() + "@" + key + extension;
-      steps_.push_back({current_ / path, baseline_ / path.parent_path() / name});
+      steps_.push_back({current_ / path, path.parent_path() / name});
     }
   }
 
@@ -214,10 +239,6 @@ ApprovalPlan approval_plan(const fs::path& baseline, const fs::path& current,
                        "\" may hold letters, digits, '.', '_' and '-' alone");
   std::error_code error;
   if (!fs::exists(current, error)) throw IoError(current.string(), "is not there");
-  if (!fs::is_directory(current, error)) {
-    require_readable(current);
-    return {.steps = {{current, baseline}}};
-  }
   return Planner(baseline, current).plan(order);
 }
 
@@ -234,14 +255,18 @@ std::map<std::string, ApprovalRefusal> approval_refusals(const fs::path& baselin
   return refusals;
 }
 
-void apply(const ApprovalStep& step) {
-  if (!step.from.empty()) {
-    write_file(step.to, read_file(step.from));
-    return;
-  }
-  std::error_code error;
-  fs::remove(step.to, error);
-  if (error) throw IoError(step.to.string(), "cannot be removed: " + error.message());
+void apply(const ApprovalPlan& plan, const fs::path& baseline) {
+  if (plan.steps.empty()) return;
+  FolderReplacement next(real_path(baseline));
+  for (const ApprovalStep& step : plan.steps)
+    step.from.empty() ? next.remove(step.file) : next.write(step.file, read_file(step.from));
+  next.commit();
+}
+
+void approve_file(const fs::path& baseline, const fs::path& current) {
+  require_comparable_files(baseline, current);
+  require_readable(current);
+  write_file(baseline, read_file(current));
 }
 
 std::vector<std::string> parse_approvals(std::string_view text, const std::string& source) {

@@ -10,8 +10,8 @@
 
 #include <fmt/format.h>
 
+#include "core/base/byte_source.hpp"
 #include "core/base/errors.hpp"
-#include "core/base/files.hpp"
 #include "core/base/words.hpp"
 #include "reports/diff/excerpts.hpp"
 #include "reports/diff/number_words.hpp"
@@ -138,8 +138,8 @@ OtherDiff words_diff(const std::string& a, const std::string& b) {
 
 void compare_pages(DiffItem& item, const fs::path& baseline, const fs::path& current,
                    const std::vector<DiffItem>& told, const DiffSettings& settings) {
-  const std::string before = read_file(baseline, kLargestPage);
-  const std::string after = read_file(current, kLargestPage);
+  const std::string before = read_input(baseline, kLargestPage);
+  const std::string after = read_input(current, kLargestPage);
   if (before == after) return;
   for (const auto& [text, path] : {std::pair(&before, &baseline), std::pair(&after, &current)})
     if (text->find("</html>") == std::string::npos)

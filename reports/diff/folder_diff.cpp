@@ -6,10 +6,10 @@
 #include <utility>
 
 #include <fmt/format.h>
-#include <tbb/parallel_for.h>
 
 #include "core/base/errors.hpp"
 #include "core/base/files.hpp"
+#include "core/base/parallel.hpp"
 #include "core/base/words.hpp"
 #include "reports/diff/document_diff.hpp"
 #include "reports/diff/item_diff.hpp"
@@ -121,7 +121,7 @@ std::vector<DiffItem> picture_items(ItemList baseline, const ItemList& current,
       if (files.documents.empty()) ids.insert(id);
   const std::vector<std::string> order(ids.begin(), ids.end());
   std::vector<DiffItem> items(order.size());
-  tbb::parallel_for(std::size_t{0}, order.size(), [&](std::size_t i) {
+  parallel_for(order.size(), [&](std::size_t i) {
     const auto before = std::as_const(baseline).find(order[i]);
     const auto after = current.find(order[i]);
     items[i] = item_diff(order[i].empty() ? name : order[i],

@@ -6,9 +6,8 @@
 #include <cstring>
 #include <span>
 
-#include <tbb/parallel_for.h>
-
 #include "core/base/errors.hpp"
+#include "core/base/parallel.hpp"
 #include "reports/diff/judgement.hpp"
 #include "reports/diff/tile_evidence.hpp"
 
@@ -86,7 +85,8 @@ TileLook look_at(const Image& a, const Image& b, const TileBox& box, double nois
 std::vector<TileLook> looks_at(const Image& baseline, const Image& current, const ChangeMap& marks,
                                double noise) {
   std::vector<TileLook> looks(static_cast<std::size_t>(marks.across()) * marks.down());
-  tbb::parallel_for(0, marks.down(), [&](int row) {
+  parallel_for(static_cast<std::size_t>(marks.down()), [&](std::size_t i) {
+    const int row = static_cast<int>(i);
     for (int tile = row * marks.across(); tile < (row + 1) * marks.across(); ++tile)
       looks[tile] = look_at(baseline, current, box_of(marks, baseline, tile), noise);
   });
@@ -185,7 +185,7 @@ ImageDiff image_diff(const Image& baseline, Image current, const PictureOptions&
 
   // What each of them shows, and what follows from all together.
   std::vector<TileEvidence> evidence(tiles.size());
-  tbb::parallel_for(std::size_t{0}, tiles.size(), [&](std::size_t i) {
+  parallel_for(tiles.size(), [&](std::size_t i) {
     const TileBox box = box_of(diff.marks, baseline, tiles[i]);
     evidence[i] =
         tile_evidence(baseline, current, box.x0, box.y0, bounds, *diff.marks.tile(tiles[i]));

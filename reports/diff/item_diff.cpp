@@ -5,8 +5,8 @@
 
 #include <fmt/format.h>
 
+#include "core/base/byte_source.hpp"
 #include "core/base/errors.hpp"
-#include "core/base/files.hpp"
 #include "core/base/words.hpp"
 #include "render/plot/figure_json.hpp"
 #include "reports/diff/pdf_diff.hpp"
@@ -18,14 +18,14 @@ namespace {
 constexpr std::size_t kLargestFigure = std::size_t{1} << 28;  // Bytes.
 
 Figure read_figure(const std::filesystem::path& path) {
-  return figure_from_json(read_file(path, kLargestFigure), path.string());
+  return figure_from_json(read_input(path, kLargestFigure), path.string());
 }
 
 /// Of a kind that nothing here decodes: equal bytes are equal pictures, others cannot be told.
 PictureDiff bytes_diff(const std::string& format, const std::filesystem::path& baseline,
                        const std::filesystem::path& current) {
-  const std::string before = read_file(baseline, kLargestFigure);
-  const std::string after = read_file(current, kLargestFigure);
+  const std::string before = read_input(baseline, kLargestFigure);
+  const std::string after = read_input(current, kLargestFigure);
   PictureDiff diff;
   diff.baseline_bytes = before.size();
   diff.current_bytes = after.size();
@@ -125,8 +125,8 @@ void compare_scenes(DiffItem& item, const RecordContext& context, const DiffSett
   SceneWords words;
   try {
     item.figure =
-        scene_diff(read_file(item.baseline_figure, kLargestFigure), item.baseline_figure.string(),
-                   read_file(item.current_figure, kLargestFigure), item.current_figure.string(),
+        scene_diff(read_input(item.baseline_figure, kLargestFigure), item.baseline_figure.string(),
+                   read_input(item.current_figure, kLargestFigure), item.current_figure.string(),
                    settings.figures, words);
   } catch (const IoError& error) {
     item.judgement = {Verdict::kUnreadable, true, error.what()};

@@ -5,7 +5,9 @@
 #include <string_view>
 #include <system_error>
 
+#include "core/base/byte_source.hpp"
 #include "core/base/errors.hpp"
+#include "core/records/input_kind.hpp"
 
 namespace mapproof {
 namespace {
@@ -23,16 +25,22 @@ enum class KindClass {
 struct Kind {
   std::string_view ending;
   KindClass of;
+  std::string_view start = {};  ///< Of all such files, and of no others; empty: none.
 };
 
-constexpr std::array kKinds = {
-    Kind{"figure.json", KindClass::kFigure}, Kind{"scene.json", KindClass::kFigure},
-    Kind{"png", KindClass::kPicture},        Kind{"svg", KindClass::kPicture},
-    Kind{"pdf", KindClass::kPicture},        Kind{"jpg", KindClass::kOther},
-    Kind{"jpeg", KindClass::kOther},         Kind{"gif", KindClass::kOther},
-    Kind{"webp", KindClass::kOther},         Kind{"tif", KindClass::kOther},
-    Kind{"tiff", KindClass::kOther},         Kind{"bmp", KindClass::kOther},
-    Kind{"eps", KindClass::kOther}};
+constexpr std::array kKinds = {Kind{"figure.json", KindClass::kFigure},
+                               Kind{"scene.json", KindClass::kFigure},
+                               Kind{"png", KindClass::kPicture, "\x89PNG"},
+                               Kind{"svg", KindClass::kPicture, "<"},
+                               Kind{"pdf", KindClass::kPicture, "%PDF-"},
+                               Kind{"jpg", KindClass::kOther, "\xFF\xD8\xFF"},
+                               Kind{"jpeg", KindClass::kOther},
+                               Kind{"gif", KindClass::kOther, "GIF8"},
+                               Kind{"webp", KindClass::kOther, "RIFF"},
+                               Kind{"tif", KindClass::kOther, "II*"},
+                               Kind{"tiff", KindClass::kOther},
+                               Kind{"bmp", KindClass::kOther},
+                               Kind{"eps", KindClass::kOther, "%!PS"}};
 
 KindClass class_of(std::string_view kind) {
   const auto found = std::ranges::find(kKinds, kind, &Kind::ending);
@@ -65,6 +73,20 @@ bool is_picture(std::string_view kind) {
   return class_of(kind) == KindClass::kPicture || class_of(kind) == KindClass::kOther;
 }
 
+/// The kind of a single file by its first bytes; empty: none that is compared.
+std::string kind_seen(const fs::path& file) {
+  ByteSource source(file);
+  const std::string_view start = source.peek();
+  if (start.starts_with("<!DOCTYPE html>")) return "html";
+  const auto found = std::ranges::find_if(kKinds, [&](const Kind& kind) {
+    return !kind.start.empty() && start.starts_with(kind.start);
+  });
+  if (found != kKinds.end()) return std::string(found->ending);
+  const std::string schema = is_json(source) ? json_schema(source) : "";
+  if (schema == "mapproof.figure") return "figure.json";
+  return schema == "mapproof.scene" ? "scene.json" : "";
+}
+
 }  // namespace
 
 bool is_not_compared(std::string_view kind) { return class_of(kind) == KindClass::kOther; }
@@ -77,7 +99,7 @@ ItemName item_name(const fs::path& file, const fs::path& folder) {
   std::ranges::transform(lower, lower.begin(), [](char c) {
     return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
   });
-  for (const auto& [kind, of] : kKinds)
+  for (const auto& [kind, of, start] : kKinds)
     if (path.size() > kind.size() + 1 && lower.ends_with(kind) &&
         path[path.size() - kind.size() - 1] == '.')
       return {path.substr(0, path.size() - kind.size() - 1), std::string(kind)};
@@ -92,6 +114,7 @@ ItemList list_items(const fs::path& path) {
   if (!fs::is_directory(path, error)) {
     ItemName name = item_name(path, path.parent_path());
     name.id = "";
+    if (name.kind.empty()) name.kind = kind_seen(path);
     if (!name.kind.empty()) add(items, name, path);
     return items;
   }

@@ -22,9 +22,11 @@ struct ItemFiles {
 using ItemList = std::map<std::string, ItemFiles>;
 
 /// The pictures, figures, tables and reports of a folder and of those below it, or a single file as
-/// the item "". The id is the path below the folder without "figures/" at its head and without its
-/// extension; a report's is whole: "report.html".
-/// @throws IoError if the folder cannot be listed, or holds more than 100,000 such files.
+/// the item "", whose first bytes tell its kind where its name does not. The id is the path below
+/// the folder without "figures/" at its head and without its extension; a report's is whole:
+/// "report.html".
+/// @throws IoError if the folder cannot be listed, or holds more than 100,000 such files; or if a
+///         single file cannot be read.
 ItemList list_items(const std::filesystem::path& path);
 
 /// Takes "ID@KEY" of the baseline for another valid baseline of ID, where the current has ID and no

@@ -5,8 +5,8 @@
 
 #include <fmt/format.h>
 
+#include "core/base/byte_source.hpp"
 #include "core/base/errors.hpp"
-#include "core/base/files.hpp"
 #include "core/json/json_cursor.hpp"
 #include "reports/diff/excerpts.hpp"
 #include "reports/diff/number_words.hpp"
@@ -48,7 +48,8 @@ double largest(const ParsedJson& value) {
 
 class NumberComparer {
  public:
-  NumberComparer(const Tolerances& tolerances, OtherDiff& diff) : tolerances_(tolerances), diff_(diff) {}
+  NumberComparer(const Tolerances& tolerances, OtherDiff& diff)
+      : tolerances_(tolerances), diff_(diff) {}
 
   void compare(const ParsedJson& a, const ParsedJson& b, const std::string& pointer,
                const Tolerance& tolerance) {
@@ -82,7 +83,8 @@ class NumberComparer {
     if (!shape) ++diff_.beyond;
   }
 
-  void number(const ParsedJson& a, const ParsedJson& b, const std::string& place, const Tolerance& tolerance) {
+  void number(const ParsedJson& a, const ParsedJson& b, const std::string& place,
+              const Tolerance& tolerance) {
     ++diff_.numbers;
     const double first = a.get<double>(), second = b.get<double>();
     if (first == second) return;
@@ -92,14 +94,16 @@ class NumberComparer {
       beyond(a, b, place, false);
   }
 
-  void text(const ParsedJson& a, const ParsedJson& b, const std::string& place, const Tolerance& tolerance) {
+  void text(const ParsedJson& a, const ParsedJson& b, const std::string& place,
+            const Tolerance& tolerance) {
     const TextChange change =
         text_change(a.get_ref<const std::string&>(), b.get_ref<const std::string&>(), tolerance);
     if (change == TextChange::kWithin) ++diff_.within;
     if (change > TextChange::kWithin) beyond(a, b, place, change == TextChange::kWords);
   }
 
-  void array(const ParsedJson& a, const ParsedJson& b, const std::string& pointer, Tolerance tolerance) {
+  void array(const ParsedJson& a, const ParsedJson& b, const std::string& pointer,
+             Tolerance tolerance) {
     if (a.size() != b.size()) return beyond(a, b, pointer, true);
     tolerance.absolute += tolerance.relative * largest(a);
     for (std::size_t i = 0; i < a.size(); ++i)
@@ -121,7 +125,8 @@ class NumberComparer {
       if (!a.contains(key)) beyond("not there", value, pointer + "/" + key, true);
   }
 
-  Tolerance tolerance_at(const std::string& key, const ParsedJson& value, const Tolerance& outer) const {
+  Tolerance tolerance_at(const std::string& key, const ParsedJson& value,
+                         const Tolerance& outer) const {
     if (value.is_structured())  // Of scores there are numbers of the same names.
       for (const KeyQuantity& known : kKeys)
         if (known.key == key) return tolerance_of(*find_quantity(known.quantity), tolerances_);
@@ -148,8 +153,8 @@ OtherDiff number_diff(const std::string& name, const std::filesystem::path& base
   diff.file = name;
   NumberComparer comparer(tolerances, diff);
   const Tolerance tolerance = tolerance_of(*find_quantity("other"), tolerances);
-  const std::string before = read_file(baseline), after = read_file(current);
-  if (baseline.extension() == ".json")
+  const std::string before = read_input(baseline), after = read_input(current);
+  if (name.empty() || baseline.extension() == ".json")
     comparer.compare(parse_json(before, baseline.string()).root,
                      parse_json(after, current.string()).root, "", tolerance);
   else

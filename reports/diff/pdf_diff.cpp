@@ -5,8 +5,8 @@
 
 #include <fmt/format.h>
 
+#include "core/base/byte_source.hpp"
 #include "core/base/errors.hpp"
-#include "core/base/files.hpp"
 
 namespace mapproof {
 namespace {
@@ -33,8 +33,8 @@ std::string producer_of(std::string_view bytes) {
 }  // namespace
 
 PictureDiff pdf_diff(const std::filesystem::path& baseline, const std::filesystem::path& current) {
-  const std::string before = read_file(baseline, kMostBytes);
-  const std::string after = read_file(current, kMostBytes);
+  const std::string before = read_input(baseline, kMostBytes);
+  const std::string after = read_input(current, kMostBytes);
   PictureDiff diff;
   diff.baseline_bytes = before.size();
   diff.current_bytes = after.size();

@@ -4,11 +4,10 @@
 #include <utility>
 
 #include <fmt/format.h>
-#include <tbb/parallel_invoke.h>
-#include <tbb/task_arena.h>
 
+#include "core/base/byte_source.hpp"
 #include "core/base/errors.hpp"
-#include "core/base/files.hpp"
+#include "core/base/parallel.hpp"
 #include "core/base/words.hpp"
 #include "render/image/png_check.hpp"
 #include "render/image/png_chunks.hpp"
@@ -105,7 +104,7 @@ bool differ(const Image& a, const Image& b) {
 void compare_decoded(std::string_view before, std::string_view after, const PictureOptions& options,
                      Image* heat, PictureDiff& diff) {
   Side baseline, current;
-  tbb::parallel_invoke([&] { read_side(before, baseline); }, [&] { read_side(after, current); });
+  parallel_invoke([&] { read_side(before, baseline); }, [&] { read_side(after, current); });
   diff.baseline_renderer = renderer(baseline.png);
   diff.current_renderer = renderer(current.png);
   diff.reason = unreadable(baseline.reason, current.reason);
@@ -130,7 +129,7 @@ void compare_pngs(std::string_view before, std::string_view after, const Picture
                   Image* heat, PictureDiff& diff) {
   if (are_same_pngs(before, after, diff)) return;
   // A thread that waits takes no other pair meanwhile: it would hold the pixels of both.
-  tbb::this_task_arena::isolate([&] { compare_decoded(before, after, options, heat, diff); });
+  run_isolated([&] { compare_decoded(before, after, options, heat, diff); });
 }
 
 enum class PictureKind { kPng, kSvg, kEmpty, kOther };
@@ -184,7 +183,7 @@ std::string words(const SvgDiff& found) {
 void compare_svgs(std::string_view before, std::string_view after, const PictureOptions& options,
                   PictureDiff& diff) {
   SvgSide baseline, current;
-  tbb::parallel_invoke([&] { read_side(before, baseline); }, [&] { read_side(after, current); });
+  parallel_invoke([&] { read_side(before, baseline); }, [&] { read_side(after, current); });
   diff.baseline_renderer = printable(baseline.tree.generator, 200);
   diff.current_renderer = printable(current.tree.generator, 200);
   diff.reason = unreadable(baseline.reason, current.reason);
@@ -232,8 +231,8 @@ PictureDiff picture_diff(const std::filesystem::path& baseline,
                          const std::filesystem::path& current, const PictureOptions& options,
                          Image* heat) {
   if (const std::string problem = options.problem(); !problem.empty()) throw InvalidInput(problem);
-  const std::string before = read_file(baseline, kMostPictureBytes);
-  const std::string after = read_file(current, kMostPictureBytes);
+  const std::string before = read_input(baseline, kMostPictureBytes);
+  const std::string after = read_input(current, kMostPictureBytes);
   PictureDiff diff;
   diff.baseline_bytes = before.size();
   diff.current_bytes = after.size();

@@ -1,14 +1,16 @@
 #include "reports/diff/record_set.hpp"
 
-#include <fstream>
+#include <span>
 #include <system_error>
 
 #include <fmt/format.h>
 
+#include "core/base/byte_source.hpp"
 #include "core/base/errors.hpp"
-#include "core/base/files.hpp"
+#include "core/base/input_file.hpp"
 #include "core/base/not_finite.hpp"
 #include "core/json/json_cursor.hpp"
+#include "core/records/input_kind.hpp"
 #include "core/records/map_files.hpp"
 #include "core/records/slam_run_json.hpp"
 #include "core/records/slam_store.hpp"
@@ -56,8 +58,26 @@ fs::path single_file(const fs::path& path) {
   return {};
 }
 
+/// Whether a file is the JSON of a map or of one log's result, by what it says it is.
+bool is_single(const fs::path& file) {
+  try {
+    ByteSource source(file);
+    const std::string schema = is_json(source) ? json_schema(source) : "";
+    return schema == "mapproof.map" || schema == "mapproof.slam_run";
+  } catch (const IoError&) {
+    return false;
+  }
+}
+
+/// Up to `to.size()` bytes, fewer at the end alone.
+std::size_t read_block(const Descriptor& file, std::string& to, const std::string& name) {
+  std::size_t count = 0;
+  while (const std::size_t got = read_some(file, std::span(to).subspan(count), name)) count += got;
+  return count;
+}
+
 RecordSet read_single(const fs::path& file) {
-  const std::string text = read_file(file);
+  const std::string text = read_input(file);
   const std::string source = file.string();
   const std::string schema = schema_of(parse_json(text, source).cursor()).name;
   RecordSet set;
@@ -85,17 +105,19 @@ bool same_bytes(const fs::path& a, const fs::path& b) {
   std::error_code error;
   const auto size = fs::file_size(a, error);
   if (error || size != fs::file_size(b, error) || error) return false;
-  std::ifstream first(a, std::ios::binary), second(b, std::ios::binary);
-  std::string block(1 << 16, '\0'), other(1 << 16, '\0');
-  while (first && second) {
-    first.read(block.data(), static_cast<std::streamsize>(block.size()));
-    second.read(other.data(), static_cast<std::streamsize>(other.size()));
-    if (first.gcount() != second.gcount()) return false;
-    const auto count = static_cast<std::size_t>(first.gcount());
-    if (block.compare(0, count, other, 0, count) != 0) return false;
-    if (count == 0) break;
+  try {
+    const Descriptor first = open_input(a), second = open_input(b);
+    std::string block(1 << 16, '\0'), other(1 << 16, '\0');
+    for (std::size_t count = block.size(); count == block.size();) {
+      count = read_block(first, block, a.string());
+      if (read_block(second, other, b.string()) != count ||
+          block.compare(0, count, other, 0, count) != 0)
+        return false;
+    }
+    return true;
+  } catch (const IoError&) {
+    return false;  // Whoever reads it says why.
   }
-  return first.eof() && second.eof();
 }
 
 void add_settings(RecordSet& set, const std::string& text, const std::string& source) {
@@ -147,15 +169,7 @@ void add_statuses(RecordSet& set, const std::string& id, const std::vector<Statu
 bool holds_records(const fs::path& path) {
   std::error_code error;
   if (fs::is_directory(path, error)) return has_study(path) || !single_file(path).empty();
-  const std::string file = path.filename().string();
-  if (!file.ends_with(".json") || file.ends_with(".figure.json") || file.ends_with(".scene.json"))
-    return false;
-  try {
-    const std::string schema = schema_of(parse_json(read_file(path), path.string()).cursor()).name;
-    return schema == "mapproof.map" || schema == "mapproof.slam_run";
-  } catch (const IoError&) {
-    return false;
-  }
+  return is_single(path);
 }
 
 void add_others(RecordSet& set, const fs::path& folder, const fs::path& beside) {

@@ -4,7 +4,10 @@
 #include <array>
 #include <cctype>
 #include <charconv>
+#include <exception>
+#include <functional>
 #include <memory>
+#include <new>
 
 #include <expat.h>
 #include <fmt/format.h>
@@ -68,30 +71,46 @@ class Builder {
  public:
   explicit Builder(XML_Parser parser) : parser_(parser) {
     XML_SetUserData(parser, this);
-    XML_SetElementHandler(parser, start, end);
+    XML_SetElementHandler(
+        parser,
+        [](void* self, const char* name, const char** attributes) {
+          guarded(self, [&](Builder& builder) { builder.open(name, attributes); });
+        },
+        [](void* self, const char*) { guarded(self, &Builder::close); });
     XML_SetCharacterDataHandler(parser, [](void* self, const char* text, int length) {
-      static_cast<Builder*>(self)->characters({text, static_cast<std::size_t>(length)});
+      const std::string_view words(text, static_cast<std::size_t>(length));
+      guarded(self, [&](Builder& builder) { builder.characters(words); });
     });
-    XML_SetCommentHandler(
-        parser, [](void* self, const char* text) { static_cast<Builder*>(self)->comment(text); });
+    XML_SetCommentHandler(parser, [](void* self, const char* text) {
+      guarded(self, [&](Builder& builder) { builder.comment(text); });
+    });
     XML_SetStartDoctypeDeclHandler(
         parser, [](void* self, const char*, const char*, const char*, int has_declarations) {
-          if (has_declarations) static_cast<Builder*>(self)->refuse("declares entities or types");
+          if (has_declarations)
+            guarded(self, [](Builder& builder) { builder.refuse("declares entities or types"); });
         });
     XML_SetEntityDeclHandler(parser, [](void* self, const char*, int, const char*, int, const char*,
                                         const char*, const char*, const char*) {
-      static_cast<Builder*>(self)->refuse("declares an entity");
+      guarded(self, [](Builder& builder) { builder.refuse("declares an entity"); });
     });
   }
 
   SvgTree tree;
   std::string refusal;
+  std::exception_ptr failure;  ///< Of a handler.
 
  private:
-  static void start(void* self, const char* name, const char** attributes) {
-    static_cast<Builder*>(self)->open(name, attributes);
+  /// Nothing is thrown through expat.
+  template <typename Handler>
+  static void guarded(void* self, const Handler& handler) noexcept {
+    auto& builder = *static_cast<Builder*>(self);
+    try {
+      std::invoke(handler, builder);
+    } catch (...) {
+      builder.failure = std::current_exception();
+      XML_StopParser(builder.parser_, XML_FALSE);
+    }
   }
-  static void end(void* self, const char*) { static_cast<Builder*>(self)->close(); }
 
   void refuse(const std::string& why) {
     if (!refusal.empty()) return;
@@ -237,7 +256,9 @@ SvgTree parse_svg(std::string_view bytes) {
   Builder builder(parser.get());
   const XML_Status status =
       XML_Parse(parser.get(), bytes.data(), static_cast<int>(bytes.size()), XML_TRUE);
+  if (builder.failure) std::rethrow_exception(builder.failure);
   if (!builder.refusal.empty()) throw InvalidInput(builder.refusal);
+  if (XML_GetErrorCode(parser.get()) == XML_ERROR_NO_MEMORY) throw std::bad_alloc();
   if (status != XML_STATUS_OK)
     throw InvalidInput(fmt::format("line {}: {}", XML_GetCurrentLineNumber(parser.get()),
                                    XML_ErrorString(XML_GetErrorCode(parser.get()))));

@@ -7,8 +7,8 @@
 
 #include <fmt/format.h>
 
+#include "core/base/byte_source.hpp"
 #include "core/base/errors.hpp"
-#include "core/base/files.hpp"
 #include "core/base/words.hpp"
 #include "core/records/table_reader.hpp"
 #include "reports/diff/excerpts.hpp"
@@ -20,7 +20,7 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr std::size_t kLargestTable = std::size_t{1} << 26;  // Bytes.
-constexpr std::size_t kMostCellText = 60;                       // Of a cell that is told.
+constexpr std::size_t kMostCellText = 60;                    // Of a cell that is told.
 constexpr std::array<std::string_view, 4> kVarying = {"durations", "sessions", "slam-seconds",
                                                       "slam-sessions"};
 
@@ -81,7 +81,7 @@ Rows read_lines(std::string_view text, const std::string& source, bool is_markdo
 }
 
 Rows read_table(const std::string& format, const fs::path& path) {
-  const std::string text = read_file(path, kLargestTable);
+  const std::string text = read_input(path, kLargestTable);
   return format == "csv" ? read_csv(text, path.string())
                          : read_lines(text, path.string(), format == "md");
 }

@@ -2,8 +2,12 @@
 
 #include <cmath>
 #include <limits>
+#include <new>
+#include <system_error>
 
 #include <sqlite3.h>
+
+#include "core/base/files.hpp"
 
 namespace mapproof {
 namespace {
@@ -18,6 +22,10 @@ bool is_full(int code) {
 
 bool is_damage(int code) {
   return (code & 0xFF) == SQLITE_CORRUPT || (code & 0xFF) == SQLITE_NOTADB;
+}
+
+bool is_out_of_memory(int code) {
+  return (code & 0xFF) == SQLITE_NOMEM || code == SQLITE_IOERR_NOMEM;
 }
 
 }  // namespace
@@ -81,8 +89,9 @@ double Statement::real(int column) const {
 }
 
 std::string Statement::text(int column) const {
+  if (is_null(column)) return "";
   const unsigned char* bytes = sqlite3_column_text(statement_.get(), column);
-  if (bytes == nullptr) return "";
+  if (bytes == nullptr) throw std::bad_alloc();
   return {reinterpret_cast<const char*>(bytes),
           static_cast<std::size_t>(sqlite3_column_bytes(statement_.get(), column))};
 }
@@ -92,8 +101,10 @@ bool Statement::is_null(int column) const {
 }
 
 Database::Database(const std::filesystem::path& path, Access access) : path_(path) {
-  const int flags =
-      access == Access::kWrite ? SQLITE_OPEN_READWRITE | SQLITE_OPEN_CREATE : SQLITE_OPEN_READWRITE;
+  std::error_code error;
+  if (std::filesystem::exists(path, error)) require_file(path);  // SQLite would wait for a pipe.
+  const int flags = access == Access::kCreate ? SQLITE_OPEN_READWRITE | SQLITE_OPEN_CREATE
+                                              : SQLITE_OPEN_READWRITE;
   // A reader opens for writing too, where it may: a killed writer's journal has to be rolled back.
   int code = sqlite3_open_v2(path.c_str(), &handle_, flags, nullptr);
   if (code != SQLITE_OK && access == Access::kRead) {
@@ -133,8 +144,9 @@ std::string Database::damage() {
 std::int64_t Database::last_row() const { return sqlite3_last_insert_rowid(handle_); }
 
 void Database::fail() const {
-  if (handle_ == nullptr) throw IoError(path_.string(), "cannot be opened: out of memory");
+  if (handle_ == nullptr) throw std::bad_alloc();
   const int code = sqlite3_extended_errcode(handle_);
+  if (is_out_of_memory(code)) throw std::bad_alloc();
   if (is_full(code))
     throw IoError(path_.string(), "cannot be written: the disk is full; what it held is untouched");
   if ((code & 0xFF) == SQLITE_BUSY) throw IoError(path_.string(), "is in use by another process");

@@ -45,7 +45,7 @@ class Statement {
   /// For a statement without rows: runs it and makes it ready to be bound again. @throws IoError.
   void run();
 
-  /// Columns of the row, counted from 0. NULL is 0, NaN, "".
+  /// Columns of the row, counted from 0. NULL is 0, NaN, "". @throws std::bad_alloc of a text.
   std::int64_t integer(int column) const;
   double real(int column) const;
   std::string text(int column) const;
@@ -63,12 +63,13 @@ class Statement {
 /// An SQLite file. Every failure is an IoError that names the file; a full disk is told as such.
 class Database {
  public:
-  enum class Access { kRead, kWrite };
+  enum class Access { kRead, kWrite, kCreate };
 
-  /// Opens the file; with kWrite makes one that is not there. Waits up to ten seconds for another
+  /// Opens the file; only kCreate makes one that is not there. Waits up to ten seconds for another
   /// process that writes. A rollback journal is kept, not a write-ahead log: the store is then one
   /// file between two nights, on any file system, and a night is a single transaction.
-  /// @throws DamagedFile if it is no database or not a whole one; IoError if it cannot be opened.
+  /// @throws DamagedFile if it is no database or not a whole one; IoError if it cannot be opened;
+  ///         std::bad_alloc, as all below do, if SQLite ran out of memory.
   Database(const std::filesystem::path& path, Access access);
   ~Database();
   Database(const Database&) = delete;

@@ -56,31 +56,50 @@ std::int64_t id_of(Database& database, Statement& find, Statement& insert, const
   return database.last_row();
 }
 
+/// Makes a history without nights. It is put in its place whole: a file without tables is damage.
+void begin_history(const fs::path& path) {
+  const fs::path journal = path.string() + "-journal";
+  std::error_code error;
+  if (fs::exists(fs::symlink_status(journal, error)))
+    throw IoError(journal.string(), "belongs to a history that is gone; move it where that is");
+  const fs::path beside = path.string() + ".part";
+  fs::remove(beside, error);
+  {
+    Database database(beside, Database::Access::kCreate);
+    make_tables(database, schema_version());
+  }
+  fs::rename(beside, path, error);
+  if (error) throw IoError(path.string(), "cannot be put in place: " + error.message());
+}
+
+std::unique_ptr<Database> open_to_append(const fs::path& path) {
+  try {
+    return open_whole(path, Database::Access::kWrite);
+  } catch (const DamagedFile& error) {
+    throw IoError(path.string(), fmt::format("is damaged: {}; put a copy of it back, or rename it "
+                                             "to {}.damaged-1, and a new history begins",
+                                             error.damage(), path.filename().string()));
+  }
+}
+
 }  // namespace
 
 fs::path history_file(const fs::path& store) { return store / "history.sqlite"; }
 
 HistoryStore HistoryStore::open(const fs::path& store) {
   const fs::path path = history_file(store);
-  std::vector<std::string> remarks;
-  std::string damage;
-  std::unique_ptr<Database> database = open_whole(path, Database::Access::kWrite, damage);
-  if (!database) {
-    const fs::path aside = set_aside(path);
-    remarks.push_back(fmt::format("{}: is damaged: {}; it is kept as {} and a new history begins",
-                                  path.string(), damage, aside.filename().string()));
-    database = std::make_unique<Database>(path, Database::Access::kWrite);
-  }
-  const int version = version_of(*database);
-  const fs::path backup = migrate(*database);
+  std::error_code error;
+  // A link to nowhere is there: its history may be on a disk that is not.
+  if (fs::symlink_status(path, error).type() == fs::file_type::not_found) begin_history(path);
+  HistoryStore opened(open_to_append(path));
+  Database& database = *opened.database_;
+  const int version = version_of(database);
+  const fs::path backup = migrate(database);
   if (!backup.empty())
-    remarks.push_back(
+    opened.remarks_.push_back(
         fmt::format("{}: was of version {}; it is now of version {}, and kept as it "
                     "was in {}",
                     path.string(), version, schema_version(), backup.filename().string()));
-  HistoryStore opened(std::move(database));
-  opened.remarks_ = std::move(remarks);
-  opened.was_damaged_ = !damage.empty();
   return opened;
 }
 
@@ -89,9 +108,7 @@ HistoryStore HistoryStore::open_existing(const fs::path& store) {
   std::error_code error;
   if (!fs::exists(path, error))
     throw IoError(store.string(), "holds no history.sqlite; mapproof nightly makes one");
-  std::string damage;
-  std::unique_ptr<Database> database = open_whole(path, Database::Access::kRead, damage);
-  if (!database) throw DamagedFile(path.string(), damage);
+  std::unique_ptr<Database> database = open_whole(path, Database::Access::kRead);
   const int version = version_of(*database);
   if (version != schema_version())
     throw IoError(path.string(), fmt::format("is of version {}; the next mapproof nightly brings "

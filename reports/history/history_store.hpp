@@ -17,10 +17,11 @@ std::filesystem::path history_file(const std::filesystem::path& store);
 /// after a kill or a full disk it is there whole or not at all, and those before it untouched.
 class HistoryStore {
  public:
-  /// Opens or makes the store to append to it. One of an older version is migrated after a copy of
-  /// it was kept; one that is damaged is kept aside as history.sqlite.damaged-N and a new one
-  /// begun. Both are told of in remarks(). The folder should be locked (see FolderLock).
-  /// @throws IoError if it cannot be opened, or is not ours or of a later version.
+  /// Opens the store to append to it; one that is not there is begun. One of an older version is
+  /// migrated after a copy of it was kept, which remarks() tell of. The folder should be locked (see
+  /// FolderLock).
+  /// @throws IoError if it cannot be opened, is not ours, of a later version, or damaged: then it
+  ///         stays as it is, and says how a new one is begun.
   static HistoryStore open(const std::filesystem::path& store);
 
   /// To read it, and for prune and pin. @throws IoError if there is none, it is damaged, or of
@@ -28,9 +29,6 @@ class HistoryStore {
   static HistoryStore open_existing(const std::filesystem::path& store);
 
   const std::vector<std::string>& remarks() const { return remarks_; }
-
-  /// Whether open() kept a damaged one aside.
-  bool was_damaged() const { return was_damaged_; }
 
   /// All, in order of number. @throws IoError.
   std::vector<NightFacts> nights();
@@ -73,7 +71,6 @@ class HistoryStore {
 
   std::unique_ptr<Database> database_;
   std::vector<std::string> remarks_;
-  bool was_damaged_ = false;
 };
 
 }  // namespace mapproof

@@ -132,7 +132,7 @@ void copy_to(Database& database, const fs::path& path) {
   std::error_code error;
   fs::remove(beside, error);
   {
-    Database copy(beside, Database::Access::kWrite);
+    Database copy(beside, Database::Access::kCreate);
     sqlite3_backup* backup = sqlite3_backup_init(copy.handle(), "main", database.handle(), "main");
     if (backup == nullptr) copy.fail();
     const int code = sqlite3_backup_step(backup, -1);
@@ -169,8 +169,8 @@ int version_of(Database& database) {
 
 std::string damage_of_tables(Database& database) {
   const int version = version_of(database);
-  if (version == 0) return "";
-  Database whole(":memory:", Database::Access::kWrite);
+  if (version == 0) return "it holds nothing";
+  Database whole(":memory:", Database::Access::kCreate);
   make_tables(whole, version);
   const std::set<std::string> wanted = columns_of(whole);
   const std::set<std::string> there = columns_of(database);

@@ -13,12 +13,11 @@ int schema_version();
 /// a later version than this program's.
 int version_of(Database& database);
 
-/// What is wrong with its tables: of those of its version one is missing, or a column is; empty if
-/// nothing. @throws IoError as version_of() does.
+/// What is wrong with its tables: it has none, of those of its version one is missing, or a column
+/// is; empty if nothing. @throws IoError as version_of() does.
 std::string damage_of_tables(Database& database);
 
-/// Makes the tables of a version of those there are (docs/file-formats.md lists them). For tests:
-/// stores are opened at the latest.
+/// Makes the tables of a version (docs/file-formats.md lists them). For tests: one before the latest.
 /// @throws IoError; InvalidInput unless 1 <= version <= schema_version().
 void make_tables(Database& database, int version);
 

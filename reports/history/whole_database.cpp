@@ -1,6 +1,7 @@
 #include "reports/history/whole_database.hpp"
 
 #include <cstdint>
+#include <string>
 #include <system_error>
 
 #include <fmt/format.h>
@@ -17,6 +18,15 @@ namespace {
 
 /// Far from where numbers would run over.
 constexpr std::int64_t kMostNights = 100'000'000;
+
+/// What SQLite does not ask: a last page that was cut is read as if zeros stood at its end.
+std::string damage_of_length(Database& database, const fs::path& path) {
+  Statement page(database, "PRAGMA page_size");
+  std::error_code error;
+  const std::uintmax_t bytes = fs::file_size(path, error);
+  if (error || !page.step() || bytes % static_cast<std::uintmax_t>(page.integer(0)) == 0) return "";
+  return fmt::format("it is cut off after {} bytes", bytes);
+}
 
 /// What SQLite's check cannot find: bytes that changed into words and numbers that have no meaning.
 std::string damage_of_rows(Database& database) {
@@ -39,31 +49,14 @@ std::string damage_of_rows(Database& database) {
 
 }  // namespace
 
-std::unique_ptr<Database> open_whole(const fs::path& path, Database::Access access,
-                                     std::string& damage) {
-  try {
-    auto database = std::make_unique<Database>(path, access);
-    damage = database->damage();
-    if (damage.empty()) damage = damage_of_tables(*database);
-    if (damage.empty()) damage = damage_of_rows(*database);
-    if (damage.empty()) return database;
-  } catch (const DamagedFile& error) {
-    // What may not be read or is in use is not damaged: that is not caught.
-    damage = error.damage();
-  }
-  return nullptr;
-}
-
-fs::path set_aside(const fs::path& path) {
-  std::error_code error;
-  fs::path aside;
-  for (int i = 1; aside.empty() || fs::exists(aside, error); ++i)
-    aside = path.string() + ".damaged-" + std::to_string(i);
-  fs::rename(path, aside, error);
-  if (error) throw IoError(path.string(), "is damaged and cannot be set aside: " + error.message());
-  for (const char* journal : {"-journal", "-wal", "-shm"})
-    fs::rename(path.string() + journal, aside.string() + journal, error);
-  return aside;
+std::unique_ptr<Database> open_whole(const fs::path& path, Database::Access access) {
+  auto database = std::make_unique<Database>(path, access);
+  std::string damage = database->damage();
+  if (damage.empty()) damage = damage_of_length(*database, path);
+  if (damage.empty()) damage = damage_of_tables(*database);
+  if (damage.empty()) damage = damage_of_rows(*database);
+  if (!damage.empty()) throw DamagedFile(path.string(), damage);
+  return database;
 }
 
 }  // namespace mapproof

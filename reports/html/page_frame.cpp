@@ -38,7 +38,9 @@ std::string rendered(const std::string& name, const Templates& templates,
   const std::string file = name + ".mustache";
   kainjow::mustache::mustache root(assembled(file, templates.files));
   root.set_custom_escape(html_escaped);
-  std::string html = root.render(page);
+  std::string html;
+  // Not to a stream, which ends in silence where there is no memory.
+  root.render(page, [&html](const std::string& part) { html += part; });
   if (!root.is_valid()) throw IoError(templates.sources.at(file), root.error_message());
   return html;
 }

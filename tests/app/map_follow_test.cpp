@@ -17,8 +17,8 @@
 #include "core/records/map_files.hpp"
 #include "core/records/table_reader.hpp"
 #include "tests/core/labels/noisy_looks.hpp"
-#include "tests/support/gzip.hpp"
 #include "tests/support/looks.hpp"
+#include "tests/support/packing.hpp"
 #include "tests/support/program.hpp"
 
 namespace mapproof::test {

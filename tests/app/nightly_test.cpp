@@ -221,19 +221,25 @@ TEST(Nightly, OnADiskThatIsFullAtTheCommitNamesTheStoreInOneLineAndLosesNoNight)
   EXPECT_EQ(history(store).at("nights").size(), 2U);
 }
 
-TEST(Nightly, KeepsAHistoryThatWasCutShortAndBeginsANewOne) {
+TEST(Nightly, RefusesADamagedHistoryUntilAPersonSetsItAside) {
   const TemporaryFolder folder;
-  const fs::path store = folder / "history";
+  const fs::path store = folder / "history", file = store / "history.sqlite";
   ASSERT_EQ(night(store).exit_code, 0);
-  std::string bytes = read_file(store / "history.sqlite");
+  std::string bytes = read_file(file);
   bytes.resize(bytes.size() - 10'000);
-  write_file(store / "history.sqlite", bytes);
-  const Outcome listed = mapproof({"history", store});
-  EXPECT_EQ(listed.exit_code, 2);
-  EXPECT_NE(listed.error.find("history.sqlite: is damaged"), std::string::npos) << listed.error;
+  for (const std::string& damaged : {std::string(), std::string(40'000, 'x'), bytes}) {
+    write_file(file, damaged);
+    const auto before = contents(store);
+    for (const Outcome& outcome : {mapproof({"history", store}), night(store), night(store)}) {
+      EXPECT_EQ(outcome.exit_code, 2) << outcome.out;
+      EXPECT_EQ(lines_with(outcome.error, "mapproof: "), 1U) << outcome.error;
+      EXPECT_EQ(lines_with(outcome.error, "history.sqlite: is damaged: "), 1U) << outcome.error;
+    }
+    EXPECT_EQ(contents(store), before) << damaged.size();
+  }
+  fs::rename(file, store / "history.sqlite.damaged-1");
   const Outcome outcome = night(store);
   EXPECT_EQ(outcome.exit_code, 0) << outcome.error;
-  EXPECT_EQ(read_file(store / "history.sqlite.damaged-1"), bytes);
   EXPECT_EQ(history(store).at("nights").at(0).at("night"), 2) << "night 1 keeps its folder";
   for (const char* page : {"index.html", "nights/0002/small/report.html"}) {
     const std::string told = read_file(store / page);
@@ -272,19 +278,6 @@ TEST(Nightly, TwoAtOnceAreBothRecorded) {
   EXPECT_EQ(outcome.exit_code, 0) << outcome.error;
   EXPECT_TRUE(WIFEXITED(status) && WEXITSTATUS(status) == 0);
   EXPECT_EQ(history(store).at("nights").size(), 2U);
-}
-
-TEST(Nightly, KeepsADamagedHistoryAndBeginsANewOne) {
-  const TemporaryFolder folder;
-  const fs::path store = folder / "history";
-  ASSERT_EQ(night(store).exit_code, 0);
-  const std::string damaged(40'000, 'x');
-  write_file(store / "history.sqlite", damaged);
-  const Outcome outcome = night(store);
-  EXPECT_EQ(outcome.exit_code, 0) << outcome.error;
-  EXPECT_NE(outcome.error.find("damaged"), std::string::npos) << outcome.error;
-  EXPECT_EQ(read_file(store / "history.sqlite.damaged-1"), damaged);
-  EXPECT_EQ(history(store).at("nights").size(), 1U);
 }
 
 TEST(Nightly, AWorseNightIsOneAndNamesWhatGotWorse) {

@@ -8,8 +8,8 @@
 
 #include "core/base/files.hpp"
 #include "core/base/random.hpp"
-#include "tests/support/gzip.hpp"
 #include "tests/support/looks.hpp"
+#include "tests/support/packing.hpp"
 #include "tests/support/program.hpp"
 #include "tests/support/worlds.hpp"
 

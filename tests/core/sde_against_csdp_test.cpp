@@ -1,6 +1,11 @@
 // Our solver held against CSDP's, by fixed simulated observations of both sensors.
+#include <sys/resource.h>
+#include <unistd.h>
+
 #include <algorithm>
 #include <cmath>
+#include <fstream>
+#include <new>
 #include <numeric>
 #include <string>
 #include <tuple>
@@ -9,6 +14,7 @@
 #include <gtest/gtest.h>
 
 #include "core/base/random.hpp"
+#include "core/embed/sde/csdp.hpp"
 #include "core/embed/sde/sde.hpp"
 #include "core/model/sensor.hpp"
 #include "tests/support/observed.hpp"
@@ -81,6 +87,40 @@ TEST_P(SdeAgainstCsdp, TheUnitOfTheDistancesIsTheUnitOfTheMap) {
 
 std::string setting_name(const ::testing::TestParamInfo<Setting>& setting) {
   return fmt::format("{}{}", name(std::get<Sensor>(setting.param)), std::get<int>(setting.param));
+}
+
+/// The program of a chain of points.
+unfolding::Problem chain(Eigen::Index points) {
+  unfolding::Problem problem;
+  problem.mass = Eigen::VectorXd::Ones(points);
+  for (Eigen::Index i = 1; i < points; ++i) problem.pairs.emplace_back(i - 1, i);
+  problem.squared = Eigen::VectorXd::Ones(points - 1);
+  return problem;
+}
+
+/// From here on, the process gets so many bytes more and no others.
+void allow_more_memory(std::size_t bytes) {
+  std::ifstream file("/proc/self/statm");
+  std::size_t pages = 0;
+  file >> pages;
+  const rlim_t limit = pages * static_cast<std::size_t>(::getpagesize()) + bytes;
+  const rlimit limits{limit, limit};
+  ::setrlimit(RLIMIT_AS, &limits);
+}
+
+TEST(Csdp, WithoutMemoryThrowsAndDoesNotEndTheProgram) {
+  constexpr int kThrown = 42;
+  EXPECT_EXIT(
+      {
+        const unfolding::Problem problem = chain(1000);  // Matrices of 8 MB.
+        allow_more_memory(std::size_t{30} << 20);
+        try {
+          unfolding::solve_with_csdp(problem);
+        } catch (const std::bad_alloc&) {
+          ::_exit(kThrown);
+        }
+      },
+      ::testing::ExitedWithCode(kThrown), "^$");
 }
 
 INSTANTIATE_TEST_SUITE_P(Sde, SdeAgainstCsdp,

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <new>
 
 #include <gtest/gtest.h>
 
@@ -11,6 +12,7 @@
 #include "render/output/write_animation.hpp"
 #include "tests/support/apng_reader.hpp"
 #include "tests/support/environment.hpp"
+#include "tests/support/faults.hpp"
 #include "tests/support/sample_scenes.hpp"
 #include "tests/support/temporary_folder.hpp"
 

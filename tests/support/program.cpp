@@ -26,10 +26,9 @@ namespace fs = std::filesystem;
   ::dup2(::open("/dev/null", O_RDONLY), STDIN_FILENO);
   ::dup2(out, STDOUT_FILENO);
   ::dup2(error, STDERR_FILENO);
-  if (limits.file_bytes > 0) {
-    const rlimit limit{limits.file_bytes, limits.file_bytes};
-    ::setrlimit(RLIMIT_FSIZE, &limit);
-  }
+  for (const auto& [what, bytes] : {std::pair(RLIMIT_FSIZE, limits.file_bytes),
+                                    std::pair(RLIMIT_AS, limits.address_bytes)})
+    if (const rlimit limit{bytes, bytes}; bytes > 0) ::setrlimit(what, &limit);
   std::vector<char*> words;
   for (const std::string& word : command) words.push_back(const_cast<char*>(word.c_str()));
   words.push_back(nullptr);

@@ -21,6 +21,7 @@ struct Outcome {
 struct Limits {
   std::size_t file_bytes =
       0;  ///< Largest file it may write; 0: no limit. Stands in for a full disk.
+  std::size_t address_bytes = 0;  ///< Address space; 0: no limit. As batch systems set it.
 };
 
 /// Runs mapproof with these arguments, without a shell, and waits for it.

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstdlib>
 #include <mutex>
+#include <new>
 #include <vector>
 
 #include <csdp/declarations.h>
@@ -11,6 +12,13 @@
 
 #include "core/base/errors.hpp"
 #include "core/linalg/decompositions.hpp"
+
+// What CSDP calls where it finds no memory (scripts/cmake/FindCsdp.cmake). It is C: nothing of it is
+// passed over that has to be undone, but for memory.
+extern "C" {
+[[noreturn]] void mapproof_csdp_exit(int) { throw std::bad_alloc(); }
+int mapproof_csdp_puts(const char*) { return 0; }
+}
 
 namespace mapproof::unfolding {
 namespace {

@@ -6,8 +6,8 @@
 
 #include <fmt/format.h>
 
+#include "core/base/byte_source.hpp"
 #include "core/base/errors.hpp"
-#include "core/base/files.hpp"
 #include "core/base/words.hpp"
 #include "render/plot/figure_json.hpp"
 #include "reports/diff/tables/figure_tables.hpp"
@@ -27,7 +27,7 @@ std::set<std::string> record_ids(const DiffItem& item) {
   for (const auto& path : {item.baseline_figure, item.current_figure}) {
     if (path.empty()) continue;
     try {
-      const Figure figure = figure_from_json(read_file(path, kLargestFigure), path.string());
+      const Figure figure = figure_from_json(read_input(path, kLargestFigure), path.string());
       ids.insert(figure.record_ids.begin(), figure.record_ids.end());
     } catch (const IoError&) {  // The verdict says so: unreadable.
     }

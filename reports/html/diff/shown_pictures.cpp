@@ -7,10 +7,10 @@
 #include <utility>
 
 #include <fmt/format.h>
-#include <tbb/parallel_for.h>
 
+#include "core/base/byte_source.hpp"
 #include "core/base/errors.hpp"
-#include "core/base/files.hpp"
+#include "core/base/parallel.hpp"
 #include "render/image/png.hpp"
 #include "reports/html/sha256.hpp"
 
@@ -65,7 +65,7 @@ PictureSize png_size(const std::string& bytes, const fs::path& path) {
 
 ShownPicture read_picture(const fs::path& path, const std::string& format,
                           const std::string& renderer, std::size_t limit) {
-  const std::string bytes = read_file(path, limit);
+  const std::string bytes = read_input(path, limit);
   ShownPicture picture;
   picture.renderer = renderer;
   if (format == "png") picture.size = png_size(bytes, path);
@@ -167,7 +167,7 @@ std::vector<ShownPictures> shown_pictures(const DiffResult& result, const DiffSe
                                           const PictureBudget& budget) {
   const std::vector<Plan> all = plans(result, budget);
   std::vector<ShownPictures> shown(all.size());
-  tbb::parallel_for(std::size_t{0}, all.size(), [&](std::size_t i) {
+  parallel_for(all.size(), [&](std::size_t i) {
     shown[i] = read_all(all[i], settings.pictures_of(result.items[i].id), budget.largest_bytes);
   });
   return shown;

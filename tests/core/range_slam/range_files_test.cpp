@@ -10,6 +10,7 @@
 #include "core/records/range_log_files.hpp"
 #include "core/records/validate.hpp"
 #include "tests/core/range_slam/sample_log.hpp"
+#include "tests/support/packing.hpp"
 #include "tests/support/temporary_folder.hpp"
 
 namespace mapproof {
@@ -33,6 +34,11 @@ std::string error_of(const fs::path& path) {
     return what.starts_with(start) ? what.substr(start.size()) : what;
   }
   return "no error";
+}
+
+bool shows_ranges(const fs::path& path) {
+  ByteSource source(path);
+  return is_range_log(source);
 }
 
 void expect_same_truth(const RangeLog& log, const RangeLog& expected) {
@@ -259,18 +265,47 @@ TEST(RangeLogFiles, ValidateKnowsThem) {
   EXPECT_TRUE(broken.problem.ends_with("line 1: unknown record \"NODE\""));
 }
 
+TEST(RangeLogFiles, AreToldByTheirFirstBytes) {
+  const test::TemporaryFolder folder;
+  const RangeLog log = sample_log();
+  test::write_mat(log, folder / "a.mat", true);
+  for (const std::string& bytes :
+       {read_file(folder / "a.mat"), test::pyfg_of(log), test::ranges_csv_of(log)}) {
+    EXPECT_TRUE(shows_ranges(folder.file("log", bytes)));
+    EXPECT_EQ(read_range_log(folder / "log").ranges.size(), log.ranges.size());
+  }
+  EXPECT_EQ(read_range_log(folder.file("log", test::td_text_of(log))).ranges.size(),
+            log.ranges.size());
+  // Four numbers a row may be sightings of a robot as well, and these columns are.
+  EXPECT_FALSE(shows_ranges(folder / "log"));
+  const std::string both = "time,landmark,range\n1,1,1\n";
+  EXPECT_FALSE(shows_ranges(folder.file("log", both)));
+  EXPECT_TRUE(shows_ranges(folder.file("ranges.csv", both)));
+}
+
+TEST(RangeLogFiles, MayBePacked) {
+  const test::TemporaryFolder folder;
+  const fs::path set = csv_folder(folder, sample_log());
+  const RangeLog plain = read_range_log(set);
+  for (const char* name : {"ranges.csv", "odometry.csv", "groundtruth.csv", "landmarks.csv"}) {
+    const std::string bytes = read_file(set / name);
+    fs::remove(set / name);
+    folder.file("set/" + std::string(name) + ".xz", test::xzipped(bytes));
+  }
+  expect_same(read_range_log(set), plain, 0.0);
+  EXPECT_EQ(read_range_log(set / "ranges.csv.xz").name, "set");
+  EXPECT_EQ(validate(set).at(0).problem, "");
+}
+
 TEST(RangeLogFiles, OtherPathsAreNoRangeLogs) {
   const test::TemporaryFolder folder;
-  EXPECT_FALSE(is_range_log(folder.path()));
-  EXPECT_FALSE(is_range_log(folder / "nothing"));
-  EXPECT_FALSE(is_range_log(folder.file("a.csv", "t,beacon,range\n1,1,1\n")));
-  EXPECT_FALSE(is_range_log(folder.file("ranges.csv", "name,1,2\na,1,1\n")));
-  EXPECT_TRUE(is_range_log(folder.file("ranges.csv", "t,beacon,range\n1,1,1\n")));
-  EXPECT_TRUE(is_range_log(folder.path()));
+  EXPECT_FALSE(is_range_log_folder(folder.path()));
+  EXPECT_FALSE(shows_ranges(folder.file("ranges.csv", "name,1,2\na,1,1\n")));
+  EXPECT_TRUE(is_range_log_folder(folder.path()));
   // A path that was named is read as what it is called, and the error is the reader's.
   EXPECT_EQ(error_of(folder.file("ranges.csv", "t,beacon\n1,1\n")),
             "line 1: no column of ranges: expected range, range_m in the header");
-  EXPECT_EQ(error_of(folder / "nothing"), "is not there");
+  EXPECT_EQ(error_of(folder / "nothing"), "cannot be opened: No such file or directory");
   EXPECT_EQ(error_of(folder.file("a.mat", "no")), "is no MATLAB file");
   EXPECT_TRUE(error_of(folder.file("a.csv", "x")).starts_with("holds no ranges"));
 }

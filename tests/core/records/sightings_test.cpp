@@ -7,8 +7,8 @@
 
 #include "core/records/observations.hpp"
 #include "tests/core/records/samples.hpp"
-#include "tests/support/gzip.hpp"
 #include "tests/support/looks.hpp"
+#include "tests/support/packing.hpp"
 #include "tests/support/temporary_folder.hpp"
 
 namespace mapproof {
@@ -19,6 +19,11 @@ using test::error_of;
 SightingSource read_text(const std::string& text, const SightingFormat& format = {}) {
   const test::TemporaryFolder folder;
   return read_sightings(folder.file("a.csv", text), format);
+}
+
+bool shows_sightings(const std::filesystem::path& path) {
+  ByteSource source(path);
+  return is_sightings(source);
 }
 
 /// The error of a text, behind the file's path.
@@ -117,6 +122,10 @@ TEST(Sightings, NameTheLineThatIsWrong) {
             "line 2: bearings are in radians, within a full turn; 90 looks like degrees");
   EXPECT_EQ(error_with("step,landmark,range,bearing\n0,oak,3,0\n1,elm,3,0\n0,oak,4,1\n"),
             "line 4: landmark \"oak\" is in that look already, on line 2");
+  EXPECT_EQ(error_with("step,landmark,range,bearing\n# of 0\n0,elm,3,0\n0,oak,3,0\n0,oak,4,1\n"),
+            "line 5: landmark \"oak\" is in that look already, on line 4");
+  EXPECT_EQ(error_with("step,landmark,range\n0,elm,3\n0,oak,3\n1,elm,3\n0,ash,4\n0,oak,4\n"),
+            "from line 5 on: landmark \"oak\" is in that look already, from line 2 on");
   EXPECT_EQ(error_with("step,landmark,range,bearing\n0,oak,3,0\n1,,4,1\n"),
             "line 3: a sighting without a label: which landmark it shows is not told from looks; "
             "leave such rows out");
@@ -143,7 +152,7 @@ TEST(Sightings, AreTheSameFromJson) {
   const std::string text = sightings_json(log);
   expect_same(read_sightings(folder.file("a.json", text)).log, log);
   expect_same(read_sightings(folder.file("a.json.gz", test::gzipped(text))).log, log);
-  EXPECT_TRUE(is_sightings(folder / "a.json"));
+  EXPECT_TRUE(shows_sightings(folder / "a.json"));
 }
 
 TEST(Sightings, JsonMayBeInDegrees) {
@@ -157,7 +166,7 @@ TEST(Sightings, JsonMayBeInDegrees) {
 TEST(Sightings, GiveTheObservationsOfOneSensor) {
   const test::TemporaryFolder folder;
   const auto path = folder.file("a.csv.gz", test::gzipped(kPlain));
-  EXPECT_TRUE(is_sightings(path));
+  EXPECT_TRUE(shows_sightings(path));
   const ObservationSource range = read_observations(path, Sensor::kRange);
   Eigen::MatrixXd expected(2, 2);
   expected << 3, 2.5, 4, 0;
@@ -169,8 +178,8 @@ TEST(Sightings, GiveTheObservationsOfOneSensor) {
 
 TEST(Sightings, TablesOfValuesAreNone) {
   const test::TemporaryFolder folder;
-  EXPECT_FALSE(is_sightings(folder.file("a.csv", "step,landmark,value\n0,oak,1\n")));
-  EXPECT_FALSE(is_sightings(folder.file("b.csv", "name,1,2\noak,1,0\n")));
+  EXPECT_FALSE(shows_sightings(folder.file("a.csv", "step,landmark,value\n0,oak,1\n")));
+  EXPECT_FALSE(shows_sightings(folder.file("b.csv", "name,1,2\noak,1,0\n")));
 }
 
 TEST(Observations, InDegreesAreTurnedIntoRadians) {

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "tests/core/records/samples.hpp"
+#include "tests/support/byte_sources.hpp"
 #include "tests/support/temporary_folder.hpp"
 
 namespace mapproof {
@@ -12,7 +13,8 @@ using test::error_of;
 
 /// All cells with their lines, as text.
 std::string read_all(const std::filesystem::path& path) {
-  TableStream stream(path);
+  ByteSource source(path);
+  TableStream stream(source);
   TableRow row;
   std::string all;
   while (stream.next(row)) {
@@ -64,6 +66,25 @@ TEST(TableStream, AQuoteThatNeverEndsIsFoundInBoundedMemory) {
   const auto path = folder.file("a.csv", "a,b\n1,\"" + std::string(std::size_t{20} << 20, 'x'));
   EXPECT_EQ(error_of([&] { read_all(path); }),
             path.string() + ": line 2: a row of more than 16 MB: do its quotes end?");
+}
+
+TEST(TableStream, ItsFirstRowIsSeenBeforeItIsRead) {
+  const auto is_header = [](const TableRow& row) { return row.cells[0] == "name"; };
+  std::string comments, wide = "name";
+  for (int i = 0; i < 30'000; ++i) comments += "# a comment with \" in it\n";
+  for (int i = 0; i < 300'000; ++i) wide += ",1";
+  for (const std::string& text : {std::string("name,x\n1,2\n"), comments + "name,x\n1,2\n",
+                                  wide + "\n1,2\n", wide, std::string("name,\"x\ny\"\n1,2\n")}) {
+    ByteSource source = test::source_of(text, 999);
+    EXPECT_TRUE(first_row_is(source, is_header));
+    EXPECT_TRUE(source.rest() == text);
+  }
+  for (const std::string& text : {std::string("1,name\n"), comments, std::string("\n\n")}) {
+    ByteSource source = test::source_of(text);
+    EXPECT_FALSE(first_row_is(source, is_header));
+  }
+  ByteSource endless = test::source_of("name,\"" + std::string(std::size_t{70} << 20, 'x'));
+  EXPECT_FALSE(first_row_is(endless, is_header));
 }
 
 TEST(TableStream, AnEmptyFileIsAnError) {

@@ -36,7 +36,7 @@ TEST(HistoryStore, GivesBackWhatItWasGiven) {
 TEST(HistoryStore, OfAnOlderVersionIsMigratedAndKeptAsItWas) {
   const TemporaryFolder folder;
   {
-    Database old(history_file(folder.path()), Database::Access::kWrite);
+    Database old(history_file(folder.path()), Database::Access::kCreate);
     make_tables(old, 1);
     old.execute(
         "INSERT INTO nights VALUES (4, '2026-01-01T00:00:00Z', '2026-01-01T01:00:00Z', 'c', '{}', "
@@ -55,14 +55,14 @@ TEST(HistoryStore, OfAnOlderVersionIsMigratedAndKeptAsItWas) {
 TEST(HistoryStore, OfALaterVersionOrOfAnotherProgramIsRefused) {
   const TemporaryFolder folder;
   {
-    Database other(history_file(folder.path()), Database::Access::kWrite);
+    Database other(history_file(folder.path()), Database::Access::kCreate);
     other.execute("CREATE TABLE theirs (x); PRAGMA user_version = 1");
   }
   EXPECT_THROW(HistoryStore::open(folder.path()), IoError);
   const TemporaryFolder later;
   HistoryStore::open(later.path());
   {
-    Database ours(history_file(later.path()), Database::Access::kWrite);
+    Database ours(history_file(later.path()), Database::Access::kCreate);
     ours.execute("PRAGMA user_version = 99");
   }
   EXPECT_THROW(HistoryStore::open(later.path()), IoError);

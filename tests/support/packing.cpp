@@ -1,7 +1,9 @@
-#include "tests/support/gzip.hpp"
+#include "tests/support/packing.hpp"
 
+#include <lzma.h>
 #include <zlib.h>
 
+#include <cstdint>
 #include <stdexcept>
 
 namespace mapproof::test {
@@ -19,6 +21,18 @@ std::string gzipped(std::string_view bytes) {
   if (::deflate(&stream, Z_FINISH) != Z_STREAM_END) throw std::runtime_error("deflate");
   out.resize(stream.total_out);
   ::deflateEnd(&stream);
+  return out;
+}
+
+std::string xzipped(std::string_view bytes) {
+  std::string out(::lzma_stream_buffer_bound(bytes.size()), '\0');
+  std::size_t size = 0;
+  if (::lzma_easy_buffer_encode(LZMA_PRESET_DEFAULT, LZMA_CHECK_CRC64, nullptr,
+                                reinterpret_cast<const std::uint8_t*>(bytes.data()), bytes.size(),
+                                reinterpret_cast<std::uint8_t*>(out.data()), &size,
+                                out.size()) != LZMA_OK)
+    throw std::runtime_error("lzma_easy_buffer_encode");
+  out.resize(size);
   return out;
 }
 

@@ -1,0 +1,57 @@
+#include "app/failures.hpp"
+
+#include <cerrno>
+#include <cstring>
+#include <exception>
+#include <iostream>
+#include <new>
+
+#include "app/console.hpp"
+#include "core/base/errors.hpp"
+#include "core/base/out_of_memory.hpp"
+#include "render/animation/animation.hpp"
+#include "render/scene_client/scene_client.hpp"
+
+namespace mapproof {
+namespace {
+
+ExitCode tell(const std::string& what, ExitCode code) {
+  // In the system's words, wherever they were taken up.
+  const bool is_memory = what.ends_with(std::strerror(ENOMEM));
+  std::cerr << "mapproof: " << (is_memory ? "out of memory: " : "") << printable(what, 4000) << "\n";
+  return is_memory ? kInternal : code;
+}
+
+int try_work(const std::function<int()>& work, const std::string& of) {
+  try {
+    return work();
+  } catch (const IoError& error) {
+    return tell(of + error.what(), kUsage);
+  } catch (const InvalidInput& error) {
+    return tell(of + error.what(), kUsage);
+  } catch (const SceneError& error) {
+    return tell(of + error.what(), kInternal);
+  } catch (const AnimationError& error) {
+    return tell(of + error.what(), kInternal);
+  } catch (const std::bad_alloc&) {
+    throw;
+  } catch (const std::exception& error) {
+    return tell(of + "internal error: " + error.what(), kInternal);
+  }
+}
+
+}  // namespace
+
+int exit_code_of(const std::function<int()>& work, const std::string& of) {
+  // Nothing that is told of it may ask for memory.
+  try {
+    return try_work(work, of);
+  } catch (const OutOfMemory& error) {
+    std::cerr << "mapproof: " << of << error.what() << "\n";
+  } catch (const std::bad_alloc&) {
+    std::cerr << "mapproof: " << of << kOutOfMemory << "\n";
+  }
+  return kInternal;
+}
+
+}  // namespace mapproof

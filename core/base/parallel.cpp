@@ -1,0 +1,71 @@
+#include "core/base/parallel.hpp"
+
+#include <sys/resource.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <fstream>
+#include <limits>
+#include <optional>
+#include <stdexcept>
+
+#include <tbb/global_control.h>
+#include <tbb/parallel_for.h>
+#include <tbb/task_arena.h>
+#include <tbb/version.h>
+
+namespace mapproof {
+namespace {
+
+/// How many threads have room in the address space that this process may take, itself among them:
+/// oneTBB ends the program, as if a check had failed, where it cannot start one.
+std::size_t affordable_threads() {
+  constexpr std::size_t kOfThread = std::size_t{72} << 20;  // Its stack and glibc's heap for it.
+  rlimit limit{};
+  if (::getrlimit(RLIMIT_AS, &limit) != 0 || limit.rlim_cur == RLIM_INFINITY)
+    return std::numeric_limits<std::size_t>::max();
+  std::ifstream file("/proc/self/statm");
+  std::size_t pages = 0;
+  file >> pages;
+  const std::size_t used = pages * static_cast<std::size_t>(::getpagesize());
+  if (used == 0 || used >= limit.rlim_cur) return 1;
+  return 1 + (limit.rlim_cur - used) / 2 / kOfThread;  // Half of the room is for the work itself.
+}
+
+/// By default a group is bound to the one around it, and a group that is cancelled from there
+/// returns as if it had finished.
+template <typename Partitioner>
+void share_out(std::size_t count, const std::function<void(std::size_t)>& work,
+               const Partitioner& partitioner) {
+  std::optional<tbb::global_control> fewer;
+  if (const std::size_t most = affordable_threads(); most < std::numeric_limits<int>::max())
+    fewer.emplace(tbb::global_control::max_allowed_parallelism, most);
+  tbb::task_group_context own(tbb::task_group_context::isolated);
+  tbb::parallel_for(std::size_t{0}, count, work, partitioner, own);
+  if (own.is_group_execution_cancelled())
+    throw std::logic_error("work that was shared out was cancelled");
+}
+
+}  // namespace
+
+void parallel_for(std::size_t count, const std::function<void(std::size_t)>& work) {
+  share_out(count, work, tbb::auto_partitioner());
+}
+
+void parallel_for(int jobs, std::size_t count, const std::function<void(std::size_t)>& work) {
+  const tbb::global_control limit(tbb::global_control::max_allowed_parallelism,
+                                  static_cast<std::size_t>(jobs));
+  tbb::task_arena arena(jobs);
+  arena.execute([&] { share_out(count, work, tbb::simple_partitioner()); });
+}
+
+void parallel_invoke(const std::function<void()>& first, const std::function<void()>& second) {
+  const auto either = [&](std::size_t i) { i == 0 ? first() : second(); };
+  share_out(2, either, tbb::simple_partitioner());
+}
+
+void run_isolated(const std::function<void()>& work) { tbb::this_task_arena::isolate(work); }
+
+std::string parallel_library_version() { return TBB_runtime_version(); }
+
+}  // namespace mapproof

@@ -1,0 +1,110 @@
+#include "reports/diff/approval_sides.hpp"
+
+#include <algorithm>
+#include <array>
+#include <string_view>
+#include <system_error>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "core/base/errors.hpp"
+#include "core/base/files.hpp"
+#include "core/base/paths.hpp"
+#include "core/json/json_cursor.hpp"
+#include "reports/diff/item_files.hpp"
+
+namespace mapproof {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr std::array<std::pair<std::string_view, std::string_view>, 5> kKindsOfRecords = {
+    {{"mapproof.study", "a study"},
+     {"mapproof.slam_study", "a range-only study"},
+     {"mapproof.trial_study", "a study of one topic"},
+     {"mapproof.map", "one map"},
+     {"mapproof.slam_run", "the result of one range log"}}};
+
+/// What the records of a folder are of, in words; empty if that cannot be read, which is told
+/// elsewhere.
+std::string_view kind_of_records(const fs::path& folder) {
+  std::error_code error;
+  for (const char* name : {"study.json", "map.json", "slam.json"}) {
+    const fs::path file = folder / name;
+    if (!fs::is_regular_file(file, error)) continue;
+    try {
+      const JsonDocument document = parse_json(read_file(file), file.string());
+      const auto* kind = std::ranges::find(kKindsOfRecords, schema_of(document.cursor()).name,
+                                           &decltype(kKindsOfRecords)::value_type::first);
+      return kind == kKindsOfRecords.end() ? "" : kind->second;
+    } catch (const IoError&) {
+      return "";
+    }
+  }
+  return "";
+}
+
+bool is_drawn(const fs::path& file) {
+  const std::string kind = item_name(file, file.parent_path()).kind;
+  return !kind.empty() && kind != "csv" && kind != "md" && kind != "tex" && kind != "html";
+}
+
+/// What a side holds, in words; empty if nothing tells.
+std::string_view kind_of(const ApprovalSide& side) {
+  if (side.files.contains(kRecordsItem)) return kind_of_records(side.root);
+  const auto several = side.files.lower_bound(std::string(kRecordsItem) + "/");
+  if (several != side.files.end() && several->first.starts_with(std::string(kRecordsItem) + "/"))
+    return "several folders of records";
+  for (const auto& [id, paths] : side.files)
+    if (std::ranges::any_of(paths, is_drawn)) return "figures or pictures without records";
+  return "";
+}
+
+void require_apart(const fs::path& baseline, const fs::path& current) {
+  if (overlap(baseline, current))
+    throw InvalidInput(fmt::format("BASELINE {} and CURRENT {}: one is the other or lies in it",
+                                   baseline.string(), current.string()));
+}
+
+void require_same_kind(std::string_view before, std::string_view after, const fs::path& baseline,
+                       const fs::path& current) {
+  if (before != after)
+    throw InvalidInput(fmt::format("BASELINE {} holds {}, CURRENT {} holds {}: not approved",
+                                   baseline.string(), before, current.string(), after));
+}
+
+/// "png": of an item, else the extension.
+std::string format_of(const fs::path& file) {
+  const std::string kind = item_name(file, file.parent_path()).kind;
+  return kind.empty() ? file.extension().string() : kind;
+}
+
+}  // namespace
+
+void require_comparable(const ApprovalSide& baseline, const ApprovalSide& current) {
+  require_apart(baseline.root, current.root);
+  if (current.files.empty())
+    throw InvalidInput(fmt::format("CURRENT {} holds no records, figures, pictures or tables",
+                                   current.root.string()));
+  const std::string_view before = kind_of(baseline), after = kind_of(current);
+  if (!before.empty() && !after.empty())
+    require_same_kind(before, after, baseline.root, current.root);
+  for (const auto& [id, paths] : baseline.files) {
+    if (!id.starts_with(std::string(kRecordsItem) + "/") || !current.files.contains(id)) continue;
+    const fs::path name = fs::path(id).filename();
+    const auto was = kind_of_records(baseline.root / name), is = kind_of_records(current.root / name);
+    if (!was.empty() && !is.empty())
+      require_same_kind(was, is, baseline.root / name, current.root / name);
+  }
+}
+
+void require_comparable_files(const fs::path& baseline, const fs::path& current) {
+  require_apart(baseline, current);
+  std::error_code error;
+  if (fs::file_size(current, error) == 0 && !error)
+    throw InvalidInput(fmt::format("CURRENT {} is empty", current.string()));
+  require_same_kind(format_of(baseline), format_of(current), baseline, current);
+}
+
+}  // namespace mapproof

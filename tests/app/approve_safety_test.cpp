@@ -1,0 +1,287 @@
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <string>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include "core/base/files.hpp"
+#include "tests/app/two_studies.hpp"
+#include "tests/support/faults.hpp"
+#include "tests/support/program.hpp"
+
+namespace mapproof::test {
+namespace {
+
+/// What approve refuses: with exit code 2, one line, and nothing touched.
+void expect_refused(const TemporaryFolder& folder, const std::vector<std::string>& arguments,
+                    const std::string& words) {
+  SCOPED_TRACE(words);
+  const Contents before = contents(folder.path());
+  std::vector<std::string> command = {"approve"};
+  command.insert(command.end(), arguments.begin(), arguments.end());
+  const Outcome outcome = mapproof(command);
+  EXPECT_EQ(outcome.exit_code, 2) << outcome.out;
+  EXPECT_NE(outcome.error.find(words), std::string::npos) << outcome.error;
+  EXPECT_EQ(std::ranges::count(outcome.error, '\n'), 1) << outcome.error;
+  expect_same(before, contents(folder.path()));
+}
+
+TEST(ApproveVerb, RefusesFoldersOfWhichOneIsTheOtherOrLiesInIt) {
+  const TwoStudies two;
+  const std::string link = two.folder / "link", deep = two.before + "/figures/deep";
+  fs::create_directory_symlink(two.before, link);
+  fs::create_directory(deep);
+  fs::copy_file(two.before + "/figures/map-usual.png", deep + "/map-usual.png");
+  const std::string words = ": one is the other or lies in it";
+  for (const std::string& baseline : {two.before, two.before + "/", link})
+    for (const std::string& current :
+         {two.before, two.before + "/figures", deep, link, link + "/figures",
+          two.before + "/../before", two.folder.path().string()}) {
+      expect_refused(two.folder, {baseline, current, "--all"}, words);
+      expect_refused(two.folder, {baseline, current, "--all", "--force"}, words);
+      expect_refused(two.folder, {baseline, current, "map-usual"}, words);
+    }
+  const std::string file = two.before + "/figures/map-usual.png";
+  expect_refused(two.folder, {file, link + "/figures/map-usual.png"}, words);
+}
+
+TEST(ApproveVerb, RefusesACurrentThatHoldsNothing) {
+  const TwoStudies two;
+  const std::string empty = two.folder / "empty", strange = two.folder / "strange";
+  fs::create_directory(empty);
+  write_file(strange + "/notes.txt", "Not of mapproof.");
+  for (const std::string& current : {empty, strange})
+    expect_refused(two.folder, {two.before, current, "--all", "--force"},
+                   "holds no records, figures, pictures or tables");
+  const std::string file = two.folder.file("empty.pdf", "");
+  expect_refused(two.folder, {two.folder.file("before.pdf", "%PDF"), file}, "is empty");
+  expect_refused(two.folder, {two.before, two.folder / "nowhere", "--all"}, "is not there");
+}
+
+TEST(ApproveVerb, RefusesACurrentOfAnotherKind) {
+  const TwoStudies two;
+  const fs::path ranges = two.folder / "ranges", pictures = two.folder / "pictures",
+                 several = two.folder / "several", map = two.folder / "map";
+  write_file(ranges / "study.json",
+             R"({"schema": {"name": "mapproof.slam_study", "version": 1}})");
+  fs::copy(two.after + "/figures", pictures);
+  fs::create_directory(several);
+  fs::copy(two.after, several / "one", fs::copy_options::recursive);
+  write_file(map / "map.json", R"({"schema": {"name": "mapproof.map", "version": 1}})");
+  const std::vector<std::string> kinds = {two.before, ranges, pictures, several, map};
+  for (const std::string& baseline : kinds)
+    for (const std::string& current : kinds)
+      if (baseline != current) {
+        SCOPED_TRACE(baseline + " " + current);
+        expect_refused(two.folder, {baseline, current, "--all", "--force"}, ": not approved");
+        expect_refused(two.folder, {baseline, current, "map-usual"}, ": not approved");
+      }
+  expect_refused(two.folder, {two.before, two.after + "/figures", "--all"},
+                 "holds a study, CURRENT " + two.after +
+                     "/figures holds figures or pictures without records");
+  expect_refused(two.folder,
+                 {two.before + "/figures/map-usual.png", two.folder.file("map.svg", "<svg/>")},
+                 "holds png, CURRENT");
+}
+
+TEST(ApproveVerb, AsksBeforeMoreThanHalfOfABaselineGoes) {
+  const TemporaryFolder folder;
+  const std::string baseline = folder / "baseline", current = folder / "current";
+  const std::string picture = read_file(fs::path(kPictures) / "map-usual.png");
+  for (const char* name : {"a", "b", "c", "d", "e"}) write_file(baseline + "/" + name + ".png", picture);
+  write_file(current + "/a.png", picture);
+  write_file(current + "/b.png", picture);
+  expect_refused(folder, {baseline, current, "--all"}, "--all would remove 3 of 5 files of ");
+  write_file(current + "/c.png", picture);
+  EXPECT_EQ(mapproof({"approve", baseline, current, "--all"}).exit_code, 0);
+  EXPECT_EQ(contents(baseline).size(), 3U);
+  fs::remove(current + "/a.png");
+  fs::remove(current + "/b.png");
+  EXPECT_EQ(mapproof({"approve", baseline, current, "--all", "--force"}).exit_code, 0);
+  EXPECT_EQ(contents(baseline).size(), 1U);
+}
+
+TEST(ApproveVerb, MakesABaselineThatIsNotThereAndNoneThatIsRefused) {
+  const TwoStudies two;
+  const std::string baseline = two.folder / "deep/new";
+  expect_refused(two.folder, {baseline, two.after, "no-such-figure"}, "no-such-figure");
+  EXPECT_FALSE(fs::exists(baseline));
+  EXPECT_EQ(mapproof({"approve", baseline, two.after, "--all"}).exit_code, 0);
+  expect_same(contents(two.after), contents(baseline));
+}
+
+TEST(ApproveVerb, KeepsModesLinksAndFilesOfOthers) {
+  const TwoStudies two;
+  two.change_picture();
+  const fs::path before = two.before, changed = before / "figures/map-usual.png";
+  write_file(before / ".gitattributes", "*.png binary\n");
+  write_file(before / "notes/README", "Not of mapproof.");
+  fs::create_directory(before / "nothing");
+  fs::create_symlink("../nowhere", before / "link");
+  fs::create_hard_link(changed, two.folder / "elsewhere.png");
+  const std::string elsewhere = read_file(changed);
+  ::chmod(before.c_str(), 0750);
+  ::chmod((before / "figures").c_str(), 02775);
+  ::chmod(changed.c_str(), 0664);
+  ::chmod((before / "notes/README").c_str(), 0440);
+  EXPECT_EQ(mapproof({"approve", two.before, two.after, "--all"}).exit_code, 0);
+  EXPECT_EQ(read_file(changed), read_file(two.after + "/figures/map-usual.png"));
+  EXPECT_EQ(read_file(two.folder / "elsewhere.png"), elsewhere) << "written behind a hard link";
+  EXPECT_EQ(read_file(before / ".gitattributes"), "*.png binary\n");
+  EXPECT_TRUE(fs::is_directory(before / "nothing"));
+  EXPECT_EQ(fs::read_symlink(before / "link"), "../nowhere");
+  const auto mode = [](const fs::path& path) {
+    struct stat facts {};
+    ::stat(path.c_str(), &facts);
+    return facts.st_mode & 07777U;
+  };
+  EXPECT_EQ(mode(before), 0750U);
+  EXPECT_EQ(mode(before / "figures"), 02775U);
+  EXPECT_EQ(mode(changed), 0664U);
+  EXPECT_EQ(mode(before / "notes/README"), 0440U);
+  for (const auto& entry : fs::recursive_directory_iterator(before))
+    if (entry.is_regular_file()) {
+      EXPECT_EQ(entry.hard_link_count(), 1U) << entry.path() << " is a file of something else, too";
+    }
+}
+
+TEST(ApproveVerb, ReplacesABaselineBehindALinkAndWritesBehindNoneWithinIt) {
+  const TwoStudies two;
+  two.change_picture();
+  const std::string link = two.folder / "link";
+  fs::create_directory_symlink("before", link);
+  EXPECT_EQ(mapproof({"approve", link, two.after, "--all"}).exit_code, 0);
+  EXPECT_TRUE(fs::is_symlink(link));
+  expect_same(contents(two.after), contents(two.before));
+
+  const fs::path figures = two.before + "/figures", away = two.folder / "away";
+  fs::rename(figures, away);
+  fs::create_directory_symlink(away, figures);
+  fs::copy_file(fs::path(kPictures) / "map-usual.png", two.after + "/figures/map-usual.png",
+                fs::copy_options::overwrite_existing);
+  expect_refused(two.folder, {two.before, two.after, "map-usual"}, "figures: is not a folder of its own");
+}
+
+TEST(ApproveVerb, RefusesABaselineThatMayNotBeChangedOrIsWorkedIn) {
+  const TwoStudies two;
+  two.change_picture();
+  const std::string script = "cd \"$1\" && exec \"$0\" approve . \"$2\" --all";
+  const Outcome inside =
+      run_program({"sh", "-c", script, program(), two.before + "/figures/..", two.after});
+  EXPECT_EQ(inside.exit_code, 2);
+  EXPECT_NE(inside.error.find("run this from a folder outside"), std::string::npos) << inside.error;
+  if (::geteuid() == 0) GTEST_SKIP() << "nothing is forbidden to root";
+  ::chmod((two.before + "/figures").c_str(), 0555);
+  expect_refused(two.folder, {two.before, two.after, "--all"}, "figures: may not be changed");
+  ::chmod((two.before + "/figures").c_str(), 0755);
+}
+
+/// A baseline of some pictures and files of others, and a current with other pictures.
+struct Sides {
+  TemporaryFolder folder;
+  std::string baseline = folder / "baseline", current = folder / "current";
+  Contents old_files, new_files;
+
+  Sides() {
+    const fs::path pictures = kPictures;
+    make(baseline, read_file(pictures / "map-usual.png"), {"a", "b", "c", "gone"});
+    make(current, read_file(pictures / "curve-usual.png"), {"a", "b", "c", "more"});
+    write_file(fs::path(baseline) / "notes/README", "Not of mapproof.");
+    old_files = contents(baseline);
+    new_files = contents(current);
+    new_files.emplace_back("notes/README", "Not of mapproof.");
+  }
+  static void make(const fs::path& place, const std::string& picture,
+                   const std::vector<std::string>& names) {
+    for (const std::string& name : names) write_file(place / (name + ".png"), picture);
+  }
+  void put_back() const {
+    fs::remove_all(baseline);
+    for (const auto& [name, bytes] : old_files) write_file(fs::path(baseline) / name, bytes);
+  }
+  /// How many files and folders lie beside the two.
+  long others() const {
+    return std::distance(fs::directory_iterator(folder.path()), fs::directory_iterator()) - 2;
+  }
+  Outcome approve() const { return mapproof({"approve", baseline, current, "--all"}); }
+};
+
+/// Kills approve at every call that changes a file system, one after the other.
+/// @param more  Further faults.
+/// @return In how many of them the baseline was not there.
+int kill_at_every_step(const Sides& sides, const std::string& more) {
+  long steps = 0;
+  {
+    const Faults none(more.empty() ? more : more.substr(1));
+    EXPECT_EQ(sides.approve().exit_code, 0);
+    steps = none.calls("disk");
+  }
+  EXPECT_GT(steps, 10);
+  expect_same(sides.new_files, contents(sides.baseline));
+  int old = 0, taken = 0, gone = 0;
+  for (long step = 1; step <= steps; ++step) {
+    SCOPED_TRACE(step);
+    sides.put_back();
+    {
+      const Faults kill(at_call("disk", step, "kill") + more);
+      EXPECT_EQ(sides.approve().exit_code, -1);
+    }
+    if (fs::exists(sides.baseline)) {
+      const Contents files = contents(sides.baseline);
+      old += files == sides.old_files ? 1 : 0;
+      taken += files == sides.new_files ? 1 : 0;
+      EXPECT_TRUE(files == sides.old_files || files == sides.new_files) << "neither old nor new";
+    } else {
+      ++gone;
+    }
+    EXPECT_EQ(sides.approve().exit_code, 0);
+    expect_same(sides.new_files, contents(sides.baseline));
+    EXPECT_EQ(sides.others(), 0) << "something is left beside the baseline";
+  }
+  EXPECT_GT(old, 0);
+  EXPECT_GT(taken, 0);
+  return gone;
+}
+
+TEST(ApproveVerb, KilledAtAnyStepLeavesTheOldBaselineOrTheNewOneWhole) {
+  const Sides sides;
+  EXPECT_EQ(kill_at_every_step(sides, ""), 0);
+}
+
+TEST(ApproveVerb, WithoutAnExchangeOfFoldersTheNextRunTakesTheBaselineBack) {
+  const Sides sides;
+  EXPECT_GT(kill_at_every_step(sides, ",exchange:1-:fail"), 0);
+}
+
+TEST(ApproveVerb, ThatFailsAtAnyStepLeavesTheOldBaselineOrTheNewOneWhole) {
+  const Sides sides;
+  for (long step = 1, steps = 2; step <= steps; ++step) {
+    SCOPED_TRACE(step);
+    sides.put_back();
+    const Faults fail(at_call("disk", step));
+    const Outcome outcome = sides.approve();
+    steps = std::max(steps, fail.calls("disk"));
+    const Contents files = contents(sides.baseline);
+    EXPECT_TRUE(files == (outcome.exit_code == 0 ? sides.new_files : sides.old_files));
+    if (outcome.exit_code != 0) {
+      EXPECT_EQ(outcome.exit_code, 2);
+      EXPECT_EQ(std::ranges::count(outcome.error, '\n'), 1) << outcome.error;
+    }
+  }
+}
+
+TEST(ApproveVerb, TakesBackABaselineThatWasLeftUnderAnotherName) {
+  const Sides sides;
+  fs::rename(sides.baseline, sides.folder / ".baseline.mapproof-old");
+  const std::string notes = sides.folder / ".baseline.mapproof-notes";
+  write_file(notes + "/mine", "Not of mapproof.");
+  EXPECT_EQ(mapproof({"approve", sides.baseline, sides.current, "a"}).exit_code, 0);
+  EXPECT_EQ(contents(sides.baseline).size(), sides.old_files.size());
+  EXPECT_TRUE(fs::exists(notes + "/mine"));
+}
+
+}  // namespace
+}  // namespace mapproof::test

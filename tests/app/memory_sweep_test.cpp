@@ -1,0 +1,18 @@
+#include <gtest/gtest.h>
+
+#include "tests/app/memory_faults.hpp"
+
+namespace mapproof::test {
+namespace {
+
+class EveryAllocation : public ::testing::TestWithParam<MemoryCase> {};
+
+TEST_P(EveryAllocation, ThatFailsIsOneLineAndLeavesNoWrongFile) {
+  expect_memory_faults_told(GetParam(), 1, 1);
+}
+
+INSTANTIATE_TEST_SUITE_P(OneByOne, EveryAllocation, ::testing::ValuesIn(memory_cases()),
+                         [](const auto& one) { return one.param.name; });
+
+}  // namespace
+}  // namespace mapproof::test

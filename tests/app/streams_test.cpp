@@ -1,0 +1,428 @@
+// Inputs of the program by name, by pipe, as standard input, packed and not.
+#include <sys/stat.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <functional>
+#include <string>
+#include <vector>
+
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+#include "core/base/files.hpp"
+#include "core/base/random.hpp"
+#include "core/records/sightings.hpp"
+#include "tests/core/range_slam/sample_log.hpp"
+#include "tests/support/looks.hpp"
+#include "tests/support/packing.hpp"
+#include "tests/support/program.hpp"
+
+namespace mapproof::test {
+namespace {
+
+namespace fs = std::filesystem;
+using nlohmann::json;
+
+/// Runs a line of bash in a folder, where $MAPPROOF is the program; 124 if it takes too long.
+Outcome shell(const fs::path& folder, const std::string& line, double seconds = 60.0) {
+  return run_program(
+      {"timeout", std::to_string(seconds), "bash", "-c",
+       fmt::format("cd '{}' && MAPPROOF='{}' && {}", folder.string(), program(), line)});
+}
+
+/// A way to hand a file `f` to a command as its input: what stands before the command, and the
+/// input's name. `f.gz` and `f.xz` are the same file packed.
+struct Way {
+  std::string name;
+  std::string before;
+  std::string input;
+};
+
+const std::vector<Way>& ways() {
+  static const std::vector<Way> all = {
+      {"Pipe", "", "<(cat f)"},    {"StandardInput", "cat f |", "-"},
+      {"Redirected", "", "- < f"}, {"DevStdin", "cat f |", "/dev/stdin"},
+      {"Gzip", "", "f.gz"},        {"GzipPipe", "", "<(cat f.gz)"},
+      {"Xz", "", "f.xz"},          {"XzStandardInput", "cat f.xz |", "-"}};
+  return all;
+}
+
+/// A command that reads one input, in the folder of the samples.
+struct Reader {
+  std::string name;
+  std::function<std::string()> bytes;  ///< Of the input.
+  std::string arguments;  ///< With {} where the input stands; what is written goes to `out`.
+  /// What has to be equal: files below `out`, or what is said as JSON if there are none.
+  std::vector<std::string> written = {};
+};
+
+[[maybe_unused]] std::ostream& operator<<(std::ostream& out, const Reader& reader) { return out << reader.name; }
+
+const std::vector<std::string> kMap = {"map.json", "map.csv"};
+const std::vector<std::string> kSlam = {"slam.json"};
+
+constexpr const char* kAnchors = "name,x,y\na,0,0\nb,1,0\nc,0,1\nd,1,1\n";
+
+std::string anchors() { return kAnchors; }
+
+/// Some 3 MB: 60,000 steps of four landmarks.
+std::string long_table() {
+  Random random(7);
+  std::string text = "step,landmark,value\n";
+  for (int step = 0; step < 60'000; ++step)
+    for (const char* name : {"a", "b", "c", "d"})
+      text += fmt::format("{},{},{}\n", step, name, random.uniform() < 0.4 ? 1 : 0);
+  return text;
+}
+
+std::string wide_table(int steps) {
+  Random random(3);
+  std::string text;
+  for (int landmark = 0; landmark < 6; ++landmark) {
+    text += static_cast<char>('a' + landmark);
+    for (int step = 0; step < steps; ++step)
+      text += fmt::format(",{:.3f}", random.uniform() * 6.0 - 3.0);
+    text += '\n';
+  }
+  return text;
+}
+
+/// Some 2 MB.
+std::string wide_table() { return wide_table(50'000); }
+
+std::string seen_table() {
+  Random random(5);
+  std::string text;
+  for (const char* name : {"a", "b", "c", "d", "e", "f"}) {
+    text += name;
+    for (int step = 0; step < 80; ++step) text += random.uniform() < 0.5 ? ",1" : ",0";
+    text += '\n';
+  }
+  return text;
+}
+
+SightingLog looks() {
+  Points places(9, 2);
+  for (Eigen::Index i = 0; i < 9; ++i)
+    places.row(i) << static_cast<double>(i % 3), 0.9 * static_cast<double>(i / 3);
+  return looks_at(places, 300, 5, 3);
+}
+
+std::string looks_csv() {
+  const SightingLog log = looks();
+  std::string text = "step,landmark,range,bearing\n";
+  for (const Sighting& seen : log.sightings)
+    text +=
+        fmt::format("{},{},{},{}\n", seen.step, log.names[static_cast<std::size_t>(seen.landmark)],
+                    seen.range_m, seen.bearing_rad);
+  return text;
+}
+
+std::string looks_json() { return sightings_json(looks()); }
+
+/// What commands find beside their input: observations, anchors, a log as `set` and, without its
+/// odometry, as `bare`; and, once it was asked for, `map` with its figures and `slam`.
+class Samples {
+ public:
+  Samples() {
+    folder_.file("wide.csv", wide_table(50));
+    folder_.file("anchors.csv", kAnchors);
+    csv_folder(folder_, sample_log());
+    fs::create_directory(folder_ / "bare");
+    fs::copy(folder_ / "set/ranges.csv", folder_ / "bare/ranges.csv");
+    write_mat(sample_log(), folder_ / "log.mat", true);
+  }
+
+  const fs::path& path() const { return folder_.path(); }
+
+  /// The bytes of one of them.
+  std::string operator[](const std::string& file) const {
+    if (file.starts_with("map/") && !fs::exists(folder_ / "map"))
+      make("map wide.csv --kind bearing --anchors anchors.csv --out map");
+    if (file.starts_with("slam/") && !fs::exists(folder_ / "slam"))
+      make("slam set --name set --out slam");
+    return read_file(folder_ / file);
+  }
+
+ private:
+  void make(const std::string& arguments) const {
+    EXPECT_LT(shell(folder_.path(), "$MAPPROOF " + arguments).exit_code, 2);
+  }
+
+  TemporaryFolder folder_;
+};
+
+const Samples& samples() {
+  static const Samples all;
+  return all;
+}
+
+std::function<std::string()> sample(const std::string& file) {
+  return [file] { return samples()[file]; };
+}
+
+std::function<std::string()> data(const std::string& file) {
+  return [file] { return read_file(std::string(MAPPROOF_TEST_DATA) + "/" + file); };
+}
+
+const std::vector<Reader>& readers() {
+  static const std::string slam = "slam {} --name log --out out";
+  static const std::vector<Reader> all = {
+      {"MapOfWideCsv", [] { return wide_table(); }, "map {} --kind bearing --method lpca --out out",
+       kMap},
+      {"MapOfLongCsv", long_table, "map {} --kind visibility --method lpca --out out", kMap},
+      {"MapOfLongCsvAsSaid", long_table,
+       "map {} --kind visibility --layout long --method lpca --out out", kMap},
+      {"MapOfJson", data("observations/observations.json"), "map {} --method lpca --out out", kMap},
+      {"MapOfSightings", looks_csv, "map {} --out out", kMap},
+      {"MapOfSightingsJson", looks_json, "map {} --out out", kMap},
+      {"MapOfOneSensorOfSightings", looks_csv, "map {} --kind range --method lpca --out out", kMap},
+      {"Anchors", anchors, "map wide.csv --kind bearing --anchors {} --out out", kMap},
+      {"Truth", anchors, "map wide.csv --kind bearing --truth {} --out out", kMap},
+      {"OtherSensor", seen_table,
+       "map wide.csv --kind bearing --with {} --with-kind visibility --out out", kMap},
+      {"SlamOfMat", sample("log.mat"), slam, kSlam},
+      {"SlamOfCsv", sample("set/ranges.csv"), slam + " --odometry set/odometry.csv", kSlam},
+      {"SlamOfText", [] { return td_text_of(sample_log()); }, slam + " --odometry set/odometry.csv",
+       kSlam},
+      {"SlamOfPyfg", [] { return pyfg_of(sample_log()); }, slam, kSlam},
+      {"Odometry", sample("set/odometry.csv"), "slam bare --odometry {} --out out", kSlam},
+      {"KnownLandmarks", sample("set/landmarks.csv"), "slam set --known-landmarks {} --out out",
+       kSlam},
+      {"TruePath", sample("set/groundtruth.csv"), "slam bare --truth {} --out out", kSlam},
+      {"TrueLandmarks", sample("set/landmarks.csv"), "slam bare --true-landmarks {} --out out",
+       kSlam},
+      {"DiffOfPng", sample("map/figures/map.png"), "diff map/figures/map.png {} --json -"},
+      {"DiffOfBaseline", sample("map/figures/map.png"), "diff {} map/figures/map.png --json -"},
+      {"DiffOfSvg", sample("map/figures/map.svg"), "diff map/figures/map.svg {} --json -"},
+      {"DiffOfPdf", sample("map/figures/map.pdf"), "diff map/figures/map.pdf {} --json -"},
+      {"DiffOfFigure", sample("map/figures/map.figure.json"),
+       "diff map/figures/map.figure.json {} --json -"},
+      {"DiffOfMap", sample("map/map.json"), "diff map/map.json {} --json -"},
+      {"DiffOfSlam", sample("slam/slam.json"), "diff slam/slam.json {} --json -"},
+      {"ValidateWideCsv", [] { return wide_table(); }, "validate {} --json"},
+      {"ValidateLongCsv", long_table, "validate {} --json"},
+      {"ValidateSightings", looks_csv, "validate {} --json"},
+      {"ValidateAnchors", anchors, "validate {} --json"},
+      {"ValidateMat", sample("log.mat"), "validate {} --json"},
+      {"ValidateRanges", sample("set/ranges.csv"), "validate {} --json"},
+      {"ValidateMap", sample("map/map.json"), "validate {} --json"},
+      {"ValidateMapCsv", sample("map/map.csv"), "validate {} --json"},
+      {"ValidateExperiment", data("experiments/small.json"), "validate {} --json"},
+      {"ValidateTimings", data("study/timings.jsonl"), "validate {} --json"},
+      {"ValidateFigure", sample("map/figures/map.figure.json"), "validate {} --json"}};
+  return all;
+}
+
+class InputReader : public ::testing::TestWithParam<std::size_t> {
+ protected:
+  InputReader() : bytes_(reader().bytes()) {
+    for (const auto& entry : fs::directory_iterator(samples().path()))
+      fs::create_symlink(entry.path(), folder_ / entry.path().filename().string());
+  }
+  const Reader& reader() const { return readers()[GetParam()]; }
+
+  Outcome run(const std::string& before, const std::string& input, double seconds = 60.0) const {
+    fs::remove_all(folder_ / "out");
+    return shell(folder_.path(),
+                 fmt::format("{} $MAPPROOF {}", before,
+                             fmt::format(fmt::runtime(reader().arguments), input)),
+                 seconds);
+  }
+
+  /// What has to be equal of a run.
+  std::string result(const Outcome& outcome) const {
+    std::string all = fmt::format("exit code {}\n", outcome.exit_code);
+    for (const std::string& file : reader().written) all += read_file(folder_ / ("out/" + file));
+    if (!reader().written.empty()) return all;
+    json said = json::parse(outcome.out);
+    for (const char* list : {"files", "items"})
+      for (json& item : said[list])
+        for (const char* key : {"path", "id", "baseline", "current", "pictures"}) item.erase(key);
+    return all + said["files"].dump(1) + said["items"].dump(1);
+  }
+
+  std::string bytes_;
+  TemporaryFolder folder_;
+};
+
+TEST_P(InputReader, GivesTheSameOfEqualBytesHoweverTheyCome) {
+  folder_.file("f", bytes_);
+  folder_.file("f.gz", gzipped(bytes_));
+  folder_.file("f.xz", xzipped(bytes_));
+  const Outcome named = run("", "f");
+  EXPECT_LT(named.exit_code, 2) << named.error;
+  const std::string expected = result(named);
+  for (const Way& way : ways()) {
+    const Outcome outcome = run(way.before, way.input);
+    EXPECT_EQ(outcome.exit_code, named.exit_code) << way.name << ": " << outcome.error;
+    if (outcome.exit_code < 2) {
+      EXPECT_TRUE(result(outcome) == expected) << way.name << ": " << outcome.out;
+    }
+  }
+}
+
+TEST_P(InputReader, NeverWaitsForWhatHasNoEnd) {
+  ASSERT_EQ(::mkfifo((folder_ / "f").c_str(), 0600), 0);
+  for (const std::string& input : {std::string("f"), std::string("/dev/zero"),
+                                   std::string("/dev/tty"), std::string("- < /dev/zero")}) {
+    const Outcome outcome = run("", input, 5.0);
+    const std::string said = outcome.error + outcome.out;
+    EXPECT_GT(outcome.exit_code, 0) << input;
+    EXPECT_LT(outcome.exit_code, 3) << input << said;
+    EXPECT_TRUE(said.find("is a pipe, a file was expected") != std::string::npos ||
+                said.find("is a device, a file was expected") != std::string::npos)
+        << input << ": " << said;
+    if (!said.starts_with('{')) {
+      EXPECT_EQ(std::ranges::count(said, '\n'), 1) << said;
+    }
+    EXPECT_FALSE(fs::exists(folder_ / "out")) << input;
+  }
+}
+
+TEST_P(InputReader, SaysThatAPackedInputIsCutOff) {
+  for (const std::string& packed : {gzipped(bytes_), xzipped(bytes_)}) {
+    folder_.file("f", packed.substr(0, packed.size() - 3));
+    for (const Way& way : {Way{"Name", "", "f"}, ways().front()}) {
+      const Outcome outcome = run(way.before, way.input);
+      const std::string said = outcome.error + outcome.out;
+      EXPECT_GT(outcome.exit_code, 0) << said;
+      EXPECT_LT(outcome.exit_code, 3) << said;
+      EXPECT_NE(said.find("'ed file is cut off"), std::string::npos) << said;
+      EXPECT_FALSE(fs::exists(folder_ / "out"));
+    }
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Streams, InputReader, ::testing::Range(std::size_t{0}, readers().size()),
+                         [](const auto& test) { return readers()[test.param].name; });
+
+/// A refusal by one line on standard error.
+void expect_refused(const Outcome& outcome, const std::string& words) {
+  EXPECT_EQ(outcome.exit_code, 2) << outcome.error;
+  EXPECT_NE(outcome.error.find(words), std::string::npos) << outcome.error;
+  EXPECT_EQ(std::ranges::count(outcome.error, '\n'), 1) << outcome.error;
+}
+
+TEST(Streams, AStreamIsNotGivenTwice) {
+  const TemporaryFolder folder;
+  folder.file("seen.csv", wide_table(50));
+  folder.file("anchors.csv", kAnchors);
+  for (const char* rest :
+       {"map - --kind bearing --anchors - --out out", "slam - --truth - --out out",
+        "map - --kind bearing --with - --with-kind range --out out", "validate - -", "diff - -"})
+    expect_refused(shell(folder.path(), fmt::format("cat seen.csv | $MAPPROOF {}", rest)),
+                   "standard input is given twice");
+  expect_refused(shell(folder.path(), "cat seen.csv | $MAPPROOF validate - /dev/stdin"),
+                 "standard input and /dev/stdin are one stream");
+  expect_refused(shell(folder.path(), "$MAPPROOF diff /dev/fd/7 /dev/fd/7 7< <(cat seen.csv)"),
+                 "/dev/fd/7 is given twice");
+  EXPECT_FALSE(fs::exists(folder / "out"));
+  // A file may be: it is opened anew.
+  EXPECT_EQ(shell(folder.path(),
+                  "$MAPPROOF validate seen.csv seen.csv /dev/stdin /dev/stdin "
+                  "< anchors.csv")
+                .exit_code,
+            0);
+  EXPECT_EQ(shell(folder.path(),
+                  "$MAPPROOF map <(cat seen.csv) --kind bearing --anchors "
+                  "<(cat anchors.csv) --truth - --out out < anchors.csv")
+                .exit_code,
+            0);
+}
+
+TEST(Streams, AFolderIsNotReadFromStandardInput) {
+  const TemporaryFolder folder;
+  folder.file("seen.csv", wide_table(50));
+  for (const char* rest :
+       {"report -", "render -", "history - --list", "nightly yairi2007 --store -",
+        "check yairi2007 --baseline -", "approve - out", "approve base -",
+        "map seen.csv --kind bearing --out -", "run yairi2007 --out -"}) {
+    const Outcome outcome = shell(folder.path(), fmt::format("$MAPPROOF {} < seen.csv", rest), 5.0);
+    EXPECT_EQ(outcome.exit_code, 2) << rest;
+    EXPECT_NE(outcome.error.find("standard input is no folder"), std::string::npos)
+        << rest << ": " << outcome.error;
+  }
+  expect_refused(shell(folder.path(), "cat seen.csv | $MAPPROOF diff - ."), "not to be compared");
+}
+
+TEST(Streams, PipesAndDevicesWithinFoldersAreNamedAtOnce) {
+  const std::string data = std::string(MAPPROOF_TEST_DATA);
+  for (const char* name : {"Barcodes.dat", "Robot1_Measurement.dat", "Landmark_Groundtruth.dat"}) {
+    const TemporaryFolder folder;
+    fs::copy(data + "/mrclam", folder / "set");
+    fs::remove(folder / "set" / name);
+    ASSERT_EQ(::mkfifo((folder / "set" / name).c_str(), 0600), 0);
+    for (const char* rest :
+         {"map set --out out", "validate set", "map set --kind range-bearing --out out"}) {
+      const Outcome outcome = shell(folder.path(), fmt::format("$MAPPROOF {}", rest), 5.0);
+      EXPECT_GT(outcome.exit_code, 0);
+      EXPECT_LT(outcome.exit_code, 3) << rest;
+      EXPECT_NE((outcome.error + outcome.out).find(std::string(name) + ": is a pipe"),
+                std::string::npos)
+          << outcome.error << outcome.out;
+    }
+  }
+  for (const char* name : {"ranges.csv", "odometry.csv", "groundtruth.csv", "landmarks.csv"}) {
+    const TemporaryFolder folder;
+    csv_folder(folder, sample_log());
+    fs::remove(folder / "set" / name);
+    fs::create_symlink("/dev/zero", folder / "set" / name);
+    for (const char* rest :
+         {"slam set --out out", "slam set/ranges.csv --out out", "validate set"}) {
+      const Outcome outcome = shell(folder.path(), fmt::format("$MAPPROOF {}", rest), 5.0);
+      EXPECT_GT(outcome.exit_code, 0);
+      EXPECT_LT(outcome.exit_code, 3) << rest;
+      EXPECT_NE((outcome.error + outcome.out).find(std::string(name) + ": is a device"),
+                std::string::npos)
+          << outcome.error << outcome.out;
+    }
+  }
+}
+
+TEST(Streams, APipeInPlaceOfAHistoryIsNamedAtOnce) {
+  const TemporaryFolder folder;
+  ASSERT_EQ(::mkfifo((folder / "history.sqlite").c_str(), 0600), 0);
+  for (const char* rest : {"history .", "nightly yairi2007 --profile quick --store ."})
+    expect_refused(shell(folder.path(), fmt::format("$MAPPROOF {}", rest), 5.0),
+                   "history.sqlite: is a pipe, a file was expected");
+}
+
+TEST(Streams, AFollowedPipeThatNobodyWritesToCanBeStopped) {
+  const TemporaryFolder folder;
+  ASSERT_EQ(::mkfifo((folder / "f").c_str(), 0600), 0);
+  const Outcome outcome =
+      shell(folder.path(),
+            "timeout -s INT 0.5 $MAPPROOF map f --follow --kind visibility --out out", 10.0);
+  EXPECT_NE(outcome.error.find("f: held no observations"), std::string::npos) << outcome.error;
+}
+
+TEST(Streams, ADiffOfPipesShowsBothOnItsPage) {
+  const TemporaryFolder folder;
+  folder.file("a.png", samples()["map/figures/map.png"]);
+  ASSERT_EQ(shell(samples().path(),
+                  fmt::format("$MAPPROOF map wide.csv --kind bearing --method lpca --out {}",
+                              (folder / "other").string()))
+                .exit_code,
+            0);
+  const Outcome outcome = shell(folder.path(),
+                                "cat a.png | $MAPPROOF diff - <(cat other/figures/map.png) "
+                                "--out diff.html");
+  EXPECT_EQ(outcome.exit_code, 1) << outcome.error;
+  const std::string page = read_file(folder / "diff.html");
+  const std::string both = page.substr(page.find("data:image/png") + 1);
+  EXPECT_NE(both.find("data:image/png"), std::string::npos);
+}
+
+TEST(Streams, AnExperimentMayComeByAPipe) {
+  const TemporaryFolder folder;
+  fs::copy(std::string(MAPPROOF_TEST_DATA) + "/experiments/small.json", folder / "e.json");
+  EXPECT_EQ(shell(folder.path(), "$MAPPROOF run e.json --out a").exit_code, 0);
+  EXPECT_EQ(shell(folder.path(), "gzip < e.json | $MAPPROOF run - --out b").exit_code, 0);
+  EXPECT_EQ(contents(folder / "a/runs"), contents(folder / "b/runs"));
+}
+
+}  // namespace
+}  // namespace mapproof::test

@@ -1,0 +1,194 @@
+// A library for LD_PRELOAD that lets calls of a program fail, or ends the program at them.
+//
+//   MAPPROOF_FAULT        rules, comma between: KIND:FIRST-LAST:WHAT. The calls FIRST to LAST of the
+//                         kind, counted from 1 over all threads, fail or kill. LAST may be left out.
+//   MAPPROOF_FAULT_IN     the name of the program that it is for; missing: of all.
+//   MAPPROOF_FAULT_COUNT  a file that gets the number of calls of each kind at the end.
+
+#include <fcntl.h>
+#include <sys/mman.h>
+#include <sys/stat.h>
+#include <sys/syscall.h>
+#include <unistd.h>
+
+#include <array>
+#include <atomic>
+#include <cerrno>
+#include <climits>
+#include <csignal>
+#include <cstdarg>
+#include <cstdint>
+#include <cstdio>
+#include <cstdlib>
+#include <cstring>
+
+namespace {
+
+enum class Kind : std::size_t {
+  kAlloc,     ///< Memory of at least 64 KiB.
+  kDisk,      ///< What changes a file system.
+  kExchange,  ///< renameat2, which some file systems do not know.
+};
+
+struct Rule {
+  const char* name;
+  int error;
+  long first = 0, last = -1;
+  bool kills = false;
+  std::atomic<long> calls = 0;
+};
+
+std::array<Rule, 3> rules{{{"alloc", ENOMEM}, {"disk", EIO}, {"exchange", EINVAL}}};
+std::atomic<bool> is_on = false;
+const char* counts = nullptr;  // Programs may clear their environment.
+
+/// Counts a call. @return Whether it has to fail; errno is set then.
+bool fails(Kind kind) {
+  if (!is_on) return false;
+  Rule& rule = rules[static_cast<std::size_t>(kind)];
+  const long call = ++rule.calls;
+  if (call < rule.first || call > rule.last) return false;
+  if (rule.kills) ::syscall(SYS_kill, ::getpid(), SIGKILL);
+  errno = rule.error;
+  return true;
+}
+
+bool fails(std::size_t bytes) { return bytes >= std::size_t{1} << 16 && fails(Kind::kAlloc); }
+
+void read_rule(const char* text) {
+  std::array<char, 32> name{}, what{};
+  long first = 0, last = 0;
+  const bool open = std::sscanf(text, "%31[a-z]:%ld-:%31[a-z]", name.data(), &first, what.data()) == 3;
+  if (!open && std::sscanf(text, "%31[a-z]:%ld-%ld:%31[a-z]", name.data(), &first, &last,
+                           what.data()) != 4)
+    std::abort();
+  for (Rule& rule : rules)
+    if (std::strcmp(rule.name, name.data()) == 0) {
+      rule.first = first;
+      rule.last = open ? LONG_MAX : last;
+      rule.kills = std::strcmp(what.data(), "kill") == 0;
+    }
+}
+
+__attribute__((constructor)) void read_rules() {
+  const char* program = std::getenv("MAPPROOF_FAULT_IN");
+  if (program != nullptr && std::strcmp(program, program_invocation_short_name) != 0) return;
+  for (const char* rule = std::getenv("MAPPROOF_FAULT"); rule != nullptr && *rule != '\0';) {
+    read_rule(rule);
+    rule = std::strchr(rule, ',');
+    if (rule != nullptr) ++rule;
+  }
+  counts = std::getenv("MAPPROOF_FAULT_COUNT");
+  is_on = true;
+}
+
+__attribute__((destructor)) void write_counts() {
+  if (!is_on.exchange(false) || counts == nullptr) return;
+  const int file = ::open(counts, O_WRONLY | O_CREAT | O_TRUNC, 0644);
+  for (const Rule& rule : rules) ::dprintf(file, "%s %ld\n", rule.name, rule.calls.load());
+  ::close(file);
+}
+
+long changing(long number, long a, long b, long c, long d = 0, long e = 0) {
+  return fails(Kind::kDisk) ? -1 : ::syscall(number, a, b, c, d, e);
+}
+
+long at(const char* path) { return reinterpret_cast<long>(path); }
+
+int opened(int folder, const char* path, int flags, mode_t mode) {
+  const bool changes = (flags & (O_CREAT | O_TRUNC)) != 0;
+  if (changes && fails(Kind::kDisk)) return -1;
+  return static_cast<int>(::syscall(SYS_openat, folder, path, flags, mode));
+}
+
+mode_t mode_in(int flags, std::va_list more) {
+  return (flags & (O_CREAT | O_TMPFILE)) != 0 ? va_arg(more, mode_t) : 0;
+}
+
+}  // namespace
+
+extern "C" {
+
+void* __libc_malloc(std::size_t);
+void* __libc_calloc(std::size_t, std::size_t);
+void* __libc_realloc(void*, std::size_t);
+void* __libc_memalign(std::size_t, std::size_t);
+
+void* malloc(std::size_t bytes) { return fails(bytes) ? nullptr : __libc_malloc(bytes); }
+void* calloc(std::size_t count, std::size_t bytes) {
+  return fails(count * bytes) ? nullptr : __libc_calloc(count, bytes);
+}
+void* realloc(void* old, std::size_t bytes) {
+  return fails(bytes) ? nullptr : __libc_realloc(old, bytes);
+}
+void* memalign(std::size_t alignment, std::size_t bytes) {
+  return fails(bytes) ? nullptr : __libc_memalign(alignment, bytes);
+}
+void* aligned_alloc(std::size_t alignment, std::size_t bytes) { return memalign(alignment, bytes); }
+int posix_memalign(void** out, std::size_t alignment, std::size_t bytes) {
+  *out = memalign(alignment, bytes);
+  return *out == nullptr ? ENOMEM : 0;
+}
+void* mmap(void* address, std::size_t bytes, int access, int flags, int file, off_t from) {
+  if (fails(bytes)) return MAP_FAILED;
+  return reinterpret_cast<void*>(::syscall(SYS_mmap, address, bytes, access, flags, file, from));
+}
+void* mmap64(void* address, std::size_t bytes, int access, int flags, int file, off_t from) {
+  return mmap(address, bytes, access, flags, file, from);
+}
+
+int open(const char* path, int flags, ...) {
+  std::va_list more;
+  va_start(more, flags);
+  const int file = opened(AT_FDCWD, path, flags, mode_in(flags, more));
+  va_end(more);
+  return file;
+}
+int openat(int folder, const char* path, int flags, ...) {
+  std::va_list more;
+  va_start(more, flags);
+  const int file = opened(folder, path, flags, mode_in(flags, more));
+  va_end(more);
+  return file;
+}
+int open64(const char*, int, ...) __attribute__((alias("open")));
+int openat64(int, const char*, int, ...) __attribute__((alias("openat")));
+
+ssize_t write(int file, const void* bytes, std::size_t count) {
+  if (file > STDERR_FILENO && fails(Kind::kDisk)) return -1;
+  return ::syscall(SYS_write, file, bytes, count);
+}
+int rename(const char* from, const char* to) {
+  return static_cast<int>(changing(SYS_renameat2, AT_FDCWD, at(from), AT_FDCWD, at(to)));
+}
+int renameat2(int from_folder, const char* from, int to_folder, const char* to,
+              unsigned flags) noexcept {
+  if (fails(Kind::kExchange)) return -1;
+  return static_cast<int>(changing(SYS_renameat2, from_folder, at(from), to_folder, at(to), flags));
+}
+int linkat(int from_folder, const char* from, int to_folder, const char* to, int flags) noexcept {
+  return static_cast<int>(changing(SYS_linkat, from_folder, at(from), to_folder, at(to), flags));
+}
+int symlink(const char* target, const char* path) noexcept {
+  return static_cast<int>(changing(SYS_symlinkat, at(target), AT_FDCWD, at(path)));
+}
+int unlink(const char* path) noexcept {
+  return static_cast<int>(changing(SYS_unlinkat, AT_FDCWD, at(path), 0));
+}
+int unlinkat(int folder, const char* path, int flags) noexcept {
+  return static_cast<int>(changing(SYS_unlinkat, folder, at(path), flags));
+}
+int mkdir(const char* path, mode_t mode) noexcept {
+  return static_cast<int>(changing(SYS_mkdirat, AT_FDCWD, at(path), mode));
+}
+int chmod(const char* path, mode_t mode) noexcept {
+  return static_cast<int>(changing(SYS_fchmodat, AT_FDCWD, at(path), mode));
+}
+int fchmod(int file, mode_t mode) noexcept {
+  return static_cast<int>(changing(SYS_fchmod, file, mode, 0));
+}
+int ftruncate(int file, off_t bytes) noexcept {
+  return static_cast<int>(changing(SYS_ftruncate, file, bytes, 0));
+}
+
+}  // extern "C"
