@@ -17,6 +17,7 @@
 #include "core/base/input_file.hpp"
 #include "core/records/table_reader.hpp"
 #include "render/image/png_check.hpp"
+#include "reports/diff/xml_place.hpp"
 
 namespace mapproof {
 namespace {
@@ -32,8 +33,7 @@ void check_svg(const std::string& bytes, const std::string& source) {
     return;
   if (XML_GetErrorCode(parser.get()) == XML_ERROR_NO_MEMORY) throw std::bad_alloc();
   throw IoError(source,
-                fmt::format("line {}, column {}", XML_GetCurrentLineNumber(parser.get()),
-                            XML_GetCurrentColumnNumber(parser.get()) + 1),
+                fmt::format("line {}, column {}", line_of(parser.get()), column_of(parser.get())),
                 XML_ErrorString(XML_GetErrorCode(parser.get())));
 }
 
@@ -114,7 +114,8 @@ const StagedOutput* output_named(const fs::path& path) {
 
 /// By its name; where that says nothing, as of a stream, by its first bytes.
 const StagedOutput* output_of(ByteSource& source) {
-  if (source.path().has_extension()) return output_named(unpacked_name(source.path()));
+  const fs::path name = unpacked_name(source.path());
+  if (name.has_extension()) return output_named(name);
   const std::string_view bytes = source.peek();
   const auto begins = [&](std::string_view start) {
     return !start.empty() && bytes.starts_with(start);

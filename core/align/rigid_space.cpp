@@ -14,6 +14,7 @@ SpaceMotion fit_space_motion(const SpacePoints& from, const SpacePoints& to, boo
   const Eigen::Matrix3d moments =
       (to.rowwise() - to_center).transpose() * (from.rowwise() - from_center);
   const Eigen::JacobiSVD<Eigen::Matrix3d> svd(moments, Eigen::ComputeFullU | Eigen::ComputeFullV);
+  if (svd.info() != Eigen::Success) throw InvalidInput("an alignment needs points whose squares are finite");
   // The last axis is turned where only a mirror would fit better.
   Eigen::Vector3d signs = Eigen::Vector3d::Ones();
   const double determinant = (svd.matrixU() * svd.matrixV().transpose()).determinant();

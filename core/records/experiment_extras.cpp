@@ -41,7 +41,7 @@ Variation read_variation(const Experiment& experiment, const JsonCursor& object)
   object.allow_only({"id", "sensor", "quantity", "levels", "step", "placement", "methods"});
   Variation variation;
   variation.id = read_id(object.at("id"));
-  const SensorStudy& study = read_sensor_of(experiment, object.at("sensor"));
+  const SensorStudy study = read_sensor_of(experiment, object.at("sensor"));
   variation.sensor = study.sensor.sensor;
   variation.quantity = read_quantity(object.at("quantity"));
   variation.levels = read_ascending<double>(object.at("levels"), [&](const JsonCursor& item) {

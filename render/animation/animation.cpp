@@ -63,6 +63,12 @@ std::string content_of(const Descriptor& file, const std::filesystem::path& prog
   return bytes;
 }
 
+/// The program's own words stand last: FFmpeg says what it found before.
+std::string last_line(std::string text) {
+  while (text.ends_with('\n')) text.pop_back();
+  return text.substr(text.rfind('\n') + 1);
+}
+
 /// Runs the program on an input and gives its output.
 std::string run(const std::filesystem::path& program, const Descriptor& input) {
   if (::access(program.c_str(), X_OK) != 0 && !MAPPROOF_HAS_ANIMATION)
@@ -87,8 +93,7 @@ std::string run(const std::filesystem::path& program, const Descriptor& input) {
   int status = 0;
   while (::waitpid(process, &status, 0) < 0 && errno == EINTR) continue;
   if (WIFEXITED(status) && WEXITSTATUS(status) == 0) return content_of(output, program);
-  const std::string all = content_of(messages, program);
-  const std::string said = all.substr(0, all.find('\n'));
+  const std::string said = last_line(content_of(messages, program));
   if (said == kOutOfMemory) throw std::bad_alloc();
   const std::string end = WIFSIGNALED(status)
                               ? fmt::format("it was ended by signal {}", WTERMSIG(status))

@@ -335,7 +335,11 @@ Outline glyph_outline(std::uint32_t glyph) {
     return made;
   }();
   Outline path;
+#if HB_VERSION_ATLEAST(7, 0, 0)
+  hb_font_draw_glyph(shared_font(), glyph, pen, &path);
+#else
   hb_font_get_glyph_shape(shared_font(), glyph, pen, &path);
+#endif
   return path;
 }
 

@@ -13,6 +13,7 @@
 #include <fmt/format.h>
 
 #include "core/base/errors.hpp"
+#include "reports/diff/xml_place.hpp"
 
 namespace mapproof {
 namespace {
@@ -114,7 +115,7 @@ class Builder {
 
   void refuse(const std::string& why) {
     if (!refusal.empty()) return;
-    refusal = fmt::format("line {}: {}", XML_GetCurrentLineNumber(parser_), why);
+    refusal = fmt::format("line {}: {}", line_of(parser_), why);
     XML_StopParser(parser_, XML_FALSE);
   }
 
@@ -260,7 +261,7 @@ SvgTree parse_svg(std::string_view bytes) {
   if (!builder.refusal.empty()) throw InvalidInput(builder.refusal);
   if (XML_GetErrorCode(parser.get()) == XML_ERROR_NO_MEMORY) throw std::bad_alloc();
   if (status != XML_STATUS_OK)
-    throw InvalidInput(fmt::format("line {}: {}", XML_GetCurrentLineNumber(parser.get()),
+    throw InvalidInput(fmt::format("line {}: {}", line_of(parser.get()),
                                    XML_ErrorString(XML_GetErrorCode(parser.get()))));
   return std::move(builder.tree);
 }

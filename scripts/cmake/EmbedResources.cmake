@@ -23,7 +23,7 @@ function(mapproof_embed_resources target function root)
       "      Resource{\"${name}\", {${symbol}_begin, ${symbol}_end}},\n")
     math(EXPR index "${index} + 1")
   endforeach()
-  string(APPEND asm_text "  .section .note.GNU-stack,\"\",@progbits\n")
+  string(APPEND asm_text "  .section .note.GNU-stack,\"\",%progbits\n")
   file(CONFIGURE OUTPUT "${assembly}" CONTENT "${asm_text}" @ONLY)
   file(CONFIGURE OUTPUT "${table}" CONTENT "#include <array>\n#include <span>
 #include \"core/base/resource.hpp\"\n

@@ -15,15 +15,14 @@ struct MemoryCase {
   /// With the folder; its outputs go below it too.
   std::function<std::vector<std::string>(const std::string& folder)> command;
   int exit_code = 0;  ///< Without faults.
-  long first = 1, stride = 1;  ///< Which allocations are a fair sample.
 };
 
 const std::vector<MemoryCase>& memory_cases();
 
-/// Lets allocations of at least 64 KiB fail, the `first`, and then every `stride`-th, each in a run
-/// of its own, on one thread and on two. Each run must end with exit code 3 and one line that says
+/// Lets one allocation of at least 64 KiB fail in a run, on one thread and on two: every one of them,
+/// or `at_most` that lie evenly among them. Each run must end with exit code 3 and one line that says
 /// so, or as if nothing had happened; all files it leaves are whole; the next run's bytes are as
 /// ever.
-void expect_memory_faults_told(const MemoryCase& tried, long first, long stride);
+void expect_memory_faults_told(const MemoryCase& tried, long at_most);
 
 }  // namespace mapproof::test

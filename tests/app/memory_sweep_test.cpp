@@ -1,3 +1,5 @@
+#include <limits>
+
 #include <gtest/gtest.h>
 
 #include "tests/app/memory_faults.hpp"
@@ -8,7 +10,7 @@ namespace {
 class EveryAllocation : public ::testing::TestWithParam<MemoryCase> {};
 
 TEST_P(EveryAllocation, ThatFailsIsOneLineAndLeavesNoWrongFile) {
-  expect_memory_faults_told(GetParam(), 1, 1);
+  expect_memory_faults_told(GetParam(), std::numeric_limits<long>::max());
 }
 
 INSTANTIATE_TEST_SUITE_P(OneByOne, EveryAllocation, ::testing::ValuesIn(memory_cases()),

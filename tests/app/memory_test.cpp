@@ -13,7 +13,7 @@ namespace {
 class OutOfMemory : public ::testing::TestWithParam<MemoryCase> {};
 
 TEST_P(OutOfMemory, IsOneLineAndLeavesNoWrongFile) {
-  expect_memory_faults_told(GetParam(), GetParam().first, GetParam().stride);
+  expect_memory_faults_told(GetParam(), 3);
 }
 
 INSTANTIATE_TEST_SUITE_P(SomeAllocations, OutOfMemory, ::testing::ValuesIn(memory_cases()),

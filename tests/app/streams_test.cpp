@@ -212,7 +212,11 @@ const std::vector<Reader>& readers() {
       {"ValidateMapCsv", sample("map/map.csv"), "validate {} --json"},
       {"ValidateExperiment", data("experiments/small.json"), "validate {} --json"},
       {"ValidateTimings", data("study/timings.jsonl"), "validate {} --json"},
-      {"ValidateFigure", sample("map/figures/map.figure.json"), "validate {} --json"}};
+      {"ValidateFigure", sample("map/figures/map.figure.json"), "validate {} --json"},
+      {"ValidateSvg", sample("map/figures/map.svg"), "validate {} --json"},
+      {"ValidatePng", sample("map/figures/map.png"), "validate {} --json"},
+      {"ValidatePdf", sample("map/figures/map.pdf"), "validate {} --json"},
+      {"ValidateReport", sample("map/report.html"), "validate {} --json"}};
   return all;
 }
 

@@ -22,9 +22,9 @@ Figure small() {
   return figure;
 }
 
-std::string message_of(const std::string& json) {
+std::string message_of(const std::string& text) {
   try {
-    figure_from_json(json, "f.json");
+    figure_from_json(text, "f.json");
   } catch (const IoError& error) {
     return error.what();
   }
@@ -84,9 +84,9 @@ TEST(Figure, RefusesSizesThatCannotBeDrawn) {
 
 TEST(FigureJson, RoundTripsEveryFigure) {
   for (const Figure& figure : sample_figures()) {
-    const std::string json = figure_to_json(figure);
-    const Figure back = figure_from_json(json, "figure.json");
-    EXPECT_EQ(figure_to_json(back), json) << figure.id;
+    const std::string text = figure_to_json(figure);
+    const Figure back = figure_from_json(text, "figure.json");
+    EXPECT_EQ(figure_to_json(back), text) << figure.id;
     EXPECT_EQ(back.id, figure.id);
     EXPECT_EQ(back.panels.size(), figure.panels.size());
   }
@@ -107,23 +107,23 @@ TEST(FigureJson, ReadsNullAsNotANumber) {
 }
 
 TEST(FigureJson, NamesThePlaceOfWhatItCannotRead) {
-  const std::string json = figure_to_json(small());
+  const std::string text = figure_to_json(small());
   EXPECT_EQ(message_of("{"),
             "f.json: line 1, column 2: the file is truncated: it ends within a value");
   EXPECT_EQ(message_of("[1e999]"),
             "f.json: line 1, column 6: the number \"1e999\" is beyond what a double holds");
   EXPECT_TRUE(message_of("[]").starts_with("f.json: /: says not what it is"));
-  EXPECT_EQ(message_of(replaced(json, "\"alt\"", "\"other\"")), "f.json: /: unknown key \"other\"");
-  EXPECT_EQ(message_of(replaced(json, "mapproof.figure", "other")),
+  EXPECT_EQ(message_of(replaced(text, "\"alt\"", "\"other\"")), "f.json: /: unknown key \"other\"");
+  EXPECT_EQ(message_of(replaced(text, "mapproof.figure", "other")),
             "f.json: /schema/name: expected \"mapproof.figure\", got \"other\"");
   EXPECT_EQ(
-      message_of(replaced(json, "\"version\": 1", "\"version\": 2")),
+      message_of(replaced(text, "\"version\": 1", "\"version\": 2")),
       "f.json: /schema/version: version 2 is not known to this program, which reads version 1");
-  EXPECT_EQ(message_of(replaced(json, "\"polyline\"", "\"pie\"")),
+  EXPECT_EQ(message_of(replaced(text, "\"polyline\"", "\"pie\"")),
             "f.json: /panels/0/layers/0/kind: the kind \"pie\" is unknown");
-  EXPECT_EQ(message_of(replaced(json, "\"ink\": \"series1\"", "\"ink\": 3")),
+  EXPECT_EQ(message_of(replaced(text, "\"ink\": \"series1\"", "\"ink\": 3")),
             "f.json: /panels/0/layers/0/ink: expected a string, got 3");
-  EXPECT_EQ(message_of(replaced(json, "\"id\": \"small\"", "\"id\": \"../x\"")).substr(0, 12),
+  EXPECT_EQ(message_of(replaced(text, "\"id\": \"small\"", "\"id\": \"../x\"")).substr(0, 12),
             "f.json: /: i");
 }
 

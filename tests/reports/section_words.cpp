@@ -4,11 +4,11 @@
 
 namespace mapproof::test {
 
-const Table& table_named(const Section& section, const std::string& id) {
+const Table& table_named(const Section& section, std::string_view id) {
   for (const Block& block : section.blocks)
     if (const auto* table = std::get_if<Table>(&block); table != nullptr && table->id == id)
       return *table;
-  throw std::runtime_error("no table " + id);
+  throw std::runtime_error("no table " + std::string(id));
 }
 
 std::string words(const Section& section) {

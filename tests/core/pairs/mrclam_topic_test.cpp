@@ -80,7 +80,7 @@ TEST(MrclamTopic, PairsOfPerfectRobotsGiveThePerfectMap) {
   const TrialDesign design = kMrclamTopic.design(ordered);
   ASSERT_EQ(part.trials.size(), design.series.size());
   for (const Trial& one : part.trials) EXPECT_EQ(one.values.size(), design.quantities.size());
-  const Trial& pairs = trial(part, "pairs");
+  const Trial pairs = trial(part, "pairs");
   EXPECT_LT(pairs.values[0], 1e-8);
   EXPECT_LT(pairs.values[3], 1e-8);
   EXPECT_EQ(pairs.values[5], 9.0);

@@ -32,7 +32,7 @@ struct Reader {
   std::function<std::string(ByteSource&)> read;
 };
 
-std::ostream& operator<<(std::ostream& out, const Reader& reader) { return out << reader.name; }
+[[maybe_unused]] std::ostream& operator<<(std::ostream& out, const Reader& reader) { return out << reader.name; }
 
 std::string text_of(const Eigen::MatrixXd& values) {
   return fmt::format("{}", fmt::join(values.reshaped().eval(), " "));

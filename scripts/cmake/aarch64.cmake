@@ -1,0 +1,20 @@
+# Cross-compiles for aarch64 with the packages that MAPPROOF_SYSROOT holds, and runs the programs under
+# qemu. scripts/check aarch64 makes the folder.
+set(CMAKE_SYSTEM_NAME Linux)
+set(CMAKE_SYSTEM_PROCESSOR aarch64)
+set(CMAKE_LIBRARY_ARCHITECTURE aarch64-linux-gnu)
+set(CMAKE_C_COMPILER aarch64-linux-gnu-gcc)
+set(CMAKE_CXX_COMPILER aarch64-linux-gnu-g++)
+
+list(APPEND CMAKE_TRY_COMPILE_PLATFORM_VARIABLES MAPPROOF_SYSROOT)
+set(CMAKE_SYSROOT "${MAPPROOF_SYSROOT}")
+set(CMAKE_FIND_ROOT_PATH_MODE_PROGRAM NEVER)
+set(CMAKE_FIND_ROOT_PATH_MODE_INCLUDE ONLY)
+set(CMAKE_FIND_ROOT_PATH_MODE_LIBRARY ONLY)
+set(CMAKE_FIND_ROOT_PATH_MODE_PACKAGE ONLY)
+set(ENV{PKG_CONFIG_SYSROOT_DIR} "${MAPPROOF_SYSROOT}")
+set(ENV{PKG_CONFIG_LIBDIR}
+  "${MAPPROOF_SYSROOT}/usr/lib/aarch64-linux-gnu/pkgconfig:${MAPPROOF_SYSROOT}/usr/share/pkgconfig")
+
+find_program(MAPPROOF_QEMU NAMES qemu-aarch64-static qemu-aarch64 REQUIRED)
+set(CMAKE_CROSSCOMPILING_EMULATOR "${MAPPROOF_QEMU};-L;${MAPPROOF_SYSROOT}")
