@@ -12,8 +12,8 @@ void put_slam_errors(nlohmann::ordered_json& result, const SlamRecord& record) {
   for (const TrajectoryError& error : record.errors)
     result["errors"].push_back(
         {{"alignment", name(error.alignment)},
-         {"mean_m", number_or_null(error.mean_m)},
-         {"rmse_m", number_or_null(error.rmse_m)},
+         {"path_mean_m", number_or_null(error.mean_m)},
+         {"path_rmse_m", number_or_null(error.rmse_m)},
          {"landmarks_m", error.landmarks_m ? number_or_null(*error.landmarks_m)
                                            : nlohmann::ordered_json(nullptr)}});
   result["statuses"] = nlohmann::ordered_json::array();

@@ -14,6 +14,7 @@
 #include "app/slam_result.hpp"
 #include "core/base/version.hpp"
 #include "core/experiment/run_experiment.hpp"
+#include "core/records/results_table.hpp"
 #include "core/records/slam_store.hpp"
 #include "core/records/study_store.hpp"
 #include "reports/sections/method_summary.hpp"
@@ -63,6 +64,7 @@ void finish(Store& store, const std::filesystem::path& folder, int jobs, const s
                          .jobs = jobs,
                          .seconds = watch.seconds(),
                          .peak_memory_mib = peak_memory_mib()});
+  write_results_table(folder);
   console.detail(fmt::format("{}: solver {}, commit {}, {} jobs, {:.2f} s", folder.string(),
                              solver_digest().substr(0, 12), source_commit(), jobs,
                              watch.seconds()));

@@ -35,6 +35,10 @@ std::string_view nearest_word(std::string_view word, std::span<const std::string
 }
 
 std::string_view likely_word(std::string_view word, std::span<const std::string_view> candidates) {
+  for (const std::string_view candidate : candidates)
+    if (!word.empty() && candidate.size() > word.size() && candidate.starts_with(word) &&
+        candidate[word.size()] == '_')
+      return candidate;
   const std::string_view nearest = nearest_word(word, candidates);
   if (word.size() > kCompared || nearest.empty()) return {};
   const std::size_t allowed = std::max<std::size_t>(1, std::min(word.size(), nearest.size()) / 3);

@@ -16,35 +16,35 @@ namespace mapproof {
 namespace {
 
 /// The experiment's options with one quantity at one level.
-struct Level {
+struct VariedOptions {
   SensorOptions sensor;
   SolverOptions solver;
   int anchors = 0;
 };
 
-Level at_level(const Experiment& experiment, const Variation& variation, double level) {
+VariedOptions at_level(const Experiment& experiment, const Variation& variation, double level) {
   const SensorStudy* study = find_sensor(experiment, variation.sensor);
   if (study == nullptr)
     throw InvalidInput("a variation of a sensor that the experiment does not have");
-  Level options{
+  VariedOptions options{
       .sensor = study->sensor, .solver = experiment.solver, .anchors = experiment.anchors};
-  switch (variation.quantity) {
-    case Quantity::kNoise:
+  switch (variation.factor) {
+    case Factor::kNoise:
       options.sensor.noise = level;
       break;
-    case Quantity::kDropoutShare:
+    case Factor::kDropoutShare:
       options.sensor.dropout_share = level;
       break;
-    case Quantity::kAnchors:
+    case Factor::kAnchors:
       options.anchors = static_cast<int>(level);
       break;
-    case Quantity::kSmacofFall:
+    case Factor::kSmacofFall:
       options.solver.smacof_relative_fall = level;
       break;
-    case Quantity::kSmacofKnnFall:
+    case Factor::kSmacofKnnFall:
       options.solver.smacof_knn_relative_fall = level;
       break;
-    case Quantity::kOnlySeenTogether:
+    case Factor::kOnlySeenTogether:
       options.solver.only_seen_together = level > 0.0;
       break;
   }
@@ -62,7 +62,7 @@ class Varying {
   }
 
   void add_level(double level, std::vector<VariationRecord>& records) {
-    const Level options = at_level(experiment_, variation_, level);
+    const VariedOptions options = at_level(experiment_, variation_, level);
     const std::vector<Eigen::Index> anchors = anchors_of(options);
     prepare(options);
     for (std::size_t i = 0; i < variation_.settings.size(); ++i) {
@@ -77,8 +77,8 @@ class Varying {
   }
 
  private:
-  std::vector<Eigen::Index> anchors_of(const Level& options) const {
-    if (variation_.quantity != Quantity::kAnchors && !variation_.placement) return run_.anchors;
+  std::vector<Eigen::Index> anchors_of(const VariedOptions& options) const {
+    if (variation_.factor != Factor::kAnchors && !variation_.placement) return run_.anchors;
     // A larger number of random anchors holds the smaller one.
     Random random(
         derive_seed(experiment_.seed, {kPlacement, static_cast<std::uint64_t>(run_.id.layout)}));
@@ -87,11 +87,11 @@ class Varying {
   }
 
   /// Observes and embeds anew where the level asks for it.
-  void prepare(const Level& options) {
-    const bool same_history = history_ && variation_.quantity != Quantity::kNoise &&
-                              variation_.quantity != Quantity::kDropoutShare;
+  void prepare(const VariedOptions& options) {
+    const bool same_history = history_ && variation_.factor != Factor::kNoise &&
+                              variation_.factor != Factor::kDropoutShare;
     if (!same_history) history_ = observed(options.sensor);
-    if (same_history && variation_.quantity == Quantity::kAnchors) return;
+    if (same_history && variation_.factor == Factor::kAnchors) return;
     HistoryEmbedder embedder(*history_, variation_.step, embedder_options(options.solver));
     embeddings_.clear();
     for (const MethodSetting& setting : variation_.settings)

@@ -12,16 +12,9 @@
 #include "core/model/experiment.hpp"
 #include "core/model/map_record.hpp"
 #include "core/model/study.hpp"
+#include "core/results/quantity.hpp"
 
 namespace mapproof {
-
-/// One number that trials are judged by.
-struct TrialQuantity {
-  std::string id;     ///< [a-z][a-z0-9_]*, with its unit: "mpe_m".
-  std::string label;  ///< For tables and axes, without the unit: "MPE".
-  std::string unit;   ///< "m", "%"; empty: a count or a ratio.
-  bool lower_is_better = true;
-};
 
 /// One set of conditions with a figure and a table of its own.
 struct TrialSetup {
@@ -52,7 +45,7 @@ struct TrialDesign {
   std::string question;  ///< What is asked and how it is tried, two or three sentences.
   std::vector<TrialSetup> setups;
   std::vector<TrialSeries> series;
-  std::vector<TrialQuantity> quantities;
+  std::vector<Quantity> quantities;  ///< By which trials are judged: study_quantity().
 };
 
 /// What one series came to at one level of one setup. Not every combination has to be tried.

@@ -14,7 +14,7 @@
 namespace mapproof {
 
 /// What a variation changes from one level to the next, everything else being as in the study.
-enum class Quantity {
+enum class Factor {
   kNoise,             ///< SensorOptions::noise.
   kDropoutShare,      ///< SensorOptions::dropout_share.
   kAnchors,           ///< Experiment::anchors.
@@ -23,28 +23,28 @@ enum class Quantity {
   kOnlySeenTogether,  ///< SolverOptions::only_seen_together: 0 or 1.
 };
 
-/// Everything about a quantity that its readers ask.
-struct QuantityInfo {
-  Quantity quantity;
+/// Everything about a factor that its readers ask.
+struct FactorInfo {
+  Factor factor;
   std::string_view name;  ///< In files: "dropout_share".
   bool integer;
   double minimum;  ///< Inclusive.
   double maximum;  ///< Inclusive.
 };
 
-const QuantityInfo& info(Quantity quantity);
+const FactorInfo& info(Factor factor);
 
-/// The quantity of that name; empty if there is none.
-std::optional<Quantity> quantity_named(std::string_view name);
+/// The factor of that name; empty if there is none.
+std::optional<Factor> factor_named(std::string_view name);
 
-/// The names of all quantities, in their order.
-std::vector<std::string_view> quantity_names();
+/// The names of all factors, in their order.
+std::vector<std::string_view> factor_names();
 
-/// A side study: some methods over the levels of one quantity, at one step of every run.
+/// A side study: some methods over the levels of one factor, at one step of every run.
 struct Variation {
   std::string id;  ///< [a-z][a-z0-9-]*, unique in the experiment.
   Sensor sensor = Sensor::kVisibility;
-  Quantity quantity = Quantity::kNoise;
+  Factor factor = Factor::kNoise;
   std::vector<double> levels;  ///< Ascending.
   int step = 0;
   /// Where the anchors stand; empty: as in the experiment.

@@ -20,21 +20,21 @@ const SensorStudy& read_sensor_of(const Experiment& experiment, const JsonCursor
   return *study;
 }
 
-Quantity read_quantity(const JsonCursor& value) {
+Factor read_factor(const JsonCursor& value) {
   const std::string text = value.text();
-  if (const std::optional<Quantity> quantity = quantity_named(text)) return *quantity;
-  value.fail(fmt::format("expected one of {}, got {}", fmt::join(quantity_names(), ", "),
-                         in_quotes(text)));
+  if (const std::optional<Factor> factor = factor_named(text)) return *factor;
+  value.fail(
+      fmt::format("expected one of {}, got {}", fmt::join(factor_names(), ", "), in_quotes(text)));
 }
 
 double read_level(const Variation& variation, const Experiment& experiment,
                   const JsonCursor& value) {
-  const QuantityInfo& quantity = info(variation.quantity);
-  double most = quantity.maximum;
-  if (variation.quantity == Quantity::kNoise && variation.sensor == Sensor::kVisibility) most = 0.5;
-  if (variation.quantity == Quantity::kAnchors) most = experiment.world.landmarks - 1;
-  if (!quantity.integer) return value.number(quantity.minimum, most);
-  return value.integer32(static_cast<int>(quantity.minimum), static_cast<int>(most));
+  const FactorInfo& factor = info(variation.factor);
+  double most = factor.maximum;
+  if (variation.factor == Factor::kNoise && variation.sensor == Sensor::kVisibility) most = 0.5;
+  if (variation.factor == Factor::kAnchors) most = experiment.world.landmarks - 1;
+  if (!factor.integer) return value.number(factor.minimum, most);
+  return value.integer32(static_cast<int>(factor.minimum), static_cast<int>(most));
 }
 
 Variation read_variation(const Experiment& experiment, const JsonCursor& object) {
@@ -43,7 +43,7 @@ Variation read_variation(const Experiment& experiment, const JsonCursor& object)
   variation.id = read_id(object.at("id"));
   const SensorStudy study = read_sensor_of(experiment, object.at("sensor"));
   variation.sensor = study.sensor.sensor;
-  variation.quantity = read_quantity(object.at("quantity"));
+  variation.factor = read_factor(object.at("quantity"));
   variation.levels = read_ascending<double>(object.at("levels"), [&](const JsonCursor& item) {
     return read_level(variation, experiment, item);
   });
@@ -111,7 +111,7 @@ Json variation_value(const Variation& variation) {
   for (const double level : variation.levels) levels.push_back(number_value(level));
   Json value = {{"id", variation.id},
                 {"sensor", name(variation.sensor)},
-                {"quantity", info(variation.quantity).name},
+                {"quantity", info(variation.factor).name},
                 {"levels", std::move(levels)},
                 {"step", variation.step}};
   if (variation.placement) value["placement"] = name(*variation.placement);

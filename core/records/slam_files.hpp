@@ -11,6 +11,7 @@ struct SlamFiles {
 
   std::filesystem::path study() const { return folder / "study.json"; }
   std::filesystem::path timings() const { return folder / "timings.jsonl"; }
+  std::filesystem::path results() const { return folder / "results.csv"; }
   std::filesystem::path runs() const { return folder / "runs"; }
   std::filesystem::path run(const std::string& id) const { return runs() / (id + ".json"); }
   std::filesystem::path paths() const { return folder / "paths"; }

@@ -41,8 +41,8 @@ std::vector<Eigen::Index> read_rows(const JsonCursor& value, Eigen::Index size) 
 
 Json error_value(const TrajectoryError& error) {
   return {{"alignment", name(error.alignment)},
-          {"mean_m", error.mean_m},
-          {"rmse_m", error.rmse_m},
+          {"path_mean_m", error.mean_m},
+          {"path_rmse_m", error.rmse_m},
           {"last_tenth_m", error.last_tenth_m},
           {"best_tenth_m", error.best_tenth_m},
           {"worst_tenth_m", error.worst_tenth_m},
@@ -50,15 +50,15 @@ Json error_value(const TrajectoryError& error) {
 }
 
 TrajectoryError read_error(const JsonCursor& value) {
-  value.allow_only({"alignment", "mean_m", "rmse_m", "last_tenth_m", "best_tenth_m",
+  value.allow_only({"alignment", "path_mean_m", "path_rmse_m", "last_tenth_m", "best_tenth_m",
                     "worst_tenth_m", "landmarks_m"});
   const JsonCursor alignment = value.at("alignment");
   const std::optional<Alignment> known = alignment_named(alignment.text());
   if (!known) alignment.fail("unknown alignment " + in_quotes(alignment.text()));
   const auto metres = [&](const char* key) { return value.at(key).number(0.0, kInfinity); };
   return {.alignment = *known,
-          .mean_m = metres("mean_m"),
-          .rmse_m = metres("rmse_m"),
+          .mean_m = metres("path_mean_m"),
+          .rmse_m = metres("path_rmse_m"),
           .last_tenth_m = metres("last_tenth_m"),
           .best_tenth_m = metres("best_tenth_m"),
           .worst_tenth_m = metres("worst_tenth_m"),

@@ -43,7 +43,7 @@ Json starts_value(const std::vector<RefinementStart>& starts) {
     values.push_back({{"method", info(start.method).name},
                       {"number", start.number},
                       {"cost", optional_value(start.cost)},
-                      {"mean_m", optional_value(start.mean_m)},
+                      {"path_mean_m", optional_value(start.mean_m)},
                       {"iterations", start.iterations},
                       {"converged", start.converged}});
   return values;
@@ -51,11 +51,11 @@ Json starts_value(const std::vector<RefinementStart>& starts) {
 
 RefinementStart read_refinement_start(const JsonCursor& value) {
   constexpr int kMost = std::numeric_limits<int>::max();
-  value.allow_only({"method", "number", "cost", "mean_m", "iterations", "converged"});
+  value.allow_only({"method", "number", "cost", "path_mean_m", "iterations", "converged"});
   return {.method = read_slam_method(value.at("method")),
           .number = value.at("number").integer32(1, kMost),
           .cost = value.at("cost").number_or_null(-kInfinity, kInfinity),
-          .mean_m = read_optional(value.at("mean_m")),
+          .mean_m = read_optional(value.at("path_mean_m")),
           .iterations = value.at("iterations").integer32(0, kMost),
           .converged = value.at("converged").boolean()};
 }
@@ -67,7 +67,7 @@ std::string read_figure(const JsonCursor& value) {
 
 Json point_value(const ConvergencePoint& point) {
   return {{"steps", point.steps},
-          {"observation", mean_value(point.observation)},
+          {"observation_error", mean_value(point.observation)},
           {"landmarks_m", mean_value(point.landmarks_m)},
           {"positions_m", mean_value(point.positions_m)},
           {"sine", mean_value(point.sine)},
@@ -75,9 +75,9 @@ Json point_value(const ConvergencePoint& point) {
 }
 
 ConvergencePoint read_point(const JsonCursor& value) {
-  value.allow_only({"steps", "observation", "landmarks_m", "positions_m", "sine", "bound"});
+  value.allow_only({"steps", "observation_error", "landmarks_m", "positions_m", "sine", "bound"});
   return {.steps = value.at("steps").integer32(1, kMostSteps),
-          .observation = read_mean(value.at("observation")),
+          .observation = read_mean(value.at("observation_error")),
           .landmarks_m = read_mean(value.at("landmarks_m")),
           .positions_m = read_mean(value.at("positions_m")),
           .sine = read_mean(value.at("sine")),

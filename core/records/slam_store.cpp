@@ -77,7 +77,7 @@ SlamStore SlamStore::open(const fs::path& folder, const SlamExperiment& experime
   const SlamFiles& files = state->files;
   state->is_redone = take_up_study(folder, slam_study_json(experiment, provenance), read_slam_head,
                                    {files.runs(), files.paths(), files.curves(), files.histories(),
-                                    files.space(), files.timings()});
+                                    files.space(), files.timings(), files.results()});
   return SlamStore(std::move(state));
 }
 

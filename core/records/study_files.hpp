@@ -15,6 +15,7 @@ struct StudyFiles {
 
   std::filesystem::path study() const { return folder / "study.json"; }
   std::filesystem::path timings() const { return folder / "timings.jsonl"; }
+  std::filesystem::path results() const { return folder / "results.csv"; }
   std::filesystem::path runs() const { return folder / "runs"; }
   std::filesystem::path maps() const { return folder / "maps"; }
   std::filesystem::path details() const { return folder / "details"; }

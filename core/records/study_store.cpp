@@ -61,9 +61,9 @@ StudyStore StudyStore::open(const fs::path& folder, const Experiment& experiment
   make_folder(folder);
   auto state = std::make_unique<State>(folder, experiment);
   const StudyFiles& files = state->files;
-  state->is_redone =
-      take_up_study(folder, study_json(experiment, provenance), read_study_head,
-                    {files.runs(), files.maps(), files.details(), files.timings()});
+  state->is_redone = take_up_study(
+      folder, study_json(experiment, provenance), read_study_head,
+      {files.runs(), files.maps(), files.details(), files.timings(), files.results()});
   return StudyStore(std::move(state));
 }
 

@@ -20,19 +20,24 @@ using Json = nlohmann::ordered_json;
 constexpr double kLargest = std::numeric_limits<double>::max();
 constexpr std::size_t kMost = 10'000;  ///< Setups, series, quantities, levels, maps.
 
-Json quantity_value(const TrialQuantity& quantity) {
+Json quantity_value(const Quantity& quantity) {
   return {{"id", quantity.id},
           {"label", quantity.label},
           {"unit", quantity.unit},
-          {"lower_is_better", quantity.lower_is_better}};
+          {"better", name(quantity.better)}};
 }
 
-TrialQuantity read_trial_quantity(const JsonCursor& value) {
-  value.allow_only({"id", "label", "unit", "lower_is_better"});
-  return {.id = value.at("id").text(100),
-          .label = value.at("label").text(200),
-          .unit = value.at("unit").text(100),
-          .lower_is_better = value.at("lower_is_better").boolean()};
+Quantity read_trial_quantity(const JsonCursor& value) {
+  value.allow_only({"id", "label", "unit", "better"});
+  const auto better = better_named(value.at("better").text());
+  if (!better) value.at("better").fail("expected lower, higher or neither");
+  Quantity quantity{.id = value.at("id").text(100),
+                    .label = value.at("label").text(200),
+                    .unit = value.at("unit").text(100),
+                    .better = *better};
+  if (const std::string problem = problem_of(quantity); !problem.empty())
+    value.at("id").fail(problem);
+  return study_quantity(quantity.id, quantity.label, quantity.unit, quantity.better);
 }
 
 Json setup_value(const TrialSetup& setup) {
@@ -63,7 +68,7 @@ Json design_value(const TrialDesign& design) {
   for (const TrialSetup& setup : design.setups) value["setups"].push_back(setup_value(setup));
   for (const TrialSeries& series : design.series)
     value["series"].push_back({{"id", series.id}, {"label", series.label}});
-  for (const TrialQuantity& quantity : design.quantities)
+  for (const Quantity& quantity : design.quantities)
     value["quantities"].push_back(quantity_value(quantity));
   return value;
 }

@@ -90,8 +90,9 @@ TrialStore::~TrialStore() = default;
 TrialStore TrialStore::open(const fs::path& folder, const TrialStudy& study) {
   make_folder(folder);
   auto state = std::make_unique<State>(folder, study.design);
-  state->is_redone = take_up_study(folder, trial_study_json(study), read_trial_head,
-                                   {state->files.parts(), state->files.timings()});
+  state->is_redone =
+      take_up_study(folder, trial_study_json(study), read_trial_head,
+                    {state->files.parts(), state->files.timings(), folder / "results.csv"});
   return TrialStore(std::move(state));
 }
 

@@ -18,6 +18,7 @@
 #include "core/records/mrclam.hpp"
 #include "core/records/observation_values.hpp"
 #include "core/records/range_log_files.hpp"
+#include "core/records/results_table.hpp"
 #include "core/records/run_json.hpp"
 #include "core/records/sightings.hpp"
 #include "core/records/slam_experiment_json.hpp"
@@ -111,6 +112,9 @@ void check_source(ByteSource& source, const ForeignReader& foreign, Finding& fin
   } else if (is_timings(source)) {
     finding.kind = "timings";
     parse_timings(source.rest(), finding.path);
+  } else if (unpacked_name(source.path()).filename() == "results.csv") {
+    finding.kind = "results";
+    read_results_table(source);
   } else if (is_json(source)) {
     check_json(source.rest(), foreign, finding);
   } else if (may_be_table(source.path())) {
@@ -140,7 +144,8 @@ std::vector<fs::path> our_files(const fs::path& folder) {
     std::error_code ignored;
     const bool is_ours = entry->path().extension() == ".json" ||
                          entry->path().filename() == "timings.jsonl" ||
-                         entry->path().filename() == "map.csv" || is_leftover(entry->path());
+                         entry->path().filename() == "map.csv" ||
+                         entry->path().filename() == "results.csv" || is_leftover(entry->path());
     if (is_ours && entry->is_regular_file(ignored)) paths.push_back(entry->path());
   }
   if (error) throw IoError(folder.string(), "cannot be searched: " + error.message());

@@ -48,11 +48,12 @@ TrialDesign certainty_design(const TrialExperiment& experiment) {
                            list_option(experiment, "blocks")});
   for (const MethodSetting& setting : kSettings)
     design.series.push_back({series_id(setting), label(setting)});
-  design.quantities = {{"mean_covered_percent", "Mean in the ellipse", "%", false},
-                       {"truth_covered_percent", "Truth in the ellipse", "%", false},
-                       {"bias_m", "Mean map from the truth", "m", true},
-                       {"spread_m", "Maps from the mean map (RMS)", "m", true},
-                       {"told_m", "Maps from the mean map as ellipses tell", "m", true}};
+  design.quantities = {
+      study_quantity("mean_covered_percent", "Mean in the ellipse", "%", Better::kHigher),
+      study_quantity("truth_covered_percent", "Truth in the ellipse", "%", Better::kHigher),
+      study_quantity("bias_m", "Mean map from the truth", "m", Better::kLower),
+      study_quantity("spread_m", "Maps from the mean map (RMS)", "m", Better::kLower),
+      study_quantity("told_m", "Maps from the mean map as ellipses tell", "m", Better::kLower)};
   return design;
 }
 

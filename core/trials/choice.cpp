@@ -38,9 +38,10 @@ TrialDesign choice_design(const TrialExperiment& experiment) {
     design.series.push_back({std::string(criterion.name), std::string(criterion.label)});
   design.series.push_back({kFixed, label(kFixedSetting) + ", always"});
   design.series.push_back({kRandom, "any, at random"});
-  design.quantities = {{"regret_m", "Regret with anchors", "m", true},
-                       {"regret_shape_m", "Regret without anchors", "m", true},
-                       {"mpe_m", "MPE of the pick", "m", true}};
+  design.quantities = {
+      study_quantity("regret_m", "Regret with anchors", "m", Better::kLower),
+      study_quantity("regret_shape_m", "Regret without anchors", "m", Better::kLower),
+      study_quantity("mpe_m", "MPE of the pick", "m", Better::kLower)};
   return design;
 }
 

@@ -46,9 +46,9 @@ TrialDesign labels_design(const TrialExperiment& experiment) {
   design.series = {{kGiven, "Labels as given"},
                    {kLeftOut, "Doubtful readings left out"},
                    {kEstimated, "Correspondence estimated"}};
-  design.quantities = {{"correct_percent", "Confused labels set right", "%", false},
-                       {"mpe_m", "MPE", "m", true},
-                       {"moe_percent", "MOE", "%", true}};
+  design.quantities = {
+      study_quantity("correct_percent", "Confused labels set right", "%", Better::kHigher),
+      known_quantity("mpe_m"), known_quantity("moe_unmirrored_percent")};
   return design;
 }
 

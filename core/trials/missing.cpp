@@ -86,9 +86,8 @@ TrialDesign missing_design(const TrialExperiment& experiment) {
   design.series.push_back({kExpected, "PPCA, expected squares, kNN-SMACOF"});
   design.series.push_back({kCovisible, "Covisible pairs, SMACOF of relative errors"});
   design.series.push_back({kAuto, "The way that the gaps' pattern advises, kNN-SMACOF"});
-  design.quantities = {{"mpe_m", "MPE", "m", true},
-                       {"moe_percent", "MOE", "%", true},
-                       {"mapped_percent", "Landmarks mapped", "%", false}};
+  design.quantities = {known_quantity("mpe_m"), known_quantity("moe_unmirrored_percent"),
+                       study_quantity("mapped_percent", "Landmarks mapped", "%", Better::kHigher)};
   return design;
 }
 

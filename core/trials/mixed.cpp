@@ -52,9 +52,9 @@ TrialDesign mixed_design(const TrialExperiment& experiment) {
        {std::pair{"equal", "mean distance, equal weights"},
         std::pair{"reliable", "mean distance, weighted"}, std::pair{"joint", "joint map"}})
     design.series.push_back({id, label});
-  design.quantities = {{"mpe_m", "MPE", "m", true},
-                       {"moe_percent", "MOE", "%", true},
-                       {"continuity", "Neighbourhoods of all sensors kept", "", false}};
+  design.quantities = {
+      known_quantity("mpe_m"), known_quantity("moe_percent"),
+      study_quantity("continuity", "Neighbourhoods of all sensors kept", "", Better::kHigher)};
   return design;
 }
 

@@ -36,10 +36,11 @@ TrialDesign moved_design(const TrialExperiment& experiment) {
       {kNoise, fmt::format("A move of {:g} m under noise", number_option(experiment, "distance_m")),
        "noise of the range, as a share of it", list_option(experiment, "noises")}};
   design.series = {{kTest, "Permutation test of the place over time"}};
-  design.quantities = {{"named_percent", "Moved landmark named", "%", false},
-                       {"false_percent", "Logs in which another is named", "%", true},
-                       {"step_error", "Error of the step", "", true},
-                       {"length_error_m", "Error of the length of the move", "m", true}};
+  design.quantities = {
+      study_quantity("named_percent", "Moved landmark named", "%", Better::kHigher),
+      study_quantity("false_percent", "Logs in which another is named", "%", Better::kLower),
+      study_quantity("step_error", "Error of the step", "", Better::kLower),
+      study_quantity("length_error_m", "Error of the length of the move", "m", Better::kLower)};
   return design;
 }
 

@@ -74,13 +74,14 @@ TrialDesign mrclam_design(const TrialExperiment&) {
                    {kLabels, "Range and bearing with labels made wrong", "", {0.0}}};
   for (const RealWay& way : kWays) design.series.push_back({way.id, way.label});
   for (const auto& [id, label] : kSpoilt) design.series.push_back({id, label});
-  design.quantities = {{"mpe_m", "MPE", "m"},
-                       {"moe_percent", "MOE", "%"},
-                       {"mpe_all_fitted_m", "MPE, affine map to all", "m"},
-                       {"rigid_m", "Off after a rigid fit to all", "m"},
-                       {"pair_m", "Pairs off in the map (median)", "m"},
-                       {"mapped", "Landmarks mapped", "", false},
-                       {"faults", "Faults of labels found", "", false}};
+  design.quantities = {
+      known_quantity("mpe_m"),
+      known_quantity("moe_percent"),
+      study_quantity("mpe_all_fitted_m", "MPE, affine map to all", "m", Better::kLower),
+      study_quantity("rigid_m", "Off after a rigid fit to all", "m", Better::kLower),
+      study_quantity("pair_m", "Pairs off in the map (median)", "m", Better::kLower),
+      study_quantity("mapped", "Landmarks mapped", "", Better::kHigher),
+      study_quantity("faults", "Faults of labels found", "", Better::kHigher)};
   return design;
 }
 

@@ -48,10 +48,13 @@ TrialDesign online_design(const TrialExperiment& experiment) {
     design.series.push_back({method.anew, label(method.setting) + ", anew"});
   }
   design.quantities = {
-      {"gap_ppm", "Off the map made anew", "ppm", true},
-      {"greatest_gap_ppm", "The same, at most over all updates so far", "ppm", true},
-      {"beyond_percent", "Updates so far beyond the stated bound", "%", true},
-      {"steps_gone_through", "Observations gone through for the update", "", true}};
+      study_quantity("gap_ppm", "Off the map made anew", "ppm", Better::kLower),
+      study_quantity("greatest_gap_ppm", "The same, at most over all updates so far", "ppm",
+                     Better::kLower),
+      study_quantity("beyond_percent", "Updates so far beyond the stated bound", "%",
+                     Better::kLower),
+      study_quantity("steps_gone_through", "Observations gone through for the update", "",
+                     Better::kLower)};
   return design;
 }
 

@@ -63,10 +63,10 @@ TrialDesign submaps_design(const TrialExperiment& experiment) {
         {series_id(whole, setting) + kFilled,
          fmt::format("{}, PPCA, {}", whole ? "Whole" : "Parts", label(setting))});
   }
-  design.quantities = {{"mpe_m", "MPE", "m", true},
-                       {"moe_percent", "MOE", "%", true},
-                       {"mapped_percent", "Landmarks mapped", "%", false},
-                       {"residual_percent", "Residual of the joins", "%", true}};
+  design.quantities = {
+      known_quantity("mpe_m"), known_quantity("moe_unmirrored_percent"),
+      study_quantity("mapped_percent", "Landmarks mapped", "%", Better::kHigher),
+      study_quantity("residual_percent", "Residual of the joins", "%", Better::kLower)};
   return design;
 }
 

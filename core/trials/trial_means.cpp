@@ -15,7 +15,7 @@ namespace {
 
 std::size_t column_of(const TrialStudy& study, std::string_view quantity) {
   const auto& quantities = study.design.quantities;
-  const auto found = std::ranges::find(quantities, quantity, &TrialQuantity::id);
+  const auto found = std::ranges::find(quantities, quantity, &Quantity::id);
   if (found == quantities.end()) throw InvalidInput("a study of trials without that quantity");
   return static_cast<std::size_t>(found - quantities.begin());
 }

@@ -10,7 +10,7 @@
 #include "render/scene/scene_json.hpp"
 #include "reports/diff/item_files.hpp"
 #include "reports/diff/record_files.hpp"
-#include "reports/diff/record_set_parts.hpp"
+#include "reports/diff/record_set.hpp"
 #include "reports/diff/svg_tree.hpp"
 
 namespace mapproof {

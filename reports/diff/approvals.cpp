@@ -22,7 +22,6 @@
 #include "reports/diff/item_files.hpp"
 #include "reports/diff/record_files.hpp"
 #include "reports/diff/record_set.hpp"
-#include "reports/diff/record_set_parts.hpp"
 
 namespace mapproof {
 namespace {

@@ -28,7 +28,7 @@ Json point(const Point& at) { return Json::array({number(at.x), number(at.y)}); 
 Json comparison_json(const Comparison& c) {
   Json json{{"subject", c.subject},
             {"current_subject", c.current_subject},
-            {"quantity", c.quantity},
+            {"quantity", c.quantity.id},
             {"outcome", name(c.outcome)},
             {"pairs", c.pairs},
             {"equal", c.equal},

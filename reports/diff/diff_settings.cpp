@@ -1,5 +1,7 @@
 #include "reports/diff/diff_settings.hpp"
 
+#include <algorithm>
+
 #include <fmt/format.h>
 
 #include "core/base/errors.hpp"
@@ -20,20 +22,34 @@ Tolerance read_tolerance(const JsonCursor& at, Tolerance tolerance) {
   return tolerance;
 }
 
-void read_records(const JsonCursor& at, RecordOptions& options) {
+/// Why there cannot be a tolerance of that name; empty if there can: whether a study declares a
+/// quantity that the dictionary lacks shows when it is compared.
+std::string tolerance_problem(const std::string& name) {
+  std::vector<std::string_view> known = {kOtherNumbers};
+  for (const Quantity& quantity : all_quantities()) known.push_back(quantity.id);
+  if (std::ranges::find(known, name) != known.end()) return "";
+  const std::string_view meant = likely_word(name, known);
+  if (!meant.empty())
+    return fmt::format("there is no quantity \"{}\"; did you mean {}?", printable(name), meant);
+  return problem_of({.id = name, .label = name});
+}
+
+void read_record_options(const JsonCursor& at, RecordOptions& options) {
   at.allow_only({"significance", "least_effect", "tolerances"});
   if (const auto value = at.find("significance")) options.significance = value->number(0.0, 1.0);
   if (const auto value = at.find("least_effect")) options.least_effect = value->number(0.0, 1.0);
   const auto tolerances = at.find("tolerances");
   if (!tolerances) return;
-  std::vector<std::string_view> known;
-  for (const QuantityFacts& quantity : all_quantities()) known.push_back(quantity.name);
-  tolerances->allow_only(known);
-  for (const auto& [name, value] : tolerances->members())
-    options.tolerances[name] = read_tolerance(value, find_quantity(name)->tolerance);
+  for (const auto& [name, value] : tolerances->members()) {
+    if (const std::string problem = tolerance_problem(name); !problem.empty())
+      tolerances->fail(problem);
+    const Quantity* quantity = find_quantity(name);
+    options.tolerances[name] =
+        read_tolerance(value, quantity == nullptr ? tolerance_of_others({}) : quantity->rounding);
+  }
 }
 
-void read_pictures(const JsonCursor& at, PictureOptions& options) {
+void read_picture_options(const JsonCursor& at, PictureOptions& options) {
   at.allow_only(
       {"noise", "mean_noise", "displacement_px", "changed_share", "svg_distance", "svg_colour"});
   const auto read = [&](const char* key, double most, double& value) {
@@ -78,13 +94,13 @@ DiffSettings parse_diff_settings(std::string_view text, const std::string& sourc
   expect_schema(root, "mapproof.diff_settings");
   root.allow_only({"schema", "records", "figures", "pictures", "ignore", "allow"});
   DiffSettings settings;
-  if (const auto at = root.find("records")) read_records(*at, settings.records);
+  if (const auto at = root.find("records")) read_record_options(*at, settings.records);
   if (const auto at = root.find("figures")) {
     at->allow_only({"position"});
     if (const auto position = at->find("position"))
       settings.figures.position = read_tolerance(*position, settings.figures.position);
   }
-  if (const auto at = root.find("pictures")) read_pictures(*at, settings.pictures);
+  if (const auto at = root.find("pictures")) read_picture_options(*at, settings.pictures);
   if (const auto at = root.find("ignore"))
     for (const JsonCursor& region : at->elements(0, kMostRegions))
       settings.ignored.push_back(read_region(region));

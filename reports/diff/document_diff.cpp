@@ -16,7 +16,7 @@
 #include "reports/diff/excerpts.hpp"
 #include "reports/diff/number_words.hpp"
 #include "reports/diff/page_text.hpp"
-#include "reports/diff/record_set_parts.hpp"
+#include "reports/diff/record_files.hpp"
 #include "reports/diff/table_diff.hpp"
 
 namespace mapproof {
@@ -30,7 +30,7 @@ constexpr std::size_t kMostTextLength = 80;
 bool is_page(const ItemFiles& files) { return files.documents.contains("html"); }
 
 Tolerance tolerance_of_numbers(const DiffSettings& settings) {
-  return tolerance_of(*find_quantity("other"), settings.records.tolerances);
+  return tolerance_of_others(settings.records.tolerances);
 }
 
 const DiffItem* heaviest_records(const std::vector<DiffItem>& told) {

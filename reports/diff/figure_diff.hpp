@@ -6,7 +6,7 @@
 
 #include "render/base/geometry.hpp"
 #include "render/plot/figure.hpp"
-#include "reports/diff/quantities.hpp"
+#include "reports/diff/tolerances.hpp"
 #include "reports/diff/verdict.hpp"
 
 namespace mapproof {

@@ -5,7 +5,7 @@
 
 #include "render/plot/axis_map.hpp"
 #include "render/plot/figure.hpp"
-#include "reports/diff/quantities.hpp"
+#include "reports/diff/tolerances.hpp"
 
 namespace mapproof {
 

@@ -59,6 +59,21 @@ DiffItem lone_records(const std::string& id, Judgement judgement) {
   return item;
 }
 
+/// Throws if there is a tolerance of a quantity that none of the records has, and all were read.
+void check_tolerances(const std::vector<DiffItem>& items, const DiffSettings& settings) {
+  const auto is_read = [](const DiffItem& item) { return item.records.has_value(); };
+  if (items.empty() || !std::ranges::all_of(items, is_read)) return;
+  for (const auto& [id, tolerance] : settings.records.tolerances) {
+    const auto has_it = [&id = id](const DiffItem& item) {
+      return std::ranges::find(item.records->declared, id, &Quantity::id) !=
+             item.records->declared.end();
+    };
+    if (find_quantity(id) == nullptr && id != kOtherNumbers && std::ranges::none_of(items, has_it))
+      throw InvalidInput(fmt::format(
+          "the settings have a tolerance of the quantity \"{}\", which no study here has", id));
+  }
+}
+
 std::vector<DiffItem> record_items(const fs::path& baseline, const fs::path& current,
                                    const DiffSettings& settings) {
   const auto before = record_places(baseline), after = record_places(current);
@@ -75,6 +90,7 @@ std::vector<DiffItem> record_items(const fs::path& baseline, const fs::path& cur
     if (!before.contains(id))
       items.push_back(lone_records(id, {Verdict::kNew, true, "the baseline has no records"}));
   for (DiffItem& item : items) item.passes = passes(item.judgement, settings.allowed);
+  check_tolerances(items, settings);
   return items;
 }
 

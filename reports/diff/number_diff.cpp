@@ -129,8 +129,8 @@ class NumberComparer {
                          const Tolerance& outer) const {
     if (value.is_structured())  // Of scores there are numbers of the same names.
       for (const KeyQuantity& known : kKeys)
-        if (known.key == key) return tolerance_of(*find_quantity(known.quantity), tolerances_);
-    const QuantityFacts* facts = find_quantity(key);
+        if (known.key == key) return tolerance_of(known_quantity(known.quantity), tolerances_);
+    const Quantity* facts = find_quantity(key);
     return facts == nullptr ? outer : tolerance_of(*facts, tolerances_);
   }
 
@@ -152,13 +152,13 @@ OtherDiff number_diff(const std::string& name, const std::filesystem::path& base
   OtherDiff diff;
   diff.file = name;
   NumberComparer comparer(tolerances, diff);
-  const Tolerance tolerance = tolerance_of(*find_quantity("other"), tolerances);
+  const Tolerance tolerance = tolerance_of_others(tolerances);
   const std::string before = read_input(baseline), after = read_input(current);
   if (name.empty() || baseline.extension() == ".json")
     comparer.compare(parse_json(before, baseline.string()).root,
                      parse_json(after, current.string()).root, "", tolerance);
   else
-    comparer.lines(before, after, tolerance_of(*find_quantity("path_m"), tolerances));
+    comparer.lines(before, after, tolerance_of(known_quantity("path_m"), tolerances));
   return diff;
 }
 

@@ -4,7 +4,7 @@
 #include <string_view>
 #include <vector>
 
-#include "reports/diff/quantities.hpp"
+#include "reports/diff/tolerances.hpp"
 
 namespace mapproof {
 

@@ -1,6 +1,7 @@
 #include "reports/diff/record_diff.hpp"
 
 #include <algorithm>
+#include <iterator>
 #include <set>
 
 #include <fmt/format.h>
@@ -200,6 +201,8 @@ RecordDiff record_diff(const RecordSet& a, const RecordSet& b, const RecordOptio
   match(a.runs, b.runs, diff.missing_runs, diff.new_runs,
         [](const std::string&, const std::string&, const std::string&) {});
   compare_subjects(a, b, diff);
+  for (const RecordSet* side : {&a, &b})
+    std::ranges::copy(side->quantities.declared(), std::back_inserter(diff.declared));
   for (const RecordSet* side : {&a, &b}) {
     for (const auto& [subject, family] : side->families) diff.called[family.name].insert(subject);
     for (const auto& [id, subject] : side->called) diff.called[id].insert(subject);

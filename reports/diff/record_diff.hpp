@@ -8,8 +8,8 @@
 
 #include "core/statistics/signed_rank.hpp"
 #include "render/base/geometry.hpp"
-#include "reports/diff/quantities.hpp"
 #include "reports/diff/record_set.hpp"
+#include "reports/diff/tolerances.hpp"
 #include "reports/diff/verdict.hpp"
 
 namespace mapproof {
@@ -54,7 +54,7 @@ struct PairedTest {
 struct Comparison {
   std::string subject;
   std::string current_subject;  ///< The same, unless its parameter changed.
-  std::string quantity;         ///< QuantityFacts::name.
+  Quantity quantity;            ///< The dictionary's, or as the study declares it.
   int pairs = 0;                ///< Runs that have it on both sides; of them …
   int equal = 0;
   int within = 0;
@@ -125,6 +125,7 @@ struct RecordDiff {
   std::vector<std::string> missing_runs, new_runs;
   std::vector<std::string> missing_subjects, new_subjects;
   std::vector<Comparison> comparisons;  ///< Those that are not equal throughout.
+  std::vector<Quantity> declared;       ///< Quantities that either side declares.
   long values = 0;                      ///< Numbers compared in all.
   std::vector<PointsDiff> points;       ///< Records with a point that is not equal.
   std::vector<StatusChange> statuses;

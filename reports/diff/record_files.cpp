@@ -2,20 +2,33 @@
 
 #include <algorithm>
 #include <array>
+#include <span>
+#include <string>
 #include <system_error>
+
+#include "core/base/errors.hpp"
+#include "core/base/input_file.hpp"
 
 namespace mapproof {
 namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::array kParts = {"study.json",  "runs",           "maps",       "details",  "paths",
-                               "convergence", "histories.json", "space.json", "map.json", "map.csv",
-                               "slam.json",   "landmarks.csv",  "path.csv",   "path.tum"};
+constexpr std::array kParts = {"study.json",    "parts",    "runs",        "maps",
+                               "details",       "paths",    "convergence", "histories.json",
+                               "space.json",    "map.json", "map.csv",     "slam.json",
+                               "landmarks.csv", "path.csv", "path.tum",    "results.csv"};
 
 bool is_kept_in(const fs::path& file) {
   const fs::path extension = file.extension();
   return extension == ".json" || extension == ".csv" || extension == ".tum";
+}
+
+/// Up to `to.size()` bytes, fewer at the end alone.
+std::size_t read_block(const Descriptor& file, std::string& to, const std::string& name) {
+  std::size_t count = 0;
+  while (const std::size_t got = read_some(file, std::span(to).subspan(count), name)) count += got;
+  return count;
 }
 
 }  // namespace
@@ -38,6 +51,25 @@ std::vector<fs::path> record_files(const fs::path& place) {
   }
   std::ranges::sort(files);
   return files;
+}
+
+bool same_bytes(const fs::path& a, const fs::path& b) {
+  std::error_code error;
+  const auto size = fs::file_size(a, error);
+  if (error || size != fs::file_size(b, error) || error) return false;
+  try {
+    const Descriptor first = open_input(a), second = open_input(b);
+    std::string block(1 << 16, '\0'), other(1 << 16, '\0');
+    for (std::size_t count = block.size(); count == block.size();) {
+      count = read_block(first, block, a.string());
+      if (read_block(second, other, b.string()) != count ||
+          block.compare(0, count, other, 0, count) != 0)
+        return false;
+    }
+    return true;
+  } catch (const IoError&) {
+    return false;  // Whoever reads it says why.
+  }
 }
 
 }  // namespace mapproof

@@ -9,4 +9,7 @@ namespace mapproof {
 /// of one log's result. Paths below `place`, ascending; what cannot be listed is left out.
 std::vector<std::filesystem::path> record_files(const std::filesystem::path& place);
 
+/// Whether both files are there and hold the same bytes.
+bool same_bytes(const std::filesystem::path& a, const std::filesystem::path& b);
+
 }  // namespace mapproof

@@ -151,8 +151,7 @@ std::optional<PointsDiff> points_diff(const std::string& record, const PlacedPoi
       after /= spread;
     }
   }
-  const QuantityFacts* facts = find_quantity(a.quantity);
-  const Tolerance tolerance = tolerance_of(*facts, tolerances);
+  const Tolerance tolerance = tolerance_of(known_quantity(a.quantity), tolerances);
   const double size = both.empty() ? 0.0 : rows_of(before, both).cwiseAbs().maxCoeff();
   Errors errors;
   for (Eigen::Index row = 0; row < before.rows(); ++row)

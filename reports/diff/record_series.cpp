@@ -151,21 +151,35 @@ bool point_one_way(const std::vector<Open>& all) {
   bool worse = false, better = false;
   for (const Open& open : all) {
     const Comparison& c = open.comparison;
-    if (find_quantity(c.quantity)->of_solver) continue;
+    if (c.quantity.of_solver) continue;
     worse = worse || c.worse + c.lost > 0;
     better = better || c.better + c.gained > 0;
   }
   return !worse || !better;
 }
 
+/// The dictionary's, and those that either side declares. What the sides declare with two units or
+/// directions has no direction.
+std::vector<Quantity> compared_quantities(const RecordSet& a, const RecordSet& b) {
+  std::vector<Quantity> all = b.quantities.all();
+  for (const Quantity& before : a.quantities.declared()) {
+    const auto after = std::ranges::find(all, before.id, &Quantity::id);
+    if (after == all.end())
+      all.push_back(before);
+    else if (after->unit != before.unit || after->better != before.better)
+      after->better = Better::kNeither;
+  }
+  return all;
+}
+
 /// @param one_way  As point_one_way says of all.
 Outcome outcome_of(const Comparison& c, bool same_seeds, bool one_way,
                    const RecordOptions& options) {
-  const QuantityFacts& quantity = *find_quantity(c.quantity);
+  const Quantity& quantity = c.quantity;
   if (c.beyond + c.lost + c.gained == 0)
     return c.within > 0 ? Outcome::kWithinTolerance : Outcome::kEqual;
-  if (quantity.direction == Direction::kNeither || !same_seeds) return Outcome::kChanged;
-  const bool up_is_worse = quantity.direction == Direction::kLowerIsBetter;
+  if (quantity.better == Better::kNeither || !same_seeds) return Outcome::kChanged;
+  const bool up_is_worse = quantity.better == Better::kLower;
   if (c.test && c.test->powerless_of == 0 && c.lost + c.gained == 0) {
     const bool decides =
         c.test->p < options.significance && std::abs(c.test->test.effect) >= options.least_effect;
@@ -224,13 +238,14 @@ std::vector<Comparison> compare_series(const RecordSet& a, const RecordSet& b, b
                                        const RecordOptions& options, long& values) {
   const std::set<std::string> there = subjects_of(b);
   static const Values kNone;
+  const std::vector<Quantity> quantities = compared_quantities(a, b);
   std::vector<Open> all;
   values = 0;
   for (const auto& [subject, other] : matched_subjects(a, b)) {
     if (!there.contains(other)) continue;
-    for (const QuantityFacts& quantity : all_quantities()) {
-      const auto before = a.values.find({subject, std::string(quantity.name)});
-      const auto after = b.values.find({other, std::string(quantity.name)});
+    for (const Quantity& quantity : quantities) {
+      const auto before = a.values.find({subject, quantity.id});
+      const auto after = b.values.find({other, quantity.id});
       if (before == a.values.end() && after == b.values.end()) continue;
       Open open = compare(a, b, before == a.values.end() ? kNone : before->second,
                           after == b.values.end() ? kNone : after->second, same_seeds,
@@ -239,9 +254,9 @@ std::vector<Comparison> compare_series(const RecordSet& a, const RecordSet& b, b
       values += c.pairs + c.lost + c.gained;
       c.subject = subject;
       c.current_subject = other;
-      c.quantity = quantity.name;
-      if (quantity.direction == Direction::kHigherIsBetter) std::swap(c.worse, c.better);
-      if (quantity.direction == Direction::kNeither || !same_seeds) c.worse = c.better = 0;
+      c.quantity = quantity;
+      if (quantity.better == Better::kHigher) std::swap(c.worse, c.better);
+      if (quantity.better == Better::kNeither || !same_seeds) c.worse = c.better = 0;
       if (c.within + c.beyond + c.lost + c.gained > 0) all.push_back(std::move(open));
     }
   }

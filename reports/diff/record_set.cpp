@@ -1,23 +1,20 @@
 #include "reports/diff/record_set.hpp"
 
-#include <span>
+#include <algorithm>
 #include <system_error>
+#include <utility>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include "core/base/byte_source.hpp"
 #include "core/base/errors.hpp"
-#include "core/base/input_file.hpp"
-#include "core/base/not_finite.hpp"
+#include "core/base/files.hpp"
 #include "core/json/json_cursor.hpp"
 #include "core/records/input_kind.hpp"
 #include "core/records/map_files.hpp"
 #include "core/records/slam_run_json.hpp"
-#include "core/records/slam_store.hpp"
-#include "core/records/study_store.hpp"
-#include "core/records/trial_store.hpp"
 #include "reports/diff/record_files.hpp"
-#include "reports/diff/record_set_parts.hpp"
 
 namespace mapproof {
 namespace {
@@ -69,102 +66,78 @@ bool is_single(const fs::path& file) {
   }
 }
 
-/// Up to `to.size()` bytes, fewer at the end alone.
-std::size_t read_block(const Descriptor& file, std::string& to, const std::string& name) {
-  std::size_t count = 0;
-  while (const std::size_t got = read_some(file, std::span(to).subspan(count), name)) count += got;
-  return count;
+/// All of a JSON value as text by its pointers; arrays of plain values are one value.
+void add_settings(RecordSet& set, const fs::path& study) {
+  const JsonDocument document = parse_json(read_file(study), study.string());
+  if (document.root.contains("experiment")) flatten(document.root["experiment"], "", set.settings);
+  const auto seed = set.settings.find("/seed");
+  if (seed != set.settings.end()) set.seed = seed->second;
+}
+
+void add_family(RecordSet& set, const Results& results, const Result& row) {
+  const auto family = results.families.find(row.method);
+  if (family != results.families.end())
+    set.families[series_name(row.at, row.method, row.subject)] = {
+        series_name(row.at, family->second.name, row.subject), family->second.parameter};
+}
+
+RecordSet set_of(StudyContents contents) {
+  RecordSet set;
+  for (const Result& row : contents.results.rows) {
+    set.values[{series_name(row.at, row.method, row.subject), row.quantity}]
+              [run_in_name(row.at, row.run)] = row.value;
+    add_family(set, contents.results, row);
+  }
+  for (const RunOutcome& outcome : contents.results.outcomes)
+    set.statuses[record_name(outcome.at, outcome.method, outcome.run)] =
+        fmt::format("{}", fmt::join(outcome.codes, ", "));
+  set.kind = std::move(contents.kind);
+  set.provenance = std::move(contents.provenance);
+  set.quantities = std::move(contents.results.quantities);
+  set.repeats = contents.results.are_repeats;
+  set.runs = std::move(contents.runs);
+  set.worlds = std::move(contents.worlds);
+  set.anchors = std::move(contents.anchors);
+  set.points = std::move(contents.points);
+  set.problems = std::move(contents.problems);
+  return set;
+}
+
+RecordSet read_study_set(const fs::path& folder, const fs::path& beside) {
+  const auto differs = [&](const fs::path& file) {
+    return !same_bytes(file, beside / file.lexically_relative(folder));
+  };
+  RecordSet set = set_of(read_study_contents(folder, {.maps = differs, .keeps_on = true}));
+  add_settings(set, folder / "study.json");
+  return set;
 }
 
 RecordSet read_single(const fs::path& file) {
   const std::string text = read_input(file);
   const std::string source = file.string();
   const std::string schema = schema_of(parse_json(text, source).cursor()).name;
-  RecordSet set;
-  set.kind = schema;
-  if (schema == "mapproof.map") {
-    const MapRecord map = parse_map(text, source);
-    const std::string subject = add_subject(set, map.sensor, map.setting, std::to_string(map.step));
-    set.called[map.id] = subject;
-    set.settings["/method"] = label(map.setting);
-    set.runs[""] = "";
-    add_score(set, subject, "", map.score);
-    add_statuses(set, map.id, map.statuses);
-    add_map(set, map.id, map);
-    return set;
-  }
-  if (schema != "mapproof.slam_run") throw IoError(source, "holds no records but " + schema);
-  const SlamRun run = parse_slam_run(text, source);
-  add_slam_run(set, run);
+  if (schema == "mapproof.slam_run") return set_of(contents_of(parse_slam_run(text, source)));
+  if (schema != "mapproof.map") throw IoError(source, "holds no records but " + schema);
+  const MapRecord map = parse_map(text, source);
+  RecordSet set = set_of(contents_of(map));
+  set.called[map.id] = set.values.begin()->first.subject;
+  set.settings["/method"] = label(map.setting);
   return set;
 }
 
+/// Whether all that a file holds is compared as settings, results and points.
+bool is_compared(const fs::path& file) {
+  return file == "study.json" || file == "results.csv" || file.parent_path() == "parts";
+}
+
+/// Lists the files that are others than those of the other side.
+void add_others(RecordSet& set, const fs::path& folder, const fs::path& beside) {
+  for (const fs::path& file : record_files(folder))
+    if (!is_compared(file) && !same_bytes(folder / file, beside / file))
+      set.others[file.generic_string()] = folder / file;
+}
+
 }  // namespace
-
-bool same_bytes(const fs::path& a, const fs::path& b) {
-  std::error_code error;
-  const auto size = fs::file_size(a, error);
-  if (error || size != fs::file_size(b, error) || error) return false;
-  try {
-    const Descriptor first = open_input(a), second = open_input(b);
-    std::string block(1 << 16, '\0'), other(1 << 16, '\0');
-    for (std::size_t count = block.size(); count == block.size();) {
-      count = read_block(first, block, a.string());
-      if (read_block(second, other, b.string()) != count ||
-          block.compare(0, count, other, 0, count) != 0)
-        return false;
-    }
-    return true;
-  } catch (const IoError&) {
-    return false;  // Whoever reads it says why.
-  }
-}
-
-void add_settings(RecordSet& set, const std::string& text, const std::string& source) {
-  const JsonDocument document = parse_json(text, source);
-  if (document.root.contains("experiment")) flatten(document.root["experiment"], "", set.settings);
-  const auto seed = set.settings.find("/seed");
-  if (seed != set.settings.end()) set.seed = seed->second;
-}
-
-std::string add_subject(RecordSet& set, Sensor sensor, const MethodSetting& setting,
-                        const std::string& place) {
-  const std::string subject = fmt::format("{}/{}/{}", name(sensor), slug(setting), place);
-  if (setting.parameter)
-    set.families[subject] = {
-        fmt::format("{}/{}/{}", name(sensor), info(setting.method).name, place),
-        parameter_text(setting)};
-  return subject;
-}
-
-void add_value(RecordSet& set, const std::string& subject, std::string_view quantity,
-               const std::string& run, double value) {
-  set.values[{subject, std::string(quantity)}][run] = value;
-}
-
-void add_score(RecordSet& set, const std::string& subject, const std::string& run,
-               const std::optional<Score>& score) {
-  add_value(set, subject, "mpe_m", run, score ? score->mpe_m : kNaN);
-  add_value(set, subject, "moe_percent", run, score ? score->moe_percent : kNaN);
-  add_value(set, subject, "mpe_all_fitted_m", run, score ? score->mpe_all_fitted_m : kNaN);
-  add_value(set, subject, "moe_unmirrored_percent", run,
-            score ? score->moe_unmirrored_percent : kNaN);
-}
-
-void add_map(RecordSet& set, const std::string& id, const MapRecord& map) {
-  set.points[id] = {.quantity = map.frame == Frame::kTruth ? "landmark_m" : "landmark_shape",
-                    .frame = map.frame,
-                    .names = map.names,
-                    .points = map.estimate,
-                    .truth = map.truth_m};
-}
-
-void add_statuses(RecordSet& set, const std::string& id, const std::vector<Status>& statuses) {
-  std::string codes;
-  for (const Status& status : statuses)
-    codes += (codes.empty() ? "" : ", ") + std::string(name(status.code));
-  set.statuses[id] = codes;
-}
 
 bool holds_records(const fs::path& path) {
   std::error_code error;
@@ -172,19 +145,11 @@ bool holds_records(const fs::path& path) {
   return is_single(path);
 }
 
-void add_others(RecordSet& set, const fs::path& folder, const fs::path& beside) {
-  for (const fs::path& file : record_files(folder))
-    if (file != "study.json" && !same_bytes(folder / file, beside / file))
-      set.others[file.generic_string()] = folder / file;
-}
-
 RecordSet read_records(const fs::path& path, const fs::path& beside) {
   std::error_code error;
   RecordSet set;
   if (has_study(path)) {
-    set = is_slam_study(path)    ? read_slam_records(path)
-          : is_trial_study(path) ? read_trial_records(path, beside)
-                                 : read_study_records(path, beside);
+    set = read_study_set(path, beside);
   } else {
     const fs::path file = single_file(path);
     if (file.empty()) throw IoError(path.string(), "holds no records");

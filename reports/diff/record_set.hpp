@@ -3,20 +3,17 @@
 #include <compare>
 #include <filesystem>
 #include <map>
-#include <optional>
 #include <string>
-#include <utility>
 #include <vector>
 
-#include "core/model/map_record.hpp"
-#include "core/model/study.hpp"
+#include "core/records/study_contents.hpp"
 
 namespace mapproof {
 
 /// What a number is of: all but the run.
 struct SeriesKey {
-  std::string subject;   ///< "bearing/isomap-K9/2000", "spectral-known".
-  std::string quantity;  ///< QuantityFacts::name.
+  std::string subject;   ///< series_name(): "bearing/isomap-K9/2000", "plaza-1/ekf".
+  std::string quantity;  ///< Quantity::id.
 
   auto operator<=>(const SeriesKey&) const = default;
 };
@@ -27,42 +24,27 @@ struct SubjectFamily {
   std::string parameter;  ///< "K = 9"; empty: none.
 };
 
-/// Points with names: the landmarks of a map, the positions of a path.
-struct PlacedPoints {
-  std::string quantity = "landmark_m";  ///< QuantityFacts::name.
-  Frame frame = Frame::kTruth;
-  std::vector<std::string> names;  ///< One a row; empty: rows are counted from 1.
-  Points points;                   ///< n x 2; NaN rows: no place.
-  std::optional<Points> truth;     ///< n x 2; NaN rows: not known.
-};
-
-/// A file of the records that cannot be read.
-struct RecordProblem {
-  std::string file;  ///< Below the folder.
-  std::string what;
-};
-
 /// The records of one side of a comparison, whatever kind they are of.
 struct RecordSet {
-  std::string kind;  ///< "mapproof.study", "mapproof.slam_study", "mapproof.trial_study",
-                     ///< "mapproof.map", "mapproof.slam_run".
+  std::string kind;  ///< StudyContents::kind.
   std::string seed;  ///< Of the experiment; empty: none.
   /// The experiment, value by value: JSON pointer and text.
   std::map<std::string, std::string> settings;
   Provenance provenance;
-  bool repeats = false;                           ///< Runs differ by their seed alone.
+  Quantities quantities;
+  bool repeats = false;                           ///< Results::are_repeats.
   std::map<std::string, std::string> runs;        ///< Id of each, and the layout it belongs to.
   std::map<std::string, PlacedPoints> worlds;     ///< By run: the true places.
   std::map<std::string, std::string> anchors;     ///< By run: their rows, as text.
   std::map<std::string, SubjectFamily> families;  ///< By subject, where it has a parameter.
   /// What figures call subjects that have another name: of one map its id.
   std::map<std::string, std::string> called;
-  /// Numbers by run; NaN: no map came out, or there is nothing to judge.
+  /// Numbers by run_in_name(); NaN: no map came out, or there is nothing to judge.
   std::map<SeriesKey, std::map<std::string, double>> values;
   std::map<std::string, std::string> statuses;  ///< Of a record: its codes, in order.
-  std::map<std::string, PlacedPoints> points;   ///< By record: "layout-1-pose-2/bearing/lpca/2000".
-  /// All files but study.json that are not the same on the other side, below the folder: what no
-  /// other member holds is compared value by value.
+  std::map<std::string, PlacedPoints> points;   ///< By record_name(): maps and paths.
+  /// All files but study.json, results.csv and the parts of trials that are not the same on the
+  /// other side, below the folder: what no other member holds is compared value by value.
   std::map<std::string, std::filesystem::path> others;
   std::vector<RecordProblem> problems;
 };

@@ -37,14 +37,23 @@ Ties ties_of(const std::vector<std::string>& ids, const RecordContext& context) 
   return ties;
 }
 
+/// "mpe-m" of "mpe_m", as ids of figures have it.
+std::string in_figure_id(std::string quantity) {
+  std::ranges::replace(quantity, '_', '-');
+  return quantity;
+}
+
 /// The quantity that the figure is about, by its id; others count where that one does not differ.
 std::vector<const Comparison*> primary(const std::string& id,
                                        const std::vector<const Comparison*>& all) {
   const bool shows_moe = id.find("moe") != std::string::npos;
   std::vector<const Comparison*> some;
   for (const Comparison* comparison : all)
-    if (comparison->quantity == (shows_moe ? "moe_percent" : "mpe_m") ||
-        comparison->quantity == "mean_m")
+    if (id.ends_with("-" + in_figure_id(comparison->quantity.id))) some.push_back(comparison);
+  if (!some.empty()) return some;
+  for (const Comparison* comparison : all)
+    if (comparison->quantity.id == (shows_moe ? "moe_percent" : "mpe_m") ||
+        comparison->quantity.id == "path_mean_m")
       some.push_back(comparison);
   return some.empty() ? all : some;
 }
@@ -119,7 +128,7 @@ Judgement tied_judgement(const std::string& id, const FigureDiff& diff, const Ju
       if (other_records(diff) == nullptr)
         judgement.verdict = heavier(judgement.verdict, verdict_of(comparison->outcome));
     const auto of_run = std::ranges::find_if(shown, [&](const Comparison* c) {
-      return c->quantity == first->quantity &&
+      return c->quantity.id == first->quantity.id &&
              std::ranges::any_of(c->largest,
                                  [&](const PairedValue& pair) { return pair.run == ties.run; });
     });

@@ -21,18 +21,18 @@ double told_effect(const Comparison& c) {
   return c.test && c.test->p < kSignificant ? std::abs(c.test->test.effect) : 0.0;
 }
 
-/// Heavier first, then the order of all_quantities(), then the largest significant effect, then
+/// Heavier first, then the order of the dictionary, then the largest significant effect, then
 /// the best method where there is no direction and no test, else the largest change.
 bool tells_more(const Comparison& a, const Comparison& b) {
   const Verdict first = verdict_of(a.outcome), second = verdict_of(b.outcome);
   if (first != second) return first > second;
-  const auto place = [](const Comparison& c) { return find_quantity(c.quantity); };
-  if (place(a) != place(b)) return place(a) < place(b);
+  const std::size_t rank = dictionary_rank(a.quantity), other = dictionary_rank(b.quantity);
+  if (rank != other) return rank < other;
   if (told_effect(a) != told_effect(b)) return told_effect(a) > told_effect(b);
   const double p = a.test ? a.test->p : 1.0, q = b.test ? b.test->p : 1.0;
   if (p != q) return p < q;
-  if (first == Verdict::kChanged && !a.test && !b.test &&
-      place(a)->direction == Direction::kLowerIsBetter && a.baseline_mean != b.baseline_mean)
+  if (first == Verdict::kChanged && !a.test && !b.test && a.quantity.better == Better::kLower &&
+      a.baseline_mean != b.baseline_mean)
     return a.baseline_mean < b.baseline_mean || std::isnan(b.baseline_mean);
   const auto change = [](const Comparison& c) {
     const double ratio =
@@ -203,7 +203,7 @@ std::string directions_text(const std::vector<const Comparison*>& all, const Com
     return "";
   int worse = 0, better = 0, both = 0;
   for (const Comparison* c : all) {
-    if (find_quantity(c->quantity)->of_solver) continue;
+    if (c->quantity.of_solver) continue;
     const bool is_worse = c->worse + c->lost > 0, is_better = c->better + c->gained > 0;
     both += is_worse && is_better;
     worse += is_worse && !is_better;
@@ -243,7 +243,7 @@ std::string settings_text(const RecordDiff& diff) {
 }
 
 std::string comparison_text(const Comparison& comparison, const std::string& run) {
-  const QuantityFacts& quantity = *find_quantity(comparison.quantity);
+  const Quantity& quantity = comparison.quantity;
   const auto own = std::ranges::find(comparison.largest, run, &PairedValue::run);
   const bool has_own = own != comparison.largest.end();
   std::string text = fmt::format(

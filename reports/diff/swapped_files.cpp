@@ -5,7 +5,7 @@
 
 #include <fmt/format.h>
 
-#include "reports/diff/record_set_parts.hpp"
+#include "reports/diff/record_files.hpp"
 
 namespace mapproof {
 namespace {

@@ -31,7 +31,7 @@ struct RunPairs {
 /// What one test is of.
 struct Comparison {
   std::string subject = {};
-  const HistoryQuantity* quantity = nullptr;
+  const Quantity* quantity = nullptr;
   std::vector<double> differences = {};  ///< One a unit.
   bool by_layout = false;
   double before = 0.0, after = 0.0;  ///< Medians.
@@ -39,12 +39,12 @@ struct Comparison {
 
 struct Losses {
   std::string subject = {};
-  const HistoryQuantity* quantity = nullptr;
+  const Quantity* quantity = nullptr;
   int lost = 0, gained = 0, of = 0;
 };
 
-double difference(const HistoryQuantity& quantity, double before, double after) {
-  return quantity.compared == Compared::kPoints
+double difference(const Quantity& quantity, double before, double after) {
+  return quantity.nightly == NightlyRule::kPoints
              ? after - before
              : std::log(std::max(after, kLeastError) / std::max(before, kLeastError));
 }
@@ -55,9 +55,8 @@ const RunValue* find_run(const std::vector<RunValue>& values, const std::string&
 }
 
 /// Adds the differences of one step to those of each run, and counts what was lost.
-void add_step(std::map<std::string, RunPairs>& runs, Losses& losses,
-              const HistoryQuantity& quantity, const std::vector<RunValue>& before,
-              const std::vector<RunValue>& after) {
+void add_step(std::map<std::string, RunPairs>& runs, Losses& losses, const Quantity& quantity,
+              const std::vector<RunValue>& before, const std::vector<RunValue>& after) {
   for (const RunValue& old : before) {
     const RunValue* now = find_run(after, old.run);
     if (now == nullptr) continue;
@@ -99,7 +98,7 @@ struct Work {
 
 void add_family(Work& work, const StudyEvidence& evidence, const RegressionRules& rules,
                 const std::vector<const SeriesId*>& steps) {
-  const HistoryQuantity& quantity = history_quantity(steps.front()->quantity);
+  const Quantity& quantity = evidence.trend.quantities.at(steps.front()->quantity);
   Losses losses{method_of(*steps.back()), &quantity};
   std::map<std::string, RunPairs> all;
   std::map<std::string, RunPairs> last;
@@ -125,14 +124,13 @@ void add_family(Work& work, const StudyEvidence& evidence, const RegressionRules
   if (steps.size() > 1)
     add(all, fmt::format("{}, mean of {} steps", method_of(*steps.back()), steps.size()));
   // MOE is missing where MPE is: told once.
-  if (quantity.compared == Compared::kRatio) work.losses.push_back(std::move(losses));
+  if (quantity.nightly == NightlyRule::kRatio) work.losses.push_back(std::move(losses));
 }
 
 Work compare_all(const StudyEvidence& evidence, const RegressionRules& rules) {
   std::map<Family, std::vector<const SeriesId*>> families;
   for (const auto& [series, values] : evidence.tonight) {
-    const Compared compared = history_quantity(series.quantity).compared;
-    if (compared != Compared::kRatio && compared != Compared::kPoints) continue;
+    if (!is_accuracy(rule_of(series, evidence.trend.quantities, evidence.tonight))) continue;
     if (!evidence.reference->scores.contains(series)) continue;
     families[{series.sensor, series.method, series.quantity}].push_back(&series);
   }
@@ -156,8 +154,8 @@ std::string p_text(double p) { return p < 1e-9 ? "p < 1e-9" : fmt::format("p = {
 
 NightFinding finding_of(const Comparison& comparison, const PairedChange& change, double p,
                         std::size_t tests, const StudyEvidence& evidence) {
-  const HistoryQuantity& quantity = *comparison.quantity;
-  const bool ratio = quantity.compared == Compared::kRatio;
+  const Quantity& quantity = *comparison.quantity;
+  const bool ratio = quantity.nightly == NightlyRule::kRatio;
   const std::string interval =
       ratio ? percent_range(change.low, change.high)
             : fmt::format("{:.2f} to {:.2f}\u00a0points", change.low, change.high);
@@ -165,7 +163,7 @@ NightFinding finding_of(const Comparison& comparison, const PairedChange& change
   return {.study = evidence.trend.name,
           .rule = NightRule::kAccuracy,
           .subject = comparison.subject,
-          .quantity = std::string(quantity.name),
+          .quantity = quantity.id,
           .since = evidence.trend.nights.back().number,
           .sentence =
               fmt::format("{}: {} {} than on night {}, 95\u00a0% interval {}; median {:.4g} → "
@@ -181,7 +179,7 @@ NightFinding finding_of(const Losses& losses, double p, const StudyEvidence& evi
   return {.study = evidence.trend.name,
           .rule = NightRule::kLostMaps,
           .subject = losses.subject,
-          .quantity = std::string(losses.quantity->name),
+          .quantity = losses.quantity->id,
           .since = evidence.trend.nights.back().number,
           .sentence = fmt::format(
               "{}: {} of the {} results of night {} no longer come out, {} do that did not; {}",
@@ -225,12 +223,12 @@ RuleOutcome judge_accuracy(const StudyEvidence& evidence, const RegressionRules&
   std::set<std::pair<std::string, std::string>> told;
   for (std::size_t i = 0; i < changes.size(); ++i) {
     const Comparison& comparison = work.comparisons[i];
-    const double least =
-        comparison.quantity->compared == Compared::kRatio ? rules.least_ratio : rules.least_points;
+    const double least = comparison.quantity->nightly == NightlyRule::kRatio ? rules.least_ratio
+                                                                             : rules.least_points;
     if (p[i] > rules.alpha || changes[i].shift < least) continue;
     // Of one method the last step speaks for the mean over the steps.
     const std::string method = comparison.subject.substr(0, comparison.subject.rfind(", "));
-    if (!told.insert({method, std::string(comparison.quantity->name)}).second) continue;
+    if (!told.insert({method, comparison.quantity->id}).second) continue;
     outcome.findings.push_back(finding_of(comparison, changes[i], p[i], tests, evidence));
   }
   for (std::size_t i = 0; i < work.losses.size(); ++i)

@@ -33,7 +33,7 @@ std::vector<double> picked(const std::vector<double>& values,
 std::map<std::string, std::vector<double>> log_seconds(const StudyTrend& trend, double shortest) {
   std::map<std::string, std::vector<std::vector<double>>> steps;
   for (const auto& [series, values] : trend.medians) {
-    if (history_quantity(series.quantity).compared != Compared::kDuration) continue;
+    if (trend.quantities.at(series.quantity).nightly != NightlyRule::kDuration) continue;
     const double usual = median_of(values);
     if (std::isnan(usual) || usual < shortest) continue;
     std::vector<double> logs;
@@ -92,8 +92,8 @@ Limit limit_of(const NightSeries& series, const std::vector<std::size_t>& usual,
 
 NightFinding finding_of(const NightSeries& series, const Limit& limit, const StudyTrend& trend,
                         int since, const std::string& word) {
-  const std::string label(series.quantity == "memory" ? "peak memory"
-                                                      : history_quantity(series.quantity).label);
+  const std::string label =
+      series.quantity == "memory" ? "peak memory" : trend.quantities.at(series.quantity).label;
   return {.study = trend.name,
           .rule = series.rule,
           .subject = series.subject,
@@ -219,9 +219,9 @@ std::vector<NightSeries> accuracy_series(const StudyTrend& trend, const Regressi
   // Series ascend by step: the last of each method and quantity stays.
   std::map<std::pair<std::string, std::string>, NightSeries> last;
   for (const auto& [id, values] : trend.levels) {
-    const Compared compared = history_quantity(id.quantity).compared;
-    if (compared != Compared::kRatio && compared != Compared::kPoints) continue;
-    const bool ratio = compared == Compared::kRatio;
+    const NightlyRule rule = rule_of(id, trend.quantities, trend.levels);
+    if (!is_accuracy(rule)) continue;
+    const bool ratio = rule == NightlyRule::kRatio;
     NightSeries series{.rule = NightRule::kAccuracy,
                        .subject = method_of(id),
                        .quantity = id.quantity,

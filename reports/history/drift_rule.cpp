@@ -64,8 +64,8 @@ NightFinding finding_of(const Known& known, double p, std::size_t tests, const S
   const NightSeries& series = known.series;
   const bool accuracy = series.rule == NightRule::kAccuracy;
   const int since = known.nights[static_cast<std::size_t>(known.change.first)];
-  const std::string label(series.quantity == "memory" ? "peak memory"
-                                                      : history_quantity(series.quantity).label);
+  const std::string label =
+      series.quantity == "memory" ? "peak memory" : trend.quantities.at(series.quantity).label;
   return {
       .study = trend.name,
       .rule = accuracy ? NightRule::kAccuracyDrift : NightRule::kCostDrift,

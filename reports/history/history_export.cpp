@@ -29,7 +29,13 @@ ordered_json study_value(HistoryStore& history, int night, const StudyNight& stu
                      {"runs", study.runs},
                      {"seconds", optional_value(study.seconds)},
                      {"peak_memory_mib", optional_value(study.peak_memory_mib)},
+                     {"quantities", ordered_json::array()},
                      {"figures", ordered_json::array()}};
+  for (const Quantity& quantity : study.quantities.declared())
+    value["quantities"].push_back({{"id", quantity.id},
+                                   {"label", quantity.label},
+                                   {"unit", quantity.unit},
+                                   {"better", name(quantity.better)}});
   for (const FigureFile& file : study.figures)
     value["figures"].push_back(
         {{"file", file.file}, {"sha256", file.digest}, {"bytes", file.bytes}});

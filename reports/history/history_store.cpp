@@ -42,6 +42,19 @@ NightFacts read_facts(const Statement& row, const fs::path& path) {
   return facts;
 }
 
+/// What a study declared of its quantities.
+Quantities read_quantities(Database& database, std::int64_t study) {
+  Statement rows(database, "SELECT id, label, unit, better FROM quantities WHERE study = ?");
+  rows.bind(study);
+  Quantities quantities;
+  while (rows.step())
+    quantities.declare({.id = rows.text(0),
+                        .label = rows.text(1),
+                        .unit = rows.text(2),
+                        .better = better_named(rows.text(3)).value_or(Better::kNeither)});
+  return quantities;
+}
+
 template <typename Row>
 std::int64_t id_of(Database& database, Statement& find, Statement& insert, const Row& bind) {
   bind(find);
@@ -162,6 +175,7 @@ std::vector<StudyNight> HistoryStore::studies(int night) {
     Statement files(*database_,
                     "SELECT file, digest, bytes FROM figures WHERE study = ? ORDER BY file");
     files.bind(rows.integer(0));
+    study.quantities = read_quantities(*database_, rows.integer(0));
     while (files.step()) study.figures.push_back({files.text(0), files.text(1), files.integer(2)});
     studies.push_back(std::move(study));
   }
@@ -200,6 +214,7 @@ StudyTrend HistoryStore::trend(const std::string& study, const std::string& orde
   std::ranges::reverse(trend.nights);
   std::ranges::reverse(ids);
   std::ranges::reverse(trend.peak_memory_mib);
+  if (!ids.empty()) trend.quantities = read_quantities(*database_, ids.back());
   for (std::size_t i = 0; i < ids.size(); ++i) {
     Statement medians(
         *database_,
@@ -260,6 +275,15 @@ void HistoryStore::append_study(int night, const StudyNight& study) {
   insert.bind(night).bind(study.name).bind(study.kind).bind(study.order_digest).bind(study.runs);
   insert.bind(study.seconds.value_or(kNaN)).bind(study.peak_memory_mib.value_or(kNaN)).run();
   const std::int64_t id = database_->last_row();
+  Statement declare(
+      *database_, "INSERT INTO quantities (study, id, label, unit, better) VALUES (?, ?, ?, ?, ?)");
+  for (const Quantity& quantity : study.quantities.declared())
+    declare.bind(id)
+        .bind(quantity.id)
+        .bind(quantity.label)
+        .bind(quantity.unit)
+        .bind(name(quantity.better))
+        .run();
 
   Statement find_series(*database_,
                         "SELECT id FROM series WHERE sensor = ? AND method = ? AND step = ? AND "
@@ -286,7 +310,8 @@ void HistoryStore::append_study(int night, const StudyNight& study) {
       score.bind(id).bind(series).bind(run->second).bind(value.value).run();
     }
     median.bind(id).bind(series).bind(static_cast<int>(values.size()));
-    median.bind(known_median(values)).bind(level_of(key, values)).run();
+    median.bind(known_median(values));
+    median.bind(level_of(study.quantities.at(key.quantity), values)).run();
   }
   Statement figure(*database_,
                    "INSERT INTO figures (study, file, digest, bytes) VALUES (?, ?, ?, ?)");

@@ -29,12 +29,12 @@ std::string words_of(const NightFacts& night) {
   }
 }
 
-/// The last step of each method that is compared.
+/// The last step of each method, of what is an error or shown.
 std::vector<SeriesId> last_steps(const StudyTrend& trend) {
   std::vector<SeriesId> last;
   for (const auto& [id, values] : trend.medians) {
-    const Compared compared = history_quantity(id.quantity).compared;
-    if (compared != Compared::kRatio && compared != Compared::kPoints) continue;
+    const NightlyRule rule = rule_of(id, trend.quantities, trend.medians);
+    if (!is_accuracy(rule) && rule != NightlyRule::kShown) continue;
     const auto later = std::ranges::find_if(last, [&](const SeriesId& other) {
       return method_of(other) == method_of(id) && other.quantity == id.quantity;
     });
@@ -117,12 +117,11 @@ Table accuracy_table(const StudyTrend& trend) {
               .rows = {},
               .notes = {}};
   for (const SeriesId& id : last_steps(trend)) {
-    const HistoryQuantity& quantity = history_quantity(id.quantity);
+    const Quantity& quantity = trend.quantities.at(id.quantity);
     const std::vector<double>& values = trend.medians.at(id);
     const double before = values.size() > 1 ? values[values.size() - 2] : std::nan("");
-    table.rows.push_back({{text(shown_subject(id)), text(std::string(quantity.label)),
-                           text(std::string(quantity.unit)), number(values.front(), 4),
-                           number(before, 4), number(values.back(), 4)},
+    table.rows.push_back({{text(shown_subject(id)), text(quantity.label), text(quantity.unit),
+                           number(values.front(), 4), number(before, 4), number(values.back(), 4)},
                           "medians over runs"});
   }
   return table;

@@ -63,7 +63,10 @@ void add_tonight(StudyTrend& trend, const NightFacts& facts, const StudyNight& s
     }
   };
   add(trend.medians, [](const SeriesId&, const auto& values) { return known_median(values); });
-  add(trend.levels, level_of);
+  for (const Quantity& quantity : study.quantities.declared()) trend.quantities.declare(quantity);
+  add(trend.levels, [&](const SeriesId& series, const auto& values) {
+    return level_of(trend.quantities.at(series.quantity), values);
+  });
 }
 
 RuleOutcome judge_study(const StudyEvidence& evidence, const RegressionRules& rules,

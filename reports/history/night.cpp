@@ -14,20 +14,6 @@
 namespace mapproof {
 namespace {
 
-constexpr std::array kQuantities = {
-    HistoryQuantity{"mpe_m", "MPE", "m", Compared::kRatio},
-    HistoryQuantity{"moe_percent", "MOE", "%", Compared::kPoints},
-    HistoryQuantity{"mpe_all_fitted_m", "MPE, all fitted", "m", Compared::kNot},
-    HistoryQuantity{"moe_unmirrored_percent", "MOE, unmirrored", "%", Compared::kNot},
-    HistoryQuantity{"path_mean_m", "mean error of the path", "m", Compared::kRatio},
-    HistoryQuantity{"path_rmse_m", "RMS error of the path", "m", Compared::kNot},
-    HistoryQuantity{"landmarks_m", "mean error of landmarks", "m", Compared::kRatio},
-    HistoryQuantity{"positions_m", "mean error of positions", "m", Compared::kRatio},
-    HistoryQuantity{"observation", "error of the observation matrix", "", Compared::kRatio},
-    HistoryQuantity{"seconds", "seconds", "s", Compared::kDuration},
-    HistoryQuantity{"other", "other", "", Compared::kNot},
-};
-
 constexpr std::array kVerdictNames = {std::pair(NightVerdict::kGood, "good"),
                                       std::pair(NightVerdict::kCost, "cost"),
                                       std::pair(NightVerdict::kAccuracy, "accuracy")};
@@ -64,17 +50,6 @@ std::string method_of(const SeriesId& series) { return series.sensor + ", " + se
 std::string subject_of(const SeriesId& series) {
   return series.step == 0 ? method_of(series)
                           : fmt::format("{}, {} steps", method_of(series), series.step);
-}
-
-bool is_history_quantity(std::string_view name) {
-  return std::ranges::find(kQuantities, name, &HistoryQuantity::name) != kQuantities.end();
-}
-
-const HistoryQuantity& history_quantity(std::string_view name) {
-  const auto* found = std::ranges::find(kQuantities, name, &HistoryQuantity::name);
-  if (found == kQuantities.end())
-    throw InvalidInput("history: no quantity \"" + printable(std::string(name)) + "\"");
-  return *found;
 }
 
 std::string_view name(NightVerdict verdict) { return name_in(kVerdictNames, verdict); }
@@ -119,9 +94,9 @@ double known_median(const std::vector<RunValue>& values) {
   return known.empty() ? std::numeric_limits<double>::quiet_NaN() : median(known);
 }
 
-double level_of(const SeriesId& series, const std::vector<RunValue>& values) {
+double level_of(const Quantity& quantity, const std::vector<RunValue>& values) {
   constexpr double kLeastError = 1e-9;
-  const bool ratio = history_quantity(series.quantity).compared == Compared::kRatio;
+  const bool ratio = quantity.nightly == NightlyRule::kRatio;
   double sum = 0.0;
   int count = 0;
   for (const RunValue& value : values) {

@@ -8,15 +8,16 @@
 #include <string_view>
 #include <vector>
 
+#include "core/results/quantity.hpp"
+
 namespace mapproof {
 
 /// What a number of a night is of: all but the run.
 struct SeriesId {
-  std::string sensor =
-      {};  ///< "bearing"; of a range-only study what is mapped: "log", "simulation".
-  std::string method = {};    ///< With its parameter: "isomap-K6"; a variation's level with it.
+  std::string sensor = {};  ///< Condition::setup: "bearing", "plaza-1".
+  std::string method = {};  ///< With its parameter and all levels but steps: "isomap-K6 level=30".
   int step = 0;               ///< 0: of the whole.
-  std::string quantity = {};  ///< "mpe_m", "moe_percent", "seconds", …
+  std::string quantity = {};  ///< Quantity::id.
 
   auto operator<=>(const SeriesId&) const = default;
 };
@@ -25,28 +26,6 @@ struct SeriesId {
 std::string subject_of(const SeriesId& series);
 /// The same without the step.
 std::string method_of(const SeriesId& series);
-
-/// How a quantity is compared from night to night.
-enum class Compared {
-  kNot,       ///< Kept alone.
-  kRatio,     ///< Accuracy, by the ratio of the two values.
-  kPoints,    ///< Accuracy in percent, by their difference.
-  kDuration,  ///< Seconds.
-};
-
-/// Everything about a quantity that its readers ask.
-struct HistoryQuantity {
-  std::string_view name;   ///< In the store.
-  std::string_view label;  ///< "MPE".
-  std::string_view unit;
-  Compared compared = Compared::kNot;
-};
-
-/// @throws InvalidInput if the store knows none of that name.
-const HistoryQuantity& history_quantity(std::string_view name);
-
-/// Whether the store knows a quantity of that name.
-bool is_history_quantity(std::string_view name);
 
 /// One value of one run.
 struct RunValue {
@@ -74,6 +53,7 @@ struct StudyNight {
   int runs = 0;
   std::optional<double> seconds = {};  ///< Of all sessions that made it.
   std::optional<double> peak_memory_mib = {};
+  Quantities quantities = {};  ///< The dictionary and what the study declares.
   Scores scores = {};
   std::vector<FigureFile> figures = {};
 };
@@ -110,7 +90,7 @@ struct NightFinding {
   std::string study = {};
   NightRule rule = NightRule::kAccuracy;
   std::string subject = {};   ///< "bearing, isomap-K6"; of the whole study: "all methods".
-  std::string quantity = {};  ///< HistoryQuantity::name.
+  std::string quantity = {};  ///< Quantity::id, or "memory".
   int since = 0;              ///< The night it began, as far as can be told.
   std::string sentence = {};  ///< With numbers.
 };
@@ -152,6 +132,7 @@ struct Night {
 /// change points are taken from.
 struct StudyTrend {
   std::string name = {};
+  Quantities quantities = {};
   std::vector<NightFacts> nights = {};
   std::vector<double> peak_memory_mib = {};  ///< One a night; NaN: not known.
   /// Medians over runs, one a night; NaN: none.
@@ -163,9 +144,24 @@ struct StudyTrend {
 /// The median of the values that are no NaN; NaN without any.
 double known_median(const std::vector<RunValue>& values);
 
-/// The mean over the runs of the logarithm of a quantity that is compared by ratio, 1e-9 for less;
+/// The mean over the runs of the logarithm of a quantity that is judged by ratio, 1e-9 for less;
 /// of any other its mean. Runs differ far more than nights do: a median would follow one of them.
 /// NaN without any.
-double level_of(const SeriesId& series, const std::vector<RunValue>& values);
+double level_of(const Quantity& quantity, const std::vector<RunValue>& values);
+
+/// What nightly runs do with a series: what its quantity says; but one that stands in for another
+/// is only kept where `all`, a map by SeriesId, has the other as well.
+template <typename Map>
+NightlyRule rule_of(const SeriesId& series, const Quantities& quantities, const Map& all) {
+  const Quantity& quantity = quantities.at(series.quantity);
+  if (quantity.stands_in_for.empty()) return quantity.nightly;
+  const SeriesId other{series.sensor, series.method, series.step, quantity.stands_in_for};
+  return all.contains(other) ? NightlyRule::kKept : quantity.nightly;
+}
+
+/// Whether it is an error that is judged.
+constexpr bool is_accuracy(NightlyRule rule) {
+  return rule == NightlyRule::kRatio || rule == NightlyRule::kPoints;
+}
 
 }  // namespace mapproof

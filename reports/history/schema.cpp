@@ -98,7 +98,31 @@ CREATE TABLE findings (
 CREATE INDEX findings_by_night ON findings(night);
 )";
 
-constexpr std::array kVersions = {kVersion1, kVersion2};
+/// What studies declare beside the dictionary of quantities. Before, a number that the dictionary
+/// did not have was of "other", with its name behind the method's, and the error of the observation
+/// matrix had another name.
+constexpr const char* kVersion3 = R"(
+CREATE TABLE quantities (
+  study INTEGER NOT NULL REFERENCES studies(id) ON DELETE CASCADE,
+  id TEXT NOT NULL,
+  label TEXT NOT NULL,
+  unit TEXT NOT NULL,
+  better TEXT NOT NULL,
+  PRIMARY KEY (study, id)
+) WITHOUT ROWID;
+INSERT OR IGNORE INTO quantities (study, id, label, unit, better)
+  SELECT t.study, substr(s.method, instr(s.method, ' ') + 1),
+         substr(s.method, instr(s.method, ' ') + 1), '', 'neither'
+  FROM trends t JOIN series s ON s.id = t.series
+  WHERE s.quantity = 'other' AND instr(s.method, ' ') > 0;
+UPDATE series SET quantity = substr(method, instr(method, ' ') + 1),
+                  method = substr(method, 1, instr(method, ' ') - 1)
+  WHERE quantity = 'other' AND instr(method, ' ') > 0;
+UPDATE series SET quantity = 'observation_error' WHERE quantity = 'observation';
+UPDATE findings SET quantity = 'observation_error' WHERE quantity = 'observation';
+)";
+
+constexpr std::array kVersions = {kVersion1, kVersion2, kVersion3};
 
 int pragma(Database& database, const std::string& name) {
   Statement statement(database, "PRAGMA " + name);

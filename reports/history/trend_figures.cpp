@@ -98,8 +98,14 @@ std::vector<Line> shown_settings(const Told& told, const std::string& sensor,
                                  const std::string& quantity) {
   const std::vector<Line> all = all_settings(told, sensor, quantity);
   std::map<std::string, const Line*> best;
+  const auto is_variation = [&](const std::string& method) {
+    const std::size_t blank = method.find(' ');
+    return blank != std::string::npos && std::ranges::any_of(all, [&](const Line& line) {
+             return line.id.method == method.substr(0, blank);
+           });
+  };
   for (const Line& line : all) {
-    if (line.id.method.find(' ') != std::string::npos) continue;  // A variation.
+    if (is_variation(line.id.method)) continue;
     const Line*& known = best[base_method(line.id.method)];
     if (known == nullptr || level_over_nights(*line.values) < level_over_nights(*known->values))
       known = &line;
@@ -165,11 +171,10 @@ std::optional<Figure> lines_figure(const Told& told, const std::string& sensor,
                                    const std::string& quantity) {
   const std::vector<Line> lines = shown_settings(told, sensor, quantity);
   if (lines.empty()) return std::nullopt;
-  const HistoryQuantity& facts = history_quantity(quantity);
+  const Quantity& facts = told.trend.quantities.at(quantity);
   ErrorLinesSpec spec = named_spec(told, id_of(quantity) + "-" + id_of(sensor),
                                    fmt::format("{}: {}", sensor, facts.label));
-  spec.y_label = facts.unit.empty() ? std::string(facts.label)
-                                    : fmt::format("{} [{}]", facts.label, facts.unit);
+  spec.y_label = label_with_unit(facts);
   spec.quantity = facts.label;
   spec.caption = fmt::format(
       "Lines: median over runs of {} at the last step, of each method the setting that was best "
@@ -187,7 +192,7 @@ std::optional<Figure> lines_figure(const Told& told, const std::string& sensor,
     };
     mark_findings(told, label, *line.values, is_about_it, panel);
   }
-  return drawn(std::move(spec), std::move(panel), facts.compared == Compared::kDuration);
+  return drawn(std::move(spec), std::move(panel), facts.nightly == NightlyRule::kDuration);
 }
 
 std::optional<Figure> memory_figure(const Told& told) {
@@ -206,8 +211,8 @@ std::optional<Figure> memory_figure(const Told& told) {
   return drawn(std::move(spec), std::move(panel), true);
 }
 
-/// Sensor and quantity of a figure, errors first: the order of history_quantity()'s table.
-using Subject = std::tuple<bool, const HistoryQuantity*, std::string, std::string>;
+/// Quantity and sensor of a figure, in the order of the dictionary.
+using Subject = std::tuple<bool, std::size_t, std::string, std::string>;
 
 /// @param worst_first  Whether those that tonight's findings are about go before the others.
 std::set<Subject> subjects_of(const Told& told, bool worst_first) {
@@ -217,12 +222,13 @@ std::set<Subject> subjects_of(const Told& told, bool worst_first) {
     for (const auto& [night, finding] : told.findings)
       if (night == tonight && is_about(*finding, id)) found.insert({id.quantity, id.sensor});
   std::set<Subject> subjects;
-  for (const auto& [id, values] : told.trend.medians)
-    if (const HistoryQuantity& quantity = history_quantity(id.quantity);
-        quantity.compared != Compared::kNot) {
-      const bool later = worst_first && !found.contains({id.quantity, id.sensor});
-      subjects.insert({later, &quantity, id.quantity, id.sensor});
-    }
+  for (const auto& [id, values] : told.trend.medians) {
+    const NightlyRule rule = rule_of(id, told.trend.quantities, told.trend.medians);
+    if (rule == NightlyRule::kNone || rule == NightlyRule::kKept) continue;
+    const bool later = worst_first && !found.contains({id.quantity, id.sensor});
+    const std::size_t rank = dictionary_rank(told.trend.quantities.at(id.quantity));
+    subjects.insert({later, rank, id.quantity, id.sensor});
+  }
   return subjects;
 }
 
@@ -233,7 +239,7 @@ std::vector<Figure> trend_figures(const StudyTrend& trend, const NightFindings& 
   const Told told = told_of(trend, findings, place);
   std::vector<Figure> figures;
   const auto is_full = [&] { return place.most > 0 && figures.size() >= place.most; };
-  for (const auto& [later, facts, quantity, sensor] : subjects_of(told, place.most > 0)) {
+  for (const auto& [later, rank, quantity, sensor] : subjects_of(told, place.most > 0)) {
     if (is_full()) break;
     if (auto figure = lines_figure(told, sensor, quantity)) figures.push_back(std::move(*figure));
   }

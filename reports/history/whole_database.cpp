@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include "core/base/errors.hpp"
+#include "core/results/quantity.hpp"
 #include "reports/history/night.hpp"
 #include "reports/history/schema.hpp"
 
@@ -28,6 +29,29 @@ std::string damage_of_length(Database& database, const fs::path& path) {
   return fmt::format("it is cut off after {} bytes", bytes);
 }
 
+/// Of what studies declare, and of values of what neither they nor the dictionary have.
+std::string damage_of_quantities(Database& database) {
+  Statement declared(database, "SELECT id, label, unit, better FROM quantities");
+  while (declared.step()) {
+    const auto better = better_named(declared.text(3));
+    if (!better) return fmt::format("no quantity is better \"{}\"", printable(declared.text(3)));
+    std::string problem = problem_of({.id = declared.text(0),
+                                      .label = declared.text(1),
+                                      .unit = declared.text(2),
+                                      .better = *better});
+    if (!problem.empty()) return problem;
+  }
+  Statement undeclared(database,
+                       "SELECT DISTINCT s.quantity FROM trends t JOIN series s ON s.id = t.series "
+                       "LEFT JOIN quantities q ON q.study = t.study AND q.id = s.quantity "
+                       "WHERE q.id IS NULL");
+  while (undeclared.step())
+    if (find_quantity(undeclared.text(0)) == nullptr)
+      return fmt::format("it has values of the unknown quantity \"{}\"",
+                         printable(undeclared.text(0)));
+  return "";
+}
+
 /// What SQLite's check cannot find: bytes that changed into words and numbers that have no meaning.
 std::string damage_of_rows(Database& database) {
   if (version_of(database) != schema_version()) return "";
@@ -44,7 +68,7 @@ std::string damage_of_rows(Database& database) {
     if (!rule_named(findings.text(1)))
       return fmt::format("night {} has the unknown finding \"{}\"", findings.integer(0),
                          printable(findings.text(1)));
-  return "";
+  return damage_of_quantities(database);
 }
 
 }  // namespace

@@ -21,20 +21,20 @@ struct Shown {
 };
 
 Shown shown(const Variation& variation) {
-  switch (variation.quantity) {
-    case Quantity::kNoise:
+  switch (variation.factor) {
+    case Factor::kNoise:
       if (variation.sensor == Sensor::kVisibility) return {"wrong visibility entries [%]", 100.0};
       if (variation.sensor == Sensor::kBearing)
         return {"bearing noise [\u00B0]", 180.0 / std::numbers::pi};
       return {"range noise [m]"};
-    case Quantity::kDropoutShare:
+    case Factor::kDropoutShare:
       return {"missing entries [%]", 100.0};
-    case Quantity::kAnchors:
+    case Factor::kAnchors:
       return {"number of anchors"};
-    case Quantity::kSmacofFall:
-    case Quantity::kSmacofKnnFall:
+    case Factor::kSmacofFall:
+    case Factor::kSmacofKnnFall:
       return {"relative fall of the stress at which SMACOF stops"};
-    case Quantity::kOnlySeenTogether:
+    case Factor::kOnlySeenTogether:
       return {"neighbours (0: any pair, 1: pairs seen together alone)"};
   }
   return {};

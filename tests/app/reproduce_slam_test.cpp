@@ -139,7 +139,7 @@ TEST(ReproduceBoots2013, RunsOnThePlazaDataAndMeetsTheBounds) {
   const auto mean_m = [&](const std::string& run, const std::string& method) {
     for (const json& item : result.at("results"))
       if (item.at("run") == run && item.at("method") == method)
-        return item.at("errors").at(0).at("mean_m").get<double>();
+        return item.at("errors").at(0).at("path_mean_m").get<double>();
     return HUGE_VAL;
   };
   EXPECT_NEAR(mean_m("plaza-1", "dead-reckoning"), 15.92, 0.01);

@@ -23,7 +23,7 @@ json method_of(const json& result, const std::string& name) {
 }
 
 double mean_error(const json& result, const std::string& name) {
-  return method_of(result, name).at("errors").at(0).at("mean_m").get<double>();
+  return method_of(result, name).at("errors").at(0).at("path_mean_m").get<double>();
 }
 
 TEST(Slam, MapsALogAndWritesPathLandmarksFiguresAndReport) {

@@ -64,7 +64,7 @@ TEST(SimulateRun, ReportsLandmarksThatWereNeverSeen) {
 Variation noise_variation() {
   return {.id = "noise",
           .sensor = Sensor::kBearing,
-          .quantity = Quantity::kNoise,
+          .factor = Factor::kNoise,
           .levels = {0.0, 0.05, 0.6},
           .step = 200,
           .placement = std::nullopt,
@@ -113,7 +113,7 @@ TEST(Variations, OfNoiseMakeWorseMaps) {
 TEST(Variations, OfAnchorsScoreOneEmbeddingOverOtherAnchors) {
   Experiment experiment = small_experiment();
   Variation variation = noise_variation();
-  variation.quantity = Quantity::kAnchors;
+  variation.factor = Factor::kAnchors;
   variation.levels = {4, 8};
   variation.placement = AnchorPlacement::kWalls;
   experiment.variations = {variation};

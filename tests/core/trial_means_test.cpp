@@ -12,7 +12,7 @@ namespace {
 TrialStudy study_of(double by, double jitter) {
   TrialStudy study;
   study.design.series = {{"one", "First"}, {"two", "Second"}};
-  study.design.quantities = {{"mpe_m", "MPE", "m", true}};
+  study.design.quantities = {known_quantity("mpe_m")};
   for (int layout = 1; layout <= 3; ++layout)
     for (int pose = 1; pose <= 2; ++pose) {
       TrialPart part;

@@ -58,18 +58,18 @@ Experiment experiment_with_everything() {
   for (SensorStudy& sensor : experiment.sensors)
     sensor.methods = {{Method::kLpca, {}}, {Method::kIsomap, {5, 6}}};
   const MethodSetting isomap{Method::kIsomap, 6.0};
-  const auto variation = [&](const char* id, Quantity quantity, std::vector<double> levels) {
+  const auto variation = [&](const char* id, Factor factor, std::vector<double> levels) {
     return Variation{.id = id,
                      .sensor = Sensor::kVisibility,
-                     .quantity = quantity,
+                     .factor = factor,
                      .levels = std::move(levels),
                      .step = 200,
                      .placement = std::nullopt,
                      .settings = {{Method::kLpca, std::nullopt}, isomap}};
   };
-  experiment.variations = {variation("noise", Quantity::kNoise, {0.0, 0.1}),
-                           variation("anchors", Quantity::kAnchors, {3, 4, 6}),
-                           variation("together", Quantity::kOnlySeenTogether, {0, 1})};
+  experiment.variations = {variation("noise", Factor::kNoise, {0.0, 0.1}),
+                           variation("anchors", Factor::kAnchors, {3, 4, 6}),
+                           variation("together", Factor::kOnlySeenTogether, {0, 1})};
   experiment.variations[2].settings = {{Method::kIsomap, 5.0}, isomap};
   const auto figure = [](const char* id, FigureKind kind) {
     return PaperFigure{.id = id, .kind = kind, .methods = {}, .example = {}};

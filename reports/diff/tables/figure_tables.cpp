@@ -7,8 +7,8 @@
 #include <fmt/format.h>
 
 #include "core/base/words.hpp"
-#include "reports/diff/quantities.hpp"
 #include "reports/diff/tables/table_parts.hpp"
+#include "reports/diff/tolerances.hpp"
 
 namespace mapproof {
 namespace {

@@ -41,14 +41,11 @@ std::string runs_text(const Comparison& c) {
 }
 
 Row row_of(const Comparison& c) {
-  const QuantityFacts* facts = find_quantity(c.quantity);
-  const std::string quantity = facts == nullptr ? c.quantity : std::string(facts->label);
-  const std::string unit = facts == nullptr ? "" : std::string(facts->unit);
   const double scale = std::max(std::abs(c.baseline_mean), std::abs(c.current_mean));
   const std::string subject = c.current_subject == c.subject || c.current_subject.empty()
                                   ? c.subject
                                   : c.subject + " \u2192 " + c.current_subject;
-  Row row{{user_text(subject), TextCell{unit.empty() ? quantity : quantity + " [" + unit + "]"},
+  Row row{{user_text(subject), TextCell{label_with_unit(c.quantity)},
            scaled_number(c.baseline_mean, scale), scaled_number(c.current_mean, scale),
            TextCell{runs_text(c)}},
           "",

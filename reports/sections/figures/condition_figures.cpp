@@ -45,7 +45,7 @@ bool has_grids(const Variation& variation) {
 }
 
 std::string level_title(const Variation& variation, double level) {
-  if (variation.quantity != Quantity::kOnlySeenTogether)
+  if (variation.factor != Factor::kOnlySeenTogether)
     return fmt::format("{}: {:g}", level_words(variation), shown_level(variation, level));
   return level > 0.0 ? "pairs seen together alone" : "all pairs";
 }
@@ -98,7 +98,7 @@ Figure level_figure(const Study& study, const Variation& variation) {
     spec.methods.push_back(line_over_levels(variation, setting));
   spec.record_ids = {record_of(variation)};
   const bool is_fall =
-      variation.quantity == Quantity::kSmacofKnnFall || variation.quantity == Quantity::kSmacofFall;
+      variation.factor == Factor::kSmacofKnnFall || variation.factor == Factor::kSmacofFall;
   if (is_fall && variation.levels.front() > 0.0) spec.x_scale = Scale::kLog;
   return level_curve_figure(spec);
 }
@@ -109,7 +109,7 @@ void add_anchors(const Study& study, Sensor sensor, std::vector<Figure>& figures
   spec.id = fmt::format("anchors-{}", name(sensor));
   spec.title = fmt::format("{}: MPE by number and placement of anchors", title_of(sensor));
   for (const Variation& variation : study.experiment.variations) {
-    if (variation.sensor != sensor || variation.quantity != Quantity::kAnchors) continue;
+    if (variation.sensor != sensor || variation.factor != Factor::kAnchors) continue;
     const AnchorPlacement placement =
         variation.placement.value_or(study.experiment.anchor_placement);
     for (const VariedSetting& setting : summarize(study, variation)) {
@@ -170,7 +170,7 @@ std::vector<Figure> condition_figures(FigureSource& source) {
     add_anchors(study, sensor.sensor.sensor, figures);
   add_occlusion(source, figures);
   for (const Variation& variation : study.experiment.variations)
-    if (variation.quantity != Quantity::kAnchors) figures.push_back(level_figure(study, variation));
+    if (variation.factor != Factor::kAnchors) figures.push_back(level_figure(study, variation));
   return figures;
 }
 

@@ -103,7 +103,7 @@ bool tells_apart(const std::vector<TrialCell>& cells, const std::string& setup,
 std::optional<Figure> curve_figure(const TrialStudy& study, const TrialSetup& setup,
                                    const std::vector<TrialCell>& cells, std::size_t quantity) {
   if (!tells_apart(cells, setup.id, quantity)) return std::nullopt;
-  const TrialQuantity& what = study.design.quantities[quantity];
+  const Quantity& what = study.design.quantities[quantity];
   LevelCurveSpec spec;
   spec.id = fmt::format("{}-{}-{}", id_prefix(study), setup.id, what.id);
   std::ranges::replace(spec.id, '_', '-');

@@ -73,10 +73,6 @@ std::vector<const TrialCell*> cells_of(const std::vector<TrialCell>& cells,
 
 bool is_of_data(const TrialStudy& study) { return !study.experiment.data.empty(); }
 
-std::string label_with_unit(const TrialQuantity& quantity) {
-  return quantity.unit.empty() ? quantity.label : quantity.label + " [" + quantity.unit + "]";
-}
-
 int decimals_of(const std::vector<TrialCell>& cells, std::size_t quantity) {
   constexpr int kSignificant = 3;
   constexpr int kMost = 6;

@@ -31,9 +31,6 @@ std::vector<const TrialCell*> cells_of(const std::vector<TrialCell>& cells,
 /// Whether the parts are data sets rather than simulated runs.
 bool is_of_data(const TrialStudy& study);
 
-/// "MPE [m]"; without a unit the label alone.
-std::string label_with_unit(const TrialQuantity& quantity);
-
 /// Places after the point that tell the values of a quantity apart: three significant digits of
 /// their median.
 int decimals_of(const std::vector<TrialCell>& cells, std::size_t quantity);

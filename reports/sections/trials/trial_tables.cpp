@@ -53,7 +53,7 @@ void add_notes(const std::vector<SeriesCells>& rows, bool has_levels, Table& tab
 
 Table simulated_table(const TrialStudy& study, const TrialSetup& setup, std::size_t quantity,
                       const std::vector<TrialCell>& cells) {
-  const TrialQuantity& what = study.design.quantities[quantity];
+  const Quantity& what = study.design.quantities[quantity];
   const std::vector<SeriesCells> rows = rows_of(study, setup, cells);
   const int decimals = decimals_of(cells, quantity);
   Table table;
@@ -107,7 +107,7 @@ Table data_table(const TrialStudy& study, const TrialSetup& setup, const TrialPa
   const bool has_levels = !setup.level_label.empty();
   table.columns.push_back({"Series", "", "", ""});
   if (has_levels) table.columns.push_back({setup.level_label, "", "", ""});
-  for (const TrialQuantity& quantity : study.design.quantities)
+  for (const Quantity& quantity : study.design.quantities)
     table.columns.push_back({quantity.label, quantity.unit, "", ""});
   const std::vector<SeriesCells> rows = rows_of(study, setup, cells);
   for (const SeriesCells& row : rows)

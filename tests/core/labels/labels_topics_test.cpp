@@ -56,6 +56,8 @@ TEST(LabelsTopic, EstimatesBetterThanLabelsAsGiven) {
   EXPECT_GT(trial(study, "unlabelled", "estimated", 20.0).values[0], 70.0);
   EXPECT_TRUE(std::isnan(trial(study, "unlabelled", "given", 20.0).values[0]));  // None, by design.
   EXPECT_EQ(kLabelsTopic.conclude(study).size(), 3U);
+  // Its MOE allows for a reflection, and says so.
+  EXPECT_EQ(study.design.quantities[2], known_quantity("moe_unmirrored_percent"));
 }
 
 TEST(MovedTopic, NamesWhatMovedFarAndNothingElse) {

@@ -1,7 +1,10 @@
 #include <cmath>
+#include <map>
+#include <string>
 
 #include <gtest/gtest.h>
 
+#include "core/base/errors.hpp"
 #include "core/trials/missing.hpp"
 #include "tests/support/gappy.hpp"
 
@@ -19,6 +22,30 @@ TrialExperiment small_trials() {
   experiment.options["shares_occlusion"] = {0.3};
   experiment.options["dimensions"] = {5};
   return experiment;
+}
+
+/// The trial whose map that is: those of the highest level of each setup are kept.
+const Trial& trial_of(const TrialStudy& study, const std::string& map) {
+  for (const Trial& trial : study.parts.front().trials)
+    for (const TrialSetup& setup : study.design.setups)
+      if (trial.setup == setup.id && trial.level == setup.levels.back() &&
+          setup.id + "-" + trial.series == map)
+        return trial;
+  throw InvalidInput("no trial of the map " + map);
+}
+
+/// A number under the id of one of a score's is that one and no other.
+void expect_scores_of(const MapRecord& map, const Trial& trial, const TrialStudy& study) {
+  ASSERT_TRUE(map.score);
+  const std::map<std::string, double> score = {
+      {"mpe_m", map.score->mpe_m},
+      {"moe_percent", map.score->moe_percent},
+      {"mpe_all_fitted_m", map.score->mpe_all_fitted_m},
+      {"moe_unmirrored_percent", map.score->moe_unmirrored_percent}};
+  for (std::size_t i = 0; i < study.design.quantities.size(); ++i)
+    if (const auto known = score.find(study.design.quantities[i].id); known != score.end()) {
+      EXPECT_EQ(trial.values[i], known->second) << map.id << ", " << known->first;
+    }
 }
 
 TEST(MissingTopic, TriesEverySeriesAndConcludesWithNumbers) {
@@ -44,7 +71,8 @@ TEST(MissingTopic, TriesEverySeriesAndConcludesWithNumbers) {
     EXPECT_EQ(trial.values.size(), study.design.quantities.size());
     EXPECT_TRUE(std::isfinite(trial.values.back())) << trial.series;
   }
-  EXPECT_EQ(part.maps.size(), 6U);
+  ASSERT_EQ(part.maps.size(), 6U);
+  for (const TrialMap& map : part.maps) expect_scores_of(map.map, trial_of(study, map.id), study);
   EXPECT_EQ(part.trials.front().values,
             kMissingTopic.make(context).trials.front().values);  // nothing but its arguments counts
   const std::vector<std::string> sentences = kMissingTopic.conclude(study);

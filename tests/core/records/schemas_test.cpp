@@ -234,7 +234,7 @@ INSTANTIATE_TEST_SUITE_P(
         Damage{"slam_run", "/log/ranges/landmark/0", -1},
         Damage{"slam_run", "/records/0/method", "magic"},
         Damage{"slam_run", "/records/0/errors/0/alignment", "some"},
-        Damage{"slam_run", "/records/0/errors/0/mean_m", -1},
+        Damage{"slam_run", "/records/0/errors/0/path_mean_m", -1},
         Damage{"slam_run", "/records/0/landmark_cov_m2/0", {1, 2}},
         Damage{"slam_run", "/records/0/statuses/0/code", "tired"},
         Damage{"slam_run", "/windows/chosen_s", "long"}, Damage{"slam_run", "/starts/0/number", 0},

@@ -25,13 +25,14 @@ TrialStudy small_trials() {
   study.experiment.seed = 7;
   study.experiment.layouts = 2;
   study.experiment.options = {{"dimensions", {10.0}}, {"shares", {0.1, 0.5}}};
-  study.design = {
-      .question = "How much may be missing?",
-      .setups =
-          {{.id = "random", .title = "At random", .level_label = "share", .levels = {0.1, 0.5}}},
-      .series = {{.id = "ppca", .label = "PPCA"}, {.id = "fill", .label = "Mean fill"}},
-      .quantities = {{.id = "mpe_m", .label = "MPE", .unit = "m"},
-                     {.id = "found", .label = "found", .unit = "%", .lower_is_better = false}}};
+  study.design = {.question = "How much may be missing?",
+                  .setups = {{.id = "random",
+                              .title = "At random",
+                              .level_label = "share",
+                              .levels = {0.1, 0.5}}},
+                  .series = {{.id = "ppca", .label = "PPCA"}, {.id = "fill", .label = "Mean fill"}},
+                  .quantities = {known_quantity("mpe_m"),
+                                 study_quantity("found", "found", "%", Better::kHigher)}};
   study.provenance = test::made_up_provenance();
   return study;
 }

@@ -30,6 +30,8 @@ TEST(SubmapsTopic, HoldsPartsAgainstTheWholeAndSaysWhichIsWorse) {
                                             .seed = 3,
                                             .data = {},
                                             .with_maps = false}));
+  // Its MOE allows for a reflection, and says so.
+  EXPECT_EQ(study.design.quantities[1], known_quantity("moe_unmirrored_percent"));
   // Six series at each of four levels, and two more where there are gaps.
   EXPECT_EQ(study.parts.front().trials.size(), 26U);
   for (const Trial& trial : study.parts.front().trials) {

@@ -30,7 +30,7 @@ std::map<std::string, double>& values(RecordSet& set) {
 
 Outcome outcome_of(const RecordDiff& diff, const std::string& quantity) {
   for (const Comparison& comparison : diff.comparisons)
-    if (comparison.quantity == quantity) return comparison.outcome;
+    if (comparison.quantity.id == quantity) return comparison.outcome;
   return Outcome::kEqual;
 }
 

@@ -1,6 +1,8 @@
 #include <gtest/gtest.h>
 
+#include "core/base/errors.hpp"
 #include "core/records/trial_store.hpp"
+#include "reports/diff/folder_diff.hpp"
 #include "reports/diff/record_diff.hpp"
 #include "reports/diff/record_set.hpp"
 #include "tests/support/temporary_folder.hpp"
@@ -13,12 +15,11 @@ TrialStudy two_runs() {
   study.experiment.name = "labels";
   study.experiment.topic = "labels";
   study.experiment.layouts = 2;
-  study.design = {
-      .question = "?",
-      .setups = {{.id = "all", .title = "All", .level_label = "", .levels = {0.0}}},
-      .series = {{.id = "joint", .label = "Joint"}},
-      .quantities = {{.id = "mpe_m", .label = "MPE", .unit = "m"},
-                     {.id = "found", .label = "found", .unit = "%", .lower_is_better = false}}};
+  study.design = {.question = "?",
+                  .setups = {{.id = "all", .title = "All", .level_label = "", .levels = {0.0}}},
+                  .series = {{.id = "joint", .label = "Joint"}},
+                  .quantities = {known_quantity("mpe_m"),
+                                 study_quantity("found", "found", "%", Better::kHigher)}};
   return study;
 }
 
@@ -62,6 +63,29 @@ TEST(TrialRecords, AreWorseWhereAnErrorRoseOrAShareFell) {
 TEST(TrialRecords, AreBetterWhereAnErrorFellOrAShareRose) {
   EXPECT_EQ(diff_of(0.05, 90.0).judgement.verdict, Verdict::kBetter);
   EXPECT_EQ(diff_of(0.1, 95.0).judgement.verdict, Verdict::kBetter);
+}
+
+TEST(TrialRecords, CompareWhatAStudyDeclaresUnderItsNameWithDirectionAndTest) {
+  const RecordDiff share = diff_of(0.1, 80.0);
+  ASSERT_EQ(share.comparisons.size(), 1U);
+  EXPECT_EQ(share.comparisons[0].quantity, study_quantity("found", "found", "%", Better::kHigher));
+  EXPECT_EQ(share.comparisons[0].subject, "all/joint/0");
+  EXPECT_EQ(share.comparisons[0].outcome, Outcome::kWorse);
+  EXPECT_NE(share.judgement.cause.find("found 90 \u2192 80 % over 2 runs of all/joint/0"),
+            std::string::npos)
+      << share.judgement.cause;
+}
+
+TEST(TrialRecords, HaveTheTolerancesThatSettingsGiveDeclaredQuantities) {
+  const test::TemporaryFolder folder;
+  write_study(folder / "a", 0.1, 90.0);
+  write_study(folder / "b", 0.1, 89.5);
+  DiffSettings settings;
+  settings.records.tolerances["found"] = {.absolute = 1.0, .relative = 0.0};
+  EXPECT_EQ(folder_diff(folder / "a", folder / "b", settings).items.front().judgement.verdict,
+            Verdict::kWithinTolerance);
+  settings.records.tolerances["fond"] = {.absolute = 1.0, .relative = 0.0};
+  EXPECT_THROW(folder_diff(folder / "a", folder / "b", settings), InvalidInput);
 }
 
 TEST(TrialRecords, ThatAreDamagedAreAProblemAndTheRestGoesOn) {

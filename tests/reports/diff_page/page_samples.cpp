@@ -75,7 +75,7 @@ RecordDiff records(Trap& text) {
   Comparison comparison;
   comparison.subject = text();
   comparison.current_subject = comparison.subject;
-  comparison.quantity = "mpe_m";
+  comparison.quantity = known_quantity("mpe_m");
   comparison.outcome = Outcome::kWorse;
   comparison.test = PairedTest{"layout", {}, 0.003};
   diff.comparisons = {comparison};

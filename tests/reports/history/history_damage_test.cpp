@@ -51,6 +51,23 @@ TEST(HistoryStore, ThatIsDamagedIsRefusedAsItIs) {
   }
 }
 
+TEST(HistoryStore, WithWhatIsNoQuantityIsRefusedAsItIs) {
+  const Quantity found = study_quantity("found", "Landmarks found", "%", Better::kHigher);
+  for (const auto& [change, words] :
+       {std::pair("UPDATE series SET quantity = 'mpe_x' WHERE quantity = 'mpe_m'",
+                  "is damaged: it has values of the unknown quantity \"mpe_x\""),
+        std::pair("UPDATE quantities SET better = 'upper'",
+                  "is damaged: no quantity is better \"upper\""),
+        std::pair("UPDATE quantities SET id = 'mpe_m'", "is damaged: \"mpe_m\" is a quantity")}) {
+    const TemporaryFolder folder;
+    Night night = sample_night(1, 1);
+    night.studies[0].quantities.declare(found);
+    HistoryStore::open(folder.path()).append(night);
+    Database(history_file(folder.path()), Database::Access::kWrite).execute(change);
+    expect_refused(folder.path(), words);
+  }
+}
+
 TEST(HistoryStore, ThatIsCutAtAnyLengthIsRefusedAsItIs) {
   const TemporaryFolder folder;
   const fs::path path = history_file(folder.path());

@@ -94,6 +94,30 @@ TEST(HistoryPages, ShowTheSettingThatWasBestAndGotWorseAndMarkTheNight) {
   EXPECT_EQ(marked, (std::vector<std::pair<double, double>>{{4, 0.20}, {4, 0.15}}));
 }
 
+TEST(HistoryPages, LabelWhatAStudyDeclaresAsItDoes) {
+  StudyTrend trend = best_got_worse();
+  trend.quantities.declare(
+      study_quantity("found_percent", "Landmarks found", "%", Better::kHigher));
+  trend.medians[{"size", "isomap-K5 level=30", 0, "found_percent"}] = {90, 91, 92, 93};
+  trend.medians[{"size", "isomap-K5 level=50", 0, "found_percent"}] = {80, 81, 82, 83};
+  const std::vector<Figure> figures = trend_figures(trend, {});
+  ASSERT_EQ(figures.size(), 3U);  // MPE, what is declared, memory.
+  EXPECT_EQ(figures[1].id, "trend-found-percent-size");
+  EXPECT_EQ(figures[1].panels.front().y.label, "Landmarks found [%]");
+  EXPECT_EQ(curves(figures[1]).size(), 1U);  // The better level stands for the method.
+  const Table table = accuracy_table(trend);
+  EXPECT_EQ(std::get<TextCell>(table.rows.back().cells[1]).text, "Landmarks found");
+}
+
+TEST(HistoryRules, JudgeOneOfTheTwoOrientationErrors) {
+  const SeriesId plain{"bearing", "lpca", 9, "moe_percent"};
+  const SeriesId reflected{"bearing", "lpca", 9, "moe_unmirrored_percent"};
+  Scores both = {{plain, {}}, {reflected, {}}}, alone = {{reflected, {}}};
+  EXPECT_EQ(rule_of(plain, {}, both), NightlyRule::kPoints);
+  EXPECT_EQ(rule_of(reflected, {}, both), NightlyRule::kKept);
+  EXPECT_EQ(rule_of(reflected, {}, alone), NightlyRule::kPoints);
+}
+
 TEST(HistoryPages, SayOfANightThatWasNotComparedThatItWasNot) {
   const StudyTrend trend = best_got_worse();
   const auto& stands = trend_page(trend, {}, false, {}).report.opening.standing;

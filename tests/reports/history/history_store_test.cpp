@@ -4,6 +4,7 @@
 
 #include "core/base/errors.hpp"
 #include "core/base/sha256.hpp"
+#include "reports/history/history_export.hpp"
 #include "reports/history/history_store.hpp"
 #include "reports/history/schema.hpp"
 #include "tests/reports/history/sample_nights.hpp"
@@ -50,6 +51,49 @@ TEST(HistoryStore, OfAnOlderVersionIsMigratedAndKeptAsItWas) {
   EXPECT_FALSE(store.nights()[0].pinned);
   Database kept(folder.path() / "history.sqlite.v1-backup", Database::Access::kRead);
   EXPECT_EQ(version_of(kept), 1);
+}
+
+TEST(HistoryStore, KeepsWhatAStudyDeclaresOfItsQuantities) {
+  const TemporaryFolder folder;
+  HistoryStore store = HistoryStore::open(folder.path());
+  Night night = sample_night(1, 4);
+  const Quantity found = study_quantity("found", "Landmarks found", "%", Better::kHigher);
+  night.studies[0].quantities.declare(found);
+  night.studies[0].scores[{"bearing", "lpca", 2000, "found"}] = {
+      {"layout-1-pose-1", "layout-1", 9.0}};
+  store.append(night);
+  EXPECT_EQ(store.studies(1)[0].quantities.declared(), std::vector<Quantity>{found});
+  EXPECT_EQ(store.trend("sample", "d", 60, 1).quantities.at("found"), found);
+  const auto exported = history_json(store, false)["nights"][0]["studies"][0]["quantities"];
+  EXPECT_EQ(exported.dump(),
+            R"([{"id":"found","label":"Landmarks found","unit":"%","better":"higher"}])");
+  store.remove({1});
+  Database database(history_file(folder.path()), Database::Access::kRead);
+  Statement left(database, "SELECT count(*) FROM quantities");
+  ASSERT_TRUE(left.step());
+  EXPECT_EQ(left.integer(0), 0);
+}
+
+TEST(HistoryStore, OfVersion2GivesOtherNumbersTheirNamesBack) {
+  const TemporaryFolder folder;
+  {
+    Database old(history_file(folder.path()), Database::Access::kCreate);
+    make_tables(old, 2);
+    old.execute(
+        "INSERT INTO nights (number, started_utc, ended_utc, command, provenance, host, processor, "
+        "cores, jobs, reference, verdict) VALUES (1, '2026-01-01T00:00:00Z', "
+        "'2026-01-01T01:00:00Z', 'c', '{}', 'h', 'p', 2, 2, NULL, 'good');"
+        "INSERT INTO studies VALUES (1, 1, 's', 'mapproof.trial_study', 'd', 1, NULL, NULL);"
+        "INSERT INTO series VALUES (1, 'size', 'ppca@30 mapped_percent', 0, 'other'),"
+        " (2, 'convergence', 'spectral-known', 50, 'observation');"
+        "INSERT INTO trends VALUES (1, 1, 1, 0.5, 0.5), (1, 2, 1, 0.25, 0.25);");
+  }
+  HistoryStore store = HistoryStore::open(folder.path());
+  const StudyTrend trend = store.trend("s", "d", 60, 1);
+  EXPECT_EQ(trend.quantities.at("mapped_percent").label, "mapped_percent");
+  EXPECT_EQ(trend.medians.at({"size", "ppca@30", 0, "mapped_percent"}), std::vector<double>{0.5});
+  EXPECT_EQ(trend.medians.at({"convergence", "spectral-known", 50, "observation_error"}),
+            std::vector<double>{0.25});
 }
 
 TEST(HistoryStore, OfALaterVersionOrOfAnotherProgramIsRefused) {

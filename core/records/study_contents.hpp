@@ -1,0 +1,64 @@
+#pragma once
+
+#include <filesystem>
+#include <functional>
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "core/model/map_record.hpp"
+#include "core/model/slam_study.hpp"
+#include "core/model/study.hpp"
+#include "core/results/results.hpp"
+
+namespace mapproof {
+
+/// Points with names: the landmarks of a map, the positions of a path.
+struct PlacedPoints {
+  std::string quantity = "landmark_m";  ///< Quantity::id.
+  Frame frame = Frame::kTruth;
+  std::vector<std::string> names;  ///< One a row; empty: rows are counted from 1.
+  Points points;                   ///< n x 2; NaN rows: no place.
+  std::optional<Points> truth;     ///< n x 2; NaN rows: not known.
+};
+
+/// A file of the records that cannot be read.
+struct RecordProblem {
+  std::string file;  ///< Below the folder.
+  std::string what;
+};
+
+/// What a folder of records holds, whatever kind of study they are of.
+struct StudyContents {
+  std::string kind;  ///< "mapproof.study", "mapproof.slam_study", "mapproof.trial_study",
+                     ///< "mapproof.map", "mapproof.slam_run": the schema of its first file.
+  Provenance provenance;
+  Results results;
+  std::vector<Result> seconds;                 ///< Of its parts: they vary from run to run.
+  std::map<std::string, std::string> runs;     ///< Id of each, and its group; of one that cannot be
+                                               ///< read nothing is known.
+  std::map<std::string, PlacedPoints> worlds;  ///< By run: the true positions.
+  std::map<std::string, std::string> anchors;  ///< By run: their rows, as text.
+  std::map<std::string, PlacedPoints> points;  ///< Maps and paths, by record_name().
+  std::vector<RecordProblem> problems;
+};
+
+/// What is asked of a study's folder.
+struct ContentsAsked {
+  bool seconds = false;
+  /// Whether maps are read of that file; empty: of none. Paths come with their records.
+  std::function<bool(const std::filesystem::path&)> maps = {};
+  /// A file that cannot be read is a problem and the rest goes on; else it is thrown.
+  bool keeps_on = false;
+};
+
+/// Reads the study in a folder, of whatever kind: the one place that asks of which it is.
+/// @throws IoError if there is no study.json or it cannot be read.
+StudyContents read_study_contents(const std::filesystem::path& folder, const ContentsAsked& asked);
+
+/// One map, and one log's result, as a study of its own.
+StudyContents contents_of(const MapRecord& map);
+StudyContents contents_of(const SlamRun& run);
+
+}  // namespace mapproof
