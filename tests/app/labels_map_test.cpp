@@ -12,21 +12,13 @@
 #include "tests/core/labels/noisy_looks.hpp"
 #include "tests/core/labels/real_looks.hpp"
 #include "tests/support/program.hpp"
+#include "tests/support/sightings_csv.hpp"
 #include "tests/support/worlds.hpp"
 
 namespace mapproof::test {
 namespace {
 
 using nlohmann::json;
-
-std::string sightings_csv(const SightingLog& log) {
-  std::string text = "step,landmark,range,bearing\n";
-  for (const Sighting& seen : log.sightings)
-    text +=
-        fmt::format("{},{},{},{}\n", seen.step, log.names[static_cast<std::size_t>(seen.landmark)],
-                    seen.range_m, seen.bearing_rad);
-  return text;
-}
 
 /// The places of some landmarks as a file of anchors.
 std::string corners_csv(const SightingLog& log) {

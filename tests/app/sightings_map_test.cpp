@@ -11,6 +11,7 @@
 #include "tests/support/looks.hpp"
 #include "tests/support/packing.hpp"
 #include "tests/support/program.hpp"
+#include "tests/support/sightings_csv.hpp"
 #include "tests/support/worlds.hpp"
 
 namespace mapproof::test {
@@ -23,14 +24,7 @@ struct Hall {
   Points landmarks = 6.0 * scattered(10, 5);
   SightingLog log = looks_at(landmarks, 300, 4, 5);
 
-  std::string csv(double unit = 1.0) const {
-    std::string text = "step,landmark,range,bearing\n";
-    for (const Sighting& seen : log.sightings)
-      text += fmt::format("{},{},{},{}\n", seen.step,
-                          log.names[static_cast<std::size_t>(seen.landmark)], seen.range_m,
-                          unit * seen.bearing_rad);
-    return text;
-  }
+  std::string csv(double unit = 1.0) const { return sightings_csv(log, unit); }
   std::string positions(Eigen::Index count) const {
     std::string text = "name,x,y\n";
     for (Eigen::Index i = 0; i < count; ++i)

@@ -18,6 +18,7 @@
 #include "tests/support/looks.hpp"
 #include "tests/support/packing.hpp"
 #include "tests/support/program.hpp"
+#include "tests/support/sightings_csv.hpp"
 
 namespace mapproof::test {
 namespace {
@@ -110,15 +111,7 @@ SightingLog looks() {
   return looks_at(places, 300, 5, 3);
 }
 
-std::string looks_csv() {
-  const SightingLog log = looks();
-  std::string text = "step,landmark,range,bearing\n";
-  for (const Sighting& seen : log.sightings)
-    text +=
-        fmt::format("{},{},{},{}\n", seen.step, log.names[static_cast<std::size_t>(seen.landmark)],
-                    seen.range_m, seen.bearing_rad);
-  return text;
-}
+std::string looks_csv() { return sightings_csv(looks()); }
 
 std::string looks_json() { return sightings_json(looks()); }
 

@@ -1,0 +1,16 @@
+#include "tests/support/sightings_csv.hpp"
+
+#include <fmt/format.h>
+
+namespace mapproof::test {
+
+std::string sightings_csv(const SightingLog& log, double unit) {
+  std::string text = "step,landmark,range,bearing\n";
+  for (const Sighting& seen : log.sightings)
+    text +=
+        fmt::format("{},{},{},{}\n", seen.step, log.names[static_cast<std::size_t>(seen.landmark)],
+                    seen.range_m, unit * seen.bearing_rad);
+  return text;
+}
+
+}  // namespace mapproof::test
