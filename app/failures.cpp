@@ -15,10 +15,11 @@
 namespace mapproof {
 namespace {
 
-ExitCode tell(const std::string& what, ExitCode code) {
-  // In the system's words, wherever they were taken up.
+ExitCode report_failure(const std::string& what, ExitCode code) {
+  // The words of the system, whichever layer passed them on.
   const bool is_memory = what.ends_with(std::strerror(ENOMEM));
-  std::cerr << "mapproof: " << (is_memory ? "out of memory: " : "") << printable(what, 4000) << "\n";
+  std::cerr << "mapproof: " << (is_memory ? "out of memory: " : "") << printable(what, 4000)
+            << "\n";
   return is_memory ? kInternal : code;
 }
 
@@ -26,24 +27,24 @@ int try_work(const std::function<int()>& work, const std::string& of) {
   try {
     return work();
   } catch (const IoError& error) {
-    return tell(of + error.what(), kUsage);
+    return report_failure(of + error.what(), kUsage);
   } catch (const InvalidInput& error) {
-    return tell(of + error.what(), kUsage);
+    return report_failure(of + error.what(), kUsage);
   } catch (const SceneError& error) {
-    return tell(of + error.what(), kInternal);
+    return report_failure(of + error.what(), kInternal);
   } catch (const AnimationError& error) {
-    return tell(of + error.what(), kInternal);
+    return report_failure(of + error.what(), kInternal);
   } catch (const std::bad_alloc&) {
     throw;
   } catch (const std::exception& error) {
-    return tell(of + "internal error: " + error.what(), kInternal);
+    return report_failure(of + "internal error: " + error.what(), kInternal);
   }
 }
 
 }  // namespace
 
 int exit_code_of(const std::function<int()>& work, const std::string& of) {
-  // Nothing that is told of it may ask for memory.
+  // The message must not allocate memory.
   try {
     return try_work(work, of);
   } catch (const OutOfMemory& error) {

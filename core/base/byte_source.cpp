@@ -18,7 +18,7 @@ namespace {
 constexpr std::size_t kPackedBlock = std::size_t{1} << 17;
 constexpr std::size_t kBlock = std::size_t{1} << 20;
 
-/// Bytes from where the file stands to its end; empty: that is told by reading alone.
+/// Bytes from where the file stands to its end; empty: only reading finds that out.
 std::optional<std::size_t> bytes_left(const Descriptor& file) {
   struct stat facts {};
   if (::fstat(file.get(), &facts) != 0 || !S_ISREG(facts.st_mode)) return std::nullopt;

@@ -13,7 +13,7 @@
 
 namespace mapproof {
 
-/// Gives the next bytes to where it is told, as many as it likes. @return How many; 0 at the end.
+/// Writes the next bytes to `to`, as many as it likes. @return How many; 0 at the end.
 using ReadBytes = std::function<std::size_t(std::span<char> to)>;
 
 /// The bytes of an input, once from its start to its end; unpacked if they are gzip'ed or xz'ed,

@@ -59,7 +59,9 @@ struct Reader {
   std::vector<std::string> written = {};
 };
 
-[[maybe_unused]] std::ostream& operator<<(std::ostream& out, const Reader& reader) { return out << reader.name; }
+[[maybe_unused]] std::ostream& operator<<(std::ostream& out, const Reader& reader) {
+  return out << reader.name;
+}
 
 const std::vector<std::string> kMap = {"map.json", "map.csv"};
 const std::vector<std::string> kSlam = {"slam.json"};
@@ -317,7 +319,7 @@ TEST(Streams, AStreamIsNotGivenTwice) {
   expect_refused(shell(folder.path(), "$MAPPROOF diff /dev/fd/7 /dev/fd/7 7< <(cat seen.csv)"),
                  "/dev/fd/7 is given twice");
   EXPECT_FALSE(fs::exists(folder / "out"));
-  // A file may be: it is opened anew.
+  // A file may be: it is opened once more.
   EXPECT_EQ(shell(folder.path(),
                   "$MAPPROOF validate seen.csv seen.csv /dev/stdin /dev/stdin "
                   "< anchors.csv")
@@ -345,6 +347,18 @@ TEST(Streams, AFolderIsNotReadFromStandardInput) {
   expect_refused(shell(folder.path(), "cat seen.csv | $MAPPROOF diff - ."), "not to be compared");
 }
 
+/// Each command is refused, and names the file and what it is.
+void expect_named(const TemporaryFolder& folder, const std::string& words,
+                  std::initializer_list<const char*> commands) {
+  for (const char* command : commands) {
+    const Outcome outcome = shell(folder.path(), fmt::format("$MAPPROOF {}", command), 5.0);
+    EXPECT_GT(outcome.exit_code, 0);
+    EXPECT_LT(outcome.exit_code, 3) << command;
+    EXPECT_NE((outcome.error + outcome.out).find(words), std::string::npos)
+        << outcome.error << outcome.out;
+  }
+}
+
 TEST(Streams, PipesAndDevicesWithinFoldersAreNamedAtOnce) {
   const std::string data = std::string(MAPPROOF_TEST_DATA);
   for (const char* name : {"Barcodes.dat", "Robot1_Measurement.dat", "Landmark_Groundtruth.dat"}) {
@@ -352,30 +366,16 @@ TEST(Streams, PipesAndDevicesWithinFoldersAreNamedAtOnce) {
     fs::copy(data + "/mrclam", folder / "set");
     fs::remove(folder / "set" / name);
     ASSERT_EQ(::mkfifo((folder / "set" / name).c_str(), 0600), 0);
-    for (const char* rest :
-         {"map set --out out", "validate set", "map set --kind range-bearing --out out"}) {
-      const Outcome outcome = shell(folder.path(), fmt::format("$MAPPROOF {}", rest), 5.0);
-      EXPECT_GT(outcome.exit_code, 0);
-      EXPECT_LT(outcome.exit_code, 3) << rest;
-      EXPECT_NE((outcome.error + outcome.out).find(std::string(name) + ": is a pipe"),
-                std::string::npos)
-          << outcome.error << outcome.out;
-    }
+    expect_named(folder, std::string(name) + ": is a pipe",
+                 {"map set --out out", "validate set", "map set --kind range-bearing --out out"});
   }
   for (const char* name : {"ranges.csv", "odometry.csv", "groundtruth.csv", "landmarks.csv"}) {
     const TemporaryFolder folder;
     csv_folder(folder, sample_log());
     fs::remove(folder / "set" / name);
     fs::create_symlink("/dev/zero", folder / "set" / name);
-    for (const char* rest :
-         {"slam set --out out", "slam set/ranges.csv --out out", "validate set"}) {
-      const Outcome outcome = shell(folder.path(), fmt::format("$MAPPROOF {}", rest), 5.0);
-      EXPECT_GT(outcome.exit_code, 0);
-      EXPECT_LT(outcome.exit_code, 3) << rest;
-      EXPECT_NE((outcome.error + outcome.out).find(std::string(name) + ": is a device"),
-                std::string::npos)
-          << outcome.error << outcome.out;
-    }
+    expect_named(folder, std::string(name) + ": is a device",
+                 {"slam set --out out", "slam set/ranges.csv --out out", "validate set"});
   }
 }
 

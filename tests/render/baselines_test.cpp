@@ -30,7 +30,7 @@ TEST(Baselines, AMissingOneIsAFailureThatLeavesACandidate) {
   const std::string difference = difference_from_baseline("no-such-baseline", image);
   EXPECT_NE(difference.find("there is no baseline"), std::string::npos);
   const std::filesystem::path candidate =
-      std::filesystem::path(MAPPROOF_VISUAL) / "no-such-baseline.png";
+      std::filesystem::path(MAPPROOF_VISUAL) / "differing/no-such-baseline.png";
   EXPECT_TRUE(std::filesystem::exists(candidate));
   std::filesystem::remove(candidate);
 }

@@ -1,5 +1,6 @@
 #include "tests/support/baselines.hpp"
 
+#include <algorithm>
 #include <filesystem>
 
 #include <fmt/format.h>
@@ -23,6 +24,21 @@ Theme baseline_theme() {
   return theme;
 }
 
+namespace {
+
+/// NAME.png and NAME@KEY.png, as far as they are there.
+std::vector<fs::path> baselines_of(const std::string& name) {
+  std::vector<fs::path> found;
+  for (const fs::path& file : fs::directory_iterator(MAPPROOF_BASELINES)) {
+    const std::string stem = file.stem().string();
+    if (file.extension() == ".png" && stem.substr(0, stem.find('@')) == name) found.push_back(file);
+  }
+  std::ranges::sort(found);
+  return found;
+}
+
+}  // namespace
+
 std::vector<Figure> baseline_figures() {
   std::vector<Figure> figures = sample_figures();
   std::erase_if(figures, [](const Figure& figure) {
@@ -42,27 +58,25 @@ std::vector<Figure> baseline_figures() {
 }
 
 std::string difference_from_baseline(const std::string& name, const Image& image) {
-  const fs::path baseline = fs::path(MAPPROOF_BASELINES) / (name + ".png");
-  const fs::path candidate = fs::path(MAPPROOF_VISUAL) / (name + ".png");
+  const fs::path candidate = fs::path(MAPPROOF_VISUAL) / "differing" / (name + ".png");
   const std::string png = encode_png(image);
+  // As stored: the encoder may have moved a few colours.
+  const Image stored = read_png(png).image;
   std::string difference;
-  if (!fs::exists(baseline)) {
-    difference = "there is no baseline " + baseline.string();
-  } else {
-    // As stored: the encoder may have moved a few colours.
-    const ImageDifference found =
-        compare_images(read_png(read_file(baseline)).image, read_png(png).image);
+  for (const fs::path& baseline : baselines_of(name)) {
+    const ImageDifference found = compare_images(read_png(read_file(baseline)).image, stored);
     if (is_alike(found)) {
       fs::remove(candidate);
       return {};
     }
-    difference =
-        fmt::format("{}: {}, {:.3f} % of pixels changed, least structure {:.3f}, shift {:.1f}",
-                    name, found.same_size ? "same size" : "another size",
+    difference +=
+        fmt::format("{}: {}, {:.3f} % of pixels changed, least structure {:.3f}, shift {:.1f}; ",
+                    baseline.filename().string(), found.same_size ? "same size" : "another size",
                     100.0 * found.changed_share, found.structure, found.shift);
   }
+  if (difference.empty()) difference = "there is no baseline " + name + "; ";
   write_file(candidate, png);
-  return difference + "; the candidate is " + candidate.string();
+  return difference + "the candidate is " + candidate.string();
 }
 
 }  // namespace mapproof::test

@@ -15,9 +15,10 @@ Theme baseline_theme();
 /// The sample figures that differ most in what they show: those that have a baseline.
 std::vector<Figure> baseline_figures();
 
-/// Compares with tests/baselines/NAME.png. What is not alike, and what has no baseline, is left in
-/// the build's folder `visual` as NAME.png, for people to look at.
-/// @return Empty if the picture is as it was, else what differs.
+/// Compares with tests/baselines/NAME.png and with each NAME@KEY.png, the same picture as other
+/// versions of Cairo, FreeType or Mesa draw it. What is like none of them is left in the build's
+/// folder `visual/differing` as NAME.png, for people to look at.
+/// @return Empty if the picture is like one of them, else what differs from each.
 std::string difference_from_baseline(const std::string& name, const Image& image);
 
 }  // namespace mapproof::test
