@@ -40,7 +40,7 @@ bool blend(Eigen::MatrixXd& G, double regularization, Eigen::LLT<Eigen::MatrixXd
     G.diagonal().array() += regularization;
     factor.compute(G);
   }
-  weights = factor.solve(Eigen::VectorXd::Ones(G.rows()));
+  weights = factor.solve(Eigen::VectorXd(Eigen::VectorXd::Ones(G.rows())));
   weights /= weights.sum();
   return euclidean;
 }

@@ -121,7 +121,7 @@ EigenPairs inverse_lanczos(const Sparse& matrix, Eigen::Index k, const Eigen::Ve
   // The inverse gives the directions; the matrix itself the values, and the residuals.
   const Eigen::MatrixXd V = pairs.vectors;
   const Eigen::MatrixXd AV = matrix * V;
-  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> small(V.transpose() * AV);
+  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> small(Eigen::MatrixXd(V.transpose() * AV));
   pairs.values = small.eigenvalues();
   pairs.vectors = V * small.eigenvectors();
   const Eigen::MatrixXd residuals =

@@ -57,7 +57,7 @@ GroupFit fit_group(const Features& matrix, const ColumnGroup& group, const LowRa
   const Eigen::LLT<Eigen::MatrixXd> factor(A);
   const Eigen::MatrixXd projected = W.transpose() * centred;
   GroupFit fit{.x = factor.solve(projected),
-               .inverse = factor.solve(Eigen::MatrixXd::Identity(q, q)),
+               .inverse = factor.solve(Eigen::MatrixXd(Eigen::MatrixXd::Identity(q, q))),
                .log_determinant = 2.0 * factor.matrixLLT().diagonal().array().log().sum()};
   fit.squared_left = centred.squaredNorm() - projected.cwiseProduct(fit.x).sum();
   return fit;
@@ -93,7 +93,7 @@ double Moments::regress(Eigen::Index row, double penalty, LowRankModel& model) c
   const double regular = 1e-12 * A.trace();
   A.diagonal().array() += regular;
   A.diagonal().head(q).array() += penalty;
-  const Eigen::VectorXd weights = A.llt().solve(values.col(row));
+  const Eigen::VectorXd weights = A.llt().solve(Eigen::VectorXd(values.col(row)));
   model.loadings.row(row) = weights.head(q).transpose();
   model.mean(row) = weights(q);
   const double left = squares(row) - values.col(row).dot(weights) -

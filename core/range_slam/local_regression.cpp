@@ -50,7 +50,8 @@ struct RobustFit {
     for (int round = 0; round < kRounds; ++round) {
       normal = A.transpose() * weights.matrix().asDiagonal() * A;
       normal.diagonal().array() += kRidge * normal.trace();
-      solution = normal.ldlt().solve(A.transpose() * (weights * y).matrix());
+      const Vector right = A.transpose() * (weights * y).matrix();
+      solution = normal.ldlt().solve(right);
       const Eigen::ArrayXd misfit = (base * (y - (A * solution).array())).abs();
       const double limit = kHuber * kMedianToSigma * median_of(misfit);
       if (!(limit > 0.0)) break;

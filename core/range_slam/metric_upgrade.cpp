@@ -22,7 +22,7 @@ QuadricCloud in_plane(const Eigen::MatrixXd& V, const Eigen::VectorXd& w,
                       const Eigen::MatrixXd& Q) {
   const Eigen::Index n = w.size();
   const Eigen::HouseholderQR<Eigen::MatrixXd> qr(w);
-  const Eigen::MatrixXd basis = qr.householderQ() * Eigen::MatrixXd::Identity(n, n);
+  const Eigen::MatrixXd basis = leading_columns(qr.householderQ(), n);
   Eigen::MatrixXd chart(n, n);  // [p; 1] to v
   chart << basis.rightCols(n - 1), w / w.squaredNorm();
   QuadricCloud cloud;
@@ -84,7 +84,8 @@ MetricUpgrade metric_upgrade(const Factorization& factors, UpgradeSide side) {
   }
 
   // Whitened, or the fit is ill-conditioned.
-  const Eigen::LLT<Eigen::MatrixXd> llt(factors.V * factors.V.transpose() / static_cast<double>(T));
+  const Eigen::MatrixXd moments = factors.V * factors.V.transpose() / static_cast<double>(T);
+  const Eigen::LLT<Eigen::MatrixXd> llt(moments);
   const Eigen::MatrixXd L = llt.matrixL();
   const Eigen::MatrixXd V = L.triangularView<Eigen::Lower>().solve(factors.V);
   if (factors.condition > kFlat || llt.info() != Eigen::Success || !V.allFinite()) {

@@ -94,7 +94,8 @@ void OnlineSpectralMap::fold() {
   sum_ += pending.rowwise().sum();
 
   // The frame of the new Gram matrix, and the moments of old columns in it.
-  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver(gram_ / double(steps_));
+  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver(
+      Eigen::MatrixXd(gram_ / double(steps_)));
   eigenvalues_ = solver.eigenvalues().reverse();
   const double least = kGramRounding * eigenvalues_(0);
   const Eigen::Index q = std::min<Eigen::Index>(kFrame, (eigenvalues_.array() > least).count());
@@ -166,7 +167,8 @@ SpectralMap OnlineSpectralMap::map(const KnownLandmarks& known) const {
 SpectralMap OnlineSpectralMap::map() const {
   OnlineSpectralMap all = *this;
   all.fold();
-  if (const auto none = all.without_map(kLeastStepsToMap, StatusCode::kDegenerateGeometry)) return *none;
+  if (const auto none = all.without_map(kLeastStepsToMap, StatusCode::kDegenerateGeometry))
+    return *none;
   const Eigen::MatrixXd U = all.frame_.leftCols(kRank);
   const UpgradeTransform transform =
       upgrade_transform(U, all.mean_state(),

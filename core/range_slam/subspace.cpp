@@ -12,7 +12,7 @@ namespace {
 Eigen::MatrixXd orthonormal(const Eigen::MatrixXd& A) {
   const Eigen::ColPivHouseholderQR<Eigen::MatrixXd> qr(A);
   if (qr.rank() < A.cols()) throw InvalidInput("a subspace needs independent columns");
-  return qr.householderQ() * Eigen::MatrixXd::Identity(A.rows(), A.cols());
+  return leading_columns(qr.householderQ(), A.cols());
 }
 
 }  // namespace
@@ -25,7 +25,7 @@ Eigen::VectorXd canonical_angles(const Eigen::MatrixXd& A, const Eigen::MatrixXd
   const Eigen::MatrixXd common = P.transpose() * Q;
   const Eigen::VectorXd cosines = Eigen::JacobiSVD<Eigen::MatrixXd>(common).singularValues();
   const Eigen::VectorXd sines =
-      Eigen::JacobiSVD<Eigen::MatrixXd>(Q - P * common).singularValues().reverse();
+      Eigen::JacobiSVD<Eigen::MatrixXd>(Eigen::MatrixXd(Q - P * common)).singularValues().reverse();
   Eigen::VectorXd angles(A.cols());
   for (Eigen::Index i = 0; i < angles.size(); ++i)
     angles(i) = cosines(i) > std::numbers::sqrt2 / 2.0 ? std::asin(std::min(1.0, sines(i)))

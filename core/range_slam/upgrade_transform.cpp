@@ -78,8 +78,8 @@ std::optional<Candidate> upgraded(const Eigen::MatrixXd& quadric, const Eigen::V
   rows << (*Q * s1).transpose(), (*Q * s4).transpose();
   const Eigen::MatrixXd complement =
       Eigen::JacobiSVD<Eigen::MatrixXd>(rows, Eigen::ComputeFullV).matrixV().rightCols(n - 2);
-  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> flat(complement.transpose() * *Q *
-                                                            complement);
+  const Eigen::MatrixXd between = complement.transpose() * *Q * complement;
+  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> flat(between);
   if (!(flat.eigenvalues()(0) > 0.0)) return std::nullopt;
   Candidate candidate{.Q = *Q, .S = Eigen::MatrixXd(n, n)};
   candidate.S << s1,

@@ -105,7 +105,7 @@ void AugmentedLagrangian::make_blocks(const Rows& Y, const Eigen::VectorXd& x) {
   for (Eigen::Index i = 0; i < Y.rows(); ++i) {
     Eigen::MatrixXd& block = blocks_[static_cast<std::size_t>(i)];
     block.diagonal().array() += std::max(2.0 * degree(i), 0.5);
-    block = block.llt().solve(Eigen::MatrixXd::Identity(rank, rank));
+    block = block.llt().solve(Eigen::MatrixXd(Eigen::MatrixXd::Identity(rank, rank)));
   }
 }
 

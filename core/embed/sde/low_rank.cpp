@@ -16,7 +16,7 @@ constexpr double kVanished = 1e-5;
 
 /// Y turned to its principal axes, ascending, without those that vanish.
 Rows without_vanished(const Problem& problem, const Rows& Y) {
-  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> axes(Y.transpose() * Y);
+  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> axes(Eigen::MatrixXd(Y.transpose() * Y));
   const double least = kVanished * static_cast<double>(problem.points()) * problem.squared.mean();
   const Eigen::Index kept = (axes.eigenvalues().array() > least).count();
   return Y * axes.eigenvectors().rightCols(std::max<Eigen::Index>(kept, 1));

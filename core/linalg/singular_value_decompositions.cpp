@@ -1,0 +1,3 @@
+#include "core/linalg/decompositions.hpp"
+
+MAPPROOF_SINGULAR_VALUE_DECOMPOSITIONS(template)
