@@ -9,12 +9,14 @@
 
 #include "app/command_line.hpp"
 #include "app/embedded_experiments.hpp"
+#include "app/results_outputs.hpp"
 #include "app/slam_outputs.hpp"
 #include "app/study_outputs.hpp"
 #include "app/trial_outputs.hpp"
 #include "core/base/errors.hpp"
 #include "core/base/files.hpp"
 #include "core/base/parallel.hpp"
+#include "core/records/results_study_json.hpp"
 #include "core/records/slam_store.hpp"
 #include "core/records/study_store.hpp"
 #include "core/records/trial_store.hpp"
@@ -87,8 +89,9 @@ FolderReport read_folder_report(const fs::path& folder, const std::optional<std:
     const std::vector<Session> sessions = read_sessions(folder);
     made_by = sessions.empty() ? fallback : sessions.back().command;
   }
-  FolderReport report = is_trial_study(folder)  ? trial_folder_report(folder, made_by)
-                        : is_slam_study(folder) ? slam_folder_report(folder, made_by)
+  FolderReport report = is_trial_study(folder)     ? trial_folder_report(folder, made_by)
+                        : is_results_study(folder) ? results_folder_report(folder, made_by)
+                        : is_slam_study(folder)    ? slam_folder_report(folder, made_by)
                                                 : study_folder_report(view_study(folder), made_by);
   report.report.figure_command = figure_command(folder);
   return report;

@@ -16,6 +16,7 @@
 
 #include "app/failures.hpp"
 #include "core/base/errors.hpp"
+#include "core/records/results_study_json.hpp"
 #include "reports/history/night_scores.hpp"
 
 namespace mapproof {
@@ -27,7 +28,9 @@ std::vector<StudyOrder> read_nightly_orders(const std::vector<std::string>& expe
   options.profile_if_there = options.one_of_several = true;
   std::vector<StudyOrder> orders;
   for (const std::string& experiment : experiments) {
-    StudyOrder order = read_study_order(experiment_of(experiment), options);
+    StudyOrder order = is_results_study(experiment)
+                           ? given_study_order(experiment)
+                           : read_study_order(experiment_of(experiment), options);
     for (const StudyOrder& other : orders)
       if (other.name == order.name)
         throw InvalidInput("two experiments have the name " + printable(order.name));

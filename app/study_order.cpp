@@ -1,6 +1,7 @@
 #include "app/study_order.hpp"
 
 #include <algorithm>
+#include <array>
 
 #include <fmt/format.h>
 
@@ -8,8 +9,10 @@
 #include "app/study_run.hpp"
 #include "app/trial_outputs.hpp"
 #include "core/base/errors.hpp"
+#include "core/base/files.hpp"
 #include "core/base/sha256.hpp"
 #include "core/records/experiment_json.hpp"
+#include "core/records/results_study_json.hpp"
 #include "core/records/run_json.hpp"
 #include "core/records/slam_experiment_json.hpp"
 #include "core/records/slam_run_json.hpp"
@@ -70,7 +73,15 @@ std::uint64_t seed_of(const StudyOrder& order) {
   if (const auto* slam = std::get_if<LoggedSlam>(&order.experiment)) return slam->experiment.seed;
   if (const auto* trials = std::get_if<TrialOrder>(&order.experiment))
     return trials->experiment.seed;
+  if (std::holds_alternative<GivenStudy>(order.experiment)) return 0;
   return std::get<Experiment>(order.experiment).seed;
+}
+
+/// The files of a study that another program made.
+constexpr std::array kGivenFiles = {"study.json", "results.csv"};
+
+void copy_study(const std::filesystem::path& from, const std::filesystem::path& to) {
+  for (const char* file : kGivenFiles) write_file(to / file, read_file(from / file));
 }
 
 }  // namespace
@@ -99,6 +110,15 @@ StudyOrder read_study_order(const ExperimentText& file, const OrderOptions& opti
     order.name = experiment.name;
     order.experiment = std::move(experiment);
   }
+  return order;
+}
+
+StudyOrder given_study_order(const std::filesystem::path& folder) {
+  StudyOrder order{
+      .name = read_results_study(folder).name, .digest = {}, .experiment = GivenStudy{folder}};
+  std::string texts;
+  for (const char* file : kGivenFiles) texts += read_file(folder / file);
+  order.digest = sha256_hex(texts);
   return order;
 }
 
@@ -151,6 +171,8 @@ std::string study_json(const StudyOrder& order) {
     return slam_study_json(slam->experiment, provenance);
   if (const auto* trials = std::get_if<TrialOrder>(&order.experiment))
     return trial_study_json(planned_study(trials->experiment, provenance));
+  if (const auto* given = std::get_if<GivenStudy>(&order.experiment))
+    return read_file(given->folder / "study.json");
   return study_json(std::get<Experiment>(order.experiment), provenance);
 }
 
@@ -160,6 +182,8 @@ void make_study(const StudyOrder& order, const std::filesystem::path& folder, in
     make_slam_records(slam->experiment, slam->data, folder, jobs, command, console);
   else if (const auto* trials = std::get_if<TrialOrder>(&order.experiment))
     make_trial_records(*trials, folder, jobs, command, console);
+  else if (const auto* given = std::get_if<GivenStudy>(&order.experiment))
+    copy_study(given->folder, folder);
   else
     make_records(std::get<Experiment>(order.experiment), folder, jobs, command, console);
 }

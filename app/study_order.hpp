@@ -37,17 +37,25 @@ struct LoggedSlam {
   SlamData data;
 };
 
+/// A study that another program made: its folder is copied.
+struct GivenStudy {
+  std::filesystem::path folder;
+};
+
 /// An experiment of any kind with the data that it is made of, ready to be run.
 struct StudyOrder {
   std::string name;
   std::string digest;  ///< SHA-256 of its text and profile.
-  std::variant<Experiment, LoggedSlam, TrialOrder> experiment;
+  std::variant<Experiment, LoggedSlam, TrialOrder, GivenStudy> experiment;
 };
 
 /// Reads an experiment of any kind and looks up its data; nothing is made. Folders of data that it
 /// has no use for are left alone: see check_data_used().
 /// @throws IoError, InvalidInput, CLI::ValidationError.
 StudyOrder read_study_order(const ExperimentText& file, const OrderOptions& options);
+
+/// The order to take the table of results in a folder as a study. @throws IoError.
+StudyOrder given_study_order(const std::filesystem::path& folder);
 
 /// Whether it is an experiment of trials on data sets. @throws IoError if it is no experiment.
 bool is_made_of_data(const ExperimentText& file);

@@ -207,8 +207,10 @@ Action nightly_verb(CLI::App& app) {
       "Exit code 0: nothing got worse, or there was nothing to compare with, which is said;\n"
       "1: accuracy did; 4: seconds or memory alone grew.\n"
       "docs/nightly.md says by which rules, and how to run it by a timer.\n");
-  app.add_option("EXPERIMENT", arguments->experiments,
-                 fmt::format("Experiments' JSON files, or {}", fmt::join(experiment_names(), ", ")))
+  app.add_option(
+         "EXPERIMENT", arguments->experiments,
+         fmt::format("Experiments' JSON files, folders with a results.csv of your own, or {}",
+                     fmt::join(experiment_names(), ", ")))
       ->required();
   app.add_option("--store", arguments->store, "Folder of the history; made if it is not there")
       ->required()

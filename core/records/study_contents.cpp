@@ -12,6 +12,7 @@
 #include "core/base/files.hpp"
 #include "core/json/json_cursor.hpp"
 #include "core/records/results_of.hpp"
+#include "core/records/results_study_json.hpp"
 #include "core/records/run_json.hpp"
 #include "core/records/slam_store.hpp"
 #include "core/records/study_files.hpp"
@@ -154,6 +155,13 @@ void read_trials(const fs::path& folder, const std::string& text, const Contents
   if (asked.seconds) contents.seconds = seconds_of(read_trial_study(folder));
 }
 
+void read_table(const fs::path& folder, const std::string&, const ContentsAsked&,
+                StudyContents& contents) {
+  ResultsStudy study = read_results_study(folder);
+  for (const Result& row : study.results.rows) contents.runs[row.run] = row.group;
+  contents.results = std::move(study.results);
+}
+
 /// One kind of study: the schema of its study.json, and what reads it.
 struct StudyKind {
   std::string_view schema;
@@ -161,9 +169,9 @@ struct StudyKind {
                StudyContents& contents);
 };
 
-constexpr std::array kKinds = {StudyKind{"mapproof.study", read_mapping},
-                               StudyKind{"mapproof.slam_study", read_ranges},
-                               StudyKind{"mapproof.trial_study", read_trials}};
+constexpr std::array kKinds = {
+    StudyKind{"mapproof.study", read_mapping}, StudyKind{"mapproof.slam_study", read_ranges},
+    StudyKind{"mapproof.trial_study", read_trials}, StudyKind{kResultsStudy, read_table}};
 
 }  // namespace
 

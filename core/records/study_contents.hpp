@@ -32,7 +32,8 @@ struct RecordProblem {
 /// What a folder of records holds, whatever kind of study they are of.
 struct StudyContents {
   std::string kind;  ///< "mapproof.study", "mapproof.slam_study", "mapproof.trial_study",
-                     ///< "mapproof.map", "mapproof.slam_run": the schema of its first file.
+                     ///< "mapproof.results_study", "mapproof.map", "mapproof.slam_run": the schema
+                     ///< of its first file.
   Provenance provenance;
   Results results;
   std::vector<Result> seconds;                 ///< Of its parts: they vary from run to run.

@@ -10,6 +10,7 @@
 #include "core/records/json_values.hpp"
 #include "core/records/map_values.hpp"
 #include "core/records/provenance_values.hpp"
+#include "core/records/quantity_values.hpp"
 #include "core/records/trial_experiment_json.hpp"
 
 namespace mapproof {
@@ -19,26 +20,6 @@ using Json = nlohmann::ordered_json;
 
 constexpr double kLargest = std::numeric_limits<double>::max();
 constexpr std::size_t kMost = 10'000;  ///< Setups, series, quantities, levels, maps.
-
-Json quantity_value(const Quantity& quantity) {
-  return {{"id", quantity.id},
-          {"label", quantity.label},
-          {"unit", quantity.unit},
-          {"better", name(quantity.better)}};
-}
-
-Quantity read_trial_quantity(const JsonCursor& value) {
-  value.allow_only({"id", "label", "unit", "better"});
-  const auto better = better_named(value.at("better").text());
-  if (!better) value.at("better").fail("expected lower, higher or neither");
-  Quantity quantity{.id = value.at("id").text(100),
-                    .label = value.at("label").text(200),
-                    .unit = value.at("unit").text(100),
-                    .better = *better};
-  if (const std::string problem = problem_of(quantity); !problem.empty())
-    value.at("id").fail(problem);
-  return study_quantity(quantity.id, quantity.label, quantity.unit, quantity.better);
-}
 
 Json setup_value(const TrialSetup& setup) {
   Json levels = Json::array();
@@ -92,7 +73,7 @@ TrialDesign read_design(const JsonCursor& value) {
     design.series.push_back({.id = read_id(item.at("id")), .label = item.at("label").text(200)});
   }
   for (const JsonCursor& item : value.at("quantities").elements(1, kMost))
-    design.quantities.push_back(read_trial_quantity(item));
+    design.quantities.push_back(read_quantity(item));
   check_ids(design.setups, value.at("setups"));
   check_ids(design.series, value.at("series"));
   check_ids(design.quantities, value.at("quantities"));

@@ -18,6 +18,7 @@
 #include "core/records/mrclam.hpp"
 #include "core/records/observation_values.hpp"
 #include "core/records/range_log_files.hpp"
+#include "core/records/results_study_json.hpp"
 #include "core/records/results_table.hpp"
 #include "core/records/run_json.hpp"
 #include "core/records/sightings.hpp"
@@ -62,6 +63,7 @@ constexpr std::array kSchemas = {
                 [](auto text, auto& source) { parse_observations(text, source, std::nullopt); }},
     KnownSchema{"mapproof.range_histories",
                 [](auto text, auto& source) { parse_range_histories(text, source); }},
+    KnownSchema{kResultsStudy, [](auto text, auto& source) { parse_results_study(text, source); }},
     KnownSchema{"mapproof.run", [](auto text, auto& source) { parse_run(text, source); }},
     KnownSchema{"mapproof.sightings",
                 [](auto text, auto& source) { parse_sightings(text, source); }},
@@ -174,6 +176,10 @@ void read_whole_study(const fs::path& folder) {
   }
   if (is_trial_study(folder)) {
     read_trial_study(folder);
+    return;
+  }
+  if (is_results_study(folder)) {
+    read_results_study(folder);
     return;
   }
   for (const Run& run : read_study(folder).runs) {

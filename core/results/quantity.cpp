@@ -124,6 +124,8 @@ Quantity study_quantity(std::string id, std::string label, std::string unit, Bet
   quantity.label = label;
   if (const std::string problem = problem_of(quantity); !problem.empty())
     throw InvalidInput(problem);
+  if (better != Better::kNeither)
+    quantity.nightly = quantity.unit == "%" ? NightlyRule::kPoints : NightlyRule::kRatio;
   if (const Quantity* known = find_quantity(quantity.id)) quantity = *known;
   quantity.label = std::move(label);
   return quantity;

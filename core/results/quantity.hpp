@@ -71,7 +71,8 @@ const Quantity& known_quantity(std::string_view id);
 std::string problem_of(const Quantity& quantity);
 
 /// A quantity as a study names it: of an id that the dictionary has, its entry under the study's
-/// label; of another, a declaration with the rounding and the nightly rule of a new Quantity.
+/// label; of another, a declaration with the rounding of a new Quantity, which nightly runs judge
+/// if one way is better: by points if its unit is %, else by the ratio.
 /// @throws InvalidInput with problem_of() it.
 Quantity study_quantity(std::string id, std::string label, std::string unit, Better better);
 

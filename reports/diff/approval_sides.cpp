@@ -19,10 +19,11 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::array<std::pair<std::string_view, std::string_view>, 5> kKindsOfRecords = {
+constexpr std::array<std::pair<std::string_view, std::string_view>, 6> kKindsOfRecords = {
     {{"mapproof.study", "a study"},
      {"mapproof.slam_study", "a range-only study"},
      {"mapproof.trial_study", "a study of one topic"},
+     {"mapproof.results_study", "a table of results"},
      {"mapproof.map", "one map"},
      {"mapproof.slam_run", "the result of one range log"}}};
 
@@ -93,7 +94,8 @@ void require_comparable(const ApprovalSide& baseline, const ApprovalSide& curren
   for (const auto& [id, paths] : baseline.files) {
     if (!id.starts_with(std::string(kRecordsItem) + "/") || !current.files.contains(id)) continue;
     const fs::path name = fs::path(id).filename();
-    const auto was = kind_of_records(baseline.root / name), is = kind_of_records(current.root / name);
+    const auto was = kind_of_records(baseline.root / name),
+               is = kind_of_records(current.root / name);
     if (!was.empty() && !is.empty())
       require_same_kind(was, is, baseline.root / name, current.root / name);
   }

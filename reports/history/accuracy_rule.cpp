@@ -43,7 +43,9 @@ struct Losses {
   int lost = 0, gained = 0, of = 0;
 };
 
+/// By how much a value got worse: in points, or the logarithm of a ratio.
 double difference(const Quantity& quantity, double before, double after) {
+  if (quantity.better == Better::kHigher) std::swap(before, after);
   return quantity.nightly == NightlyRule::kPoints
              ? after - before
              : std::log(std::max(after, kLeastError) / std::max(before, kLeastError));
@@ -146,8 +148,17 @@ double sign_p(int lost, int gained) {
   return lost == 0 ? 1.0 : boost::math::cdf(boost::math::complement(fair, lost - 1));
 }
 
-std::string percent_range(double low, double high) {
-  return fmt::format("{:.1f} to {:.1f}\u00a0%", 100.0 * std::expm1(low), 100.0 * std::expm1(high));
+/// In percent of what it was.
+double worse_percent(const Quantity& quantity, double log_ratio) {
+  return quantity.better == Better::kHigher ? -100.0 * std::expm1(-log_ratio)
+                                            : 100.0 * std::expm1(log_ratio);
+}
+
+std::string range_words(const Quantity& quantity, double low, double high) {
+  if (quantity.nightly == NightlyRule::kPoints)
+    return fmt::format("{:.2f} to {:.2f}\u00a0points", low, high);
+  return fmt::format("{:.1f} to {:.1f}\u00a0%", worse_percent(quantity, low),
+                     worse_percent(quantity, high));
 }
 
 std::string p_text(double p) { return p < 1e-9 ? "p < 1e-9" : fmt::format("p = {:.2g}", p); }
@@ -155,24 +166,21 @@ std::string p_text(double p) { return p < 1e-9 ? "p < 1e-9" : fmt::format("p = {
 NightFinding finding_of(const Comparison& comparison, const PairedChange& change, double p,
                         std::size_t tests, const StudyEvidence& evidence) {
   const Quantity& quantity = *comparison.quantity;
-  const bool ratio = quantity.nightly == NightlyRule::kRatio;
-  const std::string interval =
-      ratio ? percent_range(change.low, change.high)
-            : fmt::format("{:.2f} to {:.2f}\u00a0points", change.low, change.high);
+  const std::string interval = range_words(quantity, change.low, change.high);
   const std::string units = counted(change.units, comparison.by_layout ? "layout" : "run");
-  return {.study = evidence.trend.name,
-          .rule = NightRule::kAccuracy,
-          .subject = comparison.subject,
-          .quantity = quantity.id,
-          .since = evidence.trend.nights.back().number,
-          .sentence =
-              fmt::format("{}: {} {} than on night {}, 95\u00a0% interval {}; median {:.4g} → "
-                          "{:.4g}\u00a0{} at the last "
-                          "step; {}, {} corrected for {}",
-                          shown_subject(comparison.subject), quantity.label,
-                          change_words(change.shift, ratio, "higher"), evidence.reference->night,
-                          interval, comparison.before, comparison.after, quantity.unit, units,
-                          p_text(p), counted(static_cast<long long>(tests), "test"))};
+  return {
+      .study = evidence.trend.name,
+      .rule = NightRule::kAccuracy,
+      .subject = comparison.subject,
+      .quantity = quantity.id,
+      .since = evidence.trend.nights.back().number,
+      .sentence = fmt::format("{}: {} {} than on night {}, 95\u00a0% interval {}; median {:.4g} → "
+                              "{:.4g}\u00a0{} at the last "
+                              "step; {}, {} corrected for {}",
+                              shown_subject(comparison.subject), quantity.label,
+                              worse_words(quantity, change.shift), evidence.reference->night,
+                              interval, comparison.before, comparison.after, quantity.unit, units,
+                              p_text(p), counted(static_cast<long long>(tests), "test"))};
 }
 
 NightFinding finding_of(const Losses& losses, double p, const StudyEvidence& evidence) {
@@ -192,6 +200,12 @@ NightFinding finding_of(const Losses& losses, double p, const StudyEvidence& evi
 std::string change_words(double change, bool ratio, const std::string& word) {
   return ratio ? fmt::format("{:.1f}\u00a0% {}", 100.0 * std::expm1(change), word)
                : fmt::format("{:.2f}\u00a0points {}", change, word);
+}
+
+std::string worse_words(const Quantity& quantity, double worsening) {
+  const char* word = quantity.better == Better::kHigher ? "lower" : "higher";
+  if (quantity.nightly != NightlyRule::kRatio) return change_words(worsening, false, word);
+  return fmt::format("{:.1f}\u00a0% {}", worse_percent(quantity, worsening), word);
 }
 
 RuleOutcome judge_accuracy(const StudyEvidence& evidence, const RegressionRules& rules) {

@@ -64,20 +64,21 @@ NightFinding finding_of(const Known& known, double p, std::size_t tests, const S
   const NightSeries& series = known.series;
   const bool accuracy = series.rule == NightRule::kAccuracy;
   const int since = known.nights[static_cast<std::size_t>(known.change.first)];
+  const std::string change =
+      accuracy ? worse_words(trend.quantities.at(series.quantity), known.change.rise)
+               : change_words(known.change.rise, series.ratio,
+                              series.quantity == "seconds" ? "slower" : "higher");
   const std::string label =
       series.quantity == "memory" ? "peak memory" : trend.quantities.at(series.quantity).label;
-  return {
-      .study = trend.name,
-      .rule = accuracy ? NightRule::kAccuracyDrift : NightRule::kCostDrift,
-      .subject = series.subject,
-      .quantity = series.quantity,
-      .since = since,
-      .sentence = fmt::format(
-          "{}: {} {} since about night {}, {}; p = {:.2g} corrected for {} series of {} nights",
-          shown_subject(series.subject), label,
-          change_words(known.change.rise, series.ratio,
-                       series.quantity == "seconds" ? "slower" : "higher"),
-          since, known.change.gradual ? "a slow drift" : "a step", p, tests, known.values.size())};
+  return {.study = trend.name,
+          .rule = accuracy ? NightRule::kAccuracyDrift : NightRule::kCostDrift,
+          .subject = series.subject,
+          .quantity = series.quantity,
+          .since = since,
+          .sentence = fmt::format(
+              "{}: {} {} since about night {}, {}; p = {:.2g} corrected for {} series of {} nights",
+              shown_subject(series.subject), label, change, since,
+              known.change.gradual ? "a slow drift" : "a step", p, tests, known.values.size())};
 }
 
 }  // namespace

@@ -48,10 +48,8 @@ Quantities read_quantities(Database& database, std::int64_t study) {
   rows.bind(study);
   Quantities quantities;
   while (rows.step())
-    quantities.declare({.id = rows.text(0),
-                        .label = rows.text(1),
-                        .unit = rows.text(2),
-                        .better = better_named(rows.text(3)).value_or(Better::kNeither)});
+    quantities.declare(study_quantity(rows.text(0), rows.text(1), rows.text(2),
+                                      better_named(rows.text(3)).value_or(Better::kNeither)));
   return quantities;
 }
 

@@ -104,7 +104,8 @@ double level_of(const Quantity& quantity, const std::vector<RunValue>& values) {
     sum += ratio ? std::log(std::max(value.value, kLeastError)) : value.value;
     ++count;
   }
-  return count == 0 ? std::numeric_limits<double>::quiet_NaN() : sum / count;
+  if (count == 0) return std::numeric_limits<double>::quiet_NaN();
+  return (quantity.better == Better::kHigher ? -sum : sum) / count;
 }
 
 }  // namespace mapproof

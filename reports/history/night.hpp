@@ -16,7 +16,7 @@ namespace mapproof {
 struct SeriesId {
   std::string sensor = {};  ///< Condition::setup: "bearing", "plaza-1".
   std::string method = {};  ///< With its parameter and all levels but steps: "isomap-K6 level=30".
-  int step = 0;               ///< 0: of the whole.
+  int step = 0;             ///< 0: of the whole.
   std::string quantity = {};  ///< Quantity::id.
 
   auto operator<=>(const SeriesId&) const = default;
@@ -145,8 +145,8 @@ struct StudyTrend {
 double known_median(const std::vector<RunValue>& values);
 
 /// The mean over the runs of the logarithm of a quantity that is judged by ratio, 1e-9 for less;
-/// of any other its mean. Runs differ far more than nights do: a median would follow one of them.
-/// NaN without any.
+/// of any other its mean; its negative of what is better if it is higher. Runs differ far more than
+/// nights do: a median would follow one of them. NaN without any.
 double level_of(const Quantity& quantity, const std::vector<RunValue>& values);
 
 /// What nightly runs do with a series: what its quantity says; but one that stands in for another

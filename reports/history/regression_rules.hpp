@@ -92,4 +92,8 @@ std::vector<std::size_t> usual_nights(const StudyTrend& trend, const RegressionR
 /// "12 % higher", "0.8 points higher" of a change in a series' own values.
 std::string change_words(double change, bool ratio, const std::string& word);
 
+/// The same of a change for the worse of a level (see level_of): "12 % higher", or "lower" of what
+/// is better if it is higher.
+std::string worse_words(const Quantity& quantity, double worsening);
+
 }  // namespace mapproof

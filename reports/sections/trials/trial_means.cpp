@@ -5,6 +5,7 @@
 #include <set>
 
 #include "core/base/words.hpp"
+#include "reports/sections/results/results_view.hpp"
 #include "reports/sections/run_scores.hpp"
 
 namespace mapproof {
@@ -74,16 +75,10 @@ std::vector<const TrialCell*> cells_of(const std::vector<TrialCell>& cells,
 bool is_of_data(const TrialStudy& study) { return !study.experiment.data.empty(); }
 
 int decimals_of(const std::vector<TrialCell>& cells, std::size_t quantity) {
-  constexpr int kSignificant = 3;
-  constexpr int kMost = 6;
-  std::vector<double> sizes;
+  std::vector<double> means;
   for (const TrialCell& cell : cells)
-    if (cell.means[quantity] && cell.means[quantity]->mean != 0.0)
-      sizes.push_back(std::abs(cell.means[quantity]->mean));
-  const auto is_whole = [](double size) { return size == std::floor(size); };
-  if (std::ranges::all_of(sizes, is_whole)) return 0;  // Counts.
-  const int before = static_cast<int>(std::floor(std::log10(median(sizes)))) + 1;
-  return std::clamp(kSignificant - before, 0, kMost);
+    if (cell.means[quantity]) means.push_back(cell.means[quantity]->mean);
+  return decimals_of(std::move(means));
 }
 
 std::string id_prefix(const TrialStudy& study) {

@@ -1,0 +1,27 @@
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <string_view>
+
+#include "core/results/results_study.hpp"
+
+namespace mapproof {
+
+/// The schema of a study.json that stands beside a results.csv and nothing else.
+inline constexpr std::string_view kResultsStudy = "mapproof.results_study";
+
+/// Reads a study.json of that schema (docs/file-formats.md); the rows and the labels of what it
+/// does not name are missing.
+/// @throws IoError with the place.
+ResultsStudy parse_results_study(std::string_view text, const std::string& source);
+
+/// Reads study.json and results.csv of the folder.
+/// @throws IoError with the place: also if the table has no row, or if study.json names a setup, a
+///         method or a factor that no row has.
+ResultsStudy read_results_study(const std::filesystem::path& folder);
+
+/// Whether the folder's study.json is of that schema, be the rest readable or not.
+bool is_results_study(const std::filesystem::path& folder);
+
+}  // namespace mapproof

@@ -1,0 +1,40 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "core/results/results.hpp"
+
+namespace mapproof {
+
+/// What an id stands for in figures and tables.
+struct Label {
+  std::string id;
+  std::string label;
+  std::string unit = {};  ///< Of a factor's levels; empty: none.
+
+  bool operator==(const Label&) const = default;
+};
+
+/// A study that any program can write: a title, labels and a table of results.
+struct ResultsStudy {
+  std::string name;      ///< [a-z][a-z0-9-]*; ids of figures and tables begin with it.
+  std::string title;     ///< Of the report.
+  std::string question;  ///< What was asked and how it was tried; may be empty.
+  std::string command;   ///< That made the results; may be empty.
+  std::vector<std::string> quantities;          ///< Ids, in the order of tables.
+  std::vector<Label> setups, methods, factors;  ///< In the order of tables.
+  Results results;
+};
+
+/// Adds the quantities, setups, methods and factors that rows have and the lists do not: of the
+/// dictionary's quantities the most telling first, else in ascending order, labelled by their ids.
+/// Quantities that no row has are taken away.
+/// @return The list and the id of the first label that no row has: "setups: indoors"; empty if
+///         every row has one.
+std::string complete(ResultsStudy& study);
+
+/// The label of an id; the id itself if there is none.
+std::string label_of(const std::vector<Label>& labels, const std::string& id);
+
+}  // namespace mapproof

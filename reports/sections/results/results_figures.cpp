@@ -1,0 +1,183 @@
+#include "reports/sections/results/results_figures.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "core/base/not_finite.hpp"
+#include "core/statistics/nemenyi.hpp"
+#include "render/figures/critical_difference.hpp"
+#include "render/figures/level_curve.hpp"
+#include "reports/sections/method_summary.hpp"
+
+namespace mapproof {
+namespace {
+
+/// Bands of more lines than these hide each other.
+constexpr std::size_t kMostBands = 4;
+/// Levels, and values of a distribution, that span more than this are on a logarithmic axis.
+constexpr double kWideSpan = 20.0;
+/// More methods than these have no legend that a reader could follow.
+constexpr std::size_t kMostRanked = 30;
+
+std::string figure_id(const std::string& block, std::string what) {
+  std::ranges::replace(what, '_', '-');
+  return block + "-" + what;
+}
+
+std::string key_of(std::size_t line) { return fmt::format("line-{}", line + 1); }
+
+/// The subject of all results of the block's setup: a diff finds them by it.
+std::string record_of(const ResultsBlock& block) { return block.conditions.front().setup; }
+
+bool spans_widely(std::vector<double> values) {
+  if (values.empty()) return false;
+  const auto [least, greatest] = std::ranges::minmax(values);
+  return least > 0.0 && greatest > kWideSpan * least;
+}
+
+ErrorLine curve_of(const ResultsView& view, const ResultsBlock& block, const Quantity& quantity,
+                   const ResultsLine& line, std::size_t index) {
+  ErrorLine curve;
+  curve.label = line.label;
+  curve.key = key_of(index);
+  if (line.run.empty()) curve.series = line.index;
+  for (std::size_t i = 0; i < block.levels.size(); ++i) {
+    const auto mean = view.mean(block.conditions[i], line, quantity);
+    const auto interval = interval_of(mean);
+    curve.x.push_back(std::get<double>(block.levels[i].value));
+    curve.mean.push_back(mean ? mean->mean : kNaN);
+    curve.low.push_back(interval ? interval->low : kNaN);
+    curve.high.push_back(interval ? interval->high : kNaN);
+  }
+  return curve;
+}
+
+std::optional<Figure> curve_figure(const ResultsView& view, const ResultsBlock& block,
+                                   const Quantity& quantity) {
+  LevelCurveSpec spec;
+  spec.id = figure_id(block.id, quantity.id);
+  spec.title = block.title + ": " + quantity.label;
+  spec.x_label = view.factor_label(block.factor);
+  spec.y_label = label_with_unit(quantity);
+  spec.quantity = quantity.label;
+  spec.record_ids = {record_of(block)};
+  std::vector<double> levels;
+  for (const Level& level : block.levels) levels.push_back(std::get<double>(level.value));
+  if (spans_widely(levels)) spec.x_scale = Scale::kLog;
+  const std::vector<ResultsLine> lines = view.lines(block, quantity);
+  const auto is_known = [](double value) { return std::isfinite(value); };
+  for (std::size_t i = 0; i < lines.size(); ++i) {
+    ErrorLine curve = curve_of(view, block, quantity, lines[i], i);
+    if (std::ranges::none_of(curve.mean, is_known)) continue;
+    if (lines.size() > kMostBands || std::ranges::none_of(curve.low, is_known)) {
+      curve.low.clear();
+      curve.high.clear();
+    }
+    spec.methods.push_back(std::move(curve));
+  }
+  if (spec.methods.empty()) return std::nullopt;
+  return level_curve_figure(spec);
+}
+
+/// The share of runs at or below a value, in steps.
+ErrorLine distribution_of(const std::map<std::string, double>& runs) {
+  std::vector<double> values;
+  for (const auto& [run, value] : runs) values.push_back(value);
+  std::ranges::sort(values);
+  ErrorLine curve;
+  double share = 0.0;
+  for (const double value : values) {
+    curve.x.insert(curve.x.end(), {value, value});
+    curve.mean.push_back(share);
+    share += 100.0 / static_cast<double>(values.size());
+    curve.mean.push_back(share);
+  }
+  return curve;
+}
+
+/// Where no factor has numbers: the distribution over runs, a panel per level.
+std::optional<Figure> distribution_figure(const ResultsView& view, const ResultsBlock& block,
+                                          const Quantity& quantity) {
+  constexpr std::size_t kMostPanels = 4;
+  if (!view.study().results.are_repeats || block.conditions.size() > kMostPanels)
+    return std::nullopt;
+  ErrorLinesSpec spec;
+  spec.id = figure_id(block.id, quantity.id);
+  spec.title = block.title + ": " + quantity.label;
+  spec.y_label = "runs at or below [%]";
+  spec.quantity = "share of runs whose " + quantity.label + " is at or below a value";
+  spec.caption =
+      fmt::format("Lines: the share of runs whose {} is at or below a value.", quantity.label);
+  spec.record_ids = {record_of(block)};
+  spec.log_from = HUGE_VAL;
+  const std::vector<ResultsLine> lines = view.lines(block, quantity);
+  std::vector<double> values;
+  std::size_t most = 0;
+  for (std::size_t i = 0; i < block.conditions.size(); ++i) {
+    ErrorPanel& panel = spec.panels.emplace_back();
+    if (!block.factor.empty()) panel.title = view.level_words(block.levels[i]);
+    panel.x.label = label_with_unit(quantity);
+    for (std::size_t k = 0; k < lines.size(); ++k) {
+      const auto runs = view.numbers(block.conditions[i], lines[k], quantity).values;
+      most = std::max(most, runs.size());
+      ErrorLine curve = distribution_of(runs);
+      if (curve.x.empty()) continue;
+      values.insert(values.end(), curve.x.begin(), curve.x.end());
+      curve.label = lines[k].label;
+      curve.key = key_of(k);
+      curve.series = lines[k].index;
+      panel.lines.push_back(std::move(curve));
+    }
+  }
+  if (most < 2) return std::nullopt;
+  if (spans_widely(values))
+    for (ErrorPanel& panel : spec.panels) panel.x.scale = Scale::kLog;
+  return error_lines_figure(spec);
+}
+
+std::optional<Figure> rank_figure(const ResultsView& view, const MethodComparison& comparison) {
+  if (!comparison.ranks || comparison.methods.size() < 3 || comparison.methods.size() > kMostRanked)
+    return std::nullopt;
+  CriticalDifferenceSpec spec;
+  spec.id = figure_id(comparison.block->id, "ranks-" + comparison.quantity->id);
+  spec.title = fmt::format("{}{}{}: mean ranks by {}", comparison.block->title,
+                           comparison.level.empty() ? "" : ", ", comparison.level,
+                           comparison.quantity->label);
+  for (std::size_t i = 0; i < comparison.methods.size(); ++i)
+    spec.methods.push_back({view.study().methods[comparison.methods[i].method].label,
+                            comparison.ranks->mean_ranks[i]});
+  spec.critical_difference =
+      nemenyi_critical_difference(comparison.ranks->methods, comparison.ranks->units, spec.alpha);
+  spec.units = comparison.ranks->units;
+  spec.unit = "group";
+  spec.friedman_p = comparison.ranks->chi_square_p;
+  spec.record_ids = {record_of(*comparison.block)};
+  return critical_difference_figure(spec);
+}
+
+}  // namespace
+
+StudyFigures results_figures(const ResultsView& view,
+                             const std::vector<MethodComparison>& comparisons) {
+  StudyFigures figures;
+  for (const ResultsBlock& block : view.blocks()) {
+    FigureGroup group{block.id, block.title, "", {}};
+    for (const Quantity* quantity : view.quantities(block)) {
+      auto figure = block.has_axis() ? curve_figure(view, block, *quantity)
+                                     : distribution_figure(view, block, *quantity);
+      if (figure) group.figures.push_back(*std::move(figure));
+    }
+    for (const MethodComparison& comparison : comparisons)
+      if (comparison.block == &block)
+        if (auto figure = rank_figure(view, comparison))
+          group.figures.push_back(*std::move(figure));
+    if (!group.empty()) figures.groups.push_back(std::move(group));
+  }
+  return figures;
+}
+
+}  // namespace mapproof

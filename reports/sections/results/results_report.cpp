@@ -1,0 +1,104 @@
+#include "reports/sections/results/results_report.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "core/base/words.hpp"
+#include "reports/sections/results/results_tables.hpp"
+#include "reports/sections/wording.hpp"
+
+namespace mapproof {
+namespace {
+
+constexpr std::size_t kMostFindings = 3;
+constexpr std::size_t kMostThumbnails = 6;
+
+Section summary_section(const ResultsReportInput& input) {
+  const ResultsStudy& study = input.view.study();
+  Section section{study.name + "-summary", "Summary", {}};
+  if (!study.question.empty()) section.blocks.emplace_back(plain(study.question));
+  const auto rows = std::ssize(study.results.rows);
+  const auto lost = std::ranges::count_if(
+      study.results.rows, [](const Result& row) { return !std::isfinite(row.value); });
+  if (lost > 0)
+    section.blocks.emplace_back(
+        Callout{Callout::Tone::kWarning, "Lost values",
+                plain(fmt::format("{} of {} have no value. Means rest on the others; the notes "
+                                  "under the tables count the lost ones.",
+                                  lost, counted(rows, "result")))});
+  BulletList findings;
+  // The first ones open the report.
+  if (input.comparisons.size() > kMostFindings)
+    for (const MethodComparison& comparison : input.comparisons)
+      findings.items.push_back(plain(sentence_of(comparison, input.view)));
+  if (!findings.items.empty()) section.blocks.emplace_back(std::move(findings));
+  return section;
+}
+
+Section block_section(const ResultsReportInput& input, const ResultsBlock& block) {
+  Section section{block.id, block.title, {}};
+  const auto group = std::ranges::find(input.figures.groups, block.id, &FigureGroup::id);
+  if (group != input.figures.groups.end()) section.blocks.emplace_back(gallery_of(*group));
+  for (Table& table : results_tables(input.view, block))
+    section.blocks.emplace_back(std::move(table));
+  for (const MethodComparison& comparison : input.comparisons)
+    if (comparison.block == &block)
+      section.blocks.emplace_back(comparison_table(input.view, comparison));
+  return section;
+}
+
+Section provenance_section(const ResultsReportInput& input) {
+  const ResultsStudy& study = input.view.study();
+  Section section{study.name + "-provenance", "Provenance", {}};
+  section.blocks.emplace_back(
+      plain("Another program made these results. Every number here is one of results.csv or is "
+            "computed from its rows; this command writes the report again:"));
+  section.blocks.emplace_back(KeyValues{{{"Command", {input.command, Emphasis::kCode}}}});
+  KeyValues facts;
+  facts.items.push_back({"Results", {"results.csv", Emphasis::kFile}});
+  if (!study.command.empty()) facts.items.push_back({"Made by", {study.command, Emphasis::kCode}});
+  facts.items.push_back({"Rows", {fmt::format("{}", study.results.rows.size()), Emphasis::kPlain}});
+  facts.items.push_back({"Runs", {fmt::format("{}", input.view.runs()), Emphasis::kPlain}});
+  facts.items.push_back({"Groups", {fmt::format("{}", input.view.groups()), Emphasis::kPlain}});
+  section.blocks.emplace_back(std::move(facts));
+  return section;
+}
+
+std::vector<Section> sections_of(const ResultsReportInput& input) {
+  std::vector<Section> sections{summary_section(input)};
+  for (const ResultsBlock& block : input.view.blocks())
+    sections.push_back(block_section(input, block));
+  sections.push_back(provenance_section(input));
+  return sections;
+}
+
+}  // namespace
+
+std::vector<Section> results_sections(const ResultsReportInput& input) {
+  std::vector<Section> sections = sections_of(input);
+  for (Section& section : sections) section.title = input.view.study().title + ": " + section.title;
+  return sections;
+}
+
+Report results_report(const ResultsReportInput& input) {
+  const ResultsStudy& study = input.view.study();
+  Report report;
+  report.title = study.title;
+  report.subtitle =
+      fmt::format("{}, {}", counted(static_cast<long long>(study.methods.size()), "method"),
+                  counted(static_cast<long long>(input.view.runs()), "run"));
+  report.sections = sections_of(input);
+  for (const MethodComparison& comparison : input.comparisons)
+    if (report.opening.findings.size() < kMostFindings)
+      report.opening.findings.push_back(plain(sentence_of(comparison, input.view)));
+  for (const FigureGroup& group : input.figures.groups)
+    if (!group.figures.empty() && report.opening.figure_ids.size() < kMostThumbnails)
+      report.opening.figure_ids.push_back(group.figures.front().id);
+  report.footer = "Made by mapproof.";
+  return report;
+}
+
+}  // namespace mapproof

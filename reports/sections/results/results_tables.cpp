@@ -1,0 +1,178 @@
+#include "reports/sections/results/results_tables.hpp"
+
+#include <algorithm>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "core/base/words.hpp"
+#include "reports/sections/cells.hpp"
+
+namespace mapproof {
+namespace {
+
+constexpr const char* kIntervalHint = "95 % interval of the mean over groups, by Student's t.";
+
+/// Smaller p are shown as smaller than this.
+constexpr double kLeastP = 1e-3;
+
+std::string table_id(const std::string& block, std::string what) {
+  std::ranges::replace(what, '_', '-');
+  return block + "-" + what;
+}
+
+std::string column_title(const Level& level) {
+  const auto* number = std::get_if<double>(&level.value);
+  return number == nullptr ? level_text(level) : fmt::format("{:.6g}", *number);
+}
+
+/// The cells of one condition, and what is to be said of them.
+class CellMaker {
+ public:
+  CellMaker(const ResultsView& view, Table& table) : view_(view), table_(table) {}
+
+  void add(Row& row, const Condition& at, const ResultsLine& line, const Quantity& quantity,
+           int decimals, const std::string& where) {
+    const auto mean = view_.mean(at, line, quantity);
+    row.cells.push_back(mean_cell(mean, decimals));
+    if (view_.study().results.are_repeats)
+      row.cells.push_back(difference_interval_cell(mean, decimals));
+    if (const int lost = view_.numbers(at, line, quantity).lost; lost > 0)
+      table_.notes.push_back(fmt::format("{}{}{}: {} lost.", line.label, where.empty() ? "" : ", ",
+                                         where, counted(lost, "value")));
+  }
+
+  void add_column(const std::string& title, const std::string& unit, const std::string& group) {
+    table_.columns.push_back({title, unit, group, ""});
+    if (view_.study().results.are_repeats)
+      table_.columns.push_back({"95 %", unit, group, kIntervalHint});
+  }
+
+ private:
+  const ResultsView& view_;
+  Table& table_;
+};
+
+int decimals(const ResultsView& view, const ResultsBlock& block, const Quantity& quantity) {
+  std::vector<double> means;
+  for (const ResultsLine& line : view.lines(block, quantity))
+    for (const Condition& at : block.conditions)
+      if (const auto mean = view.mean(at, line, quantity)) means.push_back(mean->mean);
+  return decimals_of(std::move(means));
+}
+
+void add_note(const ResultsView& view, Table& table) {
+  if (!view.study().results.are_repeats) return;
+  table.notes.insert(
+      table.notes.begin(),
+      fmt::format(
+          "Mean over runs and its 95 % interval; {} in {}, a group is one independent unit.",
+          counted(static_cast<long long>(view.runs()), "run"),
+          counted(static_cast<long long>(view.groups()), "group")));
+}
+
+/// One quantity over the levels.
+Table level_table(const ResultsView& view, const ResultsBlock& block, const Quantity& quantity) {
+  Table table;
+  table.id = table_id(block.id, quantity.id);
+  table.caption = fmt::format("{}: {}, by {}", block.title, label_with_unit(quantity),
+                              view.factor_label(block.factor));
+  table.columns.push_back({"Method", "", "", ""});
+  CellMaker cells(view, table);
+  for (std::size_t i = 0; i < block.levels.size(); ++i)
+    cells.add_column(column_title(block.levels[i]), "", view.factor_label(block.factor));
+  for (const ResultsLine& line : view.lines(block, quantity)) {
+    Row row{{TextCell{line.label, Emphasis::kData}}, "", false};
+    for (std::size_t i = 0; i < block.levels.size(); ++i)
+      cells.add(row, block.conditions[i], line, quantity, decimals(view, block, quantity),
+                view.level_words(block.levels[i]));
+    table.rows.push_back(std::move(row));
+  }
+  add_note(view, table);
+  return table;
+}
+
+/// All quantities of a block with one level.
+Table single_table(const ResultsView& view, const ResultsBlock& block) {
+  Table table;
+  table.id = table_id(block.id, "means");
+  table.caption = block.title;
+  table.columns.push_back({"Method", "", "", ""});
+  CellMaker cells(view, table);
+  const std::vector<const Quantity*> quantities = view.quantities(block);
+  std::vector<ResultsLine> lines;
+  for (const Quantity* quantity : quantities) {
+    cells.add_column(quantity->label, quantity->unit, "");
+    for (const ResultsLine& line : view.lines(block, *quantity))
+      if (std::ranges::find(lines, line.label, &ResultsLine::label) == lines.end())
+        lines.push_back(line);
+  }
+  std::ranges::stable_sort(lines, {}, [](const ResultsLine& line) { return line.index; });
+  for (const ResultsLine& line : lines) {
+    Row row{{TextCell{line.label, Emphasis::kData}}, "", false};
+    for (const Quantity* quantity : quantities)
+      cells.add(row, block.conditions.front(), line, *quantity, decimals(view, block, *quantity),
+                quantity->label);
+    table.rows.push_back(std::move(row));
+  }
+  add_note(view, table);
+  return table;
+}
+
+}  // namespace
+
+std::vector<Table> results_tables(const ResultsView& view, const ResultsBlock& block) {
+  if (block.factor.empty()) return {single_table(view, block)};
+  std::vector<Table> tables;
+  for (const Quantity* quantity : view.quantities(block))
+    tables.push_back(level_table(view, block, *quantity));
+  return tables;
+}
+
+Table comparison_table(const ResultsView& view, const MethodComparison& comparison) {
+  const Quantity& quantity = *comparison.quantity;
+  std::vector<double> means;
+  for (const ComparedMethod& method : comparison.methods) means.push_back(method.mean);
+  const int places = decimals_of(means);
+  Table table;
+  table.id = table_id(comparison.block->id, "paired-" + quantity.id);
+  table.caption = fmt::format("{}{}{}: {} compared with the best method", comparison.block->title,
+                              comparison.level.empty() ? "" : ", ", comparison.level,
+                              label_with_unit(quantity));
+  table.columns = {{"Method", "", "", ""},
+                   {"Mean", quantity.unit, "", "Over the groups that all methods have."},
+                   {"Mean rank", "", "", "1 is best; groups are ranked one by one."},
+                   {"Difference", quantity.unit, "", "From the best method, paired by group."},
+                   {"95 %", quantity.unit, "", "Interval of the difference."},
+                   {"p", "", "", "Of no difference, corrected by Holm for the number of methods."}};
+  for (std::size_t i = 0; i < comparison.methods.size(); ++i) {
+    const ComparedMethod& method = comparison.methods[i];
+    Row row{{TextCell{view.study().methods[method.method].label, Emphasis::kData},
+             NumberCell{method.mean, places}},
+            "",
+            i == 0};
+    row.cells.push_back(comparison.ranks ? Cell(NumberCell{comparison.ranks->mean_ranks[i], 2})
+                                         : Cell(MissingCell{}));
+    if (method.change) {
+      row.cells.push_back(NumberCell{method.change->shift, places, true});
+      row.cells.push_back(IntervalCell{method.change->low, method.change->high, places});
+      row.cells.push_back(method.corrected_p < kLeastP ? Cell(TextCell{"< 0.001"})
+                                                       : Cell(NumberCell{method.corrected_p, 3}));
+    } else {
+      row.cells.insert(row.cells.end(), 3, MissingCell{});
+    }
+    table.rows.push_back(std::move(row));
+  }
+  const bool by_ranks = comparison.methods.size() > 1 && comparison.methods[1].change &&
+                        comparison.methods[1].change->by_ranks;
+  table.notes.push_back(fmt::format(
+      "Paired over {}: {}.", counted(comparison.groups, "group"),
+      by_ranks ? "Wilcoxon's signed-rank test, and the Hodges-Lehmann estimate of the difference"
+               : "Student's t of the differences"));
+  if (!comparison.left_out.empty())
+    table.notes.push_back("Left out, without a value in some group: " +
+                          listed(comparison.left_out, comparison.left_out.size() + 1) + ".");
+  return table;
+}
+
+}  // namespace mapproof

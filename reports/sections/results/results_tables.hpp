@@ -1,0 +1,17 @@
+#pragma once
+
+#include <vector>
+
+#include "reports/model/report.hpp"
+#include "reports/sections/results/results_comparison.hpp"
+
+namespace mapproof {
+
+/// The tables of a block: one per quantity with the levels as columns, or of a single level one
+/// with the quantities as columns; each mean with its interval. Ids begin with the block's.
+std::vector<Table> results_tables(const ResultsView& view, const ResultsBlock& block);
+
+/// Methods, their mean ranks, and their paired differences from the best one.
+Table comparison_table(const ResultsView& view, const MethodComparison& comparison);
+
+}  // namespace mapproof

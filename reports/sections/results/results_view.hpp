@@ -1,0 +1,88 @@
+#pragma once
+
+#include <cstddef>
+#include <map>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "core/results/results_study.hpp"
+#include "core/statistics/intervals.hpp"
+
+namespace mapproof {
+
+/// A setup at one level of every factor but one: what has figures and tables of its own.
+struct ResultsBlock {
+  std::string id;                  ///< [a-z0-9-]+, unique in the study; begins with its name.
+  std::string title;               ///< "Indoors, noise 0.1 m".
+  std::string factor = {};         ///< Along which curves go; empty: there is a single level.
+  std::vector<Level> levels = {};  ///< Of it, ascending; none without a factor.
+  std::vector<Condition> conditions = {};  ///< One per level; one without a factor.
+
+  /// Whether the levels are numbers, so that a curve can go along them.
+  bool has_axis() const;
+};
+
+/// What has one row of a table and one curve: a method, over all runs or, where runs are no
+/// repeats of each other, in one run.
+struct ResultsLine {
+  std::string method;
+  std::string run = {};   ///< Empty: all.
+  std::string label;      ///< "EKF", "EKF, plaza-1".
+  std::size_t index = 0;  ///< Of the method, in the order of the study.
+};
+
+/// The value of each run, and how many runs lost theirs.
+struct RunNumbers {
+  std::map<std::string, double> values;  ///< By run: finite; the mean over the subjects of a run.
+  int lost = 0;
+};
+
+/// A study's results as figures and tables show them.
+class ResultsView {
+ public:
+  /// @param study  complete(); must outlive the view.
+  explicit ResultsView(const ResultsStudy& study);
+
+  const ResultsStudy& study() const { return study_; }
+  const std::vector<ResultsBlock>& blocks() const { return blocks_; }
+  std::size_t runs() const { return groups_.size(); }
+  std::size_t groups() const { return clusters_.size(); }
+
+  /// The quantities that a block has, in the order of the study.
+  std::vector<const Quantity*> quantities(const ResultsBlock& block) const;
+  /// The lines that a block has of a quantity, in the order of methods and runs.
+  std::vector<ResultsLine> lines(const ResultsBlock& block, const Quantity& quantity) const;
+
+  /// Nothing in it where nothing was tried.
+  RunNumbers numbers(const Condition& at, const ResultsLine& line, const Quantity& quantity) const;
+  /// The mean over runs with its interval over groups; empty without a value.
+  std::optional<MeanEstimate> mean(const Condition& at, const ResultsLine& line,
+                                   const Quantity& quantity) const;
+  /// The mean of each group's runs.
+  std::map<std::string, double> group_means(const std::map<std::string, double>& runs) const;
+
+  /// "noise 0.1 m": a level in words.
+  std::string level_words(const Level& level) const;
+  /// "noise [m]".
+  std::string factor_label(const std::string& factor) const;
+
+ private:
+  using Key = std::pair<Condition, std::pair<std::string, std::string>>;  ///< Method, quantity.
+
+  void make_blocks();
+  void add_setup(const Label& setup);
+
+  const ResultsStudy& study_;
+  std::map<Key, std::map<std::string, std::pair<double, int>>> sums_;  ///< By run: sum and count.
+  std::map<Key, std::map<std::string, bool>> lost_;                    ///< By run.
+  std::map<std::string, std::string> groups_;                          ///< By run.
+  std::map<std::string, int> clusters_;                                ///< By group.
+  std::vector<ResultsBlock> blocks_;
+};
+
+/// Decimals that tell these values apart: three significant digits of their median.
+int decimals_of(std::vector<double> sizes);
+
+}  // namespace mapproof

@@ -1,0 +1,101 @@
+#include <algorithm>
+
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+#include "core/base/files.hpp"
+#include "tests/support/program.hpp"
+
+namespace mapproof::test {
+namespace {
+
+namespace fs = std::filesystem;
+using nlohmann::json;
+
+/// A study that a program of someone else made: tests/data/results_study/make.py.
+class StudyOfAnotherProgram : public ::testing::Test {
+ protected:
+  void SetUp() override { make("mine"); }
+
+  void make(const std::string& name, const std::string& worse = "0") {
+    const std::string script =
+        std::string(MAPPROOF_SOURCE_DIR) + "/tests/data/results_study/make.py";
+    const Outcome made = run_program({"python3", script, folder_ / name, worse});
+    if (made.exit_code == 127) GTEST_SKIP() << "python3 is not installed";
+    ASSERT_EQ(made.exit_code, 0) << made.error;
+  }
+
+  /// Puts a text in the place of the first occurrence of another.
+  void change(const std::string& name, const std::string& from, const std::string& to) {
+    const fs::path table = folder_ / name / "results.csv";
+    std::string text = read_file(table);
+    const std::size_t at = text.find(from);
+    ASSERT_NE(at, std::string::npos);
+    write_file(table, text.replace(at, from.size(), to));
+  }
+
+  TemporaryFolder folder_;
+};
+
+TEST_F(StudyOfAnotherProgram, GetsFiguresTablesAndAReport) {
+  EXPECT_EQ(mapproof({"validate", folder_ / "mine"}).exit_code, 0);
+  const Outcome outcome = mapproof({"report", folder_ / "mine"});
+  ASSERT_EQ(outcome.exit_code, 0) << outcome.error;
+  const std::string page = read_file(folder_ / "mine/report.html");
+  for (const char* part :
+       {"Three localisers in ten rooms", "EKF has the lowest mean absolute trajectory error",
+        "p &lt; 0.001 over 10 groups", "4 of 720 results have no value",
+        "Left out, without a value in some group: Scan matching"})
+    EXPECT_NE(page.find(part), std::string::npos) << part;
+  for (const char* file : {"figures/localisers-indoors-ate-m.svg",
+                           "figures/localisers-indoors-ranks-found-percent.svg",
+                           "tables/localisers-indoors-paired-ate-m.csv"})
+    EXPECT_TRUE(fs::exists(folder_ / "mine" / file)) << file;
+}
+
+TEST_F(StudyOfAnotherProgram, IsComparedValueByValueWithItsTest) {
+  make("baseline");
+  ASSERT_EQ(mapproof({"report", folder_ / "mine"}).exit_code, 0);
+  ASSERT_EQ(mapproof({"report", folder_ / "baseline"}).exit_code, 0);
+  EXPECT_EQ(mapproof({"diff", folder_ / "baseline", folder_ / "mine"}).exit_code, 0);
+  change("mine", "indoors,ekf,ate_m,17,room-7,0.135254", "indoors,ekf,ate_m,17,room-7,0.5");
+  const Outcome outcome = mapproof({"diff", folder_ / "baseline", folder_ / "mine"});
+  EXPECT_EQ(outcome.exit_code, 1);
+  EXPECT_NE(outcome.out.find("absolute trajectory error 0.109 → 0.119 m over 40 runs, p = 1 of "
+                             "indoors/ekf/noise-0.05"),
+            std::string::npos)
+      << outcome.out;
+  EXPECT_EQ(mapproof({"approve", folder_ / "baseline", folder_ / "mine", "--all"}).exit_code, 0);
+  EXPECT_EQ(mapproof({"diff", folder_ / "baseline", folder_ / "mine"}).exit_code, 0);
+}
+
+TEST_F(StudyOfAnotherProgram, IsJudgedByNightlyRuns) {
+  const auto night = [&] {
+    return mapproof({"nightly", folder_ / "mine", "--store", folder_ / "history"});
+  };
+  EXPECT_EQ(night().exit_code, 0);
+  const Outcome second = night();
+  EXPECT_EQ(second.exit_code, 0) << second.out;
+  EXPECT_NE(second.out.find("Nothing got worse"), std::string::npos) << second.out;
+  make("mine", "0.05");
+  const Outcome third = night();
+  EXPECT_EQ(third.exit_code, 1) << third.out;
+  for (const char* part : {"absolute trajectory error", "higher than on night 2", "runs localised",
+                           "points lower than on night 2"})
+    EXPECT_NE(third.out.find(part), std::string::npos) << part << " in:\n" << third.out;
+}
+
+TEST_F(StudyOfAnotherProgram, WithAWrongTableIsOneLineThatNamesTheRow) {
+  change("mine", "indoors,mcl,ate_m,1,room-1,", "indoors,mcl,ate_m,1,room-1,x");
+  for (const char* command : {"report", "validate"}) {
+    const Outcome outcome = mapproof({command, folder_ / "mine"});
+    EXPECT_NE(outcome.exit_code, 0);
+    EXPECT_NE((outcome.error + outcome.out).find("results.csv: line 2: value: "), std::string::npos)
+        << outcome.error << outcome.out;
+  }
+  EXPECT_FALSE(fs::exists(folder_ / "mine/report.html"));
+}
+
+}  // namespace
+}  // namespace mapproof::test

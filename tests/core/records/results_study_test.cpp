@@ -1,0 +1,104 @@
+#include "core/records/results_study_json.hpp"
+
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+#include "core/base/errors.hpp"
+#include "core/base/files.hpp"
+#include "tests/core/records/schema_problem.hpp"
+#include "tests/support/temporary_folder.hpp"
+
+namespace mapproof {
+namespace {
+
+const std::string kHead =
+    R"({"schema": {"name": "mapproof.results_study", "version": 1}, "title": "Errors")";
+const std::string kOwn =
+    R"(, "quantities": [{"id": "ate_m", "label": "ATE", "unit": "m", "better": "lower"}])";
+const std::string kTable = "setup,method,quantity,run,value\ns,b,ate_m,1,2\ns,a,ate_m,1,\n";
+
+ResultsStudy study_of(const std::string& head, const std::string& table) {
+  const test::TemporaryFolder folder;
+  write_file(folder / "study.json", head);
+  write_file(folder / "results.csv", table);
+  return read_results_study(folder.path());
+}
+
+/// What reading says is wrong, without the folder's name.
+std::string problem(const std::string& head, const std::string& table) {
+  const test::TemporaryFolder folder;
+  write_file(folder / "study.json", head);
+  write_file(folder / "results.csv", table);
+  try {
+    read_results_study(folder.path());
+  } catch (const IoError& error) {
+    const std::string what = error.what(), prefix = folder.path().string() + "/";
+    return what.starts_with(prefix) ? what.substr(prefix.size()) : what;
+  }
+  return "";
+}
+
+TEST(ResultsStudy, NeedsATitleAndATableAlone) {
+  const ResultsStudy study = study_of(kHead + "}", "setup,method,quantity,value\n,m,mpe_m,1\n");
+  EXPECT_EQ(study.name, "results");
+  EXPECT_EQ(study.title, "Errors");
+  EXPECT_TRUE(study.results.are_repeats);
+  EXPECT_EQ(study.quantities, std::vector<std::string>{"mpe_m"});
+  EXPECT_EQ(study.methods, (std::vector<Label>{{"m", "m"}}));
+}
+
+TEST(ResultsStudy, KeepsTheOrderOfItsLabelsAndAddsTheOthers) {
+  const ResultsStudy study = study_of(
+      kHead + kOwn + R"(, "methods": [{"id": "b", "label": "Second"}], "runs_are_repeats": false})",
+      kTable);
+  EXPECT_EQ(study.methods, (std::vector<Label>{{"b", "Second"}, {"a", "a"}}));
+  EXPECT_FALSE(study.results.are_repeats);
+  EXPECT_EQ(study.results.quantities.at("ate_m").label, "ATE");
+  EXPECT_EQ(label_of(study.methods, "b"), "Second");
+  EXPECT_EQ(label_of(study.methods, "c"), "c");
+}
+
+TEST(ResultsStudy, DeclaredQuantitiesWithADirectionAreJudgedByNightlyRuns) {
+  const std::string more =
+      R"(, "quantities": [{"id": "a_m", "label": "A", "unit": "m", "better": "lower"},
+                          {"id": "b_percent", "label": "B", "unit": "%", "better": "higher"},
+                          {"id": "c", "label": "C", "better": "neither"}, {"id": "mpe_m"}]})";
+  const ResultsStudy study = study_of(
+      kHead + more, "setup,method,quantity,value\n,m,a_m,1\n,m,b_percent,2\n,m,c,3\n,m,mpe_m,4\n");
+  const Quantities& quantities = study.results.quantities;
+  EXPECT_EQ(study.quantities, (std::vector<std::string>{"a_m", "b_percent", "c", "mpe_m"}));
+  EXPECT_EQ(quantities.at("a_m").nightly, NightlyRule::kRatio);
+  EXPECT_EQ(quantities.at("b_percent").nightly, NightlyRule::kPoints);
+  EXPECT_EQ(quantities.at("c").nightly, NightlyRule::kShown);
+}
+
+TEST(ResultsStudy, WhatIsWrongIsOneLineWithFileAndPlace) {
+  EXPECT_EQ(problem(kHead + kOwn + "}", kTable), "");
+  EXPECT_EQ(problem(kHead + kOwn + "}", "setup,method,quantity,run,value\n"),
+            "results.csv: has no row");
+  EXPECT_EQ(problem(kHead + "}", kTable),
+            "results.csv: line 2: there is no quantity \"ate_m\"; study.json has to declare it");
+  EXPECT_EQ(problem(kHead + R"(, "metods": []})", kTable),
+            "study.json: /: unknown key \"metods\": did you mean \"methods\"?");
+  EXPECT_EQ(problem(kHead + kOwn + R"(, "methods": [{"id": "z", "label": "Z"}]})", kTable),
+            "study.json: methods: z: results.csv has no row of it");
+  EXPECT_EQ(problem(kHead + kOwn + R"(, "name": "A b"})", kTable),
+            "study.json: /name: expected lower-case letters, digits and '-', a letter first");
+  EXPECT_EQ(
+      problem(kHead + R"(, "quantities": [{"id": "q", "label": "Q", "better": "more"}]})", kTable),
+      "study.json: /quantities/0/better: expected lower, higher or neither");
+  EXPECT_NE(problem(kHead + R"(, "quantities": [{"id": "mpe_m", "label": "M", "unit": "cm",
+                                                 "better": "lower"}]})",
+                    kTable)
+                .find("study.json: /quantities/0/id: \"mpe_m\" is a quantity of mapproof's, in m"),
+            std::string::npos);
+}
+
+TEST(ResultsStudy, OnTheDiskIsAsItsSchemaSays) {
+  using nlohmann::json;
+  EXPECT_EQ(test::schema_problem("results_study", json::parse(kHead + kOwn + "}")), "");
+  EXPECT_NE(test::schema_problem("results_study", json::parse(kHead + R"(, "name": "A b"})")), "");
+}
+
+}  // namespace
+}  // namespace mapproof

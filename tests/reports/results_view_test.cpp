@@ -1,0 +1,164 @@
+#include "reports/sections/results/results_view.hpp"
+
+#include <cmath>
+
+#include <gtest/gtest.h>
+
+#include "core/base/not_finite.hpp"
+#include "core/statistics/paired_change.hpp"
+#include "reports/sections/results/results_comparison.hpp"
+#include "reports/sections/results/results_figures.hpp"
+#include "reports/sections/results/results_tables.hpp"
+
+namespace mapproof {
+namespace {
+
+/// Rows of one quantity, mpe_m: setup "s", the group of a run its first letter.
+class Rows {
+ public:
+  Rows& add(const std::string& method, const std::string& run, double value,
+            std::vector<Level> levels = {}, const std::string& subject = "") {
+    study_.results.rows.push_back({.at = condition("s", std::move(levels)),
+                                   .method = method,
+                                   .quantity = "mpe_m",
+                                   .run = run,
+                                   .group = run.substr(0, 1),
+                                   .subject = subject,
+                                   .value = value});
+    return *this;
+  }
+
+  ResultsStudy study(bool are_repeats = true) {
+    study_.name = "test";
+    study_.title = "Test";
+    study_.results.are_repeats = are_repeats;
+    sort_results(study_.results);
+    EXPECT_EQ(complete(study_), "");
+    return study_;
+  }
+
+ private:
+  ResultsStudy study_;
+};
+
+const Quantity& mpe() { return known_quantity("mpe_m"); }
+
+TEST(ResultsView, MeansRestOnRunsAndIntervalsOnGroups) {
+  // Two groups of two equal runs: the t interval of two means, 1 and 3.
+  const ResultsStudy study = Rows()
+                                 .add("m", "a1", 1.0)
+                                 .add("m", "a2", 1.0)
+                                 .add("m", "b1", 3.0)
+                                 .add("m", "b2", 3.0)
+                                 .study();
+  const ResultsView view(study);
+  ASSERT_EQ(view.blocks().size(), 1U);
+  const ResultsBlock& block = view.blocks()[0];
+  EXPECT_EQ(view.runs(), 4U);
+  EXPECT_EQ(view.groups(), 2U);
+  const auto lines = view.lines(block, mpe());
+  ASSERT_EQ(lines.size(), 1U);
+  const auto mean = view.mean(block.conditions[0], lines[0], mpe());
+  ASSERT_TRUE(mean && mean->half_width);
+  EXPECT_DOUBLE_EQ(mean->mean, 2.0);
+  EXPECT_NEAR(*mean->half_width, 12.7062047362, 1e-8);  // t of one degree, standard error 1.
+}
+
+TEST(ResultsView, AnAxisIsTheNumericFactorWithTheMostLevels) {
+  Rows rows;
+  for (const double noise : {0.1, 0.2, 0.3})
+    for (const double size : {5.0, 10.0})
+      for (const char* light : {"day", "night"})
+        rows.add("m", "a1", noise,
+                 {{"noise", noise}, {"size", size}, {"light", std::string(light)}});
+  const ResultsStudy study = rows.study();
+  const ResultsView view(study);
+  ASSERT_EQ(view.blocks().size(), 4U);
+  for (const ResultsBlock& block : view.blocks()) {
+    EXPECT_EQ(block.factor, "noise");
+    EXPECT_EQ(block.levels.size(), 3U);
+    EXPECT_TRUE(block.has_axis());
+  }
+  EXPECT_EQ(view.blocks()[0].title, "s, light day, size 5");
+  EXPECT_EQ(view.blocks()[0].id, "test-s-light-day-size-5");
+}
+
+TEST(ResultsView, SubjectsOfARunAreOneValueAndLostRunsAreCounted) {
+  const ResultsStudy study = Rows()
+                                 .add("m", "a1", 1.0, {}, "L1")
+                                 .add("m", "a1", 3.0, {}, "L2")
+                                 .add("m", "b1", kNaN)
+                                 .study();
+  const ResultsView view(study);
+  const ResultsBlock& block = view.blocks()[0];
+  const RunNumbers numbers = view.numbers(block.conditions[0], view.lines(block, mpe())[0], mpe());
+  EXPECT_EQ(numbers.values, (std::map<std::string, double>{{"a1", 2.0}}));
+  EXPECT_EQ(numbers.lost, 1);
+}
+
+TEST(ResultsView, RunsThatAreNoRepeatsHaveLinesOfTheirOwnAndNoTests) {
+  const ResultsStudy study =
+      Rows().add("m", "a1", 1.0).add("m", "b1", 3.0).add("n", "a1", 2.0).study(false);
+  const ResultsView view(study);
+  const auto lines = view.lines(view.blocks()[0], mpe());
+  ASSERT_EQ(lines.size(), 3U);
+  EXPECT_EQ(lines[1].label, "m, b1");
+  EXPECT_TRUE(compare_methods(view).empty());
+  const std::vector<Table> tables = results_tables(view, view.blocks()[0]);
+  ASSERT_EQ(tables.size(), 1U);
+  EXPECT_EQ(tables[0].rows.size(), 3U);
+  EXPECT_EQ(tables[0].columns.size(), 2U) << "no intervals";
+}
+
+TEST(ResultsComparison, IsThePairedTestOverGroupsCorrectedForTheMethods) {
+  Rows rows;
+  const std::vector<double> a = {1.0, 1.2, 0.9, 1.1, 1.3}, b = {1.1, 1.25, 1.2, 1.1, 1.6},
+                            c = {2.0, 2.1, 1.9, 2.2, 2.4};
+  std::vector<double> b_less_a, c_less_a;
+  for (std::size_t i = 0; i < a.size(); ++i) {
+    const std::string run(1, static_cast<char>('a' + static_cast<int>(i)));
+    rows.add("m1", run, a[i]).add("m2", run, b[i]).add("m3", run, c[i]);
+    b_less_a.push_back(b[i] - a[i]);
+    c_less_a.push_back(c[i] - a[i]);
+  }
+  rows.add("m4", "a", 0.5);  // In one group alone.
+  const ResultsStudy study = rows.study();
+  const ResultsView view(study);
+  const auto comparisons = compare_methods(view);
+  ASSERT_EQ(comparisons.size(), 1U);
+  const MethodComparison& found = comparisons[0];
+  EXPECT_EQ(found.left_out, std::vector<std::string>{"m4"});
+  EXPECT_EQ(found.groups, 5);
+  ASSERT_EQ(found.methods.size(), 3U);
+  EXPECT_FALSE(found.methods[0].change);
+  EXPECT_DOUBLE_EQ(found.methods[1].change->p, paired_change(b_less_a).p);
+  EXPECT_DOUBLE_EQ(found.methods[2].change->shift, paired_change(c_less_a).shift);
+  EXPECT_DOUBLE_EQ(found.methods[2].corrected_p, 2.0 * paired_change(c_less_a).p);
+  ASSERT_TRUE(found.ranks);
+  EXPECT_DOUBLE_EQ(found.ranks->mean_ranks[0], 1.1);  // One tie with m2.
+  EXPECT_DOUBLE_EQ(found.ranks->mean_ranks[2], 3.0);
+  EXPECT_EQ(sentence_of(found, view).substr(0, 53),
+            "s: m1 has the lowest mean MPE, 1.1 m; m2 follows with");
+}
+
+TEST(ResultsFigures, ACurveOverNumbersElseADistribution) {
+  Rows curve, plain;
+  for (const char* run : {"a", "b", "c"})
+    for (const char* method : {"m", "n", "o"}) {
+      plain.add(method, run, run[0] - 'a' + 0.1 * (method[0] - 'm') + 1.0);
+      for (const double noise : {0.1, 0.2})
+        curve.add(method, run, noise * (method[0] - 'l'), {{"noise", noise}});
+    }
+  const ResultsStudy first = curve.study(), second = plain.study();
+  const ResultsView with_axis(first), without(second);
+  const StudyFigures curves = results_figures(with_axis, compare_methods(with_axis));
+  ASSERT_EQ(curves.groups.size(), 1U);
+  ASSERT_EQ(curves.groups[0].figures.size(), 2U);
+  EXPECT_EQ(curves.groups[0].figures[0].panels[0].x.label, "noise");
+  EXPECT_EQ(curves.groups[0].figures[1].id, "test-s-ranks-mpe-m");
+  const StudyFigures distributions = results_figures(without, compare_methods(without));
+  EXPECT_EQ(distributions.groups[0].figures[0].panels[0].y.label, "runs at or below [%]");
+}
+
+}  // namespace
+}  // namespace mapproof
