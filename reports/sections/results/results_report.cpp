@@ -69,6 +69,7 @@ Section provenance_section(const ResultsReportInput& input) {
 
 std::vector<Section> sections_of(const ResultsReportInput& input) {
   std::vector<Section> sections{summary_section(input)};
+  if (sections[0].blocks.empty()) sections.clear();
   for (const ResultsBlock& block : input.view.blocks())
     sections.push_back(block_section(input, block));
   sections.push_back(provenance_section(input));
