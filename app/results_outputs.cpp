@@ -1,5 +1,7 @@
 #include "app/results_outputs.hpp"
 
+#include <utility>
+
 #include "core/records/results_study_json.hpp"
 #include "reports/sections/results/results_report.hpp"
 
@@ -10,7 +12,9 @@ FolderReport results_folder_report(const std::filesystem::path& folder,
   const ResultsStudy study = read_results_study(folder);
   const ResultsView view(study);
   const std::vector<MethodComparison> comparisons = compare_methods(view);
-  const StudyFigures figures = results_figures(view, comparisons);
+  StudyFigures figures = results_figures(view, comparisons);
+  FigureGroup given = given_figures(study, read_given_maps(folder), read_given_paths(folder));
+  if (!given.empty()) figures.groups.push_back(std::move(given));
   const ResultsReportInput input{
       .view = view, .comparisons = comparisons, .figures = figures, .command = command};
   FolderReport result{.folder = folder,

@@ -1,7 +1,6 @@
 #include "app/study_order.hpp"
 
 #include <algorithm>
-#include <array>
 
 #include <fmt/format.h>
 
@@ -77,11 +76,9 @@ std::uint64_t seed_of(const StudyOrder& order) {
   return std::get<Experiment>(order.experiment).seed;
 }
 
-/// The files of a study that another program made.
-constexpr std::array kGivenFiles = {"study.json", "results.csv"};
-
 void copy_study(const std::filesystem::path& from, const std::filesystem::path& to) {
-  for (const char* file : kGivenFiles) write_file(to / file, read_file(from / file));
+  for (const std::filesystem::path& file : results_study_files(from))
+    write_file(to / file, read_file(from / file));
 }
 
 }  // namespace
@@ -117,7 +114,8 @@ StudyOrder given_study_order(const std::filesystem::path& folder) {
   StudyOrder order{
       .name = read_results_study(folder).name, .digest = {}, .experiment = GivenStudy{folder}};
   std::string texts;
-  for (const char* file : kGivenFiles) texts += read_file(folder / file);
+  for (const std::filesystem::path& file : results_study_files(folder))
+    texts += file.string() + "\n" + read_file(folder / file);
   order.digest = sha256_hex(texts);
   return order;
 }

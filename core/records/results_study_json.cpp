@@ -9,9 +9,12 @@
 #include "core/base/errors.hpp"
 #include "core/base/files.hpp"
 #include "core/json/json_cursor.hpp"
+#include "core/json/text_input.hpp"
+#include "core/records/map_csv.hpp"
 #include "core/records/quantity_values.hpp"
 #include "core/records/results_table.hpp"
 #include "core/records/study_store.hpp"
+#include "core/records/trajectory_files.hpp"
 
 namespace mapproof {
 namespace {
@@ -56,6 +59,19 @@ void read_quantities(const JsonCursor& list, ResultsStudy& study) {
   }
 }
 
+constexpr std::string_view kTruth = ".truth";
+
+/// The files with that extension in a folder, in ascending order; none if it is not there.
+std::vector<fs::path> files_in(const fs::path& folder, const std::string& extension) {
+  std::vector<fs::path> files;
+  std::error_code error;
+  for (fs::directory_iterator entry(folder, error), end; !error && entry != end;
+       entry.increment(error))
+    if (entry->path().extension() == extension) files.push_back(entry->path());
+  std::ranges::sort(files);
+  return files;
+}
+
 }  // namespace
 
 ResultsStudy parse_results_study(std::string_view text, const std::string& source) {
@@ -95,6 +111,46 @@ ResultsStudy read_results_study(const fs::path& folder) {
   if (const std::string unused = complete(study); !unused.empty())
     throw IoError(head, fmt::format("{}: results.csv has no row of it", unused));
   return study;
+}
+
+std::vector<MapRecord> read_given_maps(const fs::path& folder) {
+  std::vector<MapRecord> maps;
+  for (const fs::path& file : files_in(folder / "maps", ".csv")) {
+    const std::string text = read_file(file);
+    MapRecord map = parse_map_csv(checked_text(text, file.string()), file.string());
+    map.id = file.stem().string();
+    maps.push_back(std::move(map));
+  }
+  return maps;
+}
+
+std::vector<GivenPath> read_given_paths(const fs::path& folder) {
+  std::vector<GivenPath> paths;
+  for (const fs::path& file : files_in(folder / "paths", ".tum")) {
+    std::error_code error;
+    const fs::path stem = file.parent_path() / file.stem();
+    if (stem.extension() == kTruth) {
+      const std::string path = fs::path(stem).replace_extension().string() + ".tum";
+      if (!fs::exists(path, error)) throw IoError(file.string(), "there is no path " + path);
+      continue;
+    }
+    GivenPath path{.id = file.stem().string(),
+                   .path = parse_trajectory_tum(read_file(file), file.string()),
+                   .truth = std::nullopt};
+    const fs::path truth = stem.string() + std::string(kTruth) + ".tum";
+    if (fs::exists(truth, error))
+      path.truth = parse_trajectory_tum(read_file(truth), truth.string());
+    paths.push_back(std::move(path));
+  }
+  return paths;
+}
+
+std::vector<fs::path> results_study_files(const fs::path& folder) {
+  std::vector<fs::path> files = {"study.json", "results.csv"};
+  for (const auto& [below, extension] : {std::pair("maps", ".csv"), std::pair("paths", ".tum")})
+    for (const fs::path& file : files_in(folder / below, extension))
+      files.push_back(below / file.filename());
+  return files;
 }
 
 bool is_results_study(const fs::path& folder) {

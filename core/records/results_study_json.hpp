@@ -1,9 +1,13 @@
 #pragma once
 
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <string_view>
+#include <vector>
 
+#include "core/model/map_record.hpp"
+#include "core/model/range_log.hpp"
 #include "core/results/results_study.hpp"
 
 namespace mapproof {
@@ -20,6 +24,23 @@ ResultsStudy parse_results_study(std::string_view text, const std::string& sourc
 /// @throws IoError with the place: also if the table has no row, or if study.json names a setup, a
 ///         method or a factor that no row has.
 ResultsStudy read_results_study(const std::filesystem::path& folder);
+
+/// A path that a study of results has, and the ground truth beside it.
+struct GivenPath {
+  std::string id;
+  Trajectory path;
+  std::optional<Trajectory> truth;
+};
+
+/// The maps in maps/NAME.csv, by name as ids. @throws IoError with the place.
+std::vector<MapRecord> read_given_maps(const std::filesystem::path& folder);
+
+/// The paths in paths/NAME.tum, by name, with the ground truth in paths/NAME.truth.tum.
+/// @throws IoError with the place; also for a ground truth of no path.
+std::vector<GivenPath> read_given_paths(const std::filesystem::path& folder);
+
+/// Every file of a study of results, below the folder: study.json, results.csv, maps and paths.
+std::vector<std::filesystem::path> results_study_files(const std::filesystem::path& folder);
 
 /// Whether the folder's study.json is of that schema, be the rest readable or not.
 bool is_results_study(const std::filesystem::path& folder);

@@ -155,11 +155,20 @@ void read_trials(const fs::path& folder, const std::string& text, const Contents
   if (asked.seconds) contents.seconds = seconds_of(read_trial_study(folder));
 }
 
-void read_table(const fs::path& folder, const std::string&, const ContentsAsked&,
+void read_table(const fs::path& folder, const std::string&, const ContentsAsked& asked,
                 StudyContents& contents) {
   ResultsStudy study = read_results_study(folder);
   for (const Result& row : study.results.rows) contents.runs[row.run] = row.group;
   contents.results = std::move(study.results);
+  if (!asked.maps) return;
+  try_file(contents, folder, folder / "maps", asked, [&] {
+    for (const MapRecord& map : read_given_maps(folder))
+      contents.points["maps/" + map.id] = placed(map);
+  });
+  try_file(contents, folder, folder / "paths", asked, [&] {
+    for (const GivenPath& path : read_given_paths(folder))
+      contents.points["paths/" + path.id] = placed_path(path.path.positions_m);
+  });
 }
 
 /// One kind of study: the schema of its study.json, and what reads it.

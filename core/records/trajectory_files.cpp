@@ -1,11 +1,16 @@
 #include "core/records/trajectory_files.hpp"
 
+#include <array>
 #include <cmath>
+#include <optional>
+#include <vector>
 
 #include <fmt/format.h>
 
 #include "core/base/csv.hpp"
 #include "core/base/errors.hpp"
+#include "core/json/text_input.hpp"
+#include "core/records/table_reader.hpp"
 
 namespace mapproof {
 namespace {
@@ -27,6 +32,42 @@ std::string trajectory_tum(const Trajectory& path) {
                    path.positions_m(i, 0), path.positions_m(i, 1), std::sin(half), std::cos(half));
   }
   return text;
+}
+
+Trajectory parse_trajectory_tum(std::string_view text, const std::string& source) {
+  constexpr std::size_t kColumns = 8;
+  TableReader reader(checked_text(text, source), source, TableReader::kBlanks);
+  TableRow row;
+  std::vector<std::array<double, kColumns>> poses;
+  while (reader.next(row)) {
+    if (row.cells.front().starts_with('#')) continue;
+    const std::string place = fmt::format("line {}", row.line);
+    if (row.cells.size() != kColumns)
+      throw IoError(source, place,
+                    fmt::format("has {} numbers, expected {}: t x y z qx qy qz qw",
+                                row.cells.size(), kColumns));
+    std::array<double, kColumns>& pose = poses.emplace_back();
+    for (std::size_t i = 0; i < kColumns; ++i) {
+      const std::optional<double> number = number_in(row.cells[i]);
+      if (!number || !std::isfinite(*number))
+        throw IoError(source, place, number_problem(row.cells[i]));
+      pose[i] = *number;
+    }
+    if (poses.size() > 1 && !(poses[poses.size() - 2][0] < pose[0]))
+      throw IoError(source, place, "its time is not after that of the pose before");
+  }
+  if (poses.empty()) throw IoError(source, "has no pose");
+  const auto count = std::ssize(poses);
+  Trajectory path{.time_s = Eigen::VectorXd(count),
+                  .positions_m = Points(count, 2),
+                  .heading_rad = Eigen::VectorXd(count)};
+  for (Eigen::Index i = 0; i < count; ++i) {
+    const auto& [t, x, y, z, qx, qy, qz, qw] = poses[static_cast<std::size_t>(i)];
+    path.time_s(i) = t;
+    path.positions_m.row(i) << x, y;
+    path.heading_rad(i) = std::atan2(2.0 * (qw * qz + qx * qy), 1.0 - 2.0 * (qy * qy + qz * qz));
+  }
+  return path;
 }
 
 std::string trajectory_csv(const Trajectory& path) {

@@ -2,6 +2,7 @@
 
 #include <filesystem>
 #include <string>
+#include <string_view>
 
 #include "core/model/range_log.hpp"
 
@@ -11,6 +12,11 @@ namespace mapproof {
 /// that of the heading, or of none where headings are not known. Numbers read back as they were.
 /// @throws InvalidInput for a path_problem().
 std::string trajectory_tum(const Trajectory& path);
+
+/// Reads such a text: z, roll and pitch are passed over, as are lines that begin with #.
+/// @throws IoError with the line: other than eight numbers, one that is not finite, times that do
+///         not ascend; or if there is no pose.
+Trajectory parse_trajectory_tum(std::string_view text, const std::string& source);
 
 /// A path as CSV with the columns time_s, x_m, y_m and, if it is known, heading_rad; lines end in
 /// CR LF [rfc4180]. @throws InvalidInput as above.

@@ -180,6 +180,8 @@ void read_whole_study(const fs::path& folder) {
   }
   if (is_results_study(folder)) {
     read_results_study(folder);
+    read_given_maps(folder);
+    read_given_paths(folder);
     return;
   }
   for (const Run& run : read_study(folder).runs) {

@@ -9,6 +9,7 @@
 #include "core/base/input_file.hpp"
 #include "core/json/text_input.hpp"
 #include "core/records/landmarks_csv.hpp"
+#include "core/records/map_csv.hpp"
 #include "core/records/observation_values.hpp"
 #include "core/records/sighting_columns.hpp"
 #include "core/records/sighting_values.hpp"
@@ -36,20 +37,6 @@ bool is_map(const TableRow& header) {
          header.cells.back() == "anchor";
 }
 
-void check_map(TableReader& reader, const TableRow& header, const std::string& source) {
-  const std::size_t width = header.cells.size();
-  TableRow row;
-  while (reader.next(row)) {
-    const std::string place = fmt::format("line {}", row.line);
-    if (row.cells.size() != width)
-      throw IoError(source, place,
-                    fmt::format("has {} cells, expected {}", row.cells.size(), width));
-    for (std::size_t i = 1; i < width; ++i)
-      if (!row.cells[i].empty() && !number_in(row.cells[i]))
-        throw IoError(source, place, number_problem(row.cells[i]));
-  }
-}
-
 bool is_part_of_mrclam(const std::filesystem::path& path) {
   const std::string name = unpacked_name(path.filename()).string();
   return name == "Barcodes.dat" || name.ends_with("_Measurement.dat");
@@ -72,7 +59,8 @@ void check_table(ByteSource& input, std::string& kind) {
   TableRow first;
   if (reader.next(first) && is_map(first)) {
     kind = "map CSV";
-    return check_map(reader, first, source);
+    parse_map_csv(text, source);
+    return;
   }
   if (has_long_header(text, source) || starts_as_long(text, source)) {
     kind = "long CSV observations";

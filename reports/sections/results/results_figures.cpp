@@ -11,6 +11,8 @@
 #include "core/statistics/nemenyi.hpp"
 #include "render/figures/critical_difference.hpp"
 #include "render/figures/level_curve.hpp"
+#include "render/figures/map.hpp"
+#include "render/figures/thinning.hpp"
 #include "reports/sections/method_summary.hpp"
 
 namespace mapproof {
@@ -159,7 +161,57 @@ std::optional<Figure> rank_figure(const ResultsView& view, const MethodCompariso
   return critical_difference_figure(spec);
 }
 
+/// An id that no figure of the group has.
+std::string free_id(const FigureGroup& group, const std::string& id) {
+  std::string free = id;
+  for (int i = 2; std::ranges::find(group.figures, free, &Figure::id) != group.figures.end(); ++i)
+    free = fmt::format("{}-{}", id, i);
+  return free;
+}
+
+Polyline path_line(const std::string& label, const Trajectory& path, Ink ink, Dash dash) {
+  constexpr double kShareOfSpan = 5e-4;  // Less than a line's width.
+  const Eigen::RowVector2d span =
+      path.positions_m.colwise().maxCoeff() - path.positions_m.colwise().minCoeff();
+  const ThinLine thin = thin_path(path, kShareOfSpan * span.maxCoeff());
+  return {.label = label, .x = thin.x, .y = thin.y, .ink = ink, .dash = dash};
+}
+
+Figure path_figure(const GivenPath& path, std::string id) {
+  Figure figure;
+  figure.id = std::move(id);
+  figure.title = path.id;
+  figure.record_ids = {"paths/" + path.id};
+  Panel& panel = figure.panels.emplace_back();
+  panel.x.label = "x [m]";
+  panel.y.label = "y [m]";
+  panel.equal_aspect = true;
+  if (path.truth)
+    panel.layers.emplace_back(path_line("ground truth", *path.truth, Ink::kText, Dash::kDashed));
+  panel.layers.emplace_back(path_line("estimate", path.path, Ink::kSeries1, Dash::kSolid));
+  figure.caption =
+      fmt::format("The path {} of {} poses{}, as it was given: nothing was aligned.", path.id,
+                  path.path.size(), path.truth ? " and its ground truth" : "");
+  figure.alt = figure.caption;
+  require_valid(figure);
+  return figure;
+}
+
 }  // namespace
+
+FigureGroup given_figures(const ResultsStudy& study, const std::vector<MapRecord>& maps,
+                          const std::vector<GivenPath>& paths) {
+  FigureGroup group{study.name + "-maps", "Maps and paths", "", {}};
+  for (const MapRecord& map : maps) {
+    const std::string id = free_id(group, study.name + "-map-" + slug_of(map.id));
+    group.figures.push_back(map_figure(map, id, map.id));
+    group.figures.back().record_ids = {"maps/" + map.id};
+  }
+  for (const GivenPath& path : paths)
+    group.figures.push_back(
+        path_figure(path, free_id(group, study.name + "-path-" + slug_of(path.id))));
+  return group;
+}
 
 StudyFigures results_figures(const ResultsView& view,
                              const std::vector<MethodComparison>& comparisons) {

@@ -2,6 +2,7 @@
 
 #include <vector>
 
+#include "core/records/results_study_json.hpp"
 #include "reports/sections/results/results_comparison.hpp"
 #include "reports/sections/study_figures.hpp"
 
@@ -12,5 +13,10 @@ namespace mapproof {
 /// ranks with the critical difference.
 StudyFigures results_figures(const ResultsView& view,
                              const std::vector<MethodComparison>& comparisons);
+
+/// The maps, each landmark's error as a line where the ground truth is known, and the paths beside
+/// theirs, drawn as they were given. Without either the group is empty.
+FigureGroup given_figures(const ResultsStudy& study, const std::vector<MapRecord>& maps,
+                          const std::vector<GivenPath>& paths);
 
 }  // namespace mapproof

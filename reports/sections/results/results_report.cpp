@@ -72,6 +72,13 @@ std::vector<Section> sections_of(const ResultsReportInput& input) {
   if (sections[0].blocks.empty()) sections.clear();
   for (const ResultsBlock& block : input.view.blocks())
     sections.push_back(block_section(input, block));
+  const std::string maps = input.view.study().name + "-maps";
+  const auto group = std::ranges::find(input.figures.groups, maps, &FigureGroup::id);
+  if (group != input.figures.groups.end()) {
+    Section section{maps, group->title, {}};
+    section.blocks.emplace_back(gallery_of(*group));
+    sections.push_back(std::move(section));
+  }
   sections.push_back(provenance_section(input));
   return sections;
 }

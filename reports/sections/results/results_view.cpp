@@ -11,20 +11,6 @@
 namespace mapproof {
 namespace {
 
-/// [a-z0-9-]+ of any text.
-std::string slug_of(const std::string& text) {
-  std::string slug;
-  for (const char c : lower_case(text)) {
-    const bool is_kept = (c >= 'a' && c <= 'z') || (c >= '0' && c <= '9');
-    if (is_kept)
-      slug += c;
-    else if (!slug.empty() && slug.back() != '-')
-      slug += '-';
-  }
-  while (!slug.empty() && slug.back() == '-') slug.pop_back();
-  return slug;
-}
-
 bool is_number(const Level& level) { return std::holds_alternative<double>(level.value); }
 
 /// The factor along which a setup's curves go: of those with several levels one whose levels are
@@ -194,6 +180,19 @@ std::string ResultsView::factor_label(const std::string& factor) const {
   const auto found = std::ranges::find(study_.factors, factor, &Label::id);
   if (found == study_.factors.end()) return factor;
   return found->unit.empty() ? found->label : fmt::format("{} [{}]", found->label, found->unit);
+}
+
+std::string slug_of(const std::string& text) {
+  std::string slug;
+  for (const char c : lower_case(text)) {
+    const bool is_kept = (c >= 'a' && c <= 'z') || (c >= '0' && c <= '9');
+    if (is_kept)
+      slug += c;
+    else if (!slug.empty() && slug.back() != '-')
+      slug += '-';
+  }
+  while (!slug.empty() && slug.back() == '-') slug.pop_back();
+  return slug;
 }
 
 int decimals_of(std::vector<double> sizes) {

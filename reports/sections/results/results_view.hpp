@@ -82,6 +82,9 @@ class ResultsView {
   std::vector<ResultsBlock> blocks_;
 };
 
+/// [a-z0-9-]+ of any text, for ids.
+std::string slug_of(const std::string& text);
+
 /// Decimals that tell these values apart: three significant digits of their median.
 int decimals_of(std::vector<double> sizes);
 
