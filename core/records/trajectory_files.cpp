@@ -53,8 +53,10 @@ Trajectory parse_trajectory_tum(std::string_view text, const std::string& source
         throw IoError(source, place, number_problem(row.cells[i]));
       pose[i] = *number;
     }
-    if (poses.size() > 1 && !(poses[poses.size() - 2][0] < pose[0]))
-      throw IoError(source, place, "its time is not after that of the pose before");
+    if (poses.size() < 2) continue;
+    const double before = poses[poses.size() - 2][0];
+    if (pose[0] < before) throw IoError(source, place, "its time is before that of the pose above");
+    if (pose[0] == before) poses.pop_back();  // As motion capture repeats one now and then.
   }
   if (poses.empty()) throw IoError(source, "has no pose");
   const auto count = std::ssize(poses);

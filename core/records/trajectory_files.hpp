@@ -13,9 +13,10 @@ namespace mapproof {
 /// @throws InvalidInput for a path_problem().
 std::string trajectory_tum(const Trajectory& path);
 
-/// Reads such a text: z, roll and pitch are passed over, as are lines that begin with #.
-/// @throws IoError with the line: other than eight numbers, one that is not finite, times that do
-///         not ascend; or if there is no pose.
+/// Reads such a text: z, roll and pitch are passed over, as are lines that begin with #
+/// and poses of the same time as the one before.
+/// @throws IoError with the line: other than eight numbers, one that is not finite, times that
+///         descend; or if there is no pose.
 Trajectory parse_trajectory_tum(std::string_view text, const std::string& source);
 
 /// A path as CSV with the columns time_s, x_m, y_m and, if it is known, heading_rad; lines end in
