@@ -1,13 +1,12 @@
 #pragma once
 
 #include <filesystem>
-#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
 
+#include "core/model/given_path.hpp"
 #include "core/model/map_record.hpp"
-#include "core/model/range_log.hpp"
 #include "core/results/results_study.hpp"
 
 namespace mapproof {
@@ -24,13 +23,6 @@ ResultsStudy parse_results_study(std::string_view text, const std::string& sourc
 /// @throws IoError with the place: also if the table has no row, or if study.json names a setup, a
 ///         method or a factor that no row has.
 ResultsStudy read_results_study(const std::filesystem::path& folder);
-
-/// A path that a study of results has, and the ground truth beside it.
-struct GivenPath {
-  std::string id;
-  Trajectory path;
-  std::optional<Trajectory> truth;
-};
 
 /// The maps in maps/NAME.csv, by name as ids. @throws IoError with the place.
 std::vector<MapRecord> read_given_maps(const std::filesystem::path& folder);

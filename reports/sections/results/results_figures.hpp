@@ -2,7 +2,8 @@
 
 #include <vector>
 
-#include "core/records/results_study_json.hpp"
+#include "core/model/given_path.hpp"
+#include "core/model/map_record.hpp"
 #include "reports/sections/results/results_comparison.hpp"
 #include "reports/sections/study_figures.hpp"
 
