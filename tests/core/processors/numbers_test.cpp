@@ -28,10 +28,11 @@ double largest(const std::map<std::string, double>& differences) {
 TEST(AcrossProcessors, NumbersAgreeWithinTheTolerance) {
   const char* other = std::getenv("MAPPROOF_NUMBERS");
   if (other == nullptr) GTEST_SKIP() << "MAPPROOF_NUMBERS names no numbers of another processor";
-  const std::map<std::string, double> found = differences(test::numbers(), test::read_numbers(other));
+  const std::map<std::string, double> found =
+      differences(test::numbers(), test::read_numbers(other));
   for (const auto& [block, difference] : found) {
     fmt::print("{:.1e} {}\n", difference, block);
-    EXPECT_LE(difference, test::kAcrossProcessors) << block;
+    EXPECT_LE(difference, test::across_processors(block)) << block;
   }
   fmt::print("{} blocks, {} with the same bits, largest difference {:.1e}\n", found.size(),
              std::ranges::count(found, 0.0, &std::pair<const std::string, double>::second),
