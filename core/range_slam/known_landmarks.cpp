@@ -74,7 +74,7 @@ SpectralMap map_from_known_places(const Factorization& factors,
 
   // U = C S^-1 on the known rows, so X = S^-1 V; longer ranges lengthen all of X.
   const Eigen::MatrixXd small_X =
-      svd.solve(Eigen::MatrixXd(factors.U(rows, Eigen::all))) / (unit * unit) * factors.V;
+      svd.solve(factors.U(rows, Eigen::all)) / (unit * unit) * factors.V;
   const Eigen::ColPivHouseholderQR<Eigen::MatrixXd> qr(small_X.transpose());
   const Eigen::MatrixXd change = to_metres(center, unit);
   const double squared_scale = small_X.row(0).mean();
@@ -89,7 +89,7 @@ SpectralMap map_from_known_places(const Factorization& factors,
   map.X = change * small_X / squared_scale;
   map.range_scale = std::sqrt(squared_scale);
   // C = U S, by regression of U V on X.
-  const Eigen::MatrixXd S = qr.solve(Eigen::MatrixXd(factors.V.transpose())).transpose();
+  const Eigen::MatrixXd S = qr.solve(factors.V.transpose()).transpose();
   map.C = factors.U * S * change.inverse();
   return map;
 }

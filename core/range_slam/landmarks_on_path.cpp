@@ -29,7 +29,7 @@ LandmarksOnPath landmarks_on_path(const Points& positions_m, const Eigen::Matrix
   const Eigen::HouseholderQR<Eigen::MatrixXd> qr(A);
 
   // What of Y and q no [1, p] explains: their ratio is b.
-  const Eigen::MatrixXd of_ranges = qr.solve(Eigen::MatrixXd(Y.transpose()));
+  const Eigen::MatrixXd of_ranges = qr.solve(Y.transpose());
   const Eigen::VectorXd of_q = qr.solve(q);
   const Eigen::VectorXd rest = q - A * of_q;
   LandmarksOnPath result;
