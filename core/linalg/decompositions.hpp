@@ -9,7 +9,8 @@
 // Eigen's dense decompositions, compiled once, in the sources *_decompositions.cpp: each takes
 // seconds to compile. Include this header where one of them is used. A decomposition of an
 // expression, or of a right side that is one, is compiled where it stands: evaluate the expression
-// into a matrix first (not a transposed one: it is solved by rows, with other last digits). An instantiated class lacks its member templates, which follow it.
+// into a matrix first. Not so a transposed one, which is solved by rows, with other last digits.
+// An instantiated class lacks its member templates, which follow it.
 #define MAPPROOF_SQUARE_DECOMPOSITIONS(TEMPLATE)                                                   \
   TEMPLATE class Eigen::LLT<Eigen::MatrixXd>;                                                      \
   TEMPLATE Eigen::LLT<Eigen::MatrixXd>& Eigen::LLT<Eigen::MatrixXd>::compute(                      \
