@@ -141,6 +141,15 @@ TEST(ResultsComparison, IsThePairedTestOverGroupsCorrectedForTheMethods) {
             "s: m1 has the lowest mean MPE, 1.1 m; m2 follows with");
 }
 
+TEST(ResultsView, AValueWhoseSquareIsNoNumberIsLost) {
+  const ResultsStudy study = Rows().add("m", "a", 1e308).add("m", "b", -1e308).study();
+  const ResultsView view(study);
+  const ResultsBlock& block = view.blocks()[0];
+  const RunNumbers numbers = view.numbers(block.conditions[0], view.lines(block, mpe())[0], mpe());
+  EXPECT_TRUE(numbers.values.empty());
+  EXPECT_EQ(numbers.lost, 2);
+}
+
 TEST(ResultsFigures, ACurveOverNumbersElseADistribution) {
   Rows curve, plain;
   for (const char* run : {"a", "b", "c"})

@@ -1,7 +1,6 @@
 #include "reports/sections/results/results_report.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <utility>
 
 #include <fmt/format.h>
@@ -21,8 +20,8 @@ Section summary_section(const ResultsReportInput& input) {
   Section section{study.name + "-summary", "Summary", {}};
   if (!study.question.empty()) section.blocks.emplace_back(plain(study.question));
   const auto rows = std::ssize(study.results.rows);
-  const auto lost = std::ranges::count_if(
-      study.results.rows, [](const Result& row) { return !std::isfinite(row.value); });
+  const auto lost = std::ranges::count_if(study.results.rows,
+                                          [](const Result& row) { return is_lost(row.value); });
   if (lost > 0)
     section.blocks.emplace_back(
         Callout{Callout::Tone::kWarning, "Lost values",

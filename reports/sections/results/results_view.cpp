@@ -42,7 +42,7 @@ ResultsView::ResultsView(const ResultsStudy& study) : study_(study) {
     const Key key{row.at, {row.method, row.quantity}};
     groups_[row.run] = row.group;
     clusters_.try_emplace(row.group, static_cast<int>(clusters_.size()));
-    if (!std::isfinite(row.value)) {
+    if (is_lost(row.value)) {
       lost_[key][row.run] = true;
       continue;
     }
@@ -180,6 +180,11 @@ std::string ResultsView::factor_label(const std::string& factor) const {
   const auto found = std::ranges::find(study_.factors, factor, &Label::id);
   if (found == study_.factors.end()) return factor;
   return found->unit.empty() ? found->label : fmt::format("{} [{}]", found->label, found->unit);
+}
+
+bool is_lost(double value) {
+  constexpr double kMost = 1e100;
+  return !(std::abs(value) < kMost);
 }
 
 std::string slug_of(const std::string& text) {

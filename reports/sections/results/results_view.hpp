@@ -82,6 +82,9 @@ class ResultsView {
   std::vector<ResultsBlock> blocks_;
 };
 
+/// Whether a value counts as lost: no number, or too large for a sum of squares.
+bool is_lost(double value);
+
 /// [a-z0-9-]+ of any text, for ids.
 std::string slug_of(const std::string& text);
 
