@@ -16,10 +16,13 @@
 namespace mapproof {
 namespace {
 
-constexpr std::array<std::string_view, 13> kMapColumns = {
-    "name",    "x_m",    "y_m",         "x",           "y",         "true_x_m", "true_y_m",
-    "error_m", "anchor", "ellipse_a_m", "ellipse_b_m", "ellipse_a", "ellipse_b"};
-constexpr std::string_view kEllipseTurn = "ellipse_turn_deg";
+constexpr std::array<std::string_view, 14> kMapColumns = {"name",        "x_m",
+                                                          "y_m",         "x",
+                                                          "y",           "true_x_m",
+                                                          "true_y_m",    "error_m",
+                                                          "anchor",      "ellipse_a_m",
+                                                          "ellipse_b_m", "ellipse_a",
+                                                          "ellipse_b",   "ellipse_turn_deg"};
 
 class MapReader {
  public:
@@ -41,7 +44,7 @@ class MapReader {
 
   void read_header() {
     for (const std::string_view cell : row_.cells) {
-      if (cell != kEllipseTurn && std::ranges::find(kMapColumns, cell) == kMapColumns.end())
+      if (std::ranges::find(kMapColumns, cell) == kMapColumns.end())
         fail("unknown column " + in_quotes(cell));
       if (std::ranges::find(columns_, cell) != columns_.end())
         fail(fmt::format("column {} is there twice", in_quotes(cell)));

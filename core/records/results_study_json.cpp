@@ -153,11 +153,6 @@ std::vector<fs::path> results_study_files(const fs::path& folder) {
   return files;
 }
 
-bool is_results_study(const fs::path& folder) {
-  if (!is_study(folder)) return false;
-  const fs::path path = folder / "study.json";
-  const JsonDocument document = parse_json(read_file(path), path.string());
-  return schema_of(document.cursor()).name == kResultsStudy;
-}
+bool is_results_study(const fs::path& folder) { return study_schema(folder) == kResultsStudy; }
 
 }  // namespace mapproof

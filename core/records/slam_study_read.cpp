@@ -57,12 +57,7 @@ void read_convergence(const SlamFiles& files, const SlamExperiment& experiment, 
 
 }  // namespace
 
-bool is_slam_study(const fs::path& folder) {
-  if (!is_study(folder)) return false;
-  const fs::path path = SlamFiles{folder}.study();
-  const JsonDocument document = parse_json(read_file(path), path.string());
-  return schema_of(document.cursor()).name == "mapproof.slam_study";
-}
+bool is_slam_study(const fs::path& folder) { return study_schema(folder) == "mapproof.slam_study"; }
 
 SlamStudy read_slam_study(const fs::path& folder) {
   const SlamFiles files{folder};

@@ -67,6 +67,12 @@ bool is_study(const fs::path& folder) {
   return fs::is_regular_file(StudyFiles{folder}.study(), error);
 }
 
+std::string study_schema(const fs::path& folder) {
+  if (!is_study(folder)) return "";
+  const fs::path path = StudyFiles{folder}.study();
+  return schema_of(parse_json(read_file(path), path.string()).cursor()).name;
+}
+
 Study read_study(const fs::path& folder) {
   const StudyFiles files{folder};
   std::error_code error;

@@ -59,6 +59,10 @@ class StudyStore {
 /// Whether the folder holds a study.json.
 bool is_study(const std::filesystem::path& folder);
 
+/// The schema that the folder's study.json says it is of, be the rest readable or not; empty if
+/// there is none. @throws IoError.
+std::string study_schema(const std::filesystem::path& folder);
+
 /// The study in a folder: the runs finished so far, ascending, each as it was written.
 /// @throws IoError if there is no study or a file of it is damaged.
 Study read_study(const std::filesystem::path& folder);

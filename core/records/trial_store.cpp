@@ -119,10 +119,7 @@ void TrialStore::write(const TrialPart& part, const std::string& digest) {
 void TrialStore::write_session(const Session& session) { state_->append(session_line(session)); }
 
 bool is_trial_study(const fs::path& folder) {
-  if (!is_study(folder)) return false;
-  const fs::path path = TrialFiles{folder}.study();
-  const JsonDocument document = parse_json(read_file(path), path.string());
-  return schema_of(document.cursor()).name == "mapproof.trial_study";
+  return study_schema(folder) == "mapproof.trial_study";
 }
 
 TrialStudy read_trial_study(const fs::path& folder) {

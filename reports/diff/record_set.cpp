@@ -68,10 +68,8 @@ bool is_single(const fs::path& file) {
 
 /// All of a JSON value as text by its pointers; arrays of plain values are one value.
 void add_settings(RecordSet& set, const fs::path& study) {
-  JsonDocument document = parse_json(read_file(study), study.string());
-  if (document.root.contains("experiment")) document.root = document.root["experiment"];
-  document.root.erase("schema");
-  flatten(document.root, "", set.settings);
+  const nlohmann::json root = parse_json(read_file(study), study.string()).root;
+  flatten(root.contains("experiment") ? root["experiment"] : root, "", set.settings);
   const auto seed = set.settings.find("/seed");
   if (seed != set.settings.end()) set.seed = seed->second;
 }

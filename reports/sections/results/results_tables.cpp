@@ -81,10 +81,11 @@ Table level_table(const ResultsView& view, const ResultsBlock& block, const Quan
   CellMaker cells(view, table);
   for (std::size_t i = 0; i < block.levels.size(); ++i)
     cells.add_column(column_title(block.levels[i]), "", view.factor_label(block.factor));
+  const int places = decimals(view, block, quantity);
   for (const ResultsLine& line : view.lines(block, quantity)) {
     Row row{{TextCell{line.label, Emphasis::kData}}, "", false};
     for (std::size_t i = 0; i < block.levels.size(); ++i)
-      cells.add(row, block.conditions[i], line, quantity, decimals(view, block, quantity),
+      cells.add(row, block.conditions[i], line, quantity, places,
                 view.level_words(block.levels[i]));
     table.rows.push_back(std::move(row));
   }
@@ -101,7 +102,9 @@ Table single_table(const ResultsView& view, const ResultsBlock& block) {
   CellMaker cells(view, table);
   const std::vector<const Quantity*> quantities = view.quantities(block);
   std::vector<ResultsLine> lines;
+  std::vector<int> places;
   for (const Quantity* quantity : quantities) {
+    places.push_back(decimals(view, block, *quantity));
     cells.add_column(quantity->label, quantity->unit, "");
     for (const ResultsLine& line : view.lines(block, *quantity))
       if (std::ranges::find(lines, line.label, &ResultsLine::label) == lines.end())
@@ -110,9 +113,9 @@ Table single_table(const ResultsView& view, const ResultsBlock& block) {
   std::ranges::stable_sort(lines, {}, [](const ResultsLine& line) { return line.index; });
   for (const ResultsLine& line : lines) {
     Row row{{TextCell{line.label, Emphasis::kData}}, "", false};
-    for (const Quantity* quantity : quantities)
-      cells.add(row, block.conditions.front(), line, *quantity, decimals(view, block, *quantity),
-                quantity->label);
+    for (std::size_t i = 0; i < quantities.size(); ++i)
+      cells.add(row, block.conditions.front(), line, *quantities[i], places[i],
+                quantities[i]->label);
     table.rows.push_back(std::move(row));
   }
   add_note(view, table);

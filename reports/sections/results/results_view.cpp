@@ -43,7 +43,7 @@ ResultsView::ResultsView(const ResultsStudy& study) : study_(study) {
     groups_[row.run] = row.group;
     clusters_.try_emplace(row.group, static_cast<int>(clusters_.size()));
     if (is_lost(row.value)) {
-      lost_[key][row.run] = true;
+      lost_[key].insert(row.run);
       continue;
     }
     auto& [sum, count] = sums_[key][row.run];
@@ -113,7 +113,7 @@ std::vector<ResultsLine> ResultsView::lines(const ResultsBlock& block,
       if (const auto found = sums_.find(key); found != sums_.end())
         for (const auto& [run, sum] : found->second) runs.insert(run);
       if (const auto found = lost_.find(key); found != lost_.end())
-        for (const auto& [run, is_lost] : found->second) runs.insert(run);
+        runs.insert(found->second.begin(), found->second.end());
     }
     if (runs.empty()) continue;
     if (study_.results.are_repeats) runs = {""};
@@ -138,7 +138,7 @@ RunNumbers ResultsView::numbers(const Condition& at, const ResultsLine& line,
     for (const auto& [run, sum] : found->second)
       if (is_of_line(run)) numbers.values[run] = sum.first / sum.second;
   if (const auto found = lost_.find(key); found != lost_.end())
-    for (const auto& [run, is_lost] : found->second)
+    for (const std::string& run : found->second)
       if (is_of_line(run) && !numbers.values.contains(run)) ++numbers.lost;
   return numbers;
 }

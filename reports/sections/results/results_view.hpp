@@ -3,6 +3,7 @@
 #include <cstddef>
 #include <map>
 #include <optional>
+#include <set>
 #include <string>
 #include <utility>
 #include <vector>
@@ -76,7 +77,7 @@ class ResultsView {
 
   const ResultsStudy& study_;
   std::map<Key, std::map<std::string, std::pair<double, int>>> sums_;  ///< By run: sum and count.
-  std::map<Key, std::map<std::string, bool>> lost_;                    ///< By run.
+  std::map<Key, std::set<std::string>> lost_;                          ///< By run.
   std::map<std::string, std::string> groups_;                          ///< By run.
   std::map<std::string, int> clusters_;                                ///< By group.
   std::vector<ResultsBlock> blocks_;
