@@ -5,7 +5,6 @@
 
 #include "core/base/errors.hpp"
 #include "core/base/files.hpp"
-#include "core/json/json_cursor.hpp"
 #include "core/records/slam_files.hpp"
 #include "core/records/slam_run_json.hpp"
 #include "core/records/slam_store.hpp"

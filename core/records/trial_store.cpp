@@ -6,7 +6,6 @@
 
 #include "core/base/errors.hpp"
 #include "core/base/files.hpp"
-#include "core/json/json_cursor.hpp"
 #include "core/records/folder_lock.hpp"
 #include "core/records/study_folder.hpp"
 #include "core/records/study_store.hpp"
