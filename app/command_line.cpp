@@ -23,23 +23,6 @@ std::string quoted(const std::string& word) {
   return out + "'";
 }
 
-template <typename Simulated>
-void apply_all(const ExperimentChanges& changes, Simulated& experiment) {
-  experiment.seed = changes.seed.value_or(experiment.seed);
-  experiment.layouts = changes.layouts.value_or(experiment.layouts);
-  experiment.poses = changes.poses.value_or(experiment.poses);
-  if (static_cast<long>(experiment.layouts) * experiment.poses > kMostRuns)
-    throw CLI::ValidationError("--layouts",
-                               fmt::format("more than {} runs, with all poses", kMostRuns));
-}
-
-/// @throws InvalidInput if layouts or poses are to change where there are none.
-void refuse_runs(const ExperimentChanges& changes, const std::string& name) {
-  for (const auto& [option, given] :
-       {std::pair("--layouts", changes.layouts), std::pair("--poses", changes.poses)})
-    if (given) throw InvalidInput(std::string(option) + ": the experiment " + name + " has none");
-}
-
 }  // namespace
 
 std::string quoted_command(const std::vector<std::string>& words) {
@@ -69,20 +52,6 @@ void add_experiment_options(CLI::App& app, ExperimentChanges& changes) {
       ->check(CLI::Range(1, kMostLayouts));
   app.add_option("--poses", changes.poses, "Replaces the number of initial poses in each")
       ->check(CLI::Range(1, kMostPoses));
-}
-
-void apply(const ExperimentChanges& changes, Experiment& experiment) {
-  apply_all(changes, experiment);
-}
-
-void apply(const ExperimentChanges& changes, SlamExperiment& experiment) {
-  experiment.seed = changes.seed.value_or(experiment.seed);
-  refuse_runs(changes, experiment.name);
-}
-
-void apply(const ExperimentChanges& changes, TrialExperiment& experiment, bool of_data) {
-  if (of_data) refuse_runs(changes, experiment.name);
-  apply_all(changes, experiment);
 }
 
 CLI::Validator names_folder() {

@@ -11,7 +11,7 @@
 #include "app/console.hpp"
 #include "core/model/experiment.hpp"
 #include "core/model/slam_experiment.hpp"
-#include "core/model/trial_study.hpp"
+#include "core/topics/study_plan.hpp"
 
 namespace mapproof {
 
@@ -33,25 +33,9 @@ std::string quoted_command(const std::vector<std::string>& words);
 /// Adds --jobs to a verb: threads, by default one a core.
 void add_jobs_option(CLI::App& app, int& jobs);
 
-/// What the command line says about an experiment in place of its file.
-struct ExperimentChanges {
-  std::optional<std::uint64_t> seed;
-  std::optional<int> layouts;
-  std::optional<int> poses;
-};
-
 /// Adds --seed (a whole number from 0 to 2^64 - 1; others are refused, not wrapped round),
 /// --layouts and --poses to a verb.
 void add_experiment_options(CLI::App& app, ExperimentChanges& changes);
-
-/// @throws CLI::ValidationError if the experiment becomes too large.
-void apply(const ExperimentChanges& changes, Experiment& experiment);
-
-/// The same of a range-only experiment, which has no layouts and poses.
-void apply(const ExperimentChanges& changes, SlamExperiment& experiment);
-
-/// The same of an experiment of trials; one that is made of data has no layouts and poses.
-void apply(const ExperimentChanges& changes, TrialExperiment& experiment, bool of_data);
 
 /// Refuses the empty name and "-": standard input is no folder.
 CLI::Validator names_folder();

@@ -9,17 +9,11 @@
 
 #include "app/command_line.hpp"
 #include "app/embedded_experiments.hpp"
-#include "app/results_outputs.hpp"
-#include "app/slam_outputs.hpp"
 #include "app/study_outputs.hpp"
-#include "app/trial_outputs.hpp"
 #include "core/base/errors.hpp"
 #include "core/base/files.hpp"
 #include "core/base/parallel.hpp"
-#include "core/records/results_study_json.hpp"
-#include "core/records/slam_store.hpp"
 #include "core/records/study_store.hpp"
-#include "core/records/trial_store.hpp"
 #include "render/output/write_figure.hpp"
 #include "render/output/write_scene.hpp"
 #include "reports/html/report_html.hpp"
@@ -89,24 +83,13 @@ FolderReport read_folder_report(const fs::path& folder, const std::optional<std:
     const std::vector<Session> sessions = read_sessions(folder);
     made_by = sessions.empty() ? fallback : sessions.back().command;
   }
-  FolderReport report = is_trial_study(folder)     ? trial_folder_report(folder, made_by)
-                        : is_results_study(folder) ? results_folder_report(folder, made_by)
-                        : is_slam_study(folder)    ? slam_folder_report(folder, made_by)
-                                                : study_folder_report(view_study(folder), made_by);
+  FolderReport report = outputs_of_study(folder).report(folder, made_by);
   report.report.figure_command = figure_command(folder);
   return report;
 }
 
 FolderReport joined(const fs::path& folder, std::vector<FolderReport> parts) {
-  FolderReport all{.folder = folder,
-                   .of_paper = true,
-                   .report = {},
-                   .in_company = {},
-                   .figures = {},
-                   .scenes = {},
-                   .films = {},
-                   .runs = 0,
-                   .missing = {}};
+  FolderReport all{.folder = folder};
   all.report.title = "Maps from what a robot observed";
   all.report.subtitle = std::ranges::all_of(parts, &FolderReport::of_paper)
                             ? "Two papers, made again"
@@ -127,6 +110,12 @@ FolderReport joined(const fs::path& folder, std::vector<FolderReport> parts) {
   }
   check(all.report);
   return all;
+}
+
+void add_pictures(const StudyFigures& figures, FolderReport& report) {
+  for (const Figure* figure : all_figures(figures)) report.figures.push_back(*figure);
+  for (const Scene* scene : all_scenes(figures)) report.scenes.push_back(*scene);
+  for (const Film* film : all_films(figures)) report.films.push_back(*film);
 }
 
 Pictures pictures_of(const FolderReport& report) {

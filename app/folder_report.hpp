@@ -13,6 +13,7 @@
 #include "render/theme/theme.hpp"
 #include "reports/html/templates.hpp"
 #include "reports/model/report.hpp"
+#include "reports/sections/study_figures.hpp"
 
 namespace mapproof {
 
@@ -20,13 +21,14 @@ namespace mapproof {
 struct FolderReport {
   std::filesystem::path folder;
   bool of_paper = true;  ///< A paper's study, not one beyond them.
-  Report report;
-  std::vector<Section> in_company;  ///< Its sections as they stand beside those of other studies.
-  std::vector<Figure> figures;      ///< In the order of the report.
-  std::vector<Scene> scenes;        ///< Likewise.
-  std::vector<Film> films;          ///< Of some of the scenes.
+  Report report = {};
+  std::vector<Section> in_company =
+      {};                            ///< Its sections as they stand beside those of other studies.
+  std::vector<Figure> figures = {};  ///< In the order of the report.
+  std::vector<Scene> scenes = {};    ///< Likewise.
+  std::vector<Film> films = {};      ///< Of some of the scenes.
   std::size_t runs = 0;
-  std::vector<std::string> missing;                    ///< Data asked for that are not there.
+  std::vector<std::string> missing = {};               ///< Data asked for that are not there.
   std::map<std::string, std::string> link_words = {};  ///< See HtmlOptions.
 };
 
@@ -46,6 +48,9 @@ std::vector<std::filesystem::path> study_folders(const std::filesystem::path& fo
 /// Reports of several studies in one, with what is missing at its head.
 /// @throws InvalidInput if an id stands in two of them.
 FolderReport joined(const std::filesystem::path& folder, std::vector<FolderReport> parts);
+
+/// Adds all figures, scenes and films of a study.
+void add_pictures(const StudyFigures& figures, FolderReport& report);
 
 /// What is drawn: no two have one id.
 struct Pictures {

@@ -15,6 +15,7 @@
 #include <fmt/format.h>
 
 #include "app/failures.hpp"
+#include "app/study_run.hpp"
 #include "core/base/errors.hpp"
 #include "core/records/results_study_json.hpp"
 #include "reports/history/night_scores.hpp"

@@ -3,7 +3,7 @@
 #include <filesystem>
 #include <vector>
 
-#include "core/records/validate.hpp"
+#include "core/topics/validate.hpp"
 
 namespace mapproof {
 

@@ -3,7 +3,7 @@
 #include <chrono>
 #include <string>
 
-#include "core/experiment/run_experiment.hpp"
+#include "core/topics/study_plan.hpp"
 
 namespace mapproof {
 

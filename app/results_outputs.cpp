@@ -1,14 +1,13 @@
-#include "app/results_outputs.hpp"
-
 #include <utility>
 
+#include "app/study_outputs.hpp"
 #include "core/records/results_study_json.hpp"
 #include "reports/sections/results/results_report.hpp"
 
 namespace mapproof {
+namespace {
 
-FolderReport results_folder_report(const std::filesystem::path& folder,
-                                   const std::string& command) {
+FolderReport table_report(const std::filesystem::path& folder, const std::string& command) {
   const ResultsStudy study = read_results_study(folder);
   const ResultsView view(study);
   const std::vector<MethodComparison> comparisons = compare_methods(view);
@@ -21,13 +20,14 @@ FolderReport results_folder_report(const std::filesystem::path& folder,
                       .of_paper = false,
                       .report = results_report(input),
                       .in_company = results_sections(input),
-                      .figures = {},
-                      .scenes = {},
-                      .films = {},
-                      .runs = view.runs(),
-                      .missing = {}};
-  for (const Figure* figure : all_figures(figures)) result.figures.push_back(*figure);
+                      .runs = view.runs()};
+  add_pictures(figures, result);
   return result;
 }
+
+}  // namespace
+
+const StudyOutputs kTableOutputs = {
+    .study = kResultsStudy, .report = table_report, .numbers = nullptr};
 
 }  // namespace mapproof

@@ -8,11 +8,8 @@
 
 namespace mapproof {
 
-/// A range-only study's report with its figures.
-/// @param command  The one that makes the study again. @throws IoError.
-FolderReport slam_folder_report(const std::filesystem::path& folder, const std::string& command);
-
-/// The same of a study that is at hand.
+/// The report of a range-only study that is at hand, with its figures.
+/// @param command  The one that makes the study again.
 FolderReport slam_folder_report(const std::filesystem::path& folder, const SlamStudy& study,
                                 const SlamTimings& timings, std::span<const Session> sessions,
                                 const std::string& command);

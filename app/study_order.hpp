@@ -4,17 +4,11 @@
 #include <optional>
 #include <span>
 #include <string>
-#include <utility>
-#include <variant>
 #include <vector>
-
-#include <nlohmann/json.hpp>
 
 #include "app/command_line.hpp"
 #include "app/embedded_experiments.hpp"
-#include "core/experiment/run_slam_experiment.hpp"
-#include "core/model/experiment.hpp"
-#include "core/trials/run_trials.hpp"
+#include "core/topics/study_plan.hpp"
 
 namespace mapproof {
 
@@ -31,22 +25,12 @@ struct OrderOptions {
 /// Adds --plaza and --data to a verb.
 void add_data_options(CLI::App& app, OrderOptions& options);
 
-/// A range-only experiment and the logs of it that are there.
-struct LoggedSlam {
-  SlamExperiment experiment;
-  SlamData data;
-};
-
-/// A study that another program made: its folder is copied.
-struct GivenStudy {
-  std::filesystem::path folder;
-};
-
-/// An experiment of any kind with the data that it is made of, ready to be run.
+/// A study of any kind, ready to be made.
 struct StudyOrder {
-  std::string name;
-  std::string digest;  ///< SHA-256 of its text and profile.
-  std::variant<Experiment, LoggedSlam, TrialOrder, GivenStudy> experiment;
+  std::string name = {};
+  std::string digest = {};           ///< SHA-256 of its text and profile.
+  StudyPlan plan = {};               ///< Of an experiment.
+  std::filesystem::path given = {};  ///< A study that another program made, which is copied.
 };
 
 /// Reads an experiment of any kind and looks up its data; nothing is made. Folders of data that it
@@ -57,8 +41,8 @@ StudyOrder read_study_order(const ExperimentText& file, const OrderOptions& opti
 /// The order to take the table of results in a folder as a study. @throws IoError.
 StudyOrder given_study_order(const std::filesystem::path& folder);
 
-/// Whether it is an experiment of trials on data sets. @throws IoError if it is no experiment.
-bool is_made_of_data(const ExperimentText& file);
+/// Whether an experiment cannot be made without OrderOptions::data. @throws IoError if it is none.
+bool needs_data(const ExperimentText& file);
 
 /// Throws if a folder of data was given that none of the experiments uses. @throws InvalidInput.
 void check_data_used(std::span<const StudyOrder> orders, const OrderOptions& options);
@@ -69,20 +53,5 @@ std::vector<std::string> words_of(std::span<const StudyOrder> orders, const Orde
 
 /// The text of the study.json that make_study() writes. @throws InvalidInput.
 std::string study_json(const StudyOrder& order);
-
-/// Runs what a folder does not hold yet, with a progress line, and notes the session.
-/// @param command  What makes the study again. @throws IoError, InvalidInput.
-void make_study(const StudyOrder& order, const std::filesystem::path& folder, int jobs,
-                const std::string& command, const Console& console);
-
-/// A study in numbers: as a few lines of text, and for --json.
-struct StudyNumbers {
-  std::string text;
-  nlohmann::ordered_json object;
-  std::vector<std::string> missing;  ///< Data asked for that are not there.
-};
-
-/// @throws IoError.
-StudyNumbers read_study_numbers(const std::filesystem::path& folder);
 
 }  // namespace mapproof

@@ -1,6 +1,5 @@
-#include "app/trial_outputs.hpp"
-
 #include "app/result_json.hpp"
+#include "app/study_outputs.hpp"
 #include "core/records/study_store.hpp"
 #include "core/trials/run_trials.hpp"
 #include "reports/sections/trials/trial_figures.hpp"
@@ -8,8 +7,9 @@
 #include "reports/sections/trials/trial_report.hpp"
 
 namespace mapproof {
+namespace {
 
-nlohmann::ordered_json trial_study_result(const TrialStudy& study) {
+nlohmann::ordered_json trial_object(const TrialStudy& study) {
   nlohmann::ordered_json object{
       {"experiment", study.experiment.name}, {"topic", study.experiment.topic},
       {"seed", study.experiment.seed},       {"parts", study.parts.size()},
@@ -26,13 +26,13 @@ nlohmann::ordered_json trial_study_result(const TrialStudy& study) {
   return object;
 }
 
-std::string trial_study_text(const TrialStudy& study) {
+std::string trial_text(const TrialStudy& study) {
   std::string text;
   for (const std::string& conclusion : study.conclusions) text += conclusion + "\n";
   return text;
 }
 
-FolderReport trial_folder_report(const std::filesystem::path& folder, const std::string& command) {
+FolderReport trials_report(const std::filesystem::path& folder, const std::string& command) {
   const TrialStudy study = read_concluded_study(folder);
   const std::vector<Session> sessions = read_sessions(folder);
   const StudyFigures figures = trial_figures(study);
@@ -42,13 +42,19 @@ FolderReport trial_folder_report(const std::filesystem::path& folder, const std:
                       .of_paper = false,
                       .report = trial_report(input),
                       .in_company = trial_sections(input),
-                      .figures = {},
-                      .scenes = {},
-                      .films = {},
-                      .runs = study.parts.size(),
-                      .missing = {}};
-  for (const Figure* figure : all_figures(figures)) result.figures.push_back(*figure);
+                      .runs = study.parts.size()};
+  add_pictures(figures, result);
   return result;
 }
+
+StudyNumbers trial_numbers(const std::filesystem::path& folder) {
+  const TrialStudy study = read_concluded_study(folder);
+  return {.text = trial_text(study), .object = trial_object(study)};
+}
+
+}  // namespace
+
+const StudyOutputs kTrialOutputs = {
+    .study = "mapproof.trial_study", .report = trials_report, .numbers = trial_numbers};
 
 }  // namespace mapproof

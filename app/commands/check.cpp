@@ -9,6 +9,7 @@
 #include "app/folder_report.hpp"
 #include "app/output_places.hpp"
 #include "app/study_order.hpp"
+#include "app/study_run.hpp"
 #include "core/base/errors.hpp"
 #include "core/base/paths.hpp"
 #include "reports/diff/folder_diff.hpp"

@@ -9,6 +9,8 @@
 #include "app/embedded_experiments.hpp"
 #include "app/folder_report.hpp"
 #include "app/study_order.hpp"
+#include "app/study_outputs.hpp"
+#include "app/study_run.hpp"
 #include "core/base/errors.hpp"
 #include "core/records/study_store.hpp"
 
@@ -36,7 +38,7 @@ std::vector<std::string> names_of(const ReproduceArguments& arguments) {
   std::vector<std::string> names;
   for (const std::string& name : experiment_names()) {
     if (std::ranges::find(papers, name) != papers.end()) continue;
-    const bool of_data = is_made_of_data(experiment_text(name, arguments.templates));
+    const bool of_data = needs_data(experiment_text(name, arguments.templates));
     if (!of_data || arguments.options.data) names.push_back(name);
   }
   return names;
@@ -94,7 +96,7 @@ int reproduce(const ReproduceArguments& arguments, const Invocation& invocation)
     const fs::path folder =
         is_alone ? fs::path(arguments.out) : arguments.out / fs::path(order.name);
     make_study(order, folder, arguments.jobs, command, invocation.console);
-    StudyNumbers numbers = read_study_numbers(folder);
+    StudyNumbers numbers = outputs_of_study(folder).numbers(folder);
     for (const std::string& missing : numbers.missing) invocation.console.warning(missing);
     text += numbers.text;
     if (is_alone)

@@ -2,6 +2,8 @@
 
 #include "app/commands/verbs.hpp"
 #include "app/study_order.hpp"
+#include "app/study_outputs.hpp"
+#include "app/study_run.hpp"
 
 namespace mapproof {
 namespace {
@@ -27,7 +29,7 @@ int run(const RunArguments& arguments, const Invocation& invocation) {
   check_data_used({&order, 1}, arguments.options);
   make_study(order, arguments.out, arguments.jobs, command_again(arguments, order),
              invocation.console);
-  StudyNumbers numbers = read_study_numbers(arguments.out);
+  StudyNumbers numbers = outputs_of_study(arguments.out).numbers(arguments.out);
   numbers.object["study"] = arguments.out;
   invocation.console.result(numbers.text + arguments.out + "\n", numbers.object);
   return kDone;

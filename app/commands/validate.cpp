@@ -6,20 +6,12 @@
 #include "app/input_streams.hpp"
 #include "app/output_files.hpp"
 #include "core/base/errors.hpp"
-#include "core/records/trial_experiment_json.hpp"
-#include "core/records/validate.hpp"
-#include "core/trials/run_trials.hpp"
+#include "core/topics/validate.hpp"
 #include "render/plot/figure_json.hpp"
 #include "render/scene/scene_json.hpp"
 
 namespace mapproof {
 namespace {
-
-void check_trial_experiment(std::string_view text, const std::string& source) {
-  parse_trial_experiment(text, source, options_of_topics());
-  for (const std::string& profile : trial_profiles(text, source))
-    parse_trial_experiment(text, source, options_of_topics(), profile);
-}
 
 /// Reads the JSON formats that rest on more than core's records.
 bool read_foreign(std::string_view schema, std::string_view text, const std::string& source) {
@@ -27,8 +19,6 @@ bool read_foreign(std::string_view schema, std::string_view text, const std::str
     figure_from_json(text, source);
   else if (schema == "mapproof.scene")
     scene_from_json(text, source);
-  else if (schema == "mapproof.trial_experiment")
-    check_trial_experiment(text, source);
   else
     return false;
   return true;

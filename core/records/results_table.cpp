@@ -15,7 +15,6 @@
 #include "core/base/not_finite.hpp"
 #include "core/base/spelling.hpp"
 #include "core/json/text_input.hpp"
-#include "core/records/study_contents.hpp"
 #include "core/records/table_reader.hpp"
 
 namespace mapproof {
@@ -190,15 +189,6 @@ std::string results_csv(const std::vector<Result>& rows) {
 std::vector<Result> parse_results_csv(std::string_view text, const std::string& source,
                                       const Quantities& quantities) {
   return ResultsReader(checked_text(text, source), source, quantities).read();
-}
-
-std::vector<Result> read_results_table(ByteSource& table) {
-  const StudyContents study = read_study_contents(table.path().parent_path(), {.keeps_on = true});
-  return parse_results_csv(table.rest(), table.name(), study.results.quantities);
-}
-
-void write_results_table(const std::filesystem::path& folder) {
-  write_file(folder / "results.csv", results_csv(read_study_contents(folder, {}).results.rows));
 }
 
 }  // namespace mapproof

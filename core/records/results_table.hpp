@@ -1,11 +1,9 @@
 #pragma once
 
-#include <filesystem>
 #include <string>
 #include <string_view>
 #include <vector>
 
-#include "core/base/byte_source.hpp"
 #include "core/results/results.hpp"
 
 namespace mapproof {
@@ -24,12 +22,5 @@ std::string results_csv(const std::vector<Result>& rows);
 ///         says again what another says, a run in two groups.
 std::vector<Result> parse_results_csv(std::string_view text, const std::string& source,
                                       const Quantities& quantities);
-
-/// The table that stands beside a study.json, of the quantities that its study has.
-/// @throws IoError.
-std::vector<Result> read_results_table(ByteSource& table);
-
-/// Writes the table of the study in the folder. @throws IoError.
-void write_results_table(const std::filesystem::path& folder);
 
 }  // namespace mapproof

@@ -3,15 +3,16 @@
 #include <filesystem>
 #include <string>
 
+#include "core/records/study_folder.hpp"
+
 namespace mapproof {
 
 /// Where things stand in the folder of a range-only study.
 struct SlamFiles {
-  std::filesystem::path folder;
+  std::filesystem::path folder;  ///< Empty: paths are below the folder.
 
-  std::filesystem::path study() const { return folder / "study.json"; }
-  std::filesystem::path timings() const { return folder / "timings.jsonl"; }
-  std::filesystem::path results() const { return folder / "results.csv"; }
+  std::filesystem::path study() const { return folder / kStudyFile; }
+  std::filesystem::path timings() const { return folder / kTimingsFile; }
   std::filesystem::path runs() const { return folder / "runs"; }
   std::filesystem::path run(const std::string& id) const { return runs() / (id + ".json"); }
   std::filesystem::path paths() const { return folder / "paths"; }

@@ -54,9 +54,17 @@ struct ContentsAsked {
   bool keeps_on = false;
 };
 
-/// Reads the study in a folder, of whatever kind: the one place that asks of which it is.
-/// @throws IoError if there is no study.json or it cannot be read.
-StudyContents read_study_contents(const std::filesystem::path& folder, const ContentsAsked& asked);
+/// A map's landmarks; positions on a path.
+PlacedPoints placed(const MapRecord& map);
+PlacedPoints placed_path(const Points& positions_m);
+
+/// Adds a log: its path and what each method made of it.
+void add_log(StudyContents& contents, const SlamRun& run);
+
+/// Runs `read`; where reading keeps on, trouble with the file is noted.
+void try_file(StudyContents& contents, const std::filesystem::path& folder,
+              const std::filesystem::path& file, const ContentsAsked& asked,
+              const std::function<void()>& read);
 
 /// One map, and one log's result, as a study of its own.
 StudyContents contents_of(const MapRecord& map);

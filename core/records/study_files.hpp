@@ -2,20 +2,19 @@
 
 #include <filesystem>
 #include <optional>
-#include <string_view>
 #include <vector>
 
 #include "core/model/study.hpp"
+#include "core/records/study_folder.hpp"
 
 namespace mapproof {
 
-/// Where things stand in the folder of a study.
+/// Where the records of the mapping methods stand in a study's folder.
 struct StudyFiles {
-  std::filesystem::path folder;
+  std::filesystem::path folder;  ///< Empty: paths are below the folder.
 
-  std::filesystem::path study() const { return folder / "study.json"; }
-  std::filesystem::path timings() const { return folder / "timings.jsonl"; }
-  std::filesystem::path results() const { return folder / "results.csv"; }
+  std::filesystem::path study() const { return folder / kStudyFile; }
+  std::filesystem::path timings() const { return folder / kTimingsFile; }
   std::filesystem::path runs() const { return folder / "runs"; }
   std::filesystem::path maps() const { return folder / "maps"; }
   std::filesystem::path details() const { return folder / "details"; }

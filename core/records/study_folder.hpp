@@ -1,30 +1,23 @@
 #pragma once
 
 #include <filesystem>
-#include <functional>
 #include <string>
-#include <vector>
-
-#include <nlohmann/json.hpp>
 
 namespace mapproof {
 
-/// What a study.json says, whatever the kind of study.
-struct StudyHead {
-  nlohmann::json experiment;  ///< Canonical, every default written out.
-  std::string solver_digest;
-};
+/// The files that stand in the folder of every study.
+inline constexpr const char* kStudyFile = "study.json";
+inline constexpr const char* kTimingsFile = "timings.jsonl";
+inline constexpr const char* kResultsFile = "results.csv";
 
-/// Reads the text of a study.json. @throws IoError with the place.
-using HeadReader = std::function<StudyHead(const std::string& text, const std::string& source)>;
+/// Whether the folder holds a study.json.
+bool is_study(const std::filesystem::path& folder);
 
-/// Brings a locked folder to where a study goes on: writes study.json and the first line of
-/// timings.jsonl, removes what a killed process left behind, and `parts` that another solver made.
-/// @param text   Of study.json.
-/// @param parts  Files and folders of records, below `folder`; timings.jsonl among them.
-/// @return Whether records of another solver were removed.
-/// @throws IoError if the folder holds another experiment, or files but no study.
-bool take_up_study(const std::filesystem::path& folder, const std::string& text,
-                   const HeadReader& read_head, const std::vector<std::filesystem::path>& parts);
+/// @throws IoError if the folder is not there or holds no study.json.
+void require_study(const std::filesystem::path& folder);
+
+/// The schema that the folder's study.json says it is of, be the rest readable or not; empty if
+/// there is none. @throws IoError.
+std::string study_schema(const std::filesystem::path& folder);
 
 }  // namespace mapproof

@@ -1,17 +1,16 @@
 #include "core/records/study_store.hpp"
 
 #include <algorithm>
-#include <mutex>
+#include <system_error>
+#include <tuple>
 
 #include <fmt/format.h>
 
 #include "core/base/errors.hpp"
 #include "core/base/files.hpp"
 #include "core/records/experiment_values.hpp"
-#include "core/records/folder_lock.hpp"
 #include "core/records/run_json.hpp"
 #include "core/records/study_files.hpp"
-#include "core/records/study_folder.hpp"
 #include "core/records/timings_jsonl.hpp"
 
 namespace mapproof {
@@ -21,12 +20,44 @@ namespace fs = std::filesystem;
 
 StudyHead read_study_head(const std::string& text, const std::string& source) {
   const Study study = parse_study(text, source);
-  return {.experiment = experiment_value(study.experiment),
+  return {.experiment = experiment_value(study.experiment).dump(),
           .solver_digest = study.provenance.solver_digest};
 }
 
-/// Whether the run's files are all there, whole, and of that run.
-bool is_whole(const StudyFiles& files, const RunId& id) {
+Timings read_timings_file(const fs::path& folder) {
+  const fs::path path = StudyFiles{folder}.timings();
+  std::error_code error;
+  if (!fs::exists(path, error)) return {};
+  return parse_timings(read_file(path), path.string());
+}
+
+auto piece(const Timing& timing) {
+  return std::tuple(timing.run, timing.sensor, timing.setting.method,
+                    timing.setting.parameter.value_or(0.0), timing.step);
+}
+
+}  // namespace
+
+StudyStart study_start(const Experiment& experiment, const Provenance& provenance) {
+  const StudyFiles files{};
+  return {.text = study_json(experiment, provenance),
+          .read_head = read_study_head,
+          .records = {files.runs(), files.maps(), files.details()}};
+}
+
+StudyPart part_of(const RunResult& result) {
+  const StudyFiles files{};
+  const RunId& id = result.run.id;
+  StudyPart part;
+  part.files = {{files.map(id), maps_json({.run = id, .maps = result.maps})},
+                {files.detail(id), details_json(result.details)},
+                {files.run(id), run_json(result.run)}};
+  for (const Timing& timing : result.timings) part.timings += timing_line(timing);
+  return part;
+}
+
+bool holds_run(const fs::path& folder, const RunId& id) {
+  const StudyFiles files{folder};
   try {
     const std::string run = files.run(id).string();
     const std::string maps = files.map(id).string();
@@ -38,62 +69,53 @@ bool is_whole(const StudyFiles& files, const RunId& id) {
   }
 }
 
-}  // namespace
-
-struct StudyStore::State {
-  State(const fs::path& folder, const Experiment& study)
-      : files{folder}, experiment(study), lock(folder) {}
-
-  StudyFiles files;
-  Experiment experiment;
-  FolderLock lock;
-  bool is_redone = false;
-  std::mutex timings_mutex;
-};
-
-StudyStore::StudyStore(std::unique_ptr<State> state) : state_(std::move(state)) {}
-StudyStore::StudyStore(StudyStore&&) noexcept = default;
-StudyStore& StudyStore::operator=(StudyStore&&) noexcept = default;
-StudyStore::~StudyStore() = default;
-
-StudyStore StudyStore::open(const fs::path& folder, const Experiment& experiment,
-                            const Provenance& provenance) {
-  make_folder(folder);
-  auto state = std::make_unique<State>(folder, experiment);
-  const StudyFiles& files = state->files;
-  state->is_redone = take_up_study(
-      folder, study_json(experiment, provenance), read_study_head,
-      {files.runs(), files.maps(), files.details(), files.timings(), files.results()});
-  return StudyStore(std::move(state));
+Study read_study(const fs::path& folder) {
+  const StudyFiles files{folder};
+  require_study(folder);
+  Study study = parse_study(read_file(files.study()), files.study().string());
+  for (const RunId& id : files.listed_runs()) {
+    const std::string path = files.run(id).string();
+    if (!contains(study.experiment, id))
+      throw IoError(path,
+                    fmt::format("is no run of the experiment, which has {} layouts x {} poses",
+                                study.experiment.layouts, study.experiment.poses));
+    study.runs.push_back(parse_run(read_file(path), path));
+    if (study.runs.back().id != id)
+      throw IoError(path, "/run", "says that it is " + slug(study.runs.back().id));
+  }
+  return study;
 }
 
-bool StudyStore::redone() const { return state_->is_redone; }
-
-std::vector<RunId> StudyStore::finished() const {
-  std::vector<RunId> runs = state_->files.listed_runs();
-  std::erase_if(runs, [&](const RunId& id) {
-    return !contains(state_->experiment, id) || !is_whole(state_->files, id);
-  });
-  return runs;
+std::optional<RunDetails> read_details(const fs::path& folder, const RunId& run) {
+  const fs::path path = StudyFiles{folder}.detail(run);
+  std::error_code error;
+  if (!fs::exists(path, error)) return std::nullopt;
+  RunDetails details = parse_details(read_file(path), path.string());
+  if (details.id != run)
+    throw IoError(path.string(), "/run", "says that it is " + slug(details.id));
+  return details;
 }
 
-void StudyStore::write(const RunResult& result) {
-  const RunId id = result.run.id;
-  if (!contains(state_->experiment, id))
-    throw InvalidInput(
-        fmt::format("{} is no run of the experiment {}", slug(id), state_->experiment.name));
-  write_file(state_->files.map(id), maps_json({.run = id, .maps = result.maps}));
-  write_file(state_->files.detail(id), details_json(result.details));
-  write_file(state_->files.run(id), run_json(result.run));
-  std::string lines;
-  for (const Timing& timing : result.timings) lines += timing_line(timing);
-  const std::lock_guard guard(state_->timings_mutex);
-  append_file(state_->files.timings(), lines);
+std::vector<MapRecord> read_maps(const fs::path& folder, const RunId& run) {
+  const std::string path = StudyFiles{folder}.map(run).string();
+  RunMaps maps = parse_maps(read_file(path), path);
+  if (maps.run != run) throw IoError(path, "/run", "says that it is " + slug(maps.run));
+  return std::move(maps.maps);
 }
 
-void StudyStore::write_session(const Session& session) {
-  const std::lock_guard guard(state_->timings_mutex);
-  append_file(state_->files.timings(), session_line(session));
+std::vector<Timing> read_timings(const fs::path& folder) {
+  std::vector<Timing> all = read_timings_file(folder).maps;
+  std::ranges::stable_sort(all, {}, piece);
+  std::vector<Timing> last;
+  for (const Timing& timing : all) {
+    if (!last.empty() && piece(last.back()) == piece(timing)) last.pop_back();
+    last.push_back(timing);
+  }
+  return last;
+}
+
+std::vector<Session> read_sessions(const fs::path& folder) {
+  return read_timings_file(folder).sessions;
 }
 
 }  // namespace mapproof

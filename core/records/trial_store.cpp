@@ -1,37 +1,34 @@
 #include "core/records/trial_store.hpp"
 
 #include <algorithm>
-#include <mutex>
 #include <system_error>
 
 #include "core/base/errors.hpp"
 #include "core/base/files.hpp"
-#include "core/records/folder_lock.hpp"
 #include "core/records/study_folder.hpp"
-#include "core/records/study_store.hpp"
 #include "core/records/timings_jsonl.hpp"
 #include "core/records/trial_experiment_json.hpp"
 #include "core/records/trial_json.hpp"
 
 namespace mapproof {
 
-/// Where things stand in the folder of a study of trials.
-struct TrialFiles {
-  std::filesystem::path folder;
-
-  std::filesystem::path study() const { return folder / "study.json"; }
-  std::filesystem::path timings() const { return folder / "timings.jsonl"; }
-  std::filesystem::path parts() const { return folder / "parts"; }
-  std::filesystem::path part(const std::string& id) const { return parts() / (id + ".json"); }
-};
-
 namespace {
 
 namespace fs = std::filesystem;
 
+/// Where things stand in the folder of a study of trials.
+struct TrialFiles {
+  fs::path folder;  ///< Empty: paths are below the folder.
+
+  fs::path study() const { return folder / kStudyFile; }
+  fs::path timings() const { return folder / kTimingsFile; }
+  fs::path parts() const { return folder / "parts"; }
+  fs::path part(const std::string& id) const { return parts() / (id + ".json"); }
+};
+
 StudyHead read_trial_head(const std::string& text, const std::string& source) {
   const TrialStudy study = parse_trial_study(text, source);
-  return {.experiment = trial_experiment_value(study.experiment),
+  return {.experiment = trial_experiment_value(study.experiment).dump(),
           .solver_digest = study.provenance.solver_digest};
 }
 
@@ -65,65 +62,42 @@ void add_seconds(const fs::path& path, TrialStudy& study) {
 
 }  // namespace
 
-struct TrialStore::State {
-  State(const fs::path& folder, TrialDesign asked)
-      : files{folder}, lock(folder), design(std::move(asked)) {}
-
-  void append(const std::string& lines) {
-    const std::lock_guard guard(mutex);
-    append_file(files.timings(), lines);
-  }
-
-  TrialFiles files;
-  FolderLock lock;
-  TrialDesign design;
-  bool is_redone = false;
-  std::mutex mutex;
-};
-
-TrialStore::TrialStore(std::unique_ptr<State> state) : state_(std::move(state)) {}
-TrialStore::TrialStore(TrialStore&&) noexcept = default;
-TrialStore& TrialStore::operator=(TrialStore&&) noexcept = default;
-TrialStore::~TrialStore() = default;
-
-TrialStore TrialStore::open(const fs::path& folder, const TrialStudy& study) {
-  make_folder(folder);
-  auto state = std::make_unique<State>(folder, study.design);
-  state->is_redone =
-      take_up_study(folder, trial_study_json(study), read_trial_head,
-                    {state->files.parts(), state->files.timings(), folder / "results.csv"});
-  return TrialStore(std::move(state));
+StudyStart study_start(const TrialStudy& study) {
+  return {.text = trial_study_json(study),
+          .read_head = read_trial_head,
+          .records = {TrialFiles{}.parts()}};
 }
 
-bool TrialStore::redone() const { return state_->is_redone; }
+StudyPart part_of(const TrialPart& part, const std::string& digest) {
+  StudyPart written{.files = {{TrialFiles{}.part(part.id), trial_part_json(part, digest)}}};
+  for (const TrialSeconds& timing : part.seconds) written.timings += timing_line(timing);
+  return written;
+}
 
-bool TrialStore::has(const std::string& part, const std::string& digest) const {
-  const fs::path path = state_->files.part(part);
+bool holds_part(const fs::path& folder, const TrialDesign& design, const std::string& part,
+                const std::string& digest) {
+  const fs::path path = TrialFiles{folder}.part(part);
   try {
-    const ReadTrialPart read = parse_trial_part(read_file(path), path.string(), &state_->design);
+    const ReadTrialPart read = parse_trial_part(read_file(path), path.string(), &design);
     return read.part.id == part && read.digest == digest;
   } catch (const IoError&) {
     return false;
   }
 }
 
-void TrialStore::write(const TrialPart& part, const std::string& digest) {
-  make_folder(state_->files.parts());
-  write_file(state_->files.part(part.id), trial_part_json(part, digest));
-  std::string lines;
-  for (const TrialSeconds& timing : part.seconds) lines += timing_line(timing);
-  state_->append(lines);
-}
-
-void TrialStore::write_session(const Session& session) { state_->append(session_line(session)); }
-
-bool is_trial_study(const fs::path& folder) {
-  return study_schema(folder) == "mapproof.trial_study";
+std::vector<fs::path> part_files(const fs::path& folder) {
+  std::vector<fs::path> files;
+  std::error_code error;
+  for (fs::directory_iterator entry(TrialFiles{folder}.parts(), error), end; !error && entry != end;
+       entry.increment(error))
+    if (entry->path().extension() == ".json") files.push_back(entry->path());
+  std::ranges::sort(files);
+  return files;
 }
 
 TrialStudy read_trial_study(const fs::path& folder) {
   const TrialFiles files{folder};
-  if (!is_study(folder)) throw IoError(folder.string(), "holds no study: study.json is missing");
+  require_study(folder);
   TrialStudy study = parse_trial_study(read_file(files.study()), files.study().string());
   for (const std::string& id : part_ids(study.experiment)) {
     const fs::path path = files.part(id);

@@ -6,7 +6,6 @@
 
 #include "core/base/errors.hpp"
 #include "core/base/random.hpp"
-#include "core/experiment/parallel.hpp"
 #include "core/experiment/seeds.hpp"
 #include "core/simulate/robot_walk.hpp"
 #include "core/simulate/world.hpp"
@@ -20,45 +19,10 @@ const Topic& topic_of(const TrialExperiment& experiment) {
   return *topic;
 }
 
-/// A part that has to be made.
-struct OpenPart {
-  RunId run;
-  const TrialData* data = nullptr;  ///< Null: simulated.
-};
-
 TrialPart named(TrialPart part, const std::string& id) {
   part.id = id;
   for (TrialSeconds& timing : part.seconds) timing.part = id;
   return part;
-}
-
-/// One data set; its random numbers do not depend on the others that are there.
-TrialPart make_of_data(const TrialExperiment& experiment, const TrialData& data) {
-  const TrialContext context{
-      .experiment = experiment,
-      .part = data.set.id,
-      .run = {},
-      .world = nullptr,
-      .path = nullptr,
-      .anchors = {},
-      .seed = derive_seed(experiment.seed, {kTrial}),
-      .data = data.folder,
-      .with_maps = true,
-  };
-  return named(topic_of(experiment).make(context), data.set.id);
-}
-
-std::vector<OpenPart> open_parts(const TrialOrder& order, const TrialStore& store) {
-  std::vector<OpenPart> open;
-  for (const TrialData& data : order.data)
-    if (!store.has(data.set.id, data.set.digest)) open.push_back({.run = {}, .data = &data});
-  if (!order.data.empty()) return open;
-  for (int layout = 1; layout <= order.experiment.layouts; ++layout)
-    for (int pose = 1; pose <= order.experiment.poses; ++pose) {
-      const RunId run{.layout = layout, .pose = pose};
-      if (!store.has(slug(run), "")) open.push_back({.run = run, .data = nullptr});
-    }
-  return open;
 }
 
 }  // namespace
@@ -120,21 +84,19 @@ TrialPart simulate_part(const TrialExperiment& experiment, const RunId& run) {
   return part;
 }
 
-void run_trials(const TrialOrder& order, TrialStore& store, int jobs,
-                const std::function<void(const Progress&)>& progress) {
-  if (jobs < 1) throw InvalidInput("at least one job is needed");
-  const std::vector<OpenPart> open = open_parts(order, store);
-  const int total = order.data.empty() ? order.experiment.layouts * order.experiment.poses
-                                       : static_cast<int>(order.data.size());
-  const int reused = total - static_cast<int>(open.size());
-  Progress state{.finished = reused, .reused = reused, .total = total, .noun = "parts"};
-  progress(state);
-  for_each_in_parallel(open, jobs, state, progress, [&](const OpenPart& part) {
-    if (part.data == nullptr)
-      store.write(simulate_part(order.experiment, part.run), "");
-    else
-      store.write(make_of_data(order.experiment, *part.data), part.data->set.digest);
-  });
+TrialPart make_of_data(const TrialExperiment& experiment, const TrialData& data) {
+  const TrialContext context{
+      .experiment = experiment,
+      .part = data.set.id,
+      .run = {},
+      .world = nullptr,
+      .path = nullptr,
+      .anchors = {},
+      .seed = derive_seed(experiment.seed, {kTrial}),
+      .data = data.folder,
+      .with_maps = true,
+  };
+  return named(topic_of(experiment).make(context), data.set.id);
 }
 
 TrialStudy read_concluded_study(const std::filesystem::path& folder) {

@@ -1,11 +1,9 @@
 #pragma once
 
 #include <filesystem>
-#include <functional>
 #include <optional>
 #include <vector>
 
-#include "core/experiment/run_experiment.hpp"
 #include "core/records/trial_experiment_json.hpp"
 #include "core/records/trial_store.hpp"
 #include "core/trials/topic.hpp"
@@ -34,15 +32,9 @@ TrialStudy planned_study(const TrialExperiment& experiment, const Provenance& pr
 /// the 2007 paper has with the same seed, world and walk.
 TrialPart simulate_part(const TrialExperiment& experiment, const RunId& run);
 
-/// Makes whatever of the experiment the store does not hold yet, `jobs` parts at a time.
-///
-/// The store ends up the same for any number of jobs and after any interruption.
-/// @param jobs      Threads, >= 1.
-/// @param progress  Called at the start and after each part, one call at a time.
-/// @throws IoError if data cannot be read or a record cannot be written; parts already written
-///         stay.
-void run_trials(const TrialOrder& order, TrialStore& store, int jobs,
-                const std::function<void(const Progress&)>& progress);
+/// One data set; its random numbers do not depend on the others that are there.
+/// @throws IoError if it cannot be read.
+TrialPart make_of_data(const TrialExperiment& experiment, const TrialData& data);
 
 /// The study in a folder with its topic's conclusions (none for a topic that is not known).
 /// @throws IoError as read_trial_study().

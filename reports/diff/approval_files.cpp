@@ -4,7 +4,7 @@
 
 #include "core/base/errors.hpp"
 #include "core/base/files.hpp"
-#include "core/records/validate.hpp"
+#include "core/topics/validate.hpp"
 #include "render/image/png_read.hpp"
 #include "render/plot/figure_json.hpp"
 #include "render/scene/scene_json.hpp"

@@ -14,6 +14,7 @@
 #include "core/records/input_kind.hpp"
 #include "core/records/map_files.hpp"
 #include "core/records/slam_run_json.hpp"
+#include "core/topics/study_kind.hpp"
 #include "reports/diff/record_files.hpp"
 
 namespace mapproof {

@@ -10,8 +10,8 @@
 #include "core/base/sha256.hpp"
 #include "core/json/json_cursor.hpp"
 #include "core/json/json_text.hpp"
-#include "core/records/study_contents.hpp"
 #include "core/records/study_store.hpp"
+#include "core/topics/study_kind.hpp"
 
 namespace mapproof {
 namespace {

@@ -13,7 +13,7 @@
 
 #include "core/base/files.hpp"
 #include "core/base/random.hpp"
-#include "core/experiment/run_slam_experiment.hpp"
+#include "core/topics/ranges.hpp"
 #include "core/experiment/slam_worlds.hpp"
 #include "core/range_slam/dead_reckoning.hpp"
 #include "core/range_slam/online.hpp"
@@ -87,7 +87,7 @@ void bench_set(const RangeLog& log, const std::string& id, const std::filesystem
 }
 
 void bench_plaza(const std::string& folder, const std::string& out, const std::string& file) {
-  for (const SlamData::Item& item : read_slam_data(experiment_of(file), folder).logs)
+  for (const LogOfSet& item : read_logs(experiment_of(file), folder))
     bench_set(item.log, item.set.id, out);
 }
 

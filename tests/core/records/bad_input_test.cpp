@@ -13,7 +13,7 @@
 #include "core/records/observations.hpp"
 #include "core/records/run_json.hpp"
 #include "core/records/timings_jsonl.hpp"
-#include "core/records/validate.hpp"
+#include "core/topics/validate.hpp"
 #include "tests/core/records/samples.hpp"
 
 namespace mapproof {

@@ -12,7 +12,7 @@
 #include "core/records/observations.hpp"
 #include "core/records/range_log_files.hpp"
 #include "core/records/timings_jsonl.hpp"
-#include "core/records/validate.hpp"
+#include "core/topics/validate.hpp"
 #include "tests/core/range_slam/sample_log.hpp"
 #include "tests/core/records/samples.hpp"
 #include "tests/support/byte_sources.hpp"

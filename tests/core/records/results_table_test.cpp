@@ -14,10 +14,10 @@
 #include "core/base/not_finite.hpp"
 #include "core/records/results_of.hpp"
 #include "core/records/slam_store.hpp"
-#include "core/records/study_contents.hpp"
 #include "core/records/study_store.hpp"
 #include "core/records/trial_experiment_json.hpp"
 #include "core/records/trial_store.hpp"
+#include "core/topics/study_kind.hpp"
 #include "core/trials/run_trials.hpp"
 #include "core/trials/topic.hpp"
 #include "tests/core/records/samples.hpp"
@@ -119,18 +119,19 @@ TEST(ResultsTable, OfEveryTopicReadsBackAsItsResults) {
 TEST(ResultsTable, InAStudysFolderIsWhatItsRecordsSay) {
   const test::TemporaryFolder folder;
   {
-    StudyStore store =
-        StudyStore::open(folder.path(), test::small_experiment(), test::made_up_provenance());
-    store.write(test::made_up_result({1, 1}));
+    StudyWriter store = StudyWriter(
+        folder.path(), study_start(test::small_experiment(), test::made_up_provenance()));
+    store.write(part_of(test::made_up_result({1, 1})));
   }
   write_results_table(folder.path());
   const std::string bytes = read_file(folder.path() / "results.csv");
   write_results_table(folder.path());
   EXPECT_EQ(read_file(folder.path() / "results.csv"), bytes);
-  ByteSource table(folder.path() / "results.csv");
-  expect_same(read_results_table(table), results_of(read_study(folder.path())).rows);
+  expect_same(parse_results_csv(bytes, "results.csv", {}),
+              results_of(read_study(folder.path())).rows);
   // Records of another solver go, and the table of them.
-  StudyStore::open(folder.path(), test::small_experiment(), test::made_up_provenance("other"));
+  StudyWriter(folder.path(),
+              study_start(test::small_experiment(), test::made_up_provenance("other")));
   EXPECT_FALSE(std::filesystem::exists(folder.path() / "results.csv"));
 }
 
@@ -254,7 +255,8 @@ TEST(ResultsTable, IsReadByPythonAndPandasInOneLine) {
   const auto lost =
       std::ranges::count_if(results.rows, [](const Result& row) { return std::isnan(row.value); });
   const std::string expected = fmt::format("{} {}", results.rows.size(), lost);
-  EXPECT_EQ(by_csv, expected + " setup,method,quantity,run,group,subject,value,at.noise,at.steps\n");
+  EXPECT_EQ(by_csv,
+            expected + " setup,method,quantity,run,group,subject,value,at.noise,at.steps\n");
   const std::string by_pandas = python_says(
       "import pandas, sys\n"
       "table = pandas.read_csv(sys.argv[1])\n"

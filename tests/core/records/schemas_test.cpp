@@ -14,7 +14,7 @@
 #include "core/records/space_run_json.hpp"
 #include "core/records/timings_jsonl.hpp"
 #include "core/records/trial_experiment_json.hpp"
-#include "core/records/validate.hpp"
+#include "core/topics/validate.hpp"
 #include "tests/core/records/samples.hpp"
 #include "tests/core/records/schema_problem.hpp"
 #include "tests/core/records/slam_samples.hpp"
@@ -35,12 +35,12 @@ std::string kind_of(const json& value) {
 TEST(Schemas, HoldForEveryFileOfAStudy) {
   const test::TemporaryFolder folder;
   {
-    StudyStore store =
-        StudyStore::open(folder.path(), test::small_experiment(), test::made_up_provenance());
+    StudyWriter store = StudyWriter(
+        folder.path(), study_start(test::small_experiment(), test::made_up_provenance()));
     RunResult result = test::made_up_result({1, 1});
     result.maps.push_back(result.maps[0]);
     result.maps[1].truth_m.reset();
-    store.write(result);
+    store.write(part_of(result));
     store.write_session(test::made_up_session());
   }
   for (const char* file : {"study.json", "runs/layout-1-pose-1.json", "maps/layout-1-pose-1.json",
@@ -157,8 +157,8 @@ class Damaged : public ::testing::TestWithParam<Damage> {
       return json::parse(range_histories_json(test::made_up_histories()));
     if (kind == "space_run") return json::parse(space_run_json(test::made_up_space_run()));
     if (kind == "observations") return read("observations/observations.json");
-    StudyStore::open(folder_.path(), test::small_experiment(), test::made_up_provenance())
-        .write(test::made_up_result({1, 1}));
+    StudyWriter(folder_.path(), study_start(test::small_experiment(), test::made_up_provenance()))
+        .write(part_of(test::made_up_result({1, 1})));
     if (kind == "study") return json::parse(read_file(folder_ / "study.json"));
     const char* subfolder = kind == "run" ? "runs" : kind == "maps" ? "maps" : "details";
     return json::parse(read_file(folder_ / subfolder / "layout-1-pose-1.json"));

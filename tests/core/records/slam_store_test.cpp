@@ -10,7 +10,7 @@
 #include "core/records/slam_run_json.hpp"
 #include "core/records/space_run_json.hpp"
 #include "core/records/study_store.hpp"
-#include "core/records/validate.hpp"
+#include "core/topics/validate.hpp"
 #include "tests/core/records/samples.hpp"
 #include "tests/core/records/slam_samples.hpp"
 
@@ -19,17 +19,17 @@ namespace {
 
 namespace fs = std::filesystem;
 
-SlamStore filled(const fs::path& folder, const Provenance& provenance) {
-  SlamStore store = SlamStore::open(folder, test::small_slam_experiment(), provenance);
+StudyWriter filled(const fs::path& folder, const Provenance& provenance) {
+  StudyWriter store = StudyWriter(folder, study_start(test::small_slam_experiment(), provenance));
   const std::vector<SlamTiming> timings = {
       {.run = "drive", .method = SlamMethod::kRefined, .seconds = 1.0},
       {.run = "drive", .method = SlamMethod::kRefined, .seconds = 0.5}};
-  store.write(test::made_up_slam_run("drive"), timings);
-  store.write(test::made_up_convergence("white"));
-  store.write(test::made_up_histories());
-  store.write(test::made_up_space_run());
+  store.write(part_of(test::made_up_slam_run("drive"), timings));
+  store.write(part_of(test::made_up_convergence("white")));
+  store.write(part_of(test::made_up_histories()));
+  store.write(part_of(test::made_up_space_run()));
   const std::vector<FactorizationCost> costs = {{.landmarks = 4, .steps = 20, .seconds = 0.001}};
-  store.write(costs);
+  store.write(part_of(costs));
   return store;
 }
 
@@ -54,7 +54,7 @@ TEST(SlamStudy, IsReadBackAsItWasWritten) {
   EXPECT_EQ(space_run_json(*study.space), space_run_json(test::made_up_space_run()));
   EXPECT_TRUE(study.space->records[1].estimate.empty());
   EXPECT_TRUE(study.missing.empty());
-  EXPECT_TRUE(is_slam_study(folder.path()));
+  EXPECT_EQ(study_schema(folder.path()), "mapproof.slam_study");
 }
 
 TEST(SlamStudy, TakesTheLaterOfTwoTimings) {
@@ -69,26 +69,29 @@ TEST(SlamStudy, TakesTheLaterOfTwoTimings) {
 
 TEST(SlamStudy, NamesTheDataThatAreMissingAndHowToGetThem) {
   const test::TemporaryFolder folder;
-  { SlamStore::open(folder.path(), test::small_slam_experiment(), test::made_up_provenance()); }
+  {
+    StudyWriter(folder.path(),
+                study_start(test::small_slam_experiment(), test::made_up_provenance()));
+  }
   EXPECT_EQ(read_slam_study(folder.path()).missing,
             std::vector<std::string>{"A drive is missing. Ask for it."});
 }
 
 TEST(SlamStudy, KnowsWhatItHoldsAndWhatIsDamagedOrOfAnotherLog) {
   const test::TemporaryFolder folder;
-  const SlamStore store = filled(folder.path(), test::made_up_provenance());
+  const StudyWriter store = filled(folder.path(), test::made_up_provenance());
   const SlamRun run = test::made_up_slam_run("drive");
-  EXPECT_TRUE(store.has_run("drive", run.log));
-  EXPECT_TRUE(store.has_convergence("white"));
-  EXPECT_TRUE(store.has_histories());
-  EXPECT_TRUE(store.has_space());
-  EXPECT_FALSE(store.has_run("simulation"));
-  EXPECT_FALSE(store.has_convergence("correlated"));
+  EXPECT_TRUE(holds_run(folder.path(), "drive", run.log));
+  EXPECT_TRUE(holds_convergence(folder.path(), "white"));
+  EXPECT_TRUE(holds_histories(folder.path()));
+  EXPECT_TRUE(holds_space(folder.path()));
+  EXPECT_FALSE(holds_run(folder.path(), "simulation"));
+  EXPECT_FALSE(holds_convergence(folder.path(), "correlated"));
   RangeLog other = run.log;
   other.ranges[0].range_m += 1e-9;
-  EXPECT_FALSE(store.has_run("drive", other));
+  EXPECT_FALSE(holds_run(folder.path(), "drive", other));
   fs::resize_file(folder / "runs/drive.json", 1000);
-  EXPECT_FALSE(store.has_run("drive", run.log));
+  EXPECT_FALSE(holds_run(folder.path(), "drive", run.log));
 }
 
 TEST(SlamStudy, WritesEachPathAsTumAndCsv) {
@@ -106,15 +109,18 @@ TEST(SlamStudy, OfAnotherExperimentOrAnotherKindIsRefusedAndKept) {
   { filled(folder.path(), test::made_up_provenance()); }
   SlamExperiment other = test::small_slam_experiment();
   other.seed = 8;
-  EXPECT_THROW(SlamStore::open(folder.path(), other, test::made_up_provenance()), IoError);
+  EXPECT_THROW(StudyWriter(folder.path(), study_start(other, test::made_up_provenance())), IoError);
   EXPECT_THROW(
-      StudyStore::open(folder.path(), test::small_experiment(), test::made_up_provenance()),
+      StudyWriter(folder.path(), study_start(test::small_experiment(), test::made_up_provenance())),
       IoError);
   EXPECT_TRUE(fs::exists(folder / "runs/drive.json"));
   const test::TemporaryFolder mapping;
-  { StudyStore::open(mapping.path(), test::small_experiment(), test::made_up_provenance()); }
-  EXPECT_THROW(SlamStore::open(mapping.path(), other, test::made_up_provenance()), IoError);
-  EXPECT_FALSE(is_slam_study(mapping.path()));
+  {
+    StudyWriter(mapping.path(), study_start(test::small_experiment(), test::made_up_provenance()));
+  }
+  EXPECT_THROW(StudyWriter(mapping.path(), study_start(other, test::made_up_provenance())),
+               IoError);
+  EXPECT_EQ(study_schema(mapping.path()), "mapproof.study");
 }
 
 TEST(SlamStudy, OfAnotherSolverIsMadeAgain) {
@@ -122,7 +128,8 @@ TEST(SlamStudy, OfAnotherSolverIsMadeAgain) {
   { filled(folder.path(), test::made_up_provenance()); }
   Provenance newer = test::made_up_provenance();
   newer.solver_digest = "another";
-  const SlamStore store = SlamStore::open(folder.path(), test::small_slam_experiment(), newer);
+  const StudyWriter store =
+      StudyWriter(folder.path(), study_start(test::small_slam_experiment(), newer));
   EXPECT_TRUE(store.redone());
   EXPECT_FALSE(fs::exists(folder / "runs/drive.json"));
   EXPECT_FALSE(fs::exists(folder / "histories.json"));

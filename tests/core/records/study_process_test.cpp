@@ -19,8 +19,8 @@ using test::made_up_result;
 using test::small_experiment;
 using test::TemporaryFolder;
 
-StudyStore open(const std::filesystem::path& folder) {
-  return StudyStore::open(folder, small_experiment(), made_up_provenance());
+StudyWriter open(const std::filesystem::path& folder) {
+  return StudyWriter(folder, study_start(small_experiment(), made_up_provenance()));
 }
 
 /// A child process that does something and then waits to be killed.
@@ -74,8 +74,8 @@ class FullDisk {
 
 TEST(StudyLock, KeepsASecondProcessOutUntilTheFirstIsGone) {
   const TemporaryFolder folder;
-  std::unique_ptr<StudyStore> held;
-  const Child child([&] { held = std::make_unique<StudyStore>(open(folder.path())); });
+  std::unique_ptr<StudyWriter> held;
+  const Child child([&] { held = std::make_unique<StudyWriter>(open(folder.path())); });
   EXPECT_EQ(error_of([&] { open(folder.path()); }),
             folder.path().string() +
                 ": is in use by another mapproof; wait for it, or choose another folder");
@@ -85,7 +85,7 @@ TEST(StudyLock, KeepsASecondProcessOutUntilTheFirstIsGone) {
 
 TEST(StudyLock, KeepsASecondStoreOfOneProcessOut) {
   const TemporaryFolder folder;
-  const StudyStore store = open(folder.path());
+  const StudyWriter store = open(folder.path());
   EXPECT_NE(error_of([&] { open(folder.path()); }).find("in use"), std::string::npos);
 }
 
@@ -96,46 +96,47 @@ TEST(StudyLock, LeavesNoFileBehind) {
             2);  // study.json, timings.jsonl
 }
 
-TEST(StudyStore, EndsInTheSameBytesAfterAKill) {
+TEST(StudyWriter, EndsInTheSameBytesAfterAKill) {
   const TemporaryFolder folder;
   {
-    StudyStore store = open(folder / "straight");
-    for (const RunId& id : {RunId{1, 1}, {1, 2}, {2, 1}}) store.write(made_up_result(id));
+    StudyWriter store = open(folder / "straight");
+    for (const RunId& id : {RunId{1, 1}, {1, 2}, {2, 1}}) store.write(part_of(made_up_result(id)));
   }
   const Child child([&] {
-    StudyStore store = open(folder / "killed");
-    store.write(made_up_result({2, 1}));
+    StudyWriter store = open(folder / "killed");
+    store.write(part_of(made_up_result({2, 1})));
     const std::string leftover =
         "killed/runs/layout-1-pose-1.json.part-" + std::to_string(::getpid());
     folder.file(leftover, "half of a run");
-    new StudyStore(std::move(store));  // Never closed: the kill comes first.
+    new StudyWriter(std::move(store));  // Never closed: the kill comes first.
   });
   child.kill();
-  StudyStore store = open(folder / "killed");
-  EXPECT_EQ(store.finished(), (std::vector<RunId>{{2, 1}}));
-  store.write(made_up_result({1, 1}));
-  store.write(made_up_result({1, 2}));
+  StudyWriter store = open(folder / "killed");
+  EXPECT_TRUE(holds_run(folder / "killed", RunId{2, 1}));
+  EXPECT_FALSE(holds_run(folder / "killed", RunId{1, 1}));
+  store.write(part_of(made_up_result({1, 1})));
+  store.write(part_of(made_up_result({1, 2})));
   EXPECT_EQ(contents(folder / "killed"), contents(folder / "straight"));
 }
 
-TEST(StudyStore, LeavesNoPartOfAFileOnAFullDisk) {
+TEST(StudyWriter, LeavesNoPartOfAFileOnAFullDisk) {
   const TemporaryFolder folder;
-  StudyStore store = open(folder.path());
+  StudyWriter store = open(folder.path());
   const std::string before = contents(folder.path());
   {
     const FullDisk full(100);
     EXPECT_NE(error_of([&] {
-                store.write(made_up_result({1, 1}));
+                store.write(part_of(made_up_result({1, 1})));
               }).find("cannot be written"),
               std::string::npos);
   }
   EXPECT_EQ(contents(folder.path()), before);
-  EXPECT_TRUE(store.finished().empty());
-  store.write(made_up_result({1, 1}));
-  EXPECT_EQ(store.finished().size(), 1U);
+  EXPECT_FALSE(holds_run(folder.path(), RunId{1, 1}));
+  store.write(part_of(made_up_result({1, 1})));
+  EXPECT_TRUE(holds_run(folder.path(), RunId{1, 1}));
 }
 
-TEST(StudyStore, DoesNotBeginAStudyOnAFullDisk) {
+TEST(StudyWriter, DoesNotBeginAStudyOnAFullDisk) {
   const TemporaryFolder folder;
   const FullDisk full(100);
   EXPECT_NE(error_of([&] { open(folder / "study"); }).find("study.json: cannot be written"),
@@ -145,7 +146,7 @@ TEST(StudyStore, DoesNotBeginAStudyOnAFullDisk) {
 
 TEST(Timings, TakeAllOfALineOrNoneOnAFullDisk) {
   const TemporaryFolder folder;
-  StudyStore store = open(folder.path());
+  StudyWriter store = open(folder.path());
   store.write_session(test::made_up_session());
   const std::string before = read_file(folder / "timings.jsonl");
   {

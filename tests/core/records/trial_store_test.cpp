@@ -10,7 +10,7 @@
 #include "core/records/study_store.hpp"
 #include "core/records/trial_experiment_json.hpp"
 #include "core/records/trial_json.hpp"
-#include "core/records/validate.hpp"
+#include "core/topics/validate.hpp"
 #include "tests/core/records/samples.hpp"
 #include "tests/core/records/schema_problem.hpp"
 
@@ -85,11 +85,12 @@ TEST(TrialStudy, IsReadBackAsItWasWritten) {
   const test::TemporaryFolder folder;
   const TrialStudy written = small_trials();
   {
-    TrialStore store = TrialStore::open(folder.path(), written);
-    store.write(made_up_part({2, 1}), "");
-    store.write(made_up_part({1, 1}), "");
-    EXPECT_TRUE(store.has("layout-1-pose-1", ""));
-    EXPECT_FALSE(store.has("layout-1-pose-1", "of another data set"));
+    StudyWriter store = StudyWriter(folder.path(), study_start(written));
+    store.write(part_of(made_up_part({2, 1}), ""));
+    store.write(part_of(made_up_part({1, 1}), ""));
+    EXPECT_TRUE(holds_part(folder.path(), small_trials().design, "layout-1-pose-1", ""));
+    EXPECT_FALSE(
+        holds_part(folder.path(), small_trials().design, "layout-1-pose-1", "of another data set"));
   }
   const TrialStudy study = read_trial_study(folder.path());
   EXPECT_EQ(trial_study_json(study), trial_study_json(written));
@@ -100,14 +101,14 @@ TEST(TrialStudy, IsReadBackAsItWasWritten) {
   EXPECT_FALSE(study.parts[0].maps[0].covariances.back().allFinite());
   ASSERT_EQ(study.parts[0].seconds.size(), 1U);
   EXPECT_EQ(study.parts[0].seconds[0].seconds, 0.5) << "the later of two";
-  EXPECT_TRUE(is_trial_study(folder.path()));
+  EXPECT_EQ(study_schema(folder.path()), "mapproof.trial_study");
 }
 
 TEST(TrialStudy, IsValidAndKeepsToItsSchemas) {
   const test::TemporaryFolder folder;
   {
-    TrialStore store = TrialStore::open(folder.path(), small_trials());
-    store.write(made_up_part({1, 1}), "");
+    StudyWriter store = StudyWriter(folder.path(), study_start(small_trials()));
+    store.write(part_of(made_up_part({1, 1}), ""));
   }
   for (const Finding& finding : validate(folder.path(), {})) EXPECT_EQ(finding.problem, "");
   const auto json_of = [&](const char* file) {
@@ -119,11 +120,11 @@ TEST(TrialStudy, IsValidAndKeepsToItsSchemas) {
 
 TEST(TrialStudy, MakesADamagedPartAgainAndNamesItToReaders) {
   const test::TemporaryFolder folder;
-  TrialStore store = TrialStore::open(folder.path(), small_trials());
+  StudyWriter store = StudyWriter(folder.path(), study_start(small_trials()));
   TrialPart part = made_up_part({1, 1});
   part.trials[0].series = "other";
-  store.write(part, "");
-  EXPECT_FALSE(store.has("layout-1-pose-1", ""));
+  store.write(part_of(part, ""));
+  EXPECT_FALSE(holds_part(folder.path(), small_trials().design, "layout-1-pose-1", ""));
   EXPECT_EQ(test::error_of([&] { read_trial_study(folder.path()); }),
             (folder / "parts/layout-1-pose-1.json").string() +
                 ": /trials/0/series: the study has no such series");
@@ -131,10 +132,10 @@ TEST(TrialStudy, MakesADamagedPartAgainAndNamesItToReaders) {
 
 TEST(TrialStudy, RefusesAFolderOfAnotherExperiment) {
   const test::TemporaryFolder folder;
-  { TrialStore::open(folder.path(), small_trials()); }
+  { StudyWriter(folder.path(), study_start(small_trials())); }
   TrialStudy other = small_trials();
   other.experiment.options["dimensions"] = {9.0};
-  EXPECT_EQ(test::error_of([&] { TrialStore::open(folder.path(), other); }),
+  EXPECT_EQ(test::error_of([&] { StudyWriter(folder.path(), study_start(other)); }),
             folder.path().string() +
                 ": holds another experiment (/options/dimensions/0 is 10 there and 9 here); choose "
                 "another folder or remove it");

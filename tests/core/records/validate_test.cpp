@@ -1,4 +1,4 @@
-#include "core/records/validate.hpp"
+#include "core/topics/validate.hpp"
 
 #include <gtest/gtest.h>
 
@@ -56,9 +56,9 @@ TEST(Validate, KnowsTheMapsThatAreWritten) {
 TEST(Validate, GoesThroughAllOfAStudy) {
   const TemporaryFolder folder;
   {
-    StudyStore store =
-        StudyStore::open(folder.path(), test::small_experiment(), test::made_up_provenance());
-    store.write(test::made_up_result({1, 1}));
+    StudyWriter store = StudyWriter(
+        folder.path(), study_start(test::small_experiment(), test::made_up_provenance()));
+    store.write(part_of(test::made_up_result({1, 1})));
     store.write_session(test::made_up_session());
   }
   folder.file("figures/map.figure.json",
@@ -75,8 +75,8 @@ TEST(Validate, GoesThroughAllOfAStudy) {
 
 TEST(Validate, NamesTheDamagedFileOfAStudy) {
   const TemporaryFolder folder;
-  StudyStore::open(folder.path(), test::small_experiment(), test::made_up_provenance())
-      .write(test::made_up_result({1, 1}));
+  StudyWriter(folder.path(), study_start(test::small_experiment(), test::made_up_provenance()))
+      .write(part_of(test::made_up_result({1, 1})));
   folder.file("maps/layout-1-pose-1.json", "{");
   const std::vector<Finding> findings = validate(folder.path());
   EXPECT_EQ(std::ranges::count_if(findings, [](const Finding& f) { return !f.problem.empty(); }),

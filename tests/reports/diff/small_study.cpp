@@ -174,12 +174,12 @@ void write_study_figure(const Figure& figure, const Theme& theme,
 }
 
 void SmallStudy::write_records(const std::filesystem::path& folder) const {
-  StudyStore store = StudyStore::open(folder, study.experiment, study.provenance);
+  StudyWriter store = StudyWriter(folder, study_start(study.experiment, study.provenance));
   for (const Run& run : study.runs)
-    store.write({.run = run,
-                 .details = {.id = run.id, .path = {}, .sensors = {}},
-                 .maps = maps.at(run.id),
-                 .timings = {}});
+    store.write(part_of({.run = run,
+                         .details = {.id = run.id, .path = {}, .sensors = {}},
+                         .maps = maps.at(run.id),
+                         .timings = {}}));
 }
 
 }  // namespace mapproof::test

@@ -25,7 +25,7 @@ TrialStudy two_runs() {
 
 /// A study whose runs all came to these values.
 void write_study(const std::filesystem::path& folder, double mpe_m, double found) {
-  TrialStore store = TrialStore::open(folder, two_runs());
+  StudyWriter store = StudyWriter(folder, study_start(two_runs()));
   for (const int layout : {1, 2}) {
     TrialPart part;
     part.run = RunId{.layout = layout, .pose = 1};
@@ -35,7 +35,7 @@ void write_study(const std::filesystem::path& folder, double mpe_m, double found
                     .level = 0.0,
                     .values = {mpe_m, found},
                     .statuses = {}}};
-    store.write(part, "");
+    store.write(part_of(part, ""));
   }
 }
 

@@ -1,8 +1,9 @@
-#include "core/records/validate.hpp"
+#include "core/topics/validate.hpp"
 
 #include <algorithm>
 #include <array>
 #include <new>
+#include <span>
 #include <system_error>
 
 #include <fmt/format.h>
@@ -11,83 +12,48 @@
 #include "core/base/input_file.hpp"
 #include "core/json/json_cursor.hpp"
 #include "core/json/text_input.hpp"
-#include "core/records/experiment_json.hpp"
 #include "core/records/folder_lock.hpp"
 #include "core/records/input_kind.hpp"
 #include "core/records/map_files.hpp"
 #include "core/records/mrclam.hpp"
 #include "core/records/observation_values.hpp"
 #include "core/records/range_log_files.hpp"
-#include "core/records/results_study_json.hpp"
 #include "core/records/results_table.hpp"
-#include "core/records/run_json.hpp"
 #include "core/records/sightings.hpp"
-#include "core/records/slam_experiment_json.hpp"
-#include "core/records/slam_run_json.hpp"
-#include "core/records/slam_store.hpp"
-#include "core/records/space_run_json.hpp"
-#include "core/records/study_files.hpp"
-#include "core/records/study_store.hpp"
+#include "core/records/study_folder.hpp"
 #include "core/records/timings_jsonl.hpp"
-#include "core/records/trial_json.hpp"
-#include "core/records/trial_store.hpp"
 #include "core/records/validate_table.hpp"
+#include "core/topics/study_kind.hpp"
 
 namespace mapproof {
 namespace {
 
 namespace fs = std::filesystem;
 
-void check_experiment_file(std::string_view text, const std::string& source) {
-  parse_experiment(text, source);
-  for (const std::string& profile : profiles(text, source)) parse_experiment(text, source, profile);
-}
-
-void check_slam_experiment_file(std::string_view text, const std::string& source) {
-  parse_slam_experiment(text, source);
-  for (const std::string& profile : slam_profiles(text, source))
-    parse_slam_experiment(text, source, profile);
-}
-
-struct KnownSchema {
-  std::string_view name;
-  void (*check)(std::string_view text, const std::string& source);
+/// Files that are of no study's kind.
+constexpr std::array kOtherFiles = {
+    StudyFile{"mapproof.map", [](auto text, auto& source) { parse_map(text, source); }},
+    StudyFile{"mapproof.observations",
+              [](auto text, auto& source) { parse_observations(text, source, std::nullopt); }},
+    StudyFile{"mapproof.sightings", [](auto text, auto& source) { parse_sightings(text, source); }},
 };
 
-constexpr std::array kSchemas = {
-    KnownSchema{"mapproof.details", [](auto text, auto& source) { parse_details(text, source); }},
-    KnownSchema{"mapproof.experiment", check_experiment_file},
-    KnownSchema{"mapproof.map", [](auto text, auto& source) { parse_map(text, source); }},
-    KnownSchema{"mapproof.maps", [](auto text, auto& source) { parse_maps(text, source); }},
-    KnownSchema{"mapproof.observations",
-                [](auto text, auto& source) { parse_observations(text, source, std::nullopt); }},
-    KnownSchema{"mapproof.range_histories",
-                [](auto text, auto& source) { parse_range_histories(text, source); }},
-    KnownSchema{kResultsStudy, [](auto text, auto& source) { parse_results_study(text, source); }},
-    KnownSchema{"mapproof.run", [](auto text, auto& source) { parse_run(text, source); }},
-    KnownSchema{"mapproof.sightings",
-                [](auto text, auto& source) { parse_sightings(text, source); }},
-    KnownSchema{"mapproof.slam_convergence",
-                [](auto text, auto& source) { parse_convergence(text, source); }},
-    KnownSchema{"mapproof.slam_experiment", check_slam_experiment_file},
-    KnownSchema{"mapproof.slam_run", [](auto text, auto& source) { parse_slam_run(text, source); }},
-    KnownSchema{"mapproof.slam_study",
-                [](auto text, auto& source) { parse_slam_study(text, source); }},
-    KnownSchema{"mapproof.space_run",
-                [](auto text, auto& source) { parse_space_run(text, source); }},
-    KnownSchema{"mapproof.trial_part",
-                [](auto text, auto& source) { parse_trial_part(text, source, nullptr); }},
-    KnownSchema{"mapproof.trial_study",
-                [](auto text, auto& source) { parse_trial_study(text, source); }},
-    KnownSchema{"mapproof.study", [](auto text, auto& source) { parse_study(text, source); }},
-};
+/// Null if core has no such schema.
+const StudyFile* file_of(std::string_view schema) {
+  const auto find = [&](std::span<const StudyFile> files) -> const StudyFile* {
+    const auto found = std::ranges::find(files, schema, &StudyFile::schema);
+    return found == files.end() ? nullptr : &*found;
+  };
+  for (const StudyKind* kind : all_study_kinds())
+    if (const StudyFile* file = find(kind->files)) return file;
+  return find(kOtherFiles);
+}
 
 void check_json(std::string_view text, const ForeignReader& foreign, Finding& finding) {
   const JsonDocument document = parse_json(text, finding.path);
   const SchemaId schema = schema_of(document.cursor());
   finding.kind = printable(fmt::format("{} {}", schema.name, schema.version));
-  const auto known = std::ranges::find(kSchemas, schema.name, &KnownSchema::name);
-  if (known != kSchemas.end())
+  if (const StudyFile* known = file_of(schema.name))
     known->check(text, finding.path);
   else if (foreign && foreign(schema.name, text, finding.path))
     return;
@@ -116,7 +82,9 @@ void check_source(ByteSource& source, const ForeignReader& foreign, Finding& fin
     parse_timings(source.rest(), finding.path);
   } else if (unpacked_name(source.path()).filename() == "results.csv") {
     finding.kind = "results";
-    read_results_table(source);
+    const StudyContents study =
+        read_study_contents(source.path().parent_path(), {.keeps_on = true});
+    parse_results_csv(source.rest(), source.name(), study.results.quantities);
   } else if (is_json(source)) {
     check_json(source.rest(), foreign, finding);
   } else if (may_be_table(source.path())) {
@@ -168,33 +136,10 @@ Finding check_as(const std::string& kind, const fs::path& folder,
   return finding;
 }
 
-/// What a single file does not show: that the runs belong to the experiment and have their maps.
-void read_whole_study(const fs::path& folder) {
-  if (is_slam_study(folder)) {
-    read_slam_study(folder);
-    return;
-  }
-  if (is_trial_study(folder)) {
-    read_trial_study(folder);
-    return;
-  }
-  if (is_results_study(folder)) {
-    read_results_study(folder);
-    read_given_maps(folder);
-    read_given_paths(folder);
-    return;
-  }
-  for (const Run& run : read_study(folder).runs) {
-    const std::size_t maps = read_maps(folder, run.id).size();
-    if (maps > run.records.size())
-      throw IoError(StudyFiles{folder}.map(run.id).string(), "/maps",
-                    fmt::format("{} maps for {} records", maps, run.records.size()));
-    read_details(folder, run.id);
-  }
-}
-
 Finding check_study(const fs::path& folder) {
-  return check_as("study", folder, [&] { read_whole_study(folder); });
+  return check_as("study", folder, [&] {
+    if (const StudyKind* kind = kind_of_study(folder)) kind->check(folder);
+  });
 }
 
 /// The studies right below a folder that holds none itself.

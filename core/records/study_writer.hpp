@@ -1,0 +1,76 @@
+#pragma once
+
+#include <filesystem>
+#include <functional>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "core/model/study.hpp"
+
+namespace mapproof {
+
+/// What a study.json says, whatever the kind of study.
+struct StudyHead {
+  std::string experiment;  ///< As JSON: canonical, every default written out.
+  std::string solver_digest;
+};
+
+/// What a study's folder begins with.
+struct StudyStart {
+  std::string text;  ///< Of study.json.
+  /// Reads such a text. @throws IoError with the place.
+  std::function<StudyHead(const std::string& text, const std::string& source)> read_head;
+  /// Files and folders, below the study's, that parts are written to.
+  std::vector<std::filesystem::path> records;
+};
+
+/// A file below a study's folder.
+struct PartFile {
+  std::filesystem::path file;
+  std::string text;
+};
+
+/// What one task of a study gave.
+struct StudyPart {
+  std::vector<PartFile> files = {};  ///< As they are written: the last one says that all are there.
+  std::string timings = {};          ///< Lines of timings.jsonl.
+  std::filesystem::path emptied = {};  ///< A folder of its own, below the study's, emptied first.
+};
+
+/// Writes the folder of a study, of whatever kind (docs/file-formats.md says what is in it).
+///
+/// One process at a time: the folder is locked as long as the writer lives. The bytes of every file
+/// but timings.jsonl depend only on what is written, not on the order or the number of tries.
+class StudyWriter {
+ public:
+  /// Makes the folder, or resumes the study in it; leftovers of a killed process are removed.
+  /// Records that were made by another Provenance::solver_digest are removed too: see redone().
+  /// @throws IoError if the folder holds another experiment, holds files but no study, is in use
+  ///         by another process, or cannot be written.
+  StudyWriter(const std::filesystem::path& folder, const StudyStart& start);
+
+  StudyWriter(StudyWriter&&) noexcept;
+  StudyWriter& operator=(StudyWriter&&) noexcept;
+  ~StudyWriter();
+
+  const std::filesystem::path& folder() const;
+
+  /// Whether records of another solver were removed when the folder was opened.
+  bool redone() const;
+
+  /// Writes the files, then the timings. Thread-safe. @throws IoError.
+  void write(const StudyPart& part);
+
+  /// Appends to timings.jsonl. Thread-safe. @throws IoError.
+  void write_session(const Session& session);
+
+ private:
+  struct State;
+  std::unique_ptr<State> state_;
+};
+
+/// Removes a file, or a folder with all that is in it. @throws IoError.
+void remove_tree(const std::filesystem::path& path);
+
+}  // namespace mapproof

@@ -1,0 +1,108 @@
+#include "core/topics/mapping.hpp"
+
+#include <system_error>
+
+#include <fmt/format.h>
+
+#include "core/base/errors.hpp"
+#include "core/base/files.hpp"
+#include "core/experiment/run.hpp"
+#include "core/records/experiment_json.hpp"
+#include "core/records/profiles.hpp"
+#include "core/records/results_of.hpp"
+#include "core/records/run_json.hpp"
+#include "core/records/study_files.hpp"
+#include "core/records/study_store.hpp"
+#include "core/topics/experiment_changes.hpp"
+
+namespace mapproof {
+namespace {
+
+namespace fs = std::filesystem;
+
+StudyPlan plan_mapping(std::string_view text, const std::string& source,
+                       const PlanOptions& options) {
+  Experiment experiment = parse_experiment(text, source, options.profile);
+  apply(options.changes, experiment);
+  StudyPlan plan{
+      .name = experiment.name,
+      .seed = experiment.seed,
+      .layouts = experiment.layouts,
+      .poses = experiment.poses,
+      .start = [=](const Provenance& made_by) { return study_start(experiment, made_by); },
+      .noun = "runs"};
+  for (const RunId& id : runs_of(experiment))
+    plan.tasks.push_back({[=](const fs::path& folder) { return holds_run(folder, id); },
+                          [=] { return part_of(simulate_run(experiment, id)); }});
+  return plan;
+}
+
+Run read_run(const fs::path& file, const RunId& id) {
+  Run run = parse_run(read_file(file), file.string());
+  if (run.id != id) throw IoError(file.string(), "/run", "says that it is " + slug(run.id));
+  return run;
+}
+
+void add_world(StudyContents& contents, const Run& run) {
+  const std::string id = slug(run.id);
+  contents.runs[id] = fmt::format("layout-{}", run.id.layout);
+  contents.worlds[id].points = run.world.landmarks_m;
+  for (const Eigen::Index anchor : run.anchors) contents.anchors[id] += fmt::format(" {}", anchor);
+}
+
+void read_mapping(const fs::path& folder, const std::string& text, const ContentsAsked& asked,
+                  StudyContents& contents) {
+  const StudyFiles files{folder};
+  Study study = parse_study(text, files.study().string());
+  contents.provenance = study.provenance;
+  for (const RunId& id : files.listed_runs()) {
+    contents.runs[slug(id)] = "";
+    try_file(contents, folder, files.run(id), asked, [&] {
+      if (!asked.keeps_on && !contains(study.experiment, id))
+        throw IoError(files.run(id).string(), "is no run of the experiment");
+      study.runs.push_back(read_run(files.run(id), id));
+      add_world(contents, study.runs.back());
+    });
+    std::error_code error;
+    if (asked.maps && fs::exists(files.map(id), error) && asked.maps(files.map(id)))
+      try_file(contents, folder, files.map(id), asked, [&] {
+        for (const MapRecord& map : parse_maps(read_file(files.map(id)), files.map(id)).maps)
+          contents.points[map.id] = placed(map);
+      });
+  }
+  contents.results = results_of(study);
+  if (asked.seconds) contents.seconds = seconds_of(read_timings(folder));
+}
+
+/// That the runs belong to the experiment and have their maps.
+void check_mapping(const fs::path& folder) {
+  for (const Run& run : read_study(folder).runs) {
+    const std::size_t maps = read_maps(folder, run.id).size();
+    if (maps > run.records.size())
+      throw IoError(StudyFiles{folder}.map(run.id).string(), "/maps",
+                    fmt::format("{} maps for {} records", maps, run.records.size()));
+    read_details(folder, run.id);
+  }
+}
+
+void check_experiment_file(std::string_view text, const std::string& source) {
+  parse_experiment(text, source);
+  for (const std::string& profile : profiles(text, source)) parse_experiment(text, source, profile);
+}
+
+}  // namespace
+
+const StudyKind kMappingStudies = {
+    .study = "mapproof.study",
+    .experiment = "mapproof.experiment",
+    .files = {{"mapproof.study", [](auto text, auto& source) { parse_study(text, source); }},
+              {"mapproof.experiment", check_experiment_file},
+              {"mapproof.run", [](auto text, auto& source) { parse_run(text, source); }},
+              {"mapproof.maps", [](auto text, auto& source) { parse_maps(text, source); }},
+              {"mapproof.details", [](auto text, auto& source) { parse_details(text, source); }}},
+    .plan = plan_mapping,
+    .read = read_mapping,
+    .check = check_mapping,
+};
+
+}  // namespace mapproof

@@ -1,0 +1,57 @@
+#pragma once
+
+#include <filesystem>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "core/records/study_contents.hpp"
+#include "core/topics/study_plan.hpp"
+
+namespace mapproof {
+
+/// A JSON file of a kind of study.
+struct StudyFile {
+  std::string_view schema;  ///< "mapproof.run".
+  /// Reads it, with all its profiles if it has any. @throws IoError with the place.
+  void (*check)(std::string_view text, const std::string& source);
+};
+
+/// What can be studied and how: its experiments, its folder, what results are in it. One file in
+/// this folder each; a new one is added to study_kinds.cpp.
+struct StudyKind {
+  std::string_view study;        ///< Schema of its study.json: "mapproof.slam_study".
+  std::string_view experiment;   ///< Of its experiments; empty: other programs make such studies.
+  std::vector<StudyFile> files;  ///< All of them, these two among them.
+
+  /// Whether an experiment cannot be made without PlanOptions::data. @throws IoError.
+  bool (*needs_data)(std::string_view text, const std::string& source) = nullptr;
+  /// An experiment with its data, ready to be run. @throws IoError, InvalidInput.
+  StudyPlan (*plan)(std::string_view text, const std::string& source,
+                    const PlanOptions& options) = nullptr;
+
+  /// Adds what a folder holds; `text` is its study.json. @throws IoError.
+  void (*read)(const std::filesystem::path& folder, const std::string& text,
+               const ContentsAsked& asked, StudyContents& contents) = nullptr;
+  /// Reads all of a folder for what its files one by one do not show. @throws IoError.
+  void (*check)(const std::filesystem::path& folder) = nullptr;
+};
+
+std::span<const StudyKind* const> all_study_kinds();
+
+/// The kind of an experiment's text. @throws IoError with the place if it is none.
+const StudyKind& kind_of_experiment(std::string_view text, const std::string& source);
+
+/// The kind of the study in a folder; null if its study.json is of no kind that is known.
+/// @throws IoError if there is no study.json or it cannot be read.
+const StudyKind* kind_of_study(const std::filesystem::path& folder);
+
+/// Reads the study in a folder, of whatever kind.
+/// @throws IoError if there is no study.json or it cannot be read.
+StudyContents read_study_contents(const std::filesystem::path& folder, const ContentsAsked& asked);
+
+/// Writes results.csv of a study whose records are all there. @throws IoError.
+void write_results_table(const std::filesystem::path& folder);
+
+}  // namespace mapproof

@@ -1,0 +1,58 @@
+#include <algorithm>
+#include <array>
+
+#include "core/base/errors.hpp"
+#include "core/base/files.hpp"
+#include "core/json/json_cursor.hpp"
+#include "core/json/text_input.hpp"
+#include "core/records/results_table.hpp"
+#include "core/records/study_folder.hpp"
+#include "core/topics/mapping.hpp"
+#include "core/topics/ranges.hpp"
+#include "core/topics/table.hpp"
+#include "core/topics/trials.hpp"
+
+namespace mapproof {
+
+namespace fs = std::filesystem;
+
+std::span<const StudyKind* const> all_study_kinds() {
+  static const std::array kKinds = {&kMappingStudies, &kRangeStudies, &kTrialStudies,
+                                    &kTableStudies};
+  return kKinds;
+}
+
+const StudyKind& kind_of_experiment(std::string_view text, const std::string& source) {
+  const JsonDocument document = parse_json(text, source);
+  const std::string schema = schema_of(document.cursor()).name;
+  for (const StudyKind* kind : all_study_kinds())
+    if (!kind->experiment.empty() && kind->experiment == schema) return *kind;
+  throw IoError(source, "/schema/name", "is no experiment: " + in_quotes(schema));
+}
+
+const StudyKind* kind_of_study(const fs::path& folder) {
+  require_study(folder);
+  const std::string schema = study_schema(folder);
+  const auto kinds = all_study_kinds();
+  const auto found = std::ranges::find(kinds, schema, &StudyKind::study);
+  return found == kinds.end() ? nullptr : *found;
+}
+
+StudyContents read_study_contents(const fs::path& folder, const ContentsAsked& asked) {
+  const std::string source = (folder / kStudyFile).string();
+  const std::string text = read_file(source);
+  StudyContents contents;
+  contents.kind = schema_of(parse_json(text, source).cursor()).name;
+  const auto kinds = all_study_kinds();
+  const auto kind = std::ranges::find(kinds, contents.kind, &StudyKind::study);
+  if (kind == kinds.end())
+    throw IoError(source, "/schema/name", "is no study: \"" + printable(contents.kind) + "\"");
+  (*kind)->read(folder, text, asked, contents);
+  return contents;
+}
+
+void write_results_table(const fs::path& folder) {
+  write_file(folder / kResultsFile, results_csv(read_study_contents(folder, {}).results.rows));
+}
+
+}  // namespace mapproof

@@ -1,0 +1,43 @@
+#include "core/topics/table.hpp"
+
+#include <utility>
+
+#include "core/records/results_study_json.hpp"
+
+namespace mapproof {
+namespace {
+
+namespace fs = std::filesystem;
+
+void read_table(const fs::path& folder, const std::string&, const ContentsAsked& asked,
+                StudyContents& contents) {
+  ResultsStudy study = read_results_study(folder);
+  for (const Result& row : study.results.rows) contents.runs[row.run] = row.group;
+  contents.results = std::move(study.results);
+  if (!asked.maps) return;
+  try_file(contents, folder, folder / "maps", asked, [&] {
+    for (const MapRecord& map : read_given_maps(folder))
+      contents.points["maps/" + map.id] = placed(map);
+  });
+  try_file(contents, folder, folder / "paths", asked, [&] {
+    for (const GivenPath& path : read_given_paths(folder))
+      contents.points["paths/" + path.id] = placed_path(path.path.positions_m);
+  });
+}
+
+}  // namespace
+
+const StudyKind kTableStudies = {
+    .study = kResultsStudy,
+    .experiment = {},
+    .files = {{kResultsStudy, [](auto text, auto& source) { parse_results_study(text, source); }}},
+    .read = read_table,
+    .check =
+        [](const fs::path& folder) {
+          read_results_study(folder);
+          read_given_maps(folder);
+          read_given_paths(folder);
+        },
+};
+
+}  // namespace mapproof

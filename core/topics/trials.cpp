@@ -1,0 +1,122 @@
+#include "core/topics/trials.hpp"
+
+#include <memory>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "core/base/files.hpp"
+#include "core/records/results_of.hpp"
+#include "core/records/trial_experiment_json.hpp"
+#include "core/records/trial_json.hpp"
+#include "core/records/trial_store.hpp"
+#include "core/topics/experiment_changes.hpp"
+#include "core/trials/run_trials.hpp"
+
+namespace mapproof {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// What the tasks share.
+struct PlannedTrials {
+  TrialOrder order;
+  TrialDesign design;
+};
+
+void add_data_tasks(const std::shared_ptr<const PlannedTrials>& trials, StudyPlan& plan) {
+  for (const TrialData& data : trials->order.data)
+    plan.tasks.push_back(
+        {[=](const fs::path& folder) {
+           return holds_part(folder, trials->design, data.set.id, data.set.digest);
+         },
+         [=] { return part_of(make_of_data(trials->order.experiment, data), data.set.digest); }});
+}
+
+void add_run_tasks(const std::shared_ptr<const PlannedTrials>& trials, StudyPlan& plan) {
+  const TrialExperiment& experiment = trials->order.experiment;
+  for (int layout = 1; layout <= experiment.layouts; ++layout)
+    for (int pose = 1; pose <= experiment.poses; ++pose) {
+      const RunId run{.layout = layout, .pose = pose};
+      plan.tasks.push_back(
+          {[=](const fs::path& folder) {
+             return holds_part(folder, trials->design, slug(run), "");
+           },
+           [=] { return part_of(simulate_part(trials->order.experiment, run), ""); }});
+    }
+}
+
+StudyPlan plan_trials(std::string_view text, const std::string& source,
+                      const PlanOptions& options) {
+  TrialExperiment experiment =
+      parse_trial_experiment(text, source, options_of_topics(), options.profile);
+  const bool of_data = topic_named(experiment.topic)->of_data;
+  apply(of_data && options.one_of_several ? seed_alone(options.changes) : options.changes,
+        experiment, of_data);
+  TrialOrder order = with_data(std::move(experiment), of_data ? options.data : std::nullopt);
+  TrialDesign design = planned_study(order.experiment, {}).design;
+  const auto trials = std::make_shared<const PlannedTrials>(
+      PlannedTrials{.order = std::move(order), .design = std::move(design)});
+  StudyPlan plan{.name = trials->order.experiment.name,
+                 .seed = trials->order.experiment.seed,
+                 .layouts = trials->order.experiment.layouts,
+                 .poses = trials->order.experiment.poses,
+                 .uses_data = of_data,
+                 .start = [=](const Provenance& made_by) {
+                   return study_start(planned_study(trials->order.experiment, made_by));
+                 }};
+  if (of_data)
+    add_data_tasks(trials, plan);
+  else
+    add_run_tasks(trials, plan);
+  return plan;
+}
+
+bool needs_data(std::string_view text, const std::string& source) {
+  return topic_named(parse_trial_experiment(text, source, options_of_topics()).topic)->of_data;
+}
+
+void read_trials(const fs::path& folder, const std::string& text, const ContentsAsked& asked,
+                 StudyContents& contents) {
+  TrialStudy study = parse_trial_study(text, (folder / "study.json").string());
+  contents.provenance = study.provenance;
+  for (const fs::path& path : part_files(folder)) {
+    contents.runs[path.stem().string()] = "";
+    try_file(contents, folder, path, asked, [&] {
+      TrialPart part = parse_trial_part(read_file(path), path.string(), &study.design).part;
+      if (part.id != path.stem().string())
+        throw IoError(path.string(), "/id", "says that it is " + part.id);
+      contents.runs[part.id] = part.run ? fmt::format("layout-{}", part.run->layout) : part.id;
+      if (asked.maps && asked.maps(path))
+        for (const TrialMap& map : part.maps)
+          contents.points[part.id + "/" + map.id] = placed(map.map);
+      study.parts.push_back(std::move(part));
+    });
+  }
+  contents.results = results_of(study);
+  if (asked.seconds) contents.seconds = seconds_of(read_trial_study(folder));
+}
+
+void check_trial_experiment_file(std::string_view text, const std::string& source) {
+  parse_trial_experiment(text, source, options_of_topics());
+  for (const std::string& profile : trial_profiles(text, source))
+    parse_trial_experiment(text, source, options_of_topics(), profile);
+}
+
+}  // namespace
+
+const StudyKind kTrialStudies = {
+    .study = "mapproof.trial_study",
+    .experiment = "mapproof.trial_experiment",
+    .files = {{"mapproof.trial_study",
+               [](auto text, auto& source) { parse_trial_study(text, source); }},
+              {"mapproof.trial_experiment", check_trial_experiment_file},
+              {"mapproof.trial_part",
+               [](auto text, auto& source) { parse_trial_part(text, source, nullptr); }}},
+    .needs_data = needs_data,
+    .plan = plan_trials,
+    .read = read_trials,
+    .check = [](const fs::path& folder) { read_trial_study(folder); },
+};
+
+}  // namespace mapproof
