@@ -1,6 +1,7 @@
 #include "app/console.hpp"
 
 #include <cstdio>
+#include <utility>
 
 #include <spdlog/sinks/stdout_sinks.h>
 #include <spdlog/spdlog.h>
@@ -10,12 +11,15 @@
 namespace mapproof {
 namespace {
 
+constexpr int kResultVersion = 1;  ///< Raised when a key is renamed, removed or means another thing.
+
 /// One line of a message, however hostile the names in it.
 std::string one_line(const std::string& message) { return printable(message, 4000); }
 
 }  // namespace
 
-Console::Console(Verbosity verbosity, bool json) : verbosity_(verbosity), json_(json) {
+Console::Console(Verbosity verbosity, bool json, std::string verb)
+    : verbosity_(verbosity), json_(json), verb_(std::move(verb)) {
   auto logger = std::make_shared<spdlog::logger>("mapproof",
                                                  std::make_shared<spdlog::sinks::stderr_sink_mt>());
   logger->set_pattern("%v");
@@ -34,8 +38,13 @@ void Console::warning(const std::string& message) const {
 }
 
 void Console::result(const std::string& text, const nlohmann::ordered_json& object) const {
+  nlohmann::ordered_json whole_object;
+  if (!object.contains("schema"))
+    whole_object["schema"] = {{"name", "mapproof.result." + verb_}, {"version", kResultVersion}};
+  whole_object.update(object);
   const std::string out =
-      json_ ? object.dump(2, ' ', false, nlohmann::json::error_handler_t::replace) + "\n" : text;
+      json_ ? whole_object.dump(2, ' ', false, nlohmann::json::error_handler_t::replace) + "\n"
+            : text;
   const bool whole = std::fwrite(out.data(), 1, out.size(), stdout) == out.size();
   if (std::fflush(stdout) != 0 || !whole) throw IoError("standard output", "cannot be written");
 }

@@ -21,7 +21,8 @@ enum class Verbosity { kQuiet, kNormal, kVerbose };
 /// Where a verb talks: messages to standard error, its result to standard output.
 class Console {
  public:
-  Console(Verbosity verbosity, bool json);
+  /// @param verb  Names the schema of the result: "mapproof.result.map".
+  Console(Verbosity verbosity, bool json, std::string verb);
 
   bool is_quiet() const { return verbosity_ == Verbosity::kQuiet; }
 
@@ -32,12 +33,14 @@ class Console {
   /// What a person should look at, --quiet or not.
   void warning(const std::string& message) const;
 
-  /// The result: `text`, or with --json `object`. Text that is no UTF-8 is mended.
+  /// The result: `text`, or with --json `object`, whose schema comes first unless it names one.
+  /// Text that is not UTF-8 is mended.
   void result(const std::string& text, const nlohmann::ordered_json& object) const;
 
  private:
   Verbosity verbosity_;
   bool json_;
+  std::string verb_;
 };
 
 }  // namespace mapproof

@@ -105,7 +105,7 @@ int run_verb_of(int argc, char** argv) {
   const Console console(common.quiet     ? Verbosity::kQuiet
                         : common.verbose ? Verbosity::kVerbose
                                          : Verbosity::kNormal,
-                        common.json);
+                        common.json, app.get_subcommands().front()->get_name());
   std::vector<std::string> words{"mapproof"};
   words.insert(words.end(), argv + 1, argv + argc);
   const Invocation invocation{.console = console, .command = quoted_command(words)};

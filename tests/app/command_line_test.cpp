@@ -74,7 +74,9 @@ TEST(CommandLine, JsonIsOneObjectOnStandardOutputForEveryVerb) {
     const Outcome outcome = mapproof(call);
     EXPECT_EQ(outcome.exit_code, 0) << call[0] << ": " << outcome.error;
     const auto object = nlohmann::json::parse(outcome.out, nullptr, false);
-    EXPECT_TRUE(object.is_object()) << call[0] << outcome.out;
+    ASSERT_TRUE(object.is_object()) << call[0] << outcome.out;
+    EXPECT_EQ(object["schema"]["name"], "mapproof.result." + call[0]);
+    EXPECT_EQ(object["schema"]["version"], 1);
     call.back() = "--quiet";
     // What is wrong with a map is said there, too.
     const std::string said = mapproof(call).error;
