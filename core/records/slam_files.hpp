@@ -2,6 +2,7 @@
 
 #include <filesystem>
 #include <string>
+#include <vector>
 
 #include "core/records/study_folder.hpp"
 
@@ -14,6 +15,9 @@ struct SlamFiles {
   std::filesystem::path study() const { return folder / kStudyFile; }
   std::filesystem::path timings() const { return folder / kTimingsFile; }
   std::filesystem::path runs() const { return folder / "runs"; }
+  std::vector<std::filesystem::path> records() const {
+    return {runs(), paths(), curves(), histories(), space()};
+  }
   std::filesystem::path run(const std::string& id) const { return runs() / (id + ".json"); }
   std::filesystem::path paths() const { return folder / "paths"; }
   std::filesystem::path paths(const std::string& id) const { return paths() / id; }

@@ -96,11 +96,9 @@ void read_convergence(const SlamFiles& files, const SlamExperiment& experiment, 
 }  // namespace
 
 StudyStart study_start(const SlamExperiment& experiment, const Provenance& provenance) {
-  const SlamFiles files{};
-  return {
-      .text = slam_study_json(experiment, provenance),
-      .read_head = read_slam_head,
-      .records = {files.runs(), files.paths(), files.curves(), files.histories(), files.space()}};
+  return {.text = slam_study_json(experiment, provenance),
+          .read_head = read_slam_head,
+          .records = SlamFiles{}.records()};
 }
 
 StudyPart part_of(const SlamRun& run, std::span<const SlamTiming> timings) {

@@ -18,6 +18,7 @@ struct StudyFiles {
   std::filesystem::path runs() const { return folder / "runs"; }
   std::filesystem::path maps() const { return folder / "maps"; }
   std::filesystem::path details() const { return folder / "details"; }
+  std::vector<std::filesystem::path> records() const { return {runs(), maps(), details()}; }
   std::filesystem::path run(const RunId& id) const { return runs() / (slug(id) + ".json"); }
   std::filesystem::path map(const RunId& id) const { return maps() / (slug(id) + ".json"); }
   std::filesystem::path detail(const RunId& id) const { return details() / (slug(id) + ".json"); }

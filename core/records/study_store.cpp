@@ -39,10 +39,9 @@ auto piece(const Timing& timing) {
 }  // namespace
 
 StudyStart study_start(const Experiment& experiment, const Provenance& provenance) {
-  const StudyFiles files{};
   return {.text = study_json(experiment, provenance),
           .read_head = read_study_head,
-          .records = {files.runs(), files.maps(), files.details()}};
+          .records = StudyFiles{}.records()};
 }
 
 StudyPart part_of(const RunResult& result) {

@@ -94,12 +94,14 @@ void check_experiment_file(std::string_view text, const std::string& source) {
 
 const StudyKind kMappingStudies = {
     .study = "mapproof.study",
+    .title = "a study of the mapping methods",
     .experiment = "mapproof.experiment",
     .files = {{"mapproof.study", [](auto text, auto& source) { parse_study(text, source); }},
               {"mapproof.experiment", check_experiment_file},
               {"mapproof.run", [](auto text, auto& source) { parse_run(text, source); }},
               {"mapproof.maps", [](auto text, auto& source) { parse_maps(text, source); }},
               {"mapproof.details", [](auto text, auto& source) { parse_details(text, source); }}},
+    .records = StudyFiles{}.records(),
     .plan = plan_mapping,
     .read = read_mapping,
     .check = check_mapping,

@@ -150,6 +150,7 @@ std::vector<LogOfSet> read_logs(const SlamExperiment& experiment,
 
 const StudyKind kRangeStudies = {
     .study = "mapproof.slam_study",
+    .title = "a range-only study",
     .experiment = "mapproof.slam_experiment",
     .files = {{"mapproof.slam_study",
                [](auto text, auto& source) { parse_slam_study(text, source); }},
@@ -161,6 +162,7 @@ const StudyKind kRangeStudies = {
                [](auto text, auto& source) { parse_range_histories(text, source); }},
               {"mapproof.space_run",
                [](auto text, auto& source) { parse_space_run(text, source); }}},
+    .records = SlamFiles{}.records(),
     .plan = plan_ranges,
     .read = read_ranges,
     .check = [](const fs::path& folder) { read_slam_study(folder); },

@@ -24,6 +24,7 @@ struct StudyKind {
   std::string_view study;        ///< Schema of its study.json: "mapproof.slam_study".
   std::string_view experiment;   ///< Of its experiments; empty: other programs make such studies.
   std::vector<StudyFile> files;  ///< All of them, these two among them.
+  std::vector<std::filesystem::path> records;  ///< Folders and files with what came out.
 
   /// Whether an experiment cannot be made without PlanOptions::data. @throws IoError.
   bool (*needs_data)(std::string_view text, const std::string& source) = nullptr;
@@ -46,6 +47,11 @@ const StudyKind& kind_of_experiment(std::string_view text, const std::string& so
 /// The kind of the study in a folder; null if its study.json is of no kind that is known.
 /// @throws IoError if there is no study.json or it cannot be read.
 const StudyKind* kind_of_study(const std::filesystem::path& folder);
+
+/// The files, below a study's folder, that hold what came of a run: those that have its id as their
+/// name or their folder's, in order; of a run that has none, every file of records.
+std::vector<std::filesystem::path> files_of_run(const std::filesystem::path& folder,
+                                                const std::string& run);
 
 /// Reads the study in a folder, of whatever kind.
 /// @throws IoError if there is no study.json or it cannot be read.

@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <array>
+#include <system_error>
 
 #include "core/base/errors.hpp"
 #include "core/base/files.hpp"
@@ -36,6 +37,26 @@ const StudyKind* kind_of_study(const fs::path& folder) {
   const auto kinds = all_study_kinds();
   const auto found = std::ranges::find(kinds, schema, &StudyKind::study);
   return found == kinds.end() ? nullptr : *found;
+}
+
+std::vector<fs::path> files_of_run(const fs::path& folder, const std::string& run) {
+  std::vector<fs::path> all, of_run;
+  const StudyKind* kind = kind_of_study(folder);
+  if (kind == nullptr) return all;
+  const auto add = [&](const fs::path& path) {
+    all.push_back(path.lexically_relative(folder));
+    if (path.stem() == run || path.parent_path().filename() == run) of_run.push_back(all.back());
+  };
+  for (const fs::path& record : kind->records) {
+    std::error_code error;
+    if (fs::is_regular_file(folder / record, error)) add(folder / record);
+    for (fs::recursive_directory_iterator entry(folder / record, error), end;
+         !error && entry != end; entry.increment(error))
+      if (entry->is_regular_file()) add(entry->path());
+  }
+  std::vector<fs::path>& found = of_run.empty() ? all : of_run;
+  std::ranges::sort(found);
+  return found;
 }
 
 StudyContents read_study_contents(const fs::path& folder, const ContentsAsked& asked) {

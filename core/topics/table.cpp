@@ -29,8 +29,10 @@ void read_table(const fs::path& folder, const std::string&, const ContentsAsked&
 
 const StudyKind kTableStudies = {
     .study = kResultsStudy,
+    .title = "a table of results",
     .experiment = {},
     .files = {{kResultsStudy, [](auto text, auto& source) { parse_results_study(text, source); }}},
+    .records = {"results.csv", "maps", "paths"},
     .read = read_table,
     .check =
         [](const fs::path& folder) {

@@ -107,12 +107,14 @@ void check_trial_experiment_file(std::string_view text, const std::string& sourc
 
 const StudyKind kTrialStudies = {
     .study = "mapproof.trial_study",
+    .title = "a study of one topic",
     .experiment = "mapproof.trial_experiment",
     .files = {{"mapproof.trial_study",
                [](auto text, auto& source) { parse_trial_study(text, source); }},
               {"mapproof.trial_experiment", check_trial_experiment_file},
               {"mapproof.trial_part",
                [](auto text, auto& source) { parse_trial_part(text, source, nullptr); }}},
+    .records = {"parts"},
     .needs_data = needs_data,
     .plan = plan_trials,
     .read = read_trials,

@@ -16,7 +16,7 @@ constexpr double kLongPause = 10.0;  // Usual steps of time.
 constexpr double kFarthest = 1e100;  // Beyond, a position is no number to draw.
 
 bool is_place(const Points& points, Index row) {
-  return points.row(row).cwiseAbs().maxCoeff() < kFarthest;  // False for NaN, too.
+  return points.row(row).cwiseAbs().maxCoeff<Eigen::PropagateNaN>() < kFarthest;
 }
 
 /// The longest step of time that is no pause.

@@ -12,6 +12,7 @@
 #include "core/base/files.hpp"
 #include "core/base/paths.hpp"
 #include "core/json/json_cursor.hpp"
+#include "core/topics/study_kind.hpp"
 #include "reports/diff/item_files.hpp"
 
 namespace mapproof {
@@ -19,13 +20,18 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::array<std::pair<std::string_view, std::string_view>, 6> kKindsOfRecords = {
-    {{"mapproof.study", "a study"},
-     {"mapproof.slam_study", "a range-only study"},
-     {"mapproof.trial_study", "a study of one topic"},
-     {"mapproof.results_study", "a table of results"},
-     {"mapproof.map", "one map"},
-     {"mapproof.slam_run", "the result of one range log"}}};
+/// Records that are no study.
+constexpr std::array<std::pair<std::string_view, std::string_view>, 2> kOtherRecords = {
+    {{"mapproof.map", "one map"}, {"mapproof.slam_run", "the result of one range log"}}};
+
+/// Of a schema; empty if no records are of it.
+std::string_view title_of(std::string_view schema) {
+  for (const StudyKind* kind : all_study_kinds())
+    if (kind->study == schema) return kind->title;
+  for (const auto& [known, title] : kOtherRecords)
+    if (known == schema) return title;
+  return "";
+}
 
 /// What the records of a folder are of, in words; empty if that cannot be read, which is told
 /// elsewhere.
@@ -36,9 +42,7 @@ std::string_view kind_of_records(const fs::path& folder) {
     if (!fs::is_regular_file(file, error)) continue;
     try {
       const JsonDocument document = parse_json(read_file(file), file.string());
-      const auto* kind = std::ranges::find(kKindsOfRecords, schema_of(document.cursor()).name,
-                                           &decltype(kKindsOfRecords)::value_type::first);
-      return kind == kKindsOfRecords.end() ? "" : kind->second;
+      return title_of(schema_of(document.cursor()).name);
     } catch (const IoError&) {
       return "";
     }

@@ -14,8 +14,8 @@
 #include "core/base/spelling.hpp"
 #include "core/json/json_cursor.hpp"
 #include "core/records/folder_replacement.hpp"
-#include "core/records/study_files.hpp"
-#include "core/records/study_store.hpp"
+#include "core/records/study_folder.hpp"
+#include "core/topics/study_kind.hpp"
 #include "render/plot/figure_json.hpp"
 #include "reports/diff/approval_files.hpp"
 #include "reports/diff/approval_sides.hpp"
@@ -61,17 +61,13 @@ std::vector<std::string> chosen_ids(const ApprovalOrder& order, const ApprovalFi
   return ids;
 }
 
-/// The runs whose records a figure was made from.
-std::vector<std::string> runs_of(const Figure& figure, const fs::path& study) {
-  std::set<std::string> runs;
-  for (const std::string& record : figure.record_ids) {
-    if (record.starts_with("layout-")) {
-      runs.insert(record.substr(0, record.find('/')));
-      continue;
-    }
-    for (const RunId& run : StudyFiles{study}.listed_runs()) runs.insert(slug(run));
-  }
-  return {runs.begin(), runs.end()};
+/// The files of records that a figure was made from, below the study's folder.
+std::set<fs::path> records_of(const Figure& figure, const fs::path& study) {
+  std::set<fs::path> files;
+  for (const std::string& record : figure.record_ids)
+    for (const fs::path& file : files_of_run(study, record.substr(0, record.find('/'))))
+      files.insert(file);
+  return files;
 }
 
 class Planner {
@@ -138,9 +134,10 @@ class Planner {
     const auto removed =
         std::ranges::count_if(steps, [](const ApprovalStep& step) { return step.from.empty(); });
     if (2 * removed > std::ssize(files))
-      throw InvalidInput(fmt::format("--all would remove {} of {} files of {}, which CURRENT {} does "
-                                     "not have; --force does so",
-                                     removed, files.size(), baseline_.string(), current_.string()));
+      throw InvalidInput(
+          fmt::format("--all would remove {} of {} files of {}, which CURRENT {} does "
+                      "not have; --force does so",
+                      removed, files.size(), baseline_.string(), current_.string()));
   }
 
   /// Whether the file is another one than the baseline's.
@@ -200,9 +197,7 @@ class Planner {
       const fs::path file = current_ / path;
       require_readable(file);
       const Figure figure = figure_from_json(read_file(file), file.string());
-      for (const std::string& run : runs_of(figure, current_))
-        for (const char* part : {"maps", "details", "runs"})
-          add_record(id, fs::path(part) / (run + ".json"));
+      for (const fs::path& record : records_of(figure, current_)) add_record(id, record);
     }
   }
 
@@ -210,7 +205,7 @@ class Planner {
     std::error_code error;
     if (!fs::is_regular_file(current_ / relative, error)) return;
     if (same_bytes(current_ / relative, baseline_ / relative)) return;
-    if (!same_bytes(StudyFiles{current_}.study(), StudyFiles{baseline_}.study()))
+    if (!same_bytes(current_ / kStudyFile, baseline_ / kStudyFile))
       throw InvalidInput(id + ": its records are of another experiment or solver than the " +
                          "baseline's; approve records with it, or --all");
     add(relative);

@@ -80,7 +80,7 @@ TEST(ApproveVerb, RefusesACurrentOfAnotherKind) {
         expect_refused(two.folder, {baseline, current, "map-usual"}, ": not approved");
       }
   expect_refused(two.folder, {two.before, two.after + "/figures", "--all"},
-                 "holds a study, CURRENT " + two.after +
+                 "holds a study of the mapping methods, CURRENT " + two.after +
                      "/figures holds figures or pictures without records");
   expect_refused(two.folder,
                  {two.before + "/figures/map-usual.png", two.folder.file("map.svg", "<svg/>")},

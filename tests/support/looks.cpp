@@ -29,8 +29,10 @@ SightingLog looks_at(const Points& landmarks, int looks, int seen, std::uint64_t
   const Eigen::RowVector2d extent = landmarks.colwise().maxCoeff() - low;
   Random random(seed);
   for (log.steps = 0; log.steps < looks; ++log.steps) {
-    const Eigen::RowVector2d place(low.x() + random.uniform() * extent.x(),
-                                   low.y() + random.uniform() * extent.y());
+    // One after the other: compilers differ in which argument of a call they draw first.
+    const double y = low.y() + random.uniform() * extent.y();
+    const double x = low.x() + random.uniform() * extent.x();
+    const Eigen::RowVector2d place(x, y);
     const double heading = 2.0 * std::numbers::pi * random.uniform();
     for (const int i : nearest(landmarks, place, seen)) {
       const Eigen::RowVector2d to = landmarks.row(i) - place;
