@@ -14,6 +14,7 @@
 #include "core/records/range_log_files.hpp"
 #include "core/records/results_of.hpp"
 #include "core/records/slam_experiment_json.hpp"
+#include "core/records/slam_files.hpp"
 #include "core/records/slam_run_json.hpp"
 #include "core/records/slam_store.hpp"
 #include "core/records/space_run_json.hpp"

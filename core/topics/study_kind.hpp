@@ -22,6 +22,7 @@ struct StudyFile {
 /// this folder each; a new one is added to study_kinds.cpp.
 struct StudyKind {
   std::string_view study;        ///< Schema of its study.json: "mapproof.slam_study".
+  std::string_view title;        ///< "a range-only study".
   std::string_view experiment;   ///< Of its experiments; empty: other programs make such studies.
   std::vector<StudyFile> files;  ///< All of them, these two among them.
   std::vector<std::filesystem::path> records;  ///< Folders and files with what came out.
