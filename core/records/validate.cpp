@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <iterator>
 #include <new>
 #include <system_error>
 
@@ -169,7 +170,7 @@ Finding check_as(const std::string& kind, const fs::path& folder,
 }
 
 /// What a single file does not show: that the runs belong to the experiment and have their maps.
-void read_whole_study(const fs::path& folder) {
+void read_whole_study(const fs::path& folder, std::vector<std::string>& remarks) {
   if (is_slam_study(folder)) {
     read_slam_study(folder);
     return;
@@ -179,7 +180,8 @@ void read_whole_study(const fs::path& folder) {
     return;
   }
   if (is_results_study(folder)) {
-    read_results_study(folder);
+    for (const std::string& remark : remarks_of(read_results_study(folder)))
+      remarks.push_back((folder / "results.csv").string() + ": " + remark);
     read_given_maps(folder);
     read_given_paths(folder);
     return;
@@ -194,7 +196,10 @@ void read_whole_study(const fs::path& folder) {
 }
 
 Finding check_study(const fs::path& folder) {
-  return check_as("study", folder, [&] { read_whole_study(folder); });
+  std::vector<std::string> remarks;
+  Finding finding = check_as("study", folder, [&] { read_whole_study(folder, remarks); });
+  finding.remarks = std::move(remarks);
+  return finding;
 }
 
 /// The studies right below a folder that holds none itself.
@@ -221,6 +226,15 @@ std::vector<Finding> check_folder(const fs::path& folder, const ForeignReader& f
       findings.push_back(check(path, foreign));
       if (is_leftover(path))
         findings.back().problem = findings.back().path + ": left by a killed process";
+      // What is wrong with a file is wrong with its study and its table: it is told once.
+      const std::string problem = findings.back().problem;
+      const auto last = std::prev(findings.end());
+      if (!problem.empty())
+        findings.erase(std::remove_if(findings.begin(), last,
+                                      [&](const Finding& finding) {
+                                        return finding.problem == problem;
+                                      }),
+                       last);
     }
     return findings;
   }
