@@ -152,7 +152,7 @@ std::string night_text(const Night& night, const std::vector<std::string>& remar
       if (finding.study == study.name && ++count <= kMostTold)
         text += fmt::format("  {}: {}\n", finding.study, finding.sentence);
     if (count > kMostTold)
-      text += fmt::format("  {}: and {} more: {}#findings\n", study.name, count - kMostTold,
+      text += fmt::format("  {}: and {} more: {}#section-findings\n", study.name, count - kMostTold,
                           (pages / "trends" / study.name / "report.html").string());
   }
   for (const std::string& remark : remarks) text += fmt::format("  ({})\n", remark);

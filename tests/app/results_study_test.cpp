@@ -132,8 +132,8 @@ TEST_F(StudyOfAnotherProgram, NamesAFewFindingsOfANightAndWhereAllAre) {
   const Outcome third = night("--jobs=1");
   EXPECT_NE(third.out.find("6 findings."), std::string::npos) << third.out;
   EXPECT_NE(third.out.find("  localisers: and 3 more: "), std::string::npos) << third.out;
-  EXPECT_NE(third.out.find("trends/localisers/report.html#findings"), std::string::npos);
-  EXPECT_NE(read_file(folder_ / "history/trends/localisers/report.html").find("id=\"findings\""),
+  EXPECT_NE(third.out.find("trends/localisers/report.html#section-findings"), std::string::npos);
+  EXPECT_NE(read_file(folder_ / "history/trends/localisers/report.html").find("id=\"section-findings\""),
             std::string::npos);
 }
 

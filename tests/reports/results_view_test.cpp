@@ -1,6 +1,7 @@
 #include "reports/sections/results/results_view.hpp"
 
 #include <cmath>
+#include <set>
 
 #include <gtest/gtest.h>
 
@@ -193,6 +194,26 @@ TEST(ResultsComparison, PassesOverLevelsWithoutPairsAndSaysSo) {
   const MethodComparison found = compare_methods(view).at(0);
   EXPECT_EQ(where_of(found), "s, noise 0.2 (nothing to compare at noise 0.4)");
   EXPECT_TRUE(std::isfinite(found.methods[0].mean));
+}
+
+TEST(ResultsComparison, IsOfEachLevelWhereLevelsAreTexts) {
+  Rows rows;
+  for (const char* run : {"a", "b", "c"})
+    for (const char* terrain : {"grass", "road", "Road!"})
+      for (const char* method : {"m", "n", "o"})
+        rows.add(method, run, method[0] + 0.1 * run[0], {{"terrain", std::string(terrain)}});
+  const ResultsStudy study = rows.study();
+  const ResultsView view(study);
+  const auto comparisons = compare_methods(view);
+  ASSERT_EQ(comparisons.size(), 3U);
+  EXPECT_EQ(where_of(comparisons[1]), "s, terrain grass");
+  std::set<std::string> ids;
+  for (const MethodComparison& comparison : comparisons) {
+    ids.insert(comparison_table(view, comparison).id);
+    EXPECT_TRUE(comparison.passed_over.empty());
+  }
+  EXPECT_EQ(ids, (std::set<std::string>{"test-s-grass-paired-mpe-m", "test-s-road-paired-mpe-m",
+                                        "test-s-road-level-3-paired-mpe-m"}));
 }
 
 TEST(ResultsComparison, OfMethodsWithoutACommonRunIsNone) {

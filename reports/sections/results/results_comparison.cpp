@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <iterator>
 #include <set>
 #include <utility>
 
@@ -135,20 +136,38 @@ std::optional<MethodComparison> compare_at(const ResultsView& view, const Result
   return comparison;
 }
 
+/// At each level: texts have no last one.
+std::vector<MethodComparison> compare_at_all(const ResultsView& view, const ResultsBlock& block,
+                                             const Quantity& quantity) {
+  std::vector<MethodComparison> comparisons;
+  std::set<std::string> ids;
+  for (std::size_t i = 0; i < block.conditions.size(); ++i) {
+    std::string id = block.id + "-" + slug_of(level_text(block.levels[i]));
+    if (id.back() == '-' || !ids.insert(id).second) id += fmt::format("-level-{}", i + 1);
+    auto comparison = compare_at(view, block, quantity, block.conditions[i]);
+    if (!comparison) continue;
+    comparison->id = std::move(id);
+    comparison->level = view.level_words(block.levels[i]);
+    comparisons.push_back(*std::move(comparison));
+  }
+  return comparisons;
+}
+
 /// At the last level where that can be.
-std::optional<MethodComparison> compare(const ResultsView& view, const ResultsBlock& block,
-                                        const Quantity& quantity) {
+std::vector<MethodComparison> compare_at_last(const ResultsView& view, const ResultsBlock& block,
+                                              const Quantity& quantity) {
   std::vector<std::string> passed_over;
   for (std::size_t i = block.conditions.size(); i-- > 0;) {
     const std::string level = block.factor.empty() ? "" : view.level_words(block.levels[i]);
     if (auto comparison = compare_at(view, block, quantity, block.conditions[i])) {
+      comparison->id = block.id;
       comparison->level = level;
       comparison->passed_over.assign(passed_over.rbegin(), passed_over.rend());
-      return comparison;
+      return {*std::move(comparison)};
     }
     passed_over.push_back(level);
   }
-  return std::nullopt;
+  return {};
 }
 
 std::string with_unit(double value, const Quantity& quantity) {
@@ -241,8 +260,10 @@ std::vector<MethodComparison> compare_methods(const ResultsView& view) {
   for (const ResultsBlock& block : view.blocks())
     for (const Quantity* quantity : view.quantities(block))
       if (quantity->better != Better::kNeither)
-        if (auto comparison = compare(view, block, *quantity))
-          comparisons.push_back(*std::move(comparison));
+        std::ranges::move(block.factor.empty() || block.has_axis()
+                              ? compare_at_last(view, block, *quantity)
+                              : compare_at_all(view, block, *quantity),
+                          std::back_inserter(comparisons));
   return comparisons;
 }
 

@@ -22,6 +22,7 @@ struct ComparedMethod {
 struct MethodComparison {
   const ResultsBlock* block = nullptr;
   const Quantity* quantity = nullptr;
+  std::string id;  ///< Of figures and tables: the block's, and of a text its level.
   Condition at;
   std::string level;  ///< "noise 0.4 m"; empty: the block has one.
   /// Levels after that one, at which no two methods could be compared.
@@ -35,8 +36,8 @@ struct MethodComparison {
   std::optional<FriedmanTest> ranks;  ///< In the order of `methods`; with two groups or more.
 };
 
-/// Compares methods at the last level of each block at which two of them can be, by each quantity
-/// that has a direction. Pairs are of the runs that all compared methods have; a group counts by the
+/// Compares methods at the last level of each block at which two of them can be, or where levels are
+/// texts at each, by each quantity that has a direction. Pairs are of the runs that all compared methods have; a group counts by the
 /// mean of its pairs. Where runs are no repeats of each other nothing is compared.
 std::vector<MethodComparison> compare_methods(const ResultsView& view);
 

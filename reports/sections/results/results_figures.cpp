@@ -184,7 +184,7 @@ std::optional<Figure> distribution_figure(const ResultsView& view, const Results
 std::optional<Figure> rank_figure(const ResultsView& view, const MethodComparison& comparison) {
   if (!has_rank_diagram(comparison)) return std::nullopt;
   CriticalDifferenceSpec spec;
-  spec.id = figure_id(comparison.block->id, "ranks-" + comparison.quantity->id);
+  spec.id = figure_id(comparison.id, "ranks-" + comparison.quantity->id);
   spec.title = fmt::format("{}{}{}: mean ranks by {}", comparison.block->title,
                            comparison.level.empty() ? "" : ", ", comparison.level,
                            comparison.quantity->label);

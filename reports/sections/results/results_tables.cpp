@@ -178,7 +178,7 @@ Table comparison_table(const ResultsView& view, const MethodComparison& comparis
   for (const ComparedMethod& method : comparison.methods) means.push_back(method.mean);
   const int places = decimals_of(means);
   Table table;
-  table.id = table_id(comparison.block->id, "paired-" + quantity.id);
+  table.id = table_id(comparison.id, "paired-" + quantity.id);
   table.caption = fmt::format("{}: {} compared with the best method", where_of(comparison),
                               label_with_unit(quantity));
   table.columns = {{"Method", "", "", ""},
