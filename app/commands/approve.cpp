@@ -79,7 +79,8 @@ std::set<fs::path> stale_reports(const ApprovalPlan& plan, const fs::path& basel
     if (name != "study.json" && name != "results.csv" && !is_below) continue;
     if (is_below) folder = folder.parent_path();
     std::error_code error;
-    if (fs::exists(baseline / folder / "report.html", error)) reports.insert(folder / "report.html");
+    if (fs::exists(baseline / folder / "report.html", error))
+      reports.insert(folder / "report.html");
   }
   for (const fs::path& report : taken) reports.erase(report);
   return reports;
@@ -132,7 +133,8 @@ Action approve_verb(CLI::App& app) {
       "Records, ID.figure.json, SVG, PNG and PDF of a figure go together. A folder is replaced in\n"
       "one step: stopped at any moment, it is wholly the old or the new one. With --all the "
       "baseline\n"
-      "holds what the current holds; what cannot be read is named and left as it was, and the exit\n"
+      "holds what the current holds; what cannot be read is named and left as it was, and the "
+      "exit\n"
       "code is 1.\n");
   app.add_option("BASELINE", arguments->baseline, "The folder or file that is replaced")
       ->required()

@@ -14,7 +14,7 @@ struct GivenPath {
   Trajectory path;
   std::optional<Trajectory> truth = {};
   Alignment alignment = Alignment::kNone;  ///< To the ground truth, before it is drawn.
-  std::optional<double> rms_m = {};  ///< Distance from the ground truth once that is done.
+  std::optional<double> rms_m = {};        ///< Distance from the ground truth once that is done.
 };
 
 }  // namespace mapproof

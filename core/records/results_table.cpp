@@ -184,12 +184,12 @@ class ResultsReader {
       const bool is_text = texts.rows <= numbers.rows;
       const Kind& odd = is_text ? texts : numbers;
       row_.line = odd.line;
-      fail(fmt::format("at.{}: {} is a {} where {} of the setup have {}; write all levels of a "
-                       "factor as numbers or all as texts",
-                       printable(factor.first, 40), in_quotes(odd.cell),
-                       is_text ? "text" : "number",
-                       counted(static_cast<long long>((is_text ? numbers : texts).rows), "row"),
-                       is_text ? "numbers" : "texts"));
+      fail(
+          fmt::format("at.{}: {} is a {} where {} of the setup have {}; write all levels of a "
+                      "factor as numbers or all as texts",
+                      printable(factor.first, 40), in_quotes(odd.cell), is_text ? "text" : "number",
+                      counted(static_cast<long long>((is_text ? numbers : texts).rows), "row"),
+                      is_text ? "numbers" : "texts"));
     }
   }
 

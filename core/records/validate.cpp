@@ -230,11 +230,10 @@ std::vector<Finding> check_folder(const fs::path& folder, const ForeignReader& f
       const std::string problem = findings.back().problem;
       const auto last = std::prev(findings.end());
       if (!problem.empty())
-        findings.erase(std::remove_if(findings.begin(), last,
-                                      [&](const Finding& finding) {
-                                        return finding.problem == problem;
-                                      }),
-                       last);
+        findings.erase(
+            std::remove_if(findings.begin(), last,
+                           [&](const Finding& finding) { return finding.problem == problem; }),
+            last);
     }
     return findings;
   }

@@ -43,7 +43,8 @@ std::string lacking(const std::vector<Result>& rows, const std::string& setup,
   }
   if (without == 0 || without == all) return "";
   return fmt::format(
-      "at.{} is empty in {} of the {} rows of the setup \"{}\", first of {}, {}{}: there the factor "
+      "at.{} is empty in {} of the {} rows of the setup \"{}\", first of {}, {}{}: there the "
+      "factor "
       "is not given, and these rows stand in a section of their own",
       printable(factor, 40), without, all, printable(setup, 40), printable(first->method, 40),
       first->quantity, first->run.empty() ? "" : ", run " + printable(first->run, 40));

@@ -162,11 +162,11 @@ DiffItem missing_report(std::size_t items, const std::string& current,
   DiffItem item;
   item.id = "report";
   item.kind = ItemKind::kDocument;
-  item.judgement = {Verdict::kMissing, true,
-                    fmt::format("the current has no report: {} of the baseline, figures, tables "
-                                "and pages, are missing; mapproof report {} makes them",
-                                counted(static_cast<long long>(items), "item"),
-                                printable(current))};
+  item.judgement = {
+      Verdict::kMissing, true,
+      fmt::format("the current has no report: {} of the baseline, figures, tables "
+                  "and pages, are missing; mapproof report {} makes them",
+                  counted(static_cast<long long>(items), "item"), printable(current))};
   item.passes = passes(item.judgement, settings.allowed);
   return item;
 }
@@ -273,8 +273,7 @@ DiffResult folder_diff(const fs::path& baseline, const fs::path& current,
   remark_not_compared(pictures, result);
   remark_ignored(pictures, settings, result);
   std::ranges::move(pictures, std::back_inserter(result.items));
-  if (lacks_report)
-    result.items.push_back(missing_report(lacking, result.current, settings));
+  if (lacks_report) result.items.push_back(missing_report(lacking, result.current, settings));
   add_documents(result.items, before, after, file_id(current), settings);
   if (result.items.empty())
     throw InvalidInput(baseline.string() + " and " + current.string() +

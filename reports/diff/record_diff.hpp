@@ -131,11 +131,11 @@ struct RecordDiff {
   std::vector<SettingChange> provenance;  ///< Versions: told, never judged.
   std::vector<std::string> missing_runs, new_runs;
   std::vector<std::string> missing_subjects, new_subjects;
-  std::vector<Comparison> comparisons;  ///< Those that are not equal throughout.
-  std::vector<Quantity> declared;       ///< Quantities that either side declares.
+  std::vector<Comparison> comparisons;     ///< Those that are not equal throughout.
+  std::vector<Quantity> declared;          ///< Quantities that either side declares.
   std::vector<QuantityChange> redeclared;  ///< Those of another unit are not compared.
-  long values = 0;                      ///< Numbers compared in all.
-  std::vector<PointsDiff> points;       ///< Records with a point that is not equal.
+  long values = 0;                         ///< Numbers compared in all.
+  std::vector<PointsDiff> points;          ///< Records with a point that is not equal.
   std::vector<StatusChange> statuses;
   std::vector<std::string> anchors;  ///< Runs whose anchors are others.
   std::vector<OtherDiff> others;

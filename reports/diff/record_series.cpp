@@ -135,8 +135,8 @@ Open compare(const RecordSet& a, const RecordSet& b, const Values& before, const
     const std::optional<double> first = value_of(a, before, run), second = value_of(b, after, run);
     if (!first || !second) continue;
     const auto group = a.runs.find(run);
-    compare_pair(run, group == a.runs.end() ? run : group->second, *first, *second, tolerance,
-                 out, open.differences);
+    compare_pair(run, group == a.runs.end() ? run : group->second, *first, *second, tolerance, out,
+                 open.differences);
     if (!std::isfinite(*first) || !std::isfinite(*second)) continue;
     firsts.push_back(*first);
     seconds.push_back(*second);
@@ -144,7 +144,7 @@ Open compare(const RecordSet& a, const RecordSet& b, const Values& before, const
   out.baseline_mean = same_seeds && !firsts.empty() ? mean(firsts) : mean_of(before);
   out.current_mean = same_seeds && !seconds.empty() ? mean(seconds) : mean_of(after);
   keep_largest(out.largest);
-  if (same_seeds && a.repeats && out.beyond > 0) 
+  if (same_seeds && a.repeats && out.beyond > 0)
     out.test = paired_test(open.differences, a.draws_groups || b.draws_groups);
   return open;
 }

@@ -32,7 +32,7 @@ struct RecordSet {
   std::map<std::string, std::string> settings;
   Provenance provenance;
   Quantities quantities;
-  bool repeats = false;                           ///< Results::are_repeats.
+  bool repeats = false;  ///< Results::are_repeats.
   /// Groups are what is independent, however few: whoever wrote the table said so. Else, where
   /// groups are few, paired tests take runs, which are independent within a group that stays.
   bool draws_groups = false;

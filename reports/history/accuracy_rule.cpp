@@ -146,8 +146,7 @@ void add_family(Work& work, const StudyEvidence& evidence, const RegressionRules
       work.comparisons.push_back(std::move(comparison));
   };
   add(last, subject_of(*steps.back()));
-  if (steps.size() > 1)
-    add(all, fmt::format("{}, mean of {} steps", method, steps.size()));
+  if (steps.size() > 1) add(all, fmt::format("{}, mean of {} steps", method, steps.size()));
   if (all.empty() && losses.lost > 0 && losses.gained > 0)
     work.other_runs.insert(shown_subject(method));
   // Quantities that are lost together are one finding.
@@ -178,10 +177,10 @@ void add_vanished(Work& work, const StudyEvidence& evidence) {
     const Quantity* quantity = evidence.trend.quantities.find(series.quantity);
     if (quantity == nullptr || quantity->nightly == NightlyRule::kDuration) continue;
     if (evidence.tonight.contains(series) || std::ranges::none_of(values, is_known)) continue;
-    const std::string subject = !setups.contains(series.sensor)            ? series.sensor
-                                : !methods.contains(base(series))          ? base(series)
-                                : !quantities.contains(series.quantity)    ? "all methods"
-                                                                           : method_of(series);
+    const std::string subject = !setups.contains(series.sensor)         ? series.sensor
+                                : !methods.contains(base(series))       ? base(series)
+                                : !quantities.contains(series.quantity) ? "all methods"
+                                                                        : method_of(series);
     const bool of_quantity = subject == "all methods" || subjects.contains(subject);
     auto same = std::ranges::find_if(work.vanished, [&](const Vanished& other) {
       return other.subject == subject && (!of_quantity || other.quantity == series.quantity);
@@ -235,20 +234,19 @@ NightFinding finding_of(const Comparison& comparison, const PairedChange& change
   const Quantity& quantity = *comparison.quantity;
   const std::string interval = range_words(quantity, change.low, change.high);
   const std::string units = counted(change.units, comparison.unit);
-  return {
-      .study = evidence.trend.name,
-      .rule = NightRule::kAccuracy,
-      .subject = comparison.subject,
-      .quantity = quantity.id,
-      .since = evidence.trend.nights.back().number,
-      .sentence = fmt::format("{}: {} {} than on night {}, 95\u00a0% interval {}; median {:.4g} → "
-                              "{:.4g}{}{}{}; {}, {} corrected for {}",
-                              shown_subject(comparison.subject), quantity.label,
-                              worse_words(quantity, change.shift), evidence.reference->night,
-                              interval, comparison.before, comparison.after,
-                              quantity.unit.empty() ? "" : "\u00a0", quantity.unit,
-                              comparison.has_steps ? " at the last step" : "", units,
-                              p_text(p), counted(static_cast<long long>(tests), "test"))};
+  return {.study = evidence.trend.name,
+          .rule = NightRule::kAccuracy,
+          .subject = comparison.subject,
+          .quantity = quantity.id,
+          .since = evidence.trend.nights.back().number,
+          .sentence = fmt::format(
+              "{}: {} {} than on night {}, 95\u00a0% interval {}; median {:.4g} → "
+              "{:.4g}{}{}{}; {}, {} corrected for {}",
+              shown_subject(comparison.subject), quantity.label,
+              worse_words(quantity, change.shift), evidence.reference->night, interval,
+              comparison.before, comparison.after, quantity.unit.empty() ? "" : "\u00a0",
+              quantity.unit, comparison.has_steps ? " at the last step" : "", units, p_text(p),
+              counted(static_cast<long long>(tests), "test"))};
 }
 
 NightFinding finding_of(const Losses& losses, double p, const StudyEvidence& evidence) {
@@ -309,10 +307,10 @@ void judge_losses(const Work& work, std::span<const double> p, const StudyEviden
     }
   }
   if (lost > 0)
-    outcome.remarks.push_back(fmt::format(
-        "{}: {} of night {} no longer come out, of {}; too few of each to be judged",
-        evidence.trend.name, counted(lost, "result"), evidence.reference->night,
-        first_of(methods)));
+    outcome.remarks.push_back(
+        fmt::format("{}: {} of night {} no longer come out, of {}; too few of each to be judged",
+                    evidence.trend.name, counted(lost, "result"), evidence.reference->night,
+                    first_of(methods)));
   if (!work.other_runs.empty())
     outcome.remarks.push_back(fmt::format("{}: no run in common with night {} for {}; not compared",
                                           evidence.trend.name, evidence.reference->night,
@@ -335,19 +333,19 @@ std::string worse_words(const Quantity& quantity, double worsening) {
 RuleOutcome judge_accuracy(const StudyEvidence& evidence, const RegressionRules& rules) {
   RuleOutcome outcome;
   if (!evidence.reference) {
-    outcome.remarks.push_back(
-        evidence.trend.name + ": no night to compare with has the same settings");
+    outcome.remarks.push_back(evidence.trend.name +
+                              ": no night to compare with has the same settings");
     return outcome;
   }
   const Work work = compare_all(evidence, rules);
   const std::size_t tests = work.comparisons.size() + work.losses.size();
   if (!work.too_few.empty())
-    outcome.remarks.push_back(fmt::format(
-        "{}: too few {} to pair for {}; judged over nights", evidence.trend.name,
-        evidence.draws_groups ? "groups" : "runs", first_of(work.too_few)));
+    outcome.remarks.push_back(
+        fmt::format("{}: too few {} to pair for {}; judged over nights", evidence.trend.name,
+                    evidence.draws_groups ? "groups" : "runs", first_of(work.too_few)));
   // Ranks only where they can pass the correction with room to spare.
-  const PairedChangeOptions options{.finest_p = 0.1 * rules.alpha /
-                                                static_cast<double>(std::max<std::size_t>(tests, 1))};
+  const PairedChangeOptions options{
+      .finest_p = 0.1 * rules.alpha / static_cast<double>(std::max<std::size_t>(tests, 1))};
   std::vector<PairedChange> changes;
   std::vector<double> p;
   for (const Comparison& comparison : work.comparisons) {

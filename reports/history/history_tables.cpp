@@ -107,8 +107,7 @@ Table findings_table(const NightFindings& findings, const std::string& study) {
 
 Table accuracy_table(const StudyTrend& trend) {
   const std::vector<SeriesId> shown = last_steps(trend);
-  const bool has_steps =
-      std::ranges::any_of(shown, [](const SeriesId& id) { return id.step > 0; });
+  const bool has_steps = std::ranges::any_of(shown, [](const SeriesId& id) { return id.step > 0; });
   Table table{.id = "accuracy-now",
               .caption = has_steps ? "Medians over the runs at the last step of each method."
                                    : "Medians over the runs.",

@@ -38,9 +38,8 @@ std::string verdict_sentence(const NightFacts& night, std::size_t findings) {
   const std::string count = counted(static_cast<long long>(findings), "finding");
   switch (night.verdict) {
     case NightVerdict::kGood:
-      return night.reference
-                 ? fmt::format("Nothing got worse than on night {}.", *night.reference)
-                 : "Not compared: no night to compare with has the same settings.";
+      return night.reference ? fmt::format("Nothing got worse than on night {}.", *night.reference)
+                             : "Not compared: no night to compare with has the same settings.";
     case NightVerdict::kCost:
       return "Accuracy is as it was; seconds or memory grew: " + count + ".";
     default:
@@ -60,8 +59,7 @@ Standing study_standing(const NightFacts& night, std::span<const NightFinding> f
   else if (is_compared && night.reference)
     result.title = tonight + fmt::format("nothing got worse than on night {}", *night.reference);
   else
-    result.title =
-        tonight + "not compared: no night to compare with has the same settings";
+    result.title = tonight + "not compared: no night to compare with has the same settings";
   return result;
 }
 

@@ -18,14 +18,14 @@ struct RegressionRules {
   double least_growth = 0.05;    ///< Memory, and accuracy without runs to pair, as a share.
   double seconds_floor = 0.02;   ///< Noise that is believed of seconds at least, as a share.
   double memory_floor = 0.01;
-  double shortest_s = 1e-3;     ///< Pieces of less are not judged: a clock's tick would be.
-  int least_units = 3;          ///< Fewer pairs are judged over nights.
-  int least_layouts = 6;        ///< Where there are as many, their means are the units.
-  int least_lost = 3;           ///< Results of a series that are lost: fewer count if all are.
+  double shortest_s = 1e-3;        ///< Pieces of less are not judged: a clock's tick would be.
+  int least_units = 3;             ///< Fewer pairs are judged over nights.
+  int least_layouts = 6;           ///< Where there are as many, their means are the units.
+  int least_lost = 3;              ///< Results of a series that are lost: fewer count if all are.
   double least_lost_share = 0.25;  ///< Of its results.
-  int least_good_nights = 4;    ///< Seconds and memory: nights that say what is usual.
-  int most_good_nights = 20;    ///< The last so many say it.
-  int least_drift_nights = 12;  ///< Change points are looked for from so many nights on.
+  int least_good_nights = 4;       ///< Seconds and memory: nights that say what is usual.
+  int most_good_nights = 20;       ///< The last so many say it.
+  int least_drift_nights = 12;     ///< Change points are looked for from so many nights on.
 };
 
 /// The values of the reference night.

@@ -85,11 +85,9 @@ TEST_F(StudyOfAnotherProgram, WhoseReportIsMissingAsAWholeIsOneLine) {
 TEST_F(StudyOfAnotherProgram, WhoseRecordsAreApprovedAloneHasAStaleReport) {
   make("baseline", "0.05");
   ASSERT_EQ(mapproof({"report", folder_ / "baseline"}).exit_code, 0);
-  const Outcome records =
-      mapproof({"approve", folder_ / "baseline", folder_ / "mine", "records"});
+  const Outcome records = mapproof({"approve", folder_ / "baseline", folder_ / "mine", "records"});
   EXPECT_EQ(records.exit_code, 0);
-  EXPECT_NE(records.error.find("baseline/report.html: is of the records before"),
-            std::string::npos)
+  EXPECT_NE(records.error.find("baseline/report.html: is of the records before"), std::string::npos)
       << records.error;
   make("baseline", "0.05");
   ASSERT_EQ(mapproof({"report", folder_ / "mine"}).exit_code, 0);
@@ -108,8 +106,7 @@ TEST_F(StudyOfAnotherProgram, HasItsPathsAlignedIfItAsks) {
   write_file(folder_ / "mine/paths/drive.truth.tum", truth);
   const auto figure = [&] {
     EXPECT_EQ(mapproof({"report", folder_ / "mine"}).exit_code, 0);
-    return json::parse(
-        read_file(folder_ / "mine/figures/localisers-path-drive.figure.json"));
+    return json::parse(read_file(folder_ / "mine/figures/localisers-path-drive.figure.json"));
   };
   EXPECT_NE(figure()["caption"].get<std::string>().find("nothing was aligned"), std::string::npos);
   json study = json::parse(read_file(folder_ / "mine/study.json"));
@@ -133,8 +130,9 @@ TEST_F(StudyOfAnotherProgram, NamesAFewFindingsOfANightAndWhereAllAre) {
   EXPECT_NE(third.out.find("6 findings."), std::string::npos) << third.out;
   EXPECT_NE(third.out.find("  localisers: and 3 more: "), std::string::npos) << third.out;
   EXPECT_NE(third.out.find("trends/localisers/report.html#section-findings"), std::string::npos);
-  EXPECT_NE(read_file(folder_ / "history/trends/localisers/report.html").find("id=\"section-findings\""),
-            std::string::npos);
+  EXPECT_NE(
+      read_file(folder_ / "history/trends/localisers/report.html").find("id=\"section-findings\""),
+      std::string::npos);
 }
 
 TEST_F(StudyOfAnotherProgram, IsJudgedByNightlyRuns) {

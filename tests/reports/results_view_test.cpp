@@ -273,9 +273,10 @@ TEST(ResultsComparison, ManyOpenAReportByWhatTheyComeTo) {
   ASSERT_EQ(comparisons.size(), 6U);
   const std::vector<std::string> headlines = headlines_of(view, comparisons);
   ASSERT_EQ(headlines.size(), 2U);
-  EXPECT_EQ(headlines[0],
-            "MPE: of 6 conditions compared, the lowest mean is that of m in 4 (4 significantly) and "
-            "n in 2 (2 significantly); significantly worse than the best wherever compared: o.");
+  EXPECT_EQ(
+      headlines[0],
+      "MPE: of 6 conditions compared, the lowest mean is that of m in 4 (4 significantly) and "
+      "n in 2 (2 significantly); significantly worse than the best wherever compared: o.");
   EXPECT_EQ(headlines[1], "24 of 216 results have no value: o 24.");
   EXPECT_EQ(headlines_of(view, {comparisons[0]})[0], sentence_of(comparisons[0], view));
 }
@@ -327,13 +328,12 @@ TEST(ResultsView, RowsThatLackAFactorSayItInTheirTitle) {
 
 TEST(ResultsView, IntervalsEndWhereNoValueCanLie) {
   const auto interval = [](const std::string& quantity, double first, double second) {
-    const ResultsStudy study =
-        Rows(quantity).add("m", "a", first).add("m", "b", second).study();
+    const ResultsStudy study = Rows(quantity).add("m", "a", first).add("m", "b", second).study();
     const ResultsView view(study);
     const Quantity& known = known_quantity(quantity);
     const ResultsBlock& block = view.blocks()[0];
-    return *view.interval(
-        view.mean(block.conditions[0], view.lines(block, known)[0], known), known);
+    return *view.interval(view.mean(block.conditions[0], view.lines(block, known)[0], known),
+                          known);
   };
   const Interval share = interval("moe_percent", 90.0, 99.0);
   EXPECT_DOUBLE_EQ(share.high, 100.0);

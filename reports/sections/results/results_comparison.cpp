@@ -42,8 +42,8 @@ std::vector<MethodRuns> methods_at(const ResultsView& view, const ResultsBlock& 
 std::set<std::string> common_runs(const std::vector<MethodRuns>& methods) {
   std::set<std::string> runs;
   for (const auto& [run, value] : methods.front().values)
-    if (std::ranges::all_of(
-            methods, [&](const MethodRuns& method) { return method.values.contains(run); }))
+    if (std::ranges::all_of(methods,
+                            [&](const MethodRuns& method) { return method.values.contains(run); }))
       runs.insert(run);
   return runs;
 }
@@ -57,8 +57,8 @@ std::vector<std::size_t> leave_out(const ResultsView& view, std::vector<MethodRu
   std::vector<MethodRuns> kept;
   std::vector<std::size_t> left_out;
   for (const MethodRuns& method : methods) {
-    const bool stays = view.group_means(method.values).size() == groups &&
-                       2 * method.values.size() >= all.size();
+    const bool stays =
+        view.group_means(method.values).size() == groups && 2 * method.values.size() >= all.size();
     if (stays)
       kept.push_back(method);
     else
@@ -89,8 +89,7 @@ FriedmanTest ranks_of(const ResultsView& view, const std::vector<MethodRuns>& me
   Eigen::MatrixXd values(groups, std::ssize(methods));
   for (Eigen::Index j = 0; j < values.cols(); ++j) {
     Eigen::Index i = 0;
-    for (const auto& [group, value] :
-         view.group_means(methods[static_cast<std::size_t>(j)].values))
+    for (const auto& [group, value] : view.group_means(methods[static_cast<std::size_t>(j)].values))
       values(i++, j) = lower_is_better ? value : -value;
   }
   return friedman(values);
@@ -195,10 +194,9 @@ std::string losses_of(const ResultsView& view) {
   std::vector<std::pair<long, std::string>> lost;
   long all = 0;
   for (const Label& method : view.study().methods) {
-    const long count =
-        std::ranges::count_if(view.study().results.rows, [&](const Result& row) {
-          return row.method == method.id && is_lost(row.value);
-        });
+    const long count = std::ranges::count_if(view.study().results.rows, [&](const Result& row) {
+      return row.method == method.id && is_lost(row.value);
+    });
     if (count > 0) lost.emplace_back(count, method.label);
     all += count;
   }
@@ -231,14 +229,13 @@ std::string tally_of(const ResultsView& view, const Quantity& quantity,
                            [](const auto& entry) { return entry.second.first; });
   std::vector<std::string> names;
   for (const auto& [method, wins] : order)
-    names.push_back(fmt::format(
-        "{} in {}{}", view.study().methods[method].label, wins.first,
-        wins.second == 0 ? "" : fmt::format(" ({} significantly)", wins.second)));
+    names.push_back(
+        fmt::format("{} in {}{}", view.study().methods[method].label, wins.first,
+                    wins.second == 0 ? "" : fmt::format(" ({} significantly)", wins.second)));
   constexpr std::size_t kMostNamed = 4;
-  std::string text =
-      fmt::format("{}: of {} compared, the {} mean is that of {}", quantity.label,
-                  counted(std::ssize(comparisons), "condition"), best_word(quantity),
-                  listed(names, kMostNamed));
+  std::string text = fmt::format("{}: of {} compared, the {} mean is that of {}", quantity.label,
+                                 counted(std::ssize(comparisons), "condition"), best_word(quantity),
+                                 listed(names, kMostNamed));
   std::vector<std::string> worse;
   for (const auto& [method, times] : compared)
     if (times.first == times.second) worse.push_back(view.study().methods[method].label);
@@ -279,22 +276,21 @@ std::string where_of(const MethodComparison& comparison) {
 std::string sentence_of(const MethodComparison& comparison, const ResultsView& view) {
   const Quantity& quantity = *comparison.quantity;
   const ComparedMethod &best = comparison.methods[0], &next = comparison.methods[1];
-  std::string text =
-      fmt::format("{}: {} has the {} mean {}, {}; {} follows with {}", where_of(comparison),
-                  label_of(best, view), best_word(quantity), quantity.label,
-                  with_unit(best.mean, quantity), label_of(next, view),
-                  with_unit(next.mean, quantity));
+  std::string text = fmt::format("{}: {} has the {} mean {}, {}; {} follows with {}",
+                                 where_of(comparison), label_of(best, view), best_word(quantity),
+                                 quantity.label, with_unit(best.mean, quantity),
+                                 label_of(next, view), with_unit(next.mean, quantity));
   if (!comparison.has_all_runs)
     text += fmt::format(", over the {} that all of these methods have",
                         counted(comparison.runs, "run"));
   if (!next.change) return text + ".";
-  text += fmt::format(
-      " ({}, {} over {}", is_significant(next) ? "a significant difference"
-                                               : "no significant difference",
-      p_words(next.corrected_p), counted(comparison.groups, "group"));
+  text +=
+      fmt::format(" ({}, {} over {}",
+                  is_significant(next) ? "a significant difference" : "no significant difference",
+                  p_words(next.corrected_p), counted(comparison.groups, "group"));
   if (has_rank_diagram(comparison) && is_apart_by_ranks(comparison, 1) != is_significant(next))
-    text += fmt::format("; their mean ranks {} them apart", is_significant(next) ? "do not tell"
-                                                                                 : "tell");
+    text += fmt::format("; their mean ranks {} them apart",
+                        is_significant(next) ? "do not tell" : "tell");
   return text + ").";
 }
 

@@ -32,13 +32,14 @@ struct MethodComparison {
   std::vector<std::string> left_out;
   int runs = 0;  ///< That all compared methods have.
   int groups = 0;
-  bool has_all_runs = true;           ///< None of the methods has another run: means are the tables'.
+  bool has_all_runs = true;  ///< None of the methods has another run: means are the tables'.
   std::optional<FriedmanTest> ranks;  ///< In the order of `methods`; with two groups or more.
 };
 
-/// Compares methods at the last level of each block at which two of them can be, or where levels are
-/// texts at each, by each quantity that has a direction. Pairs are of the runs that all compared methods have; a group counts by the
-/// mean of its pairs. Where runs are no repeats of each other nothing is compared.
+/// Compares methods at the last level of each block at which two of them can be, or where levels
+/// are texts at each, by each quantity that has a direction. Pairs are of the runs that all
+/// compared methods have; a group counts by the mean of its pairs. Where runs are no repeats of
+/// each other nothing is compared.
 std::vector<MethodComparison> compare_methods(const ResultsView& view);
 
 /// Whether the corrected paired test tells a method from the best one.

@@ -119,10 +119,9 @@ std::optional<Figure> overview_figure(const ResultsView& view, const ResultsOver
   }
   if (std::ranges::all_of(spec.panels, [](const ErrorPanel& panel) { return panel.lines.empty(); }))
     return std::nullopt;
-  spec.caption =
-      fmt::format("Lines: {} over {} by {}, mean over runs{}", quantity.label,
-                  view.factor_label(overview.blocks.front()->factor), overview.factors,
-                  banded ? "; bands: its 95 % interval." : ".");
+  spec.caption = fmt::format("Lines: {} over {} by {}, mean over runs{}", quantity.label,
+                             view.factor_label(overview.blocks.front()->factor), overview.factors,
+                             banded ? "; bands: its 95 % interval." : ".");
   return error_lines_figure(spec);
 }
 
@@ -241,9 +240,8 @@ Figure path_figure(const GivenPath& path, std::string id) {
   if (path.truth)
     panel.layers.emplace_back(path_line("ground truth", *path.truth, Ink::kText, 0.6));
   panel.layers.emplace_back(path_line("estimate", path.path, Ink::kSeries1, 1.0));
-  figure.caption =
-      fmt::format("The path {} of {} poses{}{}.", path.id, path.path.size(),
-                  path.truth ? " and its ground truth" : "", alignment_words(path));
+  figure.caption = fmt::format("The path {} of {} poses{}{}.", path.id, path.path.size(),
+                               path.truth ? " and its ground truth" : "", alignment_words(path));
   constexpr double kMicrometres = 1e6;  // Below, a distance is rounding alone.
   if (path.rms_m)
     figure.caption += fmt::format(" RMS distance from the ground truth: {:.3g} m.",

@@ -17,7 +17,8 @@ StudyFigures results_figures(const ResultsView& view,
                              const std::vector<MethodComparison>& comparisons);
 
 /// The maps, each landmark's error as a line where the ground truth is known, and the paths beside
-/// theirs: maps as they were given, paths as their alignment says. Without either the group is empty.
+/// theirs: maps as they were given, paths as their alignment says. Without either the group is
+/// empty.
 FigureGroup given_figures(const ResultsStudy& study, const std::vector<MapRecord>& maps,
                           const std::vector<GivenPath>& paths);
 

@@ -112,8 +112,7 @@ Table single_table(const ResultsView& view, const ResultsBlock& block) {
   std::vector<ResultsLine> lines;
   std::vector<int> places;
   for (const Quantity* quantity : quantities) {
-    places.push_back(
-        decimals(view, view.lines(block, *quantity), block.conditions, *quantity));
+    places.push_back(decimals(view, view.lines(block, *quantity), block.conditions, *quantity));
     cells.add_column(quantity->label, quantity->unit, "");
     for (const ResultsLine& line : view.lines(block, *quantity))
       if (std::ranges::find(lines, line.label, &ResultsLine::label) == lines.end())

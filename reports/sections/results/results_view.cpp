@@ -149,9 +149,8 @@ std::optional<ResultsOverview> ResultsView::overview_of(
   const std::string label = label_of(study_.setups, setup);
   overview.title = (label.empty() ? study_.title : label) + ": overview by " + overview.factors;
   overview.id = study_.name + "-overview-" + slug_of(setup.empty() ? "all" : setup);
-  while (std::ranges::any_of(overviews_, [&](const ResultsOverview& other) {
-    return other.id == overview.id;
-  }))
+  while (std::ranges::any_of(overviews_,
+                             [&](const ResultsOverview& other) { return other.id == overview.id; }))
     overview.id += "-more";
   if (blocks.front()->factor.empty()) {
     for (const ResultsBlock* block : blocks)

@@ -33,8 +33,8 @@ struct ResultsOverview {
   std::string title;    ///< "Indoors: overview by terrain".
   std::string factors;  ///< "terrain", "terrain and light".
   std::vector<const ResultsBlock*> blocks;
-  std::vector<std::string> names;        ///< Of the blocks, by what they differ in: "grass, day".
-  std::optional<Level> level = {};       ///< Along the blocks' factor: the last that all of them have.
+  std::vector<std::string> names;   ///< Of the blocks, by what they differ in: "grass, day".
+  std::optional<Level> level = {};  ///< Along the blocks' factor: the last that all of them have.
   std::vector<Condition> conditions = {};  ///< One per block, at that level.
 };
 

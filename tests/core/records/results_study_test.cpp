@@ -98,8 +98,7 @@ TEST(ResultsStudy, SaysWhatLooksUnusualInATable) {
   const auto remarks = [](const std::string& rows) {
     const std::string own =
         R"(, "quantities": [{"id": "found", "label": "F", "unit": "%", "better": "higher"}]})";
-    return remarks_of(
-        study_of(kHead + own, "setup,method,quantity,run,value,at.noise\n" + rows));
+    return remarks_of(study_of(kHead + own, "setup,method,quantity,run,value,at.noise\n" + rows));
   };
   EXPECT_TRUE(remarks("s,m,found,1,90,1\ns,m,found,2,80,1\nt,m,found,1,1,\n").empty());
   EXPECT_EQ(remarks("s,m,found,1,90,1\ns,m,found,2,80,\ns,m,found,3,80,2\n"),

@@ -285,7 +285,8 @@ TEST(ResultsTable, IsReadByPythonAndPandasInOneLine) {
   const auto lost =
       std::ranges::count_if(results.rows, [](const Result& row) { return std::isnan(row.value); });
   const std::string expected = fmt::format("{} {}", results.rows.size(), lost);
-  EXPECT_EQ(by_csv, expected + " setup,method,quantity,run,group,subject,value,at.noise,at.steps\n");
+  EXPECT_EQ(by_csv,
+            expected + " setup,method,quantity,run,group,subject,value,at.noise,at.steps\n");
   const std::string by_pandas = python_says(
       "import pandas, sys\n"
       "table = pandas.read_csv(sys.argv[1])\n"

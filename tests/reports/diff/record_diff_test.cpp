@@ -283,9 +283,9 @@ TEST(RecordDiff, AnotherUnitIsAChangeOfMeaningAndNamesBoth) {
   for (auto& [run, value] : after.values[{"s/ekf", "ate_m"}]) value *= 200.0;
   const RecordDiff diff = record_diff(before, after);
   EXPECT_EQ(diff.judgement.verdict, Verdict::kChanged);
-  EXPECT_NE(
-      diff.judgement.cause.find("ATE is in m in the baseline and in cm in the current: not compared"),
-      std::string::npos)
+  EXPECT_NE(diff.judgement.cause.find(
+                "ATE is in m in the baseline and in cm in the current: not compared"),
+            std::string::npos)
       << diff.judgement.cause;
   EXPECT_TRUE(diff.comparisons.empty());
 }

@@ -16,7 +16,9 @@ namespace {
 /// groups or another number of them. What a run scores is the same every night.
 struct ForeignNight {
   int groups = 6;
-  std::function<bool(const SeriesId&, int run)> is_there = [](const SeriesId&, int) { return true; };
+  std::function<bool(const SeriesId&, int run)> is_there = [](const SeriesId&, int) {
+    return true;
+  };
   std::function<double(const SeriesId&, int run)> factor = [](const SeriesId&, int) { return 1.0; };
   std::string setup = "indoors";
 };
@@ -69,28 +71,26 @@ Night second_night(const ForeignNight& first, const ForeignNight& second,
 std::vector<std::string> told(const Night& night) {
   std::vector<std::string> found;
   for (const NightFinding& finding : night.findings)
-    found.push_back(fmt::format("{}: {}: {}", name(finding.rule), finding.subject,
-                                finding.quantity));
+    found.push_back(
+        fmt::format("{}: {}: {}", name(finding.rule), finding.subject, finding.quantity));
   return found;
 }
 
 TEST(ForeignNights, AMethodThatIsMissingIsAFailureAndNoReference) {
-  const Night night = second_night(
-      {}, {.is_there = [](const SeriesId& series, int) {
-        return !series.method.starts_with("scan matching");
-      }});
+  const Night night = second_night({}, {.is_there = [](const SeriesId& series, int) {
+                                     return !series.method.starts_with("scan matching");
+                                   }});
   EXPECT_EQ(night.facts.verdict, NightVerdict::kAccuracy);
-  EXPECT_EQ(told(night),
-            std::vector<std::string>{"lost-results: indoors, scan matching: ate_m"});
-  EXPECT_EQ(night.findings[0].sentence,
-            "indoors, scan matching: no result any more, where night 1 had 8 series (ATE and found)");
+  EXPECT_EQ(told(night), std::vector<std::string>{"lost-results: indoors, scan matching: ate_m"});
+  EXPECT_EQ(
+      night.findings[0].sentence,
+      "indoors, scan matching: no result any more, where night 1 had 8 series (ATE and found)");
 }
 
 TEST(ForeignNights, AQuantityASetupOrALevelThatIsMissingIsAFailure) {
   const auto without = [](const std::function<bool(const SeriesId&)>& is_gone) {
-    return told(second_night({}, {.is_there = [=](const SeriesId& series, int) {
-      return !is_gone(series);
-    }}));
+    return told(second_night(
+        {}, {.is_there = [=](const SeriesId& series, int) { return !is_gone(series); }}));
   };
   EXPECT_EQ(without([](const SeriesId& series) { return series.quantity == "found"; }),
             std::vector<std::string>{"lost-results: all methods: found"});
@@ -114,7 +114,8 @@ TEST(ForeignNights, TheLossOfManyResultsIsAFailureHoweverItIsWritten) {
   for (const ForeignNight& plan : {gone, empty}) {
     const Night night = second_night({}, plan);
     EXPECT_EQ(night.facts.verdict, NightVerdict::kAccuracy);
-    ASSERT_EQ(told(night), std::vector<std::string>{"lost-results: indoors, gamma noise=0.4: ate_m"});
+    ASSERT_EQ(told(night),
+              std::vector<std::string>{"lost-results: indoors, gamma noise=0.4: ate_m"});
     EXPECT_NE(night.findings[0].sentence.find("14 of the 18 results of night 1 no longer come out"),
               std::string::npos);
   }
@@ -135,8 +136,8 @@ TEST(ForeignNights, AFewLostResultsAreRemarkedOn) {
 
 TEST(ForeignNights, EverySeriesThatGotWorseIsNamed) {
   const Night night = second_night({}, {.factor = [](const SeriesId& series, int run) {
-    return series.quantity == "ate_m" ? 1.2 + 0.001 * run : 1.0;
-  }});
+                                     return series.quantity == "ate_m" ? 1.2 + 0.001 * run : 1.0;
+                                   }});
   EXPECT_EQ(night.findings.size(), 12U);
   for (const NightFinding& finding : night.findings) {
     EXPECT_EQ(finding.sentence.find("last step"), std::string::npos) << finding.sentence;
