@@ -1,4 +1,7 @@
+#include <algorithm>
+#include <array>
 #include <memory>
+#include <set>
 #include <system_error>
 
 #include <fmt/format.h>
@@ -64,6 +67,25 @@ ApprovalPlan take_folder(const fs::path& baseline, const fs::path& current,
   return plan;
 }
 
+/// Reports of the baseline whose records were taken without them.
+std::set<fs::path> stale_reports(const ApprovalPlan& plan, const fs::path& baseline) {
+  constexpr std::array kFolders = {"runs", "maps", "details", "paths", "parts", "convergence"};
+  std::set<fs::path> reports, taken;
+  for (const ApprovalStep& step : plan.steps) {
+    const fs::path name = step.file.filename();
+    if (name == "report.html") taken.insert(step.file);
+    fs::path folder = step.file.parent_path();
+    const bool is_below = std::ranges::find(kFolders, folder.filename()) != kFolders.end();
+    if (name != "study.json" && name != "results.csv" && !is_below) continue;
+    if (is_below) folder = folder.parent_path();
+    std::error_code error;
+    if (fs::exists(baseline / folder / "report.html", error))
+      reports.insert(folder / "report.html");
+  }
+  for (const fs::path& report : taken) reports.erase(report);
+  return reports;
+}
+
 int approve(const ApproveArguments& arguments, const Invocation& invocation) {
   const ApprovalOrder order = order_of(arguments);
   const fs::path baseline = arguments.baseline, current = arguments.current;
@@ -80,6 +102,16 @@ int approve(const ApproveArguments& arguments, const Invocation& invocation) {
     text += fmt::format("{}  {}\n", what, printable(file, kLongestName));
   }
   object["refused"] = plan.refused;
+  object["stale"] = nlohmann::ordered_json::array();
+  for (const fs::path& report : stale_reports(plan, baseline)) {
+    const fs::path file = baseline / report;
+    object["stale"].push_back(file.string());
+    invocation.console.warning(fmt::format(
+        "{}: is of the records before, as are the figures and tables that were not taken; mapproof "
+        "report {} makes them again",
+        printable(file.string(), kLongestName),
+        printable(file.parent_path().string(), kLongestName)));
+  }
   for (const std::string& refusal : plan.refused)
     invocation.console.warning(printable(refusal, kLongestName));
   if (text.empty()) invocation.console.info(arguments.baseline + ": nothing to take");
@@ -101,7 +133,8 @@ Action approve_verb(CLI::App& app) {
       "Records, ID.figure.json, SVG, PNG and PDF of a figure go together. A folder is replaced in\n"
       "one step: stopped at any moment, it is wholly the old or the new one. With --all the "
       "baseline\n"
-      "holds what the current holds; what cannot be read is named and left as it was, and the exit\n"
+      "holds what the current holds; what cannot be read is named and left as it was, and the "
+      "exit\n"
       "code is 1.\n");
   app.add_option("BASELINE", arguments->baseline, "The folder or file that is replaced")
       ->required()

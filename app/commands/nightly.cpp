@@ -141,11 +141,20 @@ int exit_code(NightVerdict verdict) {
   }
 }
 
-std::string night_text(const Night& night, const std::vector<std::string>& remarks) {
+/// The first findings of each study, and where all of them stand.
+std::string night_text(const Night& night, const std::vector<std::string>& remarks,
+                       const fs::path& pages) {
   std::string text = fmt::format("night {}: {}\n", night.facts.number,
                                  verdict_sentence(night.facts, night.findings.size()));
-  for (const NightFinding& finding : night.findings)
-    text += fmt::format("  {}: {}\n", finding.study, finding.sentence);
+  for (const StudyNight& study : night.studies) {
+    std::size_t count = 0;
+    for (const NightFinding& finding : night.findings)
+      if (finding.study == study.name && ++count <= kMostTold)
+        text += fmt::format("  {}: {}\n", finding.study, finding.sentence);
+    if (count > kMostTold)
+      text += fmt::format("  {}: and {} more: {}#section-findings\n", study.name, count - kMostTold,
+                          (pages / "trends" / study.name / "report.html").string());
+  }
   for (const std::string& remark : remarks) text += fmt::format("  ({})\n", remark);
   return text;
 }
@@ -191,7 +200,7 @@ int nightly(const NightlyArguments& arguments, const Invocation& invocation) {
   nlohmann::ordered_json object = night_value(night.facts, night.findings);
   object["remarks"] = remarks;
   object["index"] = index.string();
-  console.result(night_text(night, remarks) + index.string() + "\n", object);
+  console.result(night_text(night, remarks, out_of(arguments)) + index.string() + "\n", object);
   return scenes_drawn ? exit_code(night.facts.verdict) : kInternal;
 }
 
@@ -205,7 +214,7 @@ Action nightly_verb(CLI::App& app) {
       "  mapproof nightly yairi2007 --store history\n"
       "  mapproof nightly mine.json boots2013 --profile quick --store history --reference 12\n\n"
       "Exit code 0: nothing got worse, or there was nothing to compare with, which is said;\n"
-      "1: accuracy did; 4: seconds or memory alone grew.\n"
+      "1: accuracy did, or results are lost; 4: seconds or memory alone grew.\n"
       "docs/nightly.md says by which rules, and how to run it by a timer.\n");
   app.add_option(
          "EXPERIMENT", arguments->experiments,

@@ -36,9 +36,12 @@ int validate_files(const std::vector<std::string>& paths, const Invocation& invo
       object["files"].push_back({{"path", finding.path},
                                  {"kind", finding.kind},
                                  {"valid", valid},
-                                 {"problem", finding.problem}});
+                                 {"problem", finding.problem},
+                                 {"remarks", finding.remarks}});
       text += valid ? fmt::format("{}: {}\n", printable(finding.path, 300), finding.kind)
                     : printable(finding.problem, 4000) + "\n";
+      for (const std::string& remark : finding.remarks)
+        text += "  (" + printable(remark, 4000) + ")\n";
     }
   object["valid"] = all_valid;
   invocation.console.result(text, object);

@@ -4,6 +4,7 @@
 #include <string>
 
 #include "core/model/range_log.hpp"
+#include "core/model/slam.hpp"
 
 namespace mapproof {
 
@@ -11,7 +12,9 @@ namespace mapproof {
 struct GivenPath {
   std::string id;
   Trajectory path;
-  std::optional<Trajectory> truth;
+  std::optional<Trajectory> truth = {};
+  Alignment alignment = Alignment::kNone;  ///< To the ground truth, before it is drawn.
+  std::optional<double> rms_m = {};        ///< Distance from the ground truth once that is done.
 };
 
 }  // namespace mapproof

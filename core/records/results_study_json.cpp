@@ -59,6 +59,22 @@ void read_quantities(const JsonCursor& list, ResultsStudy& study) {
   }
 }
 
+/// How paths are aligned to their ground truths.
+Alignment read_alignment(const JsonCursor& paths) {
+  paths.allow_only({"align"});
+  const auto alignment = alignment_named(paths.at("align").text());
+  if (!alignment || *alignment == Alignment::kRigidWithReflection)
+    paths.at("align").fail("expected none, rigid or similarity");
+  return *alignment;
+}
+
+/// How many poses of the one lie within the time of the other.
+Eigen::Index poses_within(const Trajectory& truth, const Trajectory& path) {
+  const auto is_within = truth.time_s.array() >= path.time_s(0) &&
+                         truth.time_s.array() <= path.time_s(path.size() - 1);
+  return is_within.count();
+}
+
 constexpr std::string_view kTruth = ".truth";
 
 /// The files with that extension in a folder, in ascending order; none if it is not there.
@@ -79,7 +95,7 @@ ResultsStudy parse_results_study(std::string_view text, const std::string& sourc
   const JsonCursor value = document.cursor();
   expect_schema(value, kResultsStudy);
   value.allow_only({"schema", "name", "title", "question", "command", "quantities", "setups",
-                    "methods", "factors", "runs_are_repeats"});
+                    "methods", "factors", "runs_are_repeats", "paths"});
   ResultsStudy study;
   study.name = "results";
   if (const auto name = value.find("name")) {
@@ -95,6 +111,7 @@ ResultsStudy parse_results_study(std::string_view text, const std::string& sourc
   if (const auto list = value.find("setups")) study.setups = read_labels(*list, false);
   if (const auto list = value.find("methods")) study.methods = read_labels(*list, false);
   if (const auto list = value.find("factors")) study.factors = read_labels(*list, true);
+  if (const auto paths = value.find("paths")) read_alignment(*paths);
   study.results.are_repeats = true;
   if (const auto repeats = value.find("runs_are_repeats"))
     study.results.are_repeats = repeats->boolean();
@@ -126,6 +143,10 @@ std::vector<MapRecord> read_given_maps(const fs::path& folder) {
 
 std::vector<GivenPath> read_given_paths(const fs::path& folder) {
   std::vector<GivenPath> paths;
+  const std::string head = (folder / "study.json").string();
+  const JsonDocument study = parse_json(read_file(head), head);
+  const auto asked = study.cursor().find("paths");
+  const Alignment alignment = asked ? read_alignment(*asked) : Alignment::kNone;
   for (const fs::path& file : files_in(folder / "paths", ".tum")) {
     std::error_code error;
     const fs::path stem = file.parent_path() / file.stem();
@@ -135,11 +156,15 @@ std::vector<GivenPath> read_given_paths(const fs::path& folder) {
       continue;
     }
     GivenPath path{.id = file.stem().string(),
-                   .path = parse_trajectory_tum(read_file(file), file.string()),
-                   .truth = std::nullopt};
+                   .path = parse_trajectory_tum(read_file(file), file.string())};
     const fs::path truth = stem.string() + std::string(kTruth) + ".tum";
-    if (fs::exists(truth, error))
+    if (fs::exists(truth, error)) {
       path.truth = parse_trajectory_tum(read_file(truth), truth.string());
+      path.alignment = alignment;
+      if (alignment != Alignment::kNone && poses_within(*path.truth, path.path) < 2)
+        throw IoError(file.string(),
+                      "cannot be aligned: fewer than 2 poses of its ground truth are of its time");
+    }
     paths.push_back(std::move(path));
   }
   return paths;

@@ -14,6 +14,7 @@
 #include "core/base/files.hpp"
 #include "core/base/not_finite.hpp"
 #include "core/base/spelling.hpp"
+#include "core/base/words.hpp"
 #include "core/json/text_input.hpp"
 #include "core/records/table_reader.hpp"
 
@@ -35,6 +36,7 @@ constexpr std::array kTextColumns = {
     TextColumn{"subject", &Result::subject, false}};
 constexpr std::string_view kSetup = "setup";
 constexpr std::string_view kValue = "value";
+constexpr double kGreatestLevel = 1e100;  // An axis cannot show more.
 
 std::string value_text(double value) {
   if (std::isinf(value)) return value > 0.0 ? "inf" : "-inf";
@@ -57,6 +59,7 @@ class ResultsReader {
         fail(fmt::format("{} cells where the header has {}", row_.cells.size(), columns_.size()));
       rows_.emplace_back(row_.line, result_of_row());
     }
+    check_levels();
     std::ranges::stable_sort(
         rows_, [](const auto& a, const auto& b) { return comes_before(a.second, b.second); });
     check_apart();
@@ -70,7 +73,19 @@ class ResultsReader {
     throw IoError(source_, line_name(row_.line), what);
   }
 
+  /// Tables that are not separated by commas, and columns that a data frame adds.
+  void check_form() const {
+    const std::string_view first = row_.cells.front();
+    for (const auto& [separator, name] : {std::pair(';', "semicolons"), std::pair('\t', "tabs")})
+      if (row_.cells.size() == 1 && first.find(separator) != std::string_view::npos)
+        fail(fmt::format("the cells are separated by {}; commas are needed: to_csv(sep=\",\")",
+                         name));
+    if (first.empty() || first.starts_with("Unnamed:"))
+      fail("the first column has no name, as an index has: to_csv(index=False) leaves it out");
+  }
+
   void read_header() {
+    check_form();
     std::vector<std::string_view> known = {kSetup, kValue};
     std::vector<std::string_view> needed = known;
     for (const TextColumn& column : kTextColumns) {
@@ -92,6 +107,8 @@ class ResultsReader {
     }
     for (const std::string_view column : needed)
       if (!there.contains(column)) fail(fmt::format("the column \"{}\" is missing", column));
+    if (there.contains("group") && !there.contains("run"))
+      fail("the column \"group\" needs the column \"run\": runs are what a group is of");
   }
 
   Result result_of_row() {
@@ -119,6 +136,9 @@ class ResultsReader {
     } else if (column.starts_with(kAt)) {
       if (is_missing(cell)) return;
       const std::optional<double> number = number_in(cell);
+      if (number && !(std::abs(*number) <= kGreatestLevel))
+        fail(fmt::format("{}: {} is beyond 1e100", printable(std::string(column), 40),
+                         in_quotes(cell)));
       Level level{.factor = std::string(column.substr(kAt.size())), .value = std::string(cell)};
       if (number) level.value = *number;
       result.at.levels.push_back(std::move(level));
@@ -143,6 +163,33 @@ class ResultsReader {
     return fmt::format("there is no quantity {}{}", in_quotes(id),
                        meant.empty() ? "; study.json has to declare it"
                                      : fmt::format("; did you mean {}?", meant));
+  }
+
+  /// Throws if a factor has numbers and texts within one setup: it would have no order.
+  void check_levels() {
+    struct Kind {
+      std::size_t rows = 0, line = 0;  ///< How many, and the first.
+      std::string cell;
+    };
+    std::map<std::pair<std::string, std::string>, std::array<Kind, 2>> factors;
+    for (const auto& [line, result] : rows_)
+      for (const Level& level : result.at.levels) {
+        Kind& kind = factors[{level.factor, result.at.setup}][level.value.index()];
+        if (kind.rows++ == 0) kind.line = line, kind.cell = level_text(level);
+      }
+    for (const auto& [factor, kinds] : factors) {
+      const auto& [numbers, texts] = kinds;
+      if (numbers.rows == 0 || texts.rows == 0) continue;
+      const bool is_text = texts.rows <= numbers.rows;
+      const Kind& odd = is_text ? texts : numbers;
+      row_.line = odd.line;
+      fail(
+          fmt::format("at.{}: {} is a {} where {} of the setup have {}; write all levels of a "
+                      "factor as numbers or all as texts",
+                      printable(factor.first, 40), in_quotes(odd.cell), is_text ? "text" : "number",
+                      counted(static_cast<long long>((is_text ? numbers : texts).rows), "row"),
+                      is_text ? "numbers" : "texts"));
+    }
   }
 
   /// Throws if two rows say the same.

@@ -1,7 +1,13 @@
 #include "core/results/results_study.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <set>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "core/base/errors.hpp"
 
 namespace mapproof {
 namespace {
@@ -23,6 +29,38 @@ void complete_quantities(ResultsStudy& study, const std::set<std::string>& in_ro
       study.quantities.push_back(quantity.id);
 }
 
+/// What to say where some rows of a setup have a factor and others have not; empty else.
+std::string lacking(const std::vector<Result>& rows, const std::string& setup,
+                    const std::string& factor) {
+  long without = 0, all = 0;
+  const Result* first = nullptr;
+  for (const Result& row : rows) {
+    if (row.at.setup != setup) continue;
+    ++all;
+    if (std::ranges::find(row.at.levels, factor, &Level::factor) != row.at.levels.end()) continue;
+    ++without;
+    if (first == nullptr) first = &row;
+  }
+  if (without == 0 || without == all) return "";
+  return fmt::format(
+      "at.{} is empty in {} of the {} rows of the setup \"{}\", first of {}, {}{}: there the "
+      "factor "
+      "is not given, and these rows stand in a section of their own",
+      printable(factor, 40), without, all, printable(setup, 40), printable(first->method, 40),
+      first->quantity, first->run.empty() ? "" : ", run " + printable(first->run, 40));
+}
+
+/// Whether a quantity has values other than 0, and all of them lie in 0 to 1.
+bool are_shares(const std::vector<Result>& rows, const std::string& quantity) {
+  bool any = false;
+  for (const Result& row : rows) {
+    if (row.quantity != quantity || std::isnan(row.value)) continue;
+    if (row.value < 0.0 || row.value > 1.0) return false;
+    any = any || row.value > 0.0;
+  }
+  return any;
+}
+
 }  // namespace
 
 std::string complete(ResultsStudy& study) {
@@ -38,6 +76,21 @@ std::string complete(ResultsStudy& study) {
   if (const std::string id = complete(study.methods, methods); !id.empty()) return "methods: " + id;
   if (const std::string id = complete(study.factors, factors); !id.empty()) return "factors: " + id;
   return "";
+}
+
+std::vector<std::string> remarks_of(const ResultsStudy& study) {
+  std::vector<std::string> remarks;
+  for (const Label& setup : study.setups)
+    for (const Label& factor : study.factors)
+      if (std::string remark = lacking(study.results.rows, setup.id, factor.id); !remark.empty())
+        remarks.push_back(std::move(remark));
+  for (const std::string& id : study.quantities) {
+    const Quantity& quantity = study.results.quantities.at(id);
+    if (quantity.unit == "%" && are_shares(study.results.rows, id))
+      remarks.push_back(fmt::format(
+          "all values of {} lie between 0 and 1, but its unit is %: are they shares?", id));
+  }
+  return remarks;
 }
 
 std::string label_of(const std::vector<Label>& labels, const std::string& id) {

@@ -34,6 +34,11 @@ struct ResultsStudy {
 ///         every row has one.
 std::string complete(ResultsStudy& study);
 
+/// What a reader of the table should look at though it can be used, a sentence each: rows of a
+/// setup that lack a factor which others of it have; a quantity in % whose values all lie in 0
+/// to 1.
+std::vector<std::string> remarks_of(const ResultsStudy& study);
+
 /// The label of an id; the id itself if there is none.
 std::string label_of(const std::vector<Label>& labels, const std::string& id);
 

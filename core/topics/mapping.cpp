@@ -75,7 +75,7 @@ void read_mapping(const fs::path& folder, const std::string& text, const Content
 }
 
 /// That the runs belong to the experiment and have their maps.
-void check_mapping(const fs::path& folder) {
+std::vector<std::string> check_mapping(const fs::path& folder) {
   for (const Run& run : read_study(folder).runs) {
     const std::size_t maps = read_maps(folder, run.id).size();
     if (maps > run.records.size())
@@ -83,6 +83,7 @@ void check_mapping(const fs::path& folder) {
                     fmt::format("{} maps for {} records", maps, run.records.size()));
     read_details(folder, run.id);
   }
+  return {};
 }
 
 void check_experiment_file(std::string_view text, const std::string& source) {

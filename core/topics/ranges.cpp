@@ -166,7 +166,8 @@ const StudyKind kRangeStudies = {
     .records = SlamFiles{}.records(),
     .plan = plan_ranges,
     .read = read_ranges,
-    .check = [](const fs::path& folder) { read_slam_study(folder); },
+    .check =
+        [](const fs::path& folder) { return read_slam_study(folder), std::vector<std::string>(); },
 };
 
 }  // namespace mapproof

@@ -36,8 +36,9 @@ struct StudyKind {
   /// Adds what a folder holds; `text` is its study.json. @throws IoError.
   void (*read)(const std::filesystem::path& folder, const std::string& text,
                const ContentsAsked& asked, StudyContents& contents) = nullptr;
-  /// Reads all of a folder for what its files one by one do not show. @throws IoError.
-  void (*check)(const std::filesystem::path& folder) = nullptr;
+  /// Reads all of a folder for what its files one by one do not show.
+  /// @return What looks unusual, a line each. @throws IoError.
+  std::vector<std::string> (*check)(const std::filesystem::path& folder) = nullptr;
 };
 
 std::span<const StudyKind* const> all_study_kinds();

@@ -3,6 +3,7 @@
 #include <utility>
 
 #include "core/records/results_study_json.hpp"
+#include "core/records/study_folder.hpp"
 
 namespace mapproof {
 namespace {
@@ -36,9 +37,12 @@ const StudyKind kTableStudies = {
     .read = read_table,
     .check =
         [](const fs::path& folder) {
-          read_results_study(folder);
+          std::vector<std::string> remarks;
+          for (const std::string& remark : remarks_of(read_results_study(folder)))
+            remarks.push_back((folder / kResultsFile).string() + ": " + remark);
           read_given_maps(folder);
           read_given_paths(folder);
+          return remarks;
         },
 };
 

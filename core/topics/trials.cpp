@@ -118,7 +118,8 @@ const StudyKind kTrialStudies = {
     .needs_data = needs_data,
     .plan = plan_trials,
     .read = read_trials,
-    .check = [](const fs::path& folder) { read_trial_study(folder); },
+    .check =
+        [](const fs::path& folder) { return read_trial_study(folder), std::vector<std::string>(); },
 };
 
 }  // namespace mapproof

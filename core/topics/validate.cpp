@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <iterator>
 #include <new>
 #include <span>
 #include <system_error>
@@ -137,9 +138,12 @@ Finding check_as(const std::string& kind, const fs::path& folder,
 }
 
 Finding check_study(const fs::path& folder) {
-  return check_as("study", folder, [&] {
-    if (const StudyKind* kind = kind_of_study(folder)) kind->check(folder);
+  std::vector<std::string> remarks;
+  Finding finding = check_as("study", folder, [&] {
+    if (const StudyKind* kind = kind_of_study(folder)) remarks = kind->check(folder);
   });
+  finding.remarks = std::move(remarks);
+  return finding;
 }
 
 /// The studies right below a folder that holds none itself.
@@ -166,6 +170,14 @@ std::vector<Finding> check_folder(const fs::path& folder, const ForeignReader& f
       findings.push_back(check(path, foreign));
       if (is_leftover(path))
         findings.back().problem = findings.back().path + ": left by a killed process";
+      // What is wrong with a file is wrong with its study and its table: it is told once.
+      const std::string problem = findings.back().problem;
+      const auto last = std::prev(findings.end());
+      if (!problem.empty())
+        findings.erase(
+            std::remove_if(findings.begin(), last,
+                           [&](const Finding& finding) { return finding.problem == problem; }),
+            last);
     }
     return findings;
   }

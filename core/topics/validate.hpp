@@ -16,6 +16,7 @@ struct Finding {
   std::string path;
   std::string kind;     ///< "mapproof.run 1", "wide CSV observations"; empty if not recognised.
   std::string problem;  ///< One line; empty if the file is fine.
+  std::vector<std::string> remarks = {};  ///< What looks unusual in a fine one, a line each.
 };
 
 /// Reads a JSON file of a schema that core does not know, e.g. "mapproof.figure"; throws IoError.

@@ -147,11 +147,28 @@ std::vector<DiffItem> picture_items(ItemList baseline, const ItemList& current,
   return items;
 }
 
-/// Whether a baseline is a study that nothing was drawn of yet, as `mapproof run` leaves it.
-bool holds_records_alone(const ItemList& baseline, const std::vector<DiffItem>& records) {
-  return baseline.empty() && std::ranges::any_of(records, [](const DiffItem& item) {
-           return item.judgement.verdict != Verdict::kNew;
+/// Whether a side is a study that nothing was drawn of yet, as `mapproof run` leaves it.
+/// @param lacks  The verdict on records that the side lacks.
+bool holds_records_alone(const ItemList& side, const std::vector<DiffItem>& records,
+                         Verdict lacks) {
+  return side.empty() && std::ranges::any_of(records, [&](const DiffItem& item) {
+           return item.judgement.verdict != lacks;
          });
+}
+
+/// One item for a report that the current lacks as a whole.
+DiffItem missing_report(std::size_t items, const std::string& current,
+                        const DiffSettings& settings) {
+  DiffItem item;
+  item.id = "report";
+  item.kind = ItemKind::kDocument;
+  item.judgement = {
+      Verdict::kMissing, true,
+      fmt::format("the current has no report: {} of the baseline, figures, tables "
+                  "and pages, are missing; mapproof report {} makes them",
+                  counted(static_cast<long long>(items), "item"), printable(current))};
+  item.passes = passes(item.judgement, settings.allowed);
+  return item;
 }
 
 /// "1 worse, 2 style, 51 identical; first …".
@@ -239,18 +256,24 @@ DiffResult folder_diff(const fs::path& baseline, const fs::path& current,
   RecordContext context;
   for (const DiffItem& item : result.items)
     if (item.records) context.records.push_back(&*item.records);
-  if (holds_records_alone(before, result.items) && !after.empty()) {
+  const std::vector<DiffItem>& records = result.items;
+  const bool lacks_report =
+      holds_records_alone(after, records, Verdict::kMissing) && before.size() > 1;
+  if (holds_records_alone(before, records, Verdict::kNew) && !after.empty()) {
     result.remarks.push_back(fmt::format(
         "The baseline was made without figures, tables and report: {} of the current not compared.",
         after.size() == 1 ? "one is" : fmt::format("{} are", after.size())));
     after.clear();
   }
+  const std::size_t lacking = lacks_report ? before.size() : 0;
+  if (lacks_report) before.clear();
   std::vector<DiffItem> pictures =
       picture_items(before, after, file_id(current), context, settings);
   name_swapped(pictures, settings.allowed);
   remark_not_compared(pictures, result);
   remark_ignored(pictures, settings, result);
   std::ranges::move(pictures, std::back_inserter(result.items));
+  if (lacks_report) result.items.push_back(missing_report(lacking, result.current, settings));
   add_documents(result.items, before, after, file_id(current), settings);
   if (result.items.empty())
     throw InvalidInput(baseline.string() + " and " + current.string() +

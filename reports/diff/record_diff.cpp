@@ -203,6 +203,10 @@ RecordDiff record_diff(const RecordSet& a, const RecordSet& b, const RecordOptio
   compare_subjects(a, b, diff);
   for (const RecordSet* side : {&a, &b})
     std::ranges::copy(side->quantities.declared(), std::back_inserter(diff.declared));
+  for (const Quantity& before : a.quantities.declared())
+    for (const Quantity& after : b.quantities.declared())
+      if (before.id == after.id && (before.unit != after.unit || before.better != after.better))
+        diff.redeclared.push_back({before, after});
   for (const RecordSet* side : {&a, &b}) {
     for (const auto& [subject, family] : side->families) diff.called[family.name].insert(subject);
     for (const auto& [id, subject] : side->called) diff.called[id].insert(subject);

@@ -40,9 +40,11 @@ struct PairedValue {
   double current = 0.0;
 };
 
-/// The test over pairs of equal seeds.
+/// The test over pairs of equal runs.
 struct PairedTest {
-  std::string unit;  ///< "layout": means over the poses of each; "run": the layouts are too few.
+  /// "layout", "group": means over the runs of each; "run": each is its own group, or the layouts
+  /// are too few.
+  std::string unit;
   SignedRankTest test;
   double p = 1.0;  ///< Corrected for all tests of the comparison.
   /// Of how many tests, where no outcome of so few units could get any of them below the level;
@@ -99,6 +101,11 @@ struct SettingChange {
   std::string baseline, current;
 };
 
+/// A quantity that the two sides declare in another unit or direction.
+struct QuantityChange {
+  Quantity baseline, current;
+};
+
 /// The statuses of one record.
 struct StatusChange {
   std::string record;
@@ -124,10 +131,11 @@ struct RecordDiff {
   std::vector<SettingChange> provenance;  ///< Versions: told, never judged.
   std::vector<std::string> missing_runs, new_runs;
   std::vector<std::string> missing_subjects, new_subjects;
-  std::vector<Comparison> comparisons;  ///< Those that are not equal throughout.
-  std::vector<Quantity> declared;       ///< Quantities that either side declares.
-  long values = 0;                      ///< Numbers compared in all.
-  std::vector<PointsDiff> points;       ///< Records with a point that is not equal.
+  std::vector<Comparison> comparisons;     ///< Those that are not equal throughout.
+  std::vector<Quantity> declared;          ///< Quantities that either side declares.
+  std::vector<QuantityChange> redeclared;  ///< Those of another unit are not compared.
+  long values = 0;                         ///< Numbers compared in all.
+  std::vector<PointsDiff> points;          ///< Records with a point that is not equal.
   std::vector<StatusChange> statuses;
   std::vector<std::string> anchors;  ///< Runs whose anchors are others.
   std::vector<OtherDiff> others;

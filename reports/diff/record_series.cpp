@@ -48,13 +48,13 @@ double mean_of(const Values& values) {
   return mean(known);
 }
 
-/// Differences of pairs, by layout and by run.
+/// Differences of pairs, by group and by run.
 struct Differences {
-  std::map<std::string, std::vector<double>> by_layout;
+  std::map<std::string, std::vector<double>> by_group;
   std::vector<double> by_run;
 };
 
-void compare_pair(const std::string& run, const std::string& layout, double a, double b,
+void compare_pair(const std::string& run, const std::string& group, double a, double b,
                   const Tolerance& tolerance, Comparison& out, Differences& differences) {
   if (std::isnan(a) && std::isnan(b)) return;
   if (std::isnan(a) || std::isnan(b)) {
@@ -70,7 +70,7 @@ void compare_pair(const std::string& run, const std::string& layout, double a, d
     }
   } else {
     differences.by_run.push_back(b - a);
-    differences.by_layout[layout].push_back(b - a);
+    differences.by_group[group].push_back(b - a);
     if (a == b) {
       ++out.equal;
       return;
@@ -85,13 +85,15 @@ void compare_pair(const std::string& run, const std::string& layout, double a, d
   out.largest.push_back({run, a, b});
 }
 
-std::optional<PairedTest> paired_test(const Differences& differences) {
+/// @param draws_groups  As RecordSet: fewer groups than a test needs give none.
+std::optional<PairedTest> paired_test(const Differences& differences, bool draws_groups) {
   PairedTest test;
   std::vector<double> means;
-  for (const auto& [layout, values] : differences.by_layout) means.push_back(mean(values));
-  const bool by_layout = static_cast<int>(means.size()) >= kLeastTested;
-  test.unit = by_layout ? "layout" : "run";
-  const std::vector<double>& units = by_layout ? means : differences.by_run;
+  for (const auto& [group, values] : differences.by_group) means.push_back(mean(values));
+  const bool are_runs = means.size() == differences.by_run.size();
+  const bool by_group = draws_groups || static_cast<int>(means.size()) >= kLeastTested;
+  test.unit = !by_group || (draws_groups && are_runs) ? "run" : draws_groups ? "group" : "layout";
+  const std::vector<double>& units = by_group ? means : differences.by_run;
   if (static_cast<int>(units.size()) < kLeastTested) return std::nullopt;
   test.test = signed_rank_test(units);
   test.p = test.test.p;
@@ -132,9 +134,9 @@ Open compare(const RecordSet& a, const RecordSet& b, const Values& before, const
   for (const std::string& run : runs) {
     const std::optional<double> first = value_of(a, before, run), second = value_of(b, after, run);
     if (!first || !second) continue;
-    const auto layout = a.runs.find(run);
-    compare_pair(run, layout == a.runs.end() ? run : layout->second, *first, *second, tolerance,
-                 out, open.differences);
+    const auto group = a.runs.find(run);
+    compare_pair(run, group == a.runs.end() ? run : group->second, *first, *second, tolerance, out,
+                 open.differences);
     if (!std::isfinite(*first) || !std::isfinite(*second)) continue;
     firsts.push_back(*first);
     seconds.push_back(*second);
@@ -142,7 +144,8 @@ Open compare(const RecordSet& a, const RecordSet& b, const Values& before, const
   out.baseline_mean = same_seeds && !firsts.empty() ? mean(firsts) : mean_of(before);
   out.current_mean = same_seeds && !seconds.empty() ? mean(seconds) : mean_of(after);
   keep_largest(out.largest);
-  if (same_seeds && a.repeats && out.beyond > 0) out.test = paired_test(open.differences);
+  if (same_seeds && a.repeats && out.beyond > 0)
+    out.test = paired_test(open.differences, a.draws_groups || b.draws_groups);
   return open;
 }
 
@@ -158,15 +161,17 @@ bool point_one_way(const std::vector<Open>& all) {
   return !worse || !better;
 }
 
-/// The dictionary's, and those that either side declares. What the sides declare with two units or
-/// directions has no direction.
+/// The dictionary's, and those that either side declares: none that the sides declare in two units,
+/// and without a direction what they declare with two.
 std::vector<Quantity> compared_quantities(const RecordSet& a, const RecordSet& b) {
   std::vector<Quantity> all = b.quantities.all();
   for (const Quantity& before : a.quantities.declared()) {
     const auto after = std::ranges::find(all, before.id, &Quantity::id);
     if (after == all.end())
       all.push_back(before);
-    else if (after->unit != before.unit || after->better != before.better)
+    else if (after->unit != before.unit)
+      all.erase(after);
+    else if (after->better != before.better)
       after->better = Better::kNeither;
   }
   return all;

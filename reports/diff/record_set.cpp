@@ -13,6 +13,7 @@
 #include "core/json/json_cursor.hpp"
 #include "core/records/input_kind.hpp"
 #include "core/records/map_files.hpp"
+#include "core/records/results_study_json.hpp"
 #include "core/records/slam_run_json.hpp"
 #include "core/topics/study_kind.hpp"
 #include "reports/diff/record_files.hpp"
@@ -96,6 +97,7 @@ RecordSet set_of(StudyContents contents) {
   set.provenance = std::move(contents.provenance);
   set.quantities = std::move(contents.results.quantities);
   set.repeats = contents.results.are_repeats;
+  set.draws_groups = set.kind == kResultsStudy;
   set.runs = std::move(contents.runs);
   set.worlds = std::move(contents.worlds);
   set.anchors = std::move(contents.anchors);

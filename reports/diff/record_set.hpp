@@ -32,8 +32,11 @@ struct RecordSet {
   std::map<std::string, std::string> settings;
   Provenance provenance;
   Quantities quantities;
-  bool repeats = false;                           ///< Results::are_repeats.
-  std::map<std::string, std::string> runs;        ///< Id of each, and the layout it belongs to.
+  bool repeats = false;  ///< Results::are_repeats.
+  /// Groups are what is independent, however few: whoever wrote the table said so. Else, where
+  /// groups are few, paired tests take runs, which are independent within a group that stays.
+  bool draws_groups = false;
+  std::map<std::string, std::string> runs;        ///< Id of each, and its group.
   std::map<std::string, PlacedPoints> worlds;     ///< By run: the true places.
   std::map<std::string, std::string> anchors;     ///< By run: their rows, as text.
   std::map<std::string, SubjectFamily> families;  ///< By subject, where it has a parameter.

@@ -66,10 +66,11 @@ void judge_presence(const RecordDiff& diff, Judgement& whole, std::vector<std::s
 std::string test_words(const Comparison& c) {
   if (!c.test) return "";
   if (c.test->powerless_of == 0)
-    return c.outcome == Outcome::kChanged ? ", neither better nor worse over the seeds" : "";
-  const std::string pairs = c.test->unit == "layout"
-                                ? fmt::format("{} pairs in {} layouts", c.pairs, c.test->test.pairs)
-                                : counted(c.test->test.pairs, "pair");
+    return c.outcome == Outcome::kChanged ? ", neither better nor worse over the runs" : "";
+  const std::string pairs =
+      c.test->unit == "run"
+          ? counted(c.test->test.pairs, "pair")
+          : fmt::format("{} pairs in {}", c.pairs, counted(c.test->test.pairs, c.test->unit));
   return fmt::format(": {} can show nothing at {}{}", pairs,
                      c.test->powerless_of == 1 ? std::string("1 quantity")
                                                : fmt::format("{} quantities", c.test->powerless_of),
@@ -90,6 +91,24 @@ void judge_comparisons(const RecordDiff& diff, Judgement& whole, std::vector<std
       "{} of {}{}{}{}", comparison_text(*first), first->subject, test_words(*first),
       beyond > 1 ? fmt::format(", and {} of other quantities or records", beyond - 1) : "",
       directions_text(all, *first)));
+}
+
+std::string unit_words(const Quantity& quantity) {
+  return quantity.unit.empty() ? "without a unit" : "in " + printable(quantity.unit, 40);
+}
+
+/// Other units mean other numbers, whatever the numbers are.
+void judge_quantities(const RecordDiff& diff, Judgement& whole, std::vector<std::string>& causes) {
+  for (const auto& [before, after] : diff.redeclared) {
+    whole.verdict = heavier(whole.verdict, Verdict::kChanged);
+    const std::string label = printable(after.label, 100);
+    causes.push_back(
+        before.unit != after.unit
+            ? fmt::format("{} is {} in the baseline and {} in the current: not compared", label,
+                          unit_words(before), unit_words(after))
+            : fmt::format("of {} {} is better in the baseline and {} in the current", label,
+                          name(before.better), name(after.better)));
+  }
 }
 
 /// Subjects of which a quantity says already what their change is worth.
@@ -274,6 +293,7 @@ Judgement judge(const RecordDiff& diff) {
   Judgement whole;
   std::vector<std::string> causes;
   const std::string settings = settings_text(diff);
+  judge_quantities(diff, whole, causes);
   judge_presence(diff, whole, causes);
   judge_comparisons(diff, whole, causes);
   judge_points(diff, whole, causes);
@@ -288,7 +308,7 @@ Judgement judge(const RecordDiff& diff) {
   }
   if (!settings.empty()) {
     if (whole.verdict <= Verdict::kWithinTolerance) whole.verdict = Verdict::kStyle;
-    causes.insert(causes.begin(), settings);
+    causes.insert(causes.begin() + std::ssize(diff.redeclared), settings);
   }
   if (whole.verdict == Verdict::kWithinTolerance) causes.push_back(within_text(diff));
   whole.cause = sentence(causes);

@@ -1,7 +1,9 @@
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <limits>
 #include <set>
+#include <span>
 #include <tuple>
 
 #include <fmt/format.h>
@@ -31,16 +33,26 @@ struct RunPairs {
 /// What one test is of.
 struct Comparison {
   std::string subject = {};
+  std::string method = {};  ///< method_of() its series.
   const Quantity* quantity = nullptr;
   std::vector<double> differences = {};  ///< One a unit.
-  bool by_layout = false;
-  double before = 0.0, after = 0.0;  ///< Medians.
+  std::string unit = {};                 ///< "layout", "group", "run".
+  bool has_steps = false;                ///< The medians are of the last.
+  double before = 0.0, after = 0.0;      ///< Medians.
 };
 
 struct Losses {
   std::string subject = {};
   const Quantity* quantity = nullptr;
   int lost = 0, gained = 0, of = 0;
+};
+
+/// Series of the reference that tonight does not have at all.
+struct Vanished {
+  std::string subject = {};
+  std::string quantity = {};  ///< Of the first of them.
+  std::set<std::string> quantities = {};
+  int series = 0;
 };
 
 /// By how much a value got worse: in points, or the logarithm of a ratio.
@@ -56,14 +68,14 @@ const RunValue* find_run(const std::vector<RunValue>& values, const std::string&
   return found != values.end() && found->run == run ? &*found : nullptr;
 }
 
-/// Adds the differences of one step to those of each run, and counts what was lost.
+/// Adds the differences of one step to those of each run, and counts what was lost. A run that is
+/// not there any more is lost as well.
 void add_step(std::map<std::string, RunPairs>& runs, Losses& losses, const Quantity& quantity,
               const std::vector<RunValue>& before, const std::vector<RunValue>& after) {
   for (const RunValue& old : before) {
     const RunValue* now = find_run(after, old.run);
-    if (now == nullptr) continue;
     const bool had = std::isfinite(old.value);
-    const bool has = std::isfinite(now->value);
+    const bool has = now != nullptr && std::isfinite(now->value);
     losses.of += had;
     losses.lost += had && !has;
     losses.gained += !had && has;
@@ -72,36 +84,43 @@ void add_step(std::map<std::string, RunPairs>& runs, Losses& losses, const Quant
     pairs.unit = old.unit;
     pairs.differences.push_back(difference(quantity, old.value, now->value));
   }
+  for (const RunValue& now : after)
+    losses.gained += std::isfinite(now.value) && find_run(before, now.run) == nullptr;
 }
 
-/// Means of each run, or of each layout where there are enough.
-std::vector<double> unit_means(const std::map<std::string, RunPairs>& runs, int least_layouts,
-                               bool& by_layout) {
+/// Means of each run, or of each group: where groups are drawn, or where there are enough.
+/// @return With what they are of.
+std::pair<std::vector<double>, const char*> unit_means(const std::map<std::string, RunPairs>& runs,
+                                                       int least_layouts, bool draws_groups) {
   std::map<std::string, std::pair<double, int>> units;
-  std::set<std::string> layouts;
-  for (const auto& [run, pairs] : runs) layouts.insert(pairs.unit);
-  by_layout = layouts.size() < runs.size() && std::cmp_greater_equal(layouts.size(), least_layouts);
+  std::set<std::string> groups;
+  for (const auto& [run, pairs] : runs) groups.insert(pairs.unit);
+  const bool by_group = groups.size() < runs.size() &&
+                        (draws_groups || std::cmp_greater_equal(groups.size(), least_layouts));
   for (const auto& [run, pairs] : runs) {
-    auto& [sum, count] = units[by_layout ? pairs.unit : run];
+    auto& [sum, count] = units[by_group ? pairs.unit : run];
     for (const double value : pairs.differences) sum += value;
     count += static_cast<int>(pairs.differences.size());
   }
   std::vector<double> means;
   for (const auto& [unit, total] : units) means.push_back(total.first / total.second);
-  return means;
+  return {means, !by_group ? "run" : draws_groups ? "group" : "layout"};
 }
 
 /// All that tonight and the reference have in common.
 struct Work {
   std::vector<Comparison> comparisons;
   std::vector<Losses> losses;
+  std::vector<Vanished> vanished;
   std::set<std::string> too_few;
+  std::set<std::string> other_runs;  ///< Methods that have no run in common.
 };
 
 void add_family(Work& work, const StudyEvidence& evidence, const RegressionRules& rules,
                 const std::vector<const SeriesId*>& steps) {
   const Quantity& quantity = evidence.trend.quantities.at(steps.front()->quantity);
-  Losses losses{method_of(*steps.back()), &quantity};
+  const std::string method = method_of(*steps.back());
+  Losses losses{method, &quantity};
   std::map<std::string, RunPairs> all;
   std::map<std::string, RunPairs> last;
   for (const SeriesId* series : steps) {
@@ -113,20 +132,66 @@ void add_family(Work& work, const StudyEvidence& evidence, const RegressionRules
   }
   const auto add = [&](const std::map<std::string, RunPairs>& runs, const std::string& subject) {
     if (runs.empty()) return;
-    Comparison comparison{.subject = subject, .quantity = &quantity};
-    comparison.differences = unit_means(runs, rules.least_layouts, comparison.by_layout);
+    Comparison comparison{.subject = subject,
+                          .method = method,
+                          .quantity = &quantity,
+                          .has_steps = steps.back()->step != 0};
+    std::tie(comparison.differences, comparison.unit) =
+        unit_means(runs, rules.least_layouts, evidence.draws_groups);
     comparison.before = known_median(evidence.reference->scores.at(*steps.back()));
     comparison.after = known_median(evidence.tonight.at(*steps.back()));
     if (std::cmp_less(comparison.differences.size(), rules.least_units))
-      work.too_few.insert(shown_subject(method_of(*steps.back())));
+      work.too_few.insert(shown_subject(method));
     else
       work.comparisons.push_back(std::move(comparison));
   };
   add(last, subject_of(*steps.back()));
-  if (steps.size() > 1)
-    add(all, fmt::format("{}, mean of {} steps", method_of(*steps.back()), steps.size()));
-  // MOE is missing where MPE is: told once.
-  if (quantity.nightly == NightlyRule::kRatio) work.losses.push_back(std::move(losses));
+  if (steps.size() > 1) add(all, fmt::format("{}, mean of {} steps", method, steps.size()));
+  if (all.empty() && losses.lost > 0 && losses.gained > 0)
+    work.other_runs.insert(shown_subject(method));
+  // Quantities that are lost together are one finding.
+  const auto same = std::ranges::find_if(work.losses, [&](const Losses& other) {
+    return other.subject == losses.subject && other.lost == losses.lost &&
+           other.gained == losses.gained && other.of == losses.of;
+  });
+  if (same == work.losses.end())
+    work.losses.push_back(std::move(losses));
+  else if (dictionary_rank(quantity) < dictionary_rank(*same->quantity))
+    same->quantity = &quantity;
+}
+
+/// Names what is gone by the widest thing that is gone: a setup, a method of it, one of its levels.
+void add_vanished(Work& work, const StudyEvidence& evidence) {
+  const auto base = [](const SeriesId& series) {
+    return series.sensor + ", " + series.method.substr(0, levels_begin(series.method));
+  };
+  std::set<std::string> setups, methods, quantities, subjects;
+  for (const auto& [series, values] : evidence.tonight) {
+    setups.insert(series.sensor);
+    methods.insert(base(series));
+    quantities.insert(series.quantity);
+    subjects.insert(method_of(series));
+  }
+  const auto is_known = [](const RunValue& value) { return std::isfinite(value.value); };
+  for (const auto& [series, values] : evidence.reference->scores) {
+    const Quantity* quantity = evidence.trend.quantities.find(series.quantity);
+    if (quantity == nullptr || quantity->nightly == NightlyRule::kDuration) continue;
+    if (evidence.tonight.contains(series) || std::ranges::none_of(values, is_known)) continue;
+    const std::string subject = !setups.contains(series.sensor)         ? series.sensor
+                                : !methods.contains(base(series))       ? base(series)
+                                : !quantities.contains(series.quantity) ? "all methods"
+                                                                        : method_of(series);
+    const bool of_quantity = subject == "all methods" || subjects.contains(subject);
+    auto same = std::ranges::find_if(work.vanished, [&](const Vanished& other) {
+      return other.subject == subject && (!of_quantity || other.quantity == series.quantity);
+    });
+    if (same == work.vanished.end()) {
+      work.vanished.push_back({.subject = subject, .quantity = series.quantity});
+      same = std::prev(work.vanished.end());
+    }
+    ++same->series;
+    same->quantities.insert(quantity->label);
+  }
 }
 
 Work compare_all(const StudyEvidence& evidence, const RegressionRules& rules) {
@@ -138,6 +203,7 @@ Work compare_all(const StudyEvidence& evidence, const RegressionRules& rules) {
   }
   Work work;
   for (const auto& [family, steps] : families) add_family(work, evidence, rules, steps);
+  add_vanished(work, evidence);
   return work;
 }
 
@@ -167,25 +233,25 @@ NightFinding finding_of(const Comparison& comparison, const PairedChange& change
                         std::size_t tests, const StudyEvidence& evidence) {
   const Quantity& quantity = *comparison.quantity;
   const std::string interval = range_words(quantity, change.low, change.high);
-  const std::string units = counted(change.units, comparison.by_layout ? "layout" : "run");
-  return {
-      .study = evidence.trend.name,
-      .rule = NightRule::kAccuracy,
-      .subject = comparison.subject,
-      .quantity = quantity.id,
-      .since = evidence.trend.nights.back().number,
-      .sentence = fmt::format("{}: {} {} than on night {}, 95\u00a0% interval {}; median {:.4g} → "
-                              "{:.4g}\u00a0{} at the last "
-                              "step; {}, {} corrected for {}",
-                              shown_subject(comparison.subject), quantity.label,
-                              worse_words(quantity, change.shift), evidence.reference->night,
-                              interval, comparison.before, comparison.after, quantity.unit, units,
-                              p_text(p), counted(static_cast<long long>(tests), "test"))};
+  const std::string units = counted(change.units, comparison.unit);
+  return {.study = evidence.trend.name,
+          .rule = NightRule::kAccuracy,
+          .subject = comparison.subject,
+          .quantity = quantity.id,
+          .since = evidence.trend.nights.back().number,
+          .sentence = fmt::format(
+              "{}: {} {} than on night {}, 95\u00a0% interval {}; median {:.4g} → "
+              "{:.4g}{}{}{}; {}, {} corrected for {}",
+              shown_subject(comparison.subject), quantity.label,
+              worse_words(quantity, change.shift), evidence.reference->night, interval,
+              comparison.before, comparison.after, quantity.unit.empty() ? "" : "\u00a0",
+              quantity.unit, comparison.has_steps ? " at the last step" : "", units, p_text(p),
+              counted(static_cast<long long>(tests), "test"))};
 }
 
 NightFinding finding_of(const Losses& losses, double p, const StudyEvidence& evidence) {
   return {.study = evidence.trend.name,
-          .rule = NightRule::kLostMaps,
+          .rule = NightRule::kLostResults,
           .subject = losses.subject,
           .quantity = losses.quantity->id,
           .since = evidence.trend.nights.back().number,
@@ -193,6 +259,62 @@ NightFinding finding_of(const Losses& losses, double p, const StudyEvidence& evi
               "{}: {} of the {} results of night {} no longer come out, {} do that did not; {}",
               shown_subject(losses.subject), losses.lost, losses.of, evidence.reference->night,
               losses.gained, p_text(p))};
+}
+
+NightFinding finding_of(const Vanished& vanished, const StudyEvidence& evidence) {
+  return {.study = evidence.trend.name,
+          .rule = NightRule::kLostResults,
+          .subject = vanished.subject,
+          .quantity = vanished.quantity,
+          .since = evidence.trend.nights.back().number,
+          .sentence = fmt::format(
+              "{}: no result any more, where night {} had {} ({})",
+              vanished.subject.find(", ") == std::string::npos ? vanished.subject
+                                                               : shown_subject(vanished.subject),
+              evidence.reference->night,
+              vanished.series == 1 ? "one series" : fmt::format("{} series", vanished.series),
+              listed({vanished.quantities.begin(), vanished.quantities.end()}, 4))};
+}
+
+/// Whether so many results are lost that no test is needed.
+bool are_many(const Losses& losses, const RegressionRules& rules) {
+  const int net = losses.lost - losses.gained;
+  return net > 0 && (losses.lost == losses.of ||
+                     (net >= rules.least_lost && net >= rules.least_lost_share * losses.of));
+}
+
+/// "A and 3 more" of methods.
+std::string first_of(const std::set<std::string>& methods) {
+  return *methods.begin() +
+         (methods.size() == 1 ? "" : fmt::format(" and {} more", methods.size() - 1));
+}
+
+/// What is lost, whether by a test or without one; the rest is remarked on.
+/// @param p  Of the losses, corrected.
+void judge_losses(const Work& work, std::span<const double> p, const StudyEvidence& evidence,
+                  const RegressionRules& rules, RuleOutcome& outcome) {
+  for (const Vanished& vanished : work.vanished)
+    outcome.findings.push_back(finding_of(vanished, evidence));
+  int lost = 0;
+  std::set<std::string> methods;
+  for (std::size_t i = 0; i < work.losses.size(); ++i) {
+    const Losses& losses = work.losses[i];
+    if (p[i] <= rules.alpha || are_many(losses, rules)) {
+      outcome.findings.push_back(finding_of(losses, p[i], evidence));
+    } else if (losses.lost > 0) {
+      lost += losses.lost;
+      methods.insert(shown_subject(losses.subject));
+    }
+  }
+  if (lost > 0)
+    outcome.remarks.push_back(
+        fmt::format("{}: {} of night {} no longer come out, of {}; too few of each to be judged",
+                    evidence.trend.name, counted(lost, "result"), evidence.reference->night,
+                    first_of(methods)));
+  if (!work.other_runs.empty())
+    outcome.remarks.push_back(fmt::format("{}: no run in common with night {} for {}; not compared",
+                                          evidence.trend.name, evidence.reference->night,
+                                          first_of(work.other_runs)));
 }
 
 }  // namespace
@@ -211,21 +333,19 @@ std::string worse_words(const Quantity& quantity, double worsening) {
 RuleOutcome judge_accuracy(const StudyEvidence& evidence, const RegressionRules& rules) {
   RuleOutcome outcome;
   if (!evidence.reference) {
-    outcome.remarks.push_back(
-        evidence.trend.name +
-        ": no night to compare with made it with these settings and this seed");
+    outcome.remarks.push_back(evidence.trend.name +
+                              ": no night to compare with has the same settings");
     return outcome;
   }
   const Work work = compare_all(evidence, rules);
   const std::size_t tests = work.comparisons.size() + work.losses.size();
   if (!work.too_few.empty())
-    outcome.remarks.push_back(fmt::format(
-        "{}: too few runs to pair for {}{}; judged over nights", evidence.trend.name,
-        *work.too_few.begin(),
-        work.too_few.size() == 1 ? "" : fmt::format(" and {} more", work.too_few.size() - 1)));
-  if (tests == 0) return outcome;
+    outcome.remarks.push_back(
+        fmt::format("{}: too few {} to pair for {}; judged over nights", evidence.trend.name,
+                    evidence.draws_groups ? "groups" : "runs", first_of(work.too_few)));
   // Ranks only where they can pass the correction with room to spare.
-  const PairedChangeOptions options{.finest_p = 0.1 * rules.alpha / static_cast<double>(tests)};
+  const PairedChangeOptions options{
+      .finest_p = 0.1 * rules.alpha / static_cast<double>(std::max<std::size_t>(tests, 1))};
   std::vector<PairedChange> changes;
   std::vector<double> p;
   for (const Comparison& comparison : work.comparisons) {
@@ -241,13 +361,10 @@ RuleOutcome judge_accuracy(const StudyEvidence& evidence, const RegressionRules&
                                                                              : rules.least_points;
     if (p[i] > rules.alpha || changes[i].shift < least) continue;
     // Of one method the last step speaks for the mean over the steps.
-    const std::string method = comparison.subject.substr(0, comparison.subject.rfind(", "));
-    if (!told.insert({method, comparison.quantity->id}).second) continue;
+    if (!told.insert({comparison.method, comparison.quantity->id}).second) continue;
     outcome.findings.push_back(finding_of(comparison, changes[i], p[i], tests, evidence));
   }
-  for (std::size_t i = 0; i < work.losses.size(); ++i)
-    if (p[changes.size() + i] <= rules.alpha)
-      outcome.findings.push_back(finding_of(work.losses[i], p[changes.size() + i], evidence));
+  judge_losses(work, std::span(p).subspan(changes.size()), evidence, rules, outcome);
   return outcome;
 }
 

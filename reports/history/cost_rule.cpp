@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <cmath>
+#include <set>
 #include <utility>
 
 #include <fmt/format.h>
@@ -137,17 +138,25 @@ void judge_sustained(const NightSeries& series, const StudyTrend& trend,
       "; flagged if the next night is too");
 }
 
-/// Accuracy of single logs: nothing to pair, so judged over nights.
+/// How many units a series has that pairs can be tested by.
+int units_of(const std::vector<RunValue>& values, bool draws_groups) {
+  std::set<std::string> units;
+  for (const RunValue& value : values) units.insert(draws_groups ? value.unit : value.run);
+  return static_cast<int>(units.size());
+}
+
+/// Accuracy of single logs, and of few groups: little or nothing to pair, so judged over nights.
 std::vector<NightSeries> unpaired_series(const StudyEvidence& evidence,
                                          const RegressionRules& rules) {
+  const int least = evidence.draws_groups ? rules.least_layouts : rules.least_units;
   std::vector<NightSeries> series;
   for (NightSeries& one : accuracy_series(evidence.trend, rules)) {
-    int runs = 0;
+    int units = 0;
     for (const auto& [id, values] : evidence.tonight)
       if (method_of(id) == one.subject && id.quantity == one.quantity)
-        runs = std::max(runs, static_cast<int>(values.size()));
+        units = std::max(units, units_of(values, evidence.draws_groups));
     one.least = one.ratio ? std::log1p(rules.least_growth) : rules.least_points;
-    if (runs < rules.least_units) series.push_back(std::move(one));
+    if (units < least) series.push_back(std::move(one));
   }
   return series;
 }

@@ -106,8 +106,11 @@ Table findings_table(const NightFindings& findings, const std::string& study) {
 }
 
 Table accuracy_table(const StudyTrend& trend) {
+  const std::vector<SeriesId> shown = last_steps(trend);
+  const bool has_steps = std::ranges::any_of(shown, [](const SeriesId& id) { return id.step > 0; });
   Table table{.id = "accuracy-now",
-              .caption = "Medians over the runs at the last step of each method.",
+              .caption = has_steps ? "Medians over the runs at the last step of each method."
+                                   : "Medians over the runs.",
               .columns = {{"Method", "", "", ""},
                           {"Quantity", "", "", ""},
                           {"Unit", "", "", ""},
@@ -116,7 +119,7 @@ Table accuracy_table(const StudyTrend& trend) {
                           {"Last", "", "", "The last night"}},
               .rows = {},
               .notes = {}};
-  for (const SeriesId& id : last_steps(trend)) {
+  for (const SeriesId& id : shown) {
     const Quantity& quantity = trend.quantities.at(id.quantity);
     const std::vector<double>& values = trend.medians.at(id);
     const double before = values.size() > 1 ? values[values.size() - 2] : std::nan("");

@@ -7,6 +7,7 @@
 
 #include "core/base/errors.hpp"
 #include "core/base/not_finite.hpp"
+#include "core/records/results_study_json.hpp"
 
 namespace mapproof {
 namespace {
@@ -36,7 +37,8 @@ StudyEvidence evidence_of(HistoryStore& store, const Night& tonight, const Study
                           int pinned) {
   StudyEvidence evidence{
       .trend = store.trend(study.name, study.order_digest, kTrendNights, tonight.facts.number - 1),
-      .tonight = study.scores};
+      .tonight = study.scores,
+      .draws_groups = study.kind == kResultsStudy};
   drop_before(evidence.trend, pinned);
   add_tonight(evidence.trend, tonight.facts, study);
   if (!tonight.facts.reference) return evidence;
@@ -72,7 +74,14 @@ void add_tonight(StudyTrend& trend, const NightFacts& facts, const StudyNight& s
 RuleOutcome judge_study(const StudyEvidence& evidence, const RegressionRules& rules,
                         const std::vector<NightFinding>& yesterday) {
   RuleOutcome outcome = judge_accuracy(evidence, rules);
-  append(outcome, judge_costs(evidence, rules));
+  RuleOutcome costs = judge_costs(evidence, rules);
+  // Few groups are judged both ways: a series is told once.
+  std::erase_if(costs.findings, [&](const NightFinding& finding) {
+    return std::ranges::any_of(outcome.findings, [&](const NightFinding& other) {
+      return other.subject == finding.subject && other.quantity == finding.quantity;
+    });
+  });
+  append(outcome, std::move(costs));
   append(outcome, judge_drifts(evidence, rules, outcome.findings));
   for (NightFinding& finding : outcome.findings) {
     const auto same = std::ranges::find_if(yesterday, [&](const NightFinding& old) {
@@ -100,8 +109,8 @@ std::optional<int> reference_night(HistoryStore& store, const Night& tonight,
       throw InvalidInput(fmt::format("--reference: there is no night {}", *asked));
     if (!can_be_compared(store, *asked, tonight))
       throw InvalidInput(
-          fmt::format("--reference: night {} made nothing of what is asked for with these settings "
-                      "and this seed",
+          fmt::format("--reference: night {} made nothing of what is asked for with the same "
+                      "settings",
                       *asked));
     return asked;
   }

@@ -20,7 +20,7 @@ constexpr std::array kVerdictNames = {std::pair(NightVerdict::kGood, "good"),
 
 constexpr std::array kRuleNames = {
     std::pair(NightRule::kAccuracy, "accuracy"),
-    std::pair(NightRule::kLostMaps, "lost-maps"),
+    std::pair(NightRule::kLostResults, "lost-results"),
     std::pair(NightRule::kSeconds, "seconds"),
     std::pair(NightRule::kAllSeconds, "all-seconds"),
     std::pair(NightRule::kMemory, "memory"),
@@ -47,6 +47,12 @@ std::optional<Value> value_in(const std::array<std::pair<Value, const char*>, N>
 
 std::string method_of(const SeriesId& series) { return series.sensor + ", " + series.method; }
 
+std::size_t levels_begin(const std::string& method) {
+  for (std::size_t at = method.find('='); at != std::string::npos; at = method.find('=', at + 1))
+    if (const std::size_t blank = method.rfind(' ', at); blank != std::string::npos) return blank;
+  return method.size();
+}
+
 std::string subject_of(const SeriesId& series) {
   return series.step == 0 ? method_of(series)
                           : fmt::format("{}, {} steps", method_of(series), series.step);
@@ -58,12 +64,15 @@ std::optional<NightVerdict> night_verdict_named(std::string_view name) {
 }
 
 std::string_view name(NightRule rule) { return name_in(kRuleNames, rule); }
-std::optional<NightRule> rule_named(std::string_view name) { return value_in(kRuleNames, name); }
+std::optional<NightRule> rule_named(std::string_view name) {
+  if (name == "lost-maps") return NightRule::kLostResults;  // As older histories call it.
+  return value_in(kRuleNames, name);
+}
 
 NightVerdict verdict_of(NightRule rule) {
   switch (rule) {
     case NightRule::kAccuracy:
-    case NightRule::kLostMaps:
+    case NightRule::kLostResults:
     case NightRule::kAccuracyDrift:
       return NightVerdict::kAccuracy;
     default:

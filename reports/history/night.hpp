@@ -26,6 +26,9 @@ struct SeriesId {
 std::string subject_of(const SeriesId& series);
 /// The same without the step.
 std::string method_of(const SeriesId& series);
+/// Where the levels of factors begin in a SeriesId::method: the blank before "noise=0.1"; its size
+/// where there are none.
+std::size_t levels_begin(const std::string& method);
 
 /// One value of one run.
 struct RunValue {
@@ -72,7 +75,7 @@ std::optional<NightVerdict> night_verdict_named(std::string_view name);
 /// Which rule found something.
 enum class NightRule {
   kAccuracy,       ///< Paired by seed against the reference night.
-  kLostMaps,       ///< Maps that no longer come out.
+  kLostResults,    ///< Results that no longer come out, or series that are not there any more.
   kSeconds,        ///< One method slower than the others would have it.
   kAllSeconds,     ///< Everything slower, two nights in a row.
   kMemory,         ///< Two nights in a row.
@@ -80,7 +83,7 @@ enum class NightRule {
   kCostDrift,
 };
 
-/// "accuracy", "lost-maps", "seconds", "all-seconds", "memory", "accuracy-drift", "cost-drift".
+/// "accuracy", "lost-results", "seconds", "all-seconds", "memory", "accuracy-drift", "cost-drift".
 std::string_view name(NightRule rule);
 std::optional<NightRule> rule_named(std::string_view name);
 NightVerdict verdict_of(NightRule rule);

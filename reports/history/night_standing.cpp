@@ -10,9 +10,6 @@
 namespace mapproof {
 namespace {
 
-/// As many findings of a study stand at the head of a page; its page over the nights has all.
-constexpr std::size_t kMostTold = 3;
-
 /// @param before  Put before each sentence.
 void tell(std::span<const NightFinding> findings, const std::string& study,
           const std::string& before, Standing& standing) {
@@ -41,13 +38,12 @@ std::string verdict_sentence(const NightFacts& night, std::size_t findings) {
   const std::string count = counted(static_cast<long long>(findings), "finding");
   switch (night.verdict) {
     case NightVerdict::kGood:
-      return night.reference
-                 ? fmt::format("Nothing got worse than on night {}.", *night.reference)
-                 : "Not compared: no night to compare with has these settings and this seed.";
+      return night.reference ? fmt::format("Nothing got worse than on night {}.", *night.reference)
+                             : "Not compared: no night to compare with has the same settings.";
     case NightVerdict::kCost:
       return "Accuracy is as it was; seconds or memory grew: " + count + ".";
     default:
-      return "Accuracy got worse: " + count + ".";
+      return "Accuracy got worse or results are lost: " + count + ".";
   }
 }
 
@@ -63,8 +59,7 @@ Standing study_standing(const NightFacts& night, std::span<const NightFinding> f
   else if (is_compared && night.reference)
     result.title = tonight + fmt::format("nothing got worse than on night {}", *night.reference);
   else
-    result.title =
-        tonight + "not compared: no night to compare with has these settings and this seed";
+    result.title = tonight + "not compared: no night to compare with has the same settings";
   return result;
 }
 

@@ -9,6 +9,10 @@
 
 namespace mapproof {
 
+/// As many findings of a study stand at the head of a page and on the console; its page over the
+/// nights has all.
+inline constexpr std::size_t kMostTold = 3;
+
 /// "Nothing got worse than on night 3.", "Accuracy got worse: 2 findings.", "Not compared: …"
 std::string verdict_sentence(const NightFacts& night, std::size_t findings);
 

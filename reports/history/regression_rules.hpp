@@ -18,12 +18,14 @@ struct RegressionRules {
   double least_growth = 0.05;    ///< Memory, and accuracy without runs to pair, as a share.
   double seconds_floor = 0.02;   ///< Noise that is believed of seconds at least, as a share.
   double memory_floor = 0.01;
-  double shortest_s = 1e-3;     ///< Pieces of less are not judged: a clock's tick would be.
-  int least_units = 3;          ///< Fewer pairs are judged over nights.
-  int least_layouts = 6;        ///< Where there are as many, their means are the units.
-  int least_good_nights = 4;    ///< Seconds and memory: nights that say what is usual.
-  int most_good_nights = 20;    ///< The last so many say it.
-  int least_drift_nights = 12;  ///< Change points are looked for from so many nights on.
+  double shortest_s = 1e-3;        ///< Pieces of less are not judged: a clock's tick would be.
+  int least_units = 3;             ///< Fewer pairs are judged over nights.
+  int least_layouts = 6;           ///< Where there are as many, their means are the units.
+  int least_lost = 3;              ///< Results of a series that are lost: fewer count if all are.
+  double least_lost_share = 0.25;  ///< Of its results.
+  int least_good_nights = 4;       ///< Seconds and memory: nights that say what is usual.
+  int most_good_nights = 20;       ///< The last so many say it.
+  int least_drift_nights = 12;     ///< Change points are looked for from so many nights on.
 };
 
 /// The values of the reference night.
@@ -37,6 +39,7 @@ struct StudyEvidence {
   StudyTrend trend = {};  ///< From the pinned night on, if there is one; tonight last.
   Scores tonight = {};
   std::optional<ReferenceScores> reference = {};  ///< Empty: no night to compare with.
+  bool draws_groups = false;  ///< A table of results: groups are the units, however few.
 };
 
 /// What the rules say.
@@ -46,8 +49,10 @@ struct RuleOutcome {
 };
 
 /// Accuracy by pairs of equal seed: per method, of the last step and of the mean over its steps,
-/// the ratio (or difference) of the two nights by paired_change(), and of maps lost by the sign
-/// test; p corrected for all of them by Holm. Units are layouts where there are enough, else runs.
+/// the ratio (or difference) of the two nights by paired_change(), and of results lost by the sign
+/// test; p corrected for all of them by Holm. Units are layouts where there are enough, else runs;
+/// where groups are drawn, groups. Losses of many results, and series that are not there any more,
+/// count without a test.
 RuleOutcome judge_accuracy(const StudyEvidence& evidence, const RegressionRules& rules);
 
 /// Seconds and memory against the usual of the good nights on the same machine. What all methods of

@@ -36,9 +36,9 @@ std::string base_method(const std::string& method) {
 }
 
 std::string shown_method(const std::string& method) {
-  const std::size_t blank = method.find(' ');
-  const std::string shown = shown_setting(method.substr(0, blank));
-  return blank == std::string::npos ? shown : shown + ", " + method.substr(blank + 1);
+  const std::size_t levels = levels_begin(method);
+  const std::string shown = shown_setting(method.substr(0, levels));
+  return levels == method.size() ? shown : shown + ", " + method.substr(levels + 1);
 }
 
 std::string shown_subject(const std::string& subject) {

@@ -177,9 +177,13 @@ std::optional<Figure> lines_figure(const Told& told, const std::string& sensor,
   spec.y_label = label_with_unit(facts);
   spec.quantity = facts.label;
   spec.caption = fmt::format(
-      "Lines: median over runs of {} at the last step, of each method the setting that was best "
-      "over these nights, and every setting that got worse.",
-      facts.label);
+      "Lines: median over runs of {}{}, of each method the setting that was best over these "
+      "nights, "
+      "and every setting that got worse.",
+      facts.label,
+      std::ranges::any_of(lines, [](const Line& line) { return line.id.step > 0; })
+          ? " at the last step"
+          : "");
   ErrorPanel panel = panel_of(told.trend);
   for (const Line& line : lines) {
     const std::string label = shown_method(line.id.method);

@@ -46,7 +46,7 @@ TEST_F(StudyOfAnotherProgram, GetsFiguresTablesAndAReport) {
   for (const char* part :
        {"Three localisers in ten rooms", "EKF has the lowest mean absolute trajectory error",
         "p &lt; 0.001 over 10 groups", "4 of 720 results have no value",
-        "Left out, without a value in some group: Scan matching"})
+        "Left out, without a value in some group or in half of the runs: Scan matching"})
     EXPECT_NE(page.find(part), std::string::npos) << part;
   for (const char* file : {"figures/localisers-indoors-ate-m.svg",
                            "figures/localisers-indoors-ranks-found-percent.svg",
@@ -68,6 +68,71 @@ TEST_F(StudyOfAnotherProgram, IsComparedValueByValueWithItsTest) {
       << outcome.out;
   EXPECT_EQ(mapproof({"approve", folder_ / "baseline", folder_ / "mine", "--all"}).exit_code, 0);
   EXPECT_EQ(mapproof({"diff", folder_ / "baseline", folder_ / "mine"}).exit_code, 0);
+}
+
+TEST_F(StudyOfAnotherProgram, WhoseReportIsMissingAsAWholeIsOneLine) {
+  make("baseline");
+  ASSERT_EQ(mapproof({"report", folder_ / "baseline"}).exit_code, 0);
+  const Outcome outcome = mapproof({"diff", folder_ / "baseline", folder_ / "mine"});
+  EXPECT_EQ(outcome.exit_code, 1);
+  EXPECT_NE(outcome.out.find("the current has no report: 8 items of the baseline"),
+            std::string::npos)
+      << outcome.out;
+  EXPECT_LE(std::ranges::count(outcome.out, '\n'), 3) << outcome.out;
+  EXPECT_EQ(mapproof({"diff", folder_ / "mine", folder_ / "baseline"}).exit_code, 0);
+}
+
+TEST_F(StudyOfAnotherProgram, WhoseRecordsAreApprovedAloneHasAStaleReport) {
+  make("baseline", "0.05");
+  ASSERT_EQ(mapproof({"report", folder_ / "baseline"}).exit_code, 0);
+  const Outcome records = mapproof({"approve", folder_ / "baseline", folder_ / "mine", "records"});
+  EXPECT_EQ(records.exit_code, 0);
+  EXPECT_NE(records.error.find("baseline/report.html: is of the records before"), std::string::npos)
+      << records.error;
+  make("baseline", "0.05");
+  ASSERT_EQ(mapproof({"report", folder_ / "mine"}).exit_code, 0);
+  const Outcome all = mapproof({"approve", folder_ / "baseline", folder_ / "mine", "--all"});
+  EXPECT_EQ(all.error.find("records before"), std::string::npos) << all.error;
+}
+
+TEST_F(StudyOfAnotherProgram, HasItsPathsAlignedIfItAsks) {
+  // The estimate is the ground truth, turned by a right angle and moved.
+  std::string path, truth;
+  for (int i = 0; i < 20; ++i) {
+    path += fmt::format("{} {} {} 0 0 0 0 1\n", i, 5 - i % 4, 7 + i);
+    truth += fmt::format("{} {} {} 0 0 0 0 1\n", i, i, i % 4);
+  }
+  write_file(folder_ / "mine/paths/drive.tum", path);
+  write_file(folder_ / "mine/paths/drive.truth.tum", truth);
+  const auto figure = [&] {
+    EXPECT_EQ(mapproof({"report", folder_ / "mine"}).exit_code, 0);
+    return json::parse(read_file(folder_ / "mine/figures/localisers-path-drive.figure.json"));
+  };
+  EXPECT_NE(figure()["caption"].get<std::string>().find("nothing was aligned"), std::string::npos);
+  json study = json::parse(read_file(folder_ / "mine/study.json"));
+  study["paths"] = {{"align", "rigid"}};
+  write_file(folder_ / "mine/study.json", study.dump());
+  const std::string caption = figure()["caption"];
+  EXPECT_NE(caption.find("aligned by rotation and translation"), std::string::npos) << caption;
+  EXPECT_NE(caption.find("RMS distance from the ground truth: "), std::string::npos) << caption;
+}
+
+TEST_F(StudyOfAnotherProgram, NamesAFewFindingsOfANightAndWhereAllAre) {
+  const auto night = [&](const std::string& more = "--quiet") {
+    return mapproof({"nightly", folder_ / "mine", "--store", folder_ / "history", more});
+  };
+  EXPECT_EQ(night().exit_code, 0);
+  make("mine", "0.05");  // Three noises, two quantities.
+  const Outcome second = night("--json");
+  EXPECT_EQ(second.exit_code, 1);
+  EXPECT_EQ(json::parse(second.out)["findings"].size(), 6U);
+  const Outcome third = night("--jobs=1");
+  EXPECT_NE(third.out.find("6 findings."), std::string::npos) << third.out;
+  EXPECT_NE(third.out.find("  localisers: and 3 more: "), std::string::npos) << third.out;
+  EXPECT_NE(third.out.find("trends/localisers/report.html#section-findings"), std::string::npos);
+  EXPECT_NE(
+      read_file(folder_ / "history/trends/localisers/report.html").find("id=\"section-findings\""),
+      std::string::npos);
 }
 
 TEST_F(StudyOfAnotherProgram, IsJudgedByNightlyRuns) {

@@ -1,6 +1,7 @@
 #include "reports/sections/results/results_view.hpp"
 
 #include <cmath>
+#include <set>
 
 #include <gtest/gtest.h>
 
@@ -16,11 +17,13 @@ namespace {
 /// Rows of one quantity, mpe_m: setup "s", the group of a run its first letter.
 class Rows {
  public:
+  explicit Rows(std::string quantity = "mpe_m") : quantity_(std::move(quantity)) {}
+
   Rows& add(const std::string& method, const std::string& run, double value,
             std::vector<Level> levels = {}, const std::string& subject = "") {
     study_.results.rows.push_back({.at = condition("s", std::move(levels)),
                                    .method = method,
-                                   .quantity = "mpe_m",
+                                   .quantity = quantity_,
                                    .run = run,
                                    .group = run.substr(0, 1),
                                    .subject = subject,
@@ -38,6 +41,7 @@ class Rows {
   }
 
  private:
+  std::string quantity_;
   ResultsStudy study_;
 };
 
@@ -139,6 +143,227 @@ TEST(ResultsComparison, IsThePairedTestOverGroupsCorrectedForTheMethods) {
   EXPECT_DOUBLE_EQ(found.ranks->mean_ranks[2], 3.0);
   EXPECT_EQ(sentence_of(found, view).substr(0, 53),
             "s: m1 has the lowest mean MPE, 1.1 m; m2 follows with");
+}
+
+TEST(ResultsComparison, PairsAreOfTheRunsThatAllComparedMethodsHave) {
+  // n lacks the run a2, where m is much worse: paired, they differ by 1 in both groups.
+  const ResultsStudy study = Rows()
+                                 .add("m", "a1", 1.0)
+                                 .add("m", "a2", 90.0)
+                                 .add("m", "b1", 3.0)
+                                 .add("n", "a1", 2.0)
+                                 .add("n", "b1", 4.0)
+                                 .study();
+  const ResultsView view(study);
+  const auto comparisons = compare_methods(view);
+  ASSERT_EQ(comparisons.size(), 1U);
+  const MethodComparison& found = comparisons[0];
+  EXPECT_EQ(found.runs, 2);
+  EXPECT_EQ(found.groups, 2);
+  EXPECT_FALSE(found.has_all_runs);
+  EXPECT_EQ(found.methods[0].method, 0U) << "over the common runs m is the better one";
+  EXPECT_DOUBLE_EQ(found.methods[0].mean, 2.0);
+  EXPECT_DOUBLE_EQ(found.methods[1].change->shift, 1.0);
+  EXPECT_NE(sentence_of(found, view).find("over the 2 runs that all of these methods have"),
+            std::string::npos);
+}
+
+TEST(ResultsComparison, WithAllRunsItsMeansAreThoseOfTheTable) {
+  // Three runs in one group and one in the other: the mean over runs, not over groups.
+  Rows rows;
+  for (const char* run : {"a1", "a2", "a3", "b1"})
+    rows.add("m", run, run[0] == 'a' ? 1.0 : 5.0).add("n", run, run[0] == 'a' ? 2.0 : 9.0);
+  const ResultsStudy study = rows.study();
+  const ResultsView view(study);
+  const MethodComparison found = compare_methods(view).at(0);
+  EXPECT_TRUE(found.has_all_runs);
+  const ResultsBlock& block = view.blocks()[0];
+  const auto mean = view.mean(block.conditions[0], view.lines(block, mpe())[0], mpe());
+  EXPECT_DOUBLE_EQ(found.methods[0].mean, mean->mean);
+  EXPECT_DOUBLE_EQ(found.methods[0].mean, 2.0);
+}
+
+TEST(ResultsComparison, PassesOverLevelsWithoutPairsAndSaysSo) {
+  Rows rows;
+  for (const char* run : {"a", "b", "c"})
+    for (const double noise : {0.1, 0.2, 0.4})
+      for (const char* method : {"m", "n"})
+        rows.add(method, run, noise < 0.3 ? noise + method[0] + run[0] : kNaN, {{"noise", noise}});
+  const ResultsStudy study = rows.study();
+  const ResultsView view(study);
+  const MethodComparison found = compare_methods(view).at(0);
+  EXPECT_EQ(where_of(found), "s, noise 0.2 (nothing to compare at noise 0.4)");
+  EXPECT_TRUE(std::isfinite(found.methods[0].mean));
+}
+
+TEST(ResultsComparison, IsOfEachLevelWhereLevelsAreTexts) {
+  Rows rows;
+  for (const char* run : {"a", "b", "c"})
+    for (const char* terrain : {"grass", "road", "Road!"})
+      for (const char* method : {"m", "n", "o"})
+        rows.add(method, run, method[0] + 0.1 * run[0], {{"terrain", std::string(terrain)}});
+  const ResultsStudy study = rows.study();
+  const ResultsView view(study);
+  const auto comparisons = compare_methods(view);
+  ASSERT_EQ(comparisons.size(), 3U);
+  EXPECT_EQ(where_of(comparisons[1]), "s, terrain grass");
+  std::set<std::string> ids;
+  for (const MethodComparison& comparison : comparisons) {
+    ids.insert(comparison_table(view, comparison).id);
+    EXPECT_TRUE(comparison.passed_over.empty());
+  }
+  EXPECT_EQ(ids, (std::set<std::string>{"test-s-grass-paired-mpe-m", "test-s-road-paired-mpe-m",
+                                        "test-s-road-level-3-paired-mpe-m"}));
+}
+
+TEST(ResultsComparison, OfMethodsWithoutACommonRunIsNone) {
+  const ResultsStudy study = Rows().add("m", "a1", 1.0).add("n", "b1", 2.0).study();
+  const ResultsView view(study);
+  EXPECT_TRUE(compare_methods(view).empty());
+  const ResultsStudy lost = Rows().add("m", "a1", kNaN).add("n", "a1", kNaN).study();
+  const ResultsView none(lost);
+  EXPECT_TRUE(compare_methods(none).empty());
+}
+
+TEST(ResultsComparison, SaysWherePairedTestAndMeanRanksContradictEachOther) {
+  // n follows m by nearly the same step everywhere: clear by pairs, one rank apart among three.
+  Rows rows;
+  double step = 0.1;
+  for (const char* run : {"a", "b", "c", "d", "e"}) {
+    rows.add("m", run, run[0]).add("n", run, run[0] + step).add("o", run, run[0] + 30.0 * step);
+    step += 0.002;
+  }
+  const ResultsStudy study = rows.study();
+  const ResultsView view(study);
+  const MethodComparison found = compare_methods(view).at(0);
+  EXPECT_TRUE(is_significant(found.methods[1]));
+  EXPECT_LT(found.ranks->mean_ranks[1] - found.ranks->mean_ranks[0], critical_difference(found));
+  const std::string note = disagreement_of(found, view);
+  EXPECT_TRUE(note.starts_with("The paired test tells n from m, mean ranks do not. ")) << note;
+  EXPECT_NE(sentence_of(found, view).find("their mean ranks do not tell them apart"),
+            std::string::npos);
+  EXPECT_EQ(comparison_table(view, found).notes.back(), note);
+  const StudyFigures figures = results_figures(view, {found});
+  EXPECT_NE(figures.groups[0].figures.back().caption.find(note), std::string::npos);
+}
+
+TEST(ResultsComparison, ManyOpenAReportByWhatTheyComeTo) {
+  Rows rows;
+  for (const double size : {1.0, 2.0, 3.0})
+    for (const char* light : {"day", "dusk", "night"})
+      for (const char* run : {"a", "b", "c", "d"})
+        for (const char* method : {"m", "n", "o"}) {
+          const bool swapped = light[0] == 'n';
+          const double worse = method[0] == 'o' ? 9.0 : (method[0] == 'm') == swapped ? 1.0 : 0.0;
+          const double noise = 0.01 * (run[0] - 'a') * (method[0] - 'l');
+          rows.add(method, run, size == 1.0 && method[0] == 'o' ? kNaN : 1.0 + worse + noise,
+                   {{"size", size}, {"light", std::string(light)}, {"floor", 1.0}});
+        }
+  // Five comparisons are needed: two more setups of the same.
+  ResultsStudy study = rows.study();
+  const std::vector<Result> once = study.results.rows;
+  for (Result row : once) {
+    row.at.setup = "t";
+    study.results.rows.push_back(row);
+  }
+  sort_results(study.results);
+  EXPECT_EQ(complete(study), "");
+  const ResultsView view(study);
+  const auto comparisons = compare_methods(view);
+  ASSERT_EQ(comparisons.size(), 6U);
+  const std::vector<std::string> headlines = headlines_of(view, comparisons);
+  ASSERT_EQ(headlines.size(), 2U);
+  EXPECT_EQ(
+      headlines[0],
+      "MPE: of 6 conditions compared, the lowest mean is that of m in 4 (4 significantly) and "
+      "n in 2 (2 significantly); significantly worse than the best wherever compared: o.");
+  EXPECT_EQ(headlines[1], "24 of 216 results have no value: o 24.");
+  EXPECT_EQ(headlines_of(view, {comparisons[0]})[0], sentence_of(comparisons[0], view));
+}
+
+TEST(ResultsView, AnOverviewHasAColumnPerLevelOfAText) {
+  Rows rows;
+  for (const char* terrain : {"grass", "gravel", "road"})
+    for (const double noise : {0.1, 0.2})
+      for (const char* run : {"a", "b"})
+        for (const char* method : {"m", "n"})
+          rows.add(method, run, noise + (method[0] - 'm') + (terrain[1] - 'a') + (run[0] - 'a'),
+                   {{"noise", noise}, {"terrain", std::string(terrain)}});
+  const ResultsStudy study = rows.study();
+  const ResultsView view(study);
+  ASSERT_EQ(view.overviews().size(), 1U);
+  const ResultsOverview& overview = view.overviews()[0];
+  EXPECT_EQ(overview.title, "s: overview by terrain");
+  EXPECT_EQ(overview.names, (std::vector<std::string>{"grass", "gravel", "road"}));
+  const std::vector<Table> tables = overview_tables(view, overview);
+  ASSERT_EQ(tables.size(), 1U);
+  EXPECT_EQ(tables[0].caption, "s: overview by terrain: MPE [m], at noise 0.2");
+  ASSERT_EQ(tables[0].columns.size(), 7U);
+  EXPECT_EQ(tables[0].columns[3].title, "gravel");
+  const auto shown = std::get<NumberCell>(tables[0].rows[1].cells[5]);
+  EXPECT_DOUBLE_EQ(shown.value, 0.2 + 1.0 + ('o' - 'a') + 0.5);
+  const StudyFigures figures = results_figures(view, {});
+  ASSERT_EQ(figures.groups.front().id, overview.id);
+  EXPECT_EQ(figures.groups.front().figures[0].panels.size(), 3U);
+}
+
+TEST(ResultsView, WithOneBlockHasNoOverview) {
+  const ResultsStudy study =
+      Rows().add("m", "a", 1.0, {{"noise", 1.0}}).add("m", "a", 2.0, {{"noise", 2.0}}).study();
+  EXPECT_TRUE(ResultsView(study).overviews().empty());
+}
+
+TEST(ResultsView, RowsThatLackAFactorSayItInTheirTitle) {
+  const ResultsStudy study = Rows()
+                                 .add("m", "a", 1.0, {{"noise", 1.0}})
+                                 .add("m", "a", 2.0, {{"noise", 2.0}})
+                                 .add("base", "a", 3.0)
+                                 .study();
+  const ResultsView view(study);
+  ASSERT_EQ(view.blocks().size(), 2U);
+  EXPECT_EQ(view.blocks()[0].title, "s, without noise");
+  EXPECT_EQ(view.blocks()[0].id, "test-s-without-noise");
+  EXPECT_EQ(view.blocks()[1].title, "s");
+}
+
+TEST(ResultsView, IntervalsEndWhereNoValueCanLie) {
+  const auto interval = [](const std::string& quantity, double first, double second) {
+    const ResultsStudy study = Rows(quantity).add("m", "a", first).add("m", "b", second).study();
+    const ResultsView view(study);
+    const Quantity& known = known_quantity(quantity);
+    const ResultsBlock& block = view.blocks()[0];
+    return *view.interval(view.mean(block.conditions[0], view.lines(block, known)[0], known),
+                          known);
+  };
+  const Interval share = interval("moe_percent", 90.0, 99.0);
+  EXPECT_DOUBLE_EQ(share.high, 100.0);
+  EXPECT_DOUBLE_EQ(interval("moe_percent", 1.0, 10.0).low, 0.0);
+  EXPECT_GT(interval("moe_percent", 90.0, 101.0).high, 100.0);
+  EXPECT_GT(interval("mpe_m", 90.0, 99.0).high, 100.0);
+  EXPECT_LT(interval("mpe_m", -1.0, 9.0).low, 0.0);
+}
+
+TEST(ResultsFigures, GroundTruthIsASolidThinLineBelowTheEstimate) {
+  GivenPath path{.id = "p"};
+  path.path.time_s = Eigen::Vector3d(0.0, 1.0, 2.0);
+  path.path.positions_m = Points::Zero(3, 2);
+  path.path.positions_m(1, 0) = path.path.positions_m(2, 1) = 1.0;
+  path.truth = path.path;
+  const auto figure_of = [&] {
+    return given_figures(Rows().add("m", "a", 1.0).study(), {}, {path}).figures.at(0);
+  };
+  const Figure plain = figure_of();
+  const auto& truth = std::get<Polyline>(plain.panels[0].layers[0]);
+  const auto& estimate = std::get<Polyline>(plain.panels[0].layers[1]);
+  EXPECT_EQ(truth.label, "ground truth");
+  EXPECT_EQ(truth.dash, Dash::kSolid);
+  EXPECT_LT(truth.width, estimate.width);
+  EXPECT_NE(plain.caption.find("nothing was aligned"), std::string::npos);
+  path.alignment = Alignment::kSimilarity;
+  path.rms_m = 0.25;
+  EXPECT_NE(figure_of().caption.find("aligned by rotation, translation and scale. RMS distance "
+                                     "from the ground truth: 0.25 m."),
+            std::string::npos);
 }
 
 TEST(ResultsView, AValueWhoseSquareIsNoNumberIsLost) {

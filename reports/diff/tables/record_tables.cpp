@@ -76,7 +76,7 @@ void add_presence(std::vector<Block>& blocks, const RecordDiff& diff) {
       facts.items.push_back({problem.file, {problem.what, Emphasis::kData}});
   facts.items.push_back({"Values compared", {fmt::format("{}", diff.values), Emphasis::kPlain}});
   facts.items.push_back({"Pairs of runs",
-                         {diff.same_seeds ? "of equal seeds: compared pair by pair"
+                         {diff.same_seeds ? "the same on both sides: compared pair by pair"
                                           : "none: the seeds or the worlds are others",
                           Emphasis::kPlain}});
   blocks.emplace_back(std::move(facts));

@@ -79,7 +79,8 @@ void add_score_table(std::vector<Block>& blocks, const std::string& id, const st
     table.rows.push_back(row_of(*comparison));
     tested = tested || comparison->test.has_value();
   }
-  if (!tested) table.notes.emplace_back("No p: there are too few pairs of equal seeds to test.");
+  if (!tested)
+    table.notes.emplace_back("No p: there are too few pairs of runs or of groups to test.");
   add_table(blocks, std::move(table), total);
 }
 

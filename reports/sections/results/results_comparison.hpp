@@ -13,28 +13,61 @@ namespace mapproof {
 /// A method of a block compared with the best one.
 struct ComparedMethod {
   std::size_t method = 0;              ///< Index into ResultsStudy::methods.
-  double mean = 0.0;                   ///< Over the groups that all compared methods have.
+  double mean = 0.0;                   ///< Over the runs that all compared methods have.
   std::optional<PairedChange> change;  ///< From the best method, over groups; none of the best.
   double corrected_p = 1.0;            ///< Of the change, by Holm over the methods.
 };
 
-/// The methods of a block by one quantity under one condition, on the groups that all of them have.
+/// The methods of a block by one quantity under one condition, on the runs that all of them have.
 struct MethodComparison {
   const ResultsBlock* block = nullptr;
   const Quantity* quantity = nullptr;
+  std::string id;  ///< Of figures and tables: the block's, and of a text its level.
   Condition at;
-  std::string level;                    ///< "noise 0.4 m"; empty: the block has one.
-  std::vector<ComparedMethod> methods;  ///< The best first.
-  std::vector<std::string> left_out;    ///< Labels of methods without a value in some group.
+  std::string level;  ///< "noise 0.4 m"; empty: the block has one.
+  /// Levels after that one, at which no two methods could be compared.
+  std::vector<std::string> passed_over;
+  std::vector<ComparedMethod> methods;  ///< The best first; two or more.
+  /// Labels of methods that lack a group, or half of the runs.
+  std::vector<std::string> left_out;
+  int runs = 0;  ///< That all compared methods have.
   int groups = 0;
+  bool has_all_runs = true;  ///< None of the methods has another run: means are the tables'.
   std::optional<FriedmanTest> ranks;  ///< In the order of `methods`; with two groups or more.
 };
 
-/// Compares methods at the last level of each block, by each quantity that has a direction; a group
-/// counts by the mean of its runs. Where runs are no repeats of each other nothing is compared.
+/// Compares methods at the last level of each block at which two of them can be, or where levels
+/// are texts at each, by each quantity that has a direction. Pairs are of the runs that all
+/// compared methods have; a group counts by the mean of its pairs. Where runs are no repeats of
+/// each other nothing is compared.
 std::vector<MethodComparison> compare_methods(const ResultsView& view);
+
+/// Whether the corrected paired test tells a method from the best one.
+bool is_significant(const ComparedMethod& method);
+
+/// "Indoors, noise 0.4 m (nothing to compare at noise 0.8 m)".
+std::string where_of(const MethodComparison& comparison);
 
 /// "EKF has the lowest error, 0.12 m (...)": what a comparison came to, in a sentence.
 std::string sentence_of(const MethodComparison& comparison, const ResultsView& view);
+
+/// Whether there is a diagram of its mean ranks.
+bool has_rank_diagram(const MethodComparison& comparison);
+
+/// The least difference of mean ranks that tells two methods apart, Nemenyi's at 0.05.
+/// @throws InvalidInput without ranks.
+double critical_difference(const MethodComparison& comparison);
+
+/// Which methods one of paired test and diagram of mean ranks tells from the best one and the other
+/// does not, and why that can be; empty where they agree.
+std::string disagreement_of(const MethodComparison& comparison, const ResultsView& view);
+
+/// As many comparisons open a report with a sentence each.
+inline constexpr std::size_t kFewComparisons = 4;
+
+/// What to know first of all comparisons and of what was lost: each by a sentence while they are
+/// few, else what they come to, quantity by quantity.
+std::vector<std::string> headlines_of(const ResultsView& view,
+                                      const std::vector<MethodComparison>& comparisons);
 
 }  // namespace mapproof

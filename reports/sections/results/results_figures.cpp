@@ -8,12 +8,10 @@
 #include <fmt/format.h>
 
 #include "core/base/not_finite.hpp"
-#include "core/statistics/nemenyi.hpp"
 #include "render/figures/critical_difference.hpp"
 #include "render/figures/level_curve.hpp"
 #include "render/figures/map.hpp"
 #include "render/figures/thinning.hpp"
-#include "reports/sections/method_summary.hpp"
 
 namespace mapproof {
 namespace {
@@ -22,8 +20,8 @@ namespace {
 constexpr std::size_t kMostBands = 4;
 /// Levels, and values of a distribution, that span more than this are on a logarithmic axis.
 constexpr double kWideSpan = 20.0;
-/// More methods than these have no legend that a reader could follow.
-constexpr std::size_t kMostRanked = 30;
+/// More panels than these are too narrow to be read.
+constexpr std::size_t kMostPanels = 4;
 
 std::string figure_id(const std::string& block, std::string what) {
   std::ranges::replace(what, '_', '-');
@@ -49,7 +47,7 @@ ErrorLine curve_of(const ResultsView& view, const ResultsBlock& block, const Qua
   if (line.run.empty()) curve.series = line.index;
   for (std::size_t i = 0; i < block.levels.size(); ++i) {
     const auto mean = view.mean(block.conditions[i], line, quantity);
-    const auto interval = interval_of(mean);
+    const auto interval = view.interval(mean, quantity);
     curve.x.push_back(std::get<double>(block.levels[i].value));
     curve.mean.push_back(mean ? mean->mean : kNaN);
     curve.low.push_back(interval ? interval->low : kNaN);
@@ -58,20 +56,13 @@ ErrorLine curve_of(const ResultsView& view, const ResultsBlock& block, const Qua
   return curve;
 }
 
-std::optional<Figure> curve_figure(const ResultsView& view, const ResultsBlock& block,
-                                   const Quantity& quantity) {
-  LevelCurveSpec spec;
-  spec.id = figure_id(block.id, quantity.id);
-  spec.title = block.title + ": " + quantity.label;
-  spec.x_label = view.factor_label(block.factor);
-  spec.y_label = label_with_unit(quantity);
-  spec.quantity = quantity.label;
-  spec.record_ids = {record_of(block)};
-  std::vector<double> levels;
-  for (const Level& level : block.levels) levels.push_back(std::get<double>(level.value));
-  if (spans_widely(levels)) spec.x_scale = Scale::kLog;
+/// The curves of a block, those without a value left out; of many, or without intervals, the lines
+/// alone.
+std::vector<ErrorLine> curves_of(const ResultsView& view, const ResultsBlock& block,
+                                 const Quantity& quantity) {
   const std::vector<ResultsLine> lines = view.lines(block, quantity);
   const auto is_known = [](double value) { return std::isfinite(value); };
+  std::vector<ErrorLine> curves;
   for (std::size_t i = 0; i < lines.size(); ++i) {
     ErrorLine curve = curve_of(view, block, quantity, lines[i], i);
     if (std::ranges::none_of(curve.mean, is_known)) continue;
@@ -79,10 +70,59 @@ std::optional<Figure> curve_figure(const ResultsView& view, const ResultsBlock& 
       curve.low.clear();
       curve.high.clear();
     }
-    spec.methods.push_back(std::move(curve));
+    curves.push_back(std::move(curve));
   }
+  return curves;
+}
+
+Scale scale_of(const std::vector<Level>& levels) {
+  std::vector<double> numbers;
+  for (const Level& level : levels) numbers.push_back(std::get<double>(level.value));
+  return spans_widely(std::move(numbers)) ? Scale::kLog : Scale::kLinear;
+}
+
+std::optional<Figure> curve_figure(const ResultsView& view, const ResultsBlock& block,
+                                   const Quantity& quantity) {
+  LevelCurveSpec spec;
+  spec.id = figure_id(block.id, quantity.id);
+  spec.title = block.title + ": " + quantity.label;
+  spec.x_label = view.factor_label(block.factor);
+  spec.x_scale = scale_of(block.levels);
+  spec.y_label = label_with_unit(quantity);
+  spec.quantity = quantity.label;
+  spec.record_ids = {record_of(block)};
+  spec.methods = curves_of(view, block, quantity);
   if (spec.methods.empty()) return std::nullopt;
   return level_curve_figure(spec);
+}
+
+/// The curves of several blocks, a panel each on one y axis.
+std::optional<Figure> overview_figure(const ResultsView& view, const ResultsOverview& overview,
+                                      const Quantity& quantity) {
+  const bool has_axes = std::ranges::all_of(overview.blocks, &ResultsBlock::has_axis);
+  if (!has_axes || overview.blocks.size() > kMostPanels) return std::nullopt;
+  ErrorLinesSpec spec;
+  spec.id = figure_id(overview.id, quantity.id);
+  spec.title = fmt::format("{}: {}", overview.title, quantity.label);
+  spec.y_label = label_with_unit(quantity);
+  spec.quantity = quantity.label;
+  spec.record_ids = {record_of(*overview.blocks.front())};
+  bool banded = false;
+  for (std::size_t i = 0; i < overview.blocks.size(); ++i) {
+    const ResultsBlock& block = *overview.blocks[i];
+    ErrorPanel& panel = spec.panels.emplace_back();
+    panel.title = overview.names[i];
+    panel.x.label = view.factor_label(block.factor);
+    panel.x.scale = scale_of(block.levels);
+    panel.lines = curves_of(view, block, quantity);
+    for (const ErrorLine& line : panel.lines) banded |= !line.low.empty();
+  }
+  if (std::ranges::all_of(spec.panels, [](const ErrorPanel& panel) { return panel.lines.empty(); }))
+    return std::nullopt;
+  spec.caption = fmt::format("Lines: {} over {} by {}, mean over runs{}", quantity.label,
+                             view.factor_label(overview.blocks.front()->factor), overview.factors,
+                             banded ? "; bands: its 95 % interval." : ".");
+  return error_lines_figure(spec);
 }
 
 /// The share of runs at or below a value, in steps.
@@ -104,7 +144,6 @@ ErrorLine distribution_of(const std::map<std::string, double>& runs) {
 /// Where no factor has numbers: the distribution over runs, a panel per level.
 std::optional<Figure> distribution_figure(const ResultsView& view, const ResultsBlock& block,
                                           const Quantity& quantity) {
-  constexpr std::size_t kMostPanels = 4;
   if (!view.study().results.are_repeats || block.conditions.size() > kMostPanels)
     return std::nullopt;
   ErrorLinesSpec spec;
@@ -142,23 +181,24 @@ std::optional<Figure> distribution_figure(const ResultsView& view, const Results
 }
 
 std::optional<Figure> rank_figure(const ResultsView& view, const MethodComparison& comparison) {
-  if (!comparison.ranks || comparison.methods.size() < 3 || comparison.methods.size() > kMostRanked)
-    return std::nullopt;
+  if (!has_rank_diagram(comparison)) return std::nullopt;
   CriticalDifferenceSpec spec;
-  spec.id = figure_id(comparison.block->id, "ranks-" + comparison.quantity->id);
+  spec.id = figure_id(comparison.id, "ranks-" + comparison.quantity->id);
   spec.title = fmt::format("{}{}{}: mean ranks by {}", comparison.block->title,
                            comparison.level.empty() ? "" : ", ", comparison.level,
                            comparison.quantity->label);
   for (std::size_t i = 0; i < comparison.methods.size(); ++i)
     spec.methods.push_back({view.study().methods[comparison.methods[i].method].label,
                             comparison.ranks->mean_ranks[i]});
-  spec.critical_difference =
-      nemenyi_critical_difference(comparison.ranks->methods, comparison.ranks->units, spec.alpha);
+  spec.critical_difference = critical_difference(comparison);
   spec.units = comparison.ranks->units;
   spec.unit = "group";
   spec.friedman_p = comparison.ranks->chi_square_p;
   spec.record_ids = {record_of(*comparison.block)};
-  return critical_difference_figure(spec);
+  Figure figure = critical_difference_figure(spec);
+  if (const std::string note = disagreement_of(comparison, view); !note.empty())
+    figure.caption += " " + note;
+  return figure;
 }
 
 /// An id that no figure of the group has.
@@ -169,12 +209,23 @@ std::string free_id(const FigureGroup& group, const std::string& id) {
   return free;
 }
 
-Polyline path_line(const std::string& label, const Trajectory& path, Ink ink, Dash dash) {
+Polyline path_line(const std::string& label, const Trajectory& path, Ink ink, double width) {
   constexpr double kShareOfSpan = 5e-4;  // Less than a line's width.
   const Eigen::RowVector2d span =
       path.positions_m.colwise().maxCoeff() - path.positions_m.colwise().minCoeff();
   const ThinLine thin = thin_path(path, kShareOfSpan * span.maxCoeff());
-  return {.label = label, .x = thin.x, .y = thin.y, .ink = ink, .dash = dash};
+  return {.label = label, .x = thin.x, .y = thin.y, .ink = ink, .width = width};
+}
+
+std::string alignment_words(const GivenPath& path) {
+  switch (path.alignment) {
+    case Alignment::kRigid:
+      return ", to which it was aligned by rotation and translation";
+    case Alignment::kSimilarity:
+      return ", to which it was aligned by rotation, translation and scale";
+    default:
+      return ", as it was given: nothing was aligned";
+  }
 }
 
 Figure path_figure(const GivenPath& path, std::string id) {
@@ -187,11 +238,14 @@ Figure path_figure(const GivenPath& path, std::string id) {
   panel.y.label = "y [m]";
   panel.equal_aspect = true;
   if (path.truth)
-    panel.layers.emplace_back(path_line("ground truth", *path.truth, Ink::kText, Dash::kDashed));
-  panel.layers.emplace_back(path_line("estimate", path.path, Ink::kSeries1, Dash::kSolid));
-  figure.caption =
-      fmt::format("The path {} of {} poses{}, as it was given: nothing was aligned.", path.id,
-                  path.path.size(), path.truth ? " and its ground truth" : "");
+    panel.layers.emplace_back(path_line("ground truth", *path.truth, Ink::kText, 0.6));
+  panel.layers.emplace_back(path_line("estimate", path.path, Ink::kSeries1, 1.0));
+  figure.caption = fmt::format("The path {} of {} poses{}{}.", path.id, path.path.size(),
+                               path.truth ? " and its ground truth" : "", alignment_words(path));
+  constexpr double kMicrometres = 1e6;  // Below, a distance is rounding alone.
+  if (path.rms_m)
+    figure.caption += fmt::format(" RMS distance from the ground truth: {:.3g} m.",
+                                  std::round(kMicrometres * *path.rms_m) / kMicrometres);
   figure.alt = figure.caption;
   require_valid(figure);
   return figure;
@@ -216,6 +270,13 @@ FigureGroup given_figures(const ResultsStudy& study, const std::vector<MapRecord
 StudyFigures results_figures(const ResultsView& view,
                              const std::vector<MethodComparison>& comparisons) {
   StudyFigures figures;
+  for (const ResultsOverview& overview : view.overviews()) {
+    FigureGroup group{overview.id, overview.title, "", {}};
+    for (const std::string& id : view.study().quantities)
+      if (auto figure = overview_figure(view, overview, view.study().results.quantities.at(id)))
+        group.figures.push_back(*std::move(figure));
+    if (!group.empty()) figures.groups.push_back(std::move(group));
+  }
   for (const ResultsBlock& block : view.blocks()) {
     FigureGroup group{block.id, block.title, "", {}};
     for (const Quantity* quantity : view.quantities(block)) {

@@ -9,14 +9,16 @@
 
 namespace mapproof {
 
-/// One group of figures per block, by the id of the block: of each quantity a curve over a factor
+/// One group of figures per overview and block, by their ids. Of an overview the curves of its
+/// blocks beside each other. Of a block of each quantity a curve over a factor
 /// of numbers, else the distribution over runs; of comparisons of three methods or more, their mean
 /// ranks with the critical difference.
 StudyFigures results_figures(const ResultsView& view,
                              const std::vector<MethodComparison>& comparisons);
 
 /// The maps, each landmark's error as a line where the ground truth is known, and the paths beside
-/// theirs, drawn as they were given. Without either the group is empty.
+/// theirs: maps as they were given, paths as their alignment says. Without either the group is
+/// empty.
 FigureGroup given_figures(const ResultsStudy& study, const std::vector<MapRecord>& maps,
                           const std::vector<GivenPath>& paths);
 

@@ -12,7 +12,6 @@
 namespace mapproof {
 namespace {
 
-constexpr std::size_t kMostFindings = 3;
 constexpr std::size_t kMostThumbnails = 6;
 
 Section summary_section(const ResultsReportInput& input) {
@@ -28,13 +27,33 @@ Section summary_section(const ResultsReportInput& input) {
                 plain(fmt::format("{} of {} have no value. Means rest on the others; the notes "
                                   "under the tables count the lost ones.",
                                   lost, counted(rows, "result")))});
+  for (const std::string& remark : remarks_of(study))
+    section.blocks.emplace_back(
+        Callout{Callout::Tone::kNote, "About the table", plain("In results.csv " + remark)});
+  // A few open the report.
   BulletList findings;
-  // The first ones open the report.
-  if (input.comparisons.size() > kMostFindings)
+  if (input.comparisons.size() > kFewComparisons)
     for (const MethodComparison& comparison : input.comparisons)
       findings.items.push_back(plain(sentence_of(comparison, input.view)));
   if (!findings.items.empty()) section.blocks.emplace_back(std::move(findings));
   return section;
+}
+
+/// Why a block has fewer comparisons than quantities to compare; empty where it has all.
+std::vector<Paragraph> uncompared(const ResultsReportInput& input, const ResultsBlock& block) {
+  std::vector<Paragraph> all;
+  if (!input.view.study().results.are_repeats) return all;
+  for (const Quantity* quantity : input.view.quantities(block)) {
+    const bool is_compared = std::ranges::any_of(input.comparisons, [&](const auto& comparison) {
+      return comparison.block == &block && comparison.quantity == quantity;
+    });
+    if (quantity->better != Better::kNeither && !is_compared &&
+        input.view.lines(block, *quantity).size() > 1)
+      all.push_back(plain(fmt::format(
+          "{}: the methods are not compared, since no two have values in the same runs.",
+          quantity->label)));
+  }
+  return all;
 }
 
 Section block_section(const ResultsReportInput& input, const ResultsBlock& block) {
@@ -46,6 +65,17 @@ Section block_section(const ResultsReportInput& input, const ResultsBlock& block
   for (const MethodComparison& comparison : input.comparisons)
     if (comparison.block == &block)
       section.blocks.emplace_back(comparison_table(input.view, comparison));
+  for (Paragraph& paragraph : uncompared(input, block))
+    section.blocks.emplace_back(std::move(paragraph));
+  return section;
+}
+
+Section overview_section(const ResultsReportInput& input, const ResultsOverview& overview) {
+  Section section{overview.id, overview.title, {}};
+  const auto group = std::ranges::find(input.figures.groups, overview.id, &FigureGroup::id);
+  if (group != input.figures.groups.end()) section.blocks.emplace_back(gallery_of(*group));
+  for (Table& table : overview_tables(input.view, overview))
+    section.blocks.emplace_back(std::move(table));
   return section;
 }
 
@@ -69,6 +99,8 @@ Section provenance_section(const ResultsReportInput& input) {
 std::vector<Section> sections_of(const ResultsReportInput& input) {
   std::vector<Section> sections{summary_section(input)};
   if (sections[0].blocks.empty()) sections.clear();
+  for (const ResultsOverview& overview : input.view.overviews())
+    sections.push_back(overview_section(input, overview));
   for (const ResultsBlock& block : input.view.blocks())
     sections.push_back(block_section(input, block));
   const std::string maps = input.view.study().name + "-maps";
@@ -98,9 +130,8 @@ Report results_report(const ResultsReportInput& input) {
       fmt::format("{}, {}", counted(static_cast<long long>(study.methods.size()), "method"),
                   counted(static_cast<long long>(input.view.runs()), "run"));
   report.sections = sections_of(input);
-  for (const MethodComparison& comparison : input.comparisons)
-    if (report.opening.findings.size() < kMostFindings)
-      report.opening.findings.push_back(plain(sentence_of(comparison, input.view)));
+  for (std::string& headline : headlines_of(input.view, input.comparisons))
+    report.opening.findings.push_back(plain(std::move(headline)));
   for (const FigureGroup& group : input.figures.groups)
     if (!group.figures.empty() && report.opening.figure_ids.size() < kMostThumbnails)
       report.opening.figure_ids.push_back(group.figures.front().id);

@@ -11,7 +11,8 @@
 namespace mapproof {
 namespace {
 
-constexpr const char* kIntervalHint = "95 % interval of the mean over groups, by Student's t.";
+constexpr const char* kIntervalHint =
+    "95 % interval of the mean, by Student's t over groups; cut where no value can lie.";
 
 /// Smaller p are shown as smaller than this.
 constexpr double kLeastP = 1e-3;
@@ -26,6 +27,11 @@ std::string column_title(const Level& level) {
   return number == nullptr ? level_text(level) : fmt::format("{:.6g}", *number);
 }
 
+Cell interval_cell_of(const std::optional<Interval>& interval, int decimals) {
+  if (!interval) return MissingCell{};
+  return IntervalCell{interval->low, interval->high, decimals};
+}
+
 /// The cells of one condition, and what is to be said of them.
 class CellMaker {
  public:
@@ -36,7 +42,7 @@ class CellMaker {
     const auto mean = view_.mean(at, line, quantity);
     row.cells.push_back(mean_cell(mean, decimals));
     if (view_.study().results.are_repeats)
-      row.cells.push_back(difference_interval_cell(mean, decimals));
+      row.cells.push_back(interval_cell_of(view_.interval(mean, quantity), decimals));
     if (const int lost = view_.numbers(at, line, quantity).lost; lost > 0)
       table_.notes.push_back(fmt::format("{}{}{}: {} lost.", line.label, where.empty() ? "" : ", ",
                                          where, counted(lost, "value")));
@@ -53,10 +59,11 @@ class CellMaker {
   Table& table_;
 };
 
-int decimals(const ResultsView& view, const ResultsBlock& block, const Quantity& quantity) {
+int decimals(const ResultsView& view, const std::vector<ResultsLine>& lines,
+             const std::vector<Condition>& conditions, const Quantity& quantity) {
   std::vector<double> means;
-  for (const ResultsLine& line : view.lines(block, quantity))
-    for (const Condition& at : block.conditions)
+  for (const ResultsLine& line : lines)
+    for (const Condition& at : conditions)
       if (const auto mean = view.mean(at, line, quantity)) means.push_back(mean->mean);
   return decimals_of(std::move(means));
 }
@@ -81,8 +88,9 @@ Table level_table(const ResultsView& view, const ResultsBlock& block, const Quan
   CellMaker cells(view, table);
   for (std::size_t i = 0; i < block.levels.size(); ++i)
     cells.add_column(column_title(block.levels[i]), "", view.factor_label(block.factor));
-  const int places = decimals(view, block, quantity);
-  for (const ResultsLine& line : view.lines(block, quantity)) {
+  const std::vector<ResultsLine> lines = view.lines(block, quantity);
+  const int places = decimals(view, lines, block.conditions, quantity);
+  for (const ResultsLine& line : lines) {
     Row row{{TextCell{line.label, Emphasis::kData}}, "", false};
     for (std::size_t i = 0; i < block.levels.size(); ++i)
       cells.add(row, block.conditions[i], line, quantity, places,
@@ -104,7 +112,7 @@ Table single_table(const ResultsView& view, const ResultsBlock& block) {
   std::vector<ResultsLine> lines;
   std::vector<int> places;
   for (const Quantity* quantity : quantities) {
-    places.push_back(decimals(view, block, *quantity));
+    places.push_back(decimals(view, view.lines(block, *quantity), block.conditions, *quantity));
     cells.add_column(quantity->label, quantity->unit, "");
     for (const ResultsLine& line : view.lines(block, *quantity))
       if (std::ranges::find(lines, line.label, &ResultsLine::label) == lines.end())
@@ -132,20 +140,51 @@ std::vector<Table> results_tables(const ResultsView& view, const ResultsBlock& b
   return tables;
 }
 
+std::vector<Table> overview_tables(const ResultsView& view, const ResultsOverview& overview) {
+  std::vector<Table> tables;
+  for (const std::string& id : view.study().quantities) {
+    const Quantity& quantity = view.study().results.quantities.at(id);
+    std::vector<ResultsLine> lines;
+    for (const ResultsBlock* block : overview.blocks)
+      for (const ResultsLine& line : view.lines(*block, quantity))
+        if (std::ranges::find(lines, line.label, &ResultsLine::label) == lines.end())
+          lines.push_back(line);
+    if (lines.empty()) continue;
+    std::ranges::stable_sort(lines, {}, &ResultsLine::index);
+    Table table;
+    table.id = table_id(overview.id, id);
+    table.caption = fmt::format("{}: {}{}", overview.title, label_with_unit(quantity),
+                                overview.level ? ", at " + view.level_words(*overview.level) : "");
+    table.columns.push_back({"Method", "", "", ""});
+    CellMaker cells(view, table);
+    for (const std::string& name : overview.names) cells.add_column(name, "", overview.factors);
+    const int places = decimals(view, lines, overview.conditions, quantity);
+    for (const ResultsLine& line : lines) {
+      Row row{{TextCell{line.label, Emphasis::kData}}, "", false};
+      for (std::size_t i = 0; i < overview.conditions.size(); ++i)
+        cells.add(row, overview.conditions[i], line, quantity, places, overview.names[i]);
+      table.rows.push_back(std::move(row));
+    }
+    add_note(view, table);
+    tables.push_back(std::move(table));
+  }
+  return tables;
+}
+
 Table comparison_table(const ResultsView& view, const MethodComparison& comparison) {
   const Quantity& quantity = *comparison.quantity;
   std::vector<double> means;
   for (const ComparedMethod& method : comparison.methods) means.push_back(method.mean);
   const int places = decimals_of(means);
   Table table;
-  table.id = table_id(comparison.block->id, "paired-" + quantity.id);
-  table.caption = fmt::format("{}{}{}: {} compared with the best method", comparison.block->title,
-                              comparison.level.empty() ? "" : ", ", comparison.level,
+  table.id = table_id(comparison.id, "paired-" + quantity.id);
+  table.caption = fmt::format("{}: {} compared with the best method", where_of(comparison),
                               label_with_unit(quantity));
   table.columns = {{"Method", "", "", ""},
-                   {"Mean", quantity.unit, "", "Over the groups that all methods have."},
-                   {"Mean rank", "", "", "1 is best; groups are ranked one by one."},
-                   {"Difference", quantity.unit, "", "From the best method, paired by group."},
+                   {"Mean", quantity.unit, "", "Over the runs that all of these methods have."},
+                   {"Mean rank", "", "", "1 is best; methods are ranked in each group."},
+                   {"Difference", quantity.unit, "",
+                    "From the best method: of the same runs, each group counted once."},
                    {"95 %", quantity.unit, "", "Interval of the difference."},
                    {"p", "", "", "Of no difference, corrected by Holm for the number of methods."}};
   for (std::size_t i = 0; i < comparison.methods.size(); ++i) {
@@ -172,9 +211,15 @@ Table comparison_table(const ResultsView& view, const MethodComparison& comparis
       "Paired over {}: {}.", counted(comparison.groups, "group"),
       by_ranks ? "Wilcoxon's signed-rank test, and the Hodges-Lehmann estimate of the difference"
                : "Student's t of the differences"));
+  if (!comparison.has_all_runs)
+    table.notes.push_back(fmt::format(
+        "Over the {} that all of these methods have; the tables above take every run of a method.",
+        counted(comparison.runs, "run")));
   if (!comparison.left_out.empty())
-    table.notes.push_back("Left out, without a value in some group: " +
+    table.notes.push_back("Left out, without a value in some group or in half of the runs: " +
                           listed(comparison.left_out, comparison.left_out.size() + 1) + ".");
+  if (std::string note = disagreement_of(comparison, view); !note.empty())
+    table.notes.push_back(std::move(note));
   return table;
 }
 

@@ -11,6 +11,9 @@ namespace mapproof {
 /// with the quantities as columns; each mean with its interval. Ids begin with the block's.
 std::vector<Table> results_tables(const ResultsView& view, const ResultsBlock& block);
 
+/// One per quantity that has values there: a method per row, a block of the overview per column.
+std::vector<Table> overview_tables(const ResultsView& view, const ResultsOverview& overview);
+
 /// Methods, their mean ranks, and their paired differences from the best one.
 Table comparison_table(const ResultsView& view, const MethodComparison& comparison);
 

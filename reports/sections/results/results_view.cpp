@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <set>
+#include <tuple>
 
 #include <fmt/format.h>
 
@@ -49,8 +50,12 @@ ResultsView::ResultsView(const ResultsStudy& study) : study_(study) {
     auto& [sum, count] = sums_[key][row.run];
     sum += row.value;
     ++count;
+    auto& [least, greatest] = ranges_.try_emplace(row.quantity, row.value, row.value).first->second;
+    least = std::min(least, row.value);
+    greatest = std::max(greatest, row.value);
   }
   make_blocks();
+  make_overviews();
 }
 
 void ResultsView::make_blocks() {
@@ -67,6 +72,9 @@ void ResultsView::add_setup(const Label& setup) {
   for (const Result& row : study_.results.rows)
     if (row.at.setup == setup.id) conditions.insert(row.at);
   const std::string axis = axis_of(conditions);
+  std::set<std::string> factors;
+  for (const Condition& at : conditions)
+    for (const Level& level : at.levels) factors.insert(level.factor);
   std::map<std::pair<Condition, bool>, ResultsBlock> blocks;  // By the other levels; with the axis?
   for (const Condition& at : conditions) {
     Condition others = at;
@@ -84,13 +92,85 @@ void ResultsView::add_setup(const Label& setup) {
     block.factor = has_axis ? axis : "";
     block.title = setup.label.empty() ? study_.title : setup.label;
     block.id = study_.name + "-" + slug_of(setup.id.empty() ? "all" : setup.id);
+    block.others = others.levels;
     for (const Level& other : others.levels) {
       block.title += ", " + level_words(other);
       block.id += "-" + slug_of(other.factor + "-" + level_text(other));
     }
+    for (const std::string& factor : factors)
+      if (std::ranges::find(at.levels, factor, &Level::factor) == at.levels.end()) {
+        block.title += ", without " + label_of(study_.factors, factor);
+        block.id += "-without-" + slug_of(factor);
+      }
     if (block.id.back() == '-') block.id += "setup";
   }
   for (auto& [others, block] : blocks) blocks_.push_back(std::move(block));
+}
+
+void ResultsView::make_overviews() {
+  // Blocks of one setup, of one factor, that give levels of the same other factors.
+  using Likeness = std::tuple<std::string, std::string, std::vector<std::string>>;
+  std::vector<std::pair<Likeness, std::vector<const ResultsBlock*>>> alike;
+  for (const ResultsBlock& block : blocks_) {
+    std::vector<std::string> others;
+    for (const Level& level : block.others) others.push_back(level.factor);
+    const Likeness likeness{block.conditions.front().setup, block.factor, others};
+    auto found = std::ranges::find(alike, likeness, &decltype(alike)::value_type::first);
+    if (found != alike.end())
+      found->second.push_back(&block);
+    else
+      alike.push_back({likeness, {&block}});
+  }
+  for (const auto& [likeness, blocks] : alike)
+    if (blocks.size() > 1)
+      if (auto overview = overview_of(blocks)) overviews_.push_back(*std::move(overview));
+}
+
+std::optional<ResultsOverview> ResultsView::overview_of(
+    const std::vector<const ResultsBlock*>& blocks) const {
+  ResultsOverview overview;
+  overview.blocks = blocks;
+  std::vector<std::size_t> varying;
+  std::vector<std::string> factors;
+  for (std::size_t i = 0; i < blocks.front()->others.size(); ++i)
+    if (std::ranges::any_of(blocks, [&](const ResultsBlock* block) {
+          return block->others[i] != blocks.front()->others[i];
+        })) {
+      varying.push_back(i);
+      factors.push_back(label_of(study_.factors, blocks.front()->others[i].factor));
+    }
+  overview.factors = listed(factors, factors.size() + 1);
+  for (const ResultsBlock* block : blocks) {
+    std::string& name = overview.names.emplace_back();
+    for (const std::size_t i : varying)
+      name += (name.empty() ? "" : ", ") + short_words(block->others[i]);
+  }
+  const std::string setup = blocks.front()->conditions.front().setup;
+  const std::string label = label_of(study_.setups, setup);
+  overview.title = (label.empty() ? study_.title : label) + ": overview by " + overview.factors;
+  overview.id = study_.name + "-overview-" + slug_of(setup.empty() ? "all" : setup);
+  while (std::ranges::any_of(overviews_,
+                             [&](const ResultsOverview& other) { return other.id == overview.id; }))
+    overview.id += "-more";
+  if (blocks.front()->factor.empty()) {
+    for (const ResultsBlock* block : blocks)
+      overview.conditions.push_back(block->conditions.front());
+    return overview;
+  }
+  const std::vector<Level>& levels = blocks.front()->levels;
+  const auto is_everywhere = [&](const Level& level) {
+    return std::ranges::all_of(blocks, [&](const ResultsBlock* block) {
+      return std::ranges::find(block->levels, level) != block->levels.end();
+    });
+  };
+  const auto last = std::find_if(levels.rbegin(), levels.rend(), is_everywhere);
+  if (last == levels.rend()) return std::nullopt;
+  overview.level = *last;
+  for (const ResultsBlock* block : blocks) {
+    const auto at = std::ranges::find(block->levels, *last) - block->levels.begin();
+    overview.conditions.push_back(block->conditions[static_cast<std::size_t>(at)]);
+  }
+  return overview;
 }
 
 std::vector<const Quantity*> ResultsView::quantities(const ResultsBlock& block) const {
@@ -155,6 +235,18 @@ std::optional<MeanEstimate> ResultsView::mean(const Condition& at, const Results
   return clustered_mean(values, clusters);
 }
 
+std::optional<Interval> ResultsView::interval(const std::optional<MeanEstimate>& mean,
+                                              const Quantity& quantity) const {
+  if (!mean || !mean->half_width) return std::nullopt;
+  constexpr double kMostPercent = 100.0;
+  Interval interval{mean->mean - *mean->half_width, mean->mean + *mean->half_width};
+  const auto& [least, greatest] = ranges_.at(quantity.id);
+  if (least >= 0.0) interval.low = std::max(interval.low, 0.0);
+  if (quantity.unit == "%" && least >= 0.0 && greatest <= kMostPercent)
+    interval.high = std::min(interval.high, kMostPercent);
+  return interval;
+}
+
 std::map<std::string, double> ResultsView::group_means(
     const std::map<std::string, double>& runs) const {
   std::map<std::string, std::pair<double, int>> sums;
@@ -180,6 +272,15 @@ std::string ResultsView::factor_label(const std::string& factor) const {
   const auto found = std::ranges::find(study_.factors, factor, &Label::id);
   if (found == study_.factors.end()) return factor;
   return found->unit.empty() ? found->label : fmt::format("{} [{}]", found->label, found->unit);
+}
+
+std::string ResultsView::short_words(const Level& level) const {
+  return is_number(level) ? level_words(level) : level_text(level);
+}
+
+std::string ResultsView::words_of(const ResultsBlock& block, std::size_t condition) const {
+  return block.factor.empty() ? block.title
+                              : block.title + ", " + level_words(block.levels[condition]);
 }
 
 bool is_lost(double value) {

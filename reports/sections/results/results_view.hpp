@@ -10,6 +10,7 @@
 
 #include "core/results/results_study.hpp"
 #include "core/statistics/intervals.hpp"
+#include "reports/sections/method_summary.hpp"
 
 namespace mapproof {
 
@@ -20,9 +21,21 @@ struct ResultsBlock {
   std::string factor = {};         ///< Along which curves go; empty: there is a single level.
   std::vector<Level> levels = {};  ///< Of it, ascending; none without a factor.
   std::vector<Condition> conditions = {};  ///< One per level; one without a factor.
+  std::vector<Level> others = {};          ///< The levels at which the other factors stand.
 
   /// Whether the levels are numbers, so that a curve can go along them.
   bool has_axis() const;
+};
+
+/// The blocks of a setup that differ in the same factors, to be seen beside each other.
+struct ResultsOverview {
+  std::string id;       ///< Of its section; unique in the study.
+  std::string title;    ///< "Indoors: overview by terrain".
+  std::string factors;  ///< "terrain", "terrain and light".
+  std::vector<const ResultsBlock*> blocks;
+  std::vector<std::string> names;   ///< Of the blocks, by what they differ in: "grass, day".
+  std::optional<Level> level = {};  ///< Along the blocks' factor: the last that all of them have.
+  std::vector<Condition> conditions = {};  ///< One per block, at that level.
 };
 
 /// What has one row of a table and one curve: a method, over all runs or, where runs are no
@@ -48,6 +61,8 @@ class ResultsView {
 
   const ResultsStudy& study() const { return study_; }
   const std::vector<ResultsBlock>& blocks() const { return blocks_; }
+  /// One per setup that has several blocks of one factor; none where it has levels that differ.
+  const std::vector<ResultsOverview>& overviews() const { return overviews_; }
   std::size_t runs() const { return groups_.size(); }
   std::size_t groups() const { return clusters_.size(); }
 
@@ -61,6 +76,10 @@ class ResultsView {
   /// The mean over runs with its interval over groups; empty without a value.
   std::optional<MeanEstimate> mean(const Condition& at, const ResultsLine& line,
                                    const Quantity& quantity) const;
+  /// The 95 % interval of a mean(), cut where the quantity has no values: at 0 if none of its
+  /// values lies below, at 100 % if its unit is that and none lies above. Empty without one.
+  std::optional<Interval> interval(const std::optional<MeanEstimate>& mean,
+                                   const Quantity& quantity) const;
   /// The mean of each group's runs.
   std::map<std::string, double> group_means(const std::map<std::string, double>& runs) const;
 
@@ -68,19 +87,27 @@ class ResultsView {
   std::string level_words(const Level& level) const;
   /// "noise [m]".
   std::string factor_label(const std::string& factor) const;
+  /// "Indoors, noise 0.1 m": a block at one of its conditions.
+  std::string words_of(const ResultsBlock& block, std::size_t condition) const;
 
  private:
   using Key = std::pair<Condition, std::pair<std::string, std::string>>;  ///< Method, quantity.
 
   void make_blocks();
   void add_setup(const Label& setup);
+  void make_overviews();
+  std::optional<ResultsOverview> overview_of(const std::vector<const ResultsBlock*>& blocks) const;
+  /// "noise 0.1 m", "grass": a text says by itself what it is of.
+  std::string short_words(const Level& level) const;
 
   const ResultsStudy& study_;
   std::map<Key, std::map<std::string, std::pair<double, int>>> sums_;  ///< By run: sum and count.
   std::map<Key, std::set<std::string>> lost_;                          ///< By run.
   std::map<std::string, std::string> groups_;                          ///< By run.
   std::map<std::string, int> clusters_;                                ///< By group.
+  std::map<std::string, std::pair<double, double>> ranges_;            ///< By quantity.
   std::vector<ResultsBlock> blocks_;
+  std::vector<ResultsOverview> overviews_;
 };
 
 /// Whether a value counts as lost: no number, or too large for a sum of squares.

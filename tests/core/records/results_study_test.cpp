@@ -94,10 +94,56 @@ TEST(ResultsStudy, WhatIsWrongIsOneLineWithFileAndPlace) {
             std::string::npos);
 }
 
+TEST(ResultsStudy, SaysWhatLooksUnusualInATable) {
+  const auto remarks = [](const std::string& rows) {
+    const std::string own =
+        R"(, "quantities": [{"id": "found", "label": "F", "unit": "%", "better": "higher"}]})";
+    return remarks_of(study_of(kHead + own, "setup,method,quantity,run,value,at.noise\n" + rows));
+  };
+  EXPECT_TRUE(remarks("s,m,found,1,90,1\ns,m,found,2,80,1\nt,m,found,1,1,\n").empty());
+  EXPECT_EQ(remarks("s,m,found,1,90,1\ns,m,found,2,80,\ns,m,found,3,80,2\n"),
+            std::vector<std::string>{
+                "at.noise is empty in 1 of the 3 rows of the setup \"s\", first of m, found, run "
+                "2: there the factor is not given, and these rows stand in a section of their "
+                "own"});
+  EXPECT_EQ(remarks("s,m,found,1,0.9,1\ns,m,found,2,1,1\ns,m,found,3,,1\n"),
+            std::vector<std::string>{
+                "all values of found lie between 0 and 1, but its unit is %: are they shares?"});
+  EXPECT_TRUE(remarks("s,m,found,1,0,1\n").empty());
+}
+
+TEST(ResultsStudy, PathsAreAlignedAsItSays) {
+  const test::TemporaryFolder folder;
+  const auto alignment = [&](const std::string& key) {
+    write_file(folder / "study.json", kHead + key + "}");
+    return read_given_paths(folder.path()).at(0).alignment;
+  };
+  write_file(folder / "paths/a.tum", "0 0 0 0 0 0 0 1\n1 1 0 0 0 0 0 1\n");
+  EXPECT_EQ(alignment(R"(, "paths": {"align": "rigid"})"), Alignment::kNone) << "no ground truth";
+  write_file(folder / "paths/a.truth.tum", "0 0 0 0 0 0 0 1\n1 0 1 0 0 0 0 1\n");
+  EXPECT_EQ(alignment(R"(, "paths": {"align": "similarity"})"), Alignment::kSimilarity);
+  EXPECT_EQ(alignment(R"(, "paths": {"align": "none"})"), Alignment::kNone);
+  EXPECT_EQ(alignment(""), Alignment::kNone);
+  write_file(folder / "paths/a.truth.tum", "5 0 0 0 0 0 0 1\n6 0 1 0 0 0 0 1\n");
+  EXPECT_THROW(alignment(R"(, "paths": {"align": "rigid"})"), IoError) << "other times";
+  EXPECT_EQ(alignment(""), Alignment::kNone);
+  EXPECT_EQ(problem(kHead + R"(, "paths": {"align": "best"}})", kTable),
+            "study.json: /paths/align: expected none, rigid or similarity");
+}
+
 TEST(ResultsStudy, OnTheDiskIsAsItsSchemaSays) {
   using nlohmann::json;
   EXPECT_EQ(test::schema_problem("results_study", json::parse(kHead + kOwn + "}")), "");
   EXPECT_NE(test::schema_problem("results_study", json::parse(kHead + R"(, "name": "A b"})")), "");
+  const auto problem_of = [](const std::string& key) {
+    return test::schema_problem("results_study", json::parse(kHead + ", " + key + "}"));
+  };
+  EXPECT_EQ(problem_of(R"("paths": {"align": "rigid"})"), "");
+  EXPECT_NE(problem_of(R"("paths": {"align": "best"})"), "");
+  EXPECT_NE(problem_of(R"("quantities": [{"id": "ate_m"}])"), "") << "it needs a label";
+  EXPECT_NE(problem_of(R"("quantities": [{"id": "ate_m", "label": "ATE"}])"), "");
+  for (const Quantity& known : all_quantities())
+    EXPECT_EQ(problem_of(R"("quantities": [{"id": ")" + known.id + R"("}])"), "") << known.id;
 }
 
 }  // namespace

@@ -215,18 +215,49 @@ TEST(ResultsTable, ThatIsWrongIsRefusedWithFileRowAndWhat) {
             "results.csv: line 1: column \"method\" is there twice");
   EXPECT_EQ(refusal_of("setup,method,quantity,run,group,value\na,m,mpe_m,1,g,1\nb,m,mpe_m,1,h,1\n"),
             "results.csv: line 3: the run \"1\" is of the group \"h\" here and of \"g\" on line 2");
+  EXPECT_EQ(refusal_of("setup,method,quantity,value,at.noise\na,m,mpe_m,1,1e101\n"),
+            "results.csv: line 2: at.noise: \"1e101\" is beyond 1e100");
+  EXPECT_EQ(refusal_of("setup,method,quantity,value,at.noise\na,m,mpe_m,1,-inf\n"),
+            "results.csv: line 2: at.noise: \"-inf\" is beyond 1e100");
   EXPECT_NE(refusal_of(""), "no error");
   EXPECT_NE(refusal_of(head + "a,\"m,mpe_m,1,2\n"), "no error");
 }
 
+TEST(ResultsTable, ThatAnotherProgramWroteInAnotherFormSaysWhatToDo) {
+  EXPECT_EQ(refusal_of("setup;method;quantity;value\na;m;mpe_m;1\n"),
+            "results.csv: line 1: the cells are separated by semicolons; commas are needed: "
+            "to_csv(sep=\",\")");
+  EXPECT_EQ(refusal_of("setup\tmethod\tquantity\tvalue\na\tm\tmpe_m\t1\n"),
+            "results.csv: line 1: the cells are separated by tabs; commas are needed: "
+            "to_csv(sep=\",\")");
+  for (const char* index : {"", "Unnamed: 0"})
+    EXPECT_EQ(refusal_of(std::string(index) + ",setup,method,quantity,value\n0,a,m,mpe_m,1\n"),
+              "results.csv: line 1: the first column has no name, as an index has: "
+              "to_csv(index=False) leaves it out");
+  EXPECT_EQ(refusal_of("setup,method,quantity,group,value\na,m,mpe_m,g,1\na,m,mpe_m,h,1\n"),
+            "results.csv: line 1: the column \"group\" needs the column \"run\": runs are what a "
+            "group is of");
+}
+
+TEST(ResultsTable, HasNumbersOrTextsForAFactorWithinASetup) {
+  const std::string head = "setup,method,quantity,run,value,at.noise\n";
+  EXPECT_EQ(refusal_of(head + "a,m,mpe_m,1,1,0.1\na,m,mpe_m,2,1,O.1\na,m,mpe_m,3,1,0.1\n"),
+            "results.csv: line 3: at.noise: \"O.1\" is a text where 2 rows of the setup have "
+            "numbers; write all levels of a factor as numbers or all as texts");
+  EXPECT_EQ(refusal_of(head + "a,m,mpe_m,1,1,low\na,m,mpe_m,2,1,high\na,m,mpe_m,3,1,7\n"),
+            "results.csv: line 4: at.noise: \"7\" is a number where 2 rows of the setup have "
+            "texts; write all levels of a factor as numbers or all as texts");
+  EXPECT_EQ(refusal_of(head + "a,m,mpe_m,1,1,low\nb,m,mpe_m,1,1,7\n"), "no error");
+}
+
 TEST(ResultsTable, MayLeaveOutRunGroupAndSubjectAndHaveAnyOrder) {
   const std::vector<Result> rows = parse_results_csv(
-      "value,at.size,method,quantity,setup\r\n,9,m,mpe_m,s\r\n1.5,large,m,mpe_m,s\r\n", "r.csv",
+      "value,at.size,method,quantity,setup\r\n,9,m,mpe_m,s\r\n1.5,large,m,mpe_m,t\r\n", "r.csv",
       {});
   ASSERT_EQ(rows.size(), 2U);
   EXPECT_EQ(rows[0].at, condition("s", {{"size", 9.0}}));
   EXPECT_TRUE(std::isnan(rows[0].value));
-  EXPECT_EQ(rows[1].at, condition("s", {{"size", std::string("large")}}));
+  EXPECT_EQ(rows[1].at, condition("t", {{"size", std::string("large")}}));
   const std::vector<Result> grouped =
       parse_results_csv("setup,method,quantity,run,value\ns,m,mpe_m,7,1\n", "r.csv", {});
   EXPECT_EQ(grouped[0].group, "7");

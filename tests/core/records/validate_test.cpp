@@ -73,6 +73,26 @@ TEST(Validate, GoesThroughAllOfAStudy) {
                                              "mapproof.study 1", "timings"}));
 }
 
+TEST(Validate, TellsAFaultOfAStudyOnceAndRemarksBesideIt) {
+  const TemporaryFolder folder;
+  const std::string head = R"({"schema": {"name": "mapproof.results_study", "version": 1},
+    "title": "T", "quantities": [{"id": "q", "label": "Q", "unit": "%", "better": "higher"}])";
+  folder.file("results.csv", "setup,method,quantity,value\ns,m,q,0.5\n");
+  const auto problems = [&](const std::string& end) {
+    folder.file("study.json", head + end);
+    std::vector<std::string> told;
+    for (const Finding& finding : validate(folder.path())) {
+      if (!finding.problem.empty()) told.push_back(finding.problem);
+      told.insert(told.end(), finding.remarks.begin(), finding.remarks.end());
+    }
+    return told;
+  };
+  EXPECT_EQ(problems(", \"metods\": []}").size(), 1U);
+  ASSERT_EQ(problems("}").size(), 1U);
+  EXPECT_NE(problems("}")[0].find("results.csv: all values of q lie between 0 and 1"),
+            std::string::npos);
+}
+
 TEST(Validate, NamesTheDamagedFileOfAStudy) {
   const TemporaryFolder folder;
   StudyWriter(folder.path(), study_start(test::small_experiment(), test::made_up_provenance()))
@@ -80,8 +100,8 @@ TEST(Validate, NamesTheDamagedFileOfAStudy) {
   folder.file("maps/layout-1-pose-1.json", "{");
   const std::vector<Finding> findings = validate(folder.path());
   EXPECT_EQ(std::ranges::count_if(findings, [](const Finding& f) { return !f.problem.empty(); }),
-            2);
-  EXPECT_NE(findings[2].problem.find("maps/layout-1-pose-1.json: line 1, column 2: the file is"),
+            1);
+  EXPECT_NE(findings[1].problem.find("maps/layout-1-pose-1.json: line 1, column 2: the file is"),
             std::string::npos);
 }
 

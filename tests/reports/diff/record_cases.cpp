@@ -131,7 +131,7 @@ void add_trends(std::vector<ValueCase>& cases) {
 void add_mixed(std::vector<ValueCase>& cases) {
   for (const double by : {1.1, 1.3, 1.6})
     cases.push_back(changed_study(fmt::format("mixed by {}", by), "records", Verdict::kChanged,
-                                  {"neither better nor worse over the seeds", "p = "},
+                                  {"neither better nor worse over the runs", "p = "},
                                   [=](SmallStudy& study) {
                                     for (auto& [run, maps] : study.maps)
                                       scale_errors(maps[0], run.layout % 2 ? by : 1.0 / by);

@@ -241,5 +241,63 @@ TEST(Quantities, TextsTellApartWhatIsNotEqual) {
   EXPECT_EQ(change_text(std::nan(""), 2.0, "%"), "none \u2192 2 %");
 }
 
+/// A table that another program wrote: so many runs in each of so many groups.
+RecordSet table_of(int groups, int runs, const Quantity& quantity) {
+  RecordSet set;
+  set.kind = "mapproof.results_study";
+  set.repeats = set.draws_groups = true;
+  set.quantities.declare(quantity);
+  for (int group = 1; group <= groups; ++group)
+    for (int i = 1; i <= runs; ++i) {
+      const std::string run = std::to_string(group) + "-" + std::to_string(i);
+      set.runs[run] = "room-" + std::to_string(group);
+      set.values[{"s/ekf", quantity.id}][run] = 1.0 + 0.1 * group + 0.01 * i;
+    }
+  return set;
+}
+
+TEST(RecordDiff, TestsGroupsThatAreDrawnHoweverFew) {
+  const Quantity ate = study_quantity("ate_m", "ATE", "m", Better::kLower);
+  for (const int groups : {3, 7}) {
+    const RecordSet before = table_of(groups, 6, ate);
+    RecordSet after = before;
+    // Worse in all runs of the first group, a little better in the others.
+    for (auto& [run, value] : after.values[{"s/ekf", "ate_m"}])
+      value += run.starts_with("1-") ? 0.5 : -0.001;
+    const RecordDiff diff = record_diff(before, after);
+    ASSERT_EQ(diff.comparisons.size(), 1U);
+    const auto& test = diff.comparisons[0].test;
+    ASSERT_EQ(test.has_value(), groups == 7) << "three groups are too few for a test";
+    EXPECT_EQ(diff.judgement.verdict, Verdict::kChanged);
+    EXPECT_EQ(diff.judgement.cause.find("layout"), std::string::npos) << diff.judgement.cause;
+    EXPECT_EQ(diff.judgement.cause.find("seed"), std::string::npos) << diff.judgement.cause;
+    if (!test) continue;
+    EXPECT_EQ(test->unit, "group");
+    EXPECT_EQ(test->test.pairs, 7);
+  }
+}
+
+TEST(RecordDiff, AnotherUnitIsAChangeOfMeaningAndNamesBoth) {
+  const RecordSet before = table_of(3, 2, study_quantity("ate_m", "ATE", "m", Better::kLower));
+  RecordSet after = table_of(3, 2, study_quantity("ate_m", "ATE", "cm", Better::kLower));
+  for (auto& [run, value] : after.values[{"s/ekf", "ate_m"}]) value *= 200.0;
+  const RecordDiff diff = record_diff(before, after);
+  EXPECT_EQ(diff.judgement.verdict, Verdict::kChanged);
+  EXPECT_NE(diff.judgement.cause.find(
+                "ATE is in m in the baseline and in cm in the current: not compared"),
+            std::string::npos)
+      << diff.judgement.cause;
+  EXPECT_TRUE(diff.comparisons.empty());
+}
+
+TEST(RecordDiff, AnotherDirectionIsAChangeOfMeaning) {
+  const RecordSet before = table_of(3, 2, study_quantity("gain", "gain", "", Better::kLower));
+  const RecordSet after = table_of(3, 2, study_quantity("gain", "gain", "", Better::kHigher));
+  const RecordDiff diff = record_diff(before, after);
+  EXPECT_EQ(diff.judgement.verdict, Verdict::kChanged);
+  EXPECT_EQ(diff.judgement.cause,
+            "of gain lower is better in the baseline and higher in the current");
+}
+
 }  // namespace
 }  // namespace mapproof

@@ -104,7 +104,8 @@ TEST(HistoryWeek, LostMapsAreTold) {
   Night night = sample_night(2, 2);
   for (RunValue& value : night.studies[0].scores[{"bearing", "smacof", 2000, "mpe_m"}])
     value.value = std::nan("");
-  EXPECT_EQ(subjects(judged(store, night)), std::vector<std::string>{"lost-maps: bearing, smacof"});
+  EXPECT_EQ(subjects(judged(store, night)),
+            std::vector<std::string>{"lost-results: bearing, smacof"});
 }
 
 TEST(HistoryWeek, AClockThatJumpedIsSaid) {

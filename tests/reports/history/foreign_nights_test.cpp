@@ -1,0 +1,171 @@
+#include <functional>
+#include <limits>
+
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include "core/records/results_study_json.hpp"
+#include "reports/history/history_tables.hpp"
+#include "reports/history/judge_night.hpp"
+#include "tests/support/temporary_folder.hpp"
+
+namespace mapproof::test {
+namespace {
+
+/// Nights of a table of results: three methods at four noises in two quantities, 18 runs in six
+/// groups or another number of them. What a run scores is the same every night.
+struct ForeignNight {
+  int groups = 6;
+  std::function<bool(const SeriesId&, int run)> is_there = [](const SeriesId&, int) {
+    return true;
+  };
+  std::function<double(const SeriesId&, int run)> factor = [](const SeriesId&, int) { return 1.0; };
+  std::string setup = "indoors";
+};
+
+Night night_of(int number, const ForeignNight& plan = {}) {
+  Night night{.facts = {.number = number,
+                        .started_utc = fmt::format("2026-01-01T00:{:02}:00Z", number),
+                        .ended_utc = fmt::format("2026-01-01T00:{:02}:00Z", number),
+                        .command = "mapproof nightly mine",
+                        .provenance = "{}",
+                        .host = "host"}};
+  StudyNight study{
+      .name = "mine", .kind = std::string(kResultsStudy), .order_digest = "d", .runs = 18};
+  study.quantities.declare(study_quantity("ate_m", "ATE", "m", Better::kLower));
+  study.quantities.declare(study_quantity("found", "found", "%", Better::kHigher));
+  for (const char* method : {"alpha", "scan matching", "gamma"})
+    for (const char* noise : {"0.1", "0.2", "0.4", "0.8"})
+      for (const char* quantity : {"ate_m", "found"}) {
+        const SeriesId series{plan.setup, fmt::format("{} noise={}", method, noise), 0, quantity};
+        for (int run = 1; run <= 18; ++run) {
+          if (!plan.is_there(series, run)) continue;
+          const double value = (quantity[0] == 'a' ? 0.2 : 50.0) * (1.0 + 0.01 * run);
+          study.scores[series].push_back({fmt::format("{:02}", run),
+                                          fmt::format("g{}", run % plan.groups),
+                                          value * plan.factor(series, run)});
+        }
+      }
+  night.studies.push_back(std::move(study));
+  return night;
+}
+
+Night second_night(const ForeignNight& first, const ForeignNight& second,
+                   std::vector<std::string>* remarks = nullptr) {
+  const TemporaryFolder folder;
+  HistoryStore store = HistoryStore::open(folder.path());
+  Night night = night_of(1, first);
+  judge_night(store, night, std::nullopt);
+  store.append(night);
+  Night next = night_of(2, second);
+  const std::vector<std::string> told = judge_night(store, next, std::nullopt);
+  if (remarks != nullptr) *remarks = told;
+  store.append(next);
+  // The one after it is compared with the last good one.
+  Night third = night_of(3, second);
+  EXPECT_EQ(reference_night(store, third, std::nullopt),
+            next.facts.verdict == NightVerdict::kGood ? 2 : 1);
+  return next;
+}
+
+std::vector<std::string> told(const Night& night) {
+  std::vector<std::string> found;
+  for (const NightFinding& finding : night.findings)
+    found.push_back(
+        fmt::format("{}: {}: {}", name(finding.rule), finding.subject, finding.quantity));
+  return found;
+}
+
+TEST(ForeignNights, AMethodThatIsMissingIsAFailureAndNoReference) {
+  const Night night = second_night({}, {.is_there = [](const SeriesId& series, int) {
+                                     return !series.method.starts_with("scan matching");
+                                   }});
+  EXPECT_EQ(night.facts.verdict, NightVerdict::kAccuracy);
+  EXPECT_EQ(told(night), std::vector<std::string>{"lost-results: indoors, scan matching: ate_m"});
+  EXPECT_EQ(
+      night.findings[0].sentence,
+      "indoors, scan matching: no result any more, where night 1 had 8 series (ATE and found)");
+}
+
+TEST(ForeignNights, AQuantityASetupOrALevelThatIsMissingIsAFailure) {
+  const auto without = [](const std::function<bool(const SeriesId&)>& is_gone) {
+    return told(second_night(
+        {}, {.is_there = [=](const SeriesId& series, int) { return !is_gone(series); }}));
+  };
+  EXPECT_EQ(without([](const SeriesId& series) { return series.quantity == "found"; }),
+            std::vector<std::string>{"lost-results: all methods: found"});
+  EXPECT_EQ(without([](const SeriesId& series) {
+              return series.method == "gamma noise=0.8" && series.quantity == "ate_m";
+            }),
+            std::vector<std::string>{"lost-results: indoors, gamma noise=0.8: ate_m"});
+  EXPECT_EQ(told(second_night({}, {.setup = "outdoors"})),
+            std::vector<std::string>{"lost-results: indoors: ate_m"});
+}
+
+TEST(ForeignNights, TheLossOfManyResultsIsAFailureHoweverItIsWritten) {
+  const auto is_lost = [](const SeriesId& series, int run) {
+    return series.method == "gamma noise=0.4" && run <= 14;
+  };
+  const ForeignNight gone{
+      .is_there = [=](const SeriesId& series, int run) { return !is_lost(series, run); }};
+  const ForeignNight empty{.factor = [=](const SeriesId& series, int run) {
+    return is_lost(series, run) ? std::numeric_limits<double>::quiet_NaN() : 1.0;
+  }};
+  for (const ForeignNight& plan : {gone, empty}) {
+    const Night night = second_night({}, plan);
+    EXPECT_EQ(night.facts.verdict, NightVerdict::kAccuracy);
+    ASSERT_EQ(told(night),
+              std::vector<std::string>{"lost-results: indoors, gamma noise=0.4: ate_m"});
+    EXPECT_NE(night.findings[0].sentence.find("14 of the 18 results of night 1 no longer come out"),
+              std::string::npos);
+  }
+}
+
+TEST(ForeignNights, AFewLostResultsAreRemarkedOn) {
+  std::vector<std::string> remarks;
+  const ForeignNight plan{.is_there = [](const SeriesId& series, int run) {
+    return series.method != "gamma noise=0.4" || run > 2;
+  }};
+  const Night night = second_night({}, plan, &remarks);
+  EXPECT_TRUE(night.findings.empty());
+  ASSERT_FALSE(remarks.empty());
+  EXPECT_EQ(remarks[0],
+            "mine: 2 results of night 1 no longer come out, of indoors, gamma, noise=0.4; too few "
+            "of each to be judged");
+}
+
+TEST(ForeignNights, EverySeriesThatGotWorseIsNamed) {
+  const Night night = second_night({}, {.factor = [](const SeriesId& series, int run) {
+                                     return series.quantity == "ate_m" ? 1.2 + 0.001 * run : 1.0;
+                                   }});
+  EXPECT_EQ(night.findings.size(), 12U);
+  for (const NightFinding& finding : night.findings) {
+    EXPECT_EQ(finding.sentence.find("last step"), std::string::npos) << finding.sentence;
+    EXPECT_EQ(finding.sentence.find("layout"), std::string::npos) << finding.sentence;
+    EXPECT_NE(finding.sentence.find("; 6 groups, "), std::string::npos) << finding.sentence;
+  }
+}
+
+TEST(ForeignNights, GroupsAreTheUnitsHoweverFew) {
+  // One of three groups is worse by far: 6 of 18 runs, but one unit of three.
+  const auto judged = [](int groups) {
+    ForeignNight plan{.groups = groups};
+    ForeignNight worse = plan;
+    worse.factor = [](const SeriesId& series, int run) {
+      return series.method == "gamma noise=0.1" && run % 3 == 0 ? 2.0 + 0.01 * run
+                                                                : 1.0 + 0.0001 * run;
+    };
+    return second_night(plan, worse).findings.size();
+  };
+  EXPECT_EQ(judged(3), 0U);
+}
+
+TEST(ForeignNights, TablesHaveNoStepsThatTheStudyHasNot) {
+  StudyTrend trend{.name = "mine"};
+  const Night night = night_of(1);
+  add_tonight(trend, night.facts, night.studies[0]);
+  EXPECT_EQ(accuracy_table(trend).caption, "Medians over the runs.");
+}
+
+}  // namespace
+}  // namespace mapproof::test
