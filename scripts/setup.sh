@@ -4,7 +4,7 @@
 # build_mapproof [CMAKE_OPTION...] -- [TARGET...]   into $BUILD (default: build)
 
 ROOT=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
-BUILD=${BUILD:-$ROOT/build}
+BUILD=$(realpath -m "${BUILD:-$ROOT/build}")
 
 say() { printf '%s\n' "$*" >&2; }
 
@@ -19,19 +19,21 @@ as_root() {
 
 # Runs apt-get; waits up to ten minutes while another apt or dpkg holds the lock.
 run_apt() {
-  local log tries
-  log=$(mktemp)
+  local errors tries
+  errors=$(mktemp)
   for ((tries = 0; ; ++tries)); do
-    if as_root env DEBIAN_FRONTEND=noninteractive \
-      apt-get -o DPkg::Lock::Timeout=600 "$@" 2> >(tee "$log" >&2) >&2; then
-      rm -f "$log"
+    if as_root env DEBIAN_FRONTEND=noninteractive LC_ALL=C \
+      apt-get -o DPkg::Lock::Timeout=600 "$@" >&2 2>"$errors"; then
+      cat "$errors" >&2
+      rm -f "$errors"
       return 0
     fi
-    if ! grep -q 'Could not get lock' "$log" || [ "$tries" -ge 120 ]; then
-      rm -f "$log"
+    if ! grep -q 'Could not get lock' "$errors" || [ "$tries" -ge 120 ]; then
+      cat "$errors" >&2
+      rm -f "$errors"
       return 2
     fi
-    [ "$tries" -eq 0 ] && say "waiting for another apt or dpkg to end"
+    [ "$tries" -gt 0 ] || say "waiting for another apt or dpkg to end"
     sleep 5
   done
 }
@@ -45,6 +47,10 @@ unknown_packages() {
 }
 
 install_packages() {
+  if ! command -v dpkg-query >/dev/null || ! command -v apt-get >/dev/null; then
+    say "mapproof is built on Debian 12 and 13: this system has no dpkg and apt-get"
+    return 2
+  fi
   local part package wanted=() missing=() names=() unknown=() installed
   for part in "$@"; do
     while read -r package; do wanted+=("$package"); done < <(packages_of "$part")
@@ -100,9 +106,9 @@ build_mapproof() {
   fi
   rm -f "$log"
   if [ ! -f "$BUILD/.ninja_log" ]; then
-    # A unit takes some 8 processor seconds (docs/testing.md).
-    units=$(ninja -C "$BUILD" -t commands "$@" | grep -c -- ' -c .*\.c[px][px]$')
-    minutes=$(((units * 8 + 60 * $(nproc) - 1) / (60 * $(nproc))))
+    # A unit takes some 10 processor seconds (docs/testing.md).
+    units=$(ninja -C "$BUILD" -t commands "$@" | awk '/ -c .*\.c[px][px]/ { ++n } END { print n + 0 }')
+    minutes=$(((units * 10 + 60 * $(nproc) - 1) / (60 * $(nproc))))
     say "building $units units of C++, about $minutes min on $(nproc) processors"
   fi
   NINJA_STATUS='[%f of %t, %e s] ' cmake --build "$BUILD" --target "$@" >&2

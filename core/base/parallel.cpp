@@ -37,8 +37,13 @@ std::size_t affordable_threads() {
 template <typename Partitioner>
 void share_out(std::size_t count, const std::function<void(std::size_t)>& work,
                const Partitioner& partitioner) {
+  const std::size_t most = affordable_threads();
+  if (most == 1) {
+    for (std::size_t i = 0; i < count; ++i) work(i);
+    return;
+  }
   std::optional<tbb::global_control> fewer;
-  if (const std::size_t most = affordable_threads(); most < std::numeric_limits<int>::max())
+  if (most < std::numeric_limits<int>::max())
     fewer.emplace(tbb::global_control::max_allowed_parallelism, most);
   tbb::task_group_context own(tbb::task_group_context::isolated);
   tbb::parallel_for(std::size_t{0}, count, work, partitioner, own);
@@ -53,6 +58,10 @@ void parallel_for(std::size_t count, const std::function<void(std::size_t)>& wor
 }
 
 void parallel_for(int jobs, std::size_t count, const std::function<void(std::size_t)>& work) {
+  if (affordable_threads() == 1) {
+    share_out(count, work, tbb::simple_partitioner());
+    return;
+  }
   const tbb::global_control limit(tbb::global_control::max_allowed_parallelism,
                                   static_cast<std::size_t>(jobs));
   tbb::task_arena arena(jobs);

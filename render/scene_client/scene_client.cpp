@@ -17,7 +17,6 @@
 #include <fmt/format.h>
 
 #include "core/base/errors.hpp"
-#include "core/base/out_of_memory.hpp"
 #include "render/scene/scene_json.hpp"
 #include "render/scene/scene_request.hpp"
 
@@ -117,7 +116,6 @@ void SceneClient::fail(const std::string& what) {
   std::string said = messages_.get() >= 0 ? last_line(messages_.get()) : std::string();
   const std::string name = program_.filename().string();
   if (said.starts_with(name + ": ")) said.erase(0, name.size() + 2);
-  if (said == kOutOfMemory) throw std::bad_alloc();
   std::string text = "scenes cannot be drawn: " + name + ": " + (said.empty() ? what : said);
   if (said.empty() && !end.empty()) text += "; " + end;
   throw SceneError(printable(text, 500));

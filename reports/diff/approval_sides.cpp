@@ -24,6 +24,9 @@ namespace fs = std::filesystem;
 constexpr std::array<std::pair<std::string_view, std::string_view>, 2> kOtherRecords = {
     {{"mapproof.map", "one map"}, {"mapproof.slam_run", "the result of one range log"}}};
 
+/// The file that records begin with.
+constexpr std::array kHeads = {"study.json", "map.json", "slam.json"};
+
 /// Of a schema; empty if no records are of it.
 std::string_view title_of(std::string_view schema) {
   for (const StudyKind* kind : all_study_kinds())
@@ -37,7 +40,7 @@ std::string_view title_of(std::string_view schema) {
 /// elsewhere.
 std::string_view kind_of_records(const fs::path& folder) {
   std::error_code error;
-  for (const char* name : {"study.json", "map.json", "slam.json"}) {
+  for (const char* name : kHeads) {
     const fs::path file = folder / name;
     if (!fs::is_regular_file(file, error)) continue;
     try {
@@ -81,8 +84,22 @@ void require_same_kind(std::string_view before, std::string_view after, const fs
 
 /// "png": of an item, else the extension.
 std::string format_of(const fs::path& file) {
+  std::error_code error;
+  if (fs::is_directory(file, error)) return "a folder";
   const std::string kind = item_name(file, file.parent_path()).kind;
-  return kind.empty() ? file.extension().string() : kind;
+  if (!kind.empty()) return kind;
+  const std::string extension = file.extension().string();
+  return extension.size() < 2 ? "a file without an extension" : extension.substr(1);
+}
+
+/// @throws IoError if the folder's records do not begin as records of any kind do.
+void require_records(const fs::path& folder) {
+  std::error_code error;
+  for (const char* name : kHeads)
+    if (const fs::path file = folder / name; fs::is_regular_file(file, error)) {
+      schema_of(parse_json(read_file(file), file.string()).cursor());
+      return;
+    }
 }
 
 }  // namespace
@@ -92,6 +109,11 @@ void require_comparable(const ApprovalSide& baseline, const ApprovalSide& curren
   if (current.files.empty())
     throw InvalidInput(fmt::format("CURRENT {} holds no records, figures, pictures or tables",
                                    current.root.string()));
+  for (const auto& [id, paths] : current.files)
+    if (id == kRecordsItem)
+      require_records(current.root);
+    else if (id.starts_with(std::string(kRecordsItem) + "/"))
+      require_records(current.root / fs::path(id).filename());
   const std::string_view before = kind_of(baseline), after = kind_of(current);
   if (!before.empty() && !after.empty())
     require_same_kind(before, after, baseline.root, current.root);
@@ -108,6 +130,8 @@ void require_comparable(const ApprovalSide& baseline, const ApprovalSide& curren
 void require_comparable_files(const fs::path& baseline, const fs::path& current) {
   require_apart(baseline, current);
   std::error_code error;
+  if (!fs::is_regular_file(current, error))
+    throw InvalidInput(fmt::format("CURRENT {} is not a file", current.string()));
   if (fs::file_size(current, error) == 0 && !error)
     throw InvalidInput(fmt::format("CURRENT {} is empty", current.string()));
   require_same_kind(format_of(baseline), format_of(current), baseline, current);

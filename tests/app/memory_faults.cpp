@@ -54,7 +54,8 @@ void make_observations(const fs::path& folder) {
   write_file(folder / "observations.csv", text.str() + "\n");
 }
 
-std::vector<std::string> with(std::vector<std::string> words, const std::vector<std::string>& more) {
+std::vector<std::string> with(std::vector<std::string> words,
+                              const std::vector<std::string>& more) {
   words.insert(words.end(), more.begin(), more.end());
   return words;
 }
@@ -85,7 +86,8 @@ struct Trial {
 long lines_of_program(const std::string& text) {
   std::istringstream lines(text);
   long count = 0;
-  for (std::string line; std::getline(lines, line);) count += line.starts_with("mapproof: ") ? 1 : 0;
+  for (std::string line; std::getline(lines, line);)
+    count += line.starts_with("mapproof: ") ? 1 : 0;
   return count;
 }
 
@@ -113,8 +115,13 @@ void fail_at(const MemoryCase& tried, const std::string& cores, long call, const
     }
     EXPECT_EQ(outcome.exit_code, 3) << outcome.error;
     EXPECT_EQ(lines_of_program(outcome.error), 1) << outcome.error;
-    EXPECT_NE(outcome.error.find("mapproof: out of memory"), std::string::npos) << outcome.error;
-    expect_whole(trial.files(), before, whole);
+    EXPECT_NE(outcome.error.find("out of memory"), std::string::npos) << outcome.error;
+    Files found = trial.files();
+    // Where the program that draws scenes has no memory, the rest is made and the report lacks
+    // them.
+    if (outcome.error.find("mapproof: scenes cannot be drawn") != std::string::npos)
+      std::erase_if(found, [](const auto& file) { return file.first.ends_with("report.html"); });
+    expect_whole(found, before, whole);
   }
   EXPECT_EQ(trial.run().exit_code, tried.exit_code);
   EXPECT_TRUE(trial.files() == whole) << "the next run's files differ";
@@ -126,9 +133,9 @@ const std::vector<MemoryCase>& memory_cases() {
   static const std::vector<MemoryCase> cases = {
       {"diff", make_two_studies,
        [](const std::string& folder) {
-         return std::vector<std::string>{"diff",     folder + "/before",    folder + "/after",
-                                         "--out",   folder + "/diff.html", "--json",
-                                         folder + "/diff.json"};
+         return std::vector<std::string>{
+             "diff",   folder + "/before",   folder + "/after", "--out", folder + "/diff.html",
+             "--json", folder + "/diff.json"};
        },
        1},
       {"approve", make_two_studies,
@@ -141,8 +148,8 @@ const std::vector<MemoryCase>& memory_cases() {
        }},
       {"map", make_observations,
        [](const std::string& folder) {
-         return std::vector<std::string>{"map",   folder + "/observations.csv", "--kind", "visibility",
-                                         "--out", folder + "/out"};
+         return std::vector<std::string>{
+             "map", folder + "/observations.csv", "--kind", "visibility", "--out", folder + "/out"};
        }},
   };
   return cases;
