@@ -47,7 +47,7 @@ LoggedSlam read_slam(const ExperimentText& file, const OrderOptions& options) {
 TrialOrder read_trials(const ExperimentText& file, const OrderOptions& options) {
   const std::string profile = profile_of(options, trial_profiles(file.text, file.source));
   TrialExperiment experiment =
-      parse_trial_experiment(file.text, file.source, options_of_topics(), profile);
+      parse_trial_experiment(file.text, file.source, input_of_topics(), profile);
   const bool of_data = topic_named(experiment.topic)->of_data;
   apply(of_data && options.one_of_several ? seed_alone(options.changes) : options.changes,
         experiment, of_data);
@@ -123,7 +123,7 @@ StudyOrder given_study_order(const std::filesystem::path& folder) {
 bool is_made_of_data(const ExperimentText& file) {
   if (!is_trial_experiment(file.text, file.source)) return false;
   const TrialExperiment experiment =
-      parse_trial_experiment(file.text, file.source, options_of_topics());
+      parse_trial_experiment(file.text, file.source, input_of_topics());
   return topic_named(experiment.topic)->of_data;
 }
 

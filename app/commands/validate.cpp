@@ -16,9 +16,9 @@ namespace mapproof {
 namespace {
 
 void check_trial_experiment(std::string_view text, const std::string& source) {
-  parse_trial_experiment(text, source, options_of_topics());
+  parse_trial_experiment(text, source, input_of_topics());
   for (const std::string& profile : trial_profiles(text, source))
-    parse_trial_experiment(text, source, options_of_topics(), profile);
+    parse_trial_experiment(text, source, input_of_topics(), profile);
 }
 
 /// Reads the JSON formats that rest on more than core's records.

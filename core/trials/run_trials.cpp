@@ -63,10 +63,11 @@ std::vector<OpenPart> open_parts(const TrialOrder& order, const TrialStore& stor
 
 }  // namespace
 
-OptionsOfTopic options_of_topics() {
-  return [](std::string_view name) {
+InputOfTopic input_of_topics() {
+  return [](std::string_view name) -> TopicInput {
     const Topic* topic = topic_named(name);
-    return topic == nullptr ? nullptr : &topic->options;
+    if (topic == nullptr) return {};
+    return {.options = &topic->options, .sweeps = topic->sweeps};
   };
 }
 

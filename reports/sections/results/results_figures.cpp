@@ -14,6 +14,7 @@
 #include "render/figures/map.hpp"
 #include "render/figures/thinning.hpp"
 #include "reports/sections/method_summary.hpp"
+#include "reports/sections/results/results_heat_maps.hpp"
 
 namespace mapproof {
 namespace {
@@ -39,6 +40,45 @@ bool spans_widely(std::vector<double> values) {
   if (values.empty()) return false;
   const auto [least, greatest] = std::ranges::minmax(values);
   return least > 0.0 && greatest > kWideSpan * least;
+}
+
+/// Of levels: a 0 among them does not count, since no logarithmic axis has it.
+bool spans_widely_above_0(std::vector<double> levels) {
+  std::erase(levels, 0.0);
+  return levels.size() > 1 && spans_widely(std::move(levels));
+}
+
+void drop_level_0(ErrorLine& line) {
+  if (line.x.empty() || line.x.front() != 0.0) return;
+  for (std::vector<double>* values : {&line.x, &line.mean, &line.low, &line.high})
+    if (!values->empty()) values->erase(values->begin());
+}
+
+bool is_known(double value) { return std::isfinite(value); }
+
+/// Whether any two values differ: what is the same everywhere needs no figure.
+bool tells_apart(const std::vector<ErrorLine>& lines) {
+  double least = HUGE_VAL, greatest = -HUGE_VAL;
+  for (const ErrorLine& line : lines)
+    for (const double mean : line.mean) {
+      if (!is_known(mean)) continue;
+      least = std::min(least, mean);
+      greatest = std::max(greatest, mean);
+    }
+  return greatest > least;
+}
+
+/// Intervals of percentages end where percentages do; changes in percent have no end.
+void clip_percentages(std::vector<ErrorLine>& lines) {
+  const auto is_share = [](double mean) {
+    return !is_known(mean) || (mean >= 0.0 && mean <= 100.0);
+  };
+  for (const ErrorLine& line : lines)
+    if (!std::ranges::all_of(line.mean, is_share)) return;
+  for (ErrorLine& line : lines)
+    for (std::vector<double>* ends : {&line.low, &line.high})
+      for (double& end : *ends)
+        if (is_known(end)) end = std::clamp(end, 0.0, 100.0);
 }
 
 ErrorLine curve_of(const ResultsView& view, const ResultsBlock& block, const Quantity& quantity,
@@ -69,9 +109,9 @@ std::optional<Figure> curve_figure(const ResultsView& view, const ResultsBlock& 
   spec.record_ids = {record_of(block)};
   std::vector<double> levels;
   for (const Level& level : block.levels) levels.push_back(std::get<double>(level.value));
-  if (spans_widely(levels)) spec.x_scale = Scale::kLog;
+  const bool is_log = spans_widely_above_0(levels);
+  if (is_log) spec.x_scale = Scale::kLog;
   const std::vector<ResultsLine> lines = view.lines(block, quantity);
-  const auto is_known = [](double value) { return std::isfinite(value); };
   for (std::size_t i = 0; i < lines.size(); ++i) {
     ErrorLine curve = curve_of(view, block, quantity, lines[i], i);
     if (std::ranges::none_of(curve.mean, is_known)) continue;
@@ -81,8 +121,17 @@ std::optional<Figure> curve_figure(const ResultsView& view, const ResultsBlock& 
     }
     spec.methods.push_back(std::move(curve));
   }
-  if (spec.methods.empty()) return std::nullopt;
-  return level_curve_figure(spec);
+  if (!tells_apart(spec.methods)) return std::nullopt;
+  if (quantity.unit == "%") {
+    clip_percentages(spec.methods);
+    spec.log_from = HUGE_VAL;
+  }
+  if (is_log)
+    for (ErrorLine& line : spec.methods) drop_level_0(line);
+  Figure figure = level_curve_figure(spec);
+  if (is_log && std::ranges::find(levels, 0.0) != levels.end())
+    figure.caption += " The table has the level 0, which a logarithmic axis has not.";
+  return figure;
 }
 
 /// The share of runs at or below a value, in steps.
@@ -216,6 +265,9 @@ FigureGroup given_figures(const ResultsStudy& study, const std::vector<MapRecord
 StudyFigures results_figures(const ResultsView& view,
                              const std::vector<MethodComparison>& comparisons) {
   StudyFigures figures;
+  for (const Label& setup : view.study().setups)
+    if (FigureGroup grid = heat_maps(view, setup); !grid.empty())
+      figures.groups.push_back(std::move(grid));
   for (const ResultsBlock& block : view.blocks()) {
     FigureGroup group{block.id, block.title, "", {}};
     for (const Quantity* quantity : view.quantities(block)) {

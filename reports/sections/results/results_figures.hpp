@@ -9,7 +9,8 @@
 
 namespace mapproof {
 
-/// One group of figures per block, by the id of the block: of each quantity a curve over a factor
+/// The heat maps of setups with two factors of numbers, then one group of figures per block, by
+/// the id of the block: of each quantity a curve over a factor
 /// of numbers, else the distribution over runs; of comparisons of three methods or more, their mean
 /// ranks with the critical difference.
 StudyFigures results_figures(const ResultsView& view,

@@ -50,6 +50,8 @@ ResultsView::ResultsView(const ResultsStudy& study) : study_(study) {
     sum += row.value;
     ++count;
   }
+  for (const RunOutcome& outcome : study.results.outcomes)
+    outcomes_[{outcome.at, outcome.method}].push_back(&outcome);
   make_blocks();
 }
 
@@ -118,11 +120,12 @@ std::vector<ResultsLine> ResultsView::lines(const ResultsBlock& block,
     if (runs.empty()) continue;
     if (study_.results.are_repeats) runs = {""};
     for (const std::string& run : runs)
-      lines.push_back(
-          {.method = method.id,
-           .run = run,
-           .label = run.empty() || groups_.size() < 2 ? method.label : method.label + ", " + run,
-           .index = i});
+      lines.push_back({.method = method.id,
+                       .run = run,
+                       .label = run.empty() || groups_.size() < 2
+                                    ? method.label
+                                    : method.label + ", " + label_of(study_.runs, run),
+                       .index = i});
   }
   return lines;
 }
@@ -155,6 +158,19 @@ std::optional<MeanEstimate> ResultsView::mean(const Condition& at, const Results
   return clustered_mean(values, clusters);
 }
 
+StatusCounts ResultsView::statuses(const Condition& at, const ResultsLine& line) const {
+  StatusCounts counts;
+  const auto found = outcomes_.find({at, line.method});
+  if (found == outcomes_.end()) return counts;
+  for (const RunOutcome* outcome : found->second) {
+    if (!line.run.empty() && outcome->run != line.run) continue;
+    ++counts.runs;
+    for (const std::string& code : std::set(outcome->codes.begin(), outcome->codes.end()))
+      ++counts.codes[code];
+  }
+  return counts;
+}
+
 std::map<std::string, double> ResultsView::group_means(
     const std::map<std::string, double>& runs) const {
   std::map<std::string, std::pair<double, int>> sums;
@@ -173,7 +189,8 @@ std::string ResultsView::level_words(const Level& level) const {
   const std::string text =
       is_number(level) ? fmt::format("{:.6g}", std::get<double>(level.value)) : level_text(level);
   if (found == study_.factors.end()) return level.factor + " " + text;
-  return found->label + " " + text + (found->unit.empty() ? "" : " " + found->unit);
+  const bool is_close = found->unit.empty() || found->unit == "\u00B0";
+  return found->label + " " + text + (is_close ? "" : " ") + found->unit;
 }
 
 std::string ResultsView::factor_label(const std::string& factor) const {

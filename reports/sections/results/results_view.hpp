@@ -40,6 +40,12 @@ struct RunNumbers {
   int lost = 0;
 };
 
+/// How often a method ended with each status under a condition.
+struct StatusCounts {
+  std::map<std::string, int> codes;  ///< Runs that have it.
+  int runs = 0;                      ///< In all.
+};
+
 /// A study's results as figures and tables show them.
 class ResultsView {
  public:
@@ -61,6 +67,8 @@ class ResultsView {
   /// The mean over runs with its interval over groups; empty without a value.
   std::optional<MeanEstimate> mean(const Condition& at, const ResultsLine& line,
                                    const Quantity& quantity) const;
+  /// What is known of how a line's runs ended.
+  StatusCounts statuses(const Condition& at, const ResultsLine& line) const;
   /// The mean of each group's runs.
   std::map<std::string, double> group_means(const std::map<std::string, double>& runs) const;
 
@@ -78,6 +86,7 @@ class ResultsView {
   const ResultsStudy& study_;
   std::map<Key, std::map<std::string, std::pair<double, int>>> sums_;  ///< By run: sum and count.
   std::map<Key, std::set<std::string>> lost_;                          ///< By run.
+  std::map<std::pair<Condition, std::string>, std::vector<const RunOutcome*>> outcomes_;
   std::map<std::string, std::string> groups_;                          ///< By run.
   std::map<std::string, int> clusters_;                                ///< By group.
   std::vector<ResultsBlock> blocks_;
