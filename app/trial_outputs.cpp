@@ -37,10 +37,11 @@ nlohmann::ordered_json mean_values(const TrialStudy& study, const ResultsView& v
 }
 
 /// Methods are compared by what the design judges them by first; by all of it would be too much.
+/// One group tells nothing of chance.
 std::vector<MethodComparison> compare_series(const ResultsView& view) {
   std::vector<MethodComparison> comparisons = compare_methods(view);
   std::erase_if(comparisons, [&](const MethodComparison& comparison) {
-    return comparison.quantity->id != view.study().quantities.front();
+    return comparison.groups < 2 || comparison.quantity->id != view.study().quantities.front();
   });
   return comparisons;
 }

@@ -211,14 +211,17 @@ ResultsStudy labelled_results(const TrialStudy& study) {
                         .question = study.design.question,
                         .command = {},
                         .quantities = {},
+                        .quantity_labels = {},
                         .setups = {},
                         .methods = {},
                         .factors = {},
                         .runs = {},
                         .results = results_of(study)};
   drop_what_does_not_apply(labelled.results);
-  for (const Quantity& quantity : study.design.quantities)
+  for (const Quantity& quantity : study.design.quantities) {
     labelled.quantities.push_back(quantity.id);
+    labelled.quantity_labels.push_back({.id = quantity.id, .label = quantity.label});
+  }
   for (const TrialSetup& setup : study.design.setups) {
     labelled.setups.push_back({.id = setup.id, .label = setup.title});
     for (const TrialFactor& factor : setup.factors)

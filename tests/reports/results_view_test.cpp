@@ -246,6 +246,13 @@ TEST(ResultsTables, SayHowOftenAMethodEndedWithAStatus) {
   EXPECT_EQ(tables.at(0).notes.back(), "m: not converged in 1 of 2 at noise 0.1.");
 }
 
+TEST(ResultsTables, HaveTheStudysLabelsOfKnownQuantities) {
+  ResultsStudy study = Rows().add("m", "a1", 1.0).study();
+  study.quantity_labels = {{.id = "mpe_m", .label = "MPE of the pick"}};
+  const ResultsView view(study);
+  EXPECT_EQ(results_tables(view, view.blocks()[0]).at(0).columns.at(1).title, "MPE of the pick");
+}
+
 TEST(ResultsTables, LabelledRunsHaveATableEach) {
   ResultsStudy study =
       Rows().add("m", "a1", 1.0).add("m", "b1", 3.0).add("n", "a1", 2.0).study(false);

@@ -100,7 +100,7 @@ FigureGroup heat_maps(const ResultsView& view, const Label& setup) {
   const std::optional<Grid> grid = grid_of(view, setup);
   if (!grid) return group;
   for (const std::string& known : view.study().quantities) {
-    const Quantity& quantity = view.study().results.quantities.at(known);
+    const Quantity& quantity = view.quantity(known);
     const std::vector<ResultsLine> lines = lines_in(view, *grid, quantity);
     std::vector<double> all;
     for (const ResultsLine& line : lines)

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <set>
+#include <utility>
 
 #include <fmt/format.h>
 
@@ -49,6 +50,12 @@ ResultsView::ResultsView(const ResultsStudy& study) : study_(study) {
     auto& [sum, count] = sums_[key][row.run];
     sum += row.value;
     ++count;
+  }
+  for (const std::string& id : study.quantities) {
+    Quantity quantity = study.results.quantities.at(id);
+    const auto label = std::ranges::find(study.quantity_labels, id, &Label::id);
+    if (label != study.quantity_labels.end()) quantity.label = label->label;
+    quantities_.emplace(id, std::move(quantity));
   }
   for (const RunOutcome& outcome : study.results.outcomes)
     outcomes_[{outcome.at, outcome.method}].push_back(&outcome);
@@ -98,7 +105,7 @@ void ResultsView::add_setup(const Label& setup) {
 std::vector<const Quantity*> ResultsView::quantities(const ResultsBlock& block) const {
   std::vector<const Quantity*> found;
   for (const std::string& id : study_.quantities) {
-    const Quantity& quantity = study_.results.quantities.at(id);
+    const Quantity& quantity = this->quantity(id);
     if (!lines(block, quantity).empty()) found.push_back(&quantity);
   }
   return found;

@@ -57,6 +57,8 @@ class ResultsView {
   std::size_t runs() const { return groups_.size(); }
   std::size_t groups() const { return clusters_.size(); }
 
+  /// One of the study's quantities, under the study's label.
+  const Quantity& quantity(const std::string& id) const { return quantities_.at(id); }
   /// The quantities that a block has, in the order of the study.
   std::vector<const Quantity*> quantities(const ResultsBlock& block) const;
   /// The lines that a block has of a quantity, in the order of methods and runs.
@@ -84,6 +86,7 @@ class ResultsView {
   void add_setup(const Label& setup);
 
   const ResultsStudy& study_;
+  std::map<std::string, Quantity> quantities_;                         ///< By id.
   std::map<Key, std::map<std::string, std::pair<double, int>>> sums_;  ///< By run: sum and count.
   std::map<Key, std::set<std::string>> lost_;                          ///< By run.
   std::map<std::pair<Condition, std::string>, std::vector<const RunOutcome*>> outcomes_;
