@@ -14,7 +14,7 @@
 namespace mapproof {
 namespace {
 
-constexpr double kWideRange = 20.0;  ///< Of greatest to least, from which colours are logarithmic.
+constexpr double kWideRange = 10.0;  ///< Of greatest to least, from which colours are logarithmic.
 constexpr int kHatchLines = 5;       ///< Across a missing cell, each way of its diagonal.
 
 std::string with_unit_of(const HeatMapSpec& spec, double value) {
