@@ -45,10 +45,13 @@ std::string figure_command(const fs::path& folder) {
   return quoted_command({"mapproof", "render", folder.string(), "--figure"});
 }
 
-/// Each part's findings under its title, and as many of its figures as leave room for the others'.
+/// As many of each part's findings, under its title, and of its figures as leave room for the
+/// others'; of findings one at least.
 void add_opening(const Report& part, std::size_t parts, Opening& all) {
-  constexpr std::size_t kMostThumbnails = 6;
+  constexpr std::size_t kMostThumbnails = 6, kMostFindings = 6;
+  std::size_t left = std::max<std::size_t>(1, kMostFindings / parts);
   for (Paragraph finding : part.opening.findings) {
+    if (left-- == 0) break;
     finding.phrases.insert(finding.phrases.begin(), {part.title + ". ", Emphasis::kStrong});
     all.findings.push_back(std::move(finding));
   }

@@ -30,8 +30,10 @@ FolderReport table_report(const std::filesystem::path& folder, const std::string
   StudyFigures figures = results_figures(view, comparisons);
   FigureGroup given = given_figures(study, read_given_maps(folder), aligned_paths(folder));
   if (!given.empty()) figures.groups.push_back(std::move(given));
-  const ResultsReportInput input{
-      .view = view, .comparisons = comparisons, .figures = figures, .command = command};
+  const ResultsReportInput input{.view = view,
+                                 .comparisons = comparisons,
+                                 .figures = figures,
+                                 .provenance = given_provenance(view, command)};
   FolderReport result{.folder = folder,
                       .of_paper = false,
                       .report = results_report(input),

@@ -77,28 +77,40 @@ std::vector<RunId> runs_of(const Experiment& experiment) {
   return runs;
 }
 
-RunResult simulate_run(const Experiment& experiment, const RunId& id) {
+RunWorld make_run_world(const Experiment& experiment, const RunId& id) {
   const auto layout = static_cast<std::uint64_t>(id.layout);
   const auto pose = static_cast<std::uint64_t>(id.pose);
-
   // The same layout for all its poses.
   Random scatter(derive_seed(experiment.seed, {kLayout, layout}));
   Random choice(derive_seed(experiment.seed, {kPlacement, layout}));
+  Random wander(derive_seed(experiment.seed, {kWalk, layout, pose}));
+  RunWorld made;
+  made.world = scatter_landmarks(experiment.world, scatter);
+  made.anchors = place_anchors(made.world, experiment.anchors, experiment.anchor_placement, choice);
+  made.path = random_walk(made.world, experiment.walk, observations_of(experiment), wander);
+  return made;
+}
+
+ObservationHistory observed_in(const Experiment& experiment, const RunId& id, const RunWorld& made,
+                               const SensorOptions& sensor) {
+  Random noise(derive_seed(experiment.seed, {kNoise, static_cast<std::uint64_t>(id.layout),
+                                             static_cast<std::uint64_t>(id.pose),
+                                             static_cast<std::uint64_t>(sensor.sensor)}));
+  return observe(made.world, made.path, sensor, noise);
+}
+
+RunResult simulate_run(const Experiment& experiment, const RunId& id) {
+  const RunWorld made = make_run_world(experiment, id);
   RunResult result;
   Run& run = result.run;
   run.id = result.details.id = id;
-  run.world = scatter_landmarks(experiment.world, scatter);
-  run.anchors = place_anchors(run.world, experiment.anchors, experiment.anchor_placement, choice);
-
-  Random wander(derive_seed(experiment.seed, {kWalk, layout, pose}));
-  result.details.path =
-      random_walk(run.world, experiment.walk, observations_of(experiment), wander);
+  run.world = made.world;
+  run.anchors = made.anchors;
+  result.details.path = made.path;
   const Path& path = result.details.path;
 
   for (const SensorStudy& study : experiment.sensors) {
-    const auto sensor = static_cast<std::uint64_t>(study.sensor.sensor);
-    Random noise(derive_seed(experiment.seed, {kNoise, layout, pose, sensor}));
-    const ObservationHistory history = observe(run.world, path, study.sensor, noise);
+    const ObservationHistory history = observed_in(experiment, id, made, study.sensor);
     if (study.sensor.sensor == Sensor::kVisibility && study.sensor.occlusion)
       run.occlusion = count_occlusion(run.world, path, study.sensor);
     result.details.sensors.push_back(sensor_details(study, run.world, path, history));

@@ -1,12 +1,32 @@
 #pragma once
 
 #include "core/model/experiment.hpp"
+#include "core/model/observation_history.hpp"
+#include "core/model/world.hpp"
 #include "core/records/study_store.hpp"
 
 namespace mapproof {
 
 /// All runs of an experiment, ascending.
 std::vector<RunId> runs_of(const Experiment& experiment);
+
+/// A run before anything is observed in it.
+struct RunWorld {
+  World world;
+  Path path;  ///< As long as the experiment's latest step.
+  std::vector<Eigen::Index> anchors;
+};
+
+/// Scatters the landmarks and walks. The layout draws one stream of random numbers and the walk
+/// another, whatever the options: experiments that differ in noise, reach, anchors or steps have
+/// the same layout and walk, of which fewer steps are a beginning; fewer landmarks are the first
+/// of more; rooms of other sizes are filled from the same draws.
+/// @throws InvalidInput if the landmarks do not fit the room or a sensor has no checkpoint.
+RunWorld make_run_world(const Experiment& experiment, const RunId& id);
+
+/// What a sensor observes along the walk. Another noise scales the same draws.
+ObservationHistory observed_in(const Experiment& experiment, const RunId& id, const RunWorld& made,
+                               const SensorOptions& sensor);
 
 /// One run: scatters the landmarks, walks, observes, maps and scores at every checkpoint
 /// [yairi2007, section 3].

@@ -15,42 +15,6 @@
 namespace mapproof {
 namespace {
 
-/// The experiment's options with one quantity at one level.
-struct VariedOptions {
-  SensorOptions sensor;
-  SolverOptions solver;
-  int anchors = 0;
-};
-
-VariedOptions at_level(const Experiment& experiment, const Variation& variation, double level) {
-  const SensorStudy* study = find_sensor(experiment, variation.sensor);
-  if (study == nullptr)
-    throw InvalidInput("a variation of a sensor that the experiment does not have");
-  VariedOptions options{
-      .sensor = study->sensor, .solver = experiment.solver, .anchors = experiment.anchors};
-  switch (variation.factor) {
-    case Factor::kNoise:
-      options.sensor.noise = level;
-      break;
-    case Factor::kDropoutShare:
-      options.sensor.dropout_share = level;
-      break;
-    case Factor::kAnchors:
-      options.anchors = static_cast<int>(level);
-      break;
-    case Factor::kSmacofFall:
-      options.solver.smacof_relative_fall = level;
-      break;
-    case Factor::kSmacofKnnFall:
-      options.solver.smacof_knn_relative_fall = level;
-      break;
-    case Factor::kOnlySeenTogether:
-      options.solver.only_seen_together = level > 0.0;
-      break;
-  }
-  return options;
-}
-
 /// One variation in one run; keeps what its levels share.
 class Varying {
  public:
@@ -62,9 +26,10 @@ class Varying {
   }
 
   void add_level(double level, std::vector<VariationRecord>& records) {
-    const VariedOptions options = at_level(experiment_, variation_, level);
-    const std::vector<Eigen::Index> anchors = anchors_of(options);
-    prepare(options);
+    Experiment varied = experiment_;
+    set_level(varied, variation_.sensor, variation_.factor, level);
+    const std::vector<Eigen::Index> anchors = anchors_of(varied);
+    prepare(varied);
     for (std::size_t i = 0; i < variation_.settings.size(); ++i) {
       ScoredMap map =
           scored_map(embeddings_[i], run_.world.landmarks_m, anchors, experiment_.affine_fit);
@@ -77,22 +42,22 @@ class Varying {
   }
 
  private:
-  std::vector<Eigen::Index> anchors_of(const VariedOptions& options) const {
+  std::vector<Eigen::Index> anchors_of(const Experiment& varied) const {
     if (variation_.factor != Factor::kAnchors && !variation_.placement) return run_.anchors;
     // A larger number of random anchors holds the smaller one.
     Random random(
         derive_seed(experiment_.seed, {kPlacement, static_cast<std::uint64_t>(run_.id.layout)}));
-    return place_anchors(run_.world, options.anchors,
+    return place_anchors(run_.world, varied.anchors,
                          variation_.placement.value_or(experiment_.anchor_placement), random);
   }
 
   /// Observes and embeds anew where the level asks for it.
-  void prepare(const VariedOptions& options) {
+  void prepare(const Experiment& varied) {
     const bool same_history = history_ && variation_.factor != Factor::kNoise &&
                               variation_.factor != Factor::kDropoutShare;
-    if (!same_history) history_ = observed(options.sensor);
+    if (!same_history) history_ = observed(find_sensor(varied, variation_.sensor)->sensor);
     if (same_history && variation_.factor == Factor::kAnchors) return;
-    HistoryEmbedder embedder(*history_, variation_.step, embedder_options(options.solver));
+    HistoryEmbedder embedder(*history_, variation_.step, embedder_options(varied.solver));
     embeddings_.clear();
     for (const MethodSetting& setting : variation_.settings)
       embeddings_.push_back(embedder.embed(setting));

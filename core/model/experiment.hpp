@@ -40,6 +40,7 @@ struct SensorOptions {
   bool occlusion = true;     ///< Visibility: hidden if another landmark cuts the ray to the centre.
   double noise = 0.0;  ///< Standard deviation, rad or m; visibility: share of flipped entries.
   double dropout_share = 0.0;  ///< Share of entries lost at random.
+  double reach_m = 0.0;  ///< Bearing, range: landmarks further away are not measured; 0: no limit.
 };
 
 /// A method and the parameter values it is tried with.

@@ -12,17 +12,39 @@
 #include "core/model/experiment.hpp"
 #include "core/model/map_record.hpp"
 #include "core/model/study.hpp"
-#include "core/results/quantity.hpp"
+#include "core/model/sweep.hpp"
+#include "core/results/results.hpp"
 
 namespace mapproof {
 
-/// One set of conditions with a figure and a table of its own.
-struct TrialSetup {
-  std::string id;              ///< [a-z][a-z0-9-]*: "sensor-range".
-  std::string title;           ///< "Distant landmarks not observed".
-  std::string level_label;     ///< What the levels are: "share missing, %"; empty: there is one.
+/// What conditions of a setup differ in.
+struct TrialFactor {
+  std::string id;              ///< [a-z][a-z0-9_]*, with its unit: "missing_percent".
+  std::string label;           ///< For readers, without the unit: "share missing".
+  std::string unit;            ///< "%"; empty: a count or a ratio.
   std::vector<double> levels;  ///< Ascending, one or more.
 };
+
+/// Numbers of observations as a factor.
+TrialFactor steps_factor(std::vector<double> steps);
+
+/// Conditions with figures and tables of their own: every combination of the factors' levels.
+struct TrialSetup {
+  std::string id;                         ///< [a-z][a-z0-9-]*: "sensor-range".
+  std::string title;                      ///< "Distant landmarks not observed".
+  std::vector<TrialFactor> factors = {};  ///< None: there is one condition.
+};
+
+/// The conditions of a setup, the first factor's levels outermost.
+std::vector<Condition> conditions_of(const TrialSetup& setup);
+
+/// The levels of a setup's only factor; of a setup without factors 0 alone.
+/// @throws InvalidInput if it has several factors.
+std::vector<double> levels_of(const TrialSetup& setup);
+
+/// The condition at a level of the only factor; without factors whatever the level.
+/// @throws InvalidInput as levels_of().
+Condition condition_at(const TrialSetup& setup, double level);
 
 /// One of what is held against each other: a method, a criterion, a sensor.
 struct TrialSeries {
@@ -48,11 +70,10 @@ struct TrialDesign {
   std::vector<Quantity> quantities;  ///< By which trials are judged: study_quantity().
 };
 
-/// What one series came to at one level of one setup. Not every combination has to be tried.
+/// What one series came to under one condition of a setup. Not every combination has to be tried.
 struct Trial {
-  std::string setup;
+  Condition at;  ///< The setup and a level of each of its factors.
   std::string series;
-  double level = 0.0;
   std::vector<double> values;  ///< As many as the design has quantities; NaN: nothing came out.
   std::vector<Status> statuses;
 };
@@ -111,8 +132,19 @@ struct TrialExperiment {
   WalkOptions walk;
   int anchors = 4;
   std::map<std::string, std::vector<double>> options;  ///< Every one of the topic's.
-  std::vector<TrialDataSet> data;                      ///< Of a topic of data: what was there.
+  std::vector<SensorStudy> sensors = {};  ///< Of a topic that sweeps; `steps` is the checkpoint.
+  std::vector<Sweep> sweeps = {};         ///< Likewise.
+  std::vector<TrialDataSet> data = {};    ///< Of a topic of data: what was there.
 };
+
+/// Whether the sensor has all factors of the sweep.
+bool has_factors(Sensor sensor, const Sweep& sweep);
+
+/// One sensor's experiment at a level of each factor of a sweep: everything else is as in the
+/// experiment of the sweep.
+/// @param levels  As many as the sweep has factors.
+Experiment at_levels(const TrialExperiment& experiment, const SensorStudy& sensor,
+                     const Sweep& sweep, const std::vector<double>& levels);
 
 /// A study of trials as its folder holds it.
 struct TrialStudy {

@@ -21,6 +21,11 @@ enum class Factor {
   kSmacofFall,        ///< SolverOptions::smacof_relative_fall.
   kSmacofKnnFall,     ///< SolverOptions::smacof_knn_relative_fall.
   kOnlySeenTogether,  ///< SolverOptions::only_seen_together: 0 or 1.
+  kSide,              ///< WorldOptions::side_m.
+  kLandmarks,         ///< WorldOptions::landmarks.
+  kDiameter,          ///< WorldOptions::landmark_diameter_m.
+  kReach,             ///< How far a landmark may be and still be observed, m.
+  kSteps,             ///< The only checkpoint.
 };
 
 /// Everything about a factor that its readers ask.
@@ -30,15 +35,23 @@ struct FactorInfo {
   bool integer;
   double minimum;  ///< Inclusive.
   double maximum;  ///< Inclusive.
+  bool of_world;   ///< Another level makes another world or walk: no variation, only a sweep.
 };
 
 const FactorInfo& info(Factor factor);
 
-/// The factor of that name; empty if there is none.
+/// The factor of that name that a variation may change; empty if there is none.
 std::optional<Factor> factor_named(std::string_view name);
 
-/// The names of all factors, in their order.
+/// The names of these factors, in their order.
 std::vector<std::string_view> factor_names();
+
+struct Experiment;
+
+/// Sets the factor, of the sensor if it is one of a sensor, to that level. A reach of visibility is
+/// the visual angle of a landmark that far away.
+/// @throws InvalidInput if the experiment does not have the sensor.
+void set_level(Experiment& experiment, Sensor sensor, Factor factor, double level);
 
 /// A side study: some methods over the levels of one factor, at one step of every run.
 struct Variation {

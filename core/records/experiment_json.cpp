@@ -14,7 +14,7 @@ using Json = nlohmann::ordered_json;
 
 constexpr std::string_view kExperimentSchema = "mapproof.experiment";
 
-Json sensor_value(const SensorStudy& study) {
+Json sensor_value(const SensorStudy& study, bool has_checkpoints) {
   Json value = Json::object();
   if (study.sensor.sensor == Sensor::kVisibility) {
     value["visual_angle_rad"] = study.sensor.visual_angle_rad;
@@ -22,13 +22,21 @@ Json sensor_value(const SensorStudy& study) {
   }
   value["noise"] = study.sensor.noise;
   value["dropout_share"] = study.sensor.dropout_share;
-  value["checkpoints"] = study.checkpoints;
+  if (study.sensor.reach_m > 0.0) value["reach_m"] = study.sensor.reach_m;
+  if (has_checkpoints) value["checkpoints"] = study.checkpoints;
   value["methods"] = methods_value(study.methods);
   if (!study.published.source.empty()) value["published"] = published_value(study.published);
   return value;
 }
 
 }  // namespace
+
+Json sensors_value(const std::vector<SensorStudy>& sensors, std::optional<int> steps) {
+  Json value = Json::object();
+  for (const SensorStudy& study : sensors)
+    value[std::string(name(study.sensor.sensor))] = sensor_value(study, !steps);
+  return value;
+}
 
 Json world_value(const WorldOptions& world) {
   return {{"side_m", world.side_m},
@@ -47,9 +55,6 @@ Json walk_value(const WalkOptions& walk) {
 }
 
 Json experiment_value(const Experiment& experiment) {
-  Json sensors = Json::object();
-  for (const SensorStudy& study : experiment.sensors)
-    sensors[std::string(name(study.sensor.sensor))] = sensor_value(study);
   Json value = {{"schema", schema_value(kExperimentSchema)},
                 {"name", experiment.name},
                 {"title", experiment.title},
@@ -65,7 +70,7 @@ Json experiment_value(const Experiment& experiment) {
                  {{"smacof_relative_fall", experiment.solver.smacof_relative_fall},
                   {"smacof_knn_relative_fall", experiment.solver.smacof_knn_relative_fall},
                   {"only_seen_together", experiment.solver.only_seen_together}}},
-                {"sensors", std::move(sensors)}};
+                {"sensors", sensors_value(experiment.sensors)}};
   put_extras(value, experiment);
   return value;
 }

@@ -18,35 +18,33 @@ void read_sensor_options(const JsonCursor& object, SensorOptions& options) {
   if (is_visibility) {
     read_if_there(object, "visual_angle_rad", 1e-6, std::numbers::pi, options.visual_angle_rad);
     if (const auto occlusion = object.find("occlusion")) options.occlusion = occlusion->boolean();
+  } else {
+    read_if_there(object, "reach_m", 1e-6, kLongest_m, options.reach_m);
   }
   read_if_there(object, "noise", 0.0, is_visibility ? 0.5 : kLongest_m, options.noise);
   read_if_there(object, "dropout_share", 0.0, 0.99, options.dropout_share);
 }
 
-SensorStudy read_sensor_study(Sensor sensor, const JsonCursor& object) {
-  std::vector<std::string_view> keys = {"noise", "dropout_share", "checkpoints", "methods",
-                                        "published"};
-  if (sensor == Sensor::kVisibility) keys.insert(keys.end(), {"visual_angle_rad", "occlusion"});
+SensorStudy read_sensor_study(Sensor sensor, const JsonCursor& object, std::optional<int> steps) {
+  std::vector<std::string_view> keys = {"noise", "dropout_share", "methods"};
+  if (!steps) keys.insert(keys.end(), {"checkpoints", "published"});
+  if (sensor == Sensor::kVisibility)
+    keys.insert(keys.end(), {"visual_angle_rad", "occlusion"});
+  else
+    keys.push_back("reach_m");
   object.allow_only(keys);
   SensorStudy study;
   study.sensor.sensor = sensor;
   read_sensor_options(object, study.sensor);
-  study.checkpoints = read_ascending<int>(object.at("checkpoints"), [](const JsonCursor& item) {
-    return item.integer32(3, kMostSteps);
-  });
+  if (steps)
+    study.checkpoints = {*steps};
+  else
+    study.checkpoints = read_ascending<int>(object.at("checkpoints"), [](const JsonCursor& item) {
+      return item.integer32(3, kMostSteps);
+    });
   study.methods = read_methods(object.at("methods"));
   if (const auto published = object.find("published")) study.published = read_published(*published);
   return study;
-}
-
-std::vector<SensorStudy> read_sensors(const JsonCursor& object) {
-  object.allow_only({"visibility", "bearing", "range"});
-  std::vector<SensorStudy> studies;
-  for (const Sensor sensor : {Sensor::kVisibility, Sensor::kBearing, Sensor::kRange})
-    if (const auto found = object.find(std::string(name(sensor))))
-      studies.push_back(read_sensor_study(sensor, *found));
-  if (studies.empty()) object.fail("expected at least one of visibility, bearing, range");
-  return studies;
 }
 
 AffineFit read_affine_fit(const JsonCursor& value) {
@@ -64,6 +62,16 @@ void read_solver(const JsonCursor& object, SolverOptions& solver) {
 }
 
 }  // namespace
+
+std::vector<SensorStudy> read_sensors(const JsonCursor& object, std::optional<int> steps) {
+  object.allow_only({"visibility", "bearing", "range"});
+  std::vector<SensorStudy> studies;
+  for (const Sensor sensor : {Sensor::kVisibility, Sensor::kBearing, Sensor::kRange})
+    if (const auto found = object.find(std::string(name(sensor))))
+      studies.push_back(read_sensor_study(sensor, *found, steps));
+  if (studies.empty()) object.fail("expected at least one of visibility, bearing, range");
+  return studies;
+}
 
 WorldOptions read_world_options(const JsonCursor& object) {
   object.allow_only({"side_m", "landmarks", "landmark_diameter_m", "gap_m", "wall_margin_m"});

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <optional>
+#include <string>
 #include <vector>
 
 #include <fmt/format.h>
@@ -20,6 +22,13 @@ Experiment read_experiment(const JsonCursor& document);
 /// @throws IoError with the place in `document`, which `experiment` was read from.
 void check_experiment(const Experiment& experiment, const JsonCursor& document);
 
+/// What keeps landmarks from being scattered over the room; empty: nothing.
+std::string room_problem(const WorldOptions& world);
+
+/// What keeps one of an experiment's runs from being simulated and mapped, whatever its sensors'
+/// checkpoints; empty: nothing.
+std::string run_problem(const Experiment& experiment);
+
 /// What a paper printed on one sensor's part. @throws IoError with the place.
 Published read_published(const JsonCursor& object);
 nlohmann::ordered_json published_value(const Published& published);
@@ -35,6 +44,13 @@ nlohmann::ordered_json methods_value(const std::vector<MethodGrid>& grids);
 
 /// @param methods  What `grids` were read from. @throws IoError at a K of `landmarks` or more.
 void check_grids(const std::vector<MethodGrid>& grids, int landmarks, const JsonCursor& methods);
+
+/// @param steps  The only checkpoint of every sensor, which then names none; empty: each its own.
+std::vector<SensorStudy> read_sensors(const JsonCursor& object,
+                                      std::optional<int> steps = std::nullopt);
+/// @param steps  As above: no checkpoints are written.
+nlohmann::ordered_json sensors_value(const std::vector<SensorStudy>& sensors,
+                                     std::optional<int> steps = std::nullopt);
 
 WorldOptions read_world_options(const JsonCursor& object);
 nlohmann::ordered_json world_value(const WorldOptions& world);

@@ -1,11 +1,15 @@
 #include "core/records/results_of.hpp"
 
 #include <algorithm>
+#include <cmath>
+#include <set>
+#include <tuple>
 #include <utility>
 
 #include <fmt/format.h>
 
 #include "core/base/not_finite.hpp"
+#include "core/base/words.hpp"
 
 namespace mapproof {
 namespace {
@@ -123,6 +127,30 @@ void add_histories(Results& results, const RangeHistoryStudy& histories) {
   }
 }
 
+/// The name of an experiment as the beginning of ids: [a-z][a-z0-9-]*.
+std::string figure_prefix(const std::string& name) {
+  std::string id = lower_case(name);
+  std::ranges::replace(id, '_', '-');
+  return id.front() >= 'a' && id.front() <= 'z' ? id : "study-" + id;
+}
+
+/// See labelled_results().
+void drop_what_does_not_apply(Results& results) {
+  using Cell = std::tuple<std::string, std::string, std::string>;  // Setup, method, quantity.
+  const auto cell_of = [](const Result& row) {
+    return Cell{row.at.setup, row.method, row.quantity};
+  };
+  std::set<Cell> with_value;
+  for (const Result& row : results.rows)
+    if (!std::isnan(row.value)) with_value.insert(cell_of(row));
+  std::set<std::pair<std::string, std::string>> explained;
+  for (const RunOutcome& outcome : results.outcomes)
+    if (!outcome.codes.empty()) explained.insert({outcome.at.setup, outcome.method});
+  std::erase_if(results.rows, [&](const Result& row) {
+    return !with_value.contains(cell_of(row)) && !explained.contains({row.at.setup, row.method});
+  });
+}
+
 std::string group_of(const TrialPart& part) { return part.run ? layout_of(*part.run) : part.id; }
 
 }  // namespace
@@ -167,14 +195,45 @@ Results results_of(const TrialStudy& study) {
   for (const Quantity& quantity : study.design.quantities) results.quantities.declare(quantity);
   for (const TrialPart& part : study.parts)
     for (const Trial& trial : part.trials) {
-      RecordRows rows(results, condition(trial.setup, {{std::string(kLevelFactor), trial.level}}),
-                      trial.series, part.id, group_of(part));
+      RecordRows rows(results, trial.at, trial.series, part.id, group_of(part));
       for (std::size_t i = 0; i < trial.values.size(); ++i)
         rows.add(study.design.quantities.at(i).id, trial.values[i]);
       rows.add(trial.statuses);
     }
   sort_results(results);
   return results;
+}
+
+ResultsStudy labelled_results(const TrialStudy& study) {
+  const TrialExperiment& experiment = study.experiment;
+  ResultsStudy labelled{.name = figure_prefix(experiment.name),
+                        .title = experiment.title,
+                        .question = study.design.question,
+                        .command = {},
+                        .quantities = {},
+                        .quantity_labels = {},
+                        .setups = {},
+                        .methods = {},
+                        .factors = {},
+                        .runs = {},
+                        .results = results_of(study)};
+  drop_what_does_not_apply(labelled.results);
+  for (const Quantity& quantity : study.design.quantities) {
+    labelled.quantities.push_back(quantity.id);
+    labelled.quantity_labels.push_back({.id = quantity.id, .label = quantity.label});
+  }
+  for (const TrialSetup& setup : study.design.setups) {
+    labelled.setups.push_back({.id = setup.id, .label = setup.title});
+    for (const TrialFactor& factor : setup.factors)
+      if (std::ranges::find(labelled.factors, factor.id, &Label::id) == labelled.factors.end())
+        labelled.factors.push_back({.id = factor.id, .label = factor.label, .unit = factor.unit});
+  }
+  for (const TrialSeries& series : study.design.series)
+    labelled.methods.push_back({.id = series.id, .label = series.label});
+  for (const TrialDataSet& set : experiment.data)
+    labelled.runs.push_back({.id = set.id, .label = set.title});
+  complete(labelled);
+  return labelled;
 }
 
 std::vector<Result> seconds_of(std::span<const Timing> timings) {

@@ -7,7 +7,7 @@
 #include "core/model/slam_study.hpp"
 #include "core/model/study.hpp"
 #include "core/model/trial_study.hpp"
-#include "core/results/results.hpp"
+#include "core/results/results_study.hpp"
 
 namespace mapproof {
 
@@ -20,8 +20,12 @@ Results results_of(const Study& study);
 /// path.
 Results results_of(const SlamStudy& study);
 
-/// Setups and quantities are the design's, the level is `level`; groups are layouts or data sets.
+/// Setups, factors and quantities are the design's; groups are layouts or data sets.
 Results results_of(const TrialStudy& study);
+
+/// The same under the labels of its design, for the report. Values that no run of a series has in a
+/// setup, and no status explains, do not apply: they are not there.
+ResultsStudy labelled_results(const TrialStudy& study);
 
 /// Of one log, of one map.
 Results results_of(const SlamRun& run);

@@ -10,6 +10,7 @@
 #include "core/records/experiment_values.hpp"
 #include "core/records/json_values.hpp"
 #include "core/records/profiles.hpp"
+#include "core/records/trial_sweeps.hpp"
 
 namespace mapproof {
 namespace {
@@ -90,16 +91,18 @@ TrialExperiment read_experiment_frame(const JsonCursor& document) {
 }  // namespace
 
 TrialExperiment parse_trial_experiment(std::string_view text, const std::string& source,
-                                       const OptionsOfTopic& options_of,
-                                       const std::string& profile) {
+                                       const InputOfTopic& input_of, const std::string& profile) {
   const JsonDocument document = parse_with_profile(text, source, kTrialExperimentSchema, profile);
   const JsonCursor root = document.cursor();
-  root.allow_only({"schema", "name", "title", "topic", "seed", "layouts", "poses", "steps", "world",
-                   "walk", "anchors", "options"});
   TrialExperiment experiment = read_experiment_frame(root);
-  const std::vector<TrialOption>* known = options_of(experiment.topic);
-  if (known == nullptr) root.at("topic").fail("no topic " + in_quotes(experiment.topic));
-  experiment.options = read_options(root.find("options"), *known);
+  const TopicInput input = input_of(experiment.topic);
+  if (input.options == nullptr) root.at("topic").fail("no topic " + in_quotes(experiment.topic));
+  std::vector<std::string_view> keys = {"schema", "name",  "title", "topic", "seed",    "layouts",
+                                        "poses",  "steps", "world", "walk",  "anchors", "options"};
+  if (input.sweeps) keys.insert(keys.end(), {"sensors", "sweeps"});
+  root.allow_only(keys);
+  experiment.options = read_options(root.find("options"), *input.options);
+  if (input.sweeps) read_sweeps(root, experiment);
   return experiment;
 }
 
@@ -115,8 +118,9 @@ nlohmann::ordered_json trial_experiment_value(const TrialExperiment& experiment)
                                   {"world", world_value(experiment.world)},
                                   {"walk", walk_value(experiment.walk)},
                                   {"anchors", experiment.anchors},
-                                  {"options", nlohmann::ordered_json::object()},
-                                  {"data", nlohmann::ordered_json::array()}};
+                                  {"options", nlohmann::ordered_json::object()}};
+  put_sweeps(value, experiment);
+  value["data"] = nlohmann::ordered_json::array();
   for (const auto& [name, numbers] : experiment.options)
     for (const double number : numbers) value["options"][name].push_back(number_value(number));
   for (const TrialDataSet& set : experiment.data)
@@ -127,9 +131,10 @@ nlohmann::ordered_json trial_experiment_value(const TrialExperiment& experiment)
 TrialExperiment read_trial_experiment(const JsonCursor& document) {
   expect_schema(document, kTrialExperimentSchema);
   document.allow_only({"schema", "name", "title", "topic", "seed", "layouts", "poses", "steps",
-                       "world", "walk", "anchors", "options", "data"});
+                       "world", "walk", "anchors", "options", "sensors", "sweeps", "data"});
   TrialExperiment experiment = read_experiment_frame(document);
   experiment.options = read_any_options(document.at("options"));
+  if (document.find("sweeps")) read_sweeps(document, experiment);
   experiment.data = read_data(document.at("data"));
   return experiment;
 }

@@ -20,24 +20,48 @@ using Json = nlohmann::ordered_json;
 
 constexpr double kLargest = std::numeric_limits<double>::max();
 constexpr std::size_t kMost = 10'000;  ///< Setups, series, quantities, levels, maps.
+constexpr std::size_t kMostFactors = 10;
+
+Json factor_value(const TrialFactor& factor) {
+  Json value = {
+      {"id", factor.id}, {"label", factor.label}, {"unit", factor.unit}, {"levels", Json::array()}};
+  for (const double level : factor.levels) value["levels"].push_back(number_value(level));
+  return value;
+}
+
+TrialFactor read_factor(const JsonCursor& value) {
+  value.allow_only({"id", "label", "unit", "levels"});
+  TrialFactor factor{.id = value.at("id").text(100),
+                     .label = value.at("label").text(200),
+                     .unit = value.at("unit").text(100),
+                     .levels = {}};
+  if (factor.id.empty()) value.at("id").fail("is empty");
+  for (const JsonCursor& level : value.at("levels").elements(1, kMost))
+    factor.levels.push_back(level.number(-kLargest, kLargest));
+  return factor;
+}
 
 Json setup_value(const TrialSetup& setup) {
-  Json levels = Json::array();
-  for (const double level : setup.levels) levels.push_back(number_value(level));
-  return {{"id", setup.id},
-          {"title", setup.title},
-          {"level_label", setup.level_label},
-          {"levels", std::move(levels)}};
+  Json value = {{"id", setup.id}, {"title", setup.title}, {"factors", Json::array()}};
+  for (const TrialFactor& factor : setup.factors) value["factors"].push_back(factor_value(factor));
+  return value;
+}
+
+/// Throws if an id stands twice among the items of an array.
+template <typename Item>
+void check_ids(const std::vector<Item>& items, const JsonCursor& array) {
+  std::set<std::string> ids;
+  for (std::size_t i = 0; i < items.size(); ++i)
+    if (!ids.insert(items[i].id).second) array.element(i).at("id").fail("is there twice");
 }
 
 TrialSetup read_setup(const JsonCursor& value) {
-  value.allow_only({"id", "title", "level_label", "levels"});
-  TrialSetup setup{.id = read_id(value.at("id")),
-                   .title = value.at("title").text(1000),
-                   .level_label = value.at("level_label").text(200),
-                   .levels = {}};
-  for (const JsonCursor& level : value.at("levels").elements(1, kMost))
-    setup.levels.push_back(level.number(-kLargest, kLargest));
+  value.allow_only({"id", "title", "factors"});
+  TrialSetup setup{
+      .id = read_id(value.at("id")), .title = value.at("title").text(1000), .factors = {}};
+  for (const JsonCursor& factor : value.at("factors").elements(0, kMostFactors))
+    setup.factors.push_back(read_factor(factor));
+  check_ids(setup.factors, value.at("factors"));
   return setup;
 }
 
@@ -52,14 +76,6 @@ Json design_value(const TrialDesign& design) {
   for (const Quantity& quantity : design.quantities)
     value["quantities"].push_back(quantity_value(quantity));
   return value;
-}
-
-/// Throws if an id stands twice among the items of an array.
-template <typename Item>
-void check_ids(const std::vector<Item>& items, const JsonCursor& array) {
-  std::set<std::string> ids;
-  for (std::size_t i = 0; i < items.size(); ++i)
-    if (!ids.insert(items[i].id).second) array.element(i).at("id").fail("is there twice");
 }
 
 TrialDesign read_design(const JsonCursor& value) {
@@ -81,32 +97,43 @@ TrialDesign read_design(const JsonCursor& value) {
 }
 
 Json trial_value(const Trial& trial) {
-  Json value = {{"setup", trial.setup},
+  Json value = {{"setup", trial.at.setup},
                 {"series", trial.series},
-                {"level", number_value(trial.level)},
+                {"levels", Json::object()},
                 {"values", Json::array()}};
+  for (const Level& level : trial.at.levels)
+    value["levels"][level.factor] = number_value(std::get<double>(level.value));
   for (const double number : trial.values) value["values"].push_back(number_value(number));
   if (!trial.statuses.empty()) value["statuses"] = statuses_value(trial.statuses);
   return value;
 }
 
-/// Throws unless the design has the trial's setup, level and series.
+/// Throws unless the design has the trial's setup, levels and series.
 void check_belongs(const Trial& trial, const JsonCursor& value, const TrialDesign& design) {
-  const auto setup = std::ranges::find(design.setups, trial.setup, &TrialSetup::id);
+  const auto setup = std::ranges::find(design.setups, trial.at.setup, &TrialSetup::id);
   if (setup == design.setups.end()) value.at("setup").fail("the study has no such setup");
-  if (std::ranges::find(setup->levels, trial.level) == setup->levels.end())
-    value.at("level").fail("the setup has no such level");
+  const JsonCursor levels = value.at("levels");
+  for (const TrialFactor& factor : setup->factors) {
+    const auto found = std::ranges::find(trial.at.levels, factor.id, &Level::factor);
+    if (found == trial.at.levels.end()) levels.fail("lacks the factor " + in_quotes(factor.id));
+    if (std::ranges::find(factor.levels, std::get<double>(found->value)) == factor.levels.end())
+      levels.at(factor.id).fail("the setup has no such level");
+  }
+  if (trial.at.levels.size() > setup->factors.size())
+    levels.fail("has a factor that the setup does not have");
   if (std::ranges::find(design.series, trial.series, &TrialSeries::id) == design.series.end())
     value.at("series").fail("the study has no such series");
 }
 
 Trial read_trial(const JsonCursor& value, const TrialDesign* design) {
-  value.allow_only({"setup", "series", "level", "values", "statuses"});
+  value.allow_only({"setup", "series", "levels", "values", "statuses"});
   std::optional<std::size_t> quantities;
   if (design != nullptr) quantities = design->quantities.size();
-  Trial trial{.setup = value.at("setup").text(),
+  std::vector<Level> levels;
+  for (const auto& [factor, level] : value.at("levels").members())
+    levels.push_back({.factor = factor, .value = level.number(-kLargest, kLargest)});
+  Trial trial{.at = condition(value.at("setup").text(), std::move(levels)),
               .series = value.at("series").text(),
-              .level = value.at("level").number(-kLargest, kLargest),
               .values = value.at("values").numbers_or_null(-kLargest, kLargest, quantities),
               .statuses = {}};
   if (design != nullptr) check_belongs(trial, value, *design);

@@ -42,8 +42,7 @@ std::string series_name(const Condition& at, const std::string& method,
                         const std::string& subject) {
   std::string name = at.setup + "/" + method;
   for (const Level& level : at.levels) {
-    const bool says_itself = level.factor == kStepsFactor || level.factor == kLevelFactor;
-    name += "/" + (says_itself ? "" : level.factor + "-") + level_text(level);
+    name += "/" + (level.factor == kStepsFactor ? "" : level.factor + "-") + level_text(level);
   }
   return subject.empty() ? name : name + "/" + subject;
 }

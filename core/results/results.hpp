@@ -13,7 +13,7 @@ namespace mapproof {
 
 /// One factor of a condition and the level it stands at.
 struct Level {
-  std::string factor;                       ///< "steps", "anchor-count", "level".
+  std::string factor;                       ///< "steps", "anchor-count", "missing_percent".
   std::variant<double, std::string> value;  ///< A number that is no NaN, or a text.
 
   auto operator<=>(const Level&) const = default;
@@ -24,8 +24,6 @@ std::string level_text(const Level& level);
 
 /// The factor whose levels are numbers of observations.
 inline constexpr std::string_view kStepsFactor = "steps";
-/// The factor of a setup that has one, whatever it is: study.json says.
-inline constexpr std::string_view kLevelFactor = "level";
 
 /// Under what a result came out.
 struct Condition {

@@ -23,7 +23,11 @@ struct ResultsStudy {
   std::string question;  ///< What was asked and how it was tried; may be empty.
   std::string command;   ///< That made the results; may be empty.
   std::vector<std::string> quantities;          ///< Ids, in the order of tables.
+  std::vector<Label> quantity_labels = {};      ///< In place of the dictionary's; may be empty.
   std::vector<Label> setups, methods, factors;  ///< In the order of tables.
+  /// Of runs that are no repeats of each other, such as data sets: each has tables of its own.
+  /// Empty: all stand in the same ones.
+  std::vector<Label> runs = {};
   Results results;
 };
 

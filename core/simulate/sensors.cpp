@@ -67,10 +67,16 @@ ObservationHistory observe(const World& world, const Path& path, const SensorOpt
   const Eigen::Index N = path.positions_m.rows();
   ObservationHistory history{
       .sensor = options.sensor, .names = landmark_names(M), .values = Eigen::MatrixXd(M, N)};
+  const bool is_limited = options.reach_m > 0.0 && options.sensor != Sensor::kVisibility;
   for (Eigen::Index t = 0; t < N; ++t) {
     const Eigen::VectorXd measured = measured_from(world, path, t, options);
     for (Eigen::Index i = 0; i < M; ++i)
       history.values(i, t) = disturbed(measured(i), options, random);
+    if (!is_limited) continue;
+    const Eigen::RowVector2d position = path.positions_m.row(t);
+    for (Eigen::Index i = 0; i < M; ++i)
+      if ((world.landmarks_m.row(i) - position).norm() > options.reach_m)
+        history.values(i, t) = std::numeric_limits<double>::quiet_NaN();
   }
   return history;
 }

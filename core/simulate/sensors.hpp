@@ -17,7 +17,8 @@ namespace mapproof {
 /// Visibility: 1 if the cylinder looks wider than the visual angle [yairi2007, section 4.3.1] and
 /// no other cylinder cuts the ray to its centre. Bearing: direction to the centre relative to the
 /// heading, in (-pi, pi]. Range: distance to the centre. Noise and dropout come after that; a
-/// noisy bearing is wrapped again, a noisy range is at least 0.
+/// noisy bearing is wrapped again, a noisy range is at least 0. Bearings and ranges of landmarks
+/// beyond the sensor's reach are missing; what is drawn does not depend on the reach.
 /// @note Without noise and dropout `random` is not drawn from.
 ObservationHistory observe(const World& world, const Path& path, const SensorOptions& options,
                            Random& random);

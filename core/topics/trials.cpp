@@ -49,7 +49,7 @@ void add_run_tasks(const std::shared_ptr<const PlannedTrials>& trials, StudyPlan
 StudyPlan plan_trials(std::string_view text, const std::string& source,
                       const PlanOptions& options) {
   TrialExperiment experiment =
-      parse_trial_experiment(text, source, options_of_topics(), options.profile);
+      parse_trial_experiment(text, source, input_of_topics(), options.profile);
   const bool of_data = topic_named(experiment.topic)->of_data;
   apply(of_data && options.one_of_several ? seed_alone(options.changes) : options.changes,
         experiment, of_data);
@@ -73,7 +73,7 @@ StudyPlan plan_trials(std::string_view text, const std::string& source,
 }
 
 bool needs_data(std::string_view text, const std::string& source) {
-  return topic_named(parse_trial_experiment(text, source, options_of_topics()).topic)->of_data;
+  return topic_named(parse_trial_experiment(text, source, input_of_topics()).topic)->of_data;
 }
 
 void read_trials(const fs::path& folder, const std::string& text, const ContentsAsked& asked,
@@ -98,9 +98,9 @@ void read_trials(const fs::path& folder, const std::string& text, const Contents
 }
 
 void check_trial_experiment_file(std::string_view text, const std::string& source) {
-  parse_trial_experiment(text, source, options_of_topics());
+  parse_trial_experiment(text, source, input_of_topics());
   for (const std::string& profile : trial_profiles(text, source))
-    parse_trial_experiment(text, source, options_of_topics(), profile);
+    parse_trial_experiment(text, source, input_of_topics(), profile);
 }
 
 }  // namespace

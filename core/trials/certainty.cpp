@@ -27,6 +27,7 @@ constexpr std::pair<const char*, Sensor> kSensors[] = {{"bearing", Sensor::kBear
                                                        {"visibility", Sensor::kVisibility}};
 /// The one whose levels are lengths of blocks, in the usual length.
 constexpr const char* kBlocks = "blocks";
+constexpr const char* kBlockLength = "block_length";
 
 std::string series_id(const MethodSetting& setting) {
   return std::string(info(setting.method).name);
@@ -41,11 +42,13 @@ TrialDesign certainty_design(const TrialExperiment& experiment) {
       "the truth?",
       number_option(experiment, "walks"), number_option(experiment, "tried"));
   for (const auto& [id, sensor] : kSensors)
-    design.setups.push_back({id, fmt::format("Ellipses of maps from {}", name(sensor)),
-                             "observations", list_option(experiment, "observations")});
-  design.setups.push_back({kBlocks, "Ellipses from blocks of other lengths, bearing",
-                           "length of the blocks, of the usual one",
-                           list_option(experiment, "blocks")});
+    design.setups.push_back({id,
+                             fmt::format("Ellipses of maps from {}", name(sensor)),
+                             {steps_factor(list_option(experiment, "observations"))}});
+  design.setups.push_back({kBlocks,
+                           "Ellipses from blocks of other lengths, bearing",
+                           {{kBlockLength, "length of the blocks, of the usual one", "",
+                             list_option(experiment, "blocks")}}});
   for (const MethodSetting& setting : kSettings)
     design.series.push_back({series_id(setting), label(setting)});
   design.quantities = {
@@ -89,9 +92,8 @@ class WalkedWorld {
     add_seconds(part, series_id(setting),
                 std::chrono::duration<double>(Clock::now() - start).count());
     const Coverage found = coverage(maps, certainties, frame_);
-    return {.setup = {},
+    return {.at = {},
             .series = series_id(setting),
-            .level = 0.0,
             .values = {found.mean_percent, found.truth_percent, found.bias_m, found.spread_m,
                        found.told_m},
             .statuses = {}};
@@ -134,9 +136,8 @@ class WalkedWorld {
   std::vector<ObservationHistory> histories_;
 };
 
-void add(TrialPart& part, Trial trial, const char* setup, double level) {
-  trial.setup = setup;
-  trial.level = level;
+void add(TrialPart& part, Trial trial, const char* setup, const std::string& factor, double level) {
+  trial.at = condition(setup, {{.factor = factor, .value = level}});
   part.trials.push_back(std::move(trial));
 }
 
@@ -147,13 +148,13 @@ TrialPart make_certainty(const TrialContext& context) {
     for (const double steps : list_option(context.experiment, "observations"))
       for (const MethodSetting& setting : kSettings) {
         const auto used = std::min<Eigen::Index>(std::llround(steps), walked.most_steps());
-        add(part, walked.tried(setting, used, 1.0, part), id, steps);
+        add(part, walked.tried(setting, used, 1.0, part), id, std::string(kStepsFactor), steps);
       }
     if (sensor == Sensor::kBearing)
       for (const double blocks : list_option(context.experiment, "blocks"))
         for (const Method method : {Method::kLpca, Method::kSmacof})
           add(part, walked.tried({method, std::nullopt}, walked.most_steps(), blocks, part),
-              kBlocks, blocks);
+              kBlocks, kBlockLength, blocks);
     if (context.with_maps) part.maps.push_back(walked.shown(kSettings[1], id));
   }
   return part;
@@ -164,8 +165,8 @@ std::pair<double, double> range_of(const TrialStudy& study, const TrialSetup& se
                                    const char* quantity) {
   double low = HUGE_VAL, high = -HUGE_VAL;
   for (const TrialSeries& series : study.design.series)
-    for (const double level : setup.levels) {
-      const double mean = trial_mean(study, setup.id, series.id, level, quantity);
+    for (const Condition& at : conditions_of(setup)) {
+      const double mean = trial_mean(study, at, series.id, quantity);
       if (std::isnan(mean)) continue;
       low = std::min(low, mean);
       high = std::max(high, mean);

@@ -32,8 +32,9 @@ TrialDesign choice_design(const TrialExperiment& experiment) {
       "anchors it judges maps fitted to them, and is judged by their MPE; without, it judges the "
       "shapes alone, and is judged by the MPE with the affine map fitted on all landmarks.";
   for (const auto& [id, sensor] : kChoiceSensors)
-    design.setups.push_back({id, fmt::format("Picking among maps from {}", name(sensor)),
-                             "observations", list_option(experiment, "observations")});
+    design.setups.push_back({id,
+                             fmt::format("Picking among maps from {}", name(sensor)),
+                             {steps_factor(list_option(experiment, "observations"))}});
   for (const CriterionInfo& criterion : all_criteria())
     design.series.push_back({std::string(criterion.name), std::string(criterion.label)});
   design.series.push_back({kFixed, label(kFixedSetting) + ", always"});
@@ -107,9 +108,8 @@ class Picks {
 
  private:
   Trial trial(std::string_view series, double error, double shape_error) const {
-    return {.setup = {},
+    return {.at = {},
             .series = std::string(series),
-            .level = 0.0,
             .values = {error - errors_.best, shape_error - shape_errors_.best, error},
             .statuses = {}};
   }
@@ -144,8 +144,7 @@ TrialPart make_choice(const TrialContext& context) {
            .replicates = static_cast<int>(number_option(context.experiment, "replicates")),
            .seed = context.seed});
       for (Trial& trial : Picks(judge, context).trials()) {
-        trial.setup = id;
-        trial.level = level;
+        trial.at = condition(id, {{.factor = std::string(kStepsFactor), .value = level}});
         part.trials.push_back(std::move(trial));
       }
       add_seconds(part, info(Criterion::kCombined).name,
@@ -160,8 +159,8 @@ double mean_over_all(const TrialStudy& study, std::string_view series, const cha
   double sum = 0.0;
   int count = 0;
   for (const TrialSetup& setup : study.design.setups)
-    for (const double level : setup.levels)
-      for (const double value : trial_values(study, setup.id, series, level, quantity)) {
+    for (const Condition& at : conditions_of(setup))
+      for (const double value : trial_values(study, at, series, quantity)) {
         sum += value;
         ++count;
       }

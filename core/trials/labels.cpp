@@ -38,11 +38,11 @@ TrialDesign labels_design(const TrialExperiment& experiment) {
       "and what is won by estimating the correspondence? Maps are of SMACOF over K = {:g} "
       "neighbours.",
       number_option(experiment, "stretch"), number_option(experiment, "neighbours"));
-  const std::string label = "labels confused [%]";
-  design.setups = {
-      {kUnlabelled, "Readings without a label", label, percent},
-      {kConfused, "Readings under a wrong label, not known which", label, percent},
-      {kStretches, "Landmarks confused over stretches, not known which", label, percent}};
+  const std::vector<TrialFactor> factors = {
+      {"confused_percent", "labels confused", "%", std::move(percent)}};
+  design.setups = {{kUnlabelled, "Readings without a label", factors},
+                   {kConfused, "Readings under a wrong label, not known which", factors},
+                   {kStretches, "Landmarks confused over stretches, not known which", factors}};
   design.series = {{kGiven, "Labels as given"},
                    {kLeftOut, "Doubtful readings left out"},
                    {kEstimated, "Correspondence estimated"}};
@@ -146,16 +146,15 @@ class ConfusedMaps {
     const ScoredMap map = scored_map(embedder.embed(setting), context_.world->landmarks_m,
                                      context_.anchors, AffineFit::kLeastSquares);
     const double none = std::numeric_limits<double>::quiet_NaN();
-    part_.trials.push_back({setup_.id,
+    part_.trials.push_back({condition_at(setup_, level_),
                             series,
-                            level_,
                             {series == std::string_view(kEstimated)
                                  ? correct_percent(history, truth_, confused.history)
                                  : none,
                              map.score ? map.score->mpe_m : none,
                              map.score ? map.score->moe_unmirrored_percent : none},
                             map.statuses});
-    if (context_.with_maps && level_ == setup_.levels.back() &&
+    if (context_.with_maps && level_ == levels_of(setup_).back() &&
         series != std::string_view(kLeftOut))
       show(series, setting, map);
   }
@@ -164,8 +163,9 @@ class ConfusedMaps {
     const std::string id = fmt::format("{}-{}", setup_.id, series);
     TrialMap shown;
     shown.id = id;
-    shown.title = fmt::format("{}, {}: {}", setup_.title, level_words(setup_, level_),
-                              series_label(labels_design(context_.experiment), series));
+    shown.title =
+        fmt::format("{}, {}: {}", setup_.title, level_words(setup_, condition_at(setup_, level_)),
+                    series_label(labels_design(context_.experiment), series));
     shown.map.id = id;
     shown.map.sensor = truth_.sensor;
     shown.map.setting = setting;
@@ -194,7 +194,7 @@ TrialPart make_labels(const TrialContext& context) {
       observe(*context.world, *context.path, {.sensor = Sensor::kBearing}, random);
   const TrialDesign plan = labels_design(context.experiment);
   for (const TrialSetup& setup : plan.setups)
-    for (const double level : setup.levels) {
+    for (const double level : levels_of(setup)) {
       const auto stretch =
           setup.id == kStretches ? std::llround(number_option(context.experiment, "stretch")) : 1;
       ConfusedMaps(context, truth, setup, level, part)
@@ -207,9 +207,9 @@ std::vector<std::string> labels_conclusions(const TrialStudy& study) {
   std::vector<std::string> sentences;
   for (const TrialSetup& setup : study.design.setups) {
     std::vector<std::string> levels, right, given, estimated;
-    for (const double level : setup.levels) {
+    for (const double level : levels_of(setup)) {
       const auto mean = [&](const char* series, const char* quantity) {
-        return trial_mean(study, setup.id, series, level, quantity);
+        return trial_mean(study, condition_at(setup, level), series, quantity);
       };
       if (level == 0.0 || std::isnan(mean(kGiven, "mpe_m")) ||
           std::isnan(mean(kEstimated, "mpe_m")))

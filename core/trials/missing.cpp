@@ -72,13 +72,14 @@ TrialDesign missing_design(const TrialExperiment& experiment) {
       number_option(experiment, "dimensions"), number_option(experiment, "covisible_neighbours"),
       number_option(experiment, "smacof_neighbours"),
       number_option(experiment, "isomap_neighbours"));
-  const std::string label = "share missing [%]";
-  design.setups = {{kAtRandom, "Entries missing at random", label,
-                    percent(list_option(experiment, "shares_at_random"))},
-                   {kLimitedRange, "Distant landmarks not observed", label,
-                    percent(list_option(experiment, "shares_sensor_range"))},
-                   {kOcclusion, "Landmarks hidden by others", label,
-                    percent(list_option(experiment, "shares_occlusion"))}};
+  const auto factors = [&](const char* option) {
+    return std::vector<TrialFactor>{
+        {"missing_percent", "share missing", "%", percent(list_option(experiment, option))}};
+  };
+  design.setups = {
+      {kAtRandom, "Entries missing at random", factors("shares_at_random")},
+      {kLimitedRange, "Distant landmarks not observed", factors("shares_sensor_range")},
+      {kOcclusion, "Landmarks hidden by others", factors("shares_occlusion")}};
   for (const auto& [filling, words] : kFillings)
     for (const MethodSetting& setting : settings_of(experiment, filling))
       design.series.push_back(
@@ -130,9 +131,8 @@ class GappedHistory {
     const GapAdvice advice = advised_way(gap_pattern(history_, steps()), history_.sensor);
     const Filling filling = advice.way == GapWay::kPpca ? Filling::kPpca : Filling::kCommonSteps;
     const std::string id = series_id(filling, smacof_of(context_.experiment));
-    const auto found = std::ranges::find_if(part_.trials, [&](const Trial& trial) {
-      return trial.setup == setup_.id && trial.level == level_ && trial.series == id;
-    });
+    const auto found = std::ranges::find_if(
+        part_.trials, [&](const Trial& trial) { return trial.series == id && trial.at == at(); });
     if (found == part_.trials.end()) return;
     Trial trial = *found;
     trial.series = kAuto;
@@ -167,13 +167,13 @@ class GappedHistory {
     embedding.statuses.insert(embedding.statuses.begin(), statuses.begin(), statuses.end());
     ScoredMap map = scored_map(embedding, context_.world->landmarks_m, context_.anchors,
                                AffineFit::kLeastSquares);
-    part_.trials.push_back({setup_.id, series, level_, values_of(map), map.statuses});
+    part_.trials.push_back({at(), series, values_of(map), map.statuses});
     return map;
   }
 
   /// Maps at the highest level of each setup: with gaps left, and filled by PPCA.
   bool shown(Filling filling) const {
-    return context_.with_maps && level_ == setup_.levels.back() &&
+    return context_.with_maps && level_ == levels_of(setup_).back() &&
            (filling == Filling::kCommonSteps || filling == Filling::kPpca);
   }
 
@@ -181,7 +181,7 @@ class GappedHistory {
     const std::string id = fmt::format("{}-{}", setup_.id, series);
     part_.maps.push_back(
         {.id = id,
-         .title = fmt::format("{}, {}: {}", setup_.title, level_words(setup_, level_),
+         .title = fmt::format("{}, {}: {}", setup_.title, level_words(setup_, at()),
                               series_label(missing_design(context_.experiment), series)),
          .map = {.id = id,
                  .sensor = history_.sensor,
@@ -200,6 +200,7 @@ class GappedHistory {
   }
 
   Eigen::Index steps() const { return history_.steps(); }
+  Condition at() const { return condition_at(setup_, level_); }
 
   const TrialContext& context_;
   const TrialSetup& setup_;
@@ -225,17 +226,17 @@ TrialPart make_missing(const TrialContext& context) {
   const TrialDesign plan = missing_design(context.experiment);
   for (const TrialSetup& setup : plan.setups) {
     const Losses losses = losses_of(setup, context, random);
-    for (const double level : setup.levels)
+    for (const double level : levels_of(setup))
       GappedHistory(context, with_gaps(history, losses, level / 100.0), setup, level, part).map();
   }
   return part;
 }
 
 /// "PPCA, SMACOF 0.057 m; ...": the three best at one level, and the worst.
-std::string ranking(const TrialStudy& study, const TrialSetup& setup, double level) {
+std::string ranking(const TrialStudy& study, const Condition& at) {
   std::vector<std::pair<double, std::string>> means;
   for (const TrialSeries& series : study.design.series) {
-    const double mean = trial_mean(study, setup.id, series.id, level, "mpe_m");
+    const double mean = trial_mean(study, at, series.id, "mpe_m");
     if (!std::isnan(mean)) means.emplace_back(mean, series.label);
   }
   std::ranges::sort(means);
@@ -262,8 +263,7 @@ double regret_m(const TrialStudy& study, const std::string& series) {
       if (trial.series != series || !std::isfinite(trial.values[0])) continue;
       double best = trial.values[0];
       for (const Trial& other : part.trials)
-        if (other.setup == trial.setup && other.level == trial.level &&
-            std::isfinite(other.values[0]))
+        if (other.at == trial.at && std::isfinite(other.values[0]))
           best = std::min(best, other.values[0]);
       sum += trial.values[0] - best;
       count += 1.0;
@@ -285,11 +285,12 @@ std::vector<std::string> missing_conclusions(const TrialStudy& study) {
   if (const double regret = regret_m(study, kAuto); !std::isnan(regret))
     sentences.push_back(advice_words(study));
   for (const TrialSetup& setup : study.design.setups)
-    for (const double level : setup.levels) {
-      const std::string words = ranking(study, setup, level);
-      if (words.empty() || (level != setup.levels.back() && level != 50.0)) continue;
+    for (const double level : levels_of(setup)) {
+      const Condition at = condition_at(setup, level);
+      const std::string words = ranking(study, at);
+      if (words.empty() || (level != levels_of(setup).back() && level != 50.0)) continue;
       sentences.push_back(
-          fmt::format("{}, {}, mean MPE: {}.", setup.title, level_words(setup, level), words));
+          fmt::format("{}, {}, mean MPE: {}.", setup.title, level_words(setup, at), words));
     }
   return sentences;
 }

@@ -22,6 +22,9 @@ namespace {
 constexpr const char* kBearingNoise = "bearing-noise";
 constexpr const char* kVisibilityErrors = "visibility-errors";
 constexpr const char* kRangeToo = "range-too";
+/// Factors, and options of the same names.
+constexpr const char* kNoiseFactor = "bearing_noise_deg";
+constexpr const char* kErrorsFactor = "visibility_errors_percent";
 constexpr const char* kSingles[] = {"visibility",       "bearing",       "range",
                                     "visibility-order", "bearing-order", "range-order"};
 constexpr const char* kMixes[] = {"equal", "reliable", "joint"};
@@ -36,13 +39,14 @@ TrialDesign mixed_design(const TrialExperiment& experiment) {
       "sensor "
       "alone, too.",
       label({Method::kIsomap, 6.0}), label({Method::kSmacofKnn, 8.0}));
-  const std::vector<double>& noise = list_option(experiment, "bearing_noise_deg");
-  design.setups = {{kBearingNoise, "Visibility with bearings of more and more noise",
-                    "noise of bearings [°]", noise},
-                   {kVisibilityErrors, "Bearings with visibility that errs more and more",
-                    "entries of visibility that are wrong [%]",
-                    list_option(experiment, "visibility_errors_percent")},
-                   {kRangeToo, "Visibility, bearing and range", "noise of bearings [°]", noise}};
+  const TrialFactor noise{kNoiseFactor, "noise of bearings", "°",
+                          list_option(experiment, kNoiseFactor)};
+  const TrialFactor errors{kErrorsFactor, "entries of visibility that are wrong", "%",
+                           list_option(experiment, kErrorsFactor)};
+  design.setups = {
+      {kBearingNoise, "Visibility with bearings of more and more noise", {noise}},
+      {kVisibilityErrors, "Bearings with visibility that errs more and more", {errors}},
+      {kRangeToo, "Visibility, bearing and range", {noise}}};
   for (const Sensor sensor : {Sensor::kVisibility, Sensor::kBearing, Sensor::kRange}) {
     const std::string id(name(sensor));
     design.series.push_back({id, id + " alone"});
@@ -66,8 +70,8 @@ MethodSetting single_setting(Sensor sensor) {
 /// Histories of one walk, mapped singly and together.
 class MixedTrials {
  public:
-  MixedTrials(const TrialContext& context, const char* setup, double level, TrialPart& part)
-      : context_(context), setup_(setup), level_(level), part_(part) {}
+  MixedTrials(const TrialContext& context, Condition at, TrialPart& part)
+      : context_(context), at_(std::move(at)), part_(part) {}
 
   void add(const SensorOptions& options) {
     Random noise(derive_seed(context_.seed, {static_cast<std::uint64_t>(options.sensor)}));
@@ -104,12 +108,11 @@ class MixedTrials {
     const Points& truth = context_.world->landmarks_m;
     const AlignedMap map = align_to_anchors(embedding.coordinates, truth, context_.anchors,
                                             AffineFit::kLeastDistances);
-    Trial trial{.setup = setup_,
-                .series = series,
-                .level = level_,
-                .values = {kNaN, kNaN,
-                           mixed_continuity(distances_, weights_, embedding.coordinates)},
-                .statuses = embedding.statuses};
+    Trial trial{
+        .at = at_,
+        .series = series,
+        .values = {kNaN, kNaN, mixed_continuity(distances_, weights_, embedding.coordinates)},
+        .statuses = embedding.statuses};
     trial.statuses.insert(trial.statuses.end(), map.statuses.begin(), map.statuses.end());
     if (map.aligned)
       if (const auto score =
@@ -119,8 +122,7 @@ class MixedTrials {
   }
 
   const TrialContext& context_;
-  const char* setup_;
-  double level_;
+  Condition at_;
   TrialPart& part_;
   std::vector<ObservationHistory> histories_;
   std::vector<Eigen::MatrixXd> distances_;  ///< Of each.
@@ -133,20 +135,20 @@ TrialPart make_mixed(const TrialContext& context) {
   TrialPart part;
   const TrialExperiment& experiment = context.experiment;
   const double usual_deg = number_option(experiment, "usual_bearing_noise_deg");
-  for (const double degrees : list_option(experiment, "bearing_noise_deg")) {
-    MixedTrials trials(context, kBearingNoise, degrees, part);
+  for (const double degrees : list_option(experiment, kNoiseFactor)) {
+    MixedTrials trials(context, condition(kBearingNoise, {{kNoiseFactor, degrees}}), part);
     trials.add({.sensor = Sensor::kVisibility});
     trials.add({.sensor = Sensor::kBearing, .noise = in_rad(degrees)});
     trials.run();
   }
-  for (const double percent : list_option(experiment, "visibility_errors_percent")) {
-    MixedTrials trials(context, kVisibilityErrors, percent, part);
+  for (const double percent : list_option(experiment, kErrorsFactor)) {
+    MixedTrials trials(context, condition(kVisibilityErrors, {{kErrorsFactor, percent}}), part);
     trials.add({.sensor = Sensor::kVisibility, .noise = percent / 100.0});
     trials.add({.sensor = Sensor::kBearing, .noise = in_rad(usual_deg)});
     trials.run();
   }
-  for (const double degrees : list_option(experiment, "bearing_noise_deg")) {
-    MixedTrials trials(context, kRangeToo, degrees, part);
+  for (const double degrees : list_option(experiment, kNoiseFactor)) {
+    MixedTrials trials(context, condition(kRangeToo, {{kNoiseFactor, degrees}}), part);
     trials.add({.sensor = Sensor::kVisibility});
     trials.add({.sensor = Sensor::kBearing, .noise = in_rad(degrees)});
     trials.add({.sensor = Sensor::kRange, .noise = number_option(experiment, "range_noise_m")});
@@ -162,25 +164,24 @@ struct Best {
 };
 
 template <typename Names>
-Best best_of(const TrialStudy& study, const TrialSetup& setup, double level, const Names& names) {
+Best best_of(const TrialStudy& study, const Condition& at, const Names& names) {
   Best best;
   for (const TrialSeries& series : study.design.series) {
     if (std::ranges::find(names, series.id) == std::end(names)) continue;
-    const double mean = trial_mean(study, setup.id, series.id, level, "mpe_m");
+    const double mean = trial_mean(study, at, series.id, "mpe_m");
     if (mean < best.mean_m) best = {&series, mean};
   }
   return best;
 }
 
 /// "at noise of bearings 20° joint map has a mean MPE of 0.012 m, range alone 0.013 m (better)".
-std::string words_at(const TrialStudy& study, const TrialSetup& setup, double level) {
-  const Best single = best_of(study, setup, level, kSingles);
-  const Best mix = best_of(study, setup, level, kMixes);
+std::string words_at(const TrialStudy& study, const TrialSetup& setup, const Condition& at) {
+  const Best single = best_of(study, at, kSingles);
+  const Best mix = best_of(study, at, kMixes);
   if (single.series == nullptr || mix.series == nullptr) return "";
-  const auto difference =
-      trial_difference(study, setup.id, mix.series->id, single.series->id, level, "mpe_m");
+  const auto difference = trial_difference(study, at, mix.series->id, single.series->id, "mpe_m");
   return fmt::format("at {}, {} has a mean MPE of {:.3f} m and {} one of {:.3f} m ({})",
-                     level_words(setup, level), mix.series->label, mix.mean_m, single.series->label,
+                     level_words(setup, at), mix.series->label, mix.mean_m, single.series->label,
                      single.mean_m, difference ? verdict_words(*difference) : "no run has both");
 }
 
@@ -189,12 +190,11 @@ std::string words_at(const TrialStudy& study, const TrialSetup& setup, double le
 std::string choice_words(const TrialStudy& study, const TrialSetup& setup) {
   double picked = 0.0, joint = 0.0, count = 0.0;
   for (const TrialPart& part : study.parts)
-    for (const double level : setup.levels) {
+    for (const Condition& at : conditions_of(setup)) {
       const Trial* pick = nullptr;
       double best_m = HUGE_VAL, joint_m = kNaN;
       for (const Trial& trial : part.trials) {
-        if (trial.setup != setup.id || trial.level != level || !std::isfinite(trial.values[0]))
-          continue;
+        if (trial.at != at || !std::isfinite(trial.values[0])) continue;
         if (pick == nullptr || trial.values[2] > pick->values[2]) pick = &trial;
         best_m = std::min(best_m, trial.values[0]);
         if (trial.series == "joint") joint_m = trial.values[0];
@@ -212,8 +212,9 @@ std::string choice_words(const TrialStudy& study, const TrialSetup& setup) {
 std::vector<std::string> mixed_conclusions(const TrialStudy& study) {
   std::vector<std::string> sentences;
   for (const TrialSetup& setup : study.design.setups) {
-    std::vector<std::string> ends = {words_at(study, setup, setup.levels.front())};
-    if (setup.levels.size() > 1) ends.push_back(words_at(study, setup, setup.levels.back()));
+    const std::vector<Condition> conditions = conditions_of(setup);
+    std::vector<std::string> ends = {words_at(study, setup, conditions.front())};
+    if (conditions.size() > 1) ends.push_back(words_at(study, setup, conditions.back()));
     std::erase(ends, "");
     if (!ends.empty())
       sentences.push_back(

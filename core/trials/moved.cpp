@@ -20,6 +20,8 @@ using Clock = std::chrono::steady_clock;
 constexpr const char* kDistance = "distance";
 constexpr const char* kNoise = "noise";
 constexpr const char* kTest = "permutations";
+constexpr const char* kMovedFactor = "moved_m";
+constexpr const char* kNoiseShare = "range_noise_share";
 
 TrialDesign moved_design(const TrialExperiment& experiment) {
   TrialDesign design;
@@ -31,10 +33,13 @@ TrialDesign moved_design(const TrialExperiment& experiment) {
       "step? Each run tries {:g} landmarks, one at a time.",
       number_option(experiment, "reach_m"), number_option(experiment, "tried"));
   design.setups = {
-      {kDistance, "Moves of several lengths", "moved by [m]",
-       list_option(experiment, "distances_m")},
-      {kNoise, fmt::format("A move of {:g} m under noise", number_option(experiment, "distance_m")),
-       "noise of the range, as a share of it", list_option(experiment, "noises")}};
+      {kDistance,
+       "Moves of several lengths",
+       {{kMovedFactor, "moved by", "m", list_option(experiment, "distances_m")}}},
+      {kNoise,
+       fmt::format("A move of {:g} m under noise", number_option(experiment, "distance_m")),
+       {{kNoiseShare, "noise of the range, as a share of it", "",
+         list_option(experiment, "noises")}}}};
   design.series = {{kTest, "Permutation test of the place over time"}};
   design.quantities = {
       study_quantity("named_percent", "Moved landmark named", "%", Better::kHigher),
@@ -110,16 +115,14 @@ TrialPart make_moved(const TrialContext& context) {
   Random random(context.seed);
   const double usual = number_option(context.experiment, "noise");
   for (const double length : list_option(context.experiment, "distances_m"))
-    part.trials.push_back({kDistance,
+    part.trials.push_back({condition(kDistance, {{kMovedFactor, length}}),
                            kTest,
-                           length,
                            tallied(context, length, usual, random, part).values(length > 0.0),
                            {}});
   const double length = number_option(context.experiment, "distance_m");
   for (const double noise : list_option(context.experiment, "noises"))
-    part.trials.push_back({kNoise,
+    part.trials.push_back({condition(kNoise, {{kNoiseShare, noise}}),
                            kTest,
-                           noise,
                            tallied(context, length, noise, random, part).values(length > 0.0),
                            {}});
   return part;
@@ -128,37 +131,38 @@ TrialPart make_moved(const TrialContext& context) {
 /// The mean of a quantity at each level that has one: "0, 50 and 100".
 std::string means_text(const TrialStudy& study, const TrialSetup& setup, const char* quantity) {
   std::vector<std::string> means;
-  for (const double level : setup.levels)
-    if (const double mean = trial_mean(study, setup.id, kTest, level, quantity); !std::isnan(mean))
+  for (const Condition& at : conditions_of(setup))
+    if (const double mean = trial_mean(study, at, kTest, quantity); !std::isnan(mean))
       means.push_back(fmt::format("{:.0f}", mean));
   return all_listed(means);
 }
 
 double greatest_mean(const TrialStudy& study, const TrialSetup& setup, const char* quantity) {
   double greatest = 0.0;
-  for (const double level : setup.levels)
-    if (const double mean = trial_mean(study, setup.id, kTest, level, quantity); mean > greatest)
+  for (const Condition& at : conditions_of(setup))
+    if (const double mean = trial_mean(study, at, kTest, quantity); mean > greatest)
       greatest = mean;
   return greatest;
 }
 
 std::vector<std::string> moved_conclusions(const TrialStudy& study) {
   std::vector<std::string> sentences;
-  const double still = trial_mean(study, kDistance, kTest, 0.0, "false_percent");
+  const double still =
+      trial_mean(study, condition(kDistance, {{kMovedFactor, 0.0}}), kTest, "false_percent");
   if (!std::isnan(still))
     sentences.push_back(fmt::format(
         "Where nothing moves, a landmark is named in {:.1f} % of the logs; the level is 5 %.",
         still));
   for (const TrialSetup& setup : study.design.setups) {
     std::vector<std::string> levels;
-    for (const double level : setup.levels)
-      if (!std::isnan(trial_mean(study, setup.id, kTest, level, "named_percent")))
+    for (const double level : levels_of(setup))
+      if (!std::isnan(trial_mean(study, condition_at(setup, level), kTest, "named_percent")))
         levels.push_back(fmt::format("{:g}", level));
     if (levels.empty()) continue;
     sentences.push_back(fmt::format(
         "{}: at {} ({}) the moved landmark is named in {} % of the logs, another one in {:.1f} % "
         "at most; the step is {:.0f} steps off on average at most.",
-        setup.title, all_listed(levels), setup.level_label,
+        setup.title, all_listed(levels), label_with_unit(setup.factors.front()),
         means_text(study, setup, "named_percent"), greatest_mean(study, setup, "false_percent"),
         greatest_mean(study, setup, "step_error")));
   }

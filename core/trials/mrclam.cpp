@@ -70,8 +70,8 @@ TrialDesign mrclam_design(const TrialExperiment&) {
       "robots are pooled. Errors are of the landmarks that are no anchors, after the affine map to "
       "the anchors: the four landmarks furthest out along the diagonals. And if labels are wrong: "
       "can they be found from the looks themselves, and mended?";
-  design.setups = {{kSetup, "A map per sensor and method", "", {0.0}},
-                   {kLabels, "Range and bearing with labels made wrong", "", {0.0}}};
+  design.setups = {{kSetup, "A map per sensor and method"},
+                   {kLabels, "Range and bearing with labels made wrong"}};
   for (const RealWay& way : kWays) design.series.push_back({way.id, way.label});
   for (const auto& [id, label] : kSpoilt) design.series.push_back({id, label});
   design.quantities = {
@@ -183,9 +183,8 @@ Trial trial_of(const char* setup, const std::string& series, const RealWay& way,
   const double mapped =
       static_cast<double>((map.estimate.col(0).array() == map.estimate.col(0).array()).count());
   const Points& own = made.embedding.coordinates;
-  return {.setup = setup,
+  return {.at = condition(setup),
           .series = series,
-          .level = 0.0,
           .values = {score.mpe_m, score.moe_percent, score.mpe_all_fitted_m,
                      way.method ? kNaN : rigid_error(own, set.source.truth_m),
                      median_residual(own, made.pairs), mapped, kNaN},

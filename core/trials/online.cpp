@@ -42,7 +42,8 @@ TrialDesign online_design(const TrialExperiment& experiment) {
   for (const Sensor sensor : kFollowedSensors)
     design.setups.push_back({std::string(name(sensor)),
                              fmt::format("Maps from {}, carried on", name(sensor)),
-                             "observations so far", list_option(experiment, "observations")});
+                             {{std::string(kStepsFactor), "observations so far", "",
+                               list_option(experiment, "observations")}}});
   for (const Followed& method : kMethods) {
     design.series.push_back({method.carried_on, label(method.setting) + ", carried on"});
     design.series.push_back({method.anew, label(method.setting) + ", anew"});
@@ -109,9 +110,9 @@ void follow(const TrialContext& context, const Followed& method, const Observati
     anew_s += seconds_since(start);
     gaps.add(relative_gap(update.coordinates, whole.coordinates));
     const auto trial = [&](const char* series, const std::vector<double>& values) {
-      part.trials.push_back({.setup = setup,
+      part.trials.push_back({.at = condition(setup, {{.factor = std::string(kStepsFactor),
+                                                      .value = static_cast<double>(t)}}),
                              .series = series,
-                             .level = static_cast<double>(t),
                              .values = values,
                              .statuses = {}});
     };
@@ -142,11 +143,12 @@ TrialPart make_online(const TrialContext& context) {
 std::vector<std::string> online_conclusions(const TrialStudy& study) {
   std::vector<std::string> sentences;
   for (const TrialSetup& setup : study.design.setups) {
-    const double last = setup.levels.back();
+    const double last = levels_of(setup).back();
+    const Condition at = condition_at(setup, last);
     double greatest = 0.0, beyond = 0.0;
     for (const Followed& method : kMethods) {
       const auto most = [&](const char* quantity, double so_far) {
-        for (const double value : trial_values(study, setup.id, method.carried_on, last, quantity))
+        for (const double value : trial_values(study, at, method.carried_on, quantity))
           so_far = std::max(so_far, value);
         return so_far;
       };
@@ -162,7 +164,7 @@ std::vector<std::string> online_conclusions(const TrialStudy& study) {
                                    "run",
                                    beyond)
                      : "",
-        trial_mean(study, setup.id, kMethods[0].carried_on, last, "steps_gone_through"), last));
+        trial_mean(study, at, kMethods[0].carried_on, "steps_gone_through"), last));
   }
   return sentences;
 }

@@ -27,10 +27,11 @@ TrialPart named(TrialPart part, const std::string& id) {
 
 }  // namespace
 
-OptionsOfTopic options_of_topics() {
-  return [](std::string_view name) {
+InputOfTopic input_of_topics() {
+  return [](std::string_view name) -> TopicInput {
     const Topic* topic = topic_named(name);
-    return topic == nullptr ? nullptr : &topic->options;
+    if (topic == nullptr) return {};
+    return {.options = &topic->options, .sweeps = topic->sweeps};
   };
 }
 

@@ -10,8 +10,8 @@
 
 namespace mapproof {
 
-/// The options of every topic, for the reader of experiments.
-OptionsOfTopic options_of_topics();
+/// What every topic takes, for the reader of experiments.
+InputOfTopic input_of_topics();
 
 /// An experiment with the data sets that it is made of, if its topic wants any.
 struct TrialOrder {

@@ -49,10 +49,15 @@ TrialDesign submaps_design(const TrialExperiment& experiment) {
     return levels;
   };
   design.setups = {
-      {kSize, "Sub-maps by size", "most landmarks of a sub-map", list_option(experiment, "sizes")},
-      {kOverlap, "Sub-maps by overlap", "share borrowed [%]", percent("overlaps")},
-      {kSubmapsRange, "Distant landmarks not observed", "share missing [%]",
-       percent("shares_sensor_range")}};
+      {kSize,
+       "Sub-maps by size",
+       {{"submap_landmarks", "most landmarks of a sub-map", "", list_option(experiment, "sizes")}}},
+      {kOverlap,
+       "Sub-maps by overlap",
+       {{"borrowed_percent", "share borrowed", "%", percent("overlaps")}}},
+      {kSubmapsRange,
+       "Distant landmarks not observed",
+       {{"missing_percent", "share missing", "%", percent("shares_sensor_range")}}}};
   for (const bool whole : {true, false})
     for (const MethodSetting& setting : settings_of(experiment))
       design.series.push_back({series_id(whole, setting),
@@ -86,8 +91,8 @@ class Trials {
  public:
   Trials(const TrialContext& context, TrialPart& part) : context_(context), part_(part) {}
 
-  void add(const std::string& setup, double level, const ObservationHistory& history,
-           const MethodSetting& setting, const Way& way) {
+  void add(const Condition& at, const ObservationHistory& history, const MethodSetting& setting,
+           const Way& way) {
     const Clock::time_point start = Clock::now();
     SubmapEmbedding made;
     made.median_residual = std::nan("");
@@ -102,9 +107,8 @@ class Trials {
                                      AffineFit::kLeastSquares);
     const double mapped = 100.0 * map.positions_m.array().col(0).isFinite().cast<double>().mean();
     const double unknown = std::nan("");
-    part_.trials.push_back({setup,
+    part_.trials.push_back({at,
                             series,
-                            level,
                             {map.score ? map.score->mpe_m : unknown,
                              map.score ? map.score->moe_unmirrored_percent : unknown, mapped,
                              100.0 * made.median_residual},
@@ -126,7 +130,7 @@ void add_level(const TrialContext& context, const TrialSetup& setup, double leve
   for (const bool whole : {true, false})
     for (const MethodSetting& setting : settings_of(context.experiment)) {
       way.whole = whole;
-      trials.add(setup.id, level, history, setting, way);
+      trials.add(condition_at(setup, level), history, setting, way);
     }
 }
 
@@ -138,7 +142,7 @@ TrialPart make_submaps(const TrialContext& context) {
   const Losses losses = range_losses(*context.world, *context.path);
   Trials trials(context, part);
   for (const TrialSetup& setup : submaps_design(context.experiment).setups)
-    for (const double level : setup.levels) {
+    for (const double level : levels_of(setup)) {
       if (setup.id != kSubmapsRange) {
         add_level(context, setup, level, history, trials);
         continue;
@@ -147,9 +151,9 @@ TrialPart make_submaps(const TrialContext& context) {
       add_level(context, setup, level, gapped, trials);
       Way way{.parts = {.groups = {}, .embedder = {}, .rule = filled_by_ppca()}, .whole = true};
       way.parts.groups.size = static_cast<int>(number_option(context.experiment, "usual_size"));
-      trials.add(setup.id, level, gapped, settings_of(context.experiment).front(), way);
+      trials.add(condition_at(setup, level), gapped, settings_of(context.experiment).front(), way);
       way.whole = false;
-      trials.add(setup.id, level, gapped, settings_of(context.experiment).front(), way);
+      trials.add(condition_at(setup, level), gapped, settings_of(context.experiment).front(), way);
     }
   return part;
 }
@@ -160,12 +164,13 @@ std::string comparison(const TrialStudy& study, const TrialSetup& setup,
                        const MethodSetting& setting) {
   const std::string whole = series_id(true, setting), parts = series_id(false, setting);
   std::vector<std::string> levels, of_whole, of_parts, worse, better;
-  for (const double level : setup.levels) {
-    const auto difference = trial_difference(study, setup.id, parts, whole, level, "mpe_m");
+  for (const double level : levels_of(setup)) {
+    const Condition at = condition_at(setup, level);
+    const auto difference = trial_difference(study, at, parts, whole, "mpe_m");
     if (!difference) continue;
     levels.push_back(fmt::format("{:g}", level));
-    of_parts.push_back(fmt::format("{:.3f}", trial_mean(study, setup.id, parts, level, "mpe_m")));
-    of_whole.push_back(fmt::format("{:.3f}", trial_mean(study, setup.id, whole, level, "mpe_m")));
+    of_parts.push_back(fmt::format("{:.3f}", trial_mean(study, at, parts, "mpe_m")));
+    of_whole.push_back(fmt::format("{:.3f}", trial_mean(study, at, whole, "mpe_m")));
     if (difference->half_width && std::abs(difference->mean) > *difference->half_width)
       (difference->mean > 0.0 ? worse : better).push_back(levels.back());
   }
@@ -173,8 +178,8 @@ std::string comparison(const TrialStudy& study, const TrialSetup& setup,
   const std::set<std::string> wholes(of_whole.begin(), of_whole.end());
   std::string words = fmt::format(
       "{}, {}: at {} ({}) the mean MPE of the parts joined is {} m, of the whole {} m", setup.title,
-      label(setting), all_listed(levels), setup.level_label, all_listed(of_parts),
-      wholes.size() == 1 ? of_whole.front() : all_listed(of_whole));
+      label(setting), all_listed(levels), label_with_unit(setup.factors.front()),
+      all_listed(of_parts), wholes.size() == 1 ? of_whole.front() : all_listed(of_whole));
   if (!worse.empty()) words += "; worse beyond chance at " + all_listed(worse);
   if (!better.empty()) words += "; better beyond chance at " + all_listed(better);
   return words + (worse.empty() && better.empty() ? "; no difference is beyond chance." : ".");

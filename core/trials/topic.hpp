@@ -35,6 +35,7 @@ struct TrialContext {
 struct Topic {
   std::string_view name;  ///< In files: "missing".
   bool of_data = false;   ///< Parts are data sets (data_sets), not simulated runs.
+  bool sweeps = false;    ///< Experiments name sensors with methods, and sweeps.
   std::vector<TrialOption> options;
   TrialDesign (*design)(const TrialExperiment& experiment) = nullptr;
   TrialPart (*make)(const TrialContext& context) = nullptr;

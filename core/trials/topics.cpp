@@ -13,6 +13,7 @@
 #include "core/trials/mrclam.hpp"
 #include "core/trials/online.hpp"
 #include "core/trials/submaps.hpp"
+#include "core/trials/sweep.hpp"
 #include "core/trials/topic.hpp"
 
 namespace mapproof {
@@ -20,7 +21,7 @@ namespace mapproof {
 std::span<const Topic* const> all_topics() {
   static const std::vector<const Topic*> kTopics = {
       &kCertaintyTopic, &kChoiceTopic, &kLabelsTopic, &kMissingTopic, &kMixedTopic,
-      &kMovedTopic,     &kMrclamTopic, &kOnlineTopic, &kSubmapsTopic,
+      &kMovedTopic,     &kMrclamTopic, &kOnlineTopic, &kSubmapsTopic, &kSweepTopic,
   };
   return kTopics;
 }

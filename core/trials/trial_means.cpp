@@ -5,6 +5,7 @@
 #include <limits>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include "core/base/errors.hpp"
 #include "core/base/words.hpp"
@@ -21,44 +22,48 @@ std::size_t column_of(const TrialStudy& study, std::string_view quantity) {
 }
 
 /// NaN if it was not tried.
-double value_of(const TrialPart& part, std::string_view setup, std::string_view series,
-                double level, std::size_t column) {
+double value_of(const TrialPart& part, const Condition& at, std::string_view series,
+                std::size_t column) {
   for (const Trial& trial : part.trials)
-    if (trial.setup == setup && trial.series == series && trial.level == level)
-      return trial.values.at(column);
+    if (trial.series == series && trial.at == at) return trial.values.at(column);
   return std::numeric_limits<double>::quiet_NaN();
 }
 
 }  // namespace
 
-std::vector<double> trial_values(const TrialStudy& study, std::string_view setup,
-                                 std::string_view series, double level, std::string_view quantity) {
+std::vector<double> trial_values(const TrialStudy& study, const Condition& at,
+                                 std::string_view series, std::string_view quantity) {
   const std::size_t column = column_of(study, quantity);
   std::vector<double> values;
   for (const TrialPart& part : study.parts)
-    if (const double value = value_of(part, setup, series, level, column); std::isfinite(value))
+    if (const double value = value_of(part, at, series, column); std::isfinite(value))
       values.push_back(value);
   return values;
 }
 
-double trial_mean(const TrialStudy& study, std::string_view setup, std::string_view series,
-                  double level, std::string_view quantity) {
-  const std::vector<double> values = trial_values(study, setup, series, level, quantity);
+double trial_mean(const TrialStudy& study, const Condition& at, std::string_view series,
+                  std::string_view quantity) {
+  const std::vector<double> values = trial_values(study, at, series, quantity);
   double sum = 0.0;
   for (const double value : values) sum += value;
   return values.empty() ? std::numeric_limits<double>::quiet_NaN()
                         : sum / static_cast<double>(values.size());
 }
 
-std::string level_words(const TrialSetup& setup, double level) {
-  if (setup.level_label.empty()) return "";
-  std::string label = setup.level_label, unit;
-  if (const std::size_t bracket = label.find(" ["); bracket != label.npos) {
-    unit = label.substr(bracket + 2, label.size() - bracket - 3);
-    label.resize(bracket);
+std::string level_words(const TrialSetup& setup, const Condition& at) {
+  std::vector<std::string> words;
+  for (const TrialFactor& factor : setup.factors) {
+    const auto level = std::ranges::find(at.levels, factor.id, &Level::factor);
+    if (level == at.levels.end()) continue;
+    words.push_back(fmt::format("{} {:g}{}{}", factor.label, std::get<double>(level->value),
+                                factor.unit.empty() || factor.unit == "\u00B0" ? "" : " ",
+                                factor.unit));
   }
-  return fmt::format("{} {:g}{}{}", label, level, unit.empty() || unit == "\u00B0" ? "" : " ",
-                     unit);
+  return fmt::format("{}", fmt::join(words, ", "));
+}
+
+std::string label_with_unit(const TrialFactor& factor) {
+  return factor.unit.empty() ? factor.label : fmt::format("{} [{}]", factor.label, factor.unit);
 }
 
 std::string series_label(const TrialDesign& design, std::string_view id) {
@@ -70,15 +75,15 @@ std::string all_listed(const std::vector<std::string>& words) {
   return listed(words, words.size() + 1);
 }
 
-std::optional<MeanEstimate> trial_difference(const TrialStudy& study, std::string_view setup,
+std::optional<MeanEstimate> trial_difference(const TrialStudy& study, const Condition& at,
                                              std::string_view series, std::string_view other,
-                                             double level, std::string_view quantity) {
+                                             std::string_view quantity) {
   const std::size_t column = column_of(study, quantity);
   std::vector<double> differences;
   std::vector<int> layouts;
   for (const TrialPart& part : study.parts) {
     const double difference =
-        value_of(part, setup, series, level, column) - value_of(part, setup, other, level, column);
+        value_of(part, at, series, column) - value_of(part, at, other, column);
     if (!std::isfinite(difference)) continue;
     differences.push_back(difference);
     layouts.push_back(part.run ? part.run->layout : 0);

@@ -14,16 +14,19 @@ namespace mapproof {
 ///
 /// @return Of the finite values alone, in the order of the parts.
 /// @throws InvalidInput if the design has no such quantity.
-std::vector<double> trial_values(const TrialStudy& study, std::string_view setup,
-                                 std::string_view series, double level, std::string_view quantity);
+std::vector<double> trial_values(const TrialStudy& study, const Condition& at,
+                                 std::string_view series, std::string_view quantity);
 
 /// Their mean; NaN without any.
-double trial_mean(const TrialStudy& study, std::string_view setup, std::string_view series,
-                  double level, std::string_view quantity);
+double trial_mean(const TrialStudy& study, const Condition& at, std::string_view series,
+                  std::string_view quantity);
 
-/// "noise of bearings 20°", "observations 2000": a level with what it is of; empty if the setup
-/// has no levels.
-std::string level_words(const TrialSetup& setup, double level);
+/// "noise of bearings 20°", "observations 2000": the levels of a condition of the setup with what
+/// they are of; empty if it has no factors.
+std::string level_words(const TrialSetup& setup, const Condition& at);
+
+/// "share missing [%]", "observations".
+std::string label_with_unit(const TrialFactor& factor);
 
 /// The label of a series of the design; its id if there is none of it.
 std::string series_label(const TrialDesign& design, std::string_view id);
@@ -35,9 +38,9 @@ std::string all_listed(const std::vector<std::string>& words);
 /// value.
 /// @return Its mean, and the 95 % interval over layouts (none with one layout); empty without any
 ///         pair.
-std::optional<MeanEstimate> trial_difference(const TrialStudy& study, std::string_view setup,
+std::optional<MeanEstimate> trial_difference(const TrialStudy& study, const Condition& at,
                                              std::string_view series, std::string_view other,
-                                             double level, std::string_view quantity);
+                                             std::string_view quantity);
 
 /// "better", "worse" or "no different beyond chance", of a quantity that is better if lower;
 /// without an interval nothing is said of chance: "better, in one layout".

@@ -2,20 +2,37 @@
 
 #include <algorithm>
 
+#include "render/plot/colour_bar.hpp"
 #include "render/plot/outlines.hpp"
 
 namespace mapproof {
 namespace {
 
+constexpr double kWidestName = 9.0;  // Of a tick's label, em; numbers are shorter.
 constexpr double kLabelLine = 1.55;  // From the foot of tick labels to the axis label's, em.
 
+/// Shortens names, which may come from anywhere.
 TickLabels shaped(Ticks ticks) {
   TickLabels labels{std::move(ticks), {}, 0.0};
   for (const std::string& text : labels.ticks.labels) {
-    labels.texts.push_back(shape_text(text));
+    labels.texts.push_back(shape_text_within(text, kWidestName));
     labels.widest = std::max(labels.widest, labels.texts.back().advance);
   }
   return labels;
+}
+
+/// Every so-manieth name, so that at most `most` are left.
+Ticks named_ticks(const std::vector<std::string>& names, const Range& range, int most) {
+  Ticks ticks;
+  const std::size_t step =
+      (names.size() + static_cast<std::size_t>(most) - 1) / static_cast<std::size_t>(most);
+  for (std::size_t i = 0; i < names.size(); i += step) {
+    const auto at = static_cast<double>(i);
+    if (at < range.low || at > range.high) continue;
+    ticks.at.push_back(at);
+    ticks.labels.push_back(names[i]);
+  }
+  return ticks;
 }
 
 }  // namespace
@@ -59,6 +76,7 @@ double AxesLayout::below_frame() const {
 }
 
 Ticks AxesLayout::ticks_for(const Axis& axis, Range range, int most) const {
+  if (!axis.names.empty()) return named_ticks(axis.names, range, most);
   if (axis.scale == Scale::kLog) return log_ticks(range.low, range.high, most);
   const double step = tick_step(range.low, range.high, most);
   return linear_ticks(range.low, range.high, axis.whole ? std::max(step, 1.0) : step);
@@ -69,11 +87,16 @@ void AxesLayout::choose_ticks(Axes& axes) const {
   const int most_y = std::clamp(static_cast<int>(axes.frame.height() / (3.2 * em)), 2, 8);
   const double per_label = panel_.x.whole ? 2.0 : 4.0;
   int most_x = std::clamp(static_cast<int>(axes.frame.width() / (per_label * em)), 2, 9);
+  if (!panel_.x.names.empty())
+    most_x = static_cast<int>(std::max<std::size_t>(panel_.x.names.size(), 2));
   if (panel_.equal_aspect) {
     choose_equal_ticks(axes, most_x, most_y);
   } else {
     axes.x = shaped(ticks_for(panel_.x, limits_.x, most_x));
-    const int most = panel_.y.scale == Scale::kLog ? std::max(most_y, 3) : most_y;
+    const bool is_named = !panel_.y.names.empty();
+    const int most = panel_.y.scale == Scale::kLog ? std::max(most_y, 3)
+                     : is_named ? std::max(2, static_cast<int>(axes.frame.height() / (1.6 * em)))
+                                : most_y;
     axes.y = shaped(ticks_for(panel_.y, limits_.y, most));
   }
   while (most_x > 2 && labels_touch(axes)) {
@@ -102,6 +125,7 @@ bool AxesLayout::labels_touch(const Axes& axes) const {
 
 Margins AxesLayout::margins(const Axes& axes) const {
   Margins m = overhang(axes.frame);
+  m.right = std::max(m.right, colour_bar_room(panel_, axes.frame.height(), theme_));
   if (panel_.bare) return m;
   const double em = theme_.tick_font_pt;
   const double y_label = has_y_label() ? 1.5 * theme_.font_pt : 0.0;

@@ -31,6 +31,7 @@ enum class Role {
   kLine,  ///< Joins or shows data.
   kMarker,
   kMarkLabel,
+  kCellText,  ///< On a cell, in black or white, whichever reads better there.
   kPicture,
   kLeader,  ///< From a mark's label to its mark.
   kLegendBox,

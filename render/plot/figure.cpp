@@ -69,6 +69,7 @@ class Inspector {
   }
 
   static std::string axis(const Axis& axis) {
+    if (axis.scale == Scale::kLog && !axis.names.empty()) return "names: on a log axis";
     if (!axis.limits) return {};
     const auto [low, high] = *axis.limits;
     if (!std::isfinite(low) || !std::isfinite(high) || !(low < high))
@@ -157,7 +158,12 @@ class Inspector {
     for (const auto& [name, range] :
          {std::pair{"x", cells.x}, std::pair{"y", cells.y}, std::pair{"limits", cells.limits}})
       if (!is_range(range)) return fmt::format("{}: not finite and ascending", name);
-    if (std::string what = values(cells.values, panel.x, "values"); !what.empty()) return what;
+    const Axis ramp{.label = {}, .scale = cells.scale};
+    if (std::string what = values(cells.values, ramp, "values"); !what.empty()) return what;
+    if (cells.scale == Scale::kLog && cells.limits.low <= 0.0)
+      return "limits: not positive on a log scale";
+    if (!cells.text.empty() && cells.text.size() != cells.values.size())
+      return "text: not as many as values";
     return mark(cells.mark);
   }
 

@@ -148,6 +148,8 @@ struct Ellipses {
   bool operator==(const Ellipses&) const = default;
 };
 
+enum class Scale { kLinear, kLog };
+
 /// A matrix of coloured cells on linear axes; NaN cells stay empty.
 struct Cells {
   std::string label = {};
@@ -159,6 +161,9 @@ struct Cells {
   Ramp ramp = Ramp::kInk;
   Ink ink = Ink::kText;  ///< For Ramp::kInk.
   Mark mark = {};
+  Scale scale = Scale::kLinear;        ///< Of the values along the ramp.
+  std::string bar_label = {};          ///< With its unit: of a colour bar beside the frame, if any.
+  std::vector<std::string> text = {};  ///< As many as values, or none: drawn if all of them fit.
 
   std::size_t rows() const { return columns == 0 ? 0 : values.size() / columns; }
   bool operator==(const Cells&) const = default;
@@ -190,13 +195,12 @@ struct Picture {
 using Layer = std::variant<Band, Segments, Polyline, Scatter, PointLabels, Area, Ellipses, Cells,
                            Texts, Picture>;
 
-enum class Scale { kLinear, kLog };
-
 struct Axis {
   std::string label = {};  ///< With its unit: "MPE [m]".
   Scale scale = Scale::kLinear;
   std::optional<Range> limits = {};  ///< Empty: what the layers need, and a little more.
   bool whole = false;                ///< Linear: ticks at whole numbers alone.
+  std::vector<std::string> names = {};  ///< Linear: of the numbers 0, 1, ..., in their place.
 
   bool operator==(const Axis&) const = default;
 };

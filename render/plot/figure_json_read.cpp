@@ -147,17 +147,21 @@ Ellipses read_ellipses(const JsonCursor& json) {
 }
 
 Cells read_cells(const JsonCursor& json) {
-  json.allow_only(
-      {"kind", "label", "x", "y", "columns", "values", "limits", "ramp", "ink", "mark"});
-  return {text(json.at("label")),
-          read_range(json.at("x")),
-          read_range(json.at("y")),
-          count(json.at("columns")),
-          numbers(json.at("values")),
-          read_range(json.at("limits")),
-          named<Ramp>(json.at("ramp"), kRamps),
-          named<Ink>(json.at("ink"), kInks),
-          read_mark(json.at("mark"))};
+  json.allow_only({"kind", "label", "x", "y", "columns", "values", "limits", "ramp", "ink", "mark",
+                   "scale", "bar_label", "text"});
+  Cells cells{text(json.at("label")),
+              read_range(json.at("x")),
+              read_range(json.at("y")),
+              count(json.at("columns")),
+              numbers(json.at("values")),
+              read_range(json.at("limits")),
+              named<Ramp>(json.at("ramp"), kRamps),
+              named<Ink>(json.at("ink"), kInks),
+              read_mark(json.at("mark"))};
+  if (const auto scale = json.find("scale")) cells.scale = named<Scale>(*scale, kScales);
+  if (const auto label = json.find("bar_label")) cells.bar_label = text(*label);
+  if (const auto shown = json.find("text")) cells.text = texts(*shown);
+  return cells;
 }
 
 Texts read_texts(const JsonCursor& json) {
@@ -188,10 +192,11 @@ Layer read_layer(const JsonCursor& json) {
 }
 
 Axis read_axis(const JsonCursor& json) {
-  json.allow_only({"label", "scale", "whole", "limits"});
+  json.allow_only({"label", "scale", "whole", "limits", "names"});
   Axis axis{text(json.at("label")), named<Scale>(json.at("scale"), kScales)};
   if (json.find("whole")) axis.whole = json.at("whole").boolean();
   if (!json.at("limits").is_null()) axis.limits = read_range(json.at("limits"));
+  if (const auto names = json.find("names")) axis.names = texts(*names);
   return axis;
 }
 

@@ -123,16 +123,20 @@ Json layer_json(const Ellipses& ellipses) {
 }
 
 Json layer_json(const Cells& cells) {
-  return {{"kind", "cells"},
-          {"label", cells.label},
-          {"x", range_json(cells.x)},
-          {"y", range_json(cells.y)},
-          {"columns", cells.columns},
-          {"values", numbers_json(cells.values)},
-          {"limits", range_json(cells.limits)},
-          {"ramp", enum_json(cells.ramp, kRamps)},
-          {"ink", enum_json(cells.ink, kInks)},
-          {"mark", mark_json(cells.mark)}};
+  Json json = {{"kind", "cells"},
+               {"label", cells.label},
+               {"x", range_json(cells.x)},
+               {"y", range_json(cells.y)},
+               {"columns", cells.columns},
+               {"values", numbers_json(cells.values)},
+               {"limits", range_json(cells.limits)},
+               {"ramp", enum_json(cells.ramp, kRamps)},
+               {"ink", enum_json(cells.ink, kInks)},
+               {"mark", mark_json(cells.mark)}};
+  if (cells.scale != Scale::kLinear) json["scale"] = enum_json(cells.scale, kScales);
+  if (!cells.bar_label.empty()) json["bar_label"] = cells.bar_label;
+  if (!cells.text.empty()) json["text"] = cells.text;
+  return json;
 }
 
 Json layer_json(const Texts& texts) {
@@ -155,10 +159,12 @@ Json layer_json(const Picture& picture) {
 }
 
 Json axis_json(const Axis& axis) {
-  return {{"label", axis.label},
-          {"scale", enum_json(axis.scale, kScales)},
-          {"limits", axis.limits ? range_json(*axis.limits) : Json()},
-          {"whole", axis.whole}};
+  Json json = {{"label", axis.label},
+               {"scale", enum_json(axis.scale, kScales)},
+               {"limits", axis.limits ? range_json(*axis.limits) : Json()},
+               {"whole", axis.whole}};
+  if (!axis.names.empty()) json["names"] = axis.names;
+  return json;
 }
 
 Json panel_json(const Panel& panel) {

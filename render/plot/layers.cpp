@@ -96,6 +96,8 @@ class Painter {
   void operator()(const Cells& cells) {
     const auto mark = add_mark(cells.mark);
     for (Shape& shape : cell_shapes(cells, map_, theme_)) add(Role::kCells, std::move(shape), mark);
+    for (TextLine& line : cell_texts(cells, map_, theme_))
+      drawing_.add(Role::kCellText, panel_, std::move(line));
   }
 
   void operator()(const Picture& picture) {

@@ -84,6 +84,8 @@ std::string_view name(Role role) {
       return "marker";
     case Role::kMarkLabel:
       return "mark-label";
+    case Role::kCellText:
+      return "cell-text";
     case Role::kPicture:
       return "picture";
     case Role::kLeader:

@@ -20,10 +20,17 @@ Point cubic_at(Point a, Point b, Point c, Point d, double t) {
   return {wa * a.x + wb * b.x + wc * c.x + wd * d.x, wa * a.y + wb * b.y + wc * c.y + wd * d.y};
 }
 
+/// Where a value stands on the ramp, 0 to 1 within the limits.
+double ramp_share(double value, const Cells& cells) {
+  const auto [low, high] = cells.limits;
+  if (cells.scale == Scale::kLog) return std::log(value / low) / std::log(high / low);
+  return (value - low) / (high - low);
+}
+
 /// The shade of a cell, 0 to kShades - 1; -1 for NaN.
-int shade_of(double value, const Range& limits) {
+int shade_of(double value, const Cells& cells) {
   if (std::isnan(value)) return -1;
-  const double share = (value - limits.low) / (limits.high - limits.low);
+  const double share = ramp_share(value, cells);
   return static_cast<int>(std::lround(std::clamp(share, 0.0, 1.0) * (kShades - 1)));
 }
 
@@ -125,7 +132,7 @@ std::vector<Shape> cell_shapes(const Cells& cells, const PanelMap& map, const Th
   shades.reserve(cells.values.size());
   std::array<bool, kShades> used{};
   for (const double value : cells.values) {
-    shades.push_back(shade_of(value, cells.limits));
+    shades.push_back(shade_of(value, cells));
     if (shades.back() >= 0) used[shades.back()] = true;
   }
   std::vector<Shape> shapes;
@@ -138,6 +145,35 @@ std::vector<Shape> cell_shapes(const Cells& cells, const PanelMap& map, const Th
                     [&](std::size_t cell) { return shades[cell] >= shade; });
   }
   return shapes;
+}
+
+std::vector<TextLine> cell_texts(const Cells& cells, const PanelMap& map, const Theme& theme) {
+  constexpr double kWidest = 0.9, kHighest = 0.75;  // Shares of a cell.
+  const double em = theme.tick_font_pt;
+  const auto columns = static_cast<double>(cells.columns);
+  const auto rows = static_cast<double>(cells.rows());
+  const double width = std::abs(map.x(cells.x.high) - map.x(cells.x.low)) / columns;
+  const double height = std::abs(map.y(cells.y.high) - map.y(cells.y.low)) / rows;
+  std::vector<TextLine> lines;
+  if (FontFacts::kCapHeight * em > kHighest * height) return lines;
+  for (std::size_t i = 0; i < cells.text.size(); ++i) {
+    const int shade = shade_of(cells.values[i], cells);
+    if (shade < 0 || cells.text[i].empty()) continue;
+    const Colour below = ramp_colour(cells, static_cast<double>(shade) / (kShades - 1), theme);
+    constexpr Colour kDark = colour(0x000000), kLight = colour(0xFFFFFF);
+    TextLine line{.shaped = shape_text(cells.text[i]),
+                  .size = em,
+                  .colour = contrast(kDark, below) >= contrast(kLight, below) ? kDark : kLight};
+    if (line.shaped.advance * em > kWidest * width) return {};
+    const double column = static_cast<double>(i % cells.columns) + 0.5;
+    const double row = static_cast<double>(i / cells.columns) + 0.5;
+    line.at = {
+        map.x(std::lerp(cells.x.low, cells.x.high, column / columns)) -
+            line.shaped.advance * em / 2.0,
+        map.y(std::lerp(cells.y.high, cells.y.low, row / rows)) + FontFacts::kCapHeight * em / 2.0};
+    lines.push_back(std::move(line));
+  }
+  return lines;
 }
 
 std::optional<TextLine> placed_text(const Texts& texts, std::size_t i, const PanelMap& map,

@@ -29,6 +29,9 @@ Colour ramp_colour(const Cells& cells, double share, const Theme& theme);
 /// above, so that no background shows between neighbours.
 std::vector<Shape> cell_shapes(const Cells& cells, const PanelMap& map, const Theme& theme);
 
+/// The texts of cells in black or white, whichever reads better; none if one of them does not fit.
+std::vector<TextLine> cell_texts(const Cells& cells, const PanelMap& map, const Theme& theme);
+
 /// The i-th text at its place, elided if wider than .37 of the page; empty if its place holds a
 /// NaN.
 std::optional<TextLine> placed_text(const Texts& texts, std::size_t i, const PanelMap& map,

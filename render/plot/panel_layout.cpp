@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "render/plot/axes_painter.hpp"
+#include "render/plot/colour_bar.hpp"
 #include "render/plot/layers.hpp"
 #include "render/plot/legend.hpp"
 #include "render/plot/mark_labels.hpp"
@@ -135,6 +136,7 @@ void draw_panel(const Panel& panel, std::size_t panel_index, const Axes& axes,
   if (!panel.bare) draw_grid(axes, panel_index, layout, theme, drawing);
   draw_layers(panel, panel_index, layout.map(axes.frame), theme, drawing);
   if (!panel.bare) draw_axes(panel, axes, panel_index, layout, theme, drawing);
+  draw_colour_bar(panel, panel_index, axes.frame, theme, drawing);
 }
 
 void lay_out_panel(const Panel& panel, std::size_t panel_index, const Box& cell, const Theme& theme,

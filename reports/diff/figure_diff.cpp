@@ -95,6 +95,7 @@ void compare_axis(const std::string& place, const char* which, const Axis& a, co
   else
     add("limits", text_of(a.limits), text_of(b.limits));
   add("ticks", a.whole ? "whole numbers" : "any", b.whole ? "whole numbers" : "any");
+  add("names", listed(a.names, a.names.size() + 1), listed(b.names, b.names.size() + 1));
 }
 
 void compare_axes(const std::string& place, const Panel& a, const Panel& b, bool varies,

@@ -7,6 +7,8 @@
 namespace mapproof {
 namespace {
 
+Condition at(double level) { return condition("s", {{"l", level}}); }
+
 /// Two series in three layouts of two runs each; the second is `by` better, but for what `jitter`
 /// adds to it in every other layout.
 TrialStudy study_of(double by, double jitter) {
@@ -19,14 +21,14 @@ TrialStudy study_of(double by, double jitter) {
       part.run = RunId{layout, pose};
       const double first = 0.1 * layout + 0.01 * pose;
       const double second = first - by + (layout == 2 ? jitter : 0.0);
-      part.trials = {{"s", "one", 5.0, {first}, {}}, {"s", "two", 5.0, {second}, {}}};
+      part.trials = {{at(5.0), "one", {first}, {}}, {at(5.0), "two", {second}, {}}};
       study.parts.push_back(std::move(part));
     }
   return study;
 }
 
 MeanEstimate difference(const TrialStudy& study) {
-  return trial_difference(study, "s", "two", "one", 5.0, "mpe_m").value();
+  return trial_difference(study, at(5.0), "two", "one", "mpe_m").value();
 }
 
 TEST(TrialMeans, ADifferenceIsPairedByRun) {
@@ -47,18 +49,38 @@ TEST(TrialMeans, OneLayoutTellsNothingOfChance) {
 
 TEST(TrialMeans, ADifferenceNeedsBothSeries) {
   TrialStudy study = study_of(0.02, 0.0);
-  EXPECT_FALSE(trial_difference(study, "s", "two", "one", 6.0, "mpe_m"));
+  EXPECT_FALSE(trial_difference(study, at(6.0), "two", "one", "mpe_m"));
   study.parts[0].trials.pop_back();
   EXPECT_EQ(difference(study).values, 5);
-  EXPECT_THROW(trial_difference(study, "s", "two", "one", 5.0, "moe"), InvalidInput);
+  EXPECT_THROW(trial_difference(study, at(5.0), "two", "one", "moe"), InvalidInput);
 }
 
 TEST(TrialMeans, LevelsAreToldWithWhatTheyAreOf) {
-  EXPECT_EQ(level_words({"a", "A", "share missing [%]", {30}}, 30), "share missing 30 %");
-  EXPECT_EQ(level_words({"a", "A", "noise of bearings [\u00B0]", {0}}, 0),
-            "noise of bearings 0\u00B0");
-  EXPECT_EQ(level_words({"a", "A", "observations", {200}}, 200), "observations 200");
-  EXPECT_EQ(level_words({"a", "A", "", {0}}, 0), "");
+  const auto words = [](std::vector<TrialFactor> factors) {
+    const TrialSetup setup{"a", "A", std::move(factors)};
+    return level_words(setup, conditions_of(setup).front());
+  };
+  const TrialFactor share{"missing", "share missing", "%", {30}};
+  EXPECT_EQ(words({share}), "share missing 30 %");
+  EXPECT_EQ(words({{"noise", "noise of bearings", "\u00B0", {0}}}), "noise of bearings 0\u00B0");
+  EXPECT_EQ(words({steps_factor({200})}), "observations 200");
+  EXPECT_EQ(words({share, steps_factor({200})}), "share missing 30 %, observations 200");
+  EXPECT_EQ(words({}), "");
+  EXPECT_EQ(label_with_unit(share), "share missing [%]");
+  EXPECT_EQ(label_with_unit(steps_factor({})), "observations");
+}
+
+TEST(TrialMeans, ConditionsAreAllCombinationsOfLevels) {
+  const TrialSetup grid{"g", "G", {{"b", "B", "", {1, 2, 3}}, {"a", "A", "", {5, 7}}}};
+  const std::vector<Condition> conditions = conditions_of(grid);
+  ASSERT_EQ(conditions.size(), 6U);
+  EXPECT_EQ(conditions[1], condition("g", {{"a", 7.0}, {"b", 1.0}}));
+  EXPECT_EQ(conditions[5], condition("g", {{"a", 7.0}, {"b", 3.0}}));
+  EXPECT_THROW(levels_of(grid), InvalidInput);
+  EXPECT_THROW(condition_at(grid, 1.0), InvalidInput);
+  const TrialSetup single{"s", "S"};
+  EXPECT_EQ(conditions_of(single), std::vector{condition("s")});
+  EXPECT_EQ(levels_of(single), std::vector{0.0});
 }
 
 TEST(TrialMeans, SeriesAreToldByTheirLabels) {

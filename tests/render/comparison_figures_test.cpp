@@ -342,5 +342,86 @@ TEST(IdeaFigure, RefusesPartsThatDisagree) {
   EXPECT_THROW(idea_figure(spec), InvalidInput);
 }
 
+TEST(HeatMapFigure, PutsTheFirstLevelsAtTheLowerLeftAndSaysTheNumbers) {
+  HeatMapSpec spec = sample_heat(3, 2);
+  spec.values = {0.1, 0.2, 0.3, 0.4, NAN, 0.6};
+  const Figure figure = heat_map_figure(spec);
+  const Panel& panel = figure.panels[0];
+  const Cells cells = layers_of<Cells>(panel).at(0);
+  EXPECT_EQ(cells.columns, 3u);
+  EXPECT_EQ(cells.values[3], 0.1);  // The uppermost row stands first.
+  EXPECT_EQ(cells.text[2], "0.600");
+  EXPECT_EQ(cells.limits, (Range{0.1, 0.6}));
+  EXPECT_EQ(cells.bar_label, "MPE [m]");
+  EXPECT_EQ(panel.x.names, spec.x_names);
+  EXPECT_EQ(panel.y.names, spec.y_names);
+  EXPECT_TRUE(contains(figure.alt, "Least: 0.100 m at landmarks 20, side of the room [m] 1.5"))
+      << figure.alt;
+}
+
+TEST(HeatMapFigure, HatchesMissingCellsAndSaysSo) {
+  HeatMapSpec spec = sample_heat(3, 2);
+  EXPECT_TRUE(heat_map_figure(spec).notes.empty());
+  spec.values[4] = NAN;
+  const Figure figure = heat_map_figure(spec);
+  EXPECT_TRUE(notes_contain(figure, "no run gave a value"));
+  EXPECT_TRUE(contains(figure.caption, "1 cell"));
+  const Segments hatching = layers_of<Segments>(figure.panels[0]).at(0);
+  for (std::size_t i = 0; i < hatching.x0.size(); ++i)
+    for (const auto& [x, y] :
+         {std::pair{hatching.x0[i], hatching.y0[i]}, std::pair{hatching.x1[i], hatching.y1[i]}}) {
+      EXPECT_LE(std::abs(x - 1.0), 0.5 + 1e-12);
+      EXPECT_LE(std::abs(y - 1.0), 0.5 + 1e-12);
+    }
+}
+
+TEST(HeatMapFigure, HasLogarithmicColoursWhereErrorsSpanMuch) {
+  HeatMapSpec spec = sample_heat(2, 1);
+  spec.values = {0.01, 1.0};
+  const auto scale = [&] { return layers_of<Cells>(heat_map_figure(spec).panels[0]).at(0).scale; };
+  EXPECT_EQ(scale(), Scale::kLog);
+  spec.unit = "%";
+  EXPECT_EQ(scale(), Scale::kLinear);
+  spec.unit = "m";
+  spec.values = {0.1, 1.0};
+  EXPECT_EQ(scale(), Scale::kLinear);
+}
+
+TEST(HeatMapFigure, RefusesWhatIsNoMatrix) {
+  HeatMapSpec spec = sample_heat(3, 2);
+  spec.values.pop_back();
+  EXPECT_THROW(heat_map_figure(spec), InvalidInput);
+  spec = sample_heat(2, 2);
+  spec.values.assign(4, NAN);
+  EXPECT_THROW(heat_map_figure(spec), InvalidInput);
+}
+
+TEST(HeatMapFigure, WritesNumbersOnlyWhereAllOfThemFit) {
+  const auto numbers_in = [](const HeatMapSpec& spec) {
+    const Drawing drawing = lay_out(heat_map_figure(spec), report_theme());
+    return std::ranges::count_if(drawing.items,
+                                 [](const Item& item) { return item.role == Role::kCellText; });
+  };
+  EXPECT_EQ(numbers_in(sample_heat(5, 4)), 20);
+  EXPECT_EQ(numbers_in(sample_heat(30, 24)), 0);
+}
+
+TEST(HeatMapFigure, HasABarOfTheHeightOfItsFrameRightOfIt) {
+  const Drawing drawing = lay_out(heat_map_figure(sample_heat(5, 4)), report_theme());
+  const Box& frame = drawing.frames.at(0);
+  Box bar{1e9, 1e9, -1e9, -1e9};
+  for (const Item& item : drawing.items)
+    if (const auto* shape = std::get_if<Shape>(&item.what);
+        shape != nullptr && item.role == Role::kLegendSample && shape->fill) {
+      const Box box = bounds(shape->path);
+      bar = {std::min(bar.x0, box.x0), std::min(bar.y0, box.y0), std::max(bar.x1, box.x1),
+             std::max(bar.y1, box.y1)};
+    }
+  EXPECT_GT(bar.x0, frame.x1);
+  EXPECT_LT(bar.x1, drawing.width);
+  EXPECT_NEAR(bar.y0, frame.y0, 1e-9);
+  EXPECT_NEAR(bar.y1, frame.y1, 1e-9);
+}
+
 }  // namespace
 }  // namespace mapproof::test

@@ -57,6 +57,29 @@ TEST(Figure, NamesThePlaceOfWhatIsWrong) {
   EXPECT_EQ(problem(figure), "panels/0/layers/1/x/0: infinite");
 }
 
+TEST(Figure, RefusesCellsThatTheirScaleAndTextsDoNotFit) {
+  const Cells sound{
+      .x = {0.0, 1.0}, .y = {0.0, 1.0}, .columns = 2, .values = {1.0, 2.0}, .limits = {1.0, 2.0}};
+  const auto problem_with = [](const Cells& cells) {
+    Figure figure = small();
+    figure.panels[0].layers = {cells};
+    return problem(figure);
+  };
+  EXPECT_EQ(problem_with(sound), "");
+  Cells cells = sound;
+  cells.text = {"1"};
+  EXPECT_EQ(problem_with(cells), "panels/0/layers/0/text: not as many as values");
+  cells = sound;
+  cells.scale = Scale::kLog;
+  EXPECT_EQ(problem_with(cells), "");
+  cells.limits.low = 0.0;
+  EXPECT_EQ(problem_with(cells), "panels/0/layers/0/limits: not positive on a log scale");
+  Figure figure = small();
+  figure.panels[0].x.scale = Scale::kLog;
+  figure.panels[0].x.names = {"a"};
+  EXPECT_EQ(problem(figure), "panels/0/x/names: on a log axis");
+}
+
 TEST(Figure, RefusesIdsThatAreNoFileNames) {
   for (const std::string id : {"", "Big", "a/b", "..", "1st", "a_b", "a b", "\u00E9"}) {
     Figure figure = small();

@@ -9,6 +9,7 @@
 #include "core/statistics/paired_change.hpp"
 #include "reports/sections/results/results_comparison.hpp"
 #include "reports/sections/results/results_figures.hpp"
+#include "reports/sections/results/results_heat_maps.hpp"
 #include "reports/sections/results/results_tables.hpp"
 
 namespace mapproof {
@@ -392,6 +393,102 @@ TEST(ResultsFigures, ACurveOverNumbersElseADistribution) {
   EXPECT_EQ(curves.groups[0].figures[1].id, "test-s-ranks-mpe-m");
   const StudyFigures distributions = results_figures(without, compare_methods(without));
   EXPECT_EQ(distributions.groups[0].figures[0].panels[0].y.label, "runs at or below [%]");
+}
+
+/// Two methods over two factors of numbers; `o` has no value at the last level of both.
+ResultsStudy grid_study() {
+  Rows rows;
+  for (const char* run : {"a", "b"})
+    for (const double noise : {0.1, 0.2, 0.3})
+      for (const double size : {5.0, 10.0}) {
+        const std::vector<Level> at = {{"noise", noise}, {"size", size}};
+        rows.add("m", run, noise * size, at);
+        rows.add("o", run, noise == 0.3 && size == 10.0 ? kNaN : noise + size, at);
+      }
+  return rows.study();
+}
+
+TEST(ResultsFigures, TwoFactorsOfNumbersGiveAHeatMapPerMethod) {
+  const ResultsStudy study = grid_study();
+  const ResultsView view(study);
+  const FigureGroup group = heat_maps(view, study.setups[0]);
+  EXPECT_EQ(group.id, "test-s-grid");
+  ASSERT_EQ(group.figures.size(), 2U);
+  EXPECT_EQ(group.figures[0].id, "test-s-grid-mpe-m-m");
+  const Panel& panel = group.figures[0].panels[0];
+  EXPECT_EQ(panel.x.label, "noise");
+  EXPECT_EQ(panel.x.names, (std::vector<std::string>{"0.1", "0.2", "0.3"}));
+  EXPECT_EQ(panel.y.names, (std::vector<std::string>{"5", "10"}));
+  const auto& cells = std::get<Cells>(panel.layers.back());
+  EXPECT_DOUBLE_EQ(cells.values[0], 1.0);  // Noise 0.1 at size 10, in the upper row.
+  EXPECT_DOUBLE_EQ(cells.values[5], 1.5);
+  EXPECT_EQ(group.figures[1].notes.size(), 1U) << "a missing cell is said";
+}
+
+TEST(ResultsFigures, OneFactorOrATextGivesNoHeatMap) {
+  Rows one, text;
+  for (const double noise : {0.1, 0.2})
+    for (const char* light : {"day", "night"}) {
+      one.add("m", std::string("a") + light, noise, {{"noise", noise}});
+      text.add("m", "a1", noise, {{"noise", noise}, {"light", std::string(light)}});
+    }
+  for (const ResultsStudy& study : {one.study(), text.study()}) {
+    const ResultsView view(study);
+    EXPECT_TRUE(heat_maps(view, study.setups[0]).empty());
+  }
+}
+
+TEST(ResultsFigures, ALevelOf0IsNoHindranceToALogarithmicAxis) {
+  Rows rows;
+  for (const double noise : {0.0, 0.1, 1.0, 10.0})
+    rows.add("m", "a", noise + 1.0, {{"noise", noise}});
+  const ResultsStudy study = rows.study();
+  const ResultsView view(study);
+  const StudyFigures figures = results_figures(view, {});
+  const Figure& figure = figures.groups.at(0).figures.at(0);
+  EXPECT_EQ(figure.panels[0].x.scale, Scale::kLog);
+  EXPECT_NE(figure.caption.find("level 0"), std::string::npos);
+}
+
+TEST(ResultsFigures, WhatIsTheSameEverywhereHasNone) {
+  Rows rows;
+  for (const double noise : {0.1, 0.2}) rows.add("m", "a", 3.0, {{"noise", noise}});
+  const ResultsStudy study = rows.study();
+  EXPECT_TRUE(results_figures(ResultsView(study), {}).groups.empty());
+}
+
+TEST(ResultsTables, SayHowOftenAMethodEndedWithAStatus) {
+  ResultsStudy study = Rows()
+                           .add("m", "a1", 1.0, {{"noise", 0.1}})
+                           .add("m", "b1", 2.0, {{"noise", 0.1}})
+                           .add("m", "b1", 2.5, {{"noise", 0.2}})
+                           .study();
+  const Condition at = condition("s", {{"noise", 0.1}});
+  study.results.outcomes = {{at, "m", "a1", {"not_converged", "not_converged"}},
+                            {at, "m", "b1", {}}};
+  const ResultsView view(study);
+  const std::vector<Table> tables = results_tables(view, view.blocks()[0]);
+  EXPECT_EQ(tables.at(0).notes.back(), "m: not converged in 1 of 2 at noise 0.1.");
+}
+
+TEST(ResultsTables, HaveTheStudysLabelsOfKnownQuantities) {
+  ResultsStudy study = Rows().add("m", "a1", 1.0).study();
+  study.quantity_labels = {{.id = "mpe_m", .label = "MPE of the pick"}};
+  const ResultsView view(study);
+  EXPECT_EQ(results_tables(view, view.blocks()[0]).at(0).columns.at(1).title, "MPE of the pick");
+}
+
+TEST(ResultsTables, LabelledRunsHaveATableEach) {
+  ResultsStudy study =
+      Rows().add("m", "a1", 1.0).add("m", "b1", 3.0).add("n", "a1", 2.0).study(false);
+  study.runs = {{.id = "a1", .label = "First set"}, {.id = "b1", .label = "Second set"}};
+  const ResultsView view(study);
+  const std::vector<Table> tables = results_tables(view, view.blocks()[0]);
+  ASSERT_EQ(tables.size(), 2U);
+  EXPECT_EQ(tables[0].id, "test-s-a1");
+  EXPECT_EQ(tables[0].caption, "First set: s");
+  EXPECT_EQ(tables[0].rows.size(), 2U);
+  EXPECT_EQ(tables[1].rows.size(), 1U);
 }
 
 }  // namespace

@@ -103,9 +103,23 @@ class Inspector {
 
   void check_text_on_marks() {
     const Image marks = image_of(drawing_, blocks_text);
-    for (const Text& text : texts_)
-      if (has_ink(marks, text.ink, drawing_.background))
+    const Image no_cells =
+        image_of(drawing_, [](Role role) { return blocks_text(role) && role != Role::kCells; });
+    for (const Text& text : texts_) {
+      const bool is_on_cell = text.item->role == Role::kCellText;
+      if (has_ink(is_on_cell ? no_cells : marks, text.ink, drawing_.background))
         flaws_.push_back(named(text) + " covers a line or a mark");
+    }
+  }
+
+  /// What a text of a cell stands on.
+  Colour below(const Text& text) const {
+    if (text.item->role != Role::kCellText) return drawing_.background;
+    if (cells_.width == 0)
+      cells_ = image_of(drawing_, [](Role role) { return role == Role::kCells; });
+    const Point middle = text.ink.centre();
+    const auto pixel = [](double points) { return static_cast<int>(points * kPixelsPerPoint); };
+    return colour(cells_.row(pixel(middle.y))[pixel(middle.x)] & 0xFFFFFF);
   }
 
   void check_legend_on_data() {
@@ -120,7 +134,7 @@ class Inspector {
 
   void check_contrast() {
     for (const Text& text : texts_)
-      if (contrast(text.line->colour, drawing_.background) < 4.5)
+      if (contrast(text.line->colour, below(text)) < 4.5)
         flaws_.push_back(named(text) + " has too little contrast");
     for (const Item& item : drawing_.items) {
       const auto* stamp = std::get_if<Stamp>(&item.what);
@@ -142,6 +156,7 @@ class Inspector {
 
   const Drawing& drawing_;
   std::vector<Text> texts_;
+  mutable Image cells_;  ///< The cells alone, once a text on one is met.
   std::vector<std::string> flaws_;
 };
 

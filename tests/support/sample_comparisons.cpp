@@ -92,6 +92,18 @@ void add_errors(std::vector<Figure>& figures) {
   figures.push_back(anchor_count_figure(with_id(sample_anchor_counts(), "anchors-usual")));
   figures.push_back(level_curve_figure(with_id(sample_levels(8), "levels-usual")));
   figures.push_back(level_curve_figure(with_id(sample_levels(0), "levels-none")));
+  HeatMapSpec usual = with_id(sample_heat(5, 4), "heat-usual");
+  usual.values[7] = usual.values[19] = NAN;
+  figures.push_back(heat_map_figure(usual));
+  figures.push_back(heat_map_figure(with_id(sample_heat(30, 24), "heat-many")));
+  HeatMapSpec wide = with_id(sample_heat(4, 3), "heat-log");
+  for (double& value : wide.values) value = std::pow(10.0, 12.0 * value - 2.0);
+  figures.push_back(heat_map_figure(wide));
+  HeatMapSpec same = with_id(sample_heat(2, 2), "heat-same");
+  same.values.assign(4, 12.5);
+  same.unit = "%";
+  same.x_names = {hostile_names().front(), std::string(60, 'w')};
+  figures.push_back(heat_map_figure(same));
   figures.push_back(occlusion_figure(with_id(sample_occlusion(25), "occlusion-usual")));
   figures.push_back(occlusion_figure(with_id(sample_occlusion(1), "occlusion-one-run")));
   figures.push_back(occlusion_figure(with_id(sample_occlusion(0), "occlusion-none")));
@@ -221,6 +233,25 @@ LevelCurveSpec sample_levels(std::size_t methods) {
     spec.methods.push_back(line(method_labels(10)[m], fmt::format("method-{}", m + 1),
                                 {0, 1, 2, 5, 10, 20}, 0.06 + 0.05 * static_cast<double>(m),
                                 0.05 + 0.04 * static_cast<double>(m % 3)));
+  return spec;
+}
+
+HeatMapSpec sample_heat(std::size_t columns, std::size_t rows) {
+  HeatMapSpec spec;
+  spec.id = "heat";
+  spec.title = "Maps from bearing, kNN-SMACOF (K = 8): MPE";
+  spec.x_label = "landmarks";
+  spec.y_label = "side of the room [m]";
+  for (std::size_t i = 0; i < columns; ++i) spec.x_names.push_back(fmt::format("{}", 20 + 15 * i));
+  for (std::size_t i = 0; i < rows; ++i)
+    spec.y_names.push_back(fmt::format("{}", 1.5 + 0.5 * static_cast<double>(i)));
+  for (std::size_t row = 0; row < rows; ++row)
+    for (std::size_t column = 0; column < columns; ++column)
+      spec.values.push_back(0.04 + 0.06 * static_cast<double>(row + 1) / static_cast<double>(rows) +
+                            0.2 / static_cast<double>(column + 1));
+  spec.quantity = "MPE";
+  spec.unit = "m";
+  spec.missing = "no run gave a value";
   return spec;
 }
 

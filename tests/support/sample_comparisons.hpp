@@ -5,6 +5,7 @@
 #include "render/figures/anchor_count.hpp"
 #include "render/figures/critical_difference.hpp"
 #include "render/figures/ellipse_map.hpp"
+#include "render/figures/heat_map.hpp"
 #include "render/figures/idea.hpp"
 #include "render/figures/level_curve.hpp"
 #include "render/figures/map_grid.hpp"
@@ -25,6 +26,7 @@ SpectrumSpec sample_spectra(std::size_t methods);
 MapGridSpec sample_maps(std::size_t count);
 AnchorCountSpec sample_anchor_counts();
 LevelCurveSpec sample_levels(std::size_t methods);
+HeatMapSpec sample_heat(std::size_t columns, std::size_t rows);
 OcclusionSpec sample_occlusion(std::size_t runs);
 ParetoSpec sample_costs(std::size_t settings);
 IdeaSpec sample_idea(Sensor sensor);

@@ -12,6 +12,7 @@
 #include "render/figures/level_curve.hpp"
 #include "render/figures/map.hpp"
 #include "render/figures/thinning.hpp"
+#include "reports/sections/results/results_heat_maps.hpp"
 
 namespace mapproof {
 namespace {
@@ -39,6 +40,38 @@ bool spans_widely(std::vector<double> values) {
   return least > 0.0 && greatest > kWideSpan * least;
 }
 
+/// Of levels: a 0 among them does not count, since no logarithmic axis has it.
+bool spans_widely_above_0(std::vector<double> levels) {
+  std::erase(levels, 0.0);
+  return levels.size() > 1 && spans_widely(std::move(levels));
+}
+
+void drop_level_0(ErrorLine& line) {
+  if (line.x.empty() || line.x.front() != 0.0) return;
+  for (std::vector<double>* values : {&line.x, &line.mean, &line.low, &line.high})
+    if (!values->empty()) values->erase(values->begin());
+}
+
+bool is_known(double value) { return std::isfinite(value); }
+
+/// Whether any two values differ: what is the same everywhere needs no figure.
+bool tells_apart(const std::vector<ErrorLine>& lines) {
+  double least = HUGE_VAL, greatest = -HUGE_VAL;
+  for (const ErrorLine& line : lines)
+    for (const double mean : line.mean) {
+      if (!is_known(mean)) continue;
+      least = std::min(least, mean);
+      greatest = std::max(greatest, mean);
+    }
+  return greatest > least;
+}
+
+Scale scale_of(const std::vector<Level>& levels) {
+  std::vector<double> numbers;
+  for (const Level& level : levels) numbers.push_back(std::get<double>(level.value));
+  return spans_widely_above_0(std::move(numbers)) ? Scale::kLog : Scale::kLinear;
+}
+
 ErrorLine curve_of(const ResultsView& view, const ResultsBlock& block, const Quantity& quantity,
                    const ResultsLine& line, std::size_t index) {
   ErrorLine curve;
@@ -61,7 +94,7 @@ ErrorLine curve_of(const ResultsView& view, const ResultsBlock& block, const Qua
 std::vector<ErrorLine> curves_of(const ResultsView& view, const ResultsBlock& block,
                                  const Quantity& quantity) {
   const std::vector<ResultsLine> lines = view.lines(block, quantity);
-  const auto is_known = [](double value) { return std::isfinite(value); };
+  const bool is_log = scale_of(block.levels) == Scale::kLog;
   std::vector<ErrorLine> curves;
   for (std::size_t i = 0; i < lines.size(); ++i) {
     ErrorLine curve = curve_of(view, block, quantity, lines[i], i);
@@ -70,15 +103,10 @@ std::vector<ErrorLine> curves_of(const ResultsView& view, const ResultsBlock& bl
       curve.low.clear();
       curve.high.clear();
     }
+    if (is_log) drop_level_0(curve);
     curves.push_back(std::move(curve));
   }
   return curves;
-}
-
-Scale scale_of(const std::vector<Level>& levels) {
-  std::vector<double> numbers;
-  for (const Level& level : levels) numbers.push_back(std::get<double>(level.value));
-  return spans_widely(std::move(numbers)) ? Scale::kLog : Scale::kLinear;
 }
 
 std::optional<Figure> curve_figure(const ResultsView& view, const ResultsBlock& block,
@@ -92,8 +120,12 @@ std::optional<Figure> curve_figure(const ResultsView& view, const ResultsBlock& 
   spec.quantity = quantity.label;
   spec.record_ids = {record_of(block)};
   spec.methods = curves_of(view, block, quantity);
-  if (spec.methods.empty()) return std::nullopt;
-  return level_curve_figure(spec);
+  if (!tells_apart(spec.methods)) return std::nullopt;
+  if (quantity.unit == "%") spec.log_from = HUGE_VAL;
+  Figure figure = level_curve_figure(spec);
+  if (spec.x_scale == Scale::kLog && std::get<double>(block.levels.front().value) == 0.0)
+    figure.caption += " The table has the level 0, which a logarithmic axis has not.";
+  return figure;
 }
 
 /// The curves of several blocks, a panel each on one y axis.
@@ -277,6 +309,9 @@ StudyFigures results_figures(const ResultsView& view,
         group.figures.push_back(*std::move(figure));
     if (!group.empty()) figures.groups.push_back(std::move(group));
   }
+  for (const Label& setup : view.study().setups)
+    if (FigureGroup grid = heat_maps(view, setup); !grid.empty())
+      figures.groups.push_back(std::move(grid));
   for (const ResultsBlock& block : view.blocks()) {
     FigureGroup group{block.id, block.title, "", {}};
     for (const Quantity* quantity : view.quantities(block)) {

@@ -9,10 +9,10 @@
 
 namespace mapproof {
 
-/// One group of figures per overview and block, by their ids. Of an overview the curves of its
-/// blocks beside each other. Of a block of each quantity a curve over a factor
-/// of numbers, else the distribution over runs; of comparisons of three methods or more, their mean
-/// ranks with the critical difference.
+/// The heat maps of setups with two factors of numbers, then one group of figures per overview and
+/// block, by their ids. Of an overview the curves of its blocks beside each other. Of a block of
+/// each quantity a curve over a factor of numbers, else the distribution over runs; of comparisons
+/// of three methods or more, their mean ranks with the critical difference.
 StudyFigures results_figures(const ResultsView& view,
                              const std::vector<MethodComparison>& comparisons);
 

@@ -12,12 +12,23 @@ namespace mapproof {
 struct ResultsReportInput {
   const ResultsView& view;
   const std::vector<MethodComparison>& comparisons;  ///< compare_methods() of it.
-  const StudyFigures& figures;                       ///< results_figures() of both.
-  std::string command;                               ///< That writes the report again.
+  const StudyFigures& figures;                       ///< results_figures() of both, and maps.
+  std::vector<Block> provenance;                     ///< Where the numbers come from.
+  /// What came out, a sentence each, by whoever knows what the study asked; the report says them in
+  /// place of what the comparisons came to.
+  std::vector<std::string> conclusions = {};
+  std::string incomplete = {};   ///< What is still missing, a sentence; empty: nothing.
+  std::vector<Table> cost = {};  ///< What it took.
+  std::string footer = "Made by mapproof.";
 };
 
+/// The provenance of results that another program made.
+/// @param command  That writes the report again.
+std::vector<Block> given_provenance(const ResultsView& view, const std::string& command);
+
 /// The report of a study that is a table of results: what was asked and what came out, then one
-/// section per block with its figures, tables and comparisons, and where the numbers come from.
+/// section per block with its figures, tables and comparisons, the maps and paths, what it took,
+/// and where the numbers come from.
 Report results_report(const ResultsReportInput& input);
 
 /// Its sections alone, to stand in a report with others: ids begin with the study's name, titles

@@ -1,6 +1,8 @@
 #include "reports/sections/results/results_tables.hpp"
 
 #include <algorithm>
+#include <map>
+#include <optional>
 #include <utility>
 
 #include <fmt/format.h>
@@ -78,6 +80,31 @@ void add_note(const ResultsView& view, Table& table) {
           counted(static_cast<long long>(view.groups()), "group")));
 }
 
+/// "SDE: not converged in 3 of 9 at noise 0.5.": a note per line and status.
+void add_status_notes(const ResultsView& view, const ResultsBlock& block,
+                      const std::vector<ResultsLine>& lines, Table& table) {
+  for (const ResultsLine& line : lines) {
+    std::map<std::string, std::vector<std::string>> places;  // By code.
+    for (std::size_t i = 0; i < block.conditions.size(); ++i) {
+      const StatusCounts counts = view.statuses(block.conditions[i], line);
+      for (const auto& [code, count] : counts.codes) {
+        std::string place =
+            counts.runs == 1 ? std::string() : fmt::format("in {} of {}", count, counts.runs);
+        if (!block.factor.empty())
+          place += (place.empty() ? "at " : " at ") + view.level_words(block.levels[i]);
+        places[code].push_back(std::move(place));
+      }
+    }
+    for (auto& [code, where] : places) {
+      std::string words = code;
+      std::ranges::replace(words, '_', ' ');
+      std::erase(where, "");
+      table.notes.push_back(fmt::format("{}: {}{}{}.", line.label, words, where.empty() ? "" : " ",
+                                        listed(where, where.size() + 1)));
+    }
+  }
+}
+
 /// One quantity over the levels.
 Table level_table(const ResultsView& view, const ResultsBlock& block, const Quantity& quantity) {
   Table table;
@@ -98,7 +125,19 @@ Table level_table(const ResultsView& view, const ResultsBlock& block, const Quan
     table.rows.push_back(std::move(row));
   }
   add_note(view, table);
+  add_status_notes(view, block, view.lines(block, quantity), table);
   return table;
+}
+
+/// The lines that any of a block's quantities has, in the order of methods.
+std::vector<ResultsLine> all_lines(const ResultsView& view, const ResultsBlock& block) {
+  std::vector<ResultsLine> lines;
+  for (const Quantity* quantity : view.quantities(block))
+    for (const ResultsLine& line : view.lines(block, *quantity))
+      if (std::ranges::find(lines, line.label, &ResultsLine::label) == lines.end())
+        lines.push_back(line);
+  std::ranges::stable_sort(lines, {}, &ResultsLine::index);
+  return lines;
 }
 
 /// All quantities of a block with one level.
@@ -109,16 +148,12 @@ Table single_table(const ResultsView& view, const ResultsBlock& block) {
   table.columns.push_back({"Method", "", "", ""});
   CellMaker cells(view, table);
   const std::vector<const Quantity*> quantities = view.quantities(block);
-  std::vector<ResultsLine> lines;
+  const std::vector<ResultsLine> lines = all_lines(view, block);
   std::vector<int> places;
   for (const Quantity* quantity : quantities) {
     places.push_back(decimals(view, view.lines(block, *quantity), block.conditions, *quantity));
     cells.add_column(quantity->label, quantity->unit, "");
-    for (const ResultsLine& line : view.lines(block, *quantity))
-      if (std::ranges::find(lines, line.label, &ResultsLine::label) == lines.end())
-        lines.push_back(line);
   }
-  std::ranges::stable_sort(lines, {}, [](const ResultsLine& line) { return line.index; });
   for (const ResultsLine& line : lines) {
     Row row{{TextCell{line.label, Emphasis::kData}}, "", false};
     for (std::size_t i = 0; i < quantities.size(); ++i)
@@ -127,12 +162,53 @@ Table single_table(const ResultsView& view, const ResultsBlock& block) {
     table.rows.push_back(std::move(row));
   }
   add_note(view, table);
+  add_status_notes(view, block, lines, table);
+  return table;
+}
+
+/// All quantities of one run that is no repeat of the others; empty if the block has none of it.
+std::optional<Table> run_table(const ResultsView& view, const ResultsBlock& block,
+                               const Label& run) {
+  std::vector<ResultsLine> lines = all_lines(view, block);
+  std::erase_if(lines, [&](const ResultsLine& line) { return line.run != run.id; });
+  if (lines.empty()) return std::nullopt;
+  Table table;
+  table.id = table_id(block.id, run.id);
+  table.caption = run.label + ": " + block.title;
+  table.columns.push_back({"Method", "", "", ""});
+  if (!block.factor.empty()) table.columns.push_back({view.factor_label(block.factor), "", "", ""});
+  const std::vector<const Quantity*> quantities = view.quantities(block);
+  std::vector<int> places;
+  CellMaker cells(view, table);
+  for (const Quantity* quantity : quantities) {
+    places.push_back(decimals(view, block, *quantity));
+    cells.add_column(quantity->label, quantity->unit, "");
+  }
+  for (ResultsLine& line : lines) {
+    line.label = view.study().methods[line.index].label;  // The caption names the run.
+    for (std::size_t level = 0; level < block.conditions.size(); ++level) {
+      Row row{{TextCell{line.label, Emphasis::kData}}, "", false};
+      if (!block.factor.empty())
+        row.cells.emplace_back(TextCell{column_title(block.levels[level])});
+      for (std::size_t i = 0; i < quantities.size(); ++i)
+        cells.add(row, block.conditions[level], line, *quantities[i], places[i],
+                  quantities[i]->label);
+      table.rows.push_back(std::move(row));
+    }
+  }
+  add_status_notes(view, block, lines, table);
   return table;
 }
 
 }  // namespace
 
 std::vector<Table> results_tables(const ResultsView& view, const ResultsBlock& block) {
+  if (!view.study().runs.empty()) {
+    std::vector<Table> of_runs;
+    for (const Label& run : view.study().runs)
+      if (auto table = run_table(view, block, run)) of_runs.push_back(*std::move(table));
+    return of_runs;
+  }
   if (block.factor.empty()) return {single_table(view, block)};
   std::vector<Table> tables;
   for (const Quantity* quantity : view.quantities(block))

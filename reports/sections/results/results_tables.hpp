@@ -8,7 +8,8 @@
 namespace mapproof {
 
 /// The tables of a block: one per quantity with the levels as columns, or of a single level one
-/// with the quantities as columns; each mean with its interval. Ids begin with the block's.
+/// with the quantities as columns; each mean with its interval. Where the study labels its runs,
+/// one per run with the quantities as columns. Ids begin with the block's.
 std::vector<Table> results_tables(const ResultsView& view, const ResultsBlock& block);
 
 /// One per quantity that has values there: a method per row, a block of the overview per column.

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <set>
 #include <tuple>
+#include <utility>
 
 #include <fmt/format.h>
 
@@ -54,6 +55,14 @@ ResultsView::ResultsView(const ResultsStudy& study) : study_(study) {
     least = std::min(least, row.value);
     greatest = std::max(greatest, row.value);
   }
+  for (const std::string& id : study.quantities) {
+    Quantity quantity = study.results.quantities.at(id);
+    const auto label = std::ranges::find(study.quantity_labels, id, &Label::id);
+    if (label != study.quantity_labels.end()) quantity.label = label->label;
+    quantities_.emplace(id, std::move(quantity));
+  }
+  for (const RunOutcome& outcome : study.results.outcomes)
+    outcomes_[{outcome.at, outcome.method}].push_back(&outcome);
   make_blocks();
   make_overviews();
 }
@@ -176,7 +185,7 @@ std::optional<ResultsOverview> ResultsView::overview_of(
 std::vector<const Quantity*> ResultsView::quantities(const ResultsBlock& block) const {
   std::vector<const Quantity*> found;
   for (const std::string& id : study_.quantities) {
-    const Quantity& quantity = study_.results.quantities.at(id);
+    const Quantity& quantity = this->quantity(id);
     if (!lines(block, quantity).empty()) found.push_back(&quantity);
   }
   return found;
@@ -198,11 +207,12 @@ std::vector<ResultsLine> ResultsView::lines(const ResultsBlock& block,
     if (runs.empty()) continue;
     if (study_.results.are_repeats) runs = {""};
     for (const std::string& run : runs)
-      lines.push_back(
-          {.method = method.id,
-           .run = run,
-           .label = run.empty() || groups_.size() < 2 ? method.label : method.label + ", " + run,
-           .index = i});
+      lines.push_back({.method = method.id,
+                       .run = run,
+                       .label = run.empty() || groups_.size() < 2
+                                    ? method.label
+                                    : method.label + ", " + label_of(study_.runs, run),
+                       .index = i});
   }
   return lines;
 }
@@ -247,6 +257,19 @@ std::optional<Interval> ResultsView::interval(const std::optional<MeanEstimate>&
   return interval;
 }
 
+StatusCounts ResultsView::statuses(const Condition& at, const ResultsLine& line) const {
+  StatusCounts counts;
+  const auto found = outcomes_.find({at, line.method});
+  if (found == outcomes_.end()) return counts;
+  for (const RunOutcome* outcome : found->second) {
+    if (!line.run.empty() && outcome->run != line.run) continue;
+    ++counts.runs;
+    for (const std::string& code : std::set(outcome->codes.begin(), outcome->codes.end()))
+      ++counts.codes[code];
+  }
+  return counts;
+}
+
 std::map<std::string, double> ResultsView::group_means(
     const std::map<std::string, double>& runs) const {
   std::map<std::string, std::pair<double, int>> sums;
@@ -265,7 +288,8 @@ std::string ResultsView::level_words(const Level& level) const {
   const std::string text =
       is_number(level) ? fmt::format("{:.6g}", std::get<double>(level.value)) : level_text(level);
   if (found == study_.factors.end()) return level.factor + " " + text;
-  return found->label + " " + text + (found->unit.empty() ? "" : " " + found->unit);
+  const bool is_close = found->unit.empty() || found->unit == "\u00B0";
+  return found->label + " " + text + (is_close ? "" : " ") + found->unit;
 }
 
 std::string ResultsView::factor_label(const std::string& factor) const {

@@ -53,6 +53,12 @@ struct RunNumbers {
   int lost = 0;
 };
 
+/// How often a method ended with each status under a condition.
+struct StatusCounts {
+  std::map<std::string, int> codes;  ///< Runs that have it.
+  int runs = 0;                      ///< In all.
+};
+
 /// A study's results as figures and tables show them.
 class ResultsView {
  public:
@@ -66,6 +72,8 @@ class ResultsView {
   std::size_t runs() const { return groups_.size(); }
   std::size_t groups() const { return clusters_.size(); }
 
+  /// One of the study's quantities, under the study's label.
+  const Quantity& quantity(const std::string& id) const { return quantities_.at(id); }
   /// The quantities that a block has, in the order of the study.
   std::vector<const Quantity*> quantities(const ResultsBlock& block) const;
   /// The lines that a block has of a quantity, in the order of methods and runs.
@@ -80,6 +88,8 @@ class ResultsView {
   /// values lies below, at 100 % if its unit is that and none lies above. Empty without one.
   std::optional<Interval> interval(const std::optional<MeanEstimate>& mean,
                                    const Quantity& quantity) const;
+  /// What is known of how a line's runs ended.
+  StatusCounts statuses(const Condition& at, const ResultsLine& line) const;
   /// The mean of each group's runs.
   std::map<std::string, double> group_means(const std::map<std::string, double>& runs) const;
 
@@ -101,11 +111,13 @@ class ResultsView {
   std::string short_words(const Level& level) const;
 
   const ResultsStudy& study_;
+  std::map<std::string, Quantity> quantities_;                         ///< By id.
   std::map<Key, std::map<std::string, std::pair<double, int>>> sums_;  ///< By run: sum and count.
   std::map<Key, std::set<std::string>> lost_;                          ///< By run.
-  std::map<std::string, std::string> groups_;                          ///< By run.
-  std::map<std::string, int> clusters_;                                ///< By group.
-  std::map<std::string, std::pair<double, double>> ranges_;            ///< By quantity.
+  std::map<std::pair<Condition, std::string>, std::vector<const RunOutcome*>> outcomes_;
+  std::map<std::string, std::string> groups_;                ///< By run.
+  std::map<std::string, int> clusters_;                      ///< By group.
+  std::map<std::string, std::pair<double, double>> ranges_;  ///< By quantity.
   std::vector<ResultsBlock> blocks_;
   std::vector<ResultsOverview> overviews_;
 };

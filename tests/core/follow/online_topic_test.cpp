@@ -34,9 +34,10 @@ TEST(OnlineTopic, FollowsEverySensorToEveryLevel) {
   ASSERT_EQ(study.parts[0].trials.size(), 36U);
   for (const Trial& trial : study.parts[0].trials) {
     EXPECT_GE(trial.values[1], trial.values[0]);
-    EXPECT_LE(trial.values[1], 1.0) << trial.setup << ' ' << trial.series;
+    EXPECT_LE(trial.values[1], 1.0) << trial.at.setup << ' ' << trial.series;
     EXPECT_EQ(trial.values[2], 0.0);
-    EXPECT_EQ(trial.values[3], trial.series.ends_with("-anew") ? trial.level : 50.0);
+    const double steps = std::get<double>(trial.at.levels.at(0).value);
+    EXPECT_EQ(trial.values[3], trial.series.ends_with("-anew") ? steps : 50.0);
   }
   EXPECT_EQ(kOnlineTopic.conclude(study).size(), 3U);
 }

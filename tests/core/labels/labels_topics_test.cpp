@@ -41,7 +41,8 @@ TrialStudy small_study(const Topic& topic, std::map<std::string, std::vector<dou
 const Trial& trial(const TrialStudy& study, std::string_view setup, std::string_view series,
                    double level) {
   const auto found = std::ranges::find_if(study.parts.front().trials, [&](const Trial& one) {
-    return one.setup == setup && one.series == series && one.level == level;
+    return one.at.setup == setup && one.series == series &&
+           std::get<double>(one.at.levels.at(0).value) == level;
   });
   EXPECT_NE(found, study.parts.front().trials.end());
   return *found;

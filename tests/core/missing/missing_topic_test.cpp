@@ -28,8 +28,7 @@ TrialExperiment small_trials() {
 const Trial& trial_of(const TrialStudy& study, const std::string& map) {
   for (const Trial& trial : study.parts.front().trials)
     for (const TrialSetup& setup : study.design.setups)
-      if (trial.setup == setup.id && trial.level == setup.levels.back() &&
-          setup.id + "-" + trial.series == map)
+      if (trial.at == conditions_of(setup).back() && setup.id + "-" + trial.series == map)
         return trial;
   throw InvalidInput("no trial of the map " + map);
 }

@@ -73,9 +73,8 @@ TrialStudy made_up_trials(const TrialExperiment& experiment) {
     part.id = slug(*part.run);
     for (const TrialSetup& setup : study.design.setups)
       for (const TrialSeries& series : study.design.series)
-        for (const double level : setup.levels) {
-          Trial trial{
-              .setup = setup.id, .series = series.id, .level = level, .values = {}, .statuses = {}};
+        for (const Condition& at : conditions_of(setup)) {
+          Trial trial{.at = at, .series = series.id, .values = {}, .statuses = {}};
           for (std::size_t i = 0; i < study.design.quantities.size(); ++i) {
             number *= 1.7;
             if (number > 1e9) number *= 1e-12;
@@ -86,11 +85,6 @@ TrialStudy made_up_trials(const TrialExperiment& experiment) {
     study.parts.push_back(std::move(part));
   }
   return study;
-}
-
-const std::vector<TrialOption>* options_of(std::string_view topic) {
-  const Topic* known = topic_named(topic);
-  return known == nullptr ? nullptr : &known->options;
 }
 
 TEST(ResultsTable, OfEveryKindOfStudyReadsBackAsItsResults) {
@@ -106,8 +100,8 @@ TEST(ResultsTable, OfEveryTopicReadsBackAsItsResults) {
   for (const Topic* topic : all_topics()) {
     const std::string file =
         fmt::format("{}/templates/experiments/{}.json", MAPPROOF_SOURCE_DIR, topic->name);
-    const Results results =
-        results_of(made_up_trials(parse_trial_experiment(read_file(file), file, options_of)));
+    const Results results = results_of(
+        made_up_trials(parse_trial_experiment(read_file(file), file, input_of_topics())));
     ASSERT_FALSE(results.rows.empty()) << topic->name;
     expect_same(read_back(results), results.rows);
     ++topics;

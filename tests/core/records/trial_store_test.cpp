@@ -28,8 +28,7 @@ TrialStudy small_trials() {
   study.design = {.question = "How much may be missing?",
                   .setups = {{.id = "random",
                               .title = "At random",
-                              .level_label = "share",
-                              .levels = {0.1, 0.5}}},
+                              .factors = {{"share", "share missing", "", {0.1, 0.5}}}}},
                   .series = {{.id = "ppca", .label = "PPCA"}, {.id = "fill", .label = "Mean fill"}},
                   .quantities = {known_quantity("mpe_m"),
                                  study_quantity("found", "found", "%", Better::kHigher)}};
@@ -41,13 +40,14 @@ TrialPart made_up_part(const RunId& run) {
   TrialPart part;
   part.id = slug(run);
   part.run = run;
-  part.trials = {
-      {.setup = "random",
-       .series = "ppca",
-       .level = 0.1,
-       .values = {0.05, 100.0},
-       .statuses = {{StatusCode::kNotConverged, "after 9 steps"}}},
-      {.setup = "random", .series = "fill", .level = 0.5, .values = {kNaN, 0.0}, .statuses = {}}};
+  part.trials = {{.at = condition("random", {{"share", 0.1}}),
+                  .series = "ppca",
+                  .values = {0.05, 100.0},
+                  .statuses = {{StatusCode::kNotConverged, "after 9 steps"}}},
+                 {.at = condition("random", {{"share", 0.5}}),
+                  .series = "fill",
+                  .values = {kNaN, 0.0},
+                  .statuses = {}}};
   TrialMap map{.id = "ppca",
                .title = "PPCA",
                .map = test::made_up_result({1, 1}).maps[0],
@@ -62,11 +62,11 @@ TrialPart made_up_part(const RunId& run) {
   return part;
 }
 
-const std::vector<TrialOption>* known_options(std::string_view topic) {
+TopicInput known_options(std::string_view topic) {
   static const std::vector<TrialOption> options = {
       {.name = "dimensions", .usual = {10.0}, .minimum = 1.0, .maximum = 50.0, .integer = true},
       {.name = "shares", .usual = {0.1, 0.3}, .minimum = 0.0, .maximum = 0.9, .list = true}};
-  return topic == "missing" ? &options : nullptr;
+  return {.options = topic == "missing" ? &options : nullptr};
 }
 
 TrialExperiment parsed(const std::string& more, const std::string& profile = "") {

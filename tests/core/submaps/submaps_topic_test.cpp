@@ -38,7 +38,7 @@ TEST(SubmapsTopic, HoldsPartsAgainstTheWholeAndSaysWhichIsWorse) {
     ASSERT_EQ(trial.values.size(), 4U);
     EXPECT_EQ(trial.values[2], 100.0) << trial.series;
     // Parts that hold all landmarks are the whole.
-    if (trial.setup == "size" && trial.level == 100.0) {
+    if (trial.at == condition("size", {{"submap_landmarks", 100.0}})) {
       EXPECT_TRUE(std::isnan(trial.values[3]));
     }
   }

@@ -16,7 +16,7 @@ TrialStudy two_runs() {
   study.experiment.topic = "labels";
   study.experiment.layouts = 2;
   study.design = {.question = "?",
-                  .setups = {{.id = "all", .title = "All", .level_label = "", .levels = {0.0}}},
+                  .setups = {{.id = "all", .title = "All"}},
                   .series = {{.id = "joint", .label = "Joint"}},
                   .quantities = {known_quantity("mpe_m"),
                                  study_quantity("found", "found", "%", Better::kHigher)}};
@@ -30,11 +30,8 @@ void write_study(const std::filesystem::path& folder, double mpe_m, double found
     TrialPart part;
     part.run = RunId{.layout = layout, .pose = 1};
     part.id = slug(*part.run);
-    part.trials = {{.setup = "all",
-                    .series = "joint",
-                    .level = 0.0,
-                    .values = {mpe_m, found},
-                    .statuses = {}}};
+    part.trials = {
+        {.at = condition("all"), .series = "joint", .values = {mpe_m, found}, .statuses = {}}};
     store.write(part_of(part, ""));
   }
 }

@@ -1,0 +1,81 @@
+#include "core/model/trial_study.hpp"
+
+#include <algorithm>
+#include <utility>
+
+#include "core/base/errors.hpp"
+
+namespace mapproof {
+namespace {
+
+void add_conditions(const TrialSetup& setup, std::vector<Level> levels,
+                    std::vector<Condition>& conditions) {
+  if (levels.size() == setup.factors.size()) {
+    conditions.push_back(condition(setup.id, std::move(levels)));
+    return;
+  }
+  const TrialFactor& factor = setup.factors[levels.size()];
+  for (const double level : factor.levels) {
+    std::vector<Level> more = levels;
+    more.push_back({.factor = factor.id, .value = level});
+    add_conditions(setup, std::move(more), conditions);
+  }
+}
+
+void check_single(const TrialSetup& setup) {
+  if (setup.factors.size() > 1)
+    throw InvalidInput("a level of the setup " + setup.id + ", which has several factors");
+}
+
+}  // namespace
+
+bool has_factors(Sensor sensor, const Sweep& sweep) {
+  return std::ranges::all_of(sweep, [&](const SweptLevels& swept) {
+    const SweptFactor* factor = swept_factor_named(swept.factor);
+    return factor != nullptr && factor->sensor.value_or(sensor) == sensor;
+  });
+}
+
+Experiment at_levels(const TrialExperiment& experiment, const SensorStudy& sensor,
+                     const Sweep& sweep, const std::vector<double>& levels) {
+  Experiment at;
+  at.name = experiment.name;
+  at.seed = experiment.seed;
+  at.layouts = experiment.layouts;
+  at.poses = experiment.poses;
+  at.world = experiment.world;
+  at.walk = experiment.walk;
+  at.anchors = experiment.anchors;
+  at.sensors = {sensor};
+  for (const SweptFactor& factor : swept_factors())
+    for (std::size_t i = 0; i < sweep.size(); ++i)
+      if (sweep[i].factor == factor.name)
+        set_level(at, sensor.sensor.sensor, factor.factor, factor.scale * levels.at(i));
+  return at;
+}
+
+TrialFactor steps_factor(std::vector<double> steps) {
+  return {.id = std::string(kStepsFactor),
+          .label = "observations",
+          .unit = {},
+          .levels = std::move(steps)};
+}
+
+std::vector<Condition> conditions_of(const TrialSetup& setup) {
+  std::vector<Condition> conditions;
+  add_conditions(setup, {}, conditions);
+  return conditions;
+}
+
+std::vector<double> levels_of(const TrialSetup& setup) {
+  check_single(setup);
+  return setup.factors.empty() ? std::vector{0.0} : setup.factors.front().levels;
+}
+
+Condition condition_at(const TrialSetup& setup, double level) {
+  check_single(setup);
+  if (setup.factors.empty()) return condition(setup.id);
+  return condition(setup.id, {{.factor = setup.factors.front().id, .value = level}});
+}
+
+}  // namespace mapproof

@@ -1,0 +1,150 @@
+#include "core/trials/sweep.hpp"
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include "core/base/not_finite.hpp"
+#include "core/base/words.hpp"
+#include "core/embed/embedder.hpp"
+#include "core/experiment/run.hpp"
+#include "core/experiment/scored_map.hpp"
+#include "core/trials/trial_means.hpp"
+
+namespace mapproof {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+/// A setup: one sensor's part of a sweep.
+struct SweptSetup {
+  const SensorStudy& sensor;
+  const Sweep& sweep;
+  TrialSetup setup;
+};
+
+/// "isomap-k6".
+std::string swept_series(const MethodSetting& setting) {
+  std::string id = lower_case(slug(setting));
+  std::ranges::replace_if(
+      id, [](char c) { return c == '.' || c == '+' || c == '_'; }, '-');
+  return id;
+}
+
+TrialSetup setup_of(Sensor sensor, const Sweep& sweep) {
+  TrialSetup setup{.id = std::string(name(sensor)), .title = {}};
+  for (const SweptLevels& swept : sweep) {
+    const SweptFactor& factor = *swept_factor_named(swept.factor);
+    setup.id += "-" + std::string(factor.name);
+    setup.title += (setup.title.empty() ? "" : " and ") + std::string(factor.label);
+    setup.factors.push_back({.id = std::string(factor.name),
+                             .label = std::string(factor.label),
+                             .unit = std::string(factor.unit),
+                             .levels = swept.levels});
+  }
+  std::ranges::replace(setup.id, '_', '-');
+  setup.title = fmt::format("Maps from {} by {}", name(sensor), setup.title);
+  return setup;
+}
+
+std::vector<SweptSetup> setups_of(const TrialExperiment& experiment) {
+  std::vector<SweptSetup> setups;
+  for (const Sweep& sweep : experiment.sweeps)
+    for (const SensorStudy& sensor : experiment.sensors)
+      if (has_factors(sensor.sensor.sensor, sweep))
+        setups.push_back({sensor, sweep, setup_of(sensor.sensor.sensor, sweep)});
+  return setups;
+}
+
+TrialDesign sweep_design(const TrialExperiment& experiment) {
+  TrialDesign design;
+  design.question = fmt::format(
+      "How do errors of maps depend on the world, the sensor and the anchors? One factor or two "
+      "change at a time; otherwise {} landmarks of {:g} m stand in a room of {:g} m, {} of them "
+      "anchors, and are observed {} times. Levels share their random numbers as far as they can, "
+      "so "
+      "that differences between them are paired.",
+      experiment.world.landmarks, experiment.world.landmark_diameter_m, experiment.world.side_m,
+      experiment.anchors, experiment.steps);
+  for (SweptSetup& swept : setups_of(experiment)) design.setups.push_back(std::move(swept.setup));
+  for (const SensorStudy& sensor : experiment.sensors)
+    for (const MethodSetting& setting : settings_of(sensor))
+      if (std::ranges::find(design.series, swept_series(setting), &TrialSeries::id) ==
+          design.series.end())
+        design.series.push_back({swept_series(setting), label(setting)});
+  design.quantities = {known_quantity("mpe_m"), known_quantity("moe_percent")};
+  return design;
+}
+
+/// Makes and scores the maps of one sensor under one condition.
+void map_at(const Experiment& experiment, const TrialContext& context, const Condition& at,
+            TrialPart& part) {
+  const SensorStudy& sensor = experiment.sensors.front();
+  const RunWorld made = make_run_world(experiment, context.run);
+  const ObservationHistory history = observed_in(experiment, context.run, made, sensor.sensor);
+  HistoryEmbedder embedder(history, history.steps(), embedder_options(experiment.solver));
+  for (const MethodSetting& setting : settings_of(sensor)) {
+    const Clock::time_point start = Clock::now();
+    const ScoredMap map = scored_map(embedder.embed(setting), made.world.landmarks_m, made.anchors,
+                                     experiment.affine_fit);
+    add_seconds(part, swept_series(setting),
+                std::chrono::duration<double>(Clock::now() - start).count());
+    part.trials.push_back(
+        {.at = at,
+         .series = swept_series(setting),
+         .values = {map.score ? map.score->mpe_m : kNaN, map.score ? map.score->moe_percent : kNaN},
+         .statuses = map.statuses});
+  }
+}
+
+TrialPart make_sweep(const TrialContext& context) {
+  TrialPart part;
+  for (const SweptSetup& swept : setups_of(context.experiment))
+    for (const Condition& at : conditions_of(swept.setup)) {
+      std::vector<double> levels;
+      for (const SweptLevels& factor : swept.sweep)
+        levels.push_back(
+            std::get<double>(std::ranges::find(at.levels, factor.factor, &Level::factor)->value));
+      map_at(at_levels(context.experiment, swept.sensor, swept.sweep, levels), context, at, part);
+    }
+  return part;
+}
+
+/// "from 0.05 to 0.1 m with ISOMAP": a series' mean MPE at the first and the last condition.
+std::string ends_words(const TrialStudy& study, const TrialSetup& setup,
+                       const TrialSeries& series) {
+  const std::vector<Condition> conditions = conditions_of(setup);
+  const double first = trial_mean(study, conditions.front(), series.id, "mpe_m");
+  const double last = trial_mean(study, conditions.back(), series.id, "mpe_m");
+  if (std::isnan(first) || std::isnan(last)) return "";
+  return fmt::format("from {:.3g} to {:.3g} m with {}", first, last, series.label);
+}
+
+std::vector<std::string> sweep_conclusions(const TrialStudy& study) {
+  std::vector<std::string> sentences;
+  for (const TrialSetup& setup : study.design.setups) {
+    std::vector<std::string> words;
+    for (const TrialSeries& series : study.design.series)
+      if (std::string ends = ends_words(study, setup, series); !ends.empty())
+        words.push_back(std::move(ends));
+    const std::vector<Condition> conditions = conditions_of(setup);
+    if (words.empty() || conditions.size() < 2) continue;
+    sentences.push_back(fmt::format("{}: between {} and {}, the mean MPE goes {}.", setup.title,
+                                    level_words(setup, conditions.front()),
+                                    level_words(setup, conditions.back()), all_listed(words)));
+  }
+  return sentences;
+}
+
+}  // namespace
+
+const Topic kSweepTopic = {.name = "sweep",
+                           .sweeps = true,
+                           .options = {},
+                           .design = sweep_design,
+                           .make = make_sweep,
+                           .conclude = sweep_conclusions};
+
+}  // namespace mapproof

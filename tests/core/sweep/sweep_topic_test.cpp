@@ -1,0 +1,156 @@
+#include <algorithm>
+#include <cmath>
+
+#include <gtest/gtest.h>
+
+#include "core/base/errors.hpp"
+#include "core/experiment/run.hpp"
+#include "core/records/trial_experiment_json.hpp"
+#include "core/simulate/sensors.hpp"
+#include "core/trials/run_trials.hpp"
+#include "core/trials/sweep.hpp"
+
+namespace mapproof {
+namespace {
+
+/// A small experiment whose sweeps are these.
+std::string text_with(const std::string& sweeps, const std::string& more = "") {
+  return R"({"schema": {"name": "mapproof.trial_experiment", "version": 1}, "name": "s",
+             "topic": "sweep", "seed": 5, "steps": 150, "world": {"landmarks": 16},)" +
+         more + R"("sensors": {"visibility": {"methods": {"isomap": {"K": [5]}}},
+                     "bearing": {"methods": {"lpca": {}, "smacof-knn": {"K": [6]}}}},
+             "sweeps": [)" +
+         sweeps + "]}";
+}
+
+TrialExperiment parsed(const std::string& sweeps, const std::string& more = "") {
+  return parse_trial_experiment(text_with(sweeps, more), "s.json", input_of_topics());
+}
+
+std::string refusal(const std::string& sweeps, const std::string& more = "") {
+  try {
+    parsed(sweeps, more);
+  } catch (const IoError& error) {
+    return error.what();
+  }
+  return "";
+}
+
+TrialStudy study_of(const TrialExperiment& experiment) {
+  TrialStudy study;
+  study.experiment = experiment;
+  study.design = kSweepTopic.design(experiment);
+  study.parts = {simulate_part(experiment, {1, 1})};
+  return study;
+}
+
+/// NaN if there is no such trial.
+double mpe_of(const TrialStudy& study, const Condition& at, const std::string& series) {
+  for (const Trial& trial : study.parts.front().trials)
+    if (trial.at == at && trial.series == series) return trial.values[0];
+  return std::nan("");
+}
+
+TEST(SweepTopic, TriesEveryCombinationOfEverySensorThatHasTheFactors) {
+  const TrialStudy study = study_of(
+      parsed(R"({"anchors": [3, 6]}, {"bearing_noise_deg": [0, 5], "steps": [50, 100, 150]})"));
+  ASSERT_EQ(study.design.setups.size(), 3U);
+  EXPECT_EQ(study.design.setups[0].id, "visibility-anchors");
+  EXPECT_EQ(study.design.setups[2].id, "bearing-bearing-noise-deg-steps");
+  EXPECT_EQ(conditions_of(study.design.setups[2]).size(), 6U);
+  EXPECT_EQ(study.parts.front().trials.size(), 2U + 2U * 2U + 2U * 6U);
+  EXPECT_EQ(study.design.quantities[0].id, "mpe_m");
+  EXPECT_EQ(study.design.quantities[1].id, "moe_percent");
+  EXPECT_EQ(kSweepTopic.conclude(study).size(), 3U);
+}
+
+TEST(SweepTopic, AtTheExperimentsOwnLevelsIsTheExperiment) {
+  const TrialStudy study = study_of(parsed(
+      R"({"side_m": [2.5, 3]}, {"landmarks": [16, 20]}, {"steps": [100, 150]}, {"anchors": [4]},
+         {"bearing_noise_deg": [0, 5]}, {"landmark_diameter_m": [0.048]})"));
+  std::vector<double> same;
+  for (const auto& [factor, level] : {std::pair<const char*, double>{"side_m", 2.5},
+                                      {"landmarks", 16},
+                                      {"steps", 150},
+                                      {"anchors", 4},
+                                      {"bearing_noise_deg", 0},
+                                      {"landmark_diameter_m", 0.048}}) {
+    std::string setup = std::string("bearing-") + factor;
+    std::ranges::replace(setup, '_', '-');
+    same.push_back(mpe_of(study, condition(setup, {{factor, level}}), "smacof-knn-k6"));
+  }
+  for (const double mpe : same) EXPECT_EQ(mpe, same.front());
+  EXPECT_GT(same.front(), 0.0);
+}
+
+TEST(SweepTopic, PairsLayoutsWalksAndNoiseAcrossLevels) {
+  const TrialExperiment experiment = parsed(R"({"bearing_noise_deg": [0, 2, 4]})");
+  const SensorStudy& bearing = experiment.sensors[1];
+  const auto at = [&](const std::string& factor, double level) {
+    return at_levels(experiment, bearing, {{factor, {level}}}, {level});
+  };
+  const auto made = [&](const Experiment& one) { return make_run_world(one, {1, 1}); };
+  const RunWorld usual = made(at("bearing_noise_deg", 0.0));
+  EXPECT_EQ(made(at("anchors", 8)).path.positions_m, usual.path.positions_m);
+  EXPECT_EQ(made(at("steps", 70)).path.positions_m, usual.path.positions_m.topRows(70));
+  EXPECT_EQ(made(at("landmarks", 12)).world.landmarks_m, usual.world.landmarks_m.topRows(12));
+  const auto observed = [&](const std::string& factor, double level) {
+    const Experiment one = at(factor, level);
+    return observed_in(one, {1, 1}, made(one), one.sensors[0].sensor).values;
+  };
+  const Eigen::MatrixXd none = observed("bearing_noise_deg", 0.0);
+  const Eigen::MatrixXd little = observed("bearing_noise_deg", 2.0) - none;
+  const Eigen::MatrixXd more = observed("bearing_noise_deg", 4.0) - none;
+  const auto inside = little.array().abs() < 1.0 && more.array().abs() < 1.0;  // Not wrapped.
+  EXPECT_LT(inside.select((2.0 * little - more).array(), 0.0).abs().maxCoeff(), 1e-12);
+  EXPECT_GT(more.norm(), 0.0);
+}
+
+TEST(SweepTopic, LimitsTheReachOfEverySensor) {
+  const TrialExperiment experiment = parsed(R"({"reach_m": [0.5, 1]})");
+  for (const SensorStudy& sensor : experiment.sensors) {
+    const Experiment one = at_levels(experiment, sensor, experiment.sweeps[0], {0.5});
+    const RunWorld made = make_run_world(one, {1, 1});
+    const ObservationHistory history = observed_in(one, {1, 1}, made, one.sensors[0].sensor);
+    for (Eigen::Index i = 0; i < history.landmarks(); ++i)
+      for (Eigen::Index t = 0; t < history.steps(); ++t) {
+        const double distance =
+            (made.world.landmarks_m.row(i) - made.path.positions_m.row(t)).norm();
+        const double value = history.values(i, t);
+        const bool is_observed =
+            sensor.sensor.sensor == Sensor::kVisibility ? value == 1.0 : !std::isnan(value);
+        if (is_observed) EXPECT_LE(distance, 0.5 + 1e-12);
+        if (!is_observed && sensor.sensor.sensor == Sensor::kBearing) EXPECT_GT(distance, 0.5);
+      }
+  }
+}
+
+TEST(SweepTopic, RefusesWhatCannotBeInOneLine) {
+  EXPECT_EQ(refusal(R"({"anchors": [4, 16]})"),
+            "s.json: /sweeps/0: anchors = 16: 16 anchors leave none of 16 landmarks to be mapped");
+  EXPECT_EQ(refusal(R"({"steps": [50]}, {"landmark_diameter_m": [0.05, 3]})"),
+            "s.json: /sweeps/1: landmark_diameter_m = 3: a room of 2.5 m has no place for a "
+            "landmark of 3 m that keeps 0.1 m from the walls");
+  EXPECT_NE(refusal(R"({"side_m": [0.5, 2], "landmarks": [10, 200]})")
+                .find("landmarks = 200, side_m = 0.5: 200 landmarks"),
+            std::string::npos);
+  EXPECT_NE(refusal(R"({"landmarks": [5, 20], "anchors": [3]})").find("K = "), std::string::npos);
+  EXPECT_EQ(refusal(R"({"range_noise_m": [0, 1]})"),
+            "s.json: /sweeps/0: no sensor of the experiment has these factors");
+  EXPECT_EQ(refusal(R"({"steps": [50], "anchors": [4], "side_m": [3]})"),
+            "s.json: /sweeps/0: expected one factor or two, got 3");
+  EXPECT_NE(refusal(R"({"ancors": [4]})").find("anchors"), std::string::npos) << "a near name";
+  EXPECT_NE(refusal(R"({"anchors": [4.5]})").find("expected an integer"), std::string::npos);
+  EXPECT_NE(refusal(R"({"steps": [100, 50]})").find("ascending"), std::string::npos);
+  EXPECT_NE(refusal("").find("/sweeps"), std::string::npos);
+}
+
+TEST(SweepTopic, IsTheOnlyOneThatSweeps) {
+  const std::string text =
+      R"({"schema": {"name": "mapproof.trial_experiment", "version": 1}, "name": "s",
+          "topic": "missing", "sweeps": [{"steps": [50]}]})";
+  EXPECT_THROW(parse_trial_experiment(text, "s.json", input_of_topics()), IoError);
+}
+
+}  // namespace
+}  // namespace mapproof
