@@ -93,7 +93,8 @@ Action map_verb(CLI::App& app) {
       "CSV\n"
       "(step, landmark, value), sightings (step or time, landmark, range, bearing), JSON of\n"
       "mapproof.observations or mapproof.sightings, or a folder of MRCLAM files. Files may be\n"
-      "packed by gzip or xz; here as in the options a pipe does, too, or standard input (-).\n"
+      "packed by gzip or xz; here as in the options a pipe of the shell does, too, or standard "
+      "input (-).\n"
       "Bearings are relative to the robot's heading, counter-clockwise, in radians.\n"
       "Range and bearing seen together measure distances: their map is in metres without anchors.\n"
       "Exit code 1 if no map came out; the report then says why.\n");

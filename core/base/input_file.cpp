@@ -85,7 +85,7 @@ bool is_folder(const fs::path& path) {
 }
 
 const char* endless_kind(mode_t mode) {
-  if (S_ISFIFO(mode)) return "a pipe";
+  if (S_ISFIFO(mode)) return "a named pipe";
   return S_ISSOCK(mode) ? "a socket" : "a device";
 }
 

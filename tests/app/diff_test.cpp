@@ -135,7 +135,7 @@ TEST(DiffVerb, NeverWaitsForWhatHasNoEnd) {
   const Outcome outcome = mapproof({"diff", two.before, two.after});
   EXPECT_EQ(outcome.exit_code, 1) << outcome.error;
   EXPECT_NE(outcome.out.find("3 unreadable, 1 identical"), std::string::npos) << outcome.out;
-  EXPECT_NE(outcome.out.find("is a pipe"), std::string::npos) << outcome.out;
+  EXPECT_NE(outcome.out.find("is a named pipe"), std::string::npos) << outcome.out;
   EXPECT_NE(outcome.out.find("is a device"), std::string::npos) << outcome.out;
   for (const std::string& sole : {picture, std::string("/dev/zero")}) {
     const Outcome alone = mapproof({"diff", two.before + "/figures/map-usual.png", sole});

@@ -271,7 +271,7 @@ TEST_P(InputReader, NeverWaitsForWhatHasNoEnd) {
     const std::string said = outcome.error + outcome.out;
     EXPECT_GT(outcome.exit_code, 0) << input;
     EXPECT_LT(outcome.exit_code, 3) << input << said;
-    EXPECT_TRUE(said.find("is a pipe, a file was expected") != std::string::npos ||
+    EXPECT_TRUE(said.find("is a named pipe, a file was expected") != std::string::npos ||
                 said.find("is a device, a file was expected") != std::string::npos)
         << input << ": " << said;
     if (!said.starts_with('{')) {
@@ -366,7 +366,7 @@ TEST(Streams, PipesAndDevicesWithinFoldersAreNamedAtOnce) {
     fs::copy(data + "/mrclam", folder / "set");
     fs::remove(folder / "set" / name);
     ASSERT_EQ(::mkfifo((folder / "set" / name).c_str(), 0600), 0);
-    expect_named(folder, std::string(name) + ": is a pipe",
+    expect_named(folder, std::string(name) + ": is a named pipe",
                  {"map set --out out", "validate set", "map set --kind range-bearing --out out"});
   }
   for (const char* name : {"ranges.csv", "odometry.csv", "groundtruth.csv", "landmarks.csv"}) {
@@ -384,7 +384,7 @@ TEST(Streams, APipeInPlaceOfAHistoryIsNamedAtOnce) {
   ASSERT_EQ(::mkfifo((folder / "history.sqlite").c_str(), 0600), 0);
   for (const char* rest : {"history .", "nightly yairi2007 --profile quick --store ."})
     expect_refused(shell(folder.path(), fmt::format("$MAPPROOF {}", rest), 5.0),
-                   "history.sqlite: is a pipe, a file was expected");
+                   "history.sqlite: is a named pipe, a file was expected");
 }
 
 TEST(Streams, AFollowedPipeThatNobodyWritesToCanBeStopped) {

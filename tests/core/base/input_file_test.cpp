@@ -59,7 +59,7 @@ TEST(InputFile, WhatHasNoEndIsRefusedAtOnce) {
   const test::TemporaryFolder folder;
   const std::string pipe = folder / "pipe";
   ASSERT_EQ(::mkfifo(pipe.c_str(), 0600), 0);
-  EXPECT_EQ(error_of([&] { open_input(pipe); }), pipe + ": is a pipe, a file was expected");
+  EXPECT_EQ(error_of([&] { open_input(pipe); }), pipe + ": is a named pipe, a file was expected");
   EXPECT_EQ(error_of([&] { open_input("/dev/zero"); }),
             "/dev/zero: is a device, a file was expected");
   const Descriptor zero(::open("/dev/zero", O_RDONLY | O_CLOEXEC));
