@@ -143,8 +143,10 @@ TEST(SlamStudy, IsValidAndEachDamagedFileOfItIsNamed) {
        {"runs/drive.json", "convergence/white.json", "histories.json", "space.json"}) {
     const std::string whole = read_file(folder / file);
     write_file(folder / file, whole.substr(0, whole.size() / 2));
-    const Finding study = validate(folder.path()).at(0);
-    EXPECT_NE(study.problem.find(file), std::string::npos) << study.problem;
+    int named = 0;
+    for (const Finding& finding : validate(folder.path()))
+      named += finding.problem.find(file) != std::string::npos;
+    EXPECT_EQ(named, 1) << file;
     write_file(folder / file, whole);
   }
 }
