@@ -36,6 +36,12 @@ Shown shown(const Variation& variation) {
       return {"relative fall of the stress at which SMACOF stops"};
     case Factor::kOnlySeenTogether:
       return {"neighbours (0: any pair, 1: pairs seen together alone)"};
+    case Factor::kSide:
+    case Factor::kLandmarks:
+    case Factor::kDiameter:
+    case Factor::kReach:
+    case Factor::kSteps:
+      break;  // Of sweeps alone.
   }
   return {};
 }

@@ -119,8 +119,11 @@ TEST(SweepTopic, LimitsTheReachOfEverySensor) {
         const double value = history.values(i, t);
         const bool is_observed =
             sensor.sensor.sensor == Sensor::kVisibility ? value == 1.0 : !std::isnan(value);
-        if (is_observed) EXPECT_LE(distance, 0.5 + 1e-12);
-        if (!is_observed && sensor.sensor.sensor == Sensor::kBearing) EXPECT_GT(distance, 0.5);
+        if (is_observed) {
+          EXPECT_LE(distance, 0.5 + 1e-12);
+        } else if (sensor.sensor.sensor == Sensor::kBearing) {
+          EXPECT_GT(distance, 0.5);
+        }
       }
   }
 }
