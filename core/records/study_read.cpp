@@ -7,6 +7,7 @@
 
 #include "core/base/errors.hpp"
 #include "core/base/files.hpp"
+#include "core/json/json_cursor.hpp"
 #include "core/records/run_json.hpp"
 #include "core/records/study_files.hpp"
 #include "core/records/study_store.hpp"
