@@ -17,8 +17,9 @@ namespace mapproof {
 ///     v.field("ink", note.ink, {.description = "Of the theme."});
 ///   }
 ///
-/// Of it record_json.hpp makes the writer and the strict reader, and tests/support/record_schema.hpp
-/// the schema in docs/schemas; other visitors may ask it for more. FieldVisitor lists what a visitor is told.
+/// Of it record_json.hpp makes the writer and the strict reader, and
+/// tests/support/record_schema.hpp the schema in docs/schemas; other visitors may ask it for more.
+/// FieldVisitor lists what a visitor is told.
 ///
 /// An enumeration has its names in `EnumNames enum_names(Enum)`; what is an array of fixed size in
 /// files has its elements in `auto as_tuple(T&)`, a std::tuple of references.
@@ -40,16 +41,16 @@ struct FieldRule {
   std::string_view description = {};
   double minimum = -std::numeric_limits<double>::infinity();
   double maximum = std::numeric_limits<double>::infinity();
-  bool above_minimum = false;  ///< The minimum itself is too little.
-  bool nullable = false;       ///< Numbers, or points, that are not finite are null.
+  bool above_minimum = false;     ///< The minimum itself is too little.
+  bool nullable = false;          ///< Numbers, or points, that are not finite are null.
   bool nullable_entries = false;  ///< The numbers of a matrix that are not finite are null.
   double null_is = std::numeric_limits<double>::quiet_NaN();  ///< What null is read as.
-  bool whole_as_integers = false;  ///< 1e5 is written as 100000.
-  bool integer = false;            ///< Of a double: whole, and the same.
-  bool upper_triangle = false;     ///< All that is held of a square matrix: row by row.
-  bool as_columns = false;         ///< Of records: an object that has an array for each field.
-  bool unique = false;             ///< No two items are equal.
-  std::size_t columns = 0;         ///< Of a matrix; 0: as the type has, or as many as the first row.
+  bool whole_as_integers = false;                             ///< 1e5 is written as 100000.
+  bool integer = false;                                       ///< Of a double: whole, and the same.
+  bool upper_triangle = false;  ///< All that is held of a square matrix: row by row.
+  bool as_columns = false;      ///< Of records: an object that has an array for each field.
+  bool unique = false;          ///< No two items are equal.
+  std::size_t columns = 0;      ///< Of a matrix; 0: as the type has, or as many as the first row.
   std::size_t min_items = 0;
   std::size_t max_items = std::numeric_limits<std::size_t>::max();
   bool not_empty = false;          ///< Of a text.

@@ -34,9 +34,8 @@ std::string spaced(std::string_view type) {
 
 [[noreturn]] void refuse_name(const JsonCursor& json, const std::string& text,
                               std::span<const std::string_view> known) {
-  json.fail(fmt::format("expected {} or {}, got {}",
-                        fmt::join(known.first(known.size() - 1), ", "), known.back(),
-                        in_quotes(text)));
+  json.fail(fmt::format("expected {} or {}, got {}", fmt::join(known.first(known.size() - 1), ", "),
+                        known.back(), in_quotes(text)));
 }
 
 }  // namespace
@@ -53,7 +52,8 @@ FieldRule item_rule(const FieldRule& rule) {
 
 Json number_json(double number, const FieldRule& rule) {
   if (!std::isfinite(number)) return nullptr;
-  if ((rule.whole_as_integers || rule.integer) && is_whole(number)) return static_cast<std::int64_t>(number);
+  if ((rule.whole_as_integers || rule.integer) && is_whole(number))
+    return static_cast<std::int64_t>(number);
   return number;
 }
 
@@ -88,8 +88,7 @@ std::string read_text(const JsonCursor& json, const FieldRule& rule) {
 std::size_t read_name(const JsonCursor& json, const EnumNames& names) {
   const std::string text = json.text();
   const auto found = std::ranges::find(names.names, text);
-  if (found != names.names.end())
-    return static_cast<std::size_t>(found - names.names.begin());
+  if (found != names.names.end()) return static_cast<std::size_t>(found - names.names.begin());
   if (names.names.size() <= kMostNamesShown) refuse_name(json, text, names.names);
   json.fail(fmt::format("unknown {} {}: did you mean \"{}\"?", spaced(names.type), in_quotes(text),
                         nearest_word(text, names.names)));
@@ -127,16 +126,15 @@ namespace {
 
 bool is_plain(const nlohmann::ordered_json& value) {
   return !value.is_structured() ||
-         (value.is_array() && std::ranges::none_of(value, [](const auto& item) {
-            return item.is_structured();
-          }));
+         (value.is_array() &&
+          std::ranges::none_of(value, [](const auto& item) { return item.is_structured(); }));
 }
 
 void flatten(const nlohmann::ordered_json& value, const std::string& pointer,
              std::vector<std::pair<std::string, std::string>>& out) {
   if (is_plain(value)) {
-    out.emplace_back(
-        pointer, value.dump(-1, ' ', false, nlohmann::ordered_json::error_handler_t::replace));
+    out.emplace_back(pointer,
+                     value.dump(-1, ' ', false, nlohmann::ordered_json::error_handler_t::replace));
   } else if (value.is_array()) {
     for (std::size_t i = 0; i < value.size(); ++i)
       flatten(value[i], fmt::format("{}/{}", pointer, i), out);

@@ -26,23 +26,28 @@
 
 namespace mapproof {
 
-// What is made of fields() (fields.hpp): the JSON of a record and the record of a JSON. The schema is
-// made by tests/support/record_schema.hpp.
+// What is made of fields() (fields.hpp): the JSON of a record and the record of a JSON. The schema
+// is made by tests/support/record_schema.hpp.
 
 namespace record_json {
 
 using Json = nlohmann::ordered_json;
 
 template <typename T>
-concept Enumeration = requires(T value) { enum_names(value); };
+concept Enumeration = requires(T value) {
+  enum_names(value);
+};
 template <typename T>
-concept AsTuple = requires(T& value) { as_tuple(value); };
+concept AsTuple = requires(T& value) {
+  as_tuple(value);
+};
 template <typename T>
 concept List = requires(T& value) {
   value.clear();
   value.emplace_back();
   value.begin();
-} && !std::same_as<T, std::string>;
+}
+    && !std::same_as<T, std::string>;
 template <typename T>
 concept Matrix = std::derived_from<T, Eigen::MatrixBase<T>>;
 template <typename T>
@@ -128,7 +133,9 @@ struct Outline : FieldVisitor {
 };
 
 template <typename T>
-concept Record = requires(Outline& outline, T& value) { fields(outline, value); };
+concept Record = requires(Outline& outline, T& value) {
+  fields(outline, value);
+};
 
 template <typename T>
 Outline outline_of(T& value) {
@@ -326,7 +333,9 @@ void refuse_repeated(const JsonCursor& json, const T& items) {
   std::size_t i = 0;
   for (const auto& item : items) {
     const auto [known, is_new] = first.emplace(item, i);
-    if (!is_new) json.element(i).fail("is there twice: at " + json.element(known->second).pointer() + " before");
+    if (!is_new)
+      json.element(i).fail("is there twice: at " + json.element(known->second).pointer() +
+                           " before");
     ++i;
   }
 }
@@ -384,7 +393,8 @@ void read_matrix(const JsonCursor& json, T& matrix, const FieldRule& rule) {
     FieldRule rows_rule = rule;
     if (kRows != Eigen::Dynamic) rows_rule.min_items = rows_rule.max_items = kRows;
     const std::vector<JsonCursor> rows = read_items(json, rows_rule);
-    std::size_t columns = kColumns == Eigen::Dynamic ? rule.columns : static_cast<std::size_t>(kColumns);
+    std::size_t columns =
+        kColumns == Eigen::Dynamic ? rule.columns : static_cast<std::size_t>(kColumns);
     if (kColumns == Eigen::Dynamic && columns == 0 && !rows.empty()) columns = rows[0].size();
     if constexpr (kRows == Eigen::Dynamic)
       matrix.resize(std::ssize(rows), static_cast<Eigen::Index>(columns));
@@ -411,8 +421,8 @@ void read_value(const JsonCursor& json, T& value, const FieldRule& rule) {
     value = rule.maximum == kInfinity ? json.unsigned_integer()
                                       : static_cast<T>(read_integer(json, rule, 0, INT64_MAX));
   } else if constexpr (std::integral<T>) {
-    value = static_cast<T>(read_integer(json, rule, std::numeric_limits<T>::min(),
-                                        std::numeric_limits<T>::max()));
+    value = static_cast<T>(
+        read_integer(json, rule, std::numeric_limits<T>::min(), std::numeric_limits<T>::max()));
   } else if constexpr (std::same_as<T, std::string>) {
     value = read_text(json, rule);
   } else if constexpr (Enumeration<T>) {
@@ -438,8 +448,7 @@ void read_value(const JsonCursor& json, T& value, const FieldRule& rule) {
     if constexpr (std::integral<Item> || std::same_as<Item, std::string>)
       if (rule.unique) refuse_repeated(json, value);
   } else if constexpr (Kind<T>::is_tuple || AsTuple<T>) {
-    const std::vector<JsonCursor> items =
-        json.elements(element_count<T>(), element_count<T>());
+    const std::vector<JsonCursor> items = json.elements(element_count<T>(), element_count<T>());
     auto item = items.begin();
     for_each_element(value, [&](auto& one) { read_value(*item++, one, item_rule(rule)); });
   } else {

@@ -33,7 +33,8 @@ void fields(Visitor& v, Path& path) {
 template <typename Visitor>
 void fields(Visitor& v, ObservationManifold& manifold) {
   v.about(
-      "The landmarks at the first three principal coordinates of these distances, the shares of all "
+      "The landmarks at the first three principal coordinates of these distances, the shares of "
+      "all "
       "spread, and the graph of the K nearest neighbours; left out where too few distances are "
       "known.");
   v.field("coordinates", manifold.coordinates,
@@ -86,8 +87,7 @@ void fields(Visitor& v, SensorDetails& sensor) {
            .whole_as_integers = true});
   v.field("step", sensor.step, {.minimum = 1, .maximum = kMostSteps});
   v.field("distances", sensor.distances,
-          {.description =
-               "Of the observation vectors at that step, row by row above the diagonal.",
+          {.description = "Of the observation vectors at that step, row by row above the diagonal.",
            .nullable = true,
            .whole_as_integers = true});
   std::vector<MapSpectrum> spectra;
@@ -99,7 +99,8 @@ void fields(Visitor& v, SensorDetails& sensor) {
   v.field("manifold", sensor.manifold, {.key = Key::kIfAny});
   const Eigen::Index landmarks = sensor.values.size();
   const auto check = [&](std::string_view key, Eigen::Index expected, Eigen::Index size) {
-    if (size != expected) v.refuse(key, fmt::format("expected {} elements, got {}", expected, size));
+    if (size != expected)
+      v.refuse(key, fmt::format("expected {} elements, got {}", expected, size));
   };
   check("first_steps", landmarks, sensor.first_steps.rows());
   check("distances", landmarks * (landmarks - 1) / 2, sensor.distances.size());

@@ -72,8 +72,7 @@ void origin_fields(Visitor& v, MapRecord& map) {
     v.refuse("method", fmt::format("expected {}, got \"{}\"",
                                    is_pairs ? "a method of one sensor" : "pairs for range-bearing",
                                    name_in_files(origin.method)));
-  parameter_fields(v,
-                   is_pairs ? std::nullopt : info(static_cast<Method>(origin.method)).parameter,
+  parameter_fields(v, is_pairs ? std::nullopt : info(static_cast<Method>(origin.method)).parameter,
                    origin.parameter);
   if constexpr (Visitor::kReads) set_origin(map, origin);
 }
@@ -90,8 +89,8 @@ inline bool same_points(const std::optional<Points>& a, const std::optional<Poin
 template <typename Visitor>
 void check_row_count(Visitor& v, std::string_view key, const Points& points, const MapRecord& map) {
   if (points.rows() != std::ssize(map.names))
-    v.refuse(key, fmt::format("expected {} rows, one a name, got {}", map.names.size(),
-                              points.rows()));
+    v.refuse(key,
+             fmt::format("expected {} rows, one a name, got {}", map.names.size(), points.rows()));
 }
 
 /// @param shared  The maps of one run leave out what is the same there; null: nothing is left out.
@@ -159,13 +158,14 @@ void fields(Visitor& v, MapCertainty& certainty) {
     v.refuse("maps", fmt::format("expected an integer from 0 to {}, got {}", certainty.replicates,
                                  certainty.maps));
   v.field("block_steps", certainty.block_steps, {.minimum = 1, .maximum = kMostSteps});
-  v.field("covariances", certainty.covariances,
-          {.description = "[xx, xy, yy] of each landmark, in the map's unit squared; null: not known.",
-           .minimum = -1e300,
-           .maximum = 1e300,
-           .nullable = true,
-           .upper_triangle = true,
-           .max_items = kMostLandmarks});
+  v.field(
+      "covariances", certainty.covariances,
+      {.description = "[xx, xy, yy] of each landmark, in the map's unit squared; null: not known.",
+       .minimum = -1e300,
+       .maximum = 1e300,
+       .nullable = true,
+       .upper_triangle = true,
+       .max_items = kMostLandmarks});
   for (std::size_t i = 0; i < certainty.covariances.size(); ++i) {
     const Eigen::Matrix2d& C = certainty.covariances[i];
     // Rounding leaves a covariance on one line a little less than singular.
@@ -187,9 +187,10 @@ void fields(Visitor& v, SensorShare& share) {
 template <typename Visitor>
 void fields(Visitor& v, MapSensors& sensors) {
   v.type("mixed");
-  v.about("The sensors of a joint map: how far the distances of each one repeat, its weight in the "
-          "start and its share in the joint map, and how well each sensor's own map and the joint "
-          "one (continuity) keep the neighbourhoods of all sensors; null: not known.");
+  v.about(
+      "The sensors of a joint map: how far the distances of each one repeat, its weight in the "
+      "start and its share in the joint map, and how well each sensor's own map and the joint "
+      "one (continuity) keep the neighbourhoods of all sensors; null: not known.");
   v.field("sensors", sensors.sensors, {.min_items = 1, .max_items = 3});
   v.field("continuity", sensors.continuity, {.minimum = -1e300, .maximum = 1.0, .nullable = true});
   v.field("why", sensors.why);
@@ -208,8 +209,9 @@ void fields(Visitor& v, MapFile& file) {
   map_fields(v, file.map, nullptr);
   v.field("certainty", file.certainty, {.key = Key::kIfAny});
   if (file.certainty && file.certainty->covariances.size() != file.map.names.size())
-    v.refuse("certainty/covariances", fmt::format("expected {} covariances, one a name, got {}",
-                                      file.map.names.size(), file.certainty->covariances.size()));
+    v.refuse("certainty/covariances",
+             fmt::format("expected {} covariances, one a name, got {}", file.map.names.size(),
+                         file.certainty->covariances.size()));
   v.field("mixed", file.sensors, {.key = Key::kIfAny});
 }
 

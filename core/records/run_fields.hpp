@@ -57,10 +57,10 @@ void fields(Visitor& v, Run& run) {
   v.field("anchors", run.anchors, kRows);
   check_rows(v, "anchors", run.anchors, run.world.landmarks_m.rows());
   // Studies made before there were variations do not have these.
-  v.field("occlusion", run.occlusion,
-          {.description =
-               "Detections of landmarks within reach, and how many of them another one hid.",
-           .key = Key::kOptional});
+  v.field(
+      "occlusion", run.occlusion,
+      {.description = "Detections of landmarks within reach, and how many of them another one hid.",
+       .key = Key::kOptional});
   v.field("records", run.records, {.max_items = kMostRecords});
   v.field("variations", run.variations, {.max_items = kMostRecords, .key = Key::kOptional});
 }

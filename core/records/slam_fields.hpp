@@ -91,8 +91,9 @@ void fields(Visitor& v, RangeLog& log) {
     v.refuse("true_landmarks_m", "expected a place, or null, for each landmark");
   for (std::size_t i = 0; i < log.ranges.size(); ++i)
     if (log.ranges[i].landmark >= landmarks)
-      v.refuse("ranges/landmark", i, fmt::format("expected an integer from 0 to {}, got {}",
-                                                 landmarks - 1, log.ranges[i].landmark));
+      v.refuse("ranges/landmark", i,
+               fmt::format("expected an integer from 0 to {}, got {}", landmarks - 1,
+                           log.ranges[i].landmark));
 }
 
 template <typename Visitor>

@@ -8,9 +8,7 @@ namespace mapproof {
 
 // The fields of points in space and of space.json (core/json/fields.hpp).
 
-inline EnumNames enum_names(Alignment) {
-  return names_up_to(Alignment::kSimilarity, "alignment");
-}
+inline EnumNames enum_names(Alignment) { return names_up_to(Alignment::kSimilarity, "alignment"); }
 
 namespace record_rules {
 
@@ -69,8 +67,7 @@ void fields(Visitor& v, SpaceRun& run) {
   v.file("mapproof.space_run", "space.json: a flight and what was made of its ranges.");
   v.field("noise", run.noise, {.max_bytes = 200});
   v.field("known", run.known, kRows);
-  v.field("landmarks_m", run.landmarks_m,
-          {.whole_as_integers = true, .max_items = kMostLandmarks});
+  v.field("landmarks_m", run.landmarks_m, {.whole_as_integers = true, .max_items = kMostLandmarks});
   v.field("positions_m", run.positions_m, {.whole_as_integers = true, .max_items = kMostSteps});
   v.field("records", run.records, {.max_items = 2});
   check_rows(v, "known", run.known, run.landmarks_m.rows());

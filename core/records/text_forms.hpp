@@ -13,8 +13,8 @@ inline constexpr TextForm kPlainId = {
     "lower-case letters, digits and '-', a letter first"};
 
 inline constexpr TextForm kPlainIdOrNone = {
-    "^([a-z][a-z0-9-]*)?$", [](std::string_view text) { return text.empty() || kPlainId.holds(text); },
-    kPlainId.expected};
+    "^([a-z][a-z0-9-]*)?$",
+    [](std::string_view text) { return text.empty() || kPlainId.holds(text); }, kPlainId.expected};
 
 namespace record_rules {
 

@@ -45,16 +45,13 @@ inline constexpr FieldRule kPositions = {
     .description = "A row per landmark: [x, y], or null where there is no position.",
     .nullable = true,
     .max_items = kMostLandmarks};
-inline constexpr FieldRule kRows = {
-    .description = "Rows of landmarks, counted from 0.",
-    .minimum = 0,
-    .maximum = kMostLandmarks - 1,
-    .unique = true,
-    .max_items = kMostLandmarks};
-inline constexpr FieldRule kNames = {.unique = true,
-                                     .max_items = kMostLandmarks,
-                                     .not_empty = true,
-                                     .max_bytes = kLongestName};
+inline constexpr FieldRule kRows = {.description = "Rows of landmarks, counted from 0.",
+                                    .minimum = 0,
+                                    .maximum = kMostLandmarks - 1,
+                                    .unique = true,
+                                    .max_items = kMostLandmarks};
+inline constexpr FieldRule kNames = {
+    .unique = true, .max_items = kMostLandmarks, .not_empty = true, .max_bytes = kLongestName};
 inline constexpr FieldRule kStatuses = {.description = "Warnings and failures.", .max_items = 1000};
 
 }  // namespace record_rules
@@ -95,8 +92,9 @@ void fields(Visitor& v, Score& score) {
 template <typename Visitor>
 void fields(Visitor& v, Certificate& certificate) {
   v.type("certificate");
-  v.about("Of a method that is a semidefinite program: how near its optimum. A dual below 0: there "
-          "is no feasible point; null: nothing was proved.");
+  v.about(
+      "Of a method that is a semidefinite program: how near its optimum. A dual below 0: there "
+      "is no feasible point; null: nothing was proved.");
   v.field("solver", certificate.solver);
   v.field("primal", certificate.primal, {.minimum = 0.0});
   v.field("dual", certificate.dual, {.nullable = true, .null_is = kInfinity});

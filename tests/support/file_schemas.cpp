@@ -24,8 +24,9 @@ nlohmann::ordered_json timing_schema() {
   lines["oneOf"].insert(lines["oneOf"].begin(), std::move(first));
   nlohmann::ordered_json whole = {
       {"title", "A line of timings.jsonl"},
-      {"description", "The schema (first line), seconds of a piece of a study, or one start of the "
-                      "program."}};
+      {"description",
+       "The schema (first line), seconds of a piece of a study, or one start of the "
+       "program."}};
   whole.update(lines);
   return record_json::file_schema(std::move(whole), definitions);
 }

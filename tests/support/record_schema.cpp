@@ -80,7 +80,8 @@ Json choices_schema(const std::vector<Decision>& decisions) {
     const auto same = std::ranges::find(seen, decision.barred);
     if (same != seen.end()) {
       choices[static_cast<std::size_t>(same - seen.begin())]["properties"]
-             [std::string(decision.key)]["enum"].push_back(decision.name);
+             [std::string(decision.key)]["enum"]
+                 .push_back(decision.name);
       continue;
     }
     seen.push_back(decision.barred);
@@ -116,8 +117,7 @@ Json SchemaMaker::take(Json choices) {
   if (choices.size() > 1) schema["anyOf"] = std::move(choices);
   if (type_.empty()) return schema;
   const auto [known, is_new] = definitions_.emplace(type_, schema);
-  if (!is_new && known->second != schema)
-    throw std::logic_error("two types are called " + type_);
+  if (!is_new && known->second != schema) throw std::logic_error("two types are called " + type_);
   return reference(type_);
 }
 

@@ -137,13 +137,16 @@ Json matrix_schema(const FieldRule& rule) {
   FieldRule one = rule;
   one.nullable = Vector<T> ? rule.nullable : rule.nullable_entries;
   Json item = number_schema("number", one);
-  const auto array_of = [](Json of, std::size_t size) { return array_schema(std::move(of), size, size); };
+  const auto array_of = [](Json of, std::size_t size) {
+    return array_schema(std::move(of), size, size);
+  };
   if (rule.upper_triangle) {
     item = array_of(std::move(item), triangle_size<T>());
     return rule.nullable ? or_null(std::move(item)) : item;
   }
   if (!Vector<T>) {
-    const std::size_t columns = kColumns == Eigen::Dynamic ? rule.columns : static_cast<std::size_t>(kColumns);
+    const std::size_t columns =
+        kColumns == Eigen::Dynamic ? rule.columns : static_cast<std::size_t>(kColumns);
     item = columns == 0 ? array_schema(std::move(item), 0, FieldRule{}.max_items)
                         : array_of(std::move(item), columns);
   }
@@ -179,8 +182,7 @@ Json value_schema(const FieldRule& rule, Definitions& definitions) {
   } else if constexpr (List<T>) {
     Json item = of_items(static_cast<const typename T::value_type*>(nullptr));
     if (rule.as_columns) return columns_schema(std::move(item), rule);
-    Json schema = array_schema(std::move(item),
-                               rule.min_items, rule.max_items);
+    Json schema = array_schema(std::move(item), rule.min_items, rule.max_items);
     if (rule.unique) schema["uniqueItems"] = true;
     return schema;
   } else if constexpr (Kind<T>::is_tuple || AsTuple<T>) {

@@ -6,8 +6,8 @@
 #include "core/base/errors.hpp"
 #include "core/json/json_text.hpp"
 #include "tests/core/records/samples.hpp"
-#include "tests/support/schema_problem.hpp"
 #include "tests/support/record_schema.hpp"
+#include "tests/support/schema_problem.hpp"
 
 namespace mapproof::fields_test {
 
@@ -23,7 +23,7 @@ EnumNames enum_names(Colour) {
 
 std::string_view name(Fruit fruit) {
   constexpr std::array<std::string_view, 6> kNames = {"apple",  "pear",   "plum",
-                                                       "cherry", "quince", "fig"};
+                                                      "cherry", "quince", "fig"};
   return kNames[static_cast<std::size_t>(fruit)];
 }
 
@@ -60,13 +60,13 @@ void fields(Visitor& v, Square& square) {
   v.field("hollow", square.hollow, {.when = square.side > 1.0});
 }
 
-constexpr TextForm kWord = {
-    "^[a-z]+$",
-    [](std::string_view text) {
-      return !text.empty() &&
-             text.find_first_not_of("abcdefghijklmnopqrstuvwxyz") == std::string_view::npos;
-    },
-    "lower-case letters"};
+constexpr TextForm kWord = {"^[a-z]+$",
+                            [](std::string_view text) {
+                              return !text.empty() &&
+                                     text.find_first_not_of("abcdefghijklmnopqrstuvwxyz") ==
+                                         std::string_view::npos;
+                            },
+                            "lower-case letters"};
 
 /// Some fruits have a stone, whose size is then told.
 struct Basket {
@@ -277,14 +277,12 @@ INSTANTIATE_TEST_SUITE_P(
         Fault{"\"seed\": 0", "\"seed\": -1",
               "/seed: expected an integer from 0 to 18446744073709551615, got -1"},
         Fault{"\"share\": 0", "\"share\": 2", "/share: expected a number from 0 to 1, got 2"},
-        Fault{"\"share\": 0", "\"share\": null",
-              "/share: expected a number from 0 to 1, got null"},
+        Fault{"\"share\": 0", "\"share\": null", "/share: expected a number from 0 to 1, got null"},
         Fault{"\"whole\": 100000", "\"whole\": \"x\"", "/whole: expected a number, got \"x\""},
         Fault{"\"red\"", "\"rot\"", "/colour: expected red, green or blue, got \"rot\""},
         Fault{"\"apple\"", "\"apples\"",
               "/fruit: unknown fruit of a tree \"apples\": did you mean \"apple\"?"},
-        Fault{"\"span\": [0, 1]", "\"span\": [0]",
-              "/span: expected at least 2 elements, got 1"},
+        Fault{"\"span\": [0, 1]", "\"span\": [0]", "/span: expected at least 2 elements, got 1"},
         Fault{"\"corners\": [0, 0, 0]", "\"corners\": [0, 0, 10]",
               "/corners/2: expected an integer from 0 to 9, got 10"},
         Fault{"[0.5, null]", "[0.5, \"x\"]", "/numbers/1: expected a number, got \"x\""},
@@ -299,8 +297,7 @@ INSTANTIATE_TEST_SUITE_P(
         Fault{"[[1, 0], [0, 1]]", "[[1, 0]]", "/square: expected at least 2 elements, got 1"},
         Fault{"\"radius\": 2", "\"radius\": 0",
               "/shapes/0/radius: expected a number above 0, got 0"},
-        Fault{"\"round\"", "\"rund\"",
-              "/shapes/0/shape: expected round or square, got \"rund\""},
+        Fault{"\"round\"", "\"rund\"", "/shapes/0/shape: expected round or square, got \"rund\""},
         Fault{"\"radius\": 2", "\"side\": 2", "/shapes/0: unknown key \"side\""}));
 
 TEST(RecordJson, RefusesAKeyThatDoesNotGoWithTheOthers) {
