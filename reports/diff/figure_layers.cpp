@@ -32,8 +32,11 @@ struct LayerViewer : FieldVisitor {
 
   void tag(std::string_view, std::string_view name) { view.kind = name; }
 
-  void field(std::string_view, const std::string& label, const FieldRule& = {}) {
-    view.label = label;
+  void field(std::string_view key, const std::string& text, const FieldRule& = {}) {
+    if (key == "label")
+      view.label = text;
+    else
+      view.looks.push_back({word_of(key), text});
   }
   void field(std::string_view, const std::vector<std::string>& texts, const FieldRule& = {}) {
     view.texts = texts;
