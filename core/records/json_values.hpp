@@ -8,8 +8,6 @@
 
 #include "core/json/json_cursor.hpp"
 #include "core/model/method.hpp"
-#include "core/model/points.hpp"
-#include "core/model/score.hpp"
 #include "core/model/sensor.hpp"
 #include "core/model/status.hpp"
 #include "core/model/study.hpp"
@@ -38,22 +36,8 @@ MethodSetting read_setting(const JsonCursor& object, std::vector<std::string_vie
 /// A number that is an integer is written as one.
 nlohmann::ordered_json number_value(double number);
 
-/// [[x, y], null, ...]: null for a row that is not finite.
-nlohmann::ordered_json points_value(const Points& points);
-Points read_points(const JsonCursor& value);
-
-/// Numbers, null for those that are not finite.
-nlohmann::ordered_json numbers_value(const Eigen::VectorXd& numbers);
-
-nlohmann::ordered_json indices_value(const std::vector<Eigen::Index>& indices);
-/// Different indices below `size`.
-std::vector<Eigen::Index> read_indices(const JsonCursor& value, Eigen::Index size);
-
 nlohmann::ordered_json statuses_value(const std::vector<Status>& statuses);
 std::vector<Status> read_statuses(const JsonCursor& value);
-
-nlohmann::ordered_json score_value(const Score& score);
-Score read_score(const JsonCursor& value);
 
 /// Whether a text is [a-z0-9-]+, which is safe in ids and names of files.
 bool is_plain_id(std::string_view text);

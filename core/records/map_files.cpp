@@ -4,10 +4,8 @@
 #include <numbers>
 
 #include "core/base/csv.hpp"
-#include "core/json/json_text.hpp"
-#include "core/records/certainty_values.hpp"
-#include "core/records/map_values.hpp"
-#include "core/records/sensor_values.hpp"
+#include "core/json/record_json.hpp"
+#include "core/records/map_fields.hpp"
 
 namespace mapproof {
 namespace {
@@ -17,20 +15,6 @@ std::string ellipse_fields(const MapCertainty& certainty, Eigen::Index i) {
   if (!ellipse) return ",,,";
   return ',' + csv_number(ellipse->a) + ',' + csv_number(ellipse->b) + ',' +
          csv_number(ellipse->turn_rad * 180.0 / std::numbers::pi);
-}
-
-/// A whole file and the certainty in it.
-std::pair<MapRecord, std::optional<MapCertainty>> parse(std::string_view text,
-                                                        const std::string& source) {
-  const JsonDocument document = parse_json(text, source);
-  const JsonCursor object = document.cursor();
-  expect_schema(object, "mapproof.map");
-  MapRecord map = read_map(object, nullptr, {"schema", "certainty", "mixed"});
-  std::optional<MapCertainty> certainty;
-  if (const auto value = object.find("certainty"))
-    certainty = read_certainty(*value, map.names.size());
-  if (const auto value = object.find("mixed")) read_sensors(*value);
-  return {std::move(map), std::move(certainty)};
 }
 
 std::string csv_row(const MapRecord& map, Eigen::Index i) {
@@ -50,19 +34,15 @@ std::string csv_row(const MapRecord& map, Eigen::Index i) {
 
 std::string map_json(const MapRecord& map, const std::optional<MapCertainty>& certainty,
                      const std::optional<MapSensors>& sensors) {
-  nlohmann::ordered_json value = {{"schema", schema_value("mapproof.map")}};
-  value.update(map_value(map));
-  if (certainty) value["certainty"] = certainty_value(*certainty);
-  if (sensors) value["mixed"] = sensors_value(*sensors);
-  return json_text(value);
+  return to_json_text(MapFile{map, certainty, sensors});
 }
 
 MapRecord parse_map(std::string_view text, const std::string& source) {
-  return parse(text, source).first;
+  return from_json_text<MapFile>(text, source).map;
 }
 
 std::optional<MapCertainty> parse_map_certainty(std::string_view text, const std::string& source) {
-  return parse(text, source).second;
+  return from_json_text<MapFile>(text, source).certainty;
 }
 
 std::string map_csv(const MapRecord& map, const std::optional<MapCertainty>& certainty) {

@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include "core/base/words.hpp"
+#include "render/plot/figure_fields.hpp"
 #include "reports/diff/figure_layers.hpp"
 #include "reports/diff/figure_log.hpp"
 #include "reports/diff/figure_match.hpp"
@@ -57,7 +58,8 @@ void compare_words(const Figure& a, const Figure& b, FigureLog& log) {
     log.change(kind_of(first, second, varies, ChangeKind::kStyle), "figure", "note", first, second);
     if (before && after)
       log.change(ChangeKind::kStyle, "figure", "colour of a note",
-                 std::string(name(a.notes[i].ink)), std::string(name(b.notes[i].ink)));
+                 std::string(name_in_files(a.notes[i].ink)),
+                 std::string(name_in_files(b.notes[i].ink)));
   }
 }
 

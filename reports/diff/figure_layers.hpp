@@ -51,11 +51,6 @@ struct LayerView {
 
 LayerView view_of(const Layer& layer);
 
-/// "series2", "dashed", ...
-std::string_view name(Ink ink);
-std::string_view name(Dash dash);
-std::string_view name(Marker marker);
-
 /// What an attribute of a mark says; empty if it has none of that name.
 std::string_view data_of(const Mark& mark, std::string_view key);
 

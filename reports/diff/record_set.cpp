@@ -11,6 +11,7 @@
 #include "core/base/errors.hpp"
 #include "core/base/files.hpp"
 #include "core/json/json_cursor.hpp"
+#include "core/json/record_json.hpp"
 #include "core/records/input_kind.hpp"
 #include "core/records/map_files.hpp"
 #include "core/records/results_study_json.hpp"
@@ -22,25 +23,6 @@ namespace mapproof {
 namespace {
 
 namespace fs = std::filesystem;
-
-bool is_plain(const nlohmann::json& value) {
-  if (!value.is_array()) return value.is_primitive();
-  return std::ranges::all_of(value, [](const auto& item) { return item.is_primitive(); });
-}
-
-void flatten(const nlohmann::json& value, const std::string& pointer,
-             std::map<std::string, std::string>& out) {
-  if (is_plain(value)) {
-    out[pointer] = value.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
-    return;
-  }
-  if (value.is_array()) {
-    for (std::size_t i = 0; i < value.size(); ++i)
-      flatten(value[i], fmt::format("{}/{}", pointer, i), out);
-    return;
-  }
-  for (const auto& [key, item] : value.items()) flatten(item, pointer + "/" + key, out);
-}
 
 /// Whether a study.json is there, be it readable or not.
 bool has_study(const fs::path& folder) {
@@ -71,7 +53,8 @@ bool is_single(const fs::path& file) {
 /// All of a JSON value as text by its pointers; arrays of plain values are one value.
 void add_settings(RecordSet& set, const fs::path& study) {
   const nlohmann::json root = parse_json(read_file(study), study.string()).root;
-  flatten(root.contains("experiment") ? root["experiment"] : root, "", set.settings);
+  for (auto& [pointer, text] : flattened(root.contains("experiment") ? root["experiment"] : root))
+    set.settings[pointer] = std::move(text);
   const auto seed = set.settings.find("/seed");
   if (seed != set.settings.end()) set.seed = seed->second;
 }

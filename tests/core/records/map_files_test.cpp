@@ -8,7 +8,7 @@
 #include "core/base/files.hpp"
 #include "core/records/landmarks_csv.hpp"
 #include "tests/core/records/samples.hpp"
-#include "tests/core/records/schema_problem.hpp"
+#include "tests/support/schema_problem.hpp"
 
 namespace mapproof {
 namespace {

@@ -5,7 +5,7 @@
 
 #include "core/base/errors.hpp"
 #include "core/base/files.hpp"
-#include "tests/core/records/schema_problem.hpp"
+#include "tests/support/schema_problem.hpp"
 #include "tests/support/temporary_folder.hpp"
 
 namespace mapproof {

@@ -16,8 +16,9 @@
 #include "core/records/trial_experiment_json.hpp"
 #include "core/topics/validate.hpp"
 #include "tests/core/records/samples.hpp"
-#include "tests/core/records/schema_problem.hpp"
 #include "tests/core/records/slam_samples.hpp"
+#include "tests/support/file_schemas.hpp"
+#include "tests/support/schema_problem.hpp"
 
 namespace mapproof {
 namespace {
@@ -30,6 +31,12 @@ using test::schema_problem;
 /// "mapproof.run" -> "run".
 std::string kind_of(const json& value) {
   return value.at("schema").at("name").get<std::string>().substr(std::string("mapproof.").size());
+}
+
+TEST(Schemas, AreThoseOfTheCode) {
+  for (const auto& [name, text] : test::file_schemas())
+    EXPECT_EQ(read_file(fs::path(MAPPROOF_SOURCE_DIR) / "docs/schemas" / name), text)
+        << "cmake --build build --target write_schemas";
 }
 
 TEST(Schemas, HoldForEveryFileOfAStudy) {

@@ -12,7 +12,7 @@
 #include "core/records/trial_json.hpp"
 #include "core/topics/validate.hpp"
 #include "tests/core/records/samples.hpp"
-#include "tests/core/records/schema_problem.hpp"
+#include "tests/support/schema_problem.hpp"
 
 namespace mapproof {
 namespace {

@@ -1,4 +1,4 @@
-#include "tests/core/records/schema_problem.hpp"
+#include "tests/support/schema_problem.hpp"
 
 #include <filesystem>
 #include <memory>
@@ -25,7 +25,10 @@ json schema_file(const std::string& name) {
 }
 
 std::string schema_problem(const std::string& name, const json& value) {
-  const json document = schema_file(name + ".schema.json");
+  return schema_problem_of(schema_file(name + ".schema.json"), value);
+}
+
+std::string schema_problem_of(const json& document, const json& value) {
   valijson::Schema schema;
   valijson::SchemaParser parser;
   parser.populateSchema(

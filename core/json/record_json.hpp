@@ -1,0 +1,489 @@
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <concepts>
+#include <cstdint>
+#include <limits>
+#include <map>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <tuple>
+#include <type_traits>
+#include <utility>
+#include <variant>
+#include <vector>
+
+#include <Eigen/Core>
+#include <nlohmann/json.hpp>
+
+#include "core/base/not_finite.hpp"
+#include "core/json/fields.hpp"
+#include "core/json/json_cursor.hpp"
+#include "core/json/json_text.hpp"
+
+namespace mapproof {
+
+// What is made of fields() (fields.hpp): the JSON of a record and the record of a JSON. The schema
+// is made by tests/support/record_schema.hpp.
+
+namespace record_json {
+
+using Json = nlohmann::ordered_json;
+
+template <typename T>
+concept Enumeration = requires(T value) {
+  enum_names(value);
+};
+template <typename T>
+concept AsTuple = requires(T& value) {
+  as_tuple(value);
+};
+template <typename T>
+concept List = requires(T& value) {
+  value.clear();
+  value.emplace_back();
+  value.begin();
+}
+    && !std::same_as<T, std::string>;
+template <typename T>
+concept Matrix = std::derived_from<T, Eigen::MatrixBase<T>>;
+template <typename T>
+concept Vector = Matrix<T> && (T::ColsAtCompileTime == 1);
+
+template <typename T>
+struct Kind {
+  static constexpr bool is_optional = false, is_tuple = false, is_variant = false;
+};
+template <typename T>
+struct Kind<std::optional<T>> : Kind<void> {
+  static constexpr bool is_optional = true;
+};
+template <typename T, std::size_t N>
+struct Kind<std::array<T, N>> : Kind<void> {
+  static constexpr bool is_tuple = true;
+};
+template <typename A, typename B>
+struct Kind<std::pair<A, B>> : Kind<void> {
+  static constexpr bool is_tuple = true;
+};
+template <typename... T>
+struct Kind<std::variant<T...>> : Kind<void> {
+  static constexpr bool is_variant = true;
+};
+
+template <Matrix T>
+constexpr std::size_t triangle_size() {
+  return static_cast<std::size_t>(T::RowsAtCompileTime * (T::RowsAtCompileTime + 1) / 2);
+}
+
+/// Calls `use(element)` for each element of an array, a pair or what has as_tuple().
+template <typename T, typename Use>
+void for_each_element(T& value, Use use) {
+  const auto all = [&](auto&... elements) { (use(elements), ...); };
+  if constexpr (AsTuple<T>) {
+    auto elements = as_tuple(value);
+    std::apply(all, elements);
+  } else {
+    std::apply(all, value);
+  }
+}
+
+template <typename T>
+constexpr std::size_t element_count() {
+  if constexpr (AsTuple<T>)
+    return std::tuple_size_v<decltype(as_tuple(std::declval<T&>()))>;
+  else
+    return std::tuple_size_v<T>;
+}
+
+inline bool is_required(const FieldRule& rule) {
+  return rule.key == Key::kRequired || rule.key == Key::kNotNull;
+}
+inline bool is_never_null(const FieldRule& rule) {
+  return rule.key == Key::kIfAny || rule.key == Key::kNotNull;
+}
+
+/// For the items of what the rule holds for.
+FieldRule item_rule(const FieldRule& rule);
+
+/// The keys of a record, and what it is.
+struct Outline : FieldVisitor {
+  std::vector<std::string_view> keys;
+  std::string_view file_schema, tag_key, tag_name;
+
+  void file(std::string_view name, std::string_view) {
+    file_schema = name;
+    keys.push_back("schema");
+  }
+  void tag(std::string_view key, std::string_view name) {
+    keys.push_back(tag_key = key);
+    tag_name = name;
+  }
+  template <typename T>
+  void field(std::string_view key, T&, const FieldRule& = {}) {
+    keys.push_back(key);
+  }
+  template <typename Fields>
+  void group(std::string_view key, Fields) {
+    keys.push_back(key);
+  }
+};
+
+template <typename T>
+concept Record = requires(Outline& outline, T& value) {
+  fields(outline, value);
+};
+
+template <typename T>
+Outline outline_of(T& value) {
+  Outline outline;
+  fields(outline, value);
+  return outline;
+}
+
+// ---- Writing
+
+Json number_json(double number, const FieldRule& rule);
+
+template <typename T>
+Json value_json(const T& value, const FieldRule& rule);
+
+template <typename T>
+bool is_none(const T& value) {
+  if constexpr (Kind<T>::is_optional)
+    return !value;
+  else if constexpr (requires { value.empty(); })
+    return value.empty();
+  else
+    return false;
+}
+
+struct Writer : FieldVisitor {
+  Json json = Json::object();
+
+  void file(std::string_view name, std::string_view) { json["schema"] = schema_value(name); }
+  void tag(std::string_view key, std::string_view name) { json[std::string(key)] = name; }
+  template <typename T>
+  void field(std::string_view key, T& value, const FieldRule& rule = {}) {
+    if (rule.when && rule.written && !(is_never_null(rule) && is_none(value)))
+      json[std::string(key)] = value_json(value, rule);
+  }
+  template <typename Fields>
+  void group(std::string_view key, Fields visit) {
+    Writer writer;
+    visit(writer);
+    json[std::string(key)] = std::move(writer.json);
+  }
+};
+
+template <Matrix T>
+Json matrix_json(const T& matrix, const FieldRule& rule) {
+  Json rows = Json::array();
+  if (rule.upper_triangle) {
+    if (rule.nullable && !matrix.allFinite()) return nullptr;
+    for (Eigen::Index i = 0; i < matrix.rows(); ++i)
+      for (Eigen::Index k = i; k < matrix.cols(); ++k)
+        rows.push_back(number_json(matrix(i, k), rule));
+    return rows;
+  }
+  for (Eigen::Index i = 0; i < matrix.rows(); ++i) {
+    if constexpr (Vector<T>) {
+      rows.push_back(number_json(matrix(i), rule));
+    } else if (rule.nullable && !matrix.row(i).allFinite()) {
+      rows.push_back(nullptr);
+    } else {
+      Json& row = rows.emplace_back(Json::array());
+      for (const double number : matrix.row(i)) row.push_back(number_json(number, rule));
+    }
+  }
+  return rows;
+}
+
+template <List T>
+Json list_json(const T& list, const FieldRule& rule) {
+  Json items = Json::array();
+  for (const auto& item : list) items.push_back(value_json(item, item_rule(rule)));
+  if constexpr (Record<typename T::value_type>)
+    if (rule.as_columns) {
+      Json columns = Json::object();
+      typename T::value_type none{};
+      for (const std::string_view key : outline_of(none).keys)
+        for (Json& column = columns[std::string(key)] = Json::array(); const Json& item : items)
+          column.push_back(item[std::string(key)]);
+      return columns;
+    }
+  return items;
+}
+
+template <typename T>
+Json value_json(const T& value, const FieldRule& rule) {
+  if constexpr (std::floating_point<T>) {
+    return number_json(value, rule);
+  } else if constexpr (std::is_arithmetic_v<T> || std::same_as<T, std::string>) {
+    return value;
+  } else if constexpr (Enumeration<T>) {
+    return name_in_files(value);
+  } else if constexpr (Kind<T>::is_optional) {
+    return value ? value_json(*value, rule) : Json();
+  } else if constexpr (Kind<T>::is_variant) {
+    return std::visit([&](const auto& one) { return value_json(one, rule); }, value);
+  } else if constexpr (Matrix<T>) {
+    return matrix_json(value, rule);
+  } else if constexpr (List<T>) {
+    return list_json(value, rule);
+  } else if constexpr (Kind<T>::is_tuple || AsTuple<T>) {
+    Json items = Json::array();
+    for_each_element(const_cast<T&>(value),
+                     [&](const auto& item) { items.push_back(value_json(item, item_rule(rule))); });
+    return items;
+  } else {
+    Writer writer;
+    visit_fields(writer, value);
+    return std::move(writer.json);
+  }
+}
+
+// ---- Reading
+
+double read_number(const JsonCursor& json, const FieldRule& rule);
+std::string read_text(const JsonCursor& json, const FieldRule& rule);
+std::vector<double> read_numbers(const JsonCursor& json, const FieldRule& rule,
+                                 std::optional<std::size_t> size = std::nullopt);
+std::size_t read_name(const JsonCursor& json, const EnumNames& names);
+std::vector<JsonCursor> read_items(const JsonCursor& json, const FieldRule& rule);
+std::int64_t read_integer(const JsonCursor& json, const FieldRule& rule, std::int64_t least,
+                          std::int64_t most);
+/// Below `json` as far as the pointer leads: a key that was left out is not there.
+JsonCursor place_of(const JsonCursor& json, std::string_view pointer);
+[[noreturn]] void refuse_tag(const JsonCursor& tag, const std::vector<std::string_view>& known);
+
+template <typename T>
+void read_value(const JsonCursor& json, T& value, const FieldRule& rule);
+
+class Reader : public FieldVisitor {
+ public:
+  static constexpr bool kReads = true;
+
+  explicit Reader(const JsonCursor& json) : json_(json) {}
+
+  template <typename T>
+  void field(std::string_view key, T& value, const FieldRule& rule = {}) {
+    const std::string name(key);
+    if (!rule.when) {
+      if (json_.find(name)) json_.fail("unknown key \"" + name + '"');
+    } else if (is_required(rule)) {
+      read_value(json_.at(name), value, rule);
+    } else if (const auto found = json_.find(name)) {
+      read_value(*found, value, rule);
+    }
+  }
+  template <typename Fields>
+  void group(std::string_view key, Fields visit) {
+    const JsonCursor object = json_.at(std::string(key));
+    Outline outline;
+    visit(outline);
+    object.allow_only(outline.keys);
+    Reader reader(object);
+    visit(reader);
+  }
+  void refuse(std::string_view pointer, std::string_view what) {
+    place_of(json_, pointer).fail(std::string(what));
+  }
+  void refuse(std::string_view pointer, std::size_t item, std::string_view what) {
+    place_of(json_, pointer).element(item).fail(std::string(what));
+  }
+
+ private:
+  const JsonCursor& json_;
+};
+
+template <typename T>
+void read_record(const JsonCursor& json, T& value) {
+  const Outline outline = outline_of(value);
+  if (!outline.file_schema.empty()) expect_schema(json, outline.file_schema);
+  json.allow_only(outline.keys);
+  Reader reader(json);
+  fields(reader, value);
+}
+
+template <typename... T>
+void read_variant(const JsonCursor& json, std::variant<T...>& value) {
+  std::vector<std::string_view> known;
+  std::string given;
+  const auto reads = [&](auto one) {
+    const Outline outline = outline_of(one);
+    if (known.empty()) given = json.at(std::string(outline.tag_key)).text();
+    known.push_back(outline.tag_name);
+    if (given != outline.tag_name) return false;
+    read_record(json, one);
+    value = std::move(one);
+    return true;
+  };
+  std::variant_alternative_t<0, std::variant<T...>> first;
+  if (!(reads(T{}) || ...)) refuse_tag(json.at(std::string(outline_of(first).tag_key)), known);
+}
+
+/// @throws IoError at the first item that stood there before.
+template <typename T>
+void refuse_repeated(const JsonCursor& json, const T& items) {
+  std::map<typename T::value_type, std::size_t> first;
+  std::size_t i = 0;
+  for (const auto& item : items) {
+    const auto [known, is_new] = first.emplace(item, i);
+    if (!is_new)
+      json.element(i).fail("is there twice: at " + json.element(known->second).pointer() +
+                           " before");
+    ++i;
+  }
+}
+
+/// Reads one record out of arrays of the same length, one for each of its fields.
+struct RowReader : FieldVisitor {
+  static constexpr bool kReads = true;
+
+  const std::vector<JsonCursor>& columns;
+  std::size_t row = 0, column = 0;
+
+  RowReader(const std::vector<JsonCursor>& all, std::size_t index) : columns(all), row(index) {}
+
+  template <typename T>
+  void field(std::string_view, T& value, const FieldRule& rule = {}) {
+    read_value(columns[column++].element(row), value, rule);
+  }
+};
+
+template <List T>
+void read_columns(const JsonCursor& json, T& list, const FieldRule& rule) {
+  typename T::value_type none{};
+  const Outline outline = outline_of(none);
+  json.allow_only(outline.keys);
+  std::vector<JsonCursor> columns;
+  FieldRule same = rule;
+  for (const std::string_view key : outline.keys) {
+    columns.push_back(json.at(std::string(key)));
+    read_items(columns.back(), same);
+    same.min_items = same.max_items = columns[0].size();
+  }
+  for (std::size_t row = 0; row < columns[0].size(); ++row) {
+    RowReader reader(columns, row);
+    fields(reader, list.emplace_back());
+  }
+}
+
+template <Matrix T>
+void read_matrix(const JsonCursor& json, T& matrix, const FieldRule& rule) {
+  constexpr auto kRows = T::RowsAtCompileTime, kColumns = T::ColsAtCompileTime;
+  if constexpr (Vector<T>) {
+    const auto size = kRows == Eigen::Dynamic ? std::nullopt : std::optional<std::size_t>(kRows);
+    const std::vector<double> numbers = read_numbers(json, rule, size);
+    matrix = Eigen::Map<const T>(numbers.data(), std::ssize(numbers));
+  } else if (rule.upper_triangle) {
+    matrix.setConstant(kNaN);
+    if (rule.nullable && json.is_null()) return;
+    FieldRule entries_rule = rule;
+    entries_rule.nullable = false;
+    const std::vector<double> numbers = read_numbers(json, entries_rule, triangle_size<T>());
+    auto number = numbers.begin();
+    for (Eigen::Index i = 0; i < matrix.rows(); ++i)
+      for (Eigen::Index k = i; k < matrix.cols(); ++k) matrix(i, k) = matrix(k, i) = *number++;
+  } else {
+    FieldRule rows_rule = rule;
+    if (kRows != Eigen::Dynamic) rows_rule.min_items = rows_rule.max_items = kRows;
+    const std::vector<JsonCursor> rows = read_items(json, rows_rule);
+    std::size_t columns =
+        kColumns == Eigen::Dynamic ? rule.columns : static_cast<std::size_t>(kColumns);
+    if (kColumns == Eigen::Dynamic && columns == 0 && !rows.empty()) columns = rows[0].size();
+    if constexpr (kRows == Eigen::Dynamic)
+      matrix.resize(std::ssize(rows), static_cast<Eigen::Index>(columns));
+    FieldRule row_rule = item_rule(rule);
+    row_rule.nullable = rule.nullable_entries;
+    for (Eigen::Index i = 0; i < matrix.rows(); ++i) {
+      const JsonCursor& row = rows[static_cast<std::size_t>(i)];
+      matrix.row(i).setConstant(kNaN);
+      if (rule.nullable && row.is_null()) continue;
+      const std::vector<double> numbers = read_numbers(row, row_rule, columns);
+      for (Eigen::Index k = 0; k < matrix.cols(); ++k)
+        matrix(i, k) = numbers[static_cast<std::size_t>(k)];
+    }
+  }
+}
+
+template <typename T>
+void read_value(const JsonCursor& json, T& value, const FieldRule& rule) {
+  if constexpr (std::same_as<T, bool>) {
+    value = json.boolean();
+  } else if constexpr (std::floating_point<T>) {
+    value = read_number(json, rule);
+  } else if constexpr (std::same_as<T, std::uint64_t>) {
+    value = rule.maximum == kInfinity ? json.unsigned_integer()
+                                      : static_cast<T>(read_integer(json, rule, 0, INT64_MAX));
+  } else if constexpr (std::integral<T>) {
+    value = static_cast<T>(
+        read_integer(json, rule, std::numeric_limits<T>::min(), std::numeric_limits<T>::max()));
+  } else if constexpr (std::same_as<T, std::string>) {
+    value = read_text(json, rule);
+  } else if constexpr (Enumeration<T>) {
+    value = static_cast<T>(read_name(json, enum_names(T{})));
+  } else if constexpr (Kind<T>::is_optional) {
+    value.reset();
+    FieldRule given = rule;
+    given.key = Key::kRequired;
+    if (is_never_null(rule) || !json.is_null()) read_value(json, value.emplace(), given);
+  } else if constexpr (Kind<T>::is_variant) {
+    read_variant(json, value);
+  } else if constexpr (Matrix<T>) {
+    read_matrix(json, value, rule);
+  } else if constexpr (std::same_as<T, std::vector<double>>) {
+    value = read_numbers(json, rule);
+  } else if constexpr (List<T>) {
+    value.clear();
+    if constexpr (Record<typename T::value_type>)
+      if (rule.as_columns) return read_columns(json, value, rule);
+    for (const JsonCursor& item : read_items(json, rule))
+      read_value(item, value.emplace_back(), item_rule(rule));
+    using Item = typename T::value_type;
+    if constexpr (std::integral<Item> || std::same_as<Item, std::string>)
+      if (rule.unique) refuse_repeated(json, value);
+  } else if constexpr (Kind<T>::is_tuple || AsTuple<T>) {
+    const std::vector<JsonCursor> items = json.elements(element_count<T>(), element_count<T>());
+    auto item = items.begin();
+    for_each_element(value, [&](auto& one) { read_value(*item++, one, item_rule(rule)); });
+  } else {
+    read_record(json, value);
+  }
+}
+
+}  // namespace record_json
+
+/// The JSON of a record: keys in the order of its fields.
+template <typename T>
+nlohmann::ordered_json to_json_value(const T& record) {
+  return record_json::value_json(record, {});
+}
+
+/// The record that a JSON value holds. @throws IoError with file and place.
+template <typename T>
+T from_json_value(const JsonCursor& json) {
+  T value{};
+  record_json::read_value(json, value, {});
+  return value;
+}
+
+/// A file that holds one record.
+template <typename T>
+std::string to_json_text(const T& record) {
+  return json_text(to_json_value(record));
+}
+template <typename T>
+T from_json_text(std::string_view text, const std::string& source) {
+  const JsonDocument document = parse_json(text, source);
+  return from_json_value<T>(document.cursor());
+}
+
+/// Every value of a JSON by its pointer, as text; an array of plain values is one value.
+std::vector<std::pair<std::string, std::string>> flattened(const nlohmann::ordered_json& value);
+
+}  // namespace mapproof

@@ -1,0 +1,263 @@
+#pragma once
+
+#include <array>
+#include <cmath>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "core/model/map_certainty.hpp"
+#include "core/model/map_sensors.hpp"
+#include "core/records/value_fields.hpp"
+
+namespace mapproof {
+
+// The fields of maps in files (core/json/fields.hpp): of one map alone, and of all of a run.
+
+/// A sensor, or range and bearing together; the same of a method, or the pairs that these measure.
+enum class MappedSensor { kBoth = static_cast<int>(Sensor::kRange) + 1 };
+enum class MappedMethod { kOfPairs = static_cast<int>(Method::kSde) + 1 };
+
+inline EnumNames enum_names(MappedSensor) {
+  static const std::vector<std::string_view> names = [] {
+    const EnumNames sensors = enum_names(Sensor{});
+    std::vector<std::string_view> all(sensors.names.begin(), sensors.names.end());
+    all.push_back(kRangeBearing);
+    return all;
+  }();
+  return {"mapped_sensor", names};
+}
+
+inline EnumNames enum_names(MappedMethod) {
+  static const std::vector<std::string_view> names = [] {
+    const EnumNames methods = enum_names(Method{});
+    std::vector<std::string_view> all(methods.names.begin(), methods.names.end());
+    all.push_back(kPairs);
+    return all;
+  }();
+  return {"method", names};
+}
+
+/// What was mapped and how.
+struct MapOrigin {
+  MappedSensor sensor{};
+  MappedMethod method{};
+  std::optional<double> parameter;
+};
+
+inline MapOrigin origin_of(const MapRecord& map) {
+  if (map.of_pairs) return {MappedSensor::kBoth, MappedMethod::kOfPairs, std::nullopt};
+  return {static_cast<MappedSensor>(map.sensor), static_cast<MappedMethod>(map.setting.method),
+          map.setting.parameter};
+}
+
+inline void set_origin(MapRecord& map, const MapOrigin& origin) {
+  map.of_pairs = origin.sensor == MappedSensor::kBoth;
+  map.sensor = map.of_pairs ? Sensor::kRange : static_cast<Sensor>(origin.sensor);
+  if (map.of_pairs)
+    map.setting = {Method::kSmacof, std::nullopt};
+  else
+    map.setting = {static_cast<Method>(origin.method), origin.parameter};
+}
+
+template <typename Visitor>
+void origin_fields(Visitor& v, MapRecord& map) {
+  MapOrigin origin = origin_of(map);
+  v.field("sensor", origin.sensor,
+          {.description = "range-bearing: a map of pair distances measured by range and bearing "
+                          "together; its method is pairs."});
+  v.field("method", origin.method, {.decides = true});
+  const bool is_pairs = origin.method == MappedMethod::kOfPairs;
+  if (is_pairs != (origin.sensor == MappedSensor::kBoth))
+    v.refuse("method", fmt::format("expected {}, got \"{}\"",
+                                   is_pairs ? "a method of one sensor" : "pairs for range-bearing",
+                                   name_in_files(origin.method)));
+  parameter_fields(v, is_pairs ? std::nullopt : info(static_cast<Method>(origin.method)).parameter,
+                   origin.parameter);
+  if constexpr (Visitor::kReads) set_origin(map, origin);
+}
+
+/// Whether both are the same, rows that are not there included.
+inline bool same_points(const std::optional<Points>& a, const std::optional<Points>& b) {
+  if (!a || !b) return a.has_value() == b.has_value();
+  if (a->rows() != b->rows()) return false;
+  for (Eigen::Index i = 0; i < a->rows(); ++i)
+    if (a->row(i) != b->row(i) && (a->row(i).allFinite() || b->row(i).allFinite())) return false;
+  return true;
+}
+
+template <typename Visitor>
+void check_row_count(Visitor& v, std::string_view key, const Points& points, const MapRecord& map) {
+  if (points.rows() != std::ssize(map.names))
+    v.refuse(key,
+             fmt::format("expected {} rows, one a name, got {}", map.names.size(), points.rows()));
+}
+
+/// @param shared  The maps of one run leave out what is the same there; null: nothing is left out.
+template <typename Visitor>
+void landmark_fields(Visitor& v, MapRecord& map, const MapRecord* shared) {
+  using namespace record_rules;
+  const Key key = shared == nullptr ? Key::kRequired : Key::kOptional;
+  v.field("names", map.names,
+          {.unique = true,
+           .max_items = kMostLandmarks,
+           .not_empty = true,
+           .max_bytes = kLongestName,
+           .key = key,
+           .written = shared == nullptr || map.names != shared->names});
+  v.field("anchors", map.anchors,
+          {.description = "Rows of the landmarks whose true position was given, counted from 0.",
+           .minimum = 0,
+           .maximum = kMostLandmarks - 1,
+           .unique = true,
+           .max_items = kMostLandmarks,
+           .key = key,
+           .written = shared == nullptr || map.anchors != shared->anchors});
+  check_rows(v, "anchors", map.anchors, std::ssize(map.names));
+  v.field("truth_m", map.truth_m,
+          {.nullable = true,
+           .max_items = kMostLandmarks,
+           .key = key,
+           .written = shared == nullptr || !same_points(map.truth_m, shared->truth_m)});
+  if (map.truth_m) check_row_count(v, "truth_m", *map.truth_m, map);
+}
+
+template <typename Visitor>
+void map_fields(Visitor& v, MapRecord& map, const MapRecord* shared) {
+  using namespace record_rules;
+  v.field("id", map.id);
+  origin_fields(v, map);
+  v.field("step", map.step, kStep);
+  v.field("frame", map.frame);
+  v.field("score", map.score);
+  v.field("certificate", map.certificate, {.key = Key::kIfAny});
+  v.field("statuses", map.statuses, kStatuses);
+  landmark_fields(v, map, shared);
+  v.field("estimate", map.estimate,
+          {.description = "In metres if the frame is that of the truth.",
+           .nullable = true,
+           .max_items = kMostLandmarks});
+  check_row_count(v, "estimate", map.estimate, map);
+}
+
+/// A map by itself.
+template <typename Visitor>
+void fields(Visitor& v, MapRecord& map) {
+  map_fields(v, map, nullptr);
+}
+
+template <typename Visitor>
+void fields(Visitor& v, MapCertainty& certainty) {
+  v.type("certainty");
+  v.about("Ellipses of a map: (x - place)' C^-1 (x - place) up to squared_radius.");
+  v.field("confidence", certainty.confidence, {.minimum = 0.0, .maximum = 1.0});
+  v.field("squared_radius", certainty.squared_radius, {.minimum = 0.0, .maximum = 1e300});
+  v.field("replicates", certainty.replicates, {.minimum = 0, .maximum = 1e6});
+  v.field("maps", certainty.maps, {.minimum = 0, .maximum = 1e6});
+  if (certainty.maps > certainty.replicates)
+    v.refuse("maps", fmt::format("expected an integer from 0 to {}, got {}", certainty.replicates,
+                                 certainty.maps));
+  v.field("block_steps", certainty.block_steps, {.minimum = 1, .maximum = kMostSteps});
+  v.field(
+      "covariances", certainty.covariances,
+      {.description = "[xx, xy, yy] of each landmark, in the map's unit squared; null: not known.",
+       .minimum = -1e300,
+       .maximum = 1e300,
+       .nullable = true,
+       .upper_triangle = true,
+       .max_items = kMostLandmarks});
+  for (std::size_t i = 0; i < certainty.covariances.size(); ++i) {
+    const Eigen::Matrix2d& C = certainty.covariances[i];
+    // Rounding leaves a covariance on one line a little less than singular.
+    if (std::min(C(0, 0), C(1, 1)) < 0.0 ||
+        std::abs(C(0, 1)) > std::sqrt(C(0, 0)) * std::sqrt(C(1, 1)) * (1.0 + 1e-9))
+      v.refuse("covariances", i, "expected a covariance, xy^2 <= xx yy");
+  }
+}
+
+template <typename Visitor>
+void fields(Visitor& v, SensorShare& share) {
+  v.field("sensor", share.sensor);
+  v.field("reliability", share.reliability, {.minimum = 0.0, .maximum = 1.0});
+  v.field("weight", share.weight, {.minimum = 0.0, .maximum = 1.0});
+  v.field("share", share.share, {.minimum = 0.0, .maximum = 1.0});
+  v.field("continuity", share.continuity, {.minimum = -1e300, .maximum = 1.0, .nullable = true});
+}
+
+template <typename Visitor>
+void fields(Visitor& v, MapSensors& sensors) {
+  v.type("mixed");
+  v.about(
+      "The sensors of a joint map: how far the distances of each one repeat, its weight in the "
+      "start and its share in the joint map, and how well each sensor's own map and the joint "
+      "one (continuity) keep the neighbourhoods of all sensors; null: not known.");
+  v.field("sensors", sensors.sensors, {.min_items = 1, .max_items = 3});
+  v.field("continuity", sensors.continuity, {.minimum = -1e300, .maximum = 1.0, .nullable = true});
+  v.field("why", sensors.why);
+}
+
+/// map.json.
+struct MapFile {
+  MapRecord map;
+  std::optional<MapCertainty> certainty;
+  std::optional<MapSensors> sensors;
+};
+
+template <typename Visitor>
+void fields(Visitor& v, MapFile& file) {
+  v.file("mapproof.map", "One map, of a study or of a user's observations.");
+  map_fields(v, file.map, nullptr);
+  v.field("certainty", file.certainty, {.key = Key::kIfAny});
+  if (file.certainty && file.certainty->covariances.size() != file.map.names.size())
+    v.refuse("certainty/covariances",
+             fmt::format("expected {} covariances, one a name, got {}", file.map.names.size(),
+                         file.certainty->covariances.size()));
+  v.field("mixed", file.sensors, {.key = Key::kIfAny});
+}
+
+/// A map of many that have landmarks in common.
+struct SharingMap {
+  MapRecord map;
+  const MapRecord* shared = nullptr;
+};
+
+template <typename Visitor>
+void fields(Visitor& v, SharingMap& sharing) {
+  static const MapRecord kNothing;
+  map_fields(v, sharing.map, sharing.shared == nullptr ? &kNothing : sharing.shared);
+}
+
+/// The maps of a run; a new one has the landmarks that all share.
+class SharingMaps {
+ public:
+  using value_type = SharingMap;
+
+  MapRecord shared;
+
+  SharingMap& emplace_back() { return maps_.emplace_back(shared, &shared); }
+  void add(const MapRecord& map) { maps_.emplace_back(map, &shared); }
+  void clear() { maps_.clear(); }
+  auto begin() const { return maps_.begin(); }
+  auto end() const { return maps_.end(); }
+
+ private:
+  std::vector<SharingMap> maps_;
+};
+
+/// maps/layout-L-pose-P.json.
+struct MapsFile {
+  RunId run;
+  SharingMaps maps;
+};
+
+template <typename Visitor>
+void fields(Visitor& v, MapsFile& file) {
+  v.file("mapproof.maps", "maps/layout-L-pose-P.json: all maps of one run.");
+  v.field("run", file.run);
+  landmark_fields(v, file.maps.shared, nullptr);
+  v.field("maps", file.maps,
+          {.description = "A map that leaves out names, anchors or truth_m has those of the file.",
+           .max_items = record_rules::kMostRecords});
+}
+
+}  // namespace mapproof

@@ -1,0 +1,167 @@
+#pragma once
+
+#include <algorithm>
+#include <limits>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include <fmt/format.h>
+
+#include "core/base/not_finite.hpp"
+#include "core/json/fields.hpp"
+#include "core/model/study.hpp"
+#include "core/records/limits.hpp"
+
+namespace mapproof {
+
+// The fields of the values that several files hold (core/json/fields.hpp), and what enumerators are
+// called in files.
+
+inline EnumNames enum_names(Sensor) { return names_up_to(Sensor::kRange, "sensor"); }
+inline EnumNames enum_names(StatusCode) { return names_up_to(StatusCode::kFailed, "status"); }
+inline EnumNames enum_names(SdpSolver) { return names_up_to(SdpSolver::kCsdp, "solver"); }
+inline EnumNames enum_names(Frame) { return names_up_to(Frame::kSimilarity, "frame"); }
+
+inline EnumNames enum_names(Method) {
+  static const std::vector<std::string_view> names = [] {
+    std::vector<std::string_view> all;
+    for (const MethodInfo& method : all_methods()) all.push_back(method.name);
+    return all;
+  }();
+  return {"method", names};
+}
+
+namespace record_rules {
+
+inline constexpr std::size_t kMostRecords = 1'000'000;
+
+inline constexpr FieldRule kStep = {
+    .description = "Number of observations used.", .minimum = 0, .maximum = kMostSteps};
+inline constexpr FieldRule kCount = {.minimum = 0, .maximum = std::numeric_limits<int>::max()};
+inline constexpr FieldRule kLength = {.minimum = 0.0, .nullable = true};
+inline constexpr FieldRule kPercent = {.minimum = 0.0, .maximum = 100.0, .nullable = true};
+inline constexpr FieldRule kPositions = {
+    .description = "A row per landmark: [x, y], or null where there is no position.",
+    .nullable = true,
+    .max_items = kMostLandmarks};
+inline constexpr FieldRule kRows = {.description = "Rows of landmarks, counted from 0.",
+                                    .minimum = 0,
+                                    .maximum = kMostLandmarks - 1,
+                                    .unique = true,
+                                    .max_items = kMostLandmarks};
+inline constexpr FieldRule kNames = {
+    .unique = true, .max_items = kMostLandmarks, .not_empty = true, .max_bytes = kLongestName};
+inline constexpr FieldRule kStatuses = {.description = "Warnings and failures.", .max_items = 1000};
+
+}  // namespace record_rules
+
+/// Refuses rows of `size` landmarks that are not there.
+template <typename Visitor>
+void check_rows(Visitor& v, std::string_view key, const std::vector<Eigen::Index>& rows,
+                Eigen::Index size) {
+  for (std::size_t i = 0; i < rows.size(); ++i)
+    if (rows[i] < 0 || rows[i] >= size)
+      v.refuse(key, i, fmt::format("expected an integer from 0 to {}, got {}", size - 1, rows[i]));
+}
+
+template <typename Visitor>
+void fields(Visitor& v, RunId& run) {
+  v.type("run");
+  v.field("layout", run.layout, {.minimum = 1, .maximum = kMostLayouts});
+  v.field("pose", run.pose, {.minimum = 1, .maximum = kMostPoses});
+}
+
+template <typename Visitor>
+void fields(Visitor& v, Status& status) {
+  v.type("warning");
+  v.field("code", status.code);
+  v.field("detail", status.detail, {.max_bytes = kLongestText});
+}
+
+template <typename Visitor>
+void fields(Visitor& v, Score& score) {
+  using namespace record_rules;
+  v.type("score");
+  v.field("mpe_m", score.mpe_m, kLength);
+  v.field("moe_percent", score.moe_percent, kPercent);
+  v.field("mpe_all_fitted_m", score.mpe_all_fitted_m, kLength);
+  v.field("moe_unmirrored_percent", score.moe_unmirrored_percent, kPercent);
+}
+
+template <typename Visitor>
+void fields(Visitor& v, Certificate& certificate) {
+  v.type("certificate");
+  v.about(
+      "Of a method that is a semidefinite program: how near its optimum. A dual below 0: there "
+      "is no feasible point; null: nothing was proved.");
+  v.field("solver", certificate.solver);
+  v.field("primal", certificate.primal, {.minimum = 0.0});
+  v.field("dual", certificate.dual, {.nullable = true, .null_is = kInfinity});
+  v.field("relative_gap", certificate.relative_gap,
+          {.minimum = 0.0, .nullable = true, .null_is = kInfinity});
+  v.field("constraint_residual", certificate.constraint_residual, {.minimum = 0.0});
+}
+
+/// Of all methods, each symbol once.
+inline const std::vector<ParameterInfo>& method_parameters() {
+  static const std::vector<ParameterInfo> parameters = [] {
+    std::vector<ParameterInfo> all;
+    for (const MethodInfo& method : all_methods())
+      if (method.parameter &&
+          std::ranges::find(all, method.parameter->symbol, &ParameterInfo::symbol) == all.end())
+        all.push_back(*method.parameter);
+    return all;
+  }();
+  return parameters;
+}
+
+/// The parameters that a method may have, of which `own` has to be there.
+template <typename Visitor>
+void parameter_fields(Visitor& v, const std::optional<ParameterInfo>& own,
+                      std::optional<double>& value) {
+  for (const ParameterInfo& parameter : method_parameters())
+    v.field(parameter.symbol, value,
+            {.description = parameter.meaning,
+             .minimum = parameter.minimum,
+             .maximum = parameter.maximum,
+             .whole_as_integers = true,
+             .integer = parameter.integer,
+             .key = Key::kNotNull,
+             .when = own && own->symbol == parameter.symbol});
+}
+
+/// A method and the value of its parameter, if it has one: keys of the object that they describe.
+template <typename Visitor>
+void setting_fields(Visitor& v, MethodSetting& setting) {
+  v.field("method", setting.method, {.decides = true});
+  parameter_fields(v, info(setting.method).parameter, setting.parameter);
+}
+
+/// An element of Provenance::libraries.
+struct LibraryVersion {
+  std::string name, version;
+};
+
+template <typename Visitor>
+void fields(Visitor& v, LibraryVersion& library) {
+  v.field("name", library.name);
+  v.field("version", library.version);
+}
+
+template <typename Visitor>
+void fields(Visitor& v, Provenance& provenance) {
+  v.type("provenance");
+  v.field("version", provenance.version, {.description = "Of mapproof."});
+  v.field("commit", provenance.commit, {.description = "Of its source."});
+  v.field("solver_digest", provenance.solver_digest,
+          {.description = "SHA-256 of the sources of core."});
+  std::vector<LibraryVersion> libraries;
+  for (const auto& [name, version] : provenance.libraries) libraries.push_back({name, version});
+  v.field("libraries", libraries, {.max_items = 1000});
+  if constexpr (Visitor::kReads)
+    for (LibraryVersion& library : libraries)
+      provenance.libraries.emplace_back(std::move(library.name), std::move(library.version));
+}
+
+}  // namespace mapproof
