@@ -345,7 +345,8 @@ TEST(ResultsView, IntervalsEndWhereNoValueCanLie) {
 }
 
 TEST(ResultsFigures, GroundTruthIsASolidThinLineBelowTheEstimate) {
-  GivenPath path{.id = "p"};
+  GivenPath path;
+  path.id = "p";
   path.path.time_s = Eigen::Vector3d(0.0, 1.0, 2.0);
   path.path.positions_m = Points::Zero(3, 2);
   path.path.positions_m(1, 0) = path.path.positions_m(2, 1) = 1.0;
