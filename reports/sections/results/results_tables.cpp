@@ -181,7 +181,7 @@ std::optional<Table> run_table(const ResultsView& view, const ResultsBlock& bloc
   std::vector<int> places;
   CellMaker cells(view, table);
   for (const Quantity* quantity : quantities) {
-    places.push_back(decimals(view, block, *quantity));
+    places.push_back(decimals(view, view.lines(block, *quantity), block.conditions, *quantity));
     cells.add_column(quantity->label, quantity->unit, "");
   }
   for (ResultsLine& line : lines) {
