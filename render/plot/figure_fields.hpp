@@ -208,7 +208,7 @@ void fields(Visitor& v, Cells& cells) {
            .max_bytes = kLongestText,
            .key = Key::kIfAny});
   v.field("text", cells.text,
-          {.description = "One per value, drawn in the cells if all of them fit. Missing: none.",
+          {.description = "As many as values, or none.",
            .max_bytes = kLongestText,
            .key = Key::kIfAny});
 }
@@ -248,7 +248,7 @@ void fields(Visitor& v, Axis& axis) {
   v.field("whole", axis.whole,
           {.description = "Ticks at whole numbers alone. Missing: false.", .key = Key::kOptional});
   v.field("names", axis.names,
-          {.description = "Of the numbers 0, 1, ..., written in their place. Missing: none.",
+          {.description = "Of the numbers 0, 1, ..., in their place. Missing: none.",
            .max_bytes = kLongestText,
            .key = Key::kIfAny});
 }

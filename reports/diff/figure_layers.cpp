@@ -19,6 +19,7 @@ std::string_view word_of(std::string_view key) {
        {"turn_rad", "turn"},
        {"values", "value"},
        {"limits", "limits of the ramp"},
+       {"bar_label", "label of the colour bar"},
        {"clear_x", "x"},
        {"clear_y", "y"},
        {"clear_by", "half a side"}}};
@@ -38,8 +39,9 @@ struct LayerViewer : FieldVisitor {
     else
       view.looks.push_back({word_of(key), text});
   }
+  /// Words beside points; what stands in cells are their values once more.
   void field(std::string_view, const std::vector<std::string>& texts, const FieldRule& = {}) {
-    view.texts = texts;
+    if (view.kind != "cells") view.texts = texts;
   }
   void field(std::string_view, const Mark& mark, const FieldRule& = {}) {
     view.marks = {&mark, 1};
