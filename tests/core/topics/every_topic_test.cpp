@@ -158,7 +158,7 @@ TEST_P(EveryTopic, OfAnotherSeedIsRefusedAndOfAnotherSolverTakenAway) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Topics, EveryTopic, testing::ValuesIn(every_topic()),
-                         [](const auto& info) { return info.param.name; });
+                         [](const auto& one) { return one.param.name; });
 
 TEST(Topics, AreAllAmongTheExperimentsOfTheProgram) {
   std::size_t of_data = 0;
