@@ -2,7 +2,9 @@
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
+
 #include <nlohmann/json.hpp>
+#include <sstream>
 
 #include "core/base/files.hpp"
 #include "tests/support/program.hpp"
@@ -78,7 +80,11 @@ TEST_F(StudyOfAnotherProgram, WhoseReportIsMissingAsAWholeIsOneLine) {
   EXPECT_NE(outcome.out.find("the current has no report: 8 items of the baseline"),
             std::string::npos)
       << outcome.out;
-  EXPECT_LE(std::ranges::count(outcome.out, '\n'), 3) << outcome.out;
+  // CTest's own environment adds a measurement per verdict.
+  std::istringstream lines(outcome.out);
+  long said = 0;
+  for (std::string line; std::getline(lines, line);) said += line.starts_with('<') ? 0 : 1;
+  EXPECT_LE(said, 3) << outcome.out;
   EXPECT_EQ(mapproof({"diff", folder_ / "mine", folder_ / "baseline"}).exit_code, 0);
 }
 
