@@ -1,10 +1,10 @@
 #include <algorithm>
+#include <sstream>
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <nlohmann/json.hpp>
-#include <sstream>
 
 #include "core/base/files.hpp"
 #include "tests/support/program.hpp"
