@@ -87,6 +87,20 @@ TEST(ApproveVerb, RefusesACurrentOfAnotherKind) {
                  "holds png, CURRENT");
 }
 
+TEST(ApproveVerb, RefusesACurrentThatCannotBeRead) {
+  const TwoStudies two;
+  const std::string study = two.after + "/study.json";
+  for (const char* text : {"{", ""}) {
+    write_file(study, text);
+    expect_refused(two.folder, {two.before, two.after, "--all", "--force"}, study);
+    expect_refused(two.folder, {two.before, two.after, "map-usual"}, study);
+  }
+  const std::string picture = two.before + "/figures/map-usual.png";
+  const std::string pipe = two.folder / "pipe";
+  ASSERT_EQ(::mkfifo(pipe.c_str(), 0600), 0);
+  expect_refused(two.folder, {picture, pipe}, "CURRENT " + pipe + " is not a file");
+}
+
 TEST(ApproveVerb, AsksBeforeMoreThanHalfOfABaselineGoes) {
   const TemporaryFolder folder;
   const std::string baseline = folder / "baseline", current = folder / "current";
