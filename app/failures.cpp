@@ -16,7 +16,7 @@ namespace mapproof {
 namespace {
 
 ExitCode report_failure(const std::string& what, ExitCode code) {
-  // The words of the system, whichever layer passed them on.
+  // Any layer may pass on the system's message.
   const bool is_memory = what.ends_with(std::strerror(ENOMEM));
   std::cerr << "mapproof: " << (is_memory ? "out of memory: " : "") << printable(what, 4000)
             << "\n";

@@ -5,9 +5,9 @@
 
 namespace mapproof {
 
-/// Does the work and gives its exit code. What it throws becomes one line on standard error that
-/// begins with "mapproof: ", and the exit code is that of the failure.
-/// @param of  What stands before the words: whose work it is.
+/// Calls `work` and returns its exit code. An exception becomes one line on standard error,
+/// "mapproof: ", `of` and the message, and the exit code of its type.
+/// @param of  Whose work it is.
 int exit_code_of(const std::function<int()>& work, const std::string& of = "");
 
 }  // namespace mapproof

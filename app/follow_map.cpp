@@ -7,8 +7,6 @@
 #include <fmt/format.h>
 
 #include "app/growing_file.hpp"
-#include "app/pair_follower.hpp"
-#include "app/value_follower.hpp"
 #include "core/base/errors.hpp"
 #include "core/base/unpacker.hpp"
 #include "core/json/text_input.hpp"
@@ -63,8 +61,7 @@ OwnMap follow_map(const FollowOrder& order, const Console& console, const WriteF
   Unpacker unpacker(file.name());
   FollowedTable table = order.table;
   table.source = file.name();
-  const std::unique_ptr<Follower> follower =
-      table.sensor ? value_follower(table) : pair_follower(table);
+  const std::unique_ptr<Follower> follower = order.follower(table);
   Due due(order.every);
   std::vector<std::string> remarks;
   std::string bytes;

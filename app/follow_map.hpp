@@ -1,6 +1,7 @@
 #pragma once
 
 #include <functional>
+#include <memory>
 #include <string>
 
 #include "app/console.hpp"
@@ -21,6 +22,7 @@ FollowInterval follow_interval(const std::string& text);
 struct FollowOrder {
   std::string path;     ///< "-": standard input. Packed or not.
   FollowedTable table;  ///< Its source is set from the path.
+  std::unique_ptr<Follower> (*follower)(const FollowedTable& table) = nullptr;
   FollowInterval every;
 };
 

@@ -7,12 +7,14 @@
 
 #include "app/build_facts.hpp"
 #include "app/map_folder.hpp"
-#include "app/map_words.hpp"
+#include "app/map_result.hpp"
+#include "app/map_title.hpp"
 #include "core/base/files.hpp"
 #include "core/base/input_file.hpp"
 #include "core/records/folder_lock.hpp"
 #include "core/records/map_files.hpp"
 #include "render/figures/map.hpp"
+#include "render/figures/status_words.hpp"
 #include "render/output/write_figure.hpp"
 #include "reports/html/report_html.hpp"
 #include "reports/sections/map_report.hpp"
@@ -30,16 +32,15 @@ void write_report(const FollowedPlace& place, const OwnMap& map, const Figure& f
       map_report({.record = map.record,
                   .title = map_title(place.observations),
                   .facts = {{"Observations", input_name(place.observations)},
-                            {"Sensor", observed_words(map)},
+                            {"Sensor", sensor_label(map.record)},
                             {"Landmarks", std::to_string(map.record.names.size())},
                             {"Steps followed", std::to_string(map.record.step)},
-                            {"Method", method_words(map)}},
+                            {"Method", method_label(map.record)}},
                   .remarks = map.remarks,
                   .figure = figure_block(figure),
                   .more_figures = {},
                   .provenance = build_provenance(),
-                  .command = place.command,
-                  .what = what_words(map)});
+                  .command = place.command});
   write_tables(report, fs::path(place.out) / "tables");
   write_file(fs::path(place.out) / "report.html",
              report_html(report, place.page, [&](const std::string& id) {
@@ -58,10 +59,18 @@ WriteFollowed followed_outputs(FollowedPlace place) {
     const fs::path out = place.out;
     write_file(out / kMapFile, map_json(map.record));
     write_file(out / "map.csv", map_csv(map.record));
-    const Figure figure = map_figure(map.record, "map", what_words(map));
+    const Figure figure = map_figure(map.record, "map");
     const std::string svg = write_figure(figure, report_theme(), out / "figures");
     if (last) write_report(place, map, figure, svg);
   };
+}
+
+int report_followed(const OwnMap& map, const std::string& out, const Invocation& invocation) {
+  for (const std::string& remark : map.remarks) invocation.console.warning(remark);
+  for (const Status& status : map.record.statuses)
+    invocation.console.warning(fmt::format("{}: {}", name(status.code), status_words(status)));
+  invocation.console.result(map_text(map, out), map_result(map, out));
+  return map.record.estimate.array().isNaN().all() ? kNo : kDone;
 }
 
 }  // namespace mapproof

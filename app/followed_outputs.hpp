@@ -2,6 +2,7 @@
 
 #include <string>
 
+#include "app/command_line.hpp"
 #include "app/follow_map.hpp"
 #include "reports/html/templates.hpp"
 
@@ -20,5 +21,9 @@ struct FollowedPlace {
 /// is replaced.
 /// @throws IoError if the folder holds something else, or another process writes there.
 WriteFollowed followed_outputs(FollowedPlace place);
+
+/// Says on the console what is to be said of the last map, and prints the result.
+/// @return The exit code: kNo if no landmark has a position.
+int report_followed(const OwnMap& map, const std::string& out, const Invocation& invocation);
 
 }  // namespace mapproof

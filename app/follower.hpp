@@ -14,12 +14,12 @@ namespace mapproof {
 
 /// How a growing table is mapped.
 struct FollowedTable {
-  std::string source;                      ///< What to call it in errors.
-  std::optional<Sensor> sensor;            ///< None: range and bearing seen together.
-  AngleUnit unit = AngleUnit::kRadians;    ///< Of bearings.
-  FollowOptions options;                   ///< Of one sensor.
-  std::optional<NamedPointsFile> anchors;  ///< Fitted to once three of them are on the map.
-  std::optional<NamedPointsFile> truth;    ///< For scores, of what is known of it so far.
+  std::string source = {};                      ///< What to call it in errors.
+  Sensor sensor = Sensor::kRange;               ///< Of values alone.
+  AngleUnit unit = AngleUnit::kRadians;         ///< Of bearings.
+  FollowOptions options = {};                   ///< Of one sensor.
+  std::optional<NamedPointsFile> anchors = {};  ///< Fitted to once three of them are on the map.
+  std::optional<NamedPointsFile> truth = {};    ///< For scores, of what is known of it so far.
   AffineFit fit = AffineFit::kLeastDistances;
   bool rigid = false;       ///< Range and bearing: turn and shift alone.
   bool find_moved = false;  ///< Range and bearing: notice landmarks that moved.

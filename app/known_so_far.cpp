@@ -37,8 +37,7 @@ std::vector<std::string> never_seen(const MapRecord& record, const NamedPoints& 
 Reference known_so_far(MapRecord& record, const std::optional<NamedPointsFile>& anchors,
                        const std::optional<NamedPointsFile>& truth) {
   const auto M = static_cast<Eigen::Index>(record.names.size());
-  Reference known{
-      .positions_m = Points::Constant(M, 2, kNaN), .has_truth = false, .anchors = {}};
+  Reference known{.positions_m = Points::Constant(M, 2, kNaN), .has_truth = false, .anchors = {}};
   if (truth) known.has_truth = !matched(record, truth->points, known.positions_m).empty();
   if (!anchors) return known;
   known.anchors = matched(record, anchors->points, known.positions_m);
@@ -47,11 +46,7 @@ Reference known_so_far(MapRecord& record, const std::optional<NamedPointsFile>& 
   if (known.anchors.size() >= 3 &&
       planarity(known.positions_m(known.anchors, Eigen::all)) > kFlatPlanarity)
     return known;
-  record.statuses.push_back(
-      {StatusCode::kAnchorsMissing,
-       fmt::format("{} on the map so far, or on one line; a fit to them needs 3 that span the "
-                   "plane.",
-                   counted(std::ssize(known.anchors), "anchor"))});
+  record.statuses.push_back(status_of<StatusReason::kFewAnchorsSoFar>(known.anchors.size()));
   known.anchors.clear();
   return known;
 }

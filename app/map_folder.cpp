@@ -42,13 +42,10 @@ bool same_positions(const std::optional<Points>& a, const std::optional<Points>&
 
 /// What tells two maps apart that are not the same one made twice; empty if nothing does.
 std::string difference(const MapRecord& there, const MapRecord& here) {
-  if (there.id != here.id)
-    return here.id == "joint" ? "of one sensor there, of several here"
-                              : "of several sensors there, of one here";
-  if (there.sensor != here.sensor || there.of_pairs != here.of_pairs)
-    return fmt::format("of {} there, of {} here", observed(there), observed(here));
-  if (there.setting != here.setting)
-    return fmt::format("{} there, {} here", made_by(there), made_by(here));
+  if (sensor_label(there) != sensor_label(here))
+    return fmt::format("of {} there, of {} here", sensor_label(there), sensor_label(here));
+  if (there.origin != here.origin)
+    return fmt::format("{} there, {} here", method_label(there), method_label(here));
   if (there.step != here.step) return fmt::format("{} steps there, {} here", there.step, here.step);
   if (there.names != here.names) return "of other landmarks";
   if (there.anchors != here.anchors) return "with other anchors";
@@ -94,8 +91,14 @@ void check_may_become(const fs::path& folder, const MapRecord& map, bool any_met
   if (!fs::exists(file, error)) return;
   const MapRecord there = parse_map(read_file(file), file.string());
   MapRecord here = map;
-  if (any_method || (there.setting.method == here.setting.method && !here.setting.parameter))
-    here.setting = there.setting;
+  const MethodSetting *made = setting_of(there), *asked = setting_of(here);
+  if (made != nullptr && asked != nullptr &&
+      (any_method || (made->method == asked->method && !asked->parameter)))
+    std::visit(
+        [&](auto& origin) {
+          if constexpr (requires { origin.setting; }) origin.setting = *made;
+        },
+        here.origin);
   refuse_other(folder, there, here);
 }
 

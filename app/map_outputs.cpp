@@ -9,7 +9,7 @@
 
 #include "app/build_facts.hpp"
 #include "app/map_folder.hpp"
-#include "app/map_words.hpp"
+#include "app/map_title.hpp"
 #include "app/mixed_report.hpp"
 #include "core/base/files.hpp"
 #include "core/base/input_file.hpp"
@@ -32,9 +32,9 @@ std::vector<std::pair<std::string, std::string>> facts(const MapArguments& argum
                                                        const OwnMap& map) {
   const MapRecord& record = map.record;
   std::vector<std::pair<std::string, std::string>> items = {
-      {"Observations", input_name(arguments.input.path)}, {"Sensor", observed_words(map)}};
+      {"Observations", input_name(arguments.input.path)}, {"Sensor", sensor_label(map.record)}};
   items.insert(items.end(), map.read.begin(), map.read.end());
-  items.emplace_back("Method", method_words(map));
+  items.emplace_back("Method", method_label(map.record));
   if (record.anchors.empty()) {
     items.emplace_back("Anchors", "none");
   } else {
@@ -52,7 +52,7 @@ std::vector<std::pair<std::string, std::string>> facts(const MapArguments& argum
 
 /// The map first, as drawn with what is known of it, then the others.
 std::vector<Figure> figures_of(const OwnMap& map) {
-  std::vector<Figure> figures = {map_figure(map.record, "map", what_words(map))};
+  std::vector<Figure> figures = {map_figure(map.record, "map")};
   if (map.certainty) add_ellipses(map.record, *map.certainty, figures.front());
   if (map.joined) figures.push_back(submaps_figure(*map.joined, map.record.names, "submaps"));
   if (map.mixed)
@@ -78,7 +78,6 @@ Report report_of(const MapArguments& arguments, const OwnMap& map,
                      .more_figures = std::move(more),
                      .provenance = build_provenance(),
                      .command = command,
-                     .what = what_words(map),
                      .more = std::move(sections)});
 }
 

@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include "app/map_folder.hpp"
-#include "app/map_words.hpp"
 #include "app/mixed_report.hpp"
 #include "app/own_input.hpp"
 #include "app/result_json.hpp"
@@ -34,17 +33,16 @@ nlohmann::ordered_json landmark_json(const OwnMap& map, Eigen::Index i) {
 
 nlohmann::ordered_json map_result(const OwnMap& map, const fs::path& out) {
   const MapRecord& record = map.record;
+  const MethodSetting* setting = setting_of(record);
   nlohmann::ordered_json object{
-      {"sensor", record.of_pairs ? kRangeBearing
-                 : map.mixed     ? "mixed"
-                                 : name(record.sensor)},
-      {"method", record.of_pairs ? kPairs : info(record.setting.method).name},
-      {"parameter", parameter_json(record.setting)},
+      {"sensor", sensor_name(record)},
+      {"method", method_name(record)},
+      {"parameter", setting != nullptr ? parameter_json(*setting) : nullptr},
       {"steps", record.step},
       {"frame", name(record.frame)},
       {"score", nullptr},
       {"landmarks", nlohmann::ordered_json::array()},
-      {"statuses", nlohmann::ordered_json::array()},
+      {"statuses", statuses_json(record.statuses)},
       {"labels", nlohmann::ordered_json::array()},
       {"remarks", map.remarks},
       {"warnings", map.warnings},
@@ -66,8 +64,6 @@ nlohmann::ordered_json map_result(const OwnMap& map, const fs::path& out) {
                                 {"before_m", number_or_null(fact.before_m)},
                                 {"after_m", number_or_null(fact.after_m)},
                                 {"repaired", fact.repaired}});
-  for (const Status& status : record.statuses)
-    object["statuses"].push_back({{"code", name(status.code)}, {"detail", status.detail}});
   if (map.choice) object["choice"] = choice_json(*map.choice);
   if (map.mixed) object["mixed"] = mixed_json(*map.mixed);
   return object;
@@ -76,7 +72,7 @@ nlohmann::ordered_json map_result(const OwnMap& map, const fs::path& out) {
 std::string map_text(const OwnMap& map, const fs::path& out) {
   const MapRecord& record = map.record;
   std::string text =
-      fmt::format("{}, {}, {} steps", method_words(map), observed_words(map), record.step);
+      fmt::format("{}, {}, {} steps", method_label(record), sensor_label(record), record.step);
   if (record.score)
     if (const std::string score = score_words(*record.score); !score.empty()) text += ": " + score;
   return text + "\n" + (out / "report.html").string() + "\n";

@@ -9,9 +9,6 @@
 
 namespace mapproof {
 
-namespace {
-}
-
 Section mixed_section(const OwnMixed& mixed) {
   Section section{"mixed", "Several sensors in one map", {}};
   section.blocks.emplace_back(Paragraph{{{mixed.sensors.why}}});
@@ -36,7 +33,7 @@ Section mixed_section(const OwnMixed& mixed) {
     const bool own = k >= 1 && k <= sensors;
     Row row;
     row.source = map.record.id;
-    row.cells = {TextCell{map.what}, TextCell{label(map.record.setting)},
+    row.cells = {TextCell{map.what}, TextCell{label(*setting_of(map.record))},
                  NumberCell{static_cast<double>(map.record.step), 0}};
     const SensorShare share = own ? mixed.sensors.sensors[k - 1] : SensorShare{};
     for (const double value : {share.reliability, share.weight, share.share})
@@ -64,7 +61,7 @@ nlohmann::ordered_json mixed_json(const OwnMixed& mixed) {
                                  {"share", one.share}});
   for (const ComparedMap& map : mixed.maps)
     object["maps"].push_back({{"map", map.what},
-                              {"method", info(map.record.setting.method).name},
+                              {"method", method_name(map.record)},
                               {"continuity", number_or_null(map.continuity)},
                               {"mpe_m", number_or_null(map.mpe_m())}});
   return object;

@@ -54,11 +54,9 @@ void remark_differences(const std::vector<ObservationSource>& sources,
 
 /// Names, kinds and steps of the files, for the report.
 void list_sources(const std::vector<ObservationSource>& sources, OwnMap& result) {
-  std::vector<std::string> kinds;
   for (const ObservationSource& source : sources) {
     const std::string kind(name(source.history.sensor));
     const auto missing = static_cast<double>(source.history.values.array().isNaN().count());
-    kinds.push_back(kind);
     result.read.emplace_back(
         "Sensor " + kind,
         fmt::format("{}: {}, {} steps, {:.1f} % missing", source.path,
@@ -68,7 +66,6 @@ void list_sources(const std::vector<ObservationSource>& sources, OwnMap& result)
       if (std::ranges::find(result.remarks, remark) == result.remarks.end())
         result.remarks.push_back(remark);
   }
-  result.observed = listed(kinds, kinds.size());
 }
 
 }  // namespace

@@ -5,13 +5,11 @@
 
 #include <fmt/format.h>
 
+#include "app/label_words.hpp"
 #include "core/base/errors.hpp"
 #include "core/base/input_file.hpp"
 #include "core/base/not_finite.hpp"
 #include "core/base/words.hpp"
-#include "core/labels/anchor_labels.hpp"
-#include "core/labels/mislabelled.hpp"
-#include "core/labels/moved.hpp"
 #include "core/labels/shared_label.hpp"
 #include "core/records/mrclam.hpp"
 

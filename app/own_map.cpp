@@ -60,8 +60,7 @@ void begin_map(const OwnMapOptions& options, const BegunMap& begun, const Refere
   if (!options.begin) return;
   MapRecord record;
   record.id = begun.id;
-  record.sensor = begun.sensor;
-  record.setting = options.setting;
+  record.origin = begun.origin;
   record.step = begun.step;
   record.names = begun.names;
   record.anchors = reference.anchors;
@@ -86,7 +85,7 @@ OwnMap map_own(const ObservationSource& source, const std::optional<NamedPointsF
   const Reference reference = reference_of(landmarks, anchors, truth, result.remarks);
 
   begin_map(options,
-            {.sensor = source.history.sensor,
+            {.origin = FromSensor{source.history.sensor, options.setting},
              .step = static_cast<int>(steps),
              .names = source.history.names},
             reference);
@@ -113,8 +112,7 @@ OwnMap map_own(const ObservationSource& source, const std::optional<NamedPointsF
   const Embedding& embedding = made.embedding;
   MapRecord& record = result.record;
   record.id = "map";
-  record.sensor = source.history.sensor;
-  record.setting = made.setting;
+  record.origin = FromSensor{source.history.sensor, made.setting};
   record.step = static_cast<int>(steps);
   record.names = source.history.names;
   record.statuses = std::move(missing.statuses);
@@ -122,13 +120,13 @@ OwnMap map_own(const ObservationSource& source, const std::optional<NamedPointsF
                          embedding.statuses.end());
   if (missing.completed)
     for (Status& status : record.statuses)
-      if (status.code == StatusCode::kDistancesCompleted) status.detail = *missing.completed;
+      if (status.code == StatusCode::kDistancesCompleted) status = *missing.completed;
   record.certificate = embedding.certificate;
   align_and_score(record, embedding.coordinates, reference, options.fit);
   if (options.ellipse_replicates > 0)
     result.certainty =
         own_certainty(record, source.history,
-                      {.setting = record.setting,
+                      {.setting = made.setting,
                        .embedder = fitting,
                        .rule = proximity_rule(choice, source.history.sensor, of_draws),
                        .replicates = options.ellipse_replicates,

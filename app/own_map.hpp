@@ -45,10 +45,7 @@ struct OwnMap {
   std::vector<std::string> warnings = {};  ///< What a person should know before trusting the map.
   std::optional<JoinedSubmaps> joined =
       {};  ///< What the map was joined from, in a frame of its own.
-  std::vector<std::pair<std::string, std::string>> read;  ///< Facts of the observations.
-  /// What was mapped and how, where the record does not say it: a mixed map.
-  std::string observed = {};
-  std::string made_by = {};
+  std::vector<std::pair<std::string, std::string>> read;    ///< Facts of the observations.
   std::optional<MapCertainty> certainty = std::nullopt;     ///< If it was asked for.
   std::optional<OwnChoice> choice = std::nullopt;           ///< If the method was to be chosen.
   std::optional<OwnMixed> mixed = std::nullopt;             ///< If it is of several sensors.
@@ -59,7 +56,7 @@ struct OwnMap {
 /// What is known of a map before it is made, beside the options and the reference.
 struct BegunMap {
   std::string id = "map";
-  Sensor sensor = Sensor::kVisibility;
+  MapOrigin origin;
   int step = 0;
   const std::vector<std::string>& names;
 };

@@ -35,10 +35,8 @@ ProximityRule covisible_rule(MissingOutcome& outcome) {
     Proximities result = covisible_proximities(history, steps, options);
     const Eigen::Index left_out = infinite_pairs(result);
     if (left_out > 0)
-      outcome.completed = fmt::format(
-          "{} of landmarks are not among the covisible ones that --missing covisible keeps ({} of "
-          "them without a step in common); their distance is the shortest path over the others.",
-          counted(left_out, "pair"), infinite_pairs(proximities(history, steps)));
+      outcome.completed = status_of<StatusReason::kNotCovisible>(
+          left_out, infinite_pairs(proximities(history, steps)));
     return result;
   };
 }
@@ -48,6 +46,30 @@ ProximityRule covisible_rule(MissingOutcome& outcome) {
 bool worth_a_warning(const GapPattern& pattern, const std::string& way) {
   constexpr double kPatterned = 2.0;
   return way == kCovisible || pattern.dispersion > kPatterned;
+}
+
+/// "entries are missing by distance (40 % missing, ...)": why a way is advised.
+std::string advice_words(GapReason why, const GapPattern& pattern) {
+  const std::string numbers = fmt::format(
+      "{:.0f} % missing, pairs' common steps {:.1f} standard deviations from chance, rank "
+      "correlation with their distances {:.2f}, {:.1f} % of the pairs with fewer than five",
+      100.0 * pattern.missing_share, pattern.dispersion, pattern.nearness,
+      100.0 * pattern.few_share);
+  switch (why) {
+    case GapReason::kNoGaps:
+      return "nothing is missing";
+    case GapReason::kOfVisibility:
+      return "entries of visibility are not filled in";
+    case GapReason::kHardlyEver:
+      return "many pairs are hardly ever observed together, near ones are (" + numbers + ")";
+    case GapReason::kByDistance:
+      return "entries are missing by distance (" + numbers + ")";
+    case GapReason::kByAPattern:
+      return "entries are missing by a pattern that can be filled in (" + numbers + ")";
+    case GapReason::kAtRandom:
+      return "entries are missing as if at random (" + numbers + ")";
+  }
+  return "";
 }
 
 ProximityRule filling_rule(Filling filling, int dimensions, MissingOutcome& outcome) {
@@ -96,15 +118,15 @@ MissingChoice judged_choice(MissingChoice choice, const ObservationHistory& hist
   if (is_auto) {
     choice.way = name(advice.way);
     if (choice.dimensions && advice.way != GapWay::kPpca) choice.dimensions.reset();
-    outcome.remarks.push_back(
-        fmt::format("Missing entries: {} was taken, as {}.", choice.way, advice.why));
+    outcome.remarks.push_back(fmt::format("Missing entries: {} was taken, as {}.", choice.way,
+                                          advice_words(advice.why, pattern)));
   } else if (const bool both_fill = advice.way == GapWay::kPpca && choice.way == "pca";
              choice.way != name(advice.way) && !both_fill && pattern.dispersion > 0.0 &&
              history.sensor != Sensor::kVisibility && worth_a_warning(pattern, choice.way)) {
     outcome.warnings.push_back(
         fmt::format("--missing {} is not what serves these gaps best: {}. --missing {} is likely "
                     "to give a better map.",
-                    choice.way, advice.why, name(advice.way)));
+                    choice.way, advice_words(advice.why, pattern), name(advice.way)));
   }
   if (pattern.few_share > kFewPairs)
     outcome.warnings.push_back(fmt::format(

@@ -24,7 +24,7 @@ struct MissingOutcome {
   std::vector<std::string> warnings;
   bool told = false;  ///< The remark on what was filled in or left out is there.
   /// What is to be said of pairs without a distance, if it is not that they share no step.
-  std::optional<std::string> completed;
+  std::optional<Status> completed;
 };
 
 /// What the pattern of the gaps advises against in what was chosen, and, for "auto", the choice.

@@ -22,8 +22,7 @@ ComparedMap compared(const std::string& what, const ObservationHistory& history,
                      const Reference& reference, AffineFit fit) {
   ComparedMap map{.what = what, .record = {}};
   map.record.id = "map";
-  map.record.sensor = history.sensor;
-  map.record.setting = setting;
+  map.record.origin = FromSensor{history.sensor, setting};
   map.record.step = static_cast<int>(history.steps());
   map.record.names = history.names;
   map.record.statuses = embedding.statuses;
@@ -69,6 +68,12 @@ std::string verdict(const std::vector<ComparedMap>& maps) {
   return words;
 }
 
+std::vector<Sensor> sensors_of(const std::vector<ObservationHistory>& histories) {
+  std::vector<Sensor> sensors;
+  for (const ObservationHistory& history : histories) sensors.push_back(history.sensor);
+  return sensors;
+}
+
 /// The joint map, then each sensor's own, then those by the joint map's way, with what speaks for
 /// each.
 OwnMixed compared_maps(const MixedMap& made, const std::vector<ObservationHistory>& histories,
@@ -81,6 +86,7 @@ OwnMixed compared_maps(const MixedMap& made, const std::vector<ObservationHistor
   add("joint map", 0, made.setting, made.joint);
   mixed.maps.front().is_joint = true;
   mixed.maps.front().record.id = "joint";
+  mixed.maps.front().record.origin = FromSensors{sensors_of(histories), made.setting};
   std::vector<Eigen::MatrixXd> distances;
   std::vector<double> weights;
   for (std::size_t s = 0; s < made.sensors.size(); ++s) {
@@ -128,7 +134,7 @@ OwnMap map_mixed(const std::vector<ObservationSource>& sources,
   const Reference reference = reference_of(landmarks, anchors, truth, result.remarks);
   begin_map(options,
             {.id = "joint",
-             .sensor = histories.front().sensor,
+             .origin = FromSensors{sensors_of(histories), options.setting},
              .step = static_cast<int>(histories.front().steps()),
              .names = names},
             reference);
@@ -144,7 +150,6 @@ OwnMap map_mixed(const std::vector<ObservationSource>& sources,
       judged;
   result.remarks.push_back(judged);
   result.record = mixed.maps.front().record;
-  result.made_by = "joint map begun by " + label(made.setting);
   result.mixed = std::move(mixed);
   return result;
 }

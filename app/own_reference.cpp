@@ -8,6 +8,7 @@
 
 #include "core/align/diagonal_anchors.hpp"
 #include "core/base/errors.hpp"
+#include "core/base/input_file.hpp"
 #include "core/base/not_finite.hpp"
 #include "core/base/words.hpp"
 #include "core/linalg/planarity.hpp"
@@ -113,6 +114,11 @@ void remark_disagreement(const Points& truth_m, const Reference& known,
 }
 
 }  // namespace
+
+std::optional<NamedPointsFile> read_points(const std::string& path) {
+  if (path.empty()) return std::nullopt;
+  return NamedPointsFile{.path = input_name(path), .points = read_landmarks(path)};
+}
 
 std::string quoted_name(const std::string& name) { return "\"" + printable(name) + "\""; }
 

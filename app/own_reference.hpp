@@ -19,6 +19,9 @@ struct NamedPointsFile {
   NamedPoints points;
 };
 
+/// Reads the file; empty for an empty path. @throws IoError.
+std::optional<NamedPointsFile> read_points(const std::string& path);
+
 /// The landmarks that a person's observations are of.
 struct OwnLandmarks {
   std::string path;  ///< Of the observations, for errors.

@@ -63,10 +63,7 @@ bool lay_rigidly(MapRecord& record, const Points& known_m, const std::vector<Eig
   for (const Eigen::Index row : rows)
     if (record.estimate.row(row).allFinite() && known_m.row(row).allFinite()) both.push_back(row);
   if (both.size() < 3) {
-    record.statuses.push_back(
-        {StatusCode::kAnchorsMissing,
-         fmt::format("{} of known position mapped; a rigid fit takes 3 or more.",
-                     counted(std::ssize(both), "landmark"))});
+    record.statuses.push_back(status_of<StatusReason::kFewKnownMapped>(both.size()));
     return false;
   }
   record.estimate = fit_similarity(record.estimate(both, Eigen::all), known_m(both, Eigen::all),
@@ -103,11 +100,9 @@ CertaintyFrame place_pairs(OwnMap& result, const Reference& known, AffineFit fit
 void describe_pairs(OwnMap& result, const PairMap& map) {
   MapRecord& record = result.record;
   const std::size_t M = record.names.size();
-  record.sensor = Sensor::kRange;
-  record.setting = {Method::kSmacof, std::nullopt};
+  record.origin = FromPairs{};
   record.estimate = map.embedding.coordinates;
   record.statuses = map.embedding.statuses;
-  record.of_pairs = true;
   result.read.emplace_back("Measured pairs",
                            fmt::format("{} of {}", map.pairs.size(), M * (M - 1) / 2));
 }
@@ -144,13 +139,15 @@ OwnMap map_sparse(SightingSource source, Sensor sensor,
                                            unseen.size(), log.names.size(), log.steps));
   EmbedderOptions fitting;
   fitting.only_seen_together = options.only_seen_together;
-  begin_map(options, {.sensor = sensor, .step = log.steps, .names = log.names}, known);
+  begin_map(options,
+            {.origin = FromSensor{sensor, options.setting}, .step = log.steps, .names = log.names},
+            known);
   Embedder embedder(sighted_proximities(log, sensor), fitting);
   MapRecord& record = result.record;
-  record.sensor = sensor;
-  record.setting =
+  const MethodSetting setting =
       options.setting.parameter ? options.setting : embedder.usual_setting(options.setting.method);
-  const Embedding embedding = embedder.embed(record.setting);
+  record.origin = FromSensor{sensor, setting};
+  const Embedding embedding = embedder.embed(setting);
   record.statuses = embedding.statuses;
   record.certificate = embedding.certificate;
   align_and_score(record, embedding.coordinates, known, options.fit);

@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include "app/known_so_far.hpp"
+#include "app/label_words.hpp"
 #include "app/own_sightings.hpp"
 #include "core/align/rigid.hpp"
 #include "core/follow/moved_watch.hpp"
@@ -39,7 +40,8 @@ class PairFollower : public Follower {
     if (table_.find_moved) {
       if (watch_.is_due(log.steps))
         for (const NoticedMove& move : watch_.check(looks_, log))
-          remarks.push_back(fmt::format("After {} looks: {}.", log.steps, move.sentence));
+          remarks.push_back(
+              fmt::format("After {} looks: {}.", log.steps, described(move.found, log)));
       log = watch_.split(looks_, std::move(log));
     }
     OwnMap result = map_of(log);

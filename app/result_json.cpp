@@ -3,11 +3,22 @@
 #include <cmath>
 #include <cstdint>
 
+#include "core/json/record_json.hpp"
+#include "core/records/value_fields.hpp"
+#include "render/figures/status_words.hpp"
+
 namespace mapproof {
 
 nlohmann::ordered_json number_or_null(double value) {
   if (!std::isfinite(value)) return nullptr;
   return value;
+}
+
+nlohmann::ordered_json statuses_json(const std::vector<Status>& statuses) {
+  nlohmann::ordered_json all = nlohmann::ordered_json::array();
+  for (const Status& status : statuses)
+    all.emplace_back(to_json_value(status))["detail"] = status_words(status);
+  return all;
 }
 
 nlohmann::ordered_json parameter_json(const MethodSetting& setting) {

@@ -1,13 +1,18 @@
 #pragma once
 
+#include <vector>
+
 #include <nlohmann/json.hpp>
 
-#include "core/model/method.hpp"
+#include "core/model/status.hpp"
 
 namespace mapproof {
 
 /// A number of a result; null if it is not finite.
 nlohmann::ordered_json number_or_null(double value);
+
+/// Statuses as records hold them, each with its sentence as "detail".
+nlohmann::ordered_json statuses_json(const std::vector<Status>& statuses);
 
 /// A method's parameter; an integer where the method wants one, null where it has none.
 nlohmann::ordered_json parameter_json(const MethodSetting& setting);

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include "app/result_json.hpp"
+#include "render/figures/status_words.hpp"
 
 namespace mapproof {
 
@@ -16,16 +17,16 @@ void put_slam_errors(nlohmann::ordered_json& result, const SlamRecord& record) {
          {"path_rmse_m", number_or_null(error.rmse_m)},
          {"landmarks_m", error.landmarks_m ? number_or_null(*error.landmarks_m)
                                            : nlohmann::ordered_json(nullptr)}});
-  result["statuses"] = nlohmann::ordered_json::array();
-  for (const Status& status : record.estimate.statuses)
-    result["statuses"].push_back({{"code", name(status.code)}, {"detail", status.detail}});
+  result["statuses"] = statuses_json(record.estimate.statuses);
 }
 
 std::string slam_record_text(const SlamRecord& record) {
   const std::string method = fmt::format("{:<30}", info(record.method).label);
   if (record.estimate.path.size() == 0)
     return method + "  no path" +
-           (record.estimate.statuses.empty() ? "" : ": " + record.estimate.statuses.back().detail);
+           (record.estimate.statuses.empty()
+                ? ""
+                : ": " + status_words(record.estimate.statuses.back()));
   if (record.errors.empty())
     return method +
            fmt::format("  {} poses, no truth to hold them against", record.estimate.path.size());

@@ -6,9 +6,10 @@
 #include "app/study_outputs.hpp"
 #include "core/records/results_of.hpp"
 #include "core/records/study_store.hpp"
-#include "core/trials/run_trials.hpp"
+#include "core/records/trial_store.hpp"
 #include "reports/sections/results/results_report.hpp"
 #include "reports/sections/results/trial_blocks.hpp"
+#include "reports/sections/trials/topic_words.hpp"
 
 namespace mapproof {
 namespace {
@@ -46,9 +47,9 @@ std::vector<MethodComparison> compare_series(const ResultsView& view) {
 
 nlohmann::ordered_json trial_object(const TrialStudy& study) {
   nlohmann::ordered_json object{
-      {"experiment", study.experiment.name}, {"topic", study.experiment.topic},
-      {"seed", study.experiment.seed},       {"parts", study.parts.size()},
-      {"conclusions", study.conclusions},    {"results", nlohmann::ordered_json::array()}};
+      {"experiment", study.experiment.name},  {"topic", study.experiment.topic},
+      {"seed", study.experiment.seed},        {"parts", study.parts.size()},
+      {"conclusions", conclusions_of(study)}, {"results", nlohmann::ordered_json::array()}};
   const ResultsStudy labelled = labelled_results(study);
   const ResultsView view(labelled);
   for (const TrialSetup& setup : study.design.setups)
@@ -65,14 +66,15 @@ nlohmann::ordered_json trial_object(const TrialStudy& study) {
 
 std::string trial_text(const TrialStudy& study) {
   std::string text;
-  for (const std::string& conclusion : study.conclusions) text += conclusion + "\n";
+  for (const std::string& conclusion : conclusions_of(study)) text += conclusion + "\n";
   return text;
 }
 
 FolderReport trials_report(const std::filesystem::path& folder, const std::string& command) {
-  const TrialStudy study = read_concluded_study(folder);
+  const TrialStudy study = read_trial_study(folder);
   const std::vector<Session> sessions = read_sessions(folder);
-  const ResultsStudy labelled = labelled_results(study);
+  ResultsStudy labelled = labelled_results(study);
+  labelled.question = question_of(study.experiment);
   const ResultsView view(labelled);
   const std::vector<MethodComparison> comparisons = compare_series(view);
   StudyFigures figures = results_figures(view, comparisons);
@@ -83,7 +85,7 @@ FolderReport trials_report(const std::filesystem::path& folder, const std::strin
       .comparisons = comparisons,
       .figures = figures,
       .provenance = trial_provenance(study, sessions, command, labelled.name),
-      .conclusions = study.conclusions,
+      .conclusions = conclusions_of(study),
       .incomplete = trial_incomplete(study),
       .footer = fmt::format("Made by mapproof {} ({}).", study.provenance.version,
                             study.provenance.commit)};
@@ -99,7 +101,7 @@ FolderReport trials_report(const std::filesystem::path& folder, const std::strin
 }
 
 StudyNumbers trial_numbers(const std::filesystem::path& folder) {
-  const TrialStudy study = read_concluded_study(folder);
+  const TrialStudy study = read_trial_study(folder);
   return {.text = trial_text(study), .object = trial_object(study)};
 }
 

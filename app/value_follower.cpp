@@ -19,8 +19,8 @@ class ValueFollower : public Follower {
  public:
   explicit ValueFollower(const FollowedTable& table)
       : table_(table),
-        stream_(table.source, *table.sensor, table.unit),
-        map_(*table.sensor, table.options) {}
+        stream_(table.source, table.sensor, table.unit),
+        map_(table.sensor, table.options) {}
 
   void take(std::string_view bytes) override { stream_.take(bytes); }
   void drop_half_line() override { stream_.drop_half_line(); }
@@ -48,8 +48,7 @@ class ValueFollower : public Follower {
     OwnMap result;
     MapRecord& record = result.record;
     record.id = "map";
-    record.sensor = *table_.sensor;
-    record.setting = update.setting;
+    record.origin = FromSensor{table_.sensor, update.setting};
     record.step = static_cast<int>(map_.steps());
     record.names = stream_.names();
     record.names.resize(static_cast<std::size_t>(map_.landmarks()));

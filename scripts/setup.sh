@@ -19,26 +19,28 @@ as_root() {
 
 # Runs apt-get; waits up to ten minutes while another apt or dpkg holds the lock.
 run_apt() {
-  local errors tries
+  local errors deadline said=
   errors=$(mktemp)
-  for ((tries = 0; ; ++tries)); do
+  deadline=$((SECONDS + 600))
+  while true; do
     if as_root env DEBIAN_FRONTEND=noninteractive LC_ALL=C \
-      apt-get -o DPkg::Lock::Timeout=600 "$@" >&2 2>"$errors"; then
+      apt-get -o DPkg::Lock::Timeout=60 "$@" >&2 2>"$errors"; then
       cat "$errors" >&2
       rm -f "$errors"
       return 0
     fi
-    if ! grep -q 'Could not get lock' "$errors" || [ "$tries" -ge 120 ]; then
+    if ! grep -q 'Could not get lock' "$errors" || [ "$SECONDS" -ge "$deadline" ]; then
       cat "$errors" >&2
       rm -f "$errors"
       return 2
     fi
-    [ "$tries" -gt 0 ] || say "waiting for another apt or dpkg to end"
+    [ -n "$said" ] || say "waiting for another apt or dpkg to end"
+    said=yes
     sleep 5
   done
 }
 
-# The names on standard input that no package source of this machine has.
+# Prints those names of standard input that no package source of this machine has.
 unknown_packages() {
   local name
   while read -r name; do
@@ -62,7 +64,7 @@ install_packages() {
     grep -qxF "${package%\?}" <<<"$installed" || missing+=("$package")
   done
   [ ${#missing[@]} -eq 0 ] && return 0
-  # Nothing but NAME?s that this Debian does not have: no reason to become root.
+  # If only NAME?s are missing that this Debian does not have, root is not needed.
   if [[ "${missing[*]} " != *[^?]\ * ]] &&
     [ "$(printf '%s\n' "${missing[@]%\?}" | unknown_packages | wc -l)" -eq ${#missing[@]} ]; then
     return 0
@@ -91,7 +93,7 @@ install_packages() {
   run_apt install -y -qq --no-install-recommends "${names[@]}"
 }
 
-# Whether the build folder was last configured with the tests: `report` leaves it so.
+# Whether the build folder was last configured with the tests; scripts/report keeps them then.
 builds_tests() { grep -qs '^MAPPROOF_TESTS:BOOL=ON' "$BUILD/CMakeCache.txt"; }
 
 build_mapproof() {

@@ -1,7 +1,9 @@
 #include <algorithm>
-#include <array>
+#include <filesystem>
 #include <memory>
+#include <optional>
 #include <set>
+#include <string>
 #include <system_error>
 
 #include <fmt/format.h>
@@ -13,13 +15,14 @@
 #include "core/records/folder_lock.hpp"
 #include "core/records/folder_replacement.hpp"
 #include "reports/diff/approvals.hpp"
+#include "reports/diff/record_files.hpp"
 
 namespace mapproof {
 namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::size_t kLongestName = 4096;                  // Bytes.
+constexpr std::size_t kLongestLine = 4096;                  // Bytes.
 constexpr std::size_t kLargestFile = std::size_t{1} << 26;  // Bytes, of approvals.
 
 struct ApproveArguments {
@@ -29,7 +32,7 @@ struct ApproveArguments {
   ApprovalOrder order;
 };
 
-/// Two files need no ids.
+/// Whether CURRENT is a file; then no ids are needed.
 bool are_files(const ApproveArguments& arguments) {
   std::error_code error;
   return fs::exists(arguments.current, error) && !fs::is_directory(arguments.current, error);
@@ -41,13 +44,13 @@ ApprovalOrder order_of(const ApproveArguments& arguments) {
     for (std::string& id : parse_approvals(read_file(arguments.from, kLargestFile), arguments.from))
       order.ids.push_back(std::move(id));
   if (order.all && !order.ids.empty())
-    throw InvalidInput("--all takes every figure: name none beside it");
+    throw InvalidInput("--all takes every item: give no ids with it");
   if (!order.all && order.ids.empty() && arguments.from.empty() && !are_files(arguments))
-    throw InvalidInput("name what is approved, or --all, or --from FILE");
+    throw InvalidInput("give the ids to approve, --all or --from FILE");
   return order;
 }
 
-/// @return What was done.
+/// @return The steps that were done.
 ApprovalPlan take_file(const fs::path& baseline, const fs::path& current) {
   approve_file(baseline, current);
   return {.steps = {{current, {}}}};
@@ -67,20 +70,15 @@ ApprovalPlan take_folder(const fs::path& baseline, const fs::path& current,
   return plan;
 }
 
-/// Reports of the baseline whose records were taken without them.
+/// Reports of the baseline that are older than the records that were taken.
 std::set<fs::path> stale_reports(const ApprovalPlan& plan, const fs::path& baseline) {
-  constexpr std::array kFolders = {"runs", "maps", "details", "paths", "parts", "convergence"};
   std::set<fs::path> reports, taken;
   for (const ApprovalStep& step : plan.steps) {
-    const fs::path name = step.file.filename();
-    if (name == "report.html") taken.insert(step.file);
-    fs::path folder = step.file.parent_path();
-    const bool is_below = std::ranges::find(kFolders, folder.filename()) != kFolders.end();
-    if (name != "study.json" && name != "results.csv" && !is_below) continue;
-    if (is_below) folder = folder.parent_path();
+    if (step.file.filename() == "report.html") taken.insert(step.file);
+    const std::optional<fs::path> folder = folder_of_record(baseline, step.file);
     std::error_code error;
-    if (fs::exists(baseline / folder / "report.html", error))
-      reports.insert(folder / "report.html");
+    if (folder && fs::exists(baseline / *folder / "report.html", error))
+      reports.insert(*folder / "report.html");
   }
   for (const fs::path& report : taken) reports.erase(report);
   return reports;
@@ -99,7 +97,12 @@ int approve(const ApproveArguments& arguments, const Invocation& invocation) {
     const char* what = step.from.empty() ? "removed" : "written";
     const std::string file = (step.file.empty() ? baseline : baseline / step.file).string();
     object[what].push_back(file);
-    text += fmt::format("{}  {}\n", what, printable(file, kLongestName));
+    text += fmt::format("{}  {}\n", what, printable(file, kLongestLine));
+  }
+  for (const fs::path& made : plan.made) {
+    const std::string file = (baseline / made).string();
+    object["written"].push_back(file);
+    text += fmt::format("written  {}\n", printable(file, kLongestLine));
   }
   object["refused"] = plan.refused;
   object["stale"] = nlohmann::ordered_json::array();
@@ -109,11 +112,11 @@ int approve(const ApproveArguments& arguments, const Invocation& invocation) {
     invocation.console.warning(fmt::format(
         "{}: is of the records before, as are the figures and tables that were not taken; mapproof "
         "report {} makes them again",
-        printable(file.string(), kLongestName),
-        printable(file.parent_path().string(), kLongestName)));
+        printable(file.string(), kLongestLine),
+        printable(file.parent_path().string(), kLongestLine)));
   }
   for (const std::string& refusal : plan.refused)
-    invocation.console.warning(printable(refusal, kLongestName));
+    invocation.console.warning(printable(refusal, kLongestLine));
   if (text.empty()) invocation.console.info(arguments.baseline + ": nothing to take");
   invocation.console.result(text, object);
   return plan.refused.empty() ? kDone : kNo;
@@ -130,25 +133,23 @@ Action approve_verb(CLI::App& app) {
       "  mapproof approve baseline out --from approvals.json\n"
       "  mapproof approve baseline out --all\n"
       "  mapproof approve baseline out -- -id-that-begins-with-a-dash\n\n"
-      "Records, ID.figure.json, SVG, PNG and PDF of a figure go together. A folder is replaced in\n"
-      "one step: stopped at any moment, it is wholly the old or the new one. With --all the "
-      "baseline\n"
-      "holds what the current holds; what cannot be read is named and left as it was, and the "
-      "exit\n"
-      "code is 1.\n");
+      "The files of a figure are taken together: its records, ID.figure.json, SVG, PNG and PDF.\n"
+      "A folder is replaced in one step: stopped at any moment, it is wholly the old or the new\n"
+      "one. With --all the baseline then holds what CURRENT holds; an item that cannot be read is\n"
+      "named and stays as it was, and the exit code is 1.\n");
   app.add_option("BASELINE", arguments->baseline, "The folder or file that is replaced")
       ->required()
       ->check(names_folder());
   app.add_option("CURRENT", arguments->current, "The one that is taken")
       ->required()
       ->check(names_folder());
-  app.add_option("ID", arguments->order.ids, "Figures, pictures, or \"records\"");
-  app.add_flag("--all", arguments->order.all, "Everything; what the current lacks is removed");
+  app.add_option("ID", arguments->order.ids, "Figures, tables, images, or \"records\"");
+  app.add_flag("--all", arguments->order.all, "Every item; those that CURRENT lacks are removed");
   app.add_flag("--force", arguments->order.force,
                "--all may remove more than half of the baseline's files");
   app.add_option("--from", arguments->from, "File of approvals, as the page of a diff writes it");
   app.add_option("--key", arguments->order.key,
-                 "Keep the pictures beside the others, as ID@KEY: another valid renderer's");
+                 "Keep the images beside the others, as ID@KEY: those of another valid renderer");
   return [arguments](const Invocation& invocation) { return approve(*arguments, invocation); };
 }
 

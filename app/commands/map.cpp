@@ -11,23 +11,22 @@
 #include "app/map_folder.hpp"
 #include "app/map_outputs.hpp"
 #include "app/map_result.hpp"
+#include "app/pair_follower.hpp"
+#include "app/value_follower.hpp"
 #include "core/base/input_file.hpp"
+#include "render/figures/status_words.hpp"
 
 namespace mapproof {
 namespace {
-
-std::optional<NamedPointsFile> read_points(const std::string& path) {
-  if (path.empty()) return std::nullopt;
-  return NamedPointsFile{.path = input_name(path), .points = read_landmarks(path)};
-}
 
 int follow_file(const MapArguments& arguments, const Templates& page,
                 const Invocation& invocation) {
   require_followable(arguments.input, arguments.options);
   const OwnMapOptions& options = arguments.options;
+  const std::optional<Sensor> sensor = sensor_named(arguments.input.kind);
   FollowOrder order{.path = arguments.input.path,
                     .table = {.source = {},
-                              .sensor = sensor_named(arguments.input.kind),
+                              .sensor = sensor.value_or(Sensor::kRange),
                               .unit = arguments.input.unit,
                               .options = {.setting = options.setting, .embedder = {}},
                               .anchors = read_points(arguments.anchors),
@@ -35,6 +34,7 @@ int follow_file(const MapArguments& arguments, const Templates& page,
                               .fit = options.fit,
                               .rigid = arguments.input.rigid,
                               .find_moved = arguments.input.labels.find_moved},
+                    .follower = sensor ? value_follower : pair_follower,
                     .every = follow_interval(arguments.every)};
   order.table.options.embedder.only_seen_together = options.only_seen_together;
   const OwnMap map = follow_map(order, invocation.console,
@@ -42,11 +42,7 @@ int follow_file(const MapArguments& arguments, const Templates& page,
                                                   .observations = arguments.input.path,
                                                   .command = invocation.command,
                                                   .page = page}));
-  for (const std::string& remark : map.remarks) invocation.console.warning(remark);
-  for (const Status& status : map.record.statuses)
-    invocation.console.warning(fmt::format("{}: {}", name(status.code), status.detail));
-  invocation.console.result(map_text(map, arguments.out), map_result(map, arguments.out));
-  return map.record.estimate.array().isNaN().all() ? kNo : kDone;
+  return report_followed(map, arguments.out, invocation);
 }
 
 int make_map(MapArguments arguments, const Invocation& invocation) {
@@ -70,7 +66,7 @@ int make_map(MapArguments arguments, const Invocation& invocation) {
   for (const std::string& remark : map.remarks) invocation.console.info(remark);
   for (const std::string& warning : map.warnings) invocation.console.warning(warning);
   for (const Status& status : map.record.statuses)
-    invocation.console.warning(fmt::format("{}: {}", name(status.code), status.detail));
+    invocation.console.warning(fmt::format("{}: {}", name(status.code), status_words(status)));
   write_outputs(arguments, map, page, invocation.command);
   invocation.console.result(map_text(map, arguments.out), map_result(map, arguments.out));
   return map.record.estimate.array().isNaN().all() ? kNo : kDone;

@@ -20,9 +20,9 @@
 #include "app/nightly_study.hpp"
 #include "core/base/errors.hpp"
 #include "core/base/files.hpp"
-#include "core/json/json_text.hpp"
+#include "core/json/record_json.hpp"
 #include "core/records/folder_lock.hpp"
-#include "core/records/provenance_values.hpp"
+#include "core/records/value_fields.hpp"
 #include "reports/history/history_export.hpp"
 #include "reports/history/history_prune.hpp"
 #include "reports/history/judge_night.hpp"
@@ -68,7 +68,7 @@ NightFacts begun(int number, int jobs, const std::string& command) {
           .started_utc = now_utc(),
           .ended_utc = "",
           .command = command,
-          .provenance = json_line(provenance_value(build_provenance())),
+          .provenance = json_line(to_json_value(build_provenance())),
           .host = ::gethostname(host, sizeof host - 1) == 0 ? host : "",
           .processor = ::uname(&system) == 0 ? system.machine : "",
           .cores = static_cast<int>(std::thread::hardware_concurrency()),

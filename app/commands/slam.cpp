@@ -5,17 +5,22 @@
 
 #include "app/build_facts.hpp"
 #include "app/commands/verbs.hpp"
+#include "app/follow_map.hpp"
+#include "app/followed_outputs.hpp"
 #include "app/input_streams.hpp"
 #include "app/map_folder.hpp"
 #include "app/own_slam.hpp"
+#include "app/range_follower.hpp"
 #include "app/result_json.hpp"
 #include "app/slam_outputs.hpp"
 #include "app/slam_result.hpp"
+#include "core/base/errors.hpp"
 #include "core/base/files.hpp"
 #include "core/records/range_log_files.hpp"
 #include "core/records/slam_run_json.hpp"
 #include "core/records/slam_store.hpp"
 #include "core/records/trajectory_files.hpp"
+#include "render/figures/status_words.hpp"
 
 namespace mapproof {
 namespace {
@@ -31,6 +36,8 @@ struct SlamArguments {
   std::string truth;
   std::string true_landmarks;
   std::string odometry;
+  bool follow = false;
+  std::string every = "1s";
   int jobs = 1;
 };
 
@@ -99,8 +106,39 @@ std::string slam_text(const SlamRun& run, const fs::path& out) {
   return text + (out / "report.html").string() + "\n";
 }
 
+/// Refuses what is of a log that is there as a whole.
+void require_followable(const SlamArguments& arguments) {
+  for (const auto& [value, option] : {std::pair(&arguments.odometry, "--odometry"),
+                                      {&arguments.truth, "--truth"},
+                                      {&arguments.log.name, "--name"}})
+    if (!value->empty())
+      throw InvalidInput(fmt::format(
+          "{}: not with --follow, which maps landmarks from ranges alone; map the log as a whole",
+          option));
+}
+
+int follow_ranges(const SlamArguments& arguments, const Templates& page,
+                  const Invocation& invocation) {
+  require_followable(arguments);
+  const OwnMap map = follow_map({.path = arguments.data,
+                                 .table = {.anchors = read_points(arguments.known),
+                                           .truth = read_points(arguments.true_landmarks)},
+                                 .follower = range_follower,
+                                 .every = follow_interval(arguments.every)},
+                                invocation.console,
+                                followed_outputs({.out = arguments.out,
+                                                  .observations = arguments.data,
+                                                  .command = invocation.command,
+                                                  .page = page}));
+  return report_followed(map, arguments.out, invocation);
+}
+
 int map_ranges(SlamArguments arguments, const Invocation& invocation) {
   const Templates page = load_templates(arguments.templates);
+  if (arguments.follow) {
+    refuse_shared_streams(std::array{arguments.data, arguments.known, arguments.true_landmarks});
+    return follow_ranges(arguments, page, invocation);
+  }
   check_result_folder(arguments.out, kSlamFile, "range-only map");
   refuse_shared_streams(std::array{arguments.data, arguments.known, arguments.truth,
                                    arguments.true_landmarks, arguments.odometry});
@@ -117,8 +155,8 @@ int map_ranges(SlamArguments arguments, const Invocation& invocation) {
   for (const std::string& remark : result.run.log.remarks) invocation.console.info(remark);
   for (const SlamRecord& record : result.run.records)
     for (const Status& status : record.estimate.statuses)
-      invocation.console.warning(
-          fmt::format("{}: {}: {}", info(record.method).name, name(status.code), status.detail));
+      invocation.console.warning(fmt::format("{}: {}: {}", info(record.method).name,
+                                             name(status.code), status_words(status)));
   write_outputs(arguments, result, page, invocation.command);
   invocation.console.result(slam_text(result.run, arguments.out),
                             slam_result(result.run, arguments.out));
@@ -134,6 +172,7 @@ Action slam_verb(CLI::App& app) {
       "Examples:\n"
       "  mapproof slam plaza/plaza1 --out out/plaza1\n"
       "  mapproof slam Plaza1_.mat --name \"Plaza 1\" --out out/plaza1\n"
+      "  range_sensor | mapproof slam - --follow --every 5s --out out/live\n"
       "  mapproof slam run7_TD.txt --known-landmarks beacons.csv --truth gps.csv --out out/run7\n\n"
       "DATA: a folder with ranges.csv (and odometry.csv, groundtruth.csv, landmarks.csv), "
       "NAME.mat\n"
@@ -152,6 +191,14 @@ Action slam_verb(CLI::App& app) {
                  "True places of landmarks, for the errors alone: CSV of name, x [m], y [m]");
   app.add_option("--odometry", arguments->odometry,
                  "Odometry in place of that in DATA: CSV of t, ddist, dheading");
+  app.add_flag(
+      "--follow", arguments->follow,
+      "Follow long CSV of ranges that are taken together (step, landmark, range [m]) as it "
+      "grows (-: standard input; packed or not) and write map and figure again and again, "
+      "to its end, SIGINT or SIGTERM; landmarks alone, in constant memory");
+  app.add_option("--every", arguments->every,
+                 "With --follow: after so many steps (100) or seconds (2s)")
+      ->capture_default_str();
   app.add_option("--name", arguments->log.name, "Of the log, for titles");
   app.add_option("--templates", arguments->templates,
                  "Folder whose templates replace the embedded ones")

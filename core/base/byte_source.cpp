@@ -15,15 +15,17 @@
 namespace mapproof {
 namespace {
 
+// Bytes of one call of read_.
 constexpr std::size_t kPackedBlock = std::size_t{1} << 17;
 constexpr std::size_t kBlock = std::size_t{1} << 20;
+constexpr std::size_t kMostGuessed = std::size_t{1} << 26;
 
-/// Bytes from where the file stands to its end; empty: only reading finds that out.
+/// Bytes from the file's offset to its end; empty if only reading can find that out.
 std::optional<std::size_t> bytes_left(const Descriptor& file) {
   struct stat facts {};
   if (::fstat(file.get(), &facts) != 0 || !S_ISREG(facts.st_mode)) return std::nullopt;
   const off_t at = ::lseek(file.get(), 0, SEEK_CUR);
-  if (at < 0 || facts.st_size <= at) return std::nullopt;  // As files of /proc say.
+  if (at < 0 || facts.st_size <= at) return std::nullopt;  // Files of /proc report a size of 0.
   return static_cast<std::size_t>(facts.st_size - at);
 }
 
@@ -40,7 +42,7 @@ ByteSource::ByteSource(const std::filesystem::path& path)
 ByteSource::ByteSource(std::string name, ReadBytes read)
     : name_(std::move(name)), read_(std::move(read)), unpacker_(name_) {}
 
-/// The next bytes that nobody looked at; fewer than `count` at the end alone.
+/// Appends `count` bytes behind the peeked ones; fewer only at the end.
 std::size_t ByteSource::fill(std::string& bytes, std::size_t count) {
   const std::size_t before = bytes.size();
   std::string block;
@@ -62,7 +64,7 @@ std::size_t ByteSource::fill(std::string& bytes, std::size_t count) {
   return bytes.size() - before;
 }
 
-/// The same of bytes that need no unpacking, without a way round.
+/// The same for bytes that need no unpacking: reads into `bytes` itself.
 std::size_t ByteSource::fill_plain(std::string& bytes, std::size_t count) {
   const std::size_t before = bytes.size();
   std::size_t filled = 0;
@@ -122,7 +124,9 @@ std::string ByteSource::rest(std::size_t limit) {
   }
   const double expected = expected_size().value_or(0.0) - static_cast<double>(taken_);
   const double wanted = std::max(expected, static_cast<double>(ahead()));
-  if (wanted > 0.0 && wanted <= static_cast<double>(limit))
+  // Of packed input the size is a guess, which must not cost memory that is not needed.
+  if (wanted > 0.0 &&
+      wanted <= static_cast<double>(unpacker_.packing().empty() ? limit : kMostGuessed))
     bytes.reserve(bytes.size() + static_cast<std::size_t>(wanted) + kBlock);
   do {
     if (bytes.size() > limit) throw IoError(name_, fmt::format("is larger than {} bytes", limit));
@@ -131,7 +135,7 @@ std::string ByteSource::rest(std::size_t limit) {
 }
 
 bool ByteSource::holds_more_than(std::size_t count) {
-  peek();  // Tells whether it is packed.
+  peek();  // Then the unpacker knows whether the input is packed.
   if (size_ && unpacker_.packing().empty()) return *size_ > taken_ && *size_ - taken_ > count;
   std::size_t bytes = ahead();
   while (bytes <= count) {

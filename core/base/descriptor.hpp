@@ -5,7 +5,7 @@
 
 namespace mapproof {
 
-/// A file descriptor that closes itself; negative: none.
+/// A file descriptor, closed at the end of its life; negative: none.
 class Descriptor {
  public:
   explicit Descriptor(int number) : number_(number) {}
@@ -18,15 +18,16 @@ class Descriptor {
   }
 
   int get() const { return number_; }
-  /// @return Whether all that was written has arrived; errno says why not.
+  /// Closes it now. @return False if close() reports an error, as of an earlier write; errno says
+  /// which.
   bool close();
 
  private:
   int number_;
 };
 
-/// Writes all of `bytes`, however many calls that takes. @return Whether it could; errno says why
-/// not.
+/// Writes all of `bytes`, in as many calls as that takes. @return False if it could not; errno says
+/// why.
 bool write_all(const Descriptor& file, std::string_view bytes);
 
 }  // namespace mapproof

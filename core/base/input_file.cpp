@@ -39,13 +39,13 @@ struct stat facts_of(const fs::path& path, std::optional<int> number, const std:
   throw IoError(name, std::string("is ") + endless_kind(mode) + ", a file was expected");
 }
 
-/// Whether a stream that was handed in comes to an end.
+/// Whether an inherited stream comes to an end.
 bool ends(int number, const struct stat& facts) {
   const bool is_null = S_ISCHR(facts.st_mode) && facts.st_rdev == ::makedev(1, 3);
   return S_ISFIFO(facts.st_mode) || S_ISSOCK(facts.st_mode) || is_null || ::isatty(number) == 1;
 }
 
-/// By its path: the stream itself would share its position with others.
+/// Opens the path anew: a duplicate of the descriptor would share its offset with others.
 Descriptor opened(const fs::path& path, const std::string& name) {
   Descriptor file(::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK | O_NOCTTY));
   if (file.get() < 0) refuse_opening(name);
@@ -92,7 +92,7 @@ const char* endless_kind(mode_t mode) {
 Descriptor open_input(const fs::path& path) {
   const std::string name = input_name(path);
   const std::optional<int> number = handed_in(path);
-  // Opening a pipe or a device is an act of its own: it wakes its writer, or winds a tape.
+  // Opening a pipe or a device has effects: it wakes the pipe's writer, or winds a tape.
   const struct stat facts = facts_of(path, number, name);
   if (!S_ISREG(facts.st_mode)) {
     if (!number || !ends(*number, facts)) refuse_endless(facts.st_mode, name);
@@ -100,7 +100,7 @@ Descriptor open_input(const fs::path& path) {
   }
   if (path == "-") return duplicate(*number, name);
   Descriptor file = opened(path, name);
-  // It may have become another one in between.
+  // The path may have got another file since stat().
   if (const struct stat now = facts_of(path, file.get(), name); !S_ISREG(now.st_mode))
     refuse_endless(now.st_mode, name);
   return file;
@@ -118,7 +118,7 @@ std::size_t read_some(const Descriptor& file, std::span<char> to, const std::str
   for (;;) {
     const ssize_t count = ::read(file.get(), to.data(), to.size());
     if (count >= 0) return static_cast<std::size_t>(count);
-    if (errno == EAGAIN) {  // Whoever handed it in made it so; it is theirs as well.
+    if (errno == EAGAIN) {  // Another process that shares the stream set O_NONBLOCK.
       pollfd wait{.fd = file.get(), .events = POLLIN, .revents = 0};
       ::poll(&wait, 1, -1);
     } else if (errno != EINTR) {

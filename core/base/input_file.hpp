@@ -13,44 +13,45 @@
 
 namespace mapproof {
 
-/// Number of the stream that a path names and this process was handed: 0 for "-" and /dev/stdin, N
-/// for /dev/fd/N and /proc/self/fd/N, as a shell's <(...) makes them. Empty for other paths.
+/// The number of the inherited file descriptor that a path names: 0 for "-" and /dev/stdin, 1 and 2
+/// for /dev/stdout and /dev/stderr, N for /dev/fd/N and /proc/self/fd/N, as a shell's <(...) makes
+/// them. Empty for other paths.
 std::optional<int> handed_in(const std::filesystem::path& path);
 
-/// What an input is called in messages: its path, or "standard input" for "-".
+/// The name of an input in messages: its path, or "standard input" for "-".
 std::string input_name(const std::filesystem::path& path);
 
-/// Whether an input is a folder. "-" is standard input, whatever else is called so.
+/// Whether an input is a folder. "-" is standard input, even where a folder has that name.
 bool is_folder(const std::filesystem::path& path);
 
-/// "a pipe": of what has no end, or none that can be waited for.
-/// @param mode  As stat() gives it: of neither a file nor a folder.
+/// "a named pipe", "a socket" or "a device": an input without an end that can be waited for.
+/// @param mode  As stat() gives it, neither of a regular file nor of a folder.
 const char* endless_kind(mode_t mode);
 
-/// Opens a file, or a stream that was handed in: these are read to their end. A file is read from
-/// its start, even as /dev/fd/N; as "-" from where its stream stands.
+/// Opens a file, or a stream that this process inherited, to be read to its end. A file is read
+/// from its start, even as /dev/fd/N; as "-" from its current offset.
 /// @throws IoError if it cannot be opened or is a folder; or, at once, for a named pipe, a socket
-///         or a device, whose end nobody could wait for. Of the devices that were handed in,
-///         terminals and /dev/null are taken.
+///         or a device, which may have no end. Inherited pipes, sockets, terminals and /dev/null
+///         are opened.
 Descriptor open_input(const std::filesystem::path& path);
 
-/// Opens what is to be followed: named pipes and devices too. Never waits: a named pipe that nobody
-/// writes to yet has nothing to read.
+/// Opens an input that is read while it grows: named pipes and devices too. Never waits: a named
+/// pipe that nobody writes to yet has nothing to read.
 /// @throws IoError if it cannot be opened or is a folder.
 Descriptor open_followed(const std::filesystem::path& path);
 
-/// The next bytes. Waits for them. @return How many; 0 at the end. @throws IoError of `name`.
+/// Reads the next bytes, and waits until there are any. @return How many; 0 at the end.
+/// @throws IoError with `name`.
 std::size_t read_some(const Descriptor& file, std::span<char> to, const std::string& name);
 
-/// The bytes as a file without a name, for who seeks in it or reads it more than once.
-/// @throws IoError of `name` if there is no memory for it.
+/// Holds the bytes in a file in memory, for a reader that seeks or reads them more than once.
+/// @throws IoError with `name` if there is not enough memory.
 Descriptor anonymous_file(std::string_view bytes, const std::string& name);
 
-/// "/proc/self/fd/7": opens the file of a descriptor again, from its start, while it is open.
+/// "/proc/self/fd/7": the path that opens the file of an open descriptor again, from its start.
 std::string path_of(const Descriptor& file);
 
-/// The file, or else the one beside it that is called so and packed: NAME.gz or NAME.xz. The path
-/// itself, if none of them is there.
+/// The first of PATH, PATH.gz and PATH.xz that exists; PATH if none does.
 std::filesystem::path plain_or_packed(const std::filesystem::path& path);
 
 /// The path without the ending .gz or .xz.

@@ -6,17 +6,17 @@
 
 namespace mapproof {
 
-/// What the program says of std::bad_alloc, and mapproof-scenes and mapproof-animation say to it.
+/// The message of std::bad_alloc, also of mapproof-scenes and mapproof-animation to mapproof.
 inline constexpr const char* kOutOfMemory = "out of memory";
 
-/// Memory ran out while a file was made: "out of memory: <path>".
+/// Memory ran out while a file was drawn: "out of memory: <path>".
 class OutOfMemory : public std::bad_alloc {
  public:
   explicit OutOfMemory(const std::string& path) noexcept;
   const char* what() const noexcept override { return words_.data(); }
 
  private:
-  std::array<char, 400> words_{};  // There is none left for a string.
+  std::array<char, 400> words_{};  // No memory is left for a string.
 };
 
 }  // namespace mapproof

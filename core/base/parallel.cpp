@@ -17,8 +17,8 @@
 namespace mapproof {
 namespace {
 
-/// How many threads have room in the address space that this process may take, itself among them:
-/// oneTBB ends the program, as if a check had failed, where it cannot start one.
+/// How many threads, this one included, fit into the address space that the process may use: oneTBB
+/// aborts the program if it cannot start a thread.
 std::size_t affordable_threads() {
   constexpr std::size_t kOfThread = std::size_t{72} << 20;  // Its stack and glibc's heap for it.
   rlimit limit{};
@@ -32,8 +32,8 @@ std::size_t affordable_threads() {
   return 1 + (limit.rlim_cur - used) / 2 / kOfThread;  // Half of the room is for the work itself.
 }
 
-/// By default a group is bound to the one around it, and a group that is cancelled from there
-/// returns as if it had finished.
+/// Isolated: by default a group is bound to the one around it; cancelled from there, it returns as
+/// if it had finished.
 template <typename Partitioner>
 void share_out(std::size_t count, const std::function<void(std::size_t)>& work,
                const Partitioner& partitioner) {

@@ -6,28 +6,29 @@
 
 namespace mapproof {
 
-// The only way to oneTBB. What these are asked to do is done when they return; otherwise they throw.
-// The work of each is a group of its own: the failure of work around it cannot cancel it, which
-// would end it early and in silence. Where the address space of the process is limited, there are no
-// more threads than have room.
+// All of the program uses oneTBB through these functions. Each returns after all of its calls were
+// made, or throws. The calls are a task group of their own, so that work that fails around them
+// cannot cancel them, which would end them early and without an error. Where the address space of
+// the process is limited (ulimit -v), they use no more threads than fit into half of what is left.
 
 /// Calls work(0) … work(count - 1) in any order, several at a time.
-/// @throws What the first call that failed threw; some of the others were not made then.
+/// @throws The exception of the first call that failed; others may then not have been made.
 void parallel_for(std::size_t count, const std::function<void(std::size_t)>& work);
 
-/// The same with a limit of its own: calls are shared out one by one, to `jobs` threads, even if
-/// there are fewer cores. While it runs, no more work elsewhere in the program.
+/// The same on at most `jobs` threads, even if there are fewer cores; each takes one call at a
+/// time. While it runs, no more than `jobs` threads work in the whole program.
 /// @pre jobs >= 1
 void parallel_for(int jobs, std::size_t count, const std::function<void(std::size_t)>& work);
 
-/// Calls both, at the same time if a thread is free. @throws What the first to fail threw.
+/// Calls both, at the same time if a thread is free.
+/// @throws The exception of the first that failed.
 void parallel_invoke(const std::function<void()>& first, const std::function<void()>& second);
 
-/// Calls `work`. A thread that waits in it for others takes no work from outside of it meanwhile,
-/// whose memory it would hold as well.
+/// Calls `work`. A thread that waits in it for others takes no task from outside of it, whose
+/// memory it would hold as well.
 void run_isolated(const std::function<void()>& work);
 
-/// Of the library that is loaded: "2021.8.0".
+/// Version of the oneTBB that is loaded: "2021.8.0".
 std::string parallel_library_version();
 
 }  // namespace mapproof

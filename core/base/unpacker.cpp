@@ -17,17 +17,18 @@
 namespace mapproof {
 namespace unpacking {
 
-/// One way of packing, undone piece by piece.
+/// Decodes one compression format piece by piece.
 class Decoder {
  public:
   virtual ~Decoder() = default;
 
-  /// Undoes the start of `packed`, and takes it off its front.
-  /// @return How many bytes were put to `to`; fewer than it holds: all of `packed` was used.
+  /// Decodes the front of `packed`, and removes from it what was used.
+  /// @param is_last  No bytes follow those of `packed`.
+  /// @return How many bytes were written to `to`; fewer than its size: all of `packed` was used.
   /// @throws IoError.
   virtual std::size_t decode(std::string_view& packed, bool is_last, std::span<char> to) = 0;
 
-  /// Whether what was decoded so far is whole.
+  /// Whether the packed bytes so far end where a file may end.
   virtual bool is_whole() const = 0;
 };
 
@@ -68,7 +69,7 @@ class GzipDecoder : public Decoder {
   bool is_whole() const override { return !is_in_member_; }
 
  private:
-  /// Passes over the padding between members. False: there is nothing more to be decoded.
+  /// Skips the padding between members. @return Whether there is more to decode.
   bool begins_member(std::string_view& packed) {
     if (is_in_member_) return true;
     packed.remove_prefix(std::min(packed.find_first_not_of('\0'), packed.size()));
@@ -102,7 +103,7 @@ class XzDecoder : public Decoder {
     stream_.next_in = reinterpret_cast<const std::uint8_t*>(packed.data());
     stream_.avail_in = packed.size();
     lzma_ret code = LZMA_OK;
-    // The end is only looked for where nothing is left: then there is no progress in bytes.
+    // After the last input lzma_code() is called once more, without progress, to find the end.
     while (code == LZMA_OK && !is_over_ && stream_.avail_out > 0 &&
            (stream_.avail_in > 0 || is_last))
       code = ::lzma_code(&stream_, is_last ? LZMA_FINISH : LZMA_RUN);
@@ -132,7 +133,7 @@ namespace {
 
 constexpr std::size_t kUnpackedBlock = std::size_t{1} << 16;
 
-/// Refuses what unpacks beyond 64 MB to more than 300 times its size.
+/// Refuses more than 64 MB that are more than 300 times as large as their packed bytes.
 void refuse_bomb(const std::string& source, double packed_bytes, double unpacked_bytes) {
   constexpr double kHarmless = 64.0 * 1024.0 * 1024.0;
   constexpr double kMostSwelling = 300.0;
@@ -145,7 +146,7 @@ void refuse_bomb(const std::string& source, double packed_bytes, double unpacked
 struct Unpacker::State {
   explicit State(std::string name) : source(std::move(name)) {}
 
-  /// Chooses the way, as soon as the first bytes tell.
+  /// Whether the input may be of this format; makes its decoder as soon as the first bytes show it.
   template <typename Way>
   bool may_be() {
     if (packed().size() < Way::kMagic.size()) return !is_ended && Way::kMagic.starts_with(packed());
@@ -161,7 +162,7 @@ struct Unpacker::State {
     is_known = decoder != nullptr || !is_open;
   }
 
-  /// Adds up to `count` bytes to `bytes`; fewer: all of `packed` was used.
+  /// Appends up to `count` bytes to `bytes`; fewer: all of `packed` was used.
   std::size_t decode(std::string_view& packed, std::string& bytes, std::size_t count) {
     room.resize(kUnpackedBlock);
     for (std::size_t added = 0;;) {
@@ -174,7 +175,7 @@ struct Unpacker::State {
     }
   }
 
-  /// What was fed and is not used yet.
+  /// The fed bytes that are not used yet.
   std::string_view packed() const { return std::string_view(fed).substr(used); }
 
   std::string source;
@@ -182,8 +183,8 @@ struct Unpacker::State {
   std::size_t used = 0;
   bool is_ended = false;
   bool is_known = false;
-  std::unique_ptr<unpacking::Decoder> decoder;  ///< None: the bytes pass.
-  std::string room;                             ///< For what was decoded.
+  std::unique_ptr<unpacking::Decoder> decoder;  ///< Null: the bytes pass unchanged.
+  std::string room;                             ///< Buffer of decoded bytes.
   std::string_view packing = {};
   double packed_bytes = 0.0;
   double unpacked_bytes = 0.0;

@@ -7,41 +7,42 @@
 
 namespace mapproof {
 
-/// Unpacks gzip'ed and xz'ed bytes as they come, members and streams one behind the other too;
-/// others pass as they are.
+/// Unpacks the bytes of gzip and xz as they come, also members and streams that follow one another.
+/// Other bytes pass unchanged.
 class Unpacker {
  public:
-  /// @param source  What to call the bytes in errors.
+  /// @param source  The name of the input in errors.
   explicit Unpacker(std::string source);
   ~Unpacker();
   Unpacker(Unpacker&&) noexcept;
   Unpacker& operator=(Unpacker&&) noexcept;
 
-  /// Gives it the next bytes.
+  /// Gives it the next packed bytes.
   void feed(std::string_view packed);
 
-  /// There will be no more: what was held back because it may have begun a packed file passes.
+  /// Says that no more bytes come: drain() then gives those that might have begun a packed file.
   void end();
 
-  /// Adds to `bytes` what the bytes so far come to, at most `count` of it.
-  /// @return How much was added; less than `count`: it has to be fed.
-  /// @throws IoError if they are damaged; or unpack beyond 64 MB to more than 300 times their
-  ///         number, which no table does, or with more than 128 MB of memory.
+  /// Appends unpacked bytes to `bytes`, at most `count`.
+  /// @return How many were appended; fewer than `count`: all that was fed is used up.
+  /// @throws IoError if the packed bytes are damaged; if they unpack to more than 64 MB and more
+  ///         than 300 times their number, which no table does; or if unpacking takes more than
+  ///         128 MB of memory.
   std::size_t drain(std::string& bytes, std::size_t count);
 
-  /// feed() and drain() of all.
+  /// feed(), then all that drain() gives.
   std::string take(std::string_view packed);
 
-  /// "gzip" or "xz"; empty: not packed, or not known yet.
+  /// "gzip" or "xz"; empty if the input is not packed, or as long as that is not known.
   std::string_view packing() const;
 
-  /// Whether all that was fed passes as it is, and nothing of it is held back any more.
+  /// Whether the input is not packed and drain() has given all that was fed.
   bool is_passing() const;
 
-  /// After end() and drain(): the packed bytes stop before their end.
+  /// After end() and drain(): whether the packed bytes are cut off.
   bool is_cut() const;
 
-  /// Size of what was drained over that of what it was made from; 1 before anything was.
+  /// Unpacked bytes per packed byte so far; 1 before the first.
   double ratio() const;
 
  private:

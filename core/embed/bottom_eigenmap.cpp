@@ -2,8 +2,6 @@
 
 #include <algorithm>
 
-#include <fmt/format.h>
-
 #include "core/linalg/symmetric_eigen.hpp"
 
 namespace mapproof {
@@ -24,15 +22,11 @@ Embedding bottom_eigenmap(const Eigen::SparseMatrix<double>& matrix,
   result.coordinates = pairs.vectors.leftCols(2);
   result.spectrum = pairs.values;
   if (!pairs.converged)
-    result.statuses.push_back(
-        {StatusCode::kNotConverged, "The eigenvalues' solver gave up; these are its best."});
+    result.statuses.push_back(status_of<StatusReason::kEigenvaluesNotConverged>());
   const double size = matrix.diagonal().sum();
   if (n > 3 && pairs.values(2) - pairs.values(1) <= kSame * pairs.values(2) + kRounding * size)
-    result.statuses.push_back(
-        {StatusCode::kUndetermined,
-         fmt::format("Beside the constant, eigenvalues {:.3g}, {:.3g} and {:.3g} are smallest, and "
-                     "the last two do not differ: which map of them came out is arbitrary.",
-                     pairs.values(0), pairs.values(1), pairs.values(2))});
+    result.statuses.push_back(status_of<StatusReason::kEqualSmallestEigenvalues>(
+        pairs.values(0), pairs.values(1), pairs.values(2)));
   return result;
 }
 

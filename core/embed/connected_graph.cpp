@@ -3,8 +3,6 @@
 #include <algorithm>
 #include <utility>
 
-#include <fmt/format.h>
-
 #include "core/graph/closed_groups.hpp"
 #include "core/graph/components.hpp"
 
@@ -22,15 +20,10 @@ ConnectedGraph connected_neighbour_graph(const Eigen::MatrixXd& distances,
   const auto bridging = bridge_components(result.graph, distances);
   if (!bridging) {
     result.connected = false;
-    result.statuses.push_back({StatusCode::kFailed,
-                               "Some groups of landmarks share no observation: nothing tells where "
-                               "they lie to each other."});
+    result.statuses.push_back(status_of<StatusReason::kNoSharedObservation>());
   } else if (bridging->pieces > 1) {
     result.statuses.push_back(
-        {StatusCode::kBridged,
-         fmt::format("The graph of K = {} neighbours was in {} pieces; joined by its shortest "
-                     "bridges, the longest {:.3g}.",
-                     neighbours, bridging->pieces, bridging->longest)});
+        status_of<StatusReason::kGraphInPieces>(neighbours, bridging->pieces, bridging->longest));
   }
   return result;
 }
@@ -59,21 +52,13 @@ ConnectedGraph connected_neighbourhoods(const Eigen::MatrixXd& distances,
 void tie_blends(ConnectedGraph& neighbourhoods, const Eigen::MatrixXd& distances) {
   const int added = open_closed_groups(neighbourhoods.graph, distances).value_or(0);
   if (added == 0) return;
-  neighbourhoods.statuses.push_back(
-      {StatusCode::kBridged,
-       fmt::format("Some groups of landmarks had all their neighbours among themselves; {} got one "
-                   "more, the nearest outside.",
-                   added)});
+  neighbourhoods.statuses.push_back(status_of<StatusReason::kClosedGroups>(added));
 }
 
 void tie_sets(ConnectedGraph& neighbourhoods) {
   const int joined = join_sets(neighbourhoods.graph);
   if (joined == 0) return;
-  neighbourhoods.statuses.push_back(
-      {StatusCode::kBridged,
-       fmt::format("{} landmark{} not tied to the map by the neighbours of others, and joined {} "
-                   "own.",
-                   joined, joined == 1 ? " was" : "s were", joined == 1 ? "its" : "their")});
+  neighbourhoods.statuses.push_back(status_of<StatusReason::kLandmarksUntied>(joined));
 }
 
 }  // namespace mapproof

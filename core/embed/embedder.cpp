@@ -5,10 +5,7 @@
 #include <limits>
 #include <utility>
 
-#include <fmt/format.h>
-
 #include "core/base/errors.hpp"
-#include "core/base/words.hpp"
 #include "core/embed/connected_graph.hpp"
 #include "core/embed/hessian_lle.hpp"
 #include "core/embed/isomap.hpp"
@@ -22,26 +19,29 @@
 namespace mapproof {
 namespace {
 
-Embedding failed(Eigen::Index landmarks, std::string why) {
+Embedding failed(Eigen::Index landmarks, Status why) {
   Embedding result;
   result.coordinates.setConstant(landmarks, 2, std::numeric_limits<double>::quiet_NaN());
-  result.statuses.push_back({StatusCode::kFailed, std::move(why)});
+  result.statuses.push_back(std::move(why));
   return result;
 }
 
 /// What went wrong with the map that `result` started from, unless it says the same of itself.
-void add_statuses_of_start(Embedding& result, const Embedding& start, std::string_view name) {
+void add_statuses_of_start(Embedding& result, const Embedding& start, Method method) {
   std::vector<Status> added;
   for (const Status& status : start.statuses)
-    if (std::ranges::find(result.statuses, status.code, &Status::code) == result.statuses.end())
-      added.push_back({status.code, fmt::format("Its start, {}: {}", name, status.detail)});
+    if (std::ranges::find(result.statuses, status.code, &Status::code) == result.statuses.end()) {
+      added.push_back(status);
+      added.back().starts.insert(added.back().starts.begin(), method);
+    }
   result.statuses.insert(result.statuses.begin(), added.begin(), added.end());
 }
 
-std::string names_of(const std::vector<std::string>& names, const std::vector<Eigen::Index>& rows) {
+std::vector<std::string> names_of(const std::vector<std::string>& names,
+                                  const std::vector<Eigen::Index>& rows) {
   std::vector<std::string> some;
   for (const Eigen::Index row : rows) some.push_back(names[static_cast<std::size_t>(row)]);
-  return listed(some, 11);
+  return some;
 }
 
 /// The median of the finite entries above zero below the diagonal; 1 if there is none.
@@ -105,9 +105,7 @@ Embedding Embedder::embed(const MethodSetting& setting) {
   if (complete_squares().maxCoeff() == 0.0) {
     Embedding point;
     point.coordinates.setZero(n, 2);
-    point.statuses.push_back({StatusCode::kRankDeficient,
-                              "The observations of all landmarks are the same: the map is a "
-                              "point."});
+    point.statuses.push_back(status_of<StatusReason::kSameObservations>());
     return with_all_distances(point);
   }
   Embedding result = solve(setting);
@@ -120,12 +118,7 @@ std::vector<Status> Embedder::caveats(const Embedding& map, const MethodSetting&
   std::vector<Status> statuses;
   if (std::ranges::find(map.statuses, StatusCode::kFailed, &Status::code) != map.statuses.end())
     return statuses;
-  if (groups_ > 1)
-    statuses.push_back(
-        {StatusCode::kUndetermined,
-         fmt::format("The landmarks are in {} groups never seen together: how these lie to each "
-                     "other is arbitrary.",
-                     groups_)});
+  if (groups_ > 1) statuses.push_back(status_of<StatusReason::kGroupsNeverTogether>(groups_));
   if (!on_graph(setting.method)) return statuses;
   const int neighbours = static_cast<int>(setting.parameter.value_or(0.0));
   if (auto status = arbitrary_neighbours(nearest(neighbours), neighbours, apart_))
@@ -144,15 +137,12 @@ MethodSetting Embedder::usual_setting(Method method) const {
 }
 
 /// Why the method cannot give a map of these data; empty if it can.
-std::optional<std::string> Embedder::obstacle(const MethodSetting& setting) const {
+std::optional<Status> Embedder::obstacle(const MethodSetting& setting) const {
   const Eigen::Index n = size();
-  if (n < 3) return fmt::format("A map needs 3 observed landmarks, {} are there.", n);
+  if (n < 3) return status_of<StatusReason::kTooFewLandmarks>(n);
   if (on_graph(setting.method) && setting.parameter.value_or(0.0) >= static_cast<double>(n))
-    return fmt::format("K = {} needs more than {} observed landmarks.",
-                       setting.parameter.value_or(0.0), n);
-  if (seen_apart_)
-    return "Some groups of landmarks share no observation: nothing tells where they lie to each "
-           "other.";
+    return status_of<StatusReason::kTooManyNeighbours>(setting.parameter.value_or(0.0), n);
+  if (seen_apart_) return status_of<StatusReason::kNoSharedObservation>();
   return std::nullopt;
 }
 
@@ -186,22 +176,18 @@ Embedding Embedder::solve(const MethodSetting& setting) {
 
 Embedding Embedder::with_all_distances(Embedding embedding) const {
   if (completed_pairs_ > 0)
-    embedding.statuses.push_back(
-        {StatusCode::kDistancesCompleted,
-         fmt::format("{} pairs of landmarks have no step in common; their distance is the shortest "
-                     "path over the others.",
-                     completed_pairs_)});
+    embedding.statuses.push_back(status_of<StatusReason::kNoCommonStep>(completed_pairs_));
   return embedding;
 }
 
 Embedding Embedder::weighted_smacof(int neighbours) {
   const ConnectedGraph graph =
       connected_neighbour_graph(distances(), nearest(neighbours), neighbours);
-  if (!graph.connected) return failed(size(), graph.statuses.front().detail);
+  if (!graph.connected) return failed(size(), graph.statuses.front());
   const Embedding& start = equal_weights();
   Embedding result =
       smacof(complete_distances(), adjacency(graph.graph), start.coordinates, options_.smacof_knn);
-  add_statuses_of_start(result, start, info(Method::kSmacof).label);
+  add_statuses_of_start(result, start, Method::kSmacof);
   result.statuses.insert(result.statuses.begin(), graph.statuses.begin(), graph.statuses.end());
   return result;
 }
@@ -209,7 +195,7 @@ Embedding Embedder::weighted_smacof(int neighbours) {
 Embedding Embedder::on_graph_of(Method method, int neighbours) {
   const ConnectedGraph graph =
       connected_neighbour_graph(distances(), nearest(neighbours), neighbours);
-  if (!graph.connected) return failed(size(), graph.statuses.front().detail);
+  if (!graph.connected) return failed(size(), graph.statuses.front());
   Embedding result =
       method == Method::kIsomap ? isomap(graph.graph) : laplacian_eigenmap(graph.graph);
   result.statuses.insert(result.statuses.begin(), graph.statuses.begin(), graph.statuses.end());
@@ -220,10 +206,10 @@ Embedding Embedder::on_neighbourhoods(Method method, int neighbours) {
   const Eigen::Index n = size();
   const bool hessian = method == Method::kHessianLle;
   if (hessian && neighbours < kFewestHessianNeighbours)
-    return failed(n, fmt::format("Hessian LLE of the plane needs K >= {}, K is {}.",
-                                 kFewestHessianNeighbours, neighbours));
+    return failed(
+        n, status_of<StatusReason::kHessianNeighbours>(kFewestHessianNeighbours, neighbours));
   ConnectedGraph graph = connected_neighbourhoods(distances(), nearest(neighbours), neighbours);
-  if (!graph.connected) return failed(n, graph.statuses.front().detail);
+  if (!graph.connected) return failed(n, graph.statuses.front());
   if (hessian)
     tie_sets(graph);
   else
@@ -232,8 +218,8 @@ Embedding Embedder::on_neighbourhoods(Method method, int neighbours) {
     return std::ssize(edges) < kFewestHessianNeighbours;
   });
   if (hessian && few > 0)
-    return failed(n, fmt::format("Hessian LLE needs {} neighbours of each landmark, {} have fewer.",
-                                 kFewestHessianNeighbours, few));
+    return failed(n,
+                  status_of<StatusReason::kHessianNeighbourhoods>(kFewestHessianNeighbours, few));
   Embedding result = hessian ? hessian_lle(complete_squares(), graph.graph)
                              : lle(complete_squares(), graph.graph, options_.lle);
   result.statuses.insert(result.statuses.begin(), graph.statuses.begin(), graph.statuses.end());
@@ -270,7 +256,7 @@ const Embedding& Embedder::linear() {
 const Embedding& Embedder::equal_weights() {
   if (!equal_weights_) {
     equal_weights_ = smacof(complete_distances(), {}, linear().coordinates, options_.smacof);
-    add_statuses_of_start(*equal_weights_, linear(), info(Method::kLpca).label);
+    add_statuses_of_start(*equal_weights_, linear(), Method::kLpca);
   }
   return *equal_weights_;
 }
@@ -289,14 +275,10 @@ HistoryEmbedder::HistoryEmbedder(const ObservationHistory& history, Eigen::Index
   for (Eigen::Index i = 0; i < landmarks_; ++i)
     if (!std::ranges::binary_search(unseen, i)) seen_.push_back(i);
   if (!unseen.empty())
-    statuses_.push_back(
-        {StatusCode::kLandmarkUnseen,
-         fmt::format("{} of {} landmarks were never observed and are not on the map: {}.",
-                     unseen.size(), landmarks_, names_of(history.names, unseen))});
+    statuses_.push_back(status_of<StatusReason::kNeverObserved>(names_of(history.names, unseen),
+                                                                unseen.size(), landmarks_));
   if (steps < kFewestSteps)
-    statuses_.push_back({StatusCode::kTooFewObservations,
-                         fmt::format("{} used, a map needs {} at least to mean anything.",
-                                     counted(steps, "observation"), kFewestSteps)});
+    statuses_.push_back(status_of<StatusReason::kFewSteps>(steps, kFewestSteps));
   if (seen_.empty()) {
     embedder_.emplace(Proximities{}, options);
   } else {

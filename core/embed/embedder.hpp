@@ -43,7 +43,7 @@ class Embedder {
 
  private:
   std::vector<Status> caveats(const Embedding& map, const MethodSetting& setting);
-  std::optional<std::string> obstacle(const MethodSetting& setting) const;
+  std::optional<Status> obstacle(const MethodSetting& setting) const;
   Embedding solve(const MethodSetting& setting);
   Embedding with_all_distances(Embedding embedding) const;
   Embedding weighted_smacof(int neighbours);

@@ -3,8 +3,6 @@
 #include <cmath>
 #include <vector>
 
-#include <fmt/format.h>
-
 #include "core/embed/bottom_eigenmap.hpp"
 #include "core/embed/local_gram.hpp"
 #include "core/linalg/centering.hpp"
@@ -62,12 +60,7 @@ Embedding hessian_lle(const Eigen::MatrixXd& squared_distances, const NeighbourL
   }
   Embedding result =
       bottom_eigenmap(H.matrix(), Eigen::VectorXd::Constant(n, 1.0 / std::sqrt(double(n))));
-  if (flat > 0)
-    result.statuses.push_back(
-        {StatusCode::kRankDeficient,
-         fmt::format("{} of {} neighbourhoods spread in one direction alone: they have no tangent "
-                     "plane.",
-                     flat, n)});
+  if (flat > 0) result.statuses.push_back(status_of<StatusReason::kNoTangentPlane>(flat, n));
   return result;
 }
 

@@ -4,8 +4,6 @@
 #include <cmath>
 #include <utility>
 
-#include <fmt/format.h>
-
 #include "core/base/errors.hpp"
 #include "core/embed/principal_coordinates.hpp"
 #include "core/linalg/centering.hpp"
@@ -34,12 +32,7 @@ Embedding of_kernel(Eigen::MatrixXd K) {
   // Three landmarks or four have too few eigenvalues to tell.
   if (!is_said && B.rows() > 4 && result.spectrum.size() > 1 &&
       result.spectrum(1) > kLeastOfMean * mean && result.spectrum(1) < kMostOfMean * mean)
-    result.statuses.push_back(
-        {StatusCode::kUndetermined,
-         fmt::format(
-             "The kernel is nearly that of landmarks equally far from each other: its second "
-             "eigenvalue is {:.3g} times the mean one. The map means little.",
-             result.spectrum(1) / mean)});
+    result.statuses.push_back(status_of<StatusReason::kEqualKernel>(result.spectrum(1) / mean));
   return result;
 }
 

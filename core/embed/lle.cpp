@@ -3,8 +3,6 @@
 #include <cmath>
 #include <vector>
 
-#include <fmt/format.h>
-
 #include "core/base/errors.hpp"
 #include "core/embed/bottom_eigenmap.hpp"
 #include "core/embed/local_gram.hpp"
@@ -77,16 +75,10 @@ Embedding lle(const Eigen::MatrixXd& squared_distances, const NeighbourLists& ne
   }
   Embedding result =
       bottom_eigenmap(M.matrix(), Eigen::VectorXd::Constant(n, 1.0 / std::sqrt(double(n))));
-  if (all_flat)
-    result.statuses.push_back(
-        {StatusCode::kRankDeficient,
-         "In every neighbourhood the observations spread in one direction alone."});
+  if (all_flat) result.statuses.push_back(status_of<StatusReason::kNeighbourhoodsFlat>());
   if (not_euclidean > 0)
     result.statuses.push_back(
-        {StatusCode::kNotEuclidean,
-         fmt::format("No points have the distances about {} of {} landmarks, as with missing "
-                     "entries; the nearest that some have were taken.",
-                     not_euclidean, n)});
+        status_of<StatusReason::kNeighbourhoodsNotEuclidean>(not_euclidean, n));
   return result;
 }
 

@@ -3,8 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include <fmt/format.h>
-
 #include "core/linalg/symmetric_eigen.hpp"
 
 namespace mapproof {
@@ -27,20 +25,11 @@ Embedding principal_coordinates(const Eigen::MatrixXd& B, double size) {
   for (; rank < 2 && pairs.values(rank) > floor; ++rank)
     result.coordinates.col(rank) = std::sqrt(pairs.values(rank)) * pairs.vectors.col(rank);
   if (!pairs.converged)
-    result.statuses.push_back(
-        {StatusCode::kNotConverged, "The eigenvalues' solver gave up; these are its best."});
+    result.statuses.push_back(status_of<StatusReason::kEigenvaluesNotConverged>());
   if (rank < 2) {
-    result.statuses.push_back(
-        {StatusCode::kRankDeficient,
-         fmt::format("The distances that the map is made of spread in {} direction{}, a map needs "
-                     "two.",
-                     rank, rank == 1 ? "" : "s")});
+    result.statuses.push_back(status_of<StatusReason::kDistancesFlat>(rank));
   } else if (pairs.values(1) - pairs.values(2) <= kEqualEigenvalues * pairs.values(0)) {
-    result.statuses.push_back(
-        {StatusCode::kUndetermined,
-         fmt::format("The second and third eigenvalue are equal ({:.4g}): which directions the "
-                     "map shows is arbitrary.",
-                     pairs.values(1))});
+    result.statuses.push_back(status_of<StatusReason::kEqualEigenvalues>(pairs.values(1)));
   }
   return result;
 }

@@ -2,11 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
-#include <utility>
 
-#include <fmt/format.h>
-
-#include "core/base/words.hpp"
 #include "core/graph/components.hpp"
 
 namespace mapproof {
@@ -24,16 +20,8 @@ std::optional<Status> arbitrary_neighbours(const NeighbourLists& nearest, int ne
   }
   if (landmarks == 0) return std::nullopt;
 
-  std::string text = fmt::format(
-      "{} {} fewer than K = {} others ever seen together with {}; the rest of the K are arbitrary.",
-      counted(landmarks, "landmark"), landmarks == 1 ? "has" : "have", neighbours,
-      landmarks == 1 ? "it" : "them");
   const int pieces = std::ranges::max(components(neighbour_graph(together, neighbours))) + 1;
-  if (pieces > 1)
-    text += fmt::format(
-        " Without those the graph is in {} pieces: how they lie to each other is arbitrary too.",
-        pieces);
-  return Status{StatusCode::kArbitraryNeighbours, std::move(text)};
+  return status_of<StatusReason::kFewSeenTogether>(landmarks, neighbours, pieces);
 }
 
 int groups_seen_together(const Eigen::MatrixXd& squared_distances, double apart_squared) {

@@ -3,7 +3,6 @@
 #include <cmath>
 #include <vector>
 
-#include <fmt/format.h>
 #include <Eigen/SparseCholesky>
 
 #include "core/base/errors.hpp"
@@ -166,9 +165,7 @@ Embedding lowered(const Problem& problem, const Points& start, const SmacofOptio
   }
   result.stress = problem.scale() > 0.0 ? before / problem.scale() : 0.0;
   if (!settled)
-    result.statuses.push_back(
-        {StatusCode::kNotConverged,
-         fmt::format("The stress still fell after {} iterations.", options.max_iterations)});
+    result.statuses.push_back(status_of<StatusReason::kStressFalling>(options.max_iterations));
   return result;
 }
 
@@ -194,8 +191,7 @@ Embedding smacof(const Eigen::MatrixXd& distances, const Eigen::MatrixXd& weight
   Embedding result = weights.size() == 0 ? lowered(EqualWeights(distances), start, options)
                                          : lowered(SomeWeights(distances, weights), start, options);
   if (planarity(result.coordinates) <= kFlatPlanarity)
-    result.statuses.push_back({StatusCode::kRankDeficient,
-                               "The map is flat: its landmarks lie on one line or in one place."});
+    result.statuses.push_back(status_of<StatusReason::kFlatMap>());
   return result;
 }
 

@@ -42,8 +42,7 @@ void map_at(const Experiment& experiment, const ObservationHistory& history,
     if (step == study.checkpoints.back() && embedding.spectrum.size() > 0)
       result.details.sensors.back().spectra.emplace_back(setting, embedding.spectrum);
     result.maps.push_back({.id = record_id(run.id, history.sensor, setting, step),
-                           .sensor = history.sensor,
-                           .setting = setting,
+                           .origin = FromSensor{history.sensor, setting},
                            .step = step,
                            .frame = map.frame,
                            .names = history.names,

@@ -23,12 +23,12 @@ namespace {
 constexpr Eigen::Index kPosesWithCovariance = 60;  ///< As many ellipses as a figure can show.
 constexpr Eigen::Index kStatesShown = 300;         ///< Of a metric upgrade.
 
-SlamEstimate failed(const RangeLog& log, const std::string& why) {
+SlamEstimate failed(const RangeLog& log, Status why) {
   SlamEstimate estimate;
   estimate.path.positions_m.resize(0, 2);
   estimate.landmarks_m = Points::Constant(static_cast<Eigen::Index>(log.landmarks.size()), 2,
                                           std::numeric_limits<double>::quiet_NaN());
-  estimate.statuses.push_back({StatusCode::kFailed, why});
+  estimate.statuses.push_back(std::move(why));
   return estimate;
 }
 
@@ -61,7 +61,7 @@ SlamEstimate SlamEstimates::estimate(SlamMethod method) {
     return solve(method);
   } catch (const InvalidInput& error) {
     // Only the data of a log can break what its reader does not check.
-    return failed(log_, error.what());
+    return failed(log_, status_with_message(StatusCode::kFailed, error.what()));
   }
 }
 
@@ -103,9 +103,9 @@ std::optional<WindowCurve> SlamEstimates::windows() const {
 
 SlamEstimate SlamEstimates::solve(SlamMethod method) {
   if (info(method).knows_landmarks && !options_.known)
-    return failed(log_, "No landmark's place is known.");
+    return failed(log_, status_of<StatusReason::kNoKnownLandmark>());
   if (log_.odometry.empty() && !is_spectral(method))
-    return failed(log_, "The log has no odometry.");
+    return failed(log_, status_of<StatusReason::kNoOdometry>());
   switch (method) {
     case SlamMethod::kDeadReckoning:
       return odometry_start();
@@ -125,14 +125,14 @@ SlamEstimate SlamEstimates::solve(SlamMethod method) {
     }
     case SlamMethod::kRefined:
       if (spectral_start().path.size() == 0)
-        return failed(log_, "The spectral method gave nothing to start from.");
+        return failed(log_, status_of<StatusReason::kNoStart>());
       return refined(spectral_start(), true);
     case SlamMethod::kRefinedFromOdometry:
       return refined(odometry_start(), true);
     case SlamMethod::kRefinedFromRandom:
       return refined_from_random(1);
   }
-  return failed(log_, "There is no such method.");
+  throw InvalidInput("unknown method");
 }
 
 SlamEstimate SlamEstimates::spectral(bool with_known, bool with_heading) {
@@ -144,7 +144,7 @@ SlamEstimate SlamEstimates::spectral(bool with_known, bool with_heading) {
     if (!with_known && !with_heading) upgrade_ = clouds_of(found.upgrade);
     return std::move(found.estimate);
   }
-  if (with_heading) return failed(log_, "The log has no odometry, which headings need.");
+  if (with_heading) return failed(log_, status_of<StatusReason::kNoOdometryForHeadings>());
   const auto landmarks = static_cast<Eigen::Index>(log_.landmarks.size());
   SynchronousSlam found =
       synchronous_slam(synchronous_ranges(log_.ranges, landmarks), known, options_.noise);

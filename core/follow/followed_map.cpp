@@ -3,8 +3,6 @@
 #include <limits>
 #include <vector>
 
-#include <fmt/format.h>
-
 namespace mapproof {
 namespace {
 
@@ -25,12 +23,9 @@ FollowedUpdate FollowedMap::update() const {
   result.embedding.coordinates = std::move(all);
   if (std::ssize(seen) < landmarks())
     result.embedding.statuses.push_back(
-        {StatusCode::kLandmarkUnseen, fmt::format("{} of {} landmarks were not observed so far.",
-                                                  landmarks() - std::ssize(seen), landmarks())});
+        status_of<StatusReason::kNotObservedSoFar>(landmarks() - std::ssize(seen), landmarks()));
   if (steps() < kFewestSteps)
-    result.embedding.statuses.push_back(
-        {StatusCode::kTooFewObservations,
-         fmt::format("A map needs {} observations at least to mean anything.", kFewestSteps)});
+    result.embedding.statuses.push_back(status_of<StatusReason::kFewSteps>(steps(), kFewestSteps));
   return result;
 }
 

@@ -13,15 +13,15 @@ std::vector<NoticedMove> MovedWatch::check(const FollowedLog& looks, const Sight
   const std::vector<LookKey> all = looks.looks();
   std::vector<NoticedMove> fresh;
   for (const MovedLandmark& found : find_moved(log, options).moved) {
-    NoticedMove now{found.landmark, all[static_cast<std::size_t>(found.step)],
-                    described(found, log)};
-    const auto known = std::ranges::find(moved_, found.landmark, &NoticedMove::landmark);
+    const NoticedMove now{found, all[static_cast<std::size_t>(found.step)]};
+    const auto known = std::ranges::find_if(
+        moved_, [&](const NoticedMove& move) { return move.found.landmark == found.landmark; });
     if (known != moved_.end()) {
-      *known = std::move(now);  // More looks tell the time better.
+      *known = now;  // More looks tell the time better.
       continue;
     }
     moved_.push_back(now);
-    fresh.push_back(std::move(now));
+    fresh.push_back(now);
   }
   return fresh;
 }
@@ -32,11 +32,11 @@ SightingLog MovedWatch::split(const FollowedLog& looks, SightingLog log) const {
   const bool is_timed = !log.times_s.empty();
   for (const NoticedMove& moved : moved_) {
     const auto fresh = static_cast<int>(log.names.size());
-    log.names.push_back(log.names[static_cast<std::size_t>(moved.landmark)] + " (moved)");
+    log.names.push_back(log.names[static_cast<std::size_t>(moved.found.landmark)] + " (moved)");
     for (Sighting& seen : log.sightings) {
       const LookKey& look = all[static_cast<std::size_t>(seen.step)];
       const bool is_later = is_timed ? look.key >= moved.from.key : look >= moved.from;
-      if (seen.landmark == moved.landmark && is_later) seen.landmark = fresh;
+      if (seen.landmark == moved.found.landmark && is_later) seen.landmark = fresh;
     }
   }
   sort_sightings(log.sightings);

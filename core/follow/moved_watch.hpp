@@ -1,6 +1,5 @@
 #pragma once
 
-#include <string>
 #include <vector>
 
 #include "core/follow/followed_log.hpp"
@@ -10,9 +9,8 @@ namespace mapproof {
 
 /// A landmark that was noticed to have moved, while looks still came.
 struct NoticedMove {
-  int landmark = 0;
-  LookKey from;          ///< The first sighting at the new place.
-  std::string sentence;  ///< See described().
+  MovedLandmark found;  ///< In the looks of the check.
+  LookKey from;         ///< The first sighting at the new place.
 };
 
 /// Looks for landmarks that moved in a log that grows, and keeps their later sightings apart.

@@ -22,7 +22,7 @@ namespace mapproof {
 /// FieldVisitor lists what a visitor is told.
 ///
 /// An enumeration has its names in `EnumNames enum_names(Enum)`; what is an array of fixed size in
-/// files has its elements in `auto as_tuple(T&)`, a std::tuple of references.
+/// files has its elements in `auto as_tuple(T&)`, a std::tuple of references. A map has any keys.
 ///
 /// The functions are called with default values too, and by writers, which change nothing. What a
 /// rule takes from another field is read behind that field.
@@ -50,16 +50,22 @@ struct FieldRule {
   bool upper_triangle = false;  ///< All that is held of a square matrix: row by row.
   bool as_columns = false;      ///< Of records: an object that has an array for each field.
   bool unique = false;          ///< No two items are equal.
+  bool ascending = false;       ///< Each number is above the one before it.
+  bool or_one = false;          ///< Of numbers: a file may give a single one without the brackets.
   std::size_t columns = 0;      ///< Of a matrix; 0: as the type has, or as many as the first row.
   std::size_t min_items = 0;
   std::size_t max_items = std::numeric_limits<std::size_t>::max();
-  bool not_empty = false;          ///< Of a text.
+  bool not_empty = false;          ///< Of a text, and the rows of a matrix.
   std::size_t max_bytes = 10'000;  ///< Of a text.
   const struct TextForm* form = nullptr;
+  const FieldRule* items = nullptr;  ///< Of arrays in an array: what each of them is held to.
   Key key = Key::kRequired;
-  bool when = true;      ///< Else the key must not be there.
-  bool decides = false;  ///< Of an enumeration: `when` of fields that follow depends on it alone.
-  bool written = true;   ///< Else left out by the writer.
+  bool when = true;  ///< Else the key must not be there.
+  /// Of an enumeration: `when` and `key` of fields that follow depend on it alone; of a text: on
+  /// which of `known` it is, if any.
+  bool decides = false;
+  std::span<const std::string_view> known = {};
+  bool written = true;  ///< Else left out by the writer.
 };
 
 /// Texts of a certain form.
@@ -96,9 +102,12 @@ struct FieldVisitor {
   /// A key and its value, in the order of files.
   template <typename T>
   void field(std::string_view, T&, const FieldRule& = {}) {}
-  /// An object within the record: a key, and what visits its fields.
+  /// An object within the record: a key, and what visits its fields. Of the rule key, when,
+  /// written and description count.
   template <typename Fields>
-  void group(std::string_view, Fields) {}
+  void group(std::string_view, Fields, const FieldRule& = {}) {}
+  /// How many of its keys a record has, where there are bounds to that.
+  void key_count(std::size_t, std::size_t) {}
   /// What no rule says is wrong with the fields so far: at a key, "limits" or "axes/0/limits", or
   /// at an item of its array.
   void refuse(std::string_view, std::string_view) {}

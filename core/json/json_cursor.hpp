@@ -24,6 +24,7 @@ class JsonCursor {
   const std::string& pointer() const { return pointer_; }
   bool is_null() const { return value_->is_null(); }
   bool is_object() const { return value_->is_object(); }
+  bool is_array() const { return value_->is_array(); }
 
   [[noreturn]] void fail(const std::string& what) const;
 

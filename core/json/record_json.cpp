@@ -40,12 +40,31 @@ std::string spaced(std::string_view type) {
 
 }  // namespace
 
+void Outline::check(const JsonCursor& json) const {
+  json.allow_only(keys);
+  if (json.size() < least_keys)
+    json.fail(fmt::format("expected at least {} of {}, got {}", least_keys, fmt::join(keys, ", "),
+                          json.size()));
+  if (json.size() > most_keys)
+    json.fail(fmt::format("expected at most {} of {}, got {}", most_keys, fmt::join(keys, ", "),
+                          json.size()));
+}
+
+std::optional<JsonCursor> Reader::find(std::string_view key, const FieldRule& rule) const {
+  const std::string name(key);
+  if (rule.when && is_required(rule)) return json_.at(name);
+  const auto found = json_.find(name);
+  if (found && !rule.when) json_.fail("unknown key \"" + name + '"');
+  return found;
+}
+
 FieldRule item_rule(const FieldRule& rule) {
+  if (rule.items != nullptr) return *rule.items;
   FieldRule item = rule;
   item.description = {};
   item.min_items = 0;
   item.max_items = std::numeric_limits<std::size_t>::max();
-  item.unique = false;
+  item.unique = item.ascending = false;
   item.key = Key::kRequired;
   return item;
 }
@@ -69,7 +88,12 @@ double read_number(const JsonCursor& json, const FieldRule& rule) {
 
 std::vector<double> read_numbers(const JsonCursor& json, const FieldRule& rule,
                                  std::optional<std::size_t> size) {
-  std::vector<double> numbers = json.numbers_or_null(rule.minimum, rule.maximum, size);
+  std::vector<double> numbers;
+  if (rule.integer)
+    for (const JsonCursor& item : read_items(json, rule))
+      numbers.push_back(read_number(item, rule));
+  else
+    numbers = json.numbers_or_null(rule.minimum, rule.maximum, size);
   if (numbers.size() < rule.min_items || numbers.size() > rule.max_items) read_items(json, rule);
   for (std::size_t i = 0; i < numbers.size(); ++i)
     if ((std::isnan(numbers[i]) && !rule.nullable) || rule.above_minimum)
@@ -110,6 +134,10 @@ JsonCursor place_of(const JsonCursor& json, std::string_view pointer) {
   const auto found = json.is_object() ? json.find(key) : json.element(std::stoul(key));
   if (!found || key.size() == pointer.size()) return found.value_or(json);
   return place_of(*found, pointer.substr(key.size() + 1));
+}
+
+void refuse_order(const JsonCursor& json, double number, double before) {
+  json.fail(fmt::format("expected values in ascending order, got {} after {}", number, before));
 }
 
 void refuse_tag(const JsonCursor& tag, const std::vector<std::string_view>& known) {

@@ -55,7 +55,7 @@ concept Vector = Matrix<T> && (T::ColsAtCompileTime == 1);
 
 template <typename T>
 struct Kind {
-  static constexpr bool is_optional = false, is_tuple = false, is_variant = false;
+  static constexpr bool is_optional = false, is_tuple = false, is_variant = false, is_map = false;
 };
 template <typename T>
 struct Kind<std::optional<T>> : Kind<void> {
@@ -72,6 +72,10 @@ struct Kind<std::pair<A, B>> : Kind<void> {
 template <typename... T>
 struct Kind<std::variant<T...>> : Kind<void> {
   static constexpr bool is_variant = true;
+};
+template <typename T>
+struct Kind<std::map<std::string, T>> : Kind<void> {
+  static constexpr bool is_map = true;  // An object of any keys.
 };
 
 template <Matrix T>
@@ -113,6 +117,7 @@ FieldRule item_rule(const FieldRule& rule);
 struct Outline : FieldVisitor {
   std::vector<std::string_view> keys;
   std::string_view file_schema, tag_key, tag_name;
+  std::size_t least_keys = 0, most_keys = std::numeric_limits<std::size_t>::max();
 
   void file(std::string_view name, std::string_view) {
     file_schema = name;
@@ -127,9 +132,16 @@ struct Outline : FieldVisitor {
     keys.push_back(key);
   }
   template <typename Fields>
-  void group(std::string_view key, Fields) {
+  void group(std::string_view key, Fields, const FieldRule& = {}) {
     keys.push_back(key);
   }
+  void key_count(std::size_t least, std::size_t most) {
+    least_keys = least;
+    most_keys = most;
+  }
+
+  /// @throws IoError unless the object has such keys.
+  void check(const JsonCursor& json) const;
 };
 
 template <typename T>
@@ -172,7 +184,8 @@ struct Writer : FieldVisitor {
       json[std::string(key)] = value_json(value, rule);
   }
   template <typename Fields>
-  void group(std::string_view key, Fields visit) {
+  void group(std::string_view key, Fields visit, const FieldRule& rule = {}) {
+    if (!rule.when || !rule.written) return;
     Writer writer;
     visit(writer);
     json[std::string(key)] = std::move(writer.json);
@@ -234,6 +247,10 @@ Json value_json(const T& value, const FieldRule& rule) {
     return matrix_json(value, rule);
   } else if constexpr (List<T>) {
     return list_json(value, rule);
+  } else if constexpr (Kind<T>::is_map) {
+    Json members = Json::object();
+    for (const auto& [key, member] : value) members[key] = value_json(member, rule);
+    return members;
   } else if constexpr (Kind<T>::is_tuple || AsTuple<T>) {
     Json items = Json::array();
     for_each_element(const_cast<T&>(value),
@@ -258,6 +275,7 @@ std::int64_t read_integer(const JsonCursor& json, const FieldRule& rule, std::in
                           std::int64_t most);
 /// Below `json` as far as the pointer leads: a key that was left out is not there.
 JsonCursor place_of(const JsonCursor& json, std::string_view pointer);
+[[noreturn]] void refuse_order(const JsonCursor& json, double number, double before);
 [[noreturn]] void refuse_tag(const JsonCursor& tag, const std::vector<std::string_view>& known);
 
 template <typename T>
@@ -271,22 +289,16 @@ class Reader : public FieldVisitor {
 
   template <typename T>
   void field(std::string_view key, T& value, const FieldRule& rule = {}) {
-    const std::string name(key);
-    if (!rule.when) {
-      if (json_.find(name)) json_.fail("unknown key \"" + name + '"');
-    } else if (is_required(rule)) {
-      read_value(json_.at(name), value, rule);
-    } else if (const auto found = json_.find(name)) {
-      read_value(*found, value, rule);
-    }
+    if (const auto found = find(key, rule)) read_value(*found, value, rule);
   }
   template <typename Fields>
-  void group(std::string_view key, Fields visit) {
-    const JsonCursor object = json_.at(std::string(key));
+  void group(std::string_view key, Fields visit, const FieldRule& rule = {}) {
+    const auto object = find(key, rule);
+    if (!object) return;
     Outline outline;
     visit(outline);
-    object.allow_only(outline.keys);
-    Reader reader(object);
+    outline.check(*object);
+    Reader reader(*object);
     visit(reader);
   }
   void refuse(std::string_view pointer, std::string_view what) {
@@ -297,6 +309,9 @@ class Reader : public FieldVisitor {
   }
 
  private:
+  /// @throws IoError if the key has to be there and is not, or the other way round.
+  std::optional<JsonCursor> find(std::string_view key, const FieldRule& rule) const;
+
   const JsonCursor& json_;
 };
 
@@ -304,7 +319,7 @@ template <typename T>
 void read_record(const JsonCursor& json, T& value) {
   const Outline outline = outline_of(value);
   if (!outline.file_schema.empty()) expect_schema(json, outline.file_schema);
-  json.allow_only(outline.keys);
+  outline.check(json);
   Reader reader(json);
   fields(reader, value);
 }
@@ -355,6 +370,15 @@ struct RowReader : FieldVisitor {
   }
 };
 
+/// @throws IoError at the first item that is not above the one before it.
+template <typename T>
+void refuse_descending(const JsonCursor& json, const T& items) {
+  for (std::size_t i = 1; i < items.size(); ++i)
+    if (!(items[i] > items[i - 1]))
+      refuse_order(json.element(i), static_cast<double>(items[i]),
+                   static_cast<double>(items[i - 1]));
+}
+
 template <List T>
 void read_columns(const JsonCursor& json, T& list, const FieldRule& rule) {
   typename T::value_type none{};
@@ -400,6 +424,7 @@ void read_matrix(const JsonCursor& json, T& matrix, const FieldRule& rule) {
       matrix.resize(std::ssize(rows), static_cast<Eigen::Index>(columns));
     FieldRule row_rule = item_rule(rule);
     row_rule.nullable = rule.nullable_entries;
+    if (rule.not_empty) row_rule.min_items = 1;
     for (Eigen::Index i = 0; i < matrix.rows(); ++i) {
       const JsonCursor& row = rows[static_cast<std::size_t>(i)];
       matrix.row(i).setConstant(kNaN);
@@ -437,7 +462,11 @@ void read_value(const JsonCursor& json, T& value, const FieldRule& rule) {
   } else if constexpr (Matrix<T>) {
     read_matrix(json, value, rule);
   } else if constexpr (std::same_as<T, std::vector<double>>) {
-    value = read_numbers(json, rule);
+    if (rule.or_one && !json.is_array())
+      value = {read_number(json, rule)};
+    else
+      value = read_numbers(json, rule);
+    if (rule.ascending) refuse_descending(json, value);
   } else if constexpr (List<T>) {
     value.clear();
     if constexpr (Record<typename T::value_type>)
@@ -445,8 +474,13 @@ void read_value(const JsonCursor& json, T& value, const FieldRule& rule) {
     for (const JsonCursor& item : read_items(json, rule))
       read_value(item, value.emplace_back(), item_rule(rule));
     using Item = typename T::value_type;
-    if constexpr (std::integral<Item> || std::same_as<Item, std::string>)
+    if constexpr (std::integral<Item> || std::same_as<Item, std::string> || Enumeration<Item>)
       if (rule.unique) refuse_repeated(json, value);
+    if constexpr (std::integral<Item>)
+      if (rule.ascending) refuse_descending(json, value);
+  } else if constexpr (Kind<T>::is_map) {
+    value.clear();
+    for (const auto& [key, member] : json.members()) read_value(member, value[key], rule);
   } else if constexpr (Kind<T>::is_tuple || AsTuple<T>) {
     const std::vector<JsonCursor> items = json.elements(element_count<T>(), element_count<T>());
     auto item = items.begin();

@@ -8,8 +8,6 @@
 #include <numeric>
 #include <utility>
 
-#include <fmt/format.h>
-
 #include "core/base/errors.hpp"
 #include "core/labels/labelled_looks.hpp"
 #include "core/labels/robust_map.hpp"
@@ -22,7 +20,7 @@ using Exchange = std::pair<int, int>;
 using Exchanges = std::vector<Exchange>;
 
 constexpr std::size_t kMostDoubted = 40;  ///< Known places whose labels are doubted.
-constexpr double kHuberWidths = 2.0;           ///< Of Huber's cost, in standard deviations of a place.
+constexpr double kHuberWidths = 2.0;      ///< Of Huber's cost, in standard deviations of a place.
 constexpr double kLeastEvidence = 30.0;   ///< Variances that an exchange has to explain,
 constexpr double kLeastLead = 10.0;       ///< and those by which it has to lead before any other.
 constexpr double kMostLeft = 5.0;         ///< Deviations that its landmarks may be off then.
@@ -259,15 +257,6 @@ AnchorCheck check_anchor_labels(const SightingLog& log, const Points& known_m) {
   }
   check.repaired = exchanged(log, chosen);
   return check;
-}
-
-std::string described(const AnchorExchange& exchange, const SightingLog& log) {
-  const auto label = [&](int k) { return printable(log.names[static_cast<std::size_t>(k)]); };
-  return fmt::format(
-      "{} and {} look exchanged in all sightings: known places missed by {:.3f} m, then by {:.3f} "
-      "m",
-      label(exchange.first), label(exchange.second), exchange.misfit_before_m,
-      exchange.misfit_after_m);
 }
 
 }  // namespace mapproof

@@ -1,6 +1,5 @@
 #pragma once
 
-#include <string>
 #include <vector>
 
 #include "core/model/points.hpp"
@@ -38,9 +37,5 @@ struct AnchorCheck {
 /// @throws InvalidInput if known_m has not a row for each landmark, or as look_pairs does.
 /// @note O(k M) fits of k places, of those 40 known ones that fit worst.
 AnchorCheck check_anchor_labels(const SightingLog& log, const Points& known_m);
-
-/// A sentence: "3 and 10 look exchanged in all sightings: known places missed by 1.930 m, then by
-/// 0.120 m".
-std::string described(const AnchorExchange& exchange, const SightingLog& log);
 
 }  // namespace mapproof

@@ -4,11 +4,7 @@
 #include <cmath>
 #include <optional>
 
-#include <fmt/format.h>
-
-#include "core/base/errors.hpp"
 #include "core/base/not_finite.hpp"
-#include "core/base/words.hpp"
 #include "core/labels/fault_trials.hpp"
 #include "core/labels/look_costs.hpp"
 #include "core/labels/place_costs.hpp"
@@ -205,22 +201,6 @@ std::vector<char> fitting_neither(const LabelledLooks& looks, const std::vector<
   return left_out;
 }
 
-/// "from step 12 to step 90 of robot 3", "throughout", "in all looks of robot 3".
-std::string when_words(const LabelFinding& finding, const SightingLog& log) {
-  if (finding.to_the_end && finding.from_the_start) return "throughout";
-  // Times of all robots' looks are of one clock: whose look it was says nothing.
-  const auto robot = [&](int step) { return finding.by_time ? "" : robot_words(log, step); };
-  const std::string of_first = robot(finding.first_step);
-  const std::string of_last = robot(finding.last_step);
-  if (finding.all_of_robot && !of_first.empty()) return "in all looks" + of_first;
-  const std::string first = look_words(log, finding.first_step);
-  const std::string last = look_words(log, finding.last_step);
-  if (finding.to_the_end) return "from " + first + of_first + " on";
-  if (finding.from_the_start) return "up to " + last + of_last;
-  return of_first == of_last ? "from " + first + " to " + last + of_last
-                             : "from " + first + of_first + " to " + last + of_last;
-}
-
 }  // namespace
 
 LabelCheck check_labels(const SightingLog& log, const LabelCheckOptions& options) {
@@ -255,21 +235,6 @@ LabelCheck check_labels(const SightingLog& log, const LabelCheckOptions& options
   check.doubts = label_doubts(looks, labels, map);
   check.repaired = relabelled(log, labels, fitting_neither(looks, labels, map, check.findings));
   return check;
-}
-
-std::string described(const LabelFinding& finding, const SightingLog& log) {
-  const auto label = [&](int k) { return printable(log.names[static_cast<std::size_t>(k)]); };
-  const std::string what =
-      finding.fault == LabelFault::kSwapped
-          ? fmt::format("{} and {} look swapped{}", label(finding.first), label(finding.second),
-                        finding.scattered || finding.in_part ? " in single looks" : "")
-      : finding.fault == LabelFault::kWrong
-          ? fmt::format("{} looks like {}{}", label(finding.first), label(finding.second),
-                        finding.in_part ? " in single looks" : "")
-          : fmt::format("some of {} look like {}", label(finding.first), label(finding.second));
-  return fmt::format("{} {} ({}): loss {:.3f} -> {:.3f} m", what, when_words(finding, log),
-                     counted(finding.sightings, "sighting"), finding.loss_before_m,
-                     finding.loss_after_m);
 }
 
 }  // namespace mapproof

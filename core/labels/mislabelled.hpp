@@ -1,6 +1,5 @@
 #pragma once
 
-#include <string>
 #include <vector>
 
 #include "core/labels/label_doubts.hpp"
@@ -64,8 +63,5 @@ struct LabelCheck {
 /// @throws InvalidInput as look_pairs, cut_in_blocks and robust_map do.
 /// @note Some 2 s for 15 landmarks and 20,000 pairs, and as much for each finding.
 LabelCheck check_labels(const SightingLog& log, const LabelCheckOptions& options = {});
-
-/// A sentence: "7 and 12 look swapped from step 1200 on (310 sightings): loss 0.410 -> 0.130 m".
-std::string described(const LabelFinding& finding, const SightingLog& log);
 
 }  // namespace mapproof

@@ -52,7 +52,7 @@ std::optional<FaultTrial> mixed_trial(const LabelledLooks& looks, const std::vec
     if (gains.maxCoeff(&other) <= greatest) continue;
     greatest = gains(other);
     const auto b = static_cast<int>(other);
-    best.fault = {.fault = LabelFault::kMixed, .first = a, .second = b};
+    best.fault = {.fault = LabelFault::kInPart, .first = a, .second = b};
     best.stretch = {0, 0, looks.places.front().size()};
     best.labels = labels;
     for (std::size_t row = 0; row < labels.size(); ++row)

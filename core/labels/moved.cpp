@@ -5,8 +5,6 @@
 #include <numeric>
 #include <optional>
 
-#include <fmt/format.h>
-
 #include "core/base/errors.hpp"
 #include "core/labels/place_costs.hpp"
 #include "core/labels/place_shift.hpp"
@@ -209,16 +207,6 @@ MovedCheck find_moved(const SightingLog& log, const MovedOptions& options) {
     check.split.sightings[k].landmark = tried.labels[k];
   sort_sightings(check.split.sightings);
   return check;
-}
-
-std::string described(const MovedLandmark& moved, const SightingLog& log) {
-  const std::string earliest = look_words(log, moved.earliest_step);
-  const std::string latest = look_words(log, moved.latest_step);
-  return fmt::format("{} moved by {:.2f} m {} (p = {:.3g}): loss {:.3f} -> {:.3f} m",
-                     printable(log.names[static_cast<std::size_t>(moved.landmark)]),
-                     moved.distance_m,
-                     earliest == latest ? "at " + latest : "between " + earliest + " and " + latest,
-                     moved.p, moved.loss_before_m, moved.loss_after_m);
 }
 
 }  // namespace mapproof

@@ -1,7 +1,6 @@
 #pragma once
 
 #include <cstdint>
-#include <string>
 #include <vector>
 
 #include "core/labels/log_blocks.hpp"
@@ -52,8 +51,5 @@ struct MovedCheck {
 /// @note A round, one more than moves found: some 200 places for each pair of a look, and at most
 ///       M * permutations * slices, stopped early for landmarks that plainly stand.
 MovedCheck find_moved(const SightingLog& log, const MovedOptions& options = {});
-
-/// A sentence: "7 moved by 0.21 m between step 1198 and step 1204 (p = 0.015)".
-std::string described(const MovedLandmark& moved, const SightingLog& log);
 
 }  // namespace mapproof

@@ -10,8 +10,8 @@
 namespace mapproof {
 namespace {
 
-constexpr std::size_t kSettledPairs = 4;   ///< Twos of labels that are settled.
-constexpr double kLeastGain = 0.3;  ///< Of the first one's.
+constexpr std::size_t kSettledPairs = 4;  ///< Twos of labels that are settled.
+constexpr double kLeastGain = 0.3;        ///< Of the first one's.
 /// So rare, and so much rarer than the other label's, one label's changes are chance.
 constexpr double kByChance = 0.1;
 constexpr double kRarer = 0.25;
@@ -79,7 +79,7 @@ FaultTrial simpler_trial(const LabelledLooks& looks, const std::vector<int>& lab
   }
   if (!changes.one_sided()) return best;
   const Points places = best.map.positions_m;
-  return settled(looks, labels, shared, places, LabelFault::kMixed,
+  return settled(looks, labels, shared, places, LabelFault::kInPart,
                  changes.second_share > changes.first_share, width_m);
 }
 
@@ -126,7 +126,7 @@ FaultTrial over_stretch(const LabelledLooks& looks, const std::vector<int>& labe
   FaultTrial whole = trial;
   whole.scattered = false;
   whole.stretch = *stretch;
-  if (whole.fault.fault == LabelFault::kMixed) whole.fault.fault = LabelFault::kWrong;
+  if (whole.fault.fault == LabelFault::kInPart) whole.fault.fault = LabelFault::kWrong;
   whole.labels = mended_labels(looks, labels, whole.fault, *stretch);
   whole = settled_trial(looks, labels, std::vector(whole.labels), whole, trial.map.positions_m,
                         width_m, width_m);

@@ -11,7 +11,7 @@ namespace mapproof {
 enum class LabelFault {
   kSwapped,  ///< Two landmarks bear each other's label.
   kWrong,    ///< Sightings under one label are of another landmark.
-  kMixed,    ///< Some of them are, whenever.
+  kInPart,   ///< Some of them are, whenever.
 };
 
 /// The name used in files: "swapped", "wrong", "mixed".

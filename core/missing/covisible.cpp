@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 #include "core/base/errors.hpp"
 #include "core/embed/isomap.hpp"
@@ -29,10 +30,10 @@ Eigen::MatrixXd visibility_distances(const Eigen::MatrixXd& common, int least_co
   return distances;
 }
 
-Embedding failed(Eigen::Index landmarks, const char* why) {
+Embedding failed(Eigen::Index landmarks, Status why) {
   Embedding result;
   result.coordinates.setConstant(landmarks, 2, std::numeric_limits<double>::quiet_NaN());
-  result.statuses.push_back({StatusCode::kFailed, why});
+  result.statuses.push_back(std::move(why));
   return result;
 }
 
@@ -83,9 +84,8 @@ Embedding relative_stress_map(const Proximities& proximities, const SmacofOption
   const Graph graph = graph_of(proximities.squared_distances);
   const Eigen::MatrixXd distances = shortest_paths(graph);
   const Eigen::Index M = distances.rows();
-  if (M < 3) return failed(M, "A map needs 3 landmarks or more.");
-  if (!distances.allFinite())
-    return failed(M, "The pairs of landmarks that can be trusted leave the map in pieces.");
+  if (M < 3) return failed(M, status_of<StatusReason::kTooFewLandmarks>(M));
+  if (!distances.allFinite()) return failed(M, status_of<StatusReason::kTrustedPairsInPieces>());
   const Embedding start = isomap(graph);
   if (distances.maxCoeff() <= 0.0) return start;
   Embedding result = smacof(distances, relative_weights(distances), start.coordinates, options);

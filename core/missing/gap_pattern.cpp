@@ -7,20 +7,18 @@
 #include <numeric>
 #include <vector>
 
-#include <fmt/format.h>
-
 #include "core/base/errors.hpp"
 #include "core/linalg/gram.hpp"
 
 namespace mapproof {
 namespace {
 
-constexpr std::array kRecommendationNames = {std::string_view("common-steps"), std::string_view("ppca"),
-                               std::string_view("covisible")};
+constexpr std::array kRecommendationNames = {
+    std::string_view("common-steps"), std::string_view("ppca"), std::string_view("covisible")};
 constexpr double kFewSteps = 5.0;
-constexpr double kPatterned = 2.0;     ///< Dispersion above this is no chance.
+constexpr double kPatterned = 2.0;    ///< Dispersion above this is no chance.
 constexpr double kByDistance = -0.7;  ///< Nearness below this: a sensor of short range.
-constexpr double kManyApart = 0.15;    ///< Of pairs with few common steps: nothing fills them.
+constexpr double kManyApart = 0.15;   ///< Of pairs with few common steps: nothing fills them.
 
 /// Ranks from 1; equal values have their mean rank.
 std::vector<double> ranks_of(const std::vector<double>& values) {
@@ -92,23 +90,14 @@ GapPattern gap_pattern(const ObservationHistory& history, Eigen::Index steps) {
 std::string_view name(GapWay way) { return kRecommendationNames[static_cast<std::size_t>(way)]; }
 
 GapAdvice advised_way(const GapPattern& pattern, Sensor sensor) {
-  if (pattern.missing_share == 0.0) return {GapWay::kCommonSteps, "nothing is missing"};
-  if (sensor == Sensor::kVisibility)
-    return {GapWay::kCommonSteps, "entries of visibility are not filled in"};
-  const std::string numbers = fmt::format(
-      "{:.0f} % missing, pairs' common steps {:.1f} standard deviations from chance, rank "
-      "correlation with their distances {:.2f}, {:.1f} % of the pairs with fewer than five",
-      100.0 * pattern.missing_share, pattern.dispersion, pattern.nearness,
-      100.0 * pattern.few_share);
+  if (pattern.missing_share == 0.0) return {GapWay::kCommonSteps, GapReason::kNoGaps};
+  if (sensor == Sensor::kVisibility) return {GapWay::kCommonSteps, GapReason::kOfVisibility};
   const bool patterned = pattern.dispersion > kPatterned;
   if (sensor == Sensor::kRange && patterned && pattern.few_share > kManyApart)
-    return {GapWay::kCovisible,
-            "many pairs are hardly ever observed together, near ones are (" + numbers + ")"};
+    return {GapWay::kCovisible, GapReason::kHardlyEver};
   if (sensor == Sensor::kBearing && patterned && pattern.nearness < kByDistance)
-    return {GapWay::kCommonSteps, "entries are missing by distance (" + numbers + ")"};
-  return {GapWay::kPpca,
-          patterned ? "entries are missing by a pattern that can be filled in (" + numbers + ")"
-                    : "entries are missing as if at random (" + numbers + ")"};
+    return {GapWay::kCommonSteps, GapReason::kByDistance};
+  return {GapWay::kPpca, patterned ? GapReason::kByAPattern : GapReason::kAtRandom};
 }
 
 double median_disagreement(const Proximities& filled, const Proximities& common) {

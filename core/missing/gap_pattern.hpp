@@ -1,6 +1,5 @@
 #pragma once
 
-#include <string>
 #include <string_view>
 
 #include "core/model/observation_history.hpp"
@@ -32,10 +31,19 @@ enum class GapWay { kCommonSteps, kPpca, kCovisible };
 /// "common-steps", "ppca", "covisible": as the command line has them.
 std::string_view name(GapWay way);
 
-/// A way and why, a clause: "entries are missing by distance: ...".
+/// Why a way serves the gaps best.
+enum class GapReason {
+  kNoGaps,
+  kOfVisibility,  ///< Whose entries are not filled in.
+  kHardlyEver,    ///< Many pairs are hardly ever observed together; near ones are.
+  kByDistance,
+  kByAPattern,  ///< That can be filled in.
+  kAtRandom,
+};
+
 struct GapAdvice {
   GapWay way = GapWay::kCommonSteps;
-  std::string why;
+  GapReason why = GapReason::kNoGaps;
 };
 
 /// The way that made the best maps of such gaps in the study of missing entries: bearings of which

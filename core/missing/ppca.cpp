@@ -4,8 +4,6 @@
 #include <cmath>
 #include <numbers>
 
-#include <fmt/format.h>
-
 #include "core/base/errors.hpp"
 #include "core/linalg/decompositions.hpp"
 
@@ -81,9 +79,7 @@ Ppca ppca(const Features& matrix, const PpcaOptions& options) {
     whiten(moments, next);
   }
   if (!settled)
-    result.statuses.push_back({StatusCode::kNotConverged,
-                               fmt::format("The likelihood of PPCA still rose after {} iterations.",
-                                           options.max_iterations)});
+    result.statuses.push_back(status_of<StatusReason::kLikelihoodRising>(options.max_iterations));
   return result;
 }
 

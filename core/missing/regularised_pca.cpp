@@ -3,8 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include <fmt/format.h>
-
 #include "core/base/errors.hpp"
 
 namespace mapproof {
@@ -51,9 +49,7 @@ RegularisedPca regularised_pca(const Features& matrix, const RegularisedPcaOptio
     result.losses.push_back(loss);
   }
   if (!settled)
-    result.statuses.push_back(
-        {StatusCode::kNotConverged,
-         fmt::format("The loss of PCA still fell after {} iterations.", options.max_iterations)});
+    result.statuses.push_back(status_of<StatusReason::kLossFalling>(options.max_iterations));
   return result;
 }
 

@@ -140,8 +140,7 @@ JointMap joint_map(const std::vector<Eigen::MatrixXd>& distances, const Points& 
   JointMap result{.embedding = {}, .shares = std::vector<double>(distances.size(), 0.0)};
   if (!connected(distances)) {
     result.embedding.coordinates.setConstant(M, 2, std::numeric_limits<double>::quiet_NaN());
-    result.embedding.statuses.push_back(
-        {StatusCode::kFailed, "Some groups of landmarks share no observation by any sensor."});
+    result.embedding.statuses.push_back(status_of<StatusReason::kNoSensorShares>());
     return result;
   }
   Points map = start.rowwise() - start.colwise().mean();

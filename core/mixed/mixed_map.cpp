@@ -7,7 +7,6 @@
 #include <fmt/format.h>
 
 #include "core/base/errors.hpp"
-#include "core/base/words.hpp"
 #include "core/mixed/joint_map.hpp"
 #include "core/mixed/mixed_distances.hpp"
 
@@ -95,9 +94,7 @@ MixedSensor alone(const ObservationHistory& history, MethodSetting setting,
 Embedding too_few(Eigen::Index landmarks) {
   Embedding result;
   result.coordinates.setConstant(landmarks, 2, std::numeric_limits<double>::quiet_NaN());
-  result.statuses.push_back(
-      {StatusCode::kFailed,
-       fmt::format("A map needs 3 observed landmarks, {} are there.", landmarks)});
+  result.statuses.push_back(status_of<StatusReason::kTooFewLandmarks>(landmarks));
   return result;
 }
 
@@ -172,9 +169,7 @@ MixedMap mixed_map(const std::vector<ObservationHistory>& histories, Eigen::Inde
     if (joint) result.sensors[s].share = joint->shares[s];
   }
   if (const auto unseen = M - std::ssize(rows); unseen > 0)
-    result.joint.statuses.push_back(
-        {StatusCode::kLandmarkUnseen,
-         counted(unseen, "landmark") + " not observed by any of the sensors."});
+    result.joint.statuses.push_back(status_of<StatusReason::kNoSensorObserved>(unseen));
   return result;
 }
 

@@ -15,10 +15,4 @@ std::string_view name(AnchorPlacement placement) {
   return kPlacementNames[static_cast<std::size_t>(placement)];
 }
 
-std::optional<AnchorPlacement> anchor_placement_named(std::string_view name) {
-  for (std::size_t i = 0; i < kPlacementNames.size(); ++i)
-    if (kPlacementNames[i] == name) return static_cast<AnchorPlacement>(i);
-  return std::nullopt;
-}
-
 }  // namespace mapproof

@@ -15,7 +15,4 @@ enum class AnchorPlacement {
 /// The name used in files: "walls", "random", "cluster".
 std::string_view name(AnchorPlacement placement);
 
-/// The placement of that name; empty if there is none.
-std::optional<AnchorPlacement> anchor_placement_named(std::string_view name);
-
 }  // namespace mapproof

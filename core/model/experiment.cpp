@@ -22,19 +22,7 @@ std::string_view name(AffineFit fit) { return kFits[static_cast<std::size_t>(fit
 
 std::string_view label(AffineFit fit) { return kFits[static_cast<std::size_t>(fit)].label; }
 
-std::optional<AffineFit> affine_fit_named(std::string_view name) {
-  for (std::size_t i = 0; i < kFits.size(); ++i)
-    if (kFits[i].name == name) return static_cast<AffineFit>(i);
-  return std::nullopt;
-}
-
 std::string_view name(FigureKind kind) { return kKinds[static_cast<std::size_t>(kind)]; }
-
-std::optional<FigureKind> figure_kind_named(std::string_view name) {
-  for (std::size_t i = 0; i < kKinds.size(); ++i)
-    if (kKinds[i] == name) return static_cast<FigureKind>(i);
-  return std::nullopt;
-}
 
 const SensorStudy* find_sensor(const Experiment& experiment, Sensor sensor) {
   for (const SensorStudy& study : experiment.sensors)

@@ -71,9 +71,6 @@ std::string_view name(AffineFit fit);
 /// "least distances": for readers.
 std::string_view label(AffineFit fit);
 
-/// The fit of that name; empty if there is none.
-std::optional<AffineFit> affine_fit_named(std::string_view name);
-
 /// One sensor's part of an experiment.
 struct SensorStudy {
   SensorOptions sensor;
@@ -101,9 +98,6 @@ enum class FigureKind {
 
 /// The name used in files: "idea", "measurement", "error_curve", "map".
 std::string_view name(FigureKind kind);
-
-/// The kind of that name; empty if there is none.
-std::optional<FigureKind> figure_kind_named(std::string_view name);
 
 /// A figure of the paper that is drawn again, under an id of its own.
 struct PaperFigure {

@@ -3,6 +3,7 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <variant>
 #include <vector>
 
 #include <Eigen/Core>
@@ -29,15 +30,46 @@ std::string_view name(Frame frame);
 /// The frame of that name; empty if there is none.
 std::optional<Frame> frame_named(std::string_view name);
 
-/// What files and the command line call a map of measured pairs: its sensor and its method.
-inline constexpr std::string_view kRangeBearing = "range-bearing";
-inline constexpr std::string_view kPairs = "pairs";
-
-/// One map, of a study or of a person's own observations.
-struct MapRecord {
-  std::string id;  ///< Slash-separated, e.g. "layout-1-pose-2/bearing/isomap-K9/2000".
+/// An embedding of what one sensor observed.
+struct FromSensor {
   Sensor sensor = Sensor::kVisibility;
   MethodSetting setting;
+
+  bool operator==(const FromSensor&) const = default;
+};
+
+/// A joint map of what several sensors observed of the same landmarks.
+struct FromSensors {
+  std::vector<Sensor> sensors;  ///< Two or more.
+  MethodSetting setting;        ///< Of the map that the joint one begins with.
+
+  bool operator==(const FromSensors&) const = default;
+};
+
+/// A map of the distances of pairs that range and bearing together measured, by SMACOF.
+struct FromPairs {
+  bool operator==(const FromPairs&) const = default;
+};
+
+/// A range-only map: the factors of squared ranges that were taken together [boots2013].
+struct FromRanges {
+  bool operator==(const FromRanges&) const = default;
+};
+
+/// What a map was made of, and how.
+using MapOrigin = std::variant<FromSensor, FromSensors, FromPairs, FromRanges>;
+
+/// What files and the command line call the sensor of FromSensors, sensor and method of FromPairs,
+/// and the method of FromRanges.
+inline constexpr std::string_view kMixed = "mixed";
+inline constexpr std::string_view kRangeBearing = "range-bearing";
+inline constexpr std::string_view kPairs = "pairs";
+inline constexpr std::string_view kSpectralMap = "spectral";
+
+/// One map, of a study or of a user's observations.
+struct MapRecord {
+  std::string id;  ///< Slash-separated, e.g. "layout-1-pose-2/bearing/isomap-K9/2000".
+  MapOrigin origin;
   int step = 0;  ///< Number of observations used, N.
   Frame frame = Frame::kTruth;
   std::vector<std::string> names;     ///< M.
@@ -47,18 +79,24 @@ struct MapRecord {
   std::vector<Status> statuses;
   std::optional<Certificate> certificate;  ///< Of a semidefinite program on a person's own data.
   std::optional<Score> score;              ///< If there is a truth and the map could be scored.
-  /// Made of the distances that range and bearing together measured: `sensor` and `setting` say
-  /// nothing.
-  bool of_pairs = false;
 };
 
 /// Whether the position of that landmark was given.
 bool is_anchor(const MapRecord& map, Eigen::Index row);
 
-/// What was mapped, in words: "range and bearing", or the sensor's name.
-std::string observed(const MapRecord& map);
+/// The method and its parameter; null for a map of pairs or a range-only one.
+const MethodSetting* setting_of(const MapRecord& map);
 
-/// How: "SMACOF of measured pairs", or the setting's label.
-std::string made_by(const MapRecord& map);
+/// In files and results: "bearing", "mixed", "range-bearing".
+std::string_view sensor_name(const MapRecord& map);
+
+/// In files: "isomap", "pairs", "spectral".
+std::string_view method_name(const MapRecord& map);
+
+/// For readers: "bearing", "visibility and bearing", "range and bearing".
+std::string sensor_label(const MapRecord& map);
+
+/// For readers: "ISOMAP, K = 6", "joint map begun by ISOMAP, K = 6", "SMACOF of measured pairs".
+std::string method_label(const MapRecord& map);
 
 }  // namespace mapproof

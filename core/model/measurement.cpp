@@ -13,10 +13,4 @@ constexpr std::array kOutcomeNames = {std::string_view("visible"), std::string_v
 
 std::string_view name(View view) { return kOutcomeNames[static_cast<std::size_t>(view)]; }
 
-std::optional<View> view_named(std::string_view name) {
-  for (std::size_t i = 0; i < kOutcomeNames.size(); ++i)
-    if (kOutcomeNames[i] == name) return static_cast<View>(i);
-  return std::nullopt;
-}
-
 }  // namespace mapproof

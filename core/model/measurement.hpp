@@ -23,9 +23,6 @@ enum class View {
 /// The name used in files: "visible", "hidden", "out_of_reach".
 std::string_view name(View view);
 
-/// The view of that name; empty if there is none.
-std::optional<View> view_named(std::string_view name);
-
 /// What one sensor measured at one step of one run, and where everything stood.
 struct Measurement {
   Sensor sensor = Sensor::kVisibility;

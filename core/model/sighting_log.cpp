@@ -3,10 +3,6 @@
 #include <algorithm>
 #include <utility>
 
-#include <fmt/format.h>
-
-#include "core/base/errors.hpp"
-
 namespace mapproof {
 
 std::vector<Eigen::Index> unseen_in(const SightingLog& log) {
@@ -21,19 +17,6 @@ std::vector<Eigen::Index> unseen_in(const SightingLog& log) {
 void sort_sightings(std::vector<Sighting>& sightings) {
   std::ranges::stable_sort(sightings, {},
                            [](const Sighting& one) { return std::pair(one.step, one.landmark); });
-}
-
-std::string look_words(const SightingLog& log, int step) {
-  const auto look = static_cast<std::size_t>(step);
-  if (look < log.times_s.size()) return fmt::format("{:.1f} s", log.times_s[look]);
-  if (look < log.looks.size()) return fmt::format("step {:.15g}", log.looks[look].key);
-  return fmt::format("step {}", step + 1);
-}
-
-std::string robot_words(const SightingLog& log, int step) {
-  const auto look = static_cast<std::size_t>(step);
-  if (log.robots.size() < 2 || look >= log.looks.size()) return "";
-  return " of robot " + printable(log.robots[static_cast<std::size_t>(log.looks[look].robot)]);
 }
 
 ObservationHistory history_of(const SightingLog& log, Sensor sensor) {

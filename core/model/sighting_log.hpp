@@ -44,12 +44,6 @@ std::vector<Eigen::Index> unseen_in(const SightingLog& log);
 /// Brings sightings into their order again, after their labels changed.
 void sort_sightings(std::vector<Sighting>& sightings);
 
-/// How a look is called in words, by its file's own step or time: "step 1200", "12.5 s".
-std::string look_words(const SightingLog& log, int step);
-
-/// Whose look it was, " of robot 3"; empty for the log of one robot.
-std::string robot_words(const SightingLog& log, int step);
-
 /// What one kind of sensor saw in those looks, as an array: visibility 0 where a landmark was not
 /// seen, bearing and range NaN.
 /// @note 8 M N bytes.

@@ -21,10 +21,4 @@ std::string_view name(Alignment alignment) {
   return {};
 }
 
-std::optional<Alignment> alignment_named(std::string_view name) {
-  for (const auto& [value, text] : kAlignmentNames)
-    if (text == name) return value;
-  return std::nullopt;
-}
-
 }  // namespace mapproof

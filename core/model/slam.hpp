@@ -25,9 +25,6 @@ enum class Alignment {
 /// The name used in files: "none", "rigid", "rigid-with-reflection", "similarity".
 std::string_view name(Alignment alignment);
 
-/// The alignment of that name; empty if there is none.
-std::optional<Alignment> alignment_named(std::string_view name);
-
 /// Path and landmarks that one range-only method estimated.
 struct SlamEstimate {
   Trajectory path;

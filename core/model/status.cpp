@@ -1,6 +1,7 @@
 #include "core/model/status.hpp"
 
 #include <array>
+#include <utility>
 
 namespace mapproof {
 namespace {
@@ -26,10 +27,10 @@ constexpr std::array kStatusNames = {
 
 std::string_view name(StatusCode code) { return kStatusNames[static_cast<std::size_t>(code)]; }
 
-std::optional<StatusCode> status_code_named(std::string_view name) {
-  for (std::size_t i = 0; i < kStatusNames.size(); ++i)
-    if (kStatusNames[i] == name) return static_cast<StatusCode>(i);
-  return std::nullopt;
+std::string_view name(StatusReason reason) { return info(reason).name; }
+
+Status status_with_message(StatusCode code, std::string message) {
+  return {.code = code, .reason = StatusReason::kMessage, .names = {std::move(message)}};
 }
 
 }  // namespace mapproof

@@ -59,8 +59,7 @@ struct Run {
 struct Provenance {
   std::string version;  ///< Of mapproof.
   std::string commit;   ///< Of its source; "unknown" outside a checkout.
-  std::string
-      solver_digest;  ///< SHA-256 of the sources of core: records of another one are redone.
+  std::string solver_digest;  ///< Of the sources that compute: records of another one are redone.
   std::vector<std::pair<std::string, std::string>> libraries;  ///< Name and version.
 };
 

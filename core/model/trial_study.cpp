@@ -3,6 +3,9 @@
 #include <algorithm>
 #include <utility>
 
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
 #include "core/base/errors.hpp"
 
 namespace mapproof {
@@ -76,6 +79,42 @@ Condition condition_at(const TrialSetup& setup, double level) {
   check_single(setup);
   if (setup.factors.empty()) return condition(setup.id);
   return condition(setup.id, {{.factor = setup.factors.front().id, .value = level}});
+}
+
+std::string level_words(const TrialSetup& setup, const Condition& at) {
+  std::vector<std::string> words;
+  for (const TrialFactor& factor : setup.factors) {
+    const auto level = std::ranges::find(at.levels, factor.id, &Level::factor);
+    if (level == at.levels.end()) continue;
+    words.push_back(fmt::format("{} {:g}{}{}", factor.label, std::get<double>(level->value),
+                                factor.unit.empty() || factor.unit == "\u00B0" ? "" : " ",
+                                factor.unit));
+  }
+  return fmt::format("{}", fmt::join(words, ", "));
+}
+
+std::string series_label(const TrialDesign& design, std::string_view id) {
+  const auto found = std::ranges::find(design.series, id, &TrialSeries::id);
+  return found == design.series.end() ? std::string(id) : found->label;
+}
+
+void add_seconds(TrialPart& part, std::string_view series, double seconds) {
+  const auto found = std::ranges::find(part.seconds, series, &TrialSeconds::series);
+  if (found == part.seconds.end())
+    part.seconds.push_back({part.id, std::string(series), seconds});
+  else
+    found->seconds += seconds;
+}
+
+std::vector<double> list_option(const TrialExperiment& experiment, const std::string& name) {
+  const auto found = experiment.options.find(name);
+  if (found == experiment.options.end() || found->second.empty())
+    throw InvalidInput(fmt::format("a study of {} without its option {}", experiment.topic, name));
+  return found->second;
+}
+
+double number_option(const TrialExperiment& experiment, const std::string& name) {
+  return list_option(experiment, name).front();
 }
 
 }  // namespace mapproof

@@ -10,6 +10,7 @@
 #include <Eigen/Core>
 
 #include "core/model/experiment.hpp"
+#include "core/model/map_certainty.hpp"
 #include "core/model/map_record.hpp"
 #include "core/model/study.hpp"
 #include "core/model/sweep.hpp"
@@ -46,6 +47,10 @@ std::vector<double> levels_of(const TrialSetup& setup);
 /// @throws InvalidInput as levels_of().
 Condition condition_at(const TrialSetup& setup, double level);
 
+/// "noise of bearings 20°", "observations 2000": the levels of a condition of the setup with what
+/// they are of; empty if it has no factors.
+std::string level_words(const TrialSetup& setup, const Condition& at);
+
 /// One of what is held against each other: a method, a criterion, a sensor.
 struct TrialSeries {
   std::string id;     ///< [a-z][a-z0-9-]*: "ppca-q10".
@@ -64,11 +69,13 @@ struct TrialOption {
 
 /// What a study of trials compares, in the order of its tables.
 struct TrialDesign {
-  std::string question;  ///< What is asked and how it is tried, two or three sentences.
   std::vector<TrialSetup> setups;
   std::vector<TrialSeries> series;
   std::vector<Quantity> quantities;  ///< By which trials are judged: study_quantity().
 };
+
+/// The label of a series of the design; its id if there is none of it.
+std::string series_label(const TrialDesign& design, std::string_view id);
 
 /// What one series came to under one condition of a setup. Not every combination has to be tried.
 struct Trial {
@@ -92,8 +99,8 @@ struct TrialMap {
   std::string id;     ///< [a-z][a-z0-9-]*, unique in the study: "ranged-dataset2".
   std::string title;  ///< What it shows, a sentence for its caption.
   MapRecord map;
-  std::vector<MeasuredPair> pairs;           ///< Drawn thin under the map; may be empty.
-  std::vector<Eigen::Matrix2d> covariances;  ///< Of each landmark's position, m^2; M or none.
+  std::vector<MeasuredPair> pairs;        ///< Drawn thin under the map; may be empty.
+  std::optional<MapCertainty> certainty;  ///< The ellipses of its landmarks.
 };
 
 /// Seconds that one series took on one part.
@@ -111,6 +118,9 @@ struct TrialPart {
   std::vector<TrialMap> maps;         ///< Of few parts: the first run's.
   std::vector<TrialSeconds> seconds;  ///< Vary from run to run; kept in timings.jsonl.
 };
+
+/// Adds to what a series took on a part: one entry a series.
+void add_seconds(TrialPart& part, std::string_view series, double seconds);
 
 /// A data set that is no part of the program.
 struct TrialDataSet {
@@ -137,6 +147,10 @@ struct TrialExperiment {
   std::vector<TrialDataSet> data = {};    ///< Of a topic of data: what was there.
 };
 
+/// An experiment's option. @throws InvalidInput if the experiment does not have it.
+double number_option(const TrialExperiment& experiment, const std::string& name);
+std::vector<double> list_option(const TrialExperiment& experiment, const std::string& name);
+
 /// Whether the sensor has all factors of the sweep.
 bool has_factors(Sensor sensor, const Sweep& sweep);
 
@@ -151,9 +165,7 @@ struct TrialStudy {
   TrialExperiment experiment;
   Provenance provenance;
   TrialDesign design;
-  std::vector<TrialPart> parts;          ///< Runs in ascending order, or data sets by name.
-  std::vector<std::string> conclusions;  ///< What came out, with numbers, a sentence each; of the
-                                         ///< topic that judges the parts, never on disk.
+  std::vector<TrialPart> parts;  ///< Runs in ascending order, or data sets by name.
 };
 
 }  // namespace mapproof

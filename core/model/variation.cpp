@@ -28,12 +28,6 @@ constexpr std::array kFactors = {
 
 const FactorInfo& info(Factor factor) { return kFactors[static_cast<std::size_t>(factor)]; }
 
-std::optional<Factor> factor_named(std::string_view name) {
-  for (const FactorInfo& candidate : kFactors)
-    if (candidate.name == name && !candidate.of_world) return candidate.factor;
-  return std::nullopt;
-}
-
 std::vector<std::string_view> factor_names() {
   std::vector<std::string_view> names;
   for (const FactorInfo& factor : kFactors)

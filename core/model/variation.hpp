@@ -40,9 +40,6 @@ struct FactorInfo {
 
 const FactorInfo& info(Factor factor);
 
-/// The factor of that name that a variation may change; empty if there is none.
-std::optional<Factor> factor_named(std::string_view name);
-
 /// The names of these factors, in their order.
 std::vector<std::string_view> factor_names();
 

@@ -7,10 +7,7 @@
 #include <set>
 #include <utility>
 
-#include <fmt/format.h>
-
 #include "core/base/errors.hpp"
-#include "core/base/words.hpp"
 #include "core/graph/components.hpp"
 #include "core/pairs/handedness.hpp"
 #include "core/pairs/pair_graph.hpp"
@@ -77,16 +74,12 @@ std::vector<Status> gaps(const Graph& graph, const std::vector<Eigen::Index>& gr
       loose.push_back(names[i]);
   }
   std::vector<Status> statuses;
-  const auto add = [&](StatusCode code, const std::vector<std::string>& which, const char* what) {
-    if (!which.empty()) statuses.push_back({code, fmt::format("{}: {}.", what, listed(which, 11))});
+  const auto add = [&](Status status) {
+    if (!status.names.empty()) statuses.push_back(std::move(status));
   };
-  add(StatusCode::kLandmarkUnseen, alone,
-      "Range and bearing were never measured together with another's, so not mapped");
-  add(StatusCode::kTooFewObservations, elsewhere,
-      fmt::format("In no look with the {} landmarks that are mapped, so not mapped", group.size())
-          .c_str());
-  add(StatusCode::kUndetermined, loose,
-      "Measured against fewer than three others, which leaves more than one place");
+  add(status_of<StatusReason::kNeverMeasuredTogether>(std::move(alone)));
+  add(status_of<StatusReason::kNotWithTheMapped>(std::move(elsewhere), group.size()));
+  add(status_of<StatusReason::kFewPairs>(std::move(loose)));
   return statuses;
 }
 
@@ -158,10 +151,7 @@ PairMap pair_map(const std::vector<MeasuredPair>& pairs, const std::vector<std::
   const Graph graph = graph_of(taken, names.size());
   const std::vector<Eigen::Index> group = largest_group(components(graph));
   if (group.size() < 3) {
-    result.embedding.statuses.push_back(
-        {StatusCode::kFailed,
-         fmt::format("{} measured, which hold no three landmarks together: nothing to map.",
-                     counted(std::ssize(pairs), "pair"))});
+    result.embedding.statuses.push_back(status_of<StatusReason::kTooFewPairs>(pairs.size()));
     return result;
   }
   PairProblem problem = problem_of(taken, group);

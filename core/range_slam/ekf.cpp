@@ -110,9 +110,7 @@ class Filter {
     estimate.range_scale = x_(kScale);
     tell_unplaced(log_, is_placed_, estimate.statuses);
     if (2 * gated_ > updates_)
-      estimate.statuses.push_back(
-          {StatusCode::kNotConverged,
-           fmt::format("The filter is lost: {} of {} ranges were gated out.", gated_, updates_)});
+      estimate.statuses.push_back(status_of<StatusReason::kFilterLost>(gated_, updates_));
     return estimate;
   }
 

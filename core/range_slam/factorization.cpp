@@ -2,8 +2,6 @@
 
 #include <limits>
 
-#include <fmt/format.h>
-
 #include "core/base/errors.hpp"
 #include "core/linalg/decompositions.hpp"
 #include "core/linalg/sign.hpp"
@@ -34,11 +32,7 @@ void judge_rank(Factorization& result, Eigen::Index rank) {
   if (smallest > floor) return;
   const auto signals = (s.head(rank).array() > floor).count();
   result.statuses.push_back(
-      {StatusCode::kRankDeficient,
-       fmt::format("Squared ranges have rank {} above the noise, {} is needed: condition number "
-                   "{:.3g}. So it is where the robot or the landmarks keep to {}.",
-                   signals, rank, result.condition,
-                   rank == 4 ? "a line or a circle" : "a plane or a sphere")});
+      status_of<StatusReason::kRankOfRanges>(signals, rank, result.condition));
 }
 
 Factorization factorize(const Eigen::MatrixXd& Y, Eigen::Index rank) {

@@ -2,8 +2,6 @@
 
 #include <cmath>
 
-#include <fmt/format.h>
-
 #include "core/base/errors.hpp"
 #include "core/linalg/decompositions.hpp"
 #include "core/range_slam/metric_upgrade.hpp"
@@ -53,9 +51,7 @@ HeadingMap map_with_heading(const HeadingColumns& columns,
   HeadingMap result;
   if (N < kLeastLandmarksRank7 || K < kLeastColumns) {
     result.map.statuses.push_back(
-        {StatusCode::kTooFewObservations,
-         fmt::format("{} landmarks and {} steps with motion; {} and {} are needed.", N, K,
-                     kLeastLandmarksRank7, kLeastColumns)});
+        status_of<StatusReason::kFewStepsWithMotion>(N, K, kLeastLandmarksRank7, kLeastColumns));
     return result;
   }
   const Factorization factors = factorize(columns.Y, kRankWithHeading);

@@ -47,9 +47,7 @@ SpectralMap map_from_known_places(const Factorization& factors,
   SpectralMap map;
   map.statuses = factors.statuses;
   if (std::ssize(rows) < rank) {
-    map.statuses.push_back(
-        {StatusCode::kTooFewObservations,
-         fmt::format("{} landmarks are known, {} are needed.", rows.size(), rank)});
+    map.statuses.push_back(status_of<StatusReason::kFewKnownLandmarks>(rows.size(), rank));
     return map;
   }
 
@@ -65,10 +63,7 @@ SpectralMap map_from_known_places(const Factorization& factors,
   map.condition = least > 0.0 ? s(0) / least : std::numeric_limits<double>::infinity();
   if (!(*map.condition < kDegenerateCondition)) {
     map.statuses.push_back(
-        {StatusCode::kDegenerateGeometry,
-         fmt::format("The known landmarks lie on one {}: condition number "
-                     "{:.3g}.",
-                     in_plane ? "line or circle" : "plane or sphere", *map.condition)});
+        status_of<StatusReason::kKnownDegenerate>(in_plane ? 2 : 3, *map.condition));
     return map;
   }
 
@@ -79,11 +74,7 @@ SpectralMap map_from_known_places(const Factorization& factors,
   const Eigen::MatrixXd change = to_metres(center, unit);
   const double squared_scale = small_X.row(0).mean();
   if (!(squared_scale > 0.0) || qr.rank() < rank) {
-    map.statuses.push_back(
-        {StatusCode::kFailed,
-         fmt::format("The ranges do not tell positions from the known landmarks: their rank is "
-                     "lower than that of a path in {}.",
-                     in_plane ? "the plane" : "space")});
+    map.statuses.push_back(status_of<StatusReason::kRankOfPath>(in_plane ? 2 : 3));
     return map;
   }
   map.X = change * small_X / squared_scale;

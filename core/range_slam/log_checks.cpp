@@ -2,12 +2,11 @@
 
 #include <cmath>
 #include <set>
-#include <string_view>
+#include <utility>
 
 #include <fmt/format.h>
 
 #include "core/base/errors.hpp"
-#include "core/base/words.hpp"
 #include "core/linalg/planarity.hpp"
 
 namespace mapproof {
@@ -15,17 +14,12 @@ namespace {
 
 /// Longer ranges are no ranges; their fourth powers must not overflow.
 constexpr double kLongest_m = 1e9;
-/// Landmarks that a status lists.
-constexpr std::size_t kMostNamed = 10;
 
-std::optional<Status> on_a_line(const Points& points, StatusCode code, std::string_view what,
-                                std::string_view of_what) {
+template <StatusReason kReason>
+std::optional<Status> on_a_line(const Points& points) {
   const double flatness = points.allFinite() ? planarity(points) : 1.0;
   if (flatness > kNearlyFlat) return std::nullopt;
-  return Status{code,
-                fmt::format("{} nearly on one line, condition number {:.3g}: on which side of "
-                            "it {} is hardly told.",
-                            what, 1.0 / flatness, of_what)};
+  return status_of<kReason>(1.0 / flatness);
 }
 
 }  // namespace
@@ -71,18 +65,15 @@ void tell_unplaced(const RangeLog& log, const std::vector<bool>& is_placed,
   std::vector<std::string> names;
   for (std::size_t n = 0; n < is_placed.size(); ++n)
     if (!is_placed[n]) names.push_back(log.landmarks[n]);
-  if (!names.empty())
-    statuses.push_back({StatusCode::kLandmarkUnseen,
-                        "Too few ranges for a place of " + listed(names, kMostNamed) + "."});
+  if (!names.empty()) statuses.push_back(status_of<StatusReason::kTooFewRanges>(std::move(names)));
 }
 
 std::optional<Status> landmarks_on_a_line(const Points& landmarks_m) {
-  return on_a_line(landmarks_m, StatusCode::kDegenerateGeometry, "The landmarks lie",
-                   "the robot was");
+  return on_a_line<StatusReason::kLandmarksNearlyOnALine>(landmarks_m);
 }
 
 std::optional<Status> path_on_a_line(const Points& positions_m) {
-  return on_a_line(positions_m, StatusCode::kUndetermined, "The path lies", "a landmark stands");
+  return on_a_line<StatusReason::kPathNearlyOnALine>(positions_m);
 }
 
 }  // namespace mapproof

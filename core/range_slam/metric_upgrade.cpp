@@ -2,8 +2,6 @@
 
 #include <cmath>
 
-#include <fmt/format.h>
-
 #include "core/base/errors.hpp"
 #include "core/linalg/decompositions.hpp"
 #include "core/range_slam/quadric.hpp"
@@ -76,10 +74,8 @@ MetricUpgrade metric_upgrade(const Factorization& factors, UpgradeSide side) {
   map.statuses = factors.statuses;
   const Eigen::Index T = factors.V.cols();
   if (T < fitted_states(n) || factors.U.rows() < n) {
-    map.statuses.push_back({StatusCode::kTooFewObservations,
-                            fmt::format("{} states against {} on the other side; {} against {} "
-                                        "are needed.",
-                                        T, factors.U.rows(), fitted_states(n), n)});
+    map.statuses.push_back(
+        status_of<StatusReason::kFewStates>(T, factors.U.rows(), fitted_states(n), n));
     return result;
   }
 
@@ -89,10 +85,7 @@ MetricUpgrade metric_upgrade(const Factorization& factors, UpgradeSide side) {
   const Eigen::MatrixXd L = llt.matrixL();
   const Eigen::MatrixXd V = L.triangularView<Eigen::Lower>().solve(factors.V);
   if (factors.condition > kFlat || llt.info() != Eigen::Success || !V.allFinite()) {
-    map.statuses.push_back({StatusCode::kDegenerateGeometry,
-                            fmt::format("The states do not span {} dimensions: condition number "
-                                        "{:.3g}.",
-                                        n == 4 ? "four" : "five", factors.condition)});
+    map.statuses.push_back(status_of<StatusReason::kStatesFlat>(n, factors.condition));
     return result;
   }
   const Eigen::MatrixXd U = factors.U * L;

@@ -6,8 +6,6 @@
 #include <utility>
 #include <vector>
 
-#include <fmt/format.h>
-
 #include "core/base/errors.hpp"
 #include "core/linalg/decompositions.hpp"
 #include "core/linalg/gram.hpp"
@@ -143,15 +141,14 @@ std::optional<SpectralMap> OnlineSpectralMap::without_map(Eigen::Index least_ste
                                                           StatusCode flat) const {
   SpectralMap none;
   if (sum_.size() < kRank || steps_ < least_steps) {
-    none.statuses.push_back({StatusCode::kTooFewObservations,
-                             fmt::format("{} landmarks at {} steps; {} at {} are needed.",
-                                         sum_.size(), steps_, kRank, least_steps)});
+    none.statuses.push_back(
+        status_of<StatusReason::kFewLandmarksAtSteps>(sum_.size(), steps_, kRank, least_steps));
     return none;
   }
   if (frame_.cols() >= kRank) return std::nullopt;
   none.statuses = spectrum().statuses;
-  none.statuses.push_back(
-      {flat, fmt::format("The steps span {} dimensions; {} are needed.", frame_.cols(), kRank)});
+  none.statuses.push_back(status_of<StatusReason::kStepsFlat>(frame_.cols(), kRank));
+  none.statuses.back().code = flat;
   return none;
 }
 

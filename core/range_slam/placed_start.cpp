@@ -3,8 +3,6 @@
 #include <cmath>
 #include <limits>
 
-#include <fmt/format.h>
-
 #include "core/align/rigid.hpp"
 #include "core/range_slam/carried_along.hpp"
 #include "core/range_slam/log_checks.hpp"
@@ -81,10 +79,7 @@ PlacedStart placed_start(const RangeLog& log, const Trajectory& odometry, const 
     move_to_known(*known, placed);
   } else {
     placed.statuses.push_back(
-        {StatusCode::kUndetermined,
-         fmt::format("Known landmarks with ranges: {} of {}, and not two in different places. They "
-                     "do not tie the frame, which is that of the first pose.",
-                     ties.heard, known->rows.size())});
+        status_of<StatusReason::kFrameNotTied>(ties.heard, known->rows.size()));
   }
   return placed;
 }

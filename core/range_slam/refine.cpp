@@ -103,9 +103,7 @@ Solution solve(const Task& task, const Trajectory& path, const RefineState& star
 
 void take_covariances(const Solution& solution, Eigen::Index count, SlamEstimate& estimate) {
   if (!solution.covariances) {
-    estimate.statuses.push_back(
-        {StatusCode::kUndetermined,
-         "The ranges leave a landmark or the path free to move: there are no covariances."});
+    estimate.statuses.push_back(status_of<StatusReason::kNoCovariances>());
     return;
   }
   estimate.landmark_cov_m2 = solution.covariances->landmarks;
@@ -115,10 +113,7 @@ void take_covariances(const Solution& solution, Eigen::Index count, SlamEstimate
     estimate.position_cov_m2.push_back(solution.covariances->positions[at]);
   }
   if (solution.covariances->are_of_first_pose)
-    estimate.statuses.push_back(
-        {StatusCode::kUndetermined,
-         "The covariances are relative to the first pose: it takes two landmarks in different "
-         "places to free them of the frame."});
+    estimate.statuses.push_back(status_of<StatusReason::kCovariancesOfFirstPose>());
 }
 
 /// What a usable solution says.
@@ -134,9 +129,7 @@ void take_solution(const Solution& solution, const RefineOptions& options, SlamE
         solution.state.offsets_m.data(), std::ssize(solution.state.offsets_m));
   if (!solution.outcome.has_converged)
     estimate.statuses.push_back(
-        {StatusCode::kNotConverged,
-         fmt::format("The least squares had not converged after {} iterations.",
-                     solution.outcome.iterations)});
+        status_of<StatusReason::kLeastSquaresNotConverged>(solution.outcome.iterations));
   if (options.covariances > 0) take_covariances(solution, options.covariances, estimate);
 }
 
@@ -184,9 +177,7 @@ SlamEstimate refine(const RangeLog& log, const SlamEstimate& start, const Refine
   if (solution.outcome.is_usable)
     take_solution(solution, placed_options, estimate);
   else
-    estimate.statuses.push_back({StatusCode::kFailed,
-                                 "No step lowered the cost: this is the start, laid along the "
-                                 "odometry."});
+    estimate.statuses.push_back(status_of<StatusReason::kNoStepLowered>());
   const std::size_t known = options.known ? options.known->rows.size() : 0;
   if (known < log.landmarks.size())
     if (auto status = path_on_a_line(estimate.path.positions_m))

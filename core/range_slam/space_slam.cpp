@@ -3,8 +3,6 @@
 #include <algorithm>
 #include <limits>
 
-#include <fmt/format.h>
-
 #include "core/base/errors.hpp"
 #include "core/range_slam/known_landmarks.hpp"
 #include "core/range_slam/log_checks.hpp"
@@ -14,7 +12,8 @@ namespace mapproof {
 namespace {
 
 constexpr Eigen::Index kRankInSpace = 5;
-constexpr Eigen::Index kLeastStepsInSpace = 13;  // All but two coefficients of a quadric of 5 variables.
+constexpr Eigen::Index kLeastStepsInSpace =
+    13;  // All but two coefficients of a quadric of 5 variables.
 
 /// A condition of the factors, squares being squares: from here on the heights, or the other
 /// direction that is missing, are ten thousand times less than the extent.
@@ -33,10 +32,7 @@ bool spans_space(const Factorization& factors, double noise_square, std::vector<
       factors.statuses, [](const Status& s) { return s.code == StatusCode::kRankDeficient; });
   const double least = factors.singular_values(kRankInSpace - 1);
   if (!is_noise && factors.condition < kFlatCondition && least * least > noise_square) return true;
-  statuses.push_back({StatusCode::kDegenerateGeometry,
-                      fmt::format("Landmarks or path lie on one plane or sphere, as far as the "
-                                  "ranges tell: condition number {:.3g}.",
-                                  factors.condition)});
+  statuses.push_back(status_of<StatusReason::kFlatInSpace>(factors.condition));
   return false;
 }
 
@@ -54,9 +50,7 @@ SpaceEstimate space_slam(const Eigen::MatrixXd& ranges_m,
   estimate.landmarks_m = SpacePoints::Constant(N, 3, std::numeric_limits<double>::quiet_NaN());
   if (N < kRankInSpace || T < kLeastStepsInSpace) {
     estimate.statuses.push_back(
-        {StatusCode::kTooFewObservations,
-         fmt::format("{} landmarks, ranged to together at {} times; {} at {} are needed.", N, T,
-                     kRankInSpace, kLeastStepsInSpace)});
+        status_of<StatusReason::kFewCommonRanges>(N, T, kRankInSpace, kLeastStepsInSpace));
     return estimate;
   }
   const Factorization factors = factors_of(Y, noise);

@@ -5,8 +5,6 @@
 #include <limits>
 #include <utility>
 
-#include <fmt/format.h>
-
 #include "core/base/angle.hpp"
 #include "core/base/errors.hpp"
 #include "core/linalg/planarity.hpp"
@@ -126,11 +124,7 @@ bool settle_by_odometry(SlamEstimate& estimate, const Points& odometry_m, Eigen:
   estimate.path.positions_m *= factors.asDiagonal();
   estimate.landmarks_m *= factors.asDiagonal();
   if (turns.agreement < kLeastAgreement)
-    estimate.statuses.push_back(
-        {StatusCode::kUndetermined,
-         fmt::format("Odometry does not tell the map from its mirror image: it fits them alike but "
-                     "for {:.2g} %.",
-                     100.0 * turns.agreement)});
+    estimate.statuses.push_back(status_of<StatusReason::kMirrorImage>(100.0 * turns.agreement));
   return turns.mirrored;
 }
 
@@ -162,11 +156,10 @@ void check(const RangeLog& log, const Trajectory& odometry, const SpectralSlamOp
     throw InvalidInput(problem);
 }
 
-/// "Landmark a is told at the fewest: 3." of the odometry's times.
-std::string worst_landmark(const RangeLog& log, const WindowedRanges& ranges) {
+/// The landmark that is told at the fewest of the odometry's times, and at how many.
+auto worst_landmark(const RangeLog& log, const WindowedRanges& ranges) {
   const auto least = std::ranges::min_element(ranges.told);
-  return fmt::format("Landmark {} is told at the fewest: {}.",
-                     log.landmarks[static_cast<std::size_t>(least - ranges.told.begin())], *least);
+  return std::pair(log.landmarks[static_cast<std::size_t>(least - ranges.told.begin())], *least);
 }
 
 /// Ranges at the odometry's times, those into `result.Y` at which all are told.
@@ -184,20 +177,17 @@ Trajectory take_ranges(SpectralSlam& result, const RangeLog& log, const Trajecto
       windowed_ranges(readings, odometry, odometry.time_s, result.window.options);
   result.Y = std::move(ranges.Y);
   if (result.Y.rows() < kLeastLandmarks || result.Y.cols() < kLeastSteps) {
-    result.estimate.statuses.push_back(
-        {StatusCode::kTooFewObservations,
-         fmt::format("All of {} landmarks are told at {} of {} poses; {} at {} are needed. {}",
-                     result.Y.rows(), result.Y.cols(), odometry.size(), kLeastLandmarks,
-                     kLeastSteps, worst_landmark(log, ranges))});
+    const auto [landmark, poses] = worst_landmark(log, ranges);
+    result.estimate.statuses.push_back(status_of<StatusReason::kFewPosesWithRanges>(
+        {landmark}, result.Y.rows(), result.Y.cols(), odometry.size(), kLeastLandmarks, kLeastSteps,
+        poses));
     return {};
   }
-  if (result.Y.cols() < odometry.size())
-    result.estimate.statuses.push_back(
-        {StatusCode::kUndetermined,
-         fmt::format("{} of {} poses have no window with enough readings of every landmark; the "
-                     "path leaves them out. {}",
-                     odometry.size() - result.Y.cols(), odometry.size(),
-                     worst_landmark(log, ranges))});
+  if (result.Y.cols() < odometry.size()) {
+    const auto [landmark, poses] = worst_landmark(log, ranges);
+    result.estimate.statuses.push_back(status_of<StatusReason::kPosesWithoutWindow>(
+        {landmark}, odometry.size() - result.Y.cols(), odometry.size(), poses));
+  }
   return part_of(odometry, ranges.columns);
 }
 
@@ -238,8 +228,7 @@ SpectralSlam spectral_slam(const RangeLog& log, const Trajectory& odometry,
   if (mapped.map.empty()) return result;
   const Points landmarks_m = landmarks_of(mapped.map.C);
   if (!(planarity(landmarks_m) > kFlatPlanarity)) {
-    estimate.statuses.push_back(
-        {StatusCode::kDegenerateGeometry, "The landmarks came out on one line: no positions."});
+    estimate.statuses.push_back(status_of<StatusReason::kMappedOnALine>());
     return result;
   }
 

@@ -1,7 +1,5 @@
 #include "core/range_slam/synchronous_slam.hpp"
 
-#include <fmt/format.h>
-
 #include "core/base/errors.hpp"
 #include "core/base/not_finite.hpp"
 #include "core/linalg/planarity.hpp"
@@ -46,9 +44,7 @@ SynchronousSlam synchronous_slam(const SynchronousRanges& ranges,
   estimate.path.positions_m.resize(0, 2);
   estimate.landmarks_m = Points::Constant(N, 2, kNaN);
   if (N < 4 || T < 8) {
-    estimate.statuses.push_back(
-        {StatusCode::kTooFewObservations,
-         fmt::format("{} landmarks, ranged to together at {} times; 4 at 8 are needed.", N, T)});
+    estimate.statuses.push_back(status_of<StatusReason::kFewCommonRanges>(N, T, 4, 8));
     return found;
   }
   Eigen::MatrixXd Y = half_squared_ranges(ranges.ranges_m, noise);
@@ -66,8 +62,7 @@ SynchronousSlam synchronous_slam(const SynchronousRanges& ranges,
   if (map.empty()) return found;
   const Points landmarks_m = landmarks_of(map.C);
   if (!(planarity(landmarks_m) > kFlatPlanarity)) {
-    estimate.statuses.push_back(
-        {StatusCode::kDegenerateGeometry, "The landmarks came out on one line: no positions."});
+    estimate.statuses.push_back(status_of<StatusReason::kMappedOnALine>());
     return found;
   }
   Y /= map.range_scale * map.range_scale;

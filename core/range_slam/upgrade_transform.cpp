@@ -8,8 +8,6 @@
 #include <optional>
 #include <vector>
 
-#include <fmt/format.h>
-
 #include "core/base/errors.hpp"
 #include "core/linalg/decompositions.hpp"
 #include "core/range_slam/quadric.hpp"
@@ -195,19 +193,14 @@ UpgradeTransform upgrade_transform(const Eigen::MatrixXd& U, const Eigen::Vector
   const std::optional<Candidate> found = best_quadric(svd, rounding * s(0), mean, U);
   if (!found) {
     result.statuses.push_back(
-        {StatusCode::kDegenerateGeometry,
-         fmt::format("No quadric of a path in {} fits the states: condition number {:.3g}.",
-                     n == 4 ? "the plane" : "space", result.condition)});
+        status_of<StatusReason::kNoQuadric>(n == 4 ? 2 : 3, result.condition));
     return result;
   }
   result.S = found->S;
   result.Q = found->Q;
   if (!is_pencil && s(terms - 2) < kClear * s(terms - 1))
     result.statuses.push_back(
-        {StatusCode::kUndetermined,
-         fmt::format("Another quadric fits the states nearly as well as the one taken: {:.3g} "
-                     "times its misfit, condition number {:.3g}.",
-                     s(terms - 2) / s(terms - 1), result.condition)});
+        status_of<StatusReason::kOtherQuadric>(s(terms - 2) / s(terms - 1), result.condition));
   return result;
 }
 

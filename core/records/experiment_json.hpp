@@ -2,7 +2,6 @@
 
 #include <string>
 #include <string_view>
-#include <vector>
 
 #include "core/model/experiment.hpp"
 
@@ -19,8 +18,5 @@ Experiment parse_experiment(std::string_view text, const std::string& source,
 
 /// The file that parses to exactly this experiment: canonical, every default written out.
 std::string experiment_json(const Experiment& experiment);
-
-/// The names of the profiles in an experiment's file, sorted. @throws IoError as above.
-std::vector<std::string> profiles(std::string_view text, const std::string& source);
 
 }  // namespace mapproof

@@ -42,7 +42,7 @@ Descriptor opened(const fs::path& folder) {
   return descriptor;
 }
 
-/// Whether the lock was taken, or the file system knows none.
+/// Whether the lock was taken, or the file system has no locks.
 bool locked(const Descriptor& folder, int how) {
   int result = 0;
   do result = ::flock(folder.get(), how);
@@ -50,9 +50,10 @@ bool locked(const Descriptor& folder, int how) {
   return result == 0 || errno != EWOULDBLOCK;
 }
 
-/// Whether the folder has the path still: another may have taken its place before it was locked.
+/// Whether the folder still has the path: it may have been replaced before it was locked.
 bool is_at(const Descriptor& folder, const fs::path& path) {
-  struct stat held {}, there {};
+  struct stat held {
+  }, there{};
   return ::fstat(folder.get(), &held) == 0 && ::stat(path.c_str(), &there) == 0 &&
          held.st_dev == there.st_dev && held.st_ino == there.st_ino;
 }

@@ -7,15 +7,17 @@
 
 namespace mapproof {
 
-/// Keeps other processes out of a folder while it lives, without leaving a file behind: flock() on
-/// the folder itself, which the kernel releases when the process ends, however it ends. Where a
-/// file system knows no such locks (some network mounts), there is none.
+/// Locks a folder against other processes as long as this object lives: flock() on the folder
+/// itself, so that no file is left behind; the kernel releases it when the process ends, however it
+/// ends. On a file system without such locks (some network mounts) nothing is locked.
 class FolderLock {
  public:
-  /// @throws IoError if another process, or another lock of this one, holds the folder.
+  /// @throws IoError if another process, or another lock of this one, holds the folder, or if the
+  ///         folder cannot be opened.
   explicit FolderLock(const std::filesystem::path& folder);
 
-  /// Waits until nobody else holds the folder. @param busy  Called once if there is a wait.
+  /// Waits until nobody else holds the folder.
+  /// @param busy  Called once, before the wait, if there is one.
   /// @throws IoError if the folder cannot be opened.
   FolderLock(const std::filesystem::path& folder, const std::function<void()>& busy);
 
@@ -23,11 +25,12 @@ class FolderLock {
   Descriptor folder_;
 };
 
-/// Removes what write_file() left beside its places when its process was killed: NAME.part-PID,
-/// here and in the folders below, unless that process still runs. @throws IoError.
+/// Removes the files NAME.part-PID that write_file() left behind when its process was killed, here
+/// and in the folders below, unless that process still runs.
+/// @throws IoError if a folder cannot be searched.
 void remove_leftovers(const std::filesystem::path& folder);
 
-/// Whether the file's name is that of such a leftover, of whatever process.
+/// Whether the file has the name of such a leftover, of any process.
 bool is_leftover(const std::filesystem::path& file);
 
 }  // namespace mapproof

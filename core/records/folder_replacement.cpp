@@ -30,12 +30,12 @@ constexpr const char* kWaiting = "old";
   throw IoError(path.string(), std::string(what) + ": " + std::strerror(errno));
 }
 
-/// ".NAME.mapproof-" beside the folder, and more.
+/// The path ".NAME.mapproof-MORE" beside the folder.
 fs::path beside(const fs::path& folder, const std::string& more) {
   return folder.parent_path() / ("." + folder.filename().string() + ".mapproof-" + more);
 }
 
-/// Where a folder waits that could not be exchanged at once.
+/// The path of the old folder between two renames.
 fs::path waiting_place(const fs::path& folder) { return beside(folder, kWaiting); }
 
 struct stat facts_of(const fs::path& path) {
@@ -44,7 +44,7 @@ struct stat facts_of(const fs::path& path) {
   return facts;
 }
 
-/// A new folder beside the one, of a name that nothing has.
+/// Makes a folder with a new name beside the folder.
 fs::path make_beside(const fs::path& folder, mode_t mode) {
   for (int i = 0;; ++i) {
     const fs::path made = beside(folder, std::to_string(::getpid()) + "-" + std::to_string(i));
@@ -53,24 +53,40 @@ fs::path make_beside(const fs::path& folder, mode_t mode) {
   }
 }
 
-/// The file itself under a second name, or a copy where that cannot be.
+/// Only root may change the owner; others at least keep the group, if they belong to it.
+void keep_owner(const struct stat& old, const fs::path& to) {
+  const struct stat made = facts_of(to);
+  if ((old.st_uid != made.st_uid || old.st_gid != made.st_gid) &&
+      ::lchown(to.c_str(), old.st_uid, old.st_gid) != 0)
+    static_cast<void>(::lchown(to.c_str(), static_cast<uid_t>(-1), old.st_gid));
+}
+
+/// @throws fs::filesystem_error.
+void copy_whole(const fs::path& from, const fs::path& to) {
+  const struct stat old = facts_of(from);
+  if (S_ISLNK(old.st_mode)) {
+    fs::copy_symlink(from, to);
+  } else {
+    fs::copy_file(from, to);
+    fs::last_write_time(to, fs::last_write_time(from));
+  }
+  keep_owner(old, to);
+}
+
+/// Makes a hard link to the file, or a copy where the file system or the kernel allows no link.
 void take_over(const fs::path& from, const fs::path& to) {
   if (::linkat(AT_FDCWD, from.c_str(), AT_FDCWD, to.c_str(), 0) == 0) return;
   if (errno == EXDEV) fail_at(from, "is mounted from elsewhere, and cannot be replaced");
-  std::error_code error;
-  if (fs::is_symlink(from, error)) {
-    fs::copy_symlink(from, to, error);
-  } else if (fs::is_regular_file(from, error)) {
-    fs::copy_file(from, to, error);
-    const fs::file_time_type written = fs::last_write_time(from, error);
-    if (!error) fs::last_write_time(to, written, error);
-  } else {
-    error = std::make_error_code(std::errc::not_supported);
+  if (errno != EPERM && errno != EMLINK && errno != EOPNOTSUPP && errno != ENOSYS)
+    fail_at(from, "cannot be taken over");
+  try {
+    copy_whole(from, to);
+  } catch (const fs::filesystem_error& error) {
+    throw IoError(from.string(), "cannot be taken over: " + error.code().message());
   }
-  if (error) throw IoError(from.string(), "cannot be taken over: " + error.message());
 }
 
-/// Takes over all that a folder holds. Folders stay open for this process until they are finished.
+/// Takes over all files of a folder. The new folders are writable until finish_folders().
 void take_over_all(const fs::path& from, const fs::path& to, dev_t device) {
   std::error_code error;
   for (fs::directory_iterator entry(from, error), end; !error && entry != end;
@@ -90,7 +106,7 @@ void take_over_all(const fs::path& from, const fs::path& to, dev_t device) {
   if (error) throw IoError(from.string(), "cannot be listed: " + error.message());
 }
 
-/// Gives the copy's folders the owners and modes of the old ones. What was made in it has its own.
+/// Gives the folders of the copy the owners and modes of the old ones. New folders keep their own.
 void finish_folders(const fs::path& from, const fs::path& to) {
   std::error_code error;
   for (fs::directory_iterator entry(from, error), end; !error && entry != end;
@@ -98,15 +114,12 @@ void finish_folders(const fs::path& from, const fs::path& to) {
     if (entry->symlink_status(error).type() == fs::file_type::directory)
       finish_folders(entry->path(), to / entry->path().filename());
   if (error) throw IoError(from.string(), "cannot be listed: " + error.message());
-  const struct stat old = facts_of(from), made = facts_of(to);
-  // Only root may give a folder away; a group of one's own is kept at least.
-  if ((old.st_uid != made.st_uid || old.st_gid != made.st_gid) &&
-      ::lchown(to.c_str(), old.st_uid, old.st_gid) != 0)
-    static_cast<void>(::lchown(to.c_str(), static_cast<uid_t>(-1), old.st_gid));
+  const struct stat old = facts_of(from);
+  keep_owner(old, to);
   if (::chmod(to.c_str(), old.st_mode & kModeBits) != 0) fail_at(to, "cannot get its mode");
 }
 
-/// Whether a name is one that make_beside() or waiting_place() give, after its beginning.
+/// Whether a name that begins as those of beside() ends as make_beside() or waiting_place() do.
 bool is_ending(std::string_view text) {
   if (text == kWaiting) return true;
   const std::size_t dash = text.find('-');
@@ -126,7 +139,7 @@ void open_folders(const fs::path& folder) {
       open_folders(entry->path());
 }
 
-/// As far as it goes: what is left is in nobody's way, and the next replacement tries again.
+/// Ignores errors: what is left does no harm, and the next recover_folder() tries again.
 void remove_all_of(const fs::path& folder) noexcept {
   try {
     open_folders(folder);
@@ -140,7 +153,8 @@ bool is_missing_call(int error) {
   return error == EINVAL || error == ENOSYS || error == EOPNOTSUPP;
 }
 
-/// By two renames, where there is no exchange. @return Whether it could be done; errno says why not.
+/// Exchanges by renames, where the file system cannot do it in one step.
+/// @return False if that failed; errno says why.
 bool exchange_in_two(const fs::path& folder, const fs::path& copy) {
   const fs::path waiting = waiting_place(folder);
   if (::rename(folder.c_str(), waiting.c_str()) != 0) return false;
@@ -165,8 +179,9 @@ bool exchange(const fs::path& folder, const fs::path& copy) {
 FolderReplacement::FolderReplacement(const fs::path& folder) : folder_(folder) {
   std::error_code error;
   if (lies_in(real_path(fs::current_path(error)), folder))
-    throw IoError(folder.string(), "is replaced as a whole, so nobody may work in it: run this from "
-                                   "a folder outside of it");
+    throw IoError(folder.string(),
+                  "is replaced as a whole, so nobody may work in it: run this from "
+                  "a folder outside of it");
   is_new_ = !fs::exists(fs::symlink_status(folder, error));
   if (is_new_) make_folder(folder.parent_path());
   copy_ = make_beside(folder, is_new_ ? S_IRWXU | S_IRWXG | S_IRWXO : S_IRWXU);
@@ -201,7 +216,7 @@ void FolderReplacement::write(const fs::path& file, std::string_view bytes) {
   make_folder(place.parent_path());
   struct stat old {};
   const bool replaces = ::lstat(place.c_str(), &old) == 0;
-  // The old file, which is another name of the folder's own, must not be written to.
+  // The file is a hard link to the old folder's, which must not change.
   if (replaces && ::unlink(place.c_str()) != 0) fail_at(folder_ / file, "cannot be replaced");
   Descriptor written(::open(place.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0644));
   if (written.get() < 0 || !write_all(written, bytes) ||
@@ -228,7 +243,7 @@ void recover_folder(const fs::path& folder) {
   std::error_code error;
   const fs::path waiting = waiting_place(folder);
   if (!fs::exists(fs::symlink_status(folder, error)) && fs::is_directory(waiting, error)) {
-    const FolderLock lock(waiting);  // Unless somebody is just replacing it.
+    const FolderLock lock(waiting);  // Throws if another process is just replacing it.
     if (::rename(waiting.c_str(), folder.c_str()) != 0) fail_at(folder, "cannot be put back");
   }
   const std::string start = beside(folder, "").filename().string();

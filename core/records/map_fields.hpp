@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <optional>
@@ -14,15 +15,22 @@ namespace mapproof {
 
 // The fields of maps in files (core/json/fields.hpp): of one map alone, and of all of a run.
 
-/// A sensor, or range and bearing together; the same of a method, or the pairs that these measure.
-enum class MappedSensor { kBoth = static_cast<int>(Sensor::kRange) + 1 };
-enum class MappedMethod { kOfPairs = static_cast<int>(Method::kSde) + 1 };
+// What a map was made of, as files name it: a sensor, or one of these two.
+enum class MappedSensor {
+  kOfSeveral = static_cast<int>(Sensor::kRange) + 1,
+  kOfBoth,
+};
+// The same of its method.
+enum class MappedMethod {
+  kOfPairs = static_cast<int>(Method::kSde) + 1,
+  kOfRanges,
+};
 
 inline EnumNames enum_names(MappedSensor) {
   static const std::vector<std::string_view> names = [] {
     const EnumNames sensors = enum_names(Sensor{});
     std::vector<std::string_view> all(sensors.names.begin(), sensors.names.end());
-    all.push_back(kRangeBearing);
+    all.insert(all.end(), {kMixed, kRangeBearing});
     return all;
   }();
   return {"mapped_sensor", names};
@@ -32,49 +40,60 @@ inline EnumNames enum_names(MappedMethod) {
   static const std::vector<std::string_view> names = [] {
     const EnumNames methods = enum_names(Method{});
     std::vector<std::string_view> all(methods.names.begin(), methods.names.end());
-    all.push_back(kPairs);
+    all.insert(all.end(), {kPairs, kSpectralMap});
     return all;
   }();
   return {"method", names};
 }
 
-/// What was mapped and how.
-struct MapOrigin {
-  MappedSensor sensor{};
-  MappedMethod method{};
-  std::optional<double> parameter;
-};
-
-inline MapOrigin origin_of(const MapRecord& map) {
-  if (map.of_pairs) return {MappedSensor::kBoth, MappedMethod::kOfPairs, std::nullopt};
-  return {static_cast<MappedSensor>(map.sensor), static_cast<MappedMethod>(map.setting.method),
-          map.setting.parameter};
-}
-
-inline void set_origin(MapRecord& map, const MapOrigin& origin) {
-  map.of_pairs = origin.sensor == MappedSensor::kBoth;
-  map.sensor = map.of_pairs ? Sensor::kRange : static_cast<Sensor>(origin.sensor);
-  if (map.of_pairs)
-    map.setting = {Method::kSmacof, std::nullopt};
-  else
-    map.setting = {static_cast<Method>(origin.method), origin.parameter};
+/// The value that files call so; it must be one.
+template <typename Enum>
+Enum value_named(std::string_view name) {
+  const auto names = enum_names(Enum{}).names;
+  return static_cast<Enum>(std::ranges::find(names, name) - names.begin());
 }
 
 template <typename Visitor>
 void origin_fields(Visitor& v, MapRecord& map) {
-  MapOrigin origin = origin_of(map);
-  v.field("sensor", origin.sensor,
-          {.description = "range-bearing: a map of pair distances measured by range and bearing "
-                          "together; its method is pairs."});
-  v.field("method", origin.method, {.decides = true});
-  const bool is_pairs = origin.method == MappedMethod::kOfPairs;
-  if (is_pairs != (origin.sensor == MappedSensor::kBoth))
+  const auto* several = std::get_if<FromSensors>(&map.origin);
+  const MethodSetting* setting = setting_of(map);
+  auto sensor = value_named<MappedSensor>(sensor_name(map));
+  auto method = value_named<MappedMethod>(method_name(map));
+  auto sensors = several != nullptr ? several->sensors : std::vector<Sensor>();
+  auto parameter = setting != nullptr ? setting->parameter : std::nullopt;
+  v.field(
+      "sensor", sensor,
+      {.description = "mixed: a joint map of several sensors. range-bearing: a map of pair "
+                      "distances measured by range and bearing together; its method is pairs."});
+  const bool is_joint = sensor == MappedSensor::kOfSeveral;
+  v.field("sensors", sensors,
+          {.description = "Of a joint map.", .unique = true, .max_items = 3, .key = Key::kIfAny});
+  if (is_joint && sensors.empty()) v.refuse("sensor", "mixed needs the key \"sensors\"");
+  if (!is_joint && !sensors.empty()) v.refuse("sensors", "is of a joint map alone");
+  v.field("method", method,
+          {.description = "spectral: a range-only map by factorisation.", .decides = true});
+  const bool is_pairs = method == MappedMethod::kOfPairs;
+  const bool is_spectral = method == MappedMethod::kOfRanges;
+  if (is_pairs != (sensor == MappedSensor::kOfBoth))
     v.refuse("method", fmt::format("expected {}, got \"{}\"",
                                    is_pairs ? "a method of one sensor" : "pairs for range-bearing",
-                                   name_in_files(origin.method)));
-  parameter_fields(v, is_pairs ? std::nullopt : info(static_cast<Method>(origin.method)).parameter,
-                   origin.parameter);
-  if constexpr (Visitor::kReads) set_origin(map, origin);
+                                   name_in_files(method)));
+  if (is_spectral && sensor != static_cast<MappedSensor>(Sensor::kRange))
+    v.refuse("method", "expected spectral for range alone");
+  const bool is_embedding = !is_pairs && !is_spectral;
+  parameter_fields(v, is_embedding ? info(static_cast<Method>(method)).parameter : std::nullopt,
+                   parameter);
+  if constexpr (Visitor::kReads) {
+    const auto read = [&] { return MethodSetting{static_cast<Method>(method), parameter}; };
+    if (is_pairs)
+      map.origin = FromPairs{};
+    else if (is_spectral)
+      map.origin = FromRanges{};
+    else if (is_joint)
+      map.origin = FromSensors{std::move(sensors), read()};
+    else
+      map.origin = FromSensor{static_cast<Sensor>(sensor), read()};
+  }
 }
 
 /// Whether both are the same, rows that are not there included.

@@ -1,80 +1,49 @@
 #include "core/records/observations.hpp"
 
-#include <cmath>
-#include <numbers>
-
 #include <fmt/format.h>
 
 #include "core/base/errors.hpp"
 #include "core/base/input_file.hpp"
-#include "core/json/json_text.hpp"
+#include "core/json/record_json.hpp"
 #include "core/json/text_input.hpp"
 #include "core/records/input_kind.hpp"
-#include "core/records/json_values.hpp"
 #include "core/records/mrclam.hpp"
+#include "core/records/observation_fields.hpp"
 #include "core/records/observation_values.hpp"
 #include "core/records/sighting_values.hpp"
 #include "core/records/table_reader.hpp"
 
 namespace mapproof {
-namespace {
-
-std::string value_place(const JsonCursor& rows, std::size_t row, std::size_t column) {
-  return fmt::format("{}/{}/{}", rows.pointer(), row, column);
-}
-
-}  // namespace
 
 ObservationSource parse_observations(std::string_view text, const std::string& source,
                                      std::optional<Sensor> kind) {
   const JsonDocument document = parse_json(text, source);
-  const JsonCursor root = document.cursor();
-  expect_schema(root, "mapproof.observations");
-  root.allow_only({"schema", "sensor", "unit", "landmarks", "values"});
-  ObservationSource result{.history = {.sensor = read_sensor(root.at("sensor")),
-                                       .names = read_names(root.at("landmarks")),
-                                       .values = {}},
+  auto file = from_json_value<ObservationsFile>(document.cursor());
+  const Sensor sensor = file.history.sensor;
+  Eigen::MatrixXd& values = file.history.values;
+  if (kind && *kind != sensor)
+    throw IoError(source, "/sensor",
+                  fmt::format("the file holds {}, not {}", name(sensor), name(*kind)));
+  check_size(source, "/values", file.history.names.size(), static_cast<std::size_t>(values.cols()));
+  if (sensor == Sensor::kBearing && file.unit == AngleUnit::kDegrees)
+    values = values.unaryExpr([](double degrees) { return in_radians(degrees); });
+  ObservationSource result{.history = std::move(file.history),
                            .truth_m = std::nullopt,
                            .remarks = {},
                            .places = {},
                            .path = source};
-  const Sensor sensor = result.history.sensor;
-  if (kind && *kind != sensor)
-    root.at("sensor").fail(fmt::format("the file holds {}, not {}", name(sensor), name(*kind)));
-  const bool is_degrees =
-      sensor == Sensor::kBearing && read_angle_unit(root) == AngleUnit::kDegrees;
-  const std::size_t landmarks = result.history.names.size();
-  if (landmarks == 0) root.at("landmarks").fail("expected at least one landmark");
-  const JsonCursor rows = root.at("values");
-  rows.elements(landmarks, landmarks);
-  const std::size_t steps = rows.element(0).numbers_or_null(-INFINITY, INFINITY).size();
-  if (steps == 0) rows.element(0).fail("expected at least one step");
-  check_size(source, rows.pointer(), landmarks, steps);
-  result.history.values.resize(static_cast<Eigen::Index>(landmarks),
-                               static_cast<Eigen::Index>(steps));
-  for (std::size_t i = 0; i < landmarks; ++i) {
-    std::vector<double> row = rows.element(i).numbers_or_null(-INFINITY, INFINITY, steps);
-    for (std::size_t j = 0; j < steps; ++j) {
-      if (is_degrees) row[j] *= std::numbers::pi / 180.0;
-      const std::string problem = observation_problem(sensor, row[j]);
-      if (!problem.empty()) throw IoError(source, value_place(rows, i, j), problem);
-      result.history.values(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(j)) = row[j];
-    }
-    result.places.push_back(rows.element(i).pointer());
+  for (Eigen::Index i = 0; i < result.history.landmarks(); ++i) {
+    for (Eigen::Index j = 0; j < result.history.steps(); ++j)
+      if (const auto problem = observation_problem(sensor, result.history.values(i, j));
+          !problem.empty())
+        throw IoError(source, fmt::format("/values/{}/{}", i, j), problem);
+    result.places.push_back(fmt::format("/values/{}", i));
   }
   return result;
 }
 
 std::string observations_json(const ObservationHistory& history) {
-  nlohmann::ordered_json rows = nlohmann::ordered_json::array();
-  for (Eigen::Index i = 0; i < history.landmarks(); ++i) {
-    nlohmann::ordered_json& row = rows.emplace_back(nlohmann::ordered_json::array());
-    for (Eigen::Index j = 0; j < history.steps(); ++j) row.push_back(history.values(i, j));
-  }
-  return json_text({{"schema", schema_value("mapproof.observations")},
-                    {"sensor", name(history.sensor)},
-                    {"landmarks", history.names},
-                    {"values", std::move(rows)}});
+  return to_json_text(ObservationsFile{.history = history});
 }
 
 ObservationSource observations_of(SightingSource source, Sensor sensor) {

@@ -76,6 +76,12 @@ std::string log_name(const fs::path& path) {
                 "NAME_DR.txt with NAME_TD.txt");
 }
 
+/// The word of range logs for what others call a landmark.
+bool names_beacons(const TableRow& row) {
+  return std::ranges::any_of(
+      row.cells, [](std::string_view cell) { return lower_case(trimmed(cell)) == "beacon"; });
+}
+
 }  // namespace
 
 fs::path text_stem(const fs::path& path) {
@@ -118,7 +124,8 @@ bool is_range_log_folder(const fs::path& folder) {
 bool is_range_log(ByteSource& source) {
   const Form seen = form_seen(source), named = form_named(source.path());
   if (seen == Form::kCsv)
-    return named == Form::kCsv || !first_row_is(source, names_sighting_columns);
+    return named == Form::kCsv || !first_row_is(source, names_sighting_columns) ||
+           first_row_is(source, names_beacons);
   if (seen == Form::kText || seen == Form::kNone)
     return named != Form::kNone && named != Form::kCsv;
   return true;

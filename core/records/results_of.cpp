@@ -181,9 +181,10 @@ Results results_of(const SlamRun& run) {
 
 Results results_of(const MapRecord& map) {
   Results results;
-  RecordRows rows(results, condition(std::string(name(map.sensor)), {steps_level(map.step)}),
-                  slug(map.setting), "", "");
-  add_family(results, map.setting);
+  const MethodSetting* setting = setting_of(map);
+  RecordRows rows(results, condition(std::string(sensor_name(map)), {steps_level(map.step)}),
+                  setting != nullptr ? slug(*setting) : std::string(method_name(map)), "", "");
+  if (setting != nullptr) add_family(results, *setting);
   rows.add(map.score);
   rows.add(map.statuses);
   sort_results(results);
@@ -208,7 +209,7 @@ ResultsStudy labelled_results(const TrialStudy& study) {
   const TrialExperiment& experiment = study.experiment;
   ResultsStudy labelled{.name = figure_prefix(experiment.name),
                         .title = experiment.title,
-                        .question = study.design.question,
+                        .question = {},
                         .command = {},
                         .quantities = {},
                         .quantity_labels = {},

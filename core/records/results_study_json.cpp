@@ -1,17 +1,16 @@
 #include "core/records/results_study_json.hpp"
 
 #include <algorithm>
-#include <set>
 #include <utility>
 
 #include <fmt/format.h>
 
 #include "core/base/errors.hpp"
 #include "core/base/files.hpp"
-#include "core/json/json_cursor.hpp"
+#include "core/json/record_json.hpp"
 #include "core/json/text_input.hpp"
 #include "core/records/map_csv.hpp"
-#include "core/records/quantity_values.hpp"
+#include "core/records/results_study_fields.hpp"
 #include "core/records/results_table.hpp"
 #include "core/records/study_store.hpp"
 #include "core/records/trajectory_files.hpp"
@@ -20,53 +19,6 @@ namespace mapproof {
 namespace {
 
 namespace fs = std::filesystem;
-
-constexpr std::size_t kMostLabels = 10'000;  ///< Quantities, setups, methods, factors.
-constexpr std::size_t kLongestStudyName = 100;
-
-bool is_study_name(std::string_view name) {
-  const auto is_in = [&](std::string_view known) {
-    return name.find_first_not_of(known) == std::string_view::npos;
-  };
-  return !name.empty() && name.front() >= 'a' && name.front() <= 'z' &&
-         is_in("abcdefghijklmnopqrstuvwxyz0123456789-");
-}
-
-std::vector<Label> read_labels(const JsonCursor& list, bool has_unit) {
-  std::vector<Label> labels;
-  std::set<std::string> ids;
-  for (const JsonCursor& value : list.elements(0, kMostLabels)) {
-    if (has_unit)
-      value.allow_only({"id", "label", "unit"});
-    else
-      value.allow_only({"id", "label"});
-    Label label{.id = value.at("id").text(1000), .label = value.at("label").text(1000)};
-    if (label.label.empty()) value.at("label").fail("is empty");
-    if (const auto unit = value.find("unit")) label.unit = unit->text(kLongestStudyName);
-    if (!ids.insert(label.id).second) value.at("id").fail("is there twice");
-    labels.push_back(std::move(label));
-  }
-  return labels;
-}
-
-void read_quantities(const JsonCursor& list, ResultsStudy& study) {
-  for (const JsonCursor& value : list.elements(0, kMostLabels)) {
-    const Quantity quantity = read_quantity(value);
-    if (std::ranges::find(study.quantities, quantity.id) != study.quantities.end())
-      value.at("id").fail("is there twice");
-    study.quantities.push_back(quantity.id);
-    study.results.quantities.declare(quantity);
-  }
-}
-
-/// How paths are aligned to their ground truths.
-Alignment read_alignment(const JsonCursor& paths) {
-  paths.allow_only({"align"});
-  const auto alignment = alignment_named(paths.at("align").text());
-  if (!alignment || *alignment == Alignment::kRigidWithReflection)
-    paths.at("align").fail("expected none, rigid or similarity");
-  return *alignment;
-}
 
 /// How many poses of the one lie within the time of the other.
 Eigen::Index poses_within(const Trajectory& truth, const Trajectory& path) {
@@ -91,31 +43,7 @@ std::vector<fs::path> files_in(const fs::path& folder, const std::string& extens
 }  // namespace
 
 ResultsStudy parse_results_study(std::string_view text, const std::string& source) {
-  const JsonDocument document = parse_json(text, source);
-  const JsonCursor value = document.cursor();
-  expect_schema(value, kResultsStudy);
-  value.allow_only({"schema", "name", "title", "question", "command", "quantities", "setups",
-                    "methods", "factors", "runs_are_repeats", "paths"});
-  ResultsStudy study;
-  study.name = "results";
-  if (const auto name = value.find("name")) {
-    study.name = name->text(kLongestStudyName);
-    if (!is_study_name(study.name))
-      name->fail("expected lower-case letters, digits and '-', a letter first");
-  }
-  study.title = value.at("title").text(1000);
-  if (study.title.empty()) value.at("title").fail("is empty");
-  if (const auto question = value.find("question")) study.question = question->text();
-  if (const auto command = value.find("command")) study.command = command->text();
-  if (const auto list = value.find("quantities")) read_quantities(*list, study);
-  if (const auto list = value.find("setups")) study.setups = read_labels(*list, false);
-  if (const auto list = value.find("methods")) study.methods = read_labels(*list, false);
-  if (const auto list = value.find("factors")) study.factors = read_labels(*list, true);
-  if (const auto paths = value.find("paths")) read_alignment(*paths);
-  study.results.are_repeats = true;
-  if (const auto repeats = value.find("runs_are_repeats"))
-    study.results.are_repeats = repeats->boolean();
-  return study;
+  return from_json_text<ResultsHead>(text, source).study;
 }
 
 ResultsStudy read_results_study(const fs::path& folder) {
@@ -144,9 +72,8 @@ std::vector<MapRecord> read_given_maps(const fs::path& folder) {
 std::vector<GivenPath> read_given_paths(const fs::path& folder) {
   std::vector<GivenPath> paths;
   const std::string head = (folder / "study.json").string();
-  const JsonDocument study = parse_json(read_file(head), head);
-  const auto asked = study.cursor().find("paths");
-  const Alignment alignment = asked ? read_alignment(*asked) : Alignment::kNone;
+  const Alignment alignment =
+      alignment_of(from_json_text<ResultsHead>(read_file(head), head).alignment);
   for (const fs::path& file : files_in(folder / "paths", ".tum")) {
     std::error_code error;
     const fs::path stem = file.parent_path() / file.stem();

@@ -1,9 +1,9 @@
 #include "core/records/run_json.hpp"
 
 #include "core/json/record_json.hpp"
-#include "core/records/experiment_values.hpp"
+#include "core/records/details_fields.hpp"
+#include "core/records/experiment_fields.hpp"
 #include "core/records/map_fields.hpp"
-#include "core/records/provenance_values.hpp"
 #include "core/records/run_fields.hpp"
 
 namespace mapproof {
@@ -12,6 +12,12 @@ std::string run_json(const Run& run) { return to_json_text(run); }
 
 Run parse_run(std::string_view text, const std::string& source) {
   return from_json_text<Run>(text, source);
+}
+
+std::string details_json(const RunDetails& details) { return to_json_text(details); }
+
+RunDetails parse_details(std::string_view text, const std::string& source) {
+  return from_json_text<RunDetails>(text, source);
 }
 
 std::string maps_json(const RunMaps& maps) {
@@ -29,19 +35,11 @@ RunMaps parse_maps(std::string_view text, const std::string& source) {
 }
 
 std::string study_json(const Experiment& experiment, const Provenance& provenance) {
-  return json_text({{"schema", schema_value("mapproof.study")},
-                    {"experiment", experiment_value(experiment)},
-                    {"provenance", provenance_value(provenance)}});
+  return to_json_text(Study{.experiment = experiment, .provenance = provenance, .runs = {}});
 }
 
 Study parse_study(std::string_view text, const std::string& source) {
-  const JsonDocument document = parse_json(text, source);
-  const JsonCursor root = document.cursor();
-  expect_schema(root, "mapproof.study");
-  root.allow_only({"schema", "experiment", "provenance"});
-  return {.experiment = read_experiment(root.at("experiment")),
-          .provenance = read_provenance(root.at("provenance")),
-          .runs = {}};
+  return from_json_text<Study>(text, source);
 }
 
 }  // namespace mapproof

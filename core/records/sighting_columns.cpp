@@ -24,10 +24,10 @@ constexpr Word kWords[] = {
     {"name", SightingColumn::kLandmark},   {"object", SightingColumn::kLandmark},
     {"id", SightingColumn::kLandmark},     {"tag", SightingColumn::kLandmark},
     {"marker", SightingColumn::kLandmark}, {"subject", SightingColumn::kLandmark},
-    {"range", SightingColumn::kRange},     {"distance", SightingColumn::kRange},
-    {"r", SightingColumn::kRange},         {"bearing", SightingColumn::kBearing},
-    {"angle", SightingColumn::kBearing},   {"theta", SightingColumn::kBearing},
-    {"value", SightingColumn::kValue},
+    {"beacon", SightingColumn::kLandmark}, {"range", SightingColumn::kRange},
+    {"distance", SightingColumn::kRange},  {"r", SightingColumn::kRange},
+    {"bearing", SightingColumn::kBearing}, {"angle", SightingColumn::kBearing},
+    {"theta", SightingColumn::kBearing},   {"value", SightingColumn::kValue},
 };
 
 struct Unit {

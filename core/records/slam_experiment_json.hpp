@@ -2,11 +2,7 @@
 
 #include <string>
 #include <string_view>
-#include <vector>
 
-#include <nlohmann/json.hpp>
-
-#include "core/json/json_cursor.hpp"
 #include "core/model/slam_experiment.hpp"
 
 namespace mapproof {
@@ -21,15 +17,5 @@ SlamExperiment parse_slam_experiment(std::string_view text, const std::string& s
 
 /// The file that parses to exactly this experiment: canonical, every default written out.
 std::string slam_experiment_json(const SlamExperiment& experiment);
-
-/// The names of the profiles in such a file, sorted. @throws IoError as above.
-std::vector<std::string> slam_profiles(std::string_view text, const std::string& source);
-
-/// Whether a JSON text says that it is such a file. @throws IoError if it is no JSON of ours.
-bool is_slam_experiment(std::string_view text, const std::string& source);
-
-/// The value in that file, and back from a document without profiles.
-nlohmann::ordered_json slam_experiment_value(const SlamExperiment& experiment);
-SlamExperiment read_slam_experiment(const JsonCursor& document);
 
 }  // namespace mapproof

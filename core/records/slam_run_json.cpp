@@ -1,9 +1,7 @@
 #include "core/records/slam_run_json.hpp"
 
 #include "core/json/record_json.hpp"
-#include "core/records/provenance_values.hpp"
-#include "core/records/slam_experiment_json.hpp"
-#include "core/records/slam_fields.hpp"
+#include "core/records/slam_experiment_fields.hpp"
 
 namespace mapproof {
 
@@ -27,19 +25,18 @@ RangeHistoryStudy parse_range_histories(std::string_view text, const std::string
   return from_json_text<RangeHistoryStudy>(text, source);
 }
 
+std::string space_run_json(const SpaceRun& run) { return to_json_text(run); }
+
+SpaceRun parse_space_run(std::string_view text, const std::string& source) {
+  return from_json_text<SpaceRun>(text, source);
+}
+
 std::string slam_study_json(const SlamExperiment& experiment, const Provenance& provenance) {
-  return json_text({{"schema", schema_value("mapproof.slam_study")},
-                    {"experiment", slam_experiment_value(experiment)},
-                    {"provenance", provenance_value(provenance)}});
+  return to_json_text(SlamOrder{.experiment = experiment, .provenance = provenance});
 }
 
 SlamOrder parse_slam_study(std::string_view text, const std::string& source) {
-  const JsonDocument document = parse_json(text, source);
-  const JsonCursor root = document.cursor();
-  expect_schema(root, "mapproof.slam_study");
-  root.allow_only({"schema", "experiment", "provenance"});
-  return {.experiment = read_slam_experiment(root.at("experiment")),
-          .provenance = read_provenance(root.at("provenance"))};
+  return from_json_text<SlamOrder>(text, source);
 }
 
 }  // namespace mapproof

@@ -5,6 +5,7 @@
 
 #include "core/model/slam_experiment.hpp"
 #include "core/model/slam_study.hpp"
+#include "core/model/space_slam.hpp"
 
 namespace mapproof {
 
@@ -22,6 +23,10 @@ ConvergenceCurve parse_convergence(std::string_view text, const std::string& sou
 /// histories.json (mapproof.range_histories).
 std::string range_histories_json(const RangeHistoryStudy& histories);
 RangeHistoryStudy parse_range_histories(std::string_view text, const std::string& source);
+
+/// space.json (mapproof.space_run): a flight and what was made of its ranges.
+std::string space_run_json(const SpaceRun& run);
+SpaceRun parse_space_run(std::string_view text, const std::string& source);
 
 /// What study.json of a range-only study holds.
 struct SlamOrder {

@@ -7,11 +7,10 @@
 
 #include "core/base/errors.hpp"
 #include "core/base/files.hpp"
-#include "core/records/slam_experiment_json.hpp"
+#include "core/json/record_json.hpp"
+#include "core/records/slam_experiment_fields.hpp"
 #include "core/records/slam_files.hpp"
 #include "core/records/slam_run_json.hpp"
-#include "core/records/slam_values.hpp"
-#include "core/records/space_run_json.hpp"
 #include "core/records/timings_jsonl.hpp"
 #include "core/records/trajectory_files.hpp"
 
@@ -22,7 +21,7 @@ namespace fs = std::filesystem;
 
 StudyHead read_slam_head(const std::string& text, const std::string& source) {
   const SlamOrder order = parse_slam_study(text, source);
-  return {.experiment = slam_experiment_value(order.experiment).dump(),
+  return {.experiment = to_json_value(order.experiment).dump(),
           .solver_digest = order.provenance.solver_digest};
 }
 
@@ -128,7 +127,7 @@ StudyPart part_of(std::span<const FactorizationCost> costs) { return {.timings =
 bool holds_run(const fs::path& folder, const std::string& id, const RangeLog& log) {
   return is_whole(SlamFiles{folder}.run(id), [&](const auto& text, const auto& source) {
     const SlamRun run = parse_slam_run(text, source);
-    return run.id == id && range_log_value(run.log) == range_log_value(log);
+    return run.id == id && to_json_value(run.log) == to_json_value(log);
   });
 }
 

@@ -8,8 +8,12 @@ namespace mapproof {
 namespace fs = std::filesystem;
 
 PlacedPoints placed(const MapRecord& map) {
+  const bool has_frame = !map.anchors.empty() || map.truth_m;
+  const bool is_metric = std::holds_alternative<FromPairs>(map.origin) ||
+                         std::holds_alternative<FromRanges>(map.origin);
   return {.quantity = map.frame == Frame::kTruth ? "landmark_m" : "landmark_shape",
           .frame = map.frame,
+          .is_free = is_metric && !has_frame && map.frame == Frame::kTruth,
           .names = map.names,
           .points = map.estimate,
           .truth = map.truth_m};

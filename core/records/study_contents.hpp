@@ -18,6 +18,7 @@ namespace mapproof {
 struct PlacedPoints {
   std::string quantity = "landmark_m";  ///< Quantity::id.
   Frame frame = Frame::kTruth;
+  bool is_free = false;  ///< In metres, in a frame known up to a rotation, a shift and a reflection.
   std::vector<std::string> names;  ///< One a row; empty: rows are counted from 1.
   Points points;                   ///< n x 2; NaN rows: no place.
   std::optional<Points> truth;     ///< n x 2; NaN rows: not known.

@@ -8,7 +8,8 @@
 
 #include "core/base/errors.hpp"
 #include "core/base/files.hpp"
-#include "core/records/experiment_values.hpp"
+#include "core/json/record_json.hpp"
+#include "core/records/experiment_fields.hpp"
 #include "core/records/run_json.hpp"
 #include "core/records/study_files.hpp"
 #include "core/records/timings_jsonl.hpp"
@@ -20,7 +21,7 @@ namespace fs = std::filesystem;
 
 StudyHead read_study_head(const std::string& text, const std::string& source) {
   const Study study = parse_study(text, source);
-  return {.experiment = experiment_value(study.experiment).dump(),
+  return {.experiment = to_json_value(study.experiment).dump(),
           .solver_digest = study.provenance.solver_digest};
 }
 

@@ -5,9 +5,6 @@
 #include <string_view>
 #include <vector>
 
-#include <nlohmann/json.hpp>
-
-#include "core/json/json_cursor.hpp"
 #include "core/model/trial_study.hpp"
 
 namespace mapproof {
@@ -28,16 +25,5 @@ using InputOfTopic = std::function<TopicInput(std::string_view topic)>;
 TrialExperiment parse_trial_experiment(std::string_view text, const std::string& source,
                                        const InputOfTopic& input_of,
                                        const std::string& profile = "");
-
-/// The names of the profiles in such a file, sorted. @throws IoError as above.
-std::vector<std::string> trial_profiles(std::string_view text, const std::string& source);
-
-/// Whether a JSON text says that it is such a file. @throws IoError if it is no JSON of ours.
-bool is_trial_experiment(std::string_view text, const std::string& source);
-
-/// The value in a study.json, with the data sets that the study is made of, and back. The options
-/// of a study are taken as they stand, of whatever topic.
-nlohmann::ordered_json trial_experiment_value(const TrialExperiment& experiment);
-TrialExperiment read_trial_experiment(const JsonCursor& document);
 
 }  // namespace mapproof

@@ -9,8 +9,8 @@ namespace mapproof {
 
 /// The files of a study of trials (docs/file-formats.md). All parsers throw IoError with the place.
 
-/// study.json (mapproof.trial_study): experiment, design and provenance; parts and conclusions are
-/// not in it.
+/// study.json (mapproof.trial_study): experiment, design and provenance; parts are not
+/// in it.
 std::string trial_study_json(const TrialStudy& study);
 TrialStudy parse_trial_study(std::string_view text, const std::string& source);
 

@@ -5,9 +5,10 @@
 
 #include "core/base/errors.hpp"
 #include "core/base/files.hpp"
+#include "core/json/record_json.hpp"
 #include "core/records/study_folder.hpp"
 #include "core/records/timings_jsonl.hpp"
-#include "core/records/trial_experiment_json.hpp"
+#include "core/records/trial_fields.hpp"
 #include "core/records/trial_json.hpp"
 
 namespace mapproof {
@@ -28,7 +29,7 @@ struct TrialFiles {
 
 StudyHead read_trial_head(const std::string& text, const std::string& source) {
   const TrialStudy study = parse_trial_study(text, source);
-  return {.experiment = trial_experiment_value(study.experiment).dump(),
+  return {.experiment = to_json_value(study.experiment).dump(),
           .solver_digest = study.provenance.solver_digest};
 }
 

@@ -24,7 +24,7 @@ bool holds_part(const std::filesystem::path& folder, const TrialDesign& design,
 std::vector<std::filesystem::path> part_files(const std::filesystem::path& folder);
 
 /// The study in a folder, as far as it was made: parts in the order of run or data set, with their
-/// seconds; without conclusions.
+/// seconds.
 /// @throws IoError if there is no such study or a file of it is damaged.
 TrialStudy read_trial_study(const std::filesystem::path& folder);
 

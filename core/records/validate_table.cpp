@@ -34,7 +34,12 @@ void check_observations(std::string_view text, const std::string& source, Reader
 
 bool is_map(const TableRow& header) {
   return header.cells.size() >= 6 && header.cells[0] == "name" && header.cells[3] == "true_x_m" &&
-         header.cells.back() == "anchor";
+         std::ranges::find(header.cells, "anchor") != header.cells.end();
+}
+
+bool is_results_table(const TableRow& header) {
+  return header.cells.size() >= 3 && header.cells[0] == "setup" && header.cells[1] == "method" &&
+         header.cells[2] == "quantity";
 }
 
 bool is_part_of_mrclam(const std::filesystem::path& path) {
@@ -48,6 +53,8 @@ void check_table(ByteSource& input, std::string& kind) {
   const std::string& source = input.name();
   if (is_part_of_mrclam(input.path()))
     throw IoError(source, "is one file of an MRCLAM data set: check the folder");
+  if (first_row_is(input, is_results_table))
+    throw IoError(source, "is a table of results without its study.json: check the study's folder");
   if (first_row_is(input, names_sighting_columns)) {
     kind = "sightings";
     read_long_sightings(input, {});

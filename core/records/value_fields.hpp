@@ -1,14 +1,18 @@
 #pragma once
 
 #include <algorithm>
+#include <concepts>
 #include <limits>
+#include <set>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
 #include <fmt/format.h>
 
 #include "core/base/not_finite.hpp"
+#include "core/base/words.hpp"
 #include "core/json/fields.hpp"
 #include "core/model/study.hpp"
 #include "core/records/limits.hpp"
@@ -20,6 +24,7 @@ namespace mapproof {
 
 inline EnumNames enum_names(Sensor) { return names_up_to(Sensor::kRange, "sensor"); }
 inline EnumNames enum_names(StatusCode) { return names_up_to(StatusCode::kFailed, "status"); }
+inline EnumNames enum_names(StatusReason) { return names_up_to(StatusReason::kMessage, "reason"); }
 inline EnumNames enum_names(SdpSolver) { return names_up_to(SdpSolver::kCsdp, "solver"); }
 inline EnumNames enum_names(Frame) { return names_up_to(Frame::kSimilarity, "frame"); }
 
@@ -65,6 +70,25 @@ void check_rows(Visitor& v, std::string_view key, const std::vector<Eigen::Index
       v.refuse(key, i, fmt::format("expected an integer from 0 to {}, got {}", size - 1, rows[i]));
 }
 
+/// Refuses an id that stood there before, of the records at a key.
+template <typename Visitor, typename Record>
+void check_ids(Visitor& v, std::string_view key, const std::vector<Record>& records) {
+  if constexpr (Visitor::kReads) {
+    std::set<std::string_view> ids;
+    for (std::size_t i = 0; i < records.size(); ++i)
+      if (!ids.insert(records[i].id).second)
+        v.refuse(fmt::format("{}/{}/id", key, i), "is there twice");
+  }
+}
+
+/// Refuses a number that is more than another field allows.
+template <typename Visitor, typename Number>
+void check_at_most(Visitor& v, std::string_view key, Number number, Number least, Number most) {
+  constexpr std::string_view kExpected = std::integral<Number> ? "an integer" : "a number";
+  if (number > most)
+    v.refuse(key, fmt::format("expected {} from {} to {}, got {}", kExpected, least, most, number));
+}
+
 template <typename Visitor>
 void fields(Visitor& v, RunId& run) {
   v.type("run");
@@ -72,11 +96,67 @@ void fields(Visitor& v, RunId& run) {
   v.field("pose", run.pose, {.minimum = 1, .maximum = kMostPoses});
 }
 
+/// A method of Status::starts: a map's own method may be pairs, too (map_fields.hpp).
+enum class StartMethod {};
+inline EnumNames enum_names(StartMethod) { return {"start", enum_names(Method()).names}; }
+
+template <typename Visitor>
+void fields(Visitor& v, SubmapCount& submaps) {
+  v.type("submap_count");
+  v.about("How many sub-maps ended so, of all.");
+  v.field("count", submaps.count, record_rules::kCount);
+  v.field("submaps", submaps.submaps, record_rules::kCount);
+}
+
+/// What is wrong with so many names; empty if nothing is.
+inline std::string names_problem(StatusNames rule, std::size_t names) {
+  switch (rule) {
+    case StatusNames::kNone:
+      return names == 0 ? "" : "expected no names";
+    case StatusNames::kOne:
+      return names == 1 ? "" : "expected one name";
+    case StatusNames::kSome:
+      return names > 0 ? "" : "expected names";
+    case StatusNames::kIfKnown:
+      break;
+  }
+  return "";
+}
+
 template <typename Visitor>
 void fields(Visitor& v, Status& status) {
   v.type("warning");
   v.field("code", status.code);
-  v.field("detail", status.detail, {.max_bytes = kLongestText});
+  v.field("reason", status.reason, {.description = "Why: docs/methods.md has the reasons."});
+  v.field("values", status.values,
+          {.nullable = true,
+           .null_is = kInfinity,
+           .whole_as_integers = true,
+           .max_items = 100,
+           .key = Key::kIfAny});
+  v.field("names", status.names,
+          {.description = "Of landmarks; of a message the message.",
+           .max_items = kMostLandmarks,
+           .max_bytes = kLongestText,
+           .key = Key::kIfAny});
+  std::vector<StartMethod> starts;
+  for (const Method method : status.starts) starts.push_back(static_cast<StartMethod>(method));
+  v.field("starts", starts,
+          {.description = "Methods: of the map that the map started from, or of that one's.",
+           .max_items = 10,
+           .key = Key::kIfAny});
+  if constexpr (Visitor::kReads) {
+    status.starts.clear();
+    for (const StartMethod method : starts) status.starts.push_back(static_cast<Method>(method));
+  }
+  v.field("submaps", status.submaps, {.key = Key::kIfAny});
+  const StatusReasonInfo& reason = info(status.reason);
+  if (status.values.size() != reason.value_count())
+    v.refuse("values", fmt::format("expected {} of {}, got {}",
+                                   counted(static_cast<long long>(reason.value_count()), "value"),
+                                   reason.name, status.values.size()));
+  if (const std::string wrong = names_problem(reason.names, status.names.size()); !wrong.empty())
+    v.refuse("names", wrong);
 }
 
 template <typename Visitor>
@@ -155,7 +235,7 @@ void fields(Visitor& v, Provenance& provenance) {
   v.field("version", provenance.version, {.description = "Of mapproof."});
   v.field("commit", provenance.commit, {.description = "Of its source."});
   v.field("solver_digest", provenance.solver_digest,
-          {.description = "SHA-256 of the sources of core."});
+          {.description = "SHA-256 of the sources of core that compute."});
   std::vector<LibraryVersion> libraries;
   for (const auto& [name, version] : provenance.libraries) libraries.push_back({name, version});
   v.field("libraries", libraries, {.max_items = 1000});

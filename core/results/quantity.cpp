@@ -53,14 +53,6 @@ std::vector<Quantity> dictionary() {
   };
 }
 
-bool is_quantity_id(std::string_view id) {
-  const auto is_in = [&](std::string_view known) {
-    return id.find_first_not_of(known) == std::string_view::npos;
-  };
-  return !id.empty() && id.size() <= kLongestName && id.front() >= 'a' && id.front() <= 'z' &&
-         is_in("abcdefghijklmnopqrstuvwxyz0123456789_");
-}
-
 std::string facts_of(const Quantity& quantity) {
   return fmt::format(
       "{}, {}", quantity.unit.empty() ? "without a unit" : "in " + printable(quantity.unit, 40),
@@ -98,6 +90,14 @@ const Quantity* find_quantity(std::string_view id) {
 }
 
 const Quantity& known_quantity(std::string_view id) { return Quantities().at(id); }
+
+bool is_quantity_id(std::string_view id) {
+  const auto is_in = [&](std::string_view known) {
+    return id.find_first_not_of(known) == std::string_view::npos;
+  };
+  return !id.empty() && id.size() <= kLongestName && id.front() >= 'a' && id.front() <= 'z' &&
+         is_in("abcdefghijklmnopqrstuvwxyz0123456789_");
+}
 
 std::string problem_of(const Quantity& quantity) {
   if (!is_quantity_id(quantity.id))

@@ -66,6 +66,9 @@ const Quantity* find_quantity(std::string_view id);
 /// The dictionary's entry. @throws InvalidInput if there is none of that id.
 const Quantity& known_quantity(std::string_view id);
 
+/// Whether it is [a-z][a-z0-9_]*, not too long.
+bool is_quantity_id(std::string_view id);
+
 /// Why a study may not name such a quantity: its id or label cannot be one, or the dictionary has
 /// the id with another unit or direction. Empty if it may.
 std::string problem_of(const Quantity& quantity);

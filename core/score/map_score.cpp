@@ -35,18 +35,14 @@ AlignedMap align_to_anchors(const Points& coordinates, const Points& anchors_m,
                        [&](Eigen::Index anchor) { return coordinates.row(anchor).allFinite(); });
   if (mapped.size() < 3) {
     result.statuses.push_back(
-        {StatusCode::kAnchorsMissing,
-         fmt::format("{} of {} anchors are on the map; an affine map needs 3.", mapped.size(),
-                     anchors.size())});
+        status_of<StatusReason::kFewAnchorsMapped>(mapped.size(), anchors.size()));
     return result;
   }
   const Points from = coordinates(mapped, Eigen::all);
   const Points to = anchors_m(mapped, Eigen::all);
   if (planarity(to) <= kFlatPlanarity) throw InvalidInput("the anchors lie on one line");
   if (planarity(from) <= kFlatPlanarity) {
-    result.statuses.push_back({StatusCode::kAnchorsDegenerate,
-                               "The anchors lie on one line in the embedding: nothing ties its "
-                               "second axis to the truth."});
+    result.statuses.push_back(status_of<StatusReason::kAnchorsOnALine>());
     return result;
   }
   result.positions_m = fit_affine(from, to, fit)(coordinates);

@@ -6,10 +6,7 @@
 #include <optional>
 #include <span>
 
-#include <fmt/format.h>
-
 #include "core/base/errors.hpp"
-#include "core/base/words.hpp"
 #include "core/linalg/decompositions.hpp"
 #include "core/statistics/intervals.hpp"
 #include "core/submaps/overlaps.hpp"
@@ -279,11 +276,7 @@ JoinResult join_submaps(std::vector<Submap> maps, JoinKind kind, Eigen::Index la
     result.joined.joins.back().in_tree = std::ranges::binary_search(tree, k);
   }
   if (left_out > 0)
-    result.statuses.push_back(
-        {StatusCode::kTooFewObservations,
-         fmt::format("{} of {} sub-maps share fewer than 3 landmarks, or 3 on one line, with the "
-                     "others and are left out.",
-                     left_out, maps.size())});
+    result.statuses.push_back(status_of<StatusReason::kSubmapsLeftOut>(left_out, maps.size()));
   result.joined.submaps = std::move(maps);
   return result;
 }

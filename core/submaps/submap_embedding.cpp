@@ -4,10 +4,7 @@
 #include <cmath>
 #include <map>
 
-#include <fmt/format.h>
-
 #include "core/base/not_finite.hpp"
-#include "core/base/words.hpp"
 #include "core/statistics/intervals.hpp"
 #include "core/submaps/join.hpp"
 
@@ -33,18 +30,19 @@ MethodSetting fitting(MethodSetting setting, std::size_t size) {
   return setting;
 }
 
-/// Sub-maps with a place for every landmark that got one, and how often each status came up.
+/// Sub-maps with a place for every landmark that got one, and the first status of each code with
+/// how often it came up.
 struct Mapped {
   std::vector<Submap> maps;
-  std::map<StatusCode, int> codes;
-  std::map<StatusCode, std::string> examples;
+  std::map<StatusCode, Status> statuses;
   int failed = 0;
 };
 
 void add_map(const Embedding& embedding, const std::vector<Eigen::Index>& members, Mapped& mapped) {
   for (const Status& status : embedding.statuses) {
-    ++mapped.codes[status.code];
-    mapped.examples.try_emplace(status.code, status.detail);
+    Status& first = mapped.statuses.try_emplace(status.code, status).first->second;
+    if (!first.submaps) first.submaps.emplace();
+    ++first.submaps->count;
   }
   Submap map;
   std::vector<Eigen::Index> rows;
@@ -63,12 +61,12 @@ void add_map(const Embedding& embedding, const std::vector<Eigen::Index>& member
 
 std::vector<Status> statuses_of(const Mapped& mapped, std::size_t groups) {
   std::vector<Status> statuses;
-  for (const auto& [code, count] : mapped.codes) {
+  for (const auto& [code, first] : mapped.statuses) {
+    Status& status = statuses.emplace_back(first);
+    status.submaps->submaps = static_cast<int>(groups);
     // A sub-map that came to nothing does not fail the whole.
-    const bool all_failed = mapped.maps.empty();
-    statuses.push_back(
-        {code == StatusCode::kFailed && !all_failed ? StatusCode::kTooFewObservations : code,
-         fmt::format("{} of {} sub-maps: {}", count, groups, mapped.examples.at(code))});
+    if (code == StatusCode::kFailed && !mapped.maps.empty())
+      status.code = StatusCode::kTooFewObservations;
   }
   return statuses;
 }
@@ -114,12 +112,9 @@ SubmapEmbedding embed_submaps(const ObservationHistory& history, Eigen::Index st
   }
   result.embedding.statuses = statuses_of(mapped, groups.size());
   if (!unseen.empty())
-    result.embedding.statuses.push_back(
-        {StatusCode::kLandmarkUnseen,
-         fmt::format("{} of {} landmarks were never observed and are not on the map.",
-                     unseen.size(), M)});
+    result.embedding.statuses.push_back(status_of<StatusReason::kNeverObserved>(unseen.size(), M));
   if (mapped.maps.empty()) {
-    result.embedding.statuses.push_back({StatusCode::kFailed, "No sub-map came out."});
+    result.embedding.statuses.push_back(status_of<StatusReason::kNoSubmap>());
     return result;
   }
   JoinResult joined =

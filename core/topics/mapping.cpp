@@ -88,7 +88,8 @@ std::vector<std::string> check_mapping(const fs::path& folder) {
 
 void check_experiment_file(std::string_view text, const std::string& source) {
   parse_experiment(text, source);
-  for (const std::string& profile : profiles(text, source)) parse_experiment(text, source, profile);
+  for (const std::string& profile : profile_names(text, source, kMappingStudies.experiment))
+    parse_experiment(text, source, profile);
 }
 
 }  // namespace

@@ -11,13 +11,13 @@
 #include "core/base/errors.hpp"
 #include "core/experiment/slam_run.hpp"
 #include "core/experiment/slam_worlds.hpp"
+#include "core/records/profiles.hpp"
 #include "core/records/range_log_files.hpp"
 #include "core/records/results_of.hpp"
 #include "core/records/slam_experiment_json.hpp"
 #include "core/records/slam_files.hpp"
 #include "core/records/slam_run_json.hpp"
 #include "core/records/slam_store.hpp"
-#include "core/records/space_run_json.hpp"
 #include "core/topics/experiment_changes.hpp"
 
 namespace mapproof {
@@ -120,7 +120,7 @@ void read_ranges(const fs::path& folder, const std::string&, const ContentsAsked
 
 void check_slam_experiment_file(std::string_view text, const std::string& source) {
   parse_slam_experiment(text, source);
-  for (const std::string& profile : slam_profiles(text, source))
+  for (const std::string& profile : profile_names(text, source, kRangeStudies.experiment))
     parse_slam_experiment(text, source, profile);
 }
 

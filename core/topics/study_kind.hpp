@@ -59,6 +59,9 @@ std::vector<std::filesystem::path> files_of_run(const std::filesystem::path& fol
 /// @throws IoError if there is no study.json or it cannot be read.
 StudyContents read_study_contents(const std::filesystem::path& folder, const ContentsAsked& asked);
 
+/// The results.csv of a study, made of its records. @throws IoError.
+std::string results_table_of(const std::filesystem::path& folder);
+
 /// Writes results.csv of a study whose records are all there. @throws IoError.
 void write_results_table(const std::filesystem::path& folder);
 

@@ -54,6 +54,8 @@ std::vector<fs::path> files_of_run(const fs::path& folder, const std::string& ru
          !error && entry != end; entry.increment(error))
       if (entry->is_regular_file()) add(entry->path());
   }
+  // The one table of other programs holds every run.
+  if (!of_run.empty() && kind->experiment.empty()) of_run.emplace_back(kResultsFile);
   std::vector<fs::path>& found = of_run.empty() ? all : of_run;
   std::ranges::sort(found);
   return found;
@@ -72,8 +74,12 @@ StudyContents read_study_contents(const fs::path& folder, const ContentsAsked& a
   return contents;
 }
 
+std::string results_table_of(const fs::path& folder) {
+  return results_csv(read_study_contents(folder, {}).results.rows);
+}
+
 void write_results_table(const fs::path& folder) {
-  write_file(folder / kResultsFile, results_csv(read_study_contents(folder, {}).results.rows));
+  write_file(folder / kResultsFile, results_table_of(folder));
 }
 
 }  // namespace mapproof

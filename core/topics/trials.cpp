@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include "core/base/files.hpp"
+#include "core/records/profiles.hpp"
 #include "core/records/results_of.hpp"
 #include "core/records/trial_experiment_json.hpp"
 #include "core/records/trial_json.hpp"
@@ -99,7 +100,7 @@ void read_trials(const fs::path& folder, const std::string& text, const Contents
 
 void check_trial_experiment_file(std::string_view text, const std::string& source) {
   parse_trial_experiment(text, source, input_of_topics());
-  for (const std::string& profile : trial_profiles(text, source))
+  for (const std::string& profile : profile_names(text, source, kTrialStudies.experiment))
     parse_trial_experiment(text, source, input_of_topics(), profile);
 }
 

@@ -85,7 +85,13 @@ void check_source(ByteSource& source, const ForeignReader& foreign, Finding& fin
     finding.kind = "results";
     const StudyContents study =
         read_study_contents(source.path().parent_path(), {.keeps_on = true});
-    parse_results_csv(source.rest(), source.name(), study.results.quantities);
+    const std::string text = source.rest();
+    parse_results_csv(text, source.name(), study.results.quantities);
+    // Of our own studies the table is made from the records.
+    const StudyKind* kind = kind_of_study(source.path().parent_path());
+    if (kind != nullptr && !kind->experiment.empty() && study.problems.empty() &&
+        text != results_csv(study.results.rows))
+      throw IoError(finding.path, "differs from the records of its study; `mapproof run` makes it");
   } else if (is_json(source)) {
     check_json(source.rest(), foreign, finding);
   } else if (may_be_table(source.path())) {

@@ -10,7 +10,6 @@
 #include "core/certainty/block_length.hpp"
 #include "core/certainty/map_bootstrap.hpp"
 #include "core/trials/certainty_walks.hpp"
-#include "core/trials/trial_means.hpp"
 
 namespace mapproof {
 namespace {
@@ -35,12 +34,6 @@ std::string series_id(const MethodSetting& setting) {
 
 TrialDesign certainty_design(const TrialExperiment& experiment) {
   TrialDesign design;
-  design.question = fmt::format(
-      "In each layout {:g} walks are mapped; the mean of these maps is what a method tends to. "
-      "Of {:g} of them ellipses are drawn by the bootstrap, each from its own walk alone. Of the "
-      "landmarks that are no anchors, how many have that mean in their 95 % ellipse, and how many "
-      "the truth?",
-      number_option(experiment, "walks"), number_option(experiment, "tried"));
   for (const auto& [id, sensor] : kSensors)
     design.setups.push_back({id,
                              fmt::format("Ellipses of maps from {}", name(sensor)),
@@ -109,8 +102,7 @@ class WalkedWorld {
                               name(history.sensor));
     MapRecord& map = shown.map;
     map.id = shown.id;
-    map.sensor = history.sensor;
-    map.setting = setting;
+    map.origin = FromSensor{history.sensor, setting};
     map.step = static_cast<int>(history.steps());
     map.names = history.names;
     map.truth_m = frame_.positions_m;
@@ -121,12 +113,8 @@ class WalkedWorld {
     map.frame = placed ? Frame::kTruth : Frame::kSimilarity;
     map.estimate = placed.value_or(embedding.coordinates);
     if (!placed) return shown;
-    const MapCertainty certainty =
+    shown.certainty =
         history_certainty(history, history.steps(), frame_, {.setting = setting, .embedder = {}});
-    // Study figures draw ellipses of known covariances: these are as large as those of the
-    // estimate.
-    for (const Eigen::Matrix2d& C : certainty.covariances)
-      shown.covariances.push_back(C * (certainty.squared_radius / squared_radius(0.95, 1e9)));
     return shown;
   }
 
@@ -160,40 +148,6 @@ TrialPart make_certainty(const TrialContext& context) {
   return part;
 }
 
-/// The least and the greatest of means over all series and levels of a setup.
-std::pair<double, double> range_of(const TrialStudy& study, const TrialSetup& setup,
-                                   const char* quantity) {
-  double low = HUGE_VAL, high = -HUGE_VAL;
-  for (const TrialSeries& series : study.design.series)
-    for (const Condition& at : conditions_of(setup)) {
-      const double mean = trial_mean(study, at, series.id, quantity);
-      if (std::isnan(mean)) continue;
-      low = std::min(low, mean);
-      high = std::max(high, mean);
-    }
-  return {low, high};
-}
-
-std::vector<std::string> certainty_conclusions(const TrialStudy& study) {
-  std::vector<std::string> sentences;
-  for (const TrialSetup& setup : study.design.setups) {
-    const auto [low, high] = range_of(study, setup, "mean_covered_percent");
-    if (low > high) continue;
-    sentences.push_back(fmt::format(
-        "{}: the 95 % ellipses hold the mean of the method's own maps for {:.1f} to {:.1f} % of "
-        "the "
-        "landmarks, by method and level; the 93 to 97 % aimed at are {}.",
-        setup.title, low, high, low >= 93.0 && high <= 97.0 ? "met by all" : "not met by all"));
-    const auto [truth_low, truth_high] = range_of(study, setup, "truth_covered_percent");
-    const auto [bias_low, bias_high] = range_of(study, setup, "bias_m");
-    sentences.push_back(fmt::format(
-        "{}: they hold the truth for {:.1f} to {:.1f} % of them, since the mean map is {:.3f} to "
-        "{:.3f} m off itself: ellipses tell of chance, not of what a method has wrong each time.",
-        setup.title, truth_low, truth_high, bias_low, bias_high));
-  }
-  return sentences;
-}
-
 }  // namespace
 
 const Topic kCertaintyTopic = {.name = "certainty",
@@ -204,7 +158,6 @@ const Topic kCertaintyTopic = {.name = "certainty",
                                            {"observations", {500, 2000}, 10, 100000, true, true},
                                            {"blocks", {0.5, 1, 2, 4}, 0.01, 100, false, true}},
                                .design = certainty_design,
-                               .make = make_certainty,
-                               .conclude = certainty_conclusions};
+                               .make = make_certainty};
 
 }  // namespace mapproof

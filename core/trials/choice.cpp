@@ -11,7 +11,6 @@
 #include "core/choice/judged_maps.hpp"
 #include "core/score/map_score.hpp"
 #include "core/simulate/sensors.hpp"
-#include "core/trials/trial_means.hpp"
 
 namespace mapproof {
 namespace {
@@ -19,18 +18,13 @@ namespace {
 using Clock = std::chrono::steady_clock;
 
 constexpr std::pair<const char*, Sensor> kChoiceSensors[] = {{"visibility", Sensor::kVisibility},
-                                                       {"bearing", Sensor::kBearing}};
+                                                             {"bearing", Sensor::kBearing}};
 constexpr const char* kRandom = "random";
 constexpr const char* kFixed = "fixed";
 const MethodSetting kFixedSetting{Method::kIsomap, 6.0};
 
 TrialDesign choice_design(const TrialExperiment& experiment) {
   TrialDesign design;
-  design.question =
-      "All methods with several parameters map the same observations. How much worse than the best "
-      "of these maps is the one that a criterion picks which knows nothing of the truth? With "
-      "anchors it judges maps fitted to them, and is judged by their MPE; without, it judges the "
-      "shapes alone, and is judged by the MPE with the affine map fitted on all landmarks.";
   for (const auto& [id, sensor] : kChoiceSensors)
     design.setups.push_back({id,
                              fmt::format("Picking among maps from {}", name(sensor)),
@@ -154,42 +148,6 @@ TrialPart make_choice(const TrialContext& context) {
   return part;
 }
 
-/// The mean of a quantity over all setups and levels.
-double mean_over_all(const TrialStudy& study, std::string_view series, const char* quantity) {
-  double sum = 0.0;
-  int count = 0;
-  for (const TrialSetup& setup : study.design.setups)
-    for (const Condition& at : conditions_of(setup))
-      for (const double value : trial_values(study, at, series, quantity)) {
-        sum += value;
-        ++count;
-      }
-  return count > 0 ? sum / count : kNaN;
-}
-
-std::string sentence(const TrialStudy& study, const char* quantity, const char* when) {
-  std::string best;
-  double least = HUGE_VAL;
-  for (const TrialSeries& series : study.design.series) {
-    const double regret = mean_over_all(study, series.id, quantity);
-    if (std::isnan(regret)) continue;
-    if (series.id == kRandom || series.id == kFixed || regret >= least) continue;
-    least = regret;
-    best = series.label;
-  }
-  return fmt::format(
-      "{} the best criterion over all sensors and numbers of steps is: {}, whose pick is {:.3f} m "
-      "worse than the best map on average; a fixed method is {:.3f} m worse and a random pick "
-      "{:.3f} m.",
-      when, best, least, mean_over_all(study, kFixed, quantity),
-      mean_over_all(study, kRandom, quantity));
-}
-
-std::vector<std::string> choice_conclusions(const TrialStudy& study) {
-  return {sentence(study, "regret_m", "With anchors"),
-          sentence(study, "regret_shape_m", "Without anchors")};
-}
-
 }  // namespace
 
 const Topic kChoiceTopic = {.name = "choice",
@@ -197,7 +155,6 @@ const Topic kChoiceTopic = {.name = "choice",
                             .options = {{"observations", {200, 500, 2000}, 10, 100000, true, true},
                                         {"replicates", {10}, 1, 1000, true, false}},
                             .design = choice_design,
-                            .make = make_choice,
-                            .conclude = choice_conclusions};
+                            .make = make_choice};
 
 }  // namespace mapproof

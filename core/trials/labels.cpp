@@ -11,7 +11,6 @@
 #include "core/experiment/scored_map.hpp"
 #include "core/labels/correspondence.hpp"
 #include "core/simulate/sensors.hpp"
-#include "core/trials/trial_means.hpp"
 
 namespace mapproof {
 namespace {
@@ -31,13 +30,6 @@ TrialDesign labels_design(const TrialExperiment& experiment) {
   TrialDesign design;
   std::vector<double> percent;
   for (const double share : list_option(experiment, "shares")) percent.push_back(100.0 * share);
-  design.question = fmt::format(
-      "A share of the labels is dealt out anew: among single readings of a step that are known to "
-      "be without a label, the same without that knowledge, or among whole rows over stretches of "
-      "{:g} steps. What does mapping the labels as given cost, what leaving doubtful readings out, "
-      "and what is won by estimating the correspondence? Maps are of SMACOF over K = {:g} "
-      "neighbours.",
-      number_option(experiment, "stretch"), number_option(experiment, "neighbours"));
   const std::vector<TrialFactor> factors = {
       {"confused_percent", "labels confused", "%", std::move(percent)}};
   design.setups = {{kUnlabelled, "Readings without a label", factors},
@@ -167,8 +159,7 @@ class ConfusedMaps {
         fmt::format("{}, {}: {}", setup_.title, level_words(setup_, condition_at(setup_, level_)),
                     series_label(labels_design(context_.experiment), series));
     shown.map.id = id;
-    shown.map.sensor = truth_.sensor;
-    shown.map.setting = setting;
+    shown.map.origin = FromSensor{truth_.sensor, setting};
     shown.map.step = static_cast<int>(truth_.steps());
     shown.map.frame = map.frame;
     shown.map.names = truth_.names;
@@ -203,32 +194,6 @@ TrialPart make_labels(const TrialContext& context) {
   return part;
 }
 
-std::vector<std::string> labels_conclusions(const TrialStudy& study) {
-  std::vector<std::string> sentences;
-  for (const TrialSetup& setup : study.design.setups) {
-    std::vector<std::string> levels, right, given, estimated;
-    for (const double level : levels_of(setup)) {
-      const auto mean = [&](const char* series, const char* quantity) {
-        return trial_mean(study, condition_at(setup, level), series, quantity);
-      };
-      if (level == 0.0 || std::isnan(mean(kGiven, "mpe_m")) ||
-          std::isnan(mean(kEstimated, "mpe_m")))
-        continue;
-      levels.push_back(fmt::format("{:g}", level));
-      right.push_back(fmt::format("{:.0f}", mean(kEstimated, "correct_percent")));
-      given.push_back(fmt::format("{:.3f}", mean(kGiven, "mpe_m")));
-      estimated.push_back(fmt::format("{:.3f}", mean(kEstimated, "mpe_m")));
-    }
-    if (levels.empty()) continue;
-    sentences.push_back(fmt::format(
-        "{}: of {} % of the labels confused, {} % are set right; the mean MPE is {} m with labels "
-        "as given and {} m with those estimated.",
-        setup.title, all_listed(levels), all_listed(right), all_listed(given),
-        all_listed(estimated)));
-  }
-  return sentences;
-}
-
 }  // namespace
 
 const Topic kLabelsTopic = {
@@ -243,7 +208,6 @@ const Topic kLabelsTopic = {
                 {"neighbours", {8}, 1, 1000, true, false}},
     .design = labels_design,
     .make = make_labels,
-    .conclude = labels_conclusions,
     .data_sets = nullptr};
 
 }  // namespace mapproof

@@ -10,7 +10,6 @@
 #include "core/align/rigid.hpp"
 #include "core/base/errors.hpp"
 #include "core/base/not_finite.hpp"
-#include "core/base/words.hpp"
 #include "core/certainty/pair_certainty.hpp"
 #include "core/embed/embedder.hpp"
 #include "core/experiment/scored_map.hpp"
@@ -63,13 +62,6 @@ const RealWay kWays[] = {
 
 TrialDesign mrclam_design(const TrialExperiment&) {
   TrialDesign design;
-  design.question =
-      "Robots in a hall see landmarks by their barcodes, with range and bearing. How good a map "
-      "can be made of these looks alone, without poses or odometry: from which landmarks are seen "
-      "together, from bearings, from ranges, from range and bearing together? The looks of all "
-      "robots are pooled. Errors are of the landmarks that are no anchors, after the affine map to "
-      "the anchors: the four landmarks furthest out along the diagonals. And if labels are wrong: "
-      "can they be found from the looks themselves, and mended?";
   design.setups = {{kSetup, "A map per sensor and method"},
                    {kLabels, "Range and bearing with labels made wrong"}};
   for (const RealWay& way : kWays) design.series.push_back({way.id, way.label});
@@ -157,9 +149,10 @@ Made make_map(const RealWay& way, const RealSet& set, const TrialContext& contex
 MapRecord record_of(const RealWay& way, const RealSet& set, const Made& made) {
   MapRecord map;
   map.id = way.id;
-  map.sensor = way.sensor;
-  map.of_pairs = !way.method;
-  map.setting = made.setting;
+  if (way.method)
+    map.origin = FromSensor{way.sensor, made.setting};
+  else
+    map.origin = FromPairs{};
   map.step = set.source.log.steps;
   map.names = set.source.log.names;
   map.anchors = set.anchors;
@@ -200,24 +193,22 @@ void add_way(const RealWay& way, const RealSet& set, const TrialContext& context
                  .title = fmt::format("{}: {}", context.part, way.label),
                  .map = record_of(way, set, made),
                  .pairs = made.pairs,
-                 .covariances = {}};
+                 .certainty = {}};
   part.trials.push_back(trial_of(kSetup, way.id, way, set, made, shown.map));
   // The last way is what pairs come to: its map shows them, and how sure it is.
   const bool is_last = &way == &kWays[std::size(kWays) - 1];
   if (!is_last) shown.pairs.clear();
   const int replicates = static_cast<int>(number_option(context.experiment, "replicates"));
   if (is_last && replicates > 0)
-    shown.covariances =
-        pair_certainty(set.source.log,
-                       {set.anchors.empty() ? shown.map.estimate : *set.source.truth_m, set.anchors,
-                        set.anchors.empty()},
-                       {.replicates = std::max(kFewestReplicates, replicates),
-                        .block = static_cast<Eigen::Index>(
-                            std::min<double>(number_option(context.experiment, "block_looks"),
-                                             std::max(1, set.source.log.steps))),
-                        .seed = context.seed,
-                        .fit = kFit})
-            .covariances;
+    shown.certainty = pair_certainty(
+        set.source.log,
+        {set.anchors.empty() ? shown.map.estimate : *set.source.truth_m, set.anchors,
+         set.anchors.empty()},
+        {.replicates = std::max(kFewestReplicates, replicates),
+         .block = static_cast<Eigen::Index>(std::min<double>(
+             number_option(context.experiment, "block_looks"), std::max(1, set.source.log.steps))),
+         .seed = context.seed,
+         .fit = kFit});
   if (context.with_maps) part.maps.push_back(std::move(shown));
 }
 
@@ -251,53 +242,6 @@ TrialPart make_mrclam(const TrialContext& context) {
   return part;
 }
 
-double value_of(const TrialPart& part, std::string_view series, std::size_t quantity) {
-  const auto trial = std::ranges::find(part.trials, series, &Trial::series);
-  return trial == part.trials.end() ? kNaN : trial->values.at(quantity);
-}
-
-/// "Visibility, ISOMAP (1.46 m)": the best of some series on a set; empty if none has an error.
-std::string best_of(const TrialPart& part, std::string_view start) {
-  const RealWay* best = nullptr;
-  for (const RealWay& way : kWays) {
-    const double error = value_of(part, way.id, 0);
-    if (!std::string_view(way.id).starts_with(start) || std::isnan(error)) continue;
-    if (best == nullptr || error < value_of(part, best->id, 0)) best = &way;
-  }
-  return best == nullptr ? std::string()
-                         : fmt::format("{} ({:.3f} m)", best->label, value_of(part, best->id, 0));
-}
-
-std::vector<std::string> mrclam_conclusions(const TrialStudy& study) {
-  std::vector<std::string> sentences;
-  for (const TrialPart& part : study.parts) {
-    const double error = value_of(part, "pairs", 0);
-    if (std::isnan(error)) {
-      sentences.push_back(fmt::format(
-          "{}: no error can be told; {:.0f} landmarks are mapped from range and bearing.", part.id,
-          std::max(0.0, value_of(part, "pairs", 5))));
-      continue;
-    }
-    sentences.push_back(fmt::format(
-        "{}: range and bearing together put the landmarks {:.3f} m off (MPE), {:.3f} m after a "
-        "rigid fit; the distances of pairs say it, no pose.",
-        part.id, error, value_of(part, "pairs", 3)));
-    std::vector<std::string> others;
-    for (const char* start : {"visibility", "bearing", "range"})
-      if (const std::string best = best_of(part, start); !best.empty()) others.push_back(best);
-    if (!others.empty())
-      sentences.push_back(fmt::format("{}: the best of each sensor alone: {}.", part.id,
-                                      listed(others, others.size() + 1)));
-    if (const double swapped = value_of(part, "swapped", 0); !std::isnan(swapped))
-      sentences.push_back(fmt::format(
-          "{}: with two labels swapped in half of the looks the map is {:.3f} m off, mended {:.3f} "
-          "m; with a landmark called by another's name in all looks {:.3f} m, mended {:.3f} m.",
-          part.id, swapped, value_of(part, "swapped-mended", 0), value_of(part, "misnamed", 0),
-          value_of(part, "misnamed-mended", 0)));
-  }
-  return sentences;
-}
-
 }  // namespace
 
 const Topic kMrclamTopic = {
@@ -308,7 +252,6 @@ const Topic kMrclamTopic = {
                 {"block_looks", {0}, 0, 100'000, true, false}},
     .design = mrclam_design,
     .make = make_mrclam,
-    .conclude = mrclam_conclusions,
     .data_sets = mrclam_sets,
 };
 

@@ -10,7 +10,6 @@
 #include "core/base/random.hpp"
 #include "core/follow/followed_map.hpp"
 #include "core/simulate/sensors.hpp"
-#include "core/trials/trial_means.hpp"
 
 namespace mapproof {
 namespace {
@@ -34,11 +33,6 @@ const Followed kMethods[] = {
 
 TrialDesign online_design(const TrialExperiment& experiment) {
   TrialDesign design;
-  design.question = fmt::format(
-      "Observations arrive one by one, and every {:g} of them the map is made from sums over pairs "
-      "that are carried on. How far is it from the map that all observations so far make anew, and "
-      "through how many of them does each go?",
-      number_option(experiment, "every"));
   for (const Sensor sensor : kFollowedSensors)
     design.setups.push_back({std::string(name(sensor)),
                              fmt::format("Maps from {}, carried on", name(sensor)),
@@ -140,35 +134,6 @@ TrialPart make_online(const TrialContext& context) {
   return part;
 }
 
-std::vector<std::string> online_conclusions(const TrialStudy& study) {
-  std::vector<std::string> sentences;
-  for (const TrialSetup& setup : study.design.setups) {
-    const double last = levels_of(setup).back();
-    const Condition at = condition_at(setup, last);
-    double greatest = 0.0, beyond = 0.0;
-    for (const Followed& method : kMethods) {
-      const auto most = [&](const char* quantity, double so_far) {
-        for (const double value : trial_values(study, at, method.carried_on, quantity))
-          so_far = std::max(so_far, value);
-        return so_far;
-      };
-      greatest = most("greatest_gap_ppm", greatest);
-      beyond = most("beyond_percent", beyond);
-    }
-    sentences.push_back(fmt::format(
-        "{}: up to {:g} observations no map carried on, whatever the method, was further than "
-        "{:.2g} ppm of its size from the map made anew{}; it goes through {:g} observations for "
-        "its last update instead of {:g}.",
-        setup.title, last, greatest,
-        beyond > 0.0 ? fmt::format("; beyond the stated bound in {:.2g} % of the updates of one "
-                                   "run",
-                                   beyond)
-                     : "",
-        trial_mean(study, at, kMethods[0].carried_on, "steps_gone_through"), last));
-  }
-  return sentences;
-}
-
 }  // namespace
 
 const Topic kOnlineTopic = {
@@ -177,7 +142,6 @@ const Topic kOnlineTopic = {
     .options = {{"observations", {200, 500, 1000, 2000, 4000}, 10, 100000, true, true},
                 {"every", {20}, 1, 100000, true, false}},
     .design = online_design,
-    .make = make_online,
-    .conclude = online_conclusions};
+    .make = make_online};
 
 }  // namespace mapproof

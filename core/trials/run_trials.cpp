@@ -57,8 +57,7 @@ TrialStudy planned_study(const TrialExperiment& experiment, const Provenance& pr
   return {.experiment = experiment,
           .provenance = provenance,
           .design = topic_of(experiment).design(experiment),
-          .parts = {},
-          .conclusions = {}};
+          .parts = {}};
 }
 
 TrialPart simulate_part(const TrialExperiment& experiment, const RunId& run) {
@@ -98,13 +97,6 @@ TrialPart make_of_data(const TrialExperiment& experiment, const TrialData& data)
       .with_maps = true,
   };
   return named(topic_of(experiment).make(context), data.set.id);
-}
-
-TrialStudy read_concluded_study(const std::filesystem::path& folder) {
-  TrialStudy study = read_trial_study(folder);
-  const Topic* topic = topic_named(study.experiment.topic);
-  if (topic != nullptr && !study.parts.empty()) study.conclusions = topic->conclude(study);
-  return study;
 }
 
 }  // namespace mapproof

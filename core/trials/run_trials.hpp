@@ -36,8 +36,4 @@ TrialPart simulate_part(const TrialExperiment& experiment, const RunId& run);
 /// @throws IoError if it cannot be read.
 TrialPart make_of_data(const TrialExperiment& experiment, const TrialData& data);
 
-/// The study in a folder with its topic's conclusions (none for a topic that is not known).
-/// @throws IoError as read_trial_study().
-TrialStudy read_concluded_study(const std::filesystem::path& folder);
-
 }  // namespace mapproof

@@ -30,7 +30,8 @@ struct TrialContext {
   bool with_maps = false;             ///< Maps to be shown are asked for.
 };
 
-/// A question that studies of trials can put: what it compares and how one part is made.
+/// A question that studies of trials can put: what it compares and how one part is made. Its words
+/// are in reports/sections/trials.
 /// What its functions return depends on their arguments alone, seconds apart.
 struct Topic {
   std::string_view name;  ///< In files: "missing".
@@ -39,7 +40,6 @@ struct Topic {
   std::vector<TrialOption> options;
   TrialDesign (*design)(const TrialExperiment& experiment) = nullptr;
   TrialPart (*make)(const TrialContext& context) = nullptr;
-  std::vector<std::string> (*conclude)(const TrialStudy& study) = nullptr;
   /// Of a topic of data: the sets in a folder, by id; the folder may be one itself.
   /// @throws IoError if there is none.
   std::vector<TrialData> (*data_sets)(const std::filesystem::path& folder) = nullptr;
@@ -50,9 +50,5 @@ std::span<const Topic* const> all_topics();
 
 /// The topic of that name; null if there is none.
 const Topic* topic_named(std::string_view name);
-
-/// An experiment's option. @throws InvalidInput if the experiment does not have it.
-double number_option(const TrialExperiment& experiment, const std::string& name);
-std::vector<double> list_option(const TrialExperiment& experiment, const std::string& name);
 
 }  // namespace mapproof

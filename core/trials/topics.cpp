@@ -1,9 +1,6 @@
 #include <algorithm>
 #include <vector>
 
-#include <fmt/format.h>
-
-#include "core/base/errors.hpp"
 #include "core/trials/certainty.hpp"
 #include "core/trials/choice.hpp"
 #include "core/trials/labels.hpp"
@@ -31,17 +28,6 @@ const Topic* topic_named(std::string_view name) {
   const auto found =
       std::ranges::find_if(topics, [&](const Topic* topic) { return topic->name == name; });
   return found == topics.end() ? nullptr : *found;
-}
-
-std::vector<double> list_option(const TrialExperiment& experiment, const std::string& name) {
-  const auto found = experiment.options.find(name);
-  if (found == experiment.options.end() || found->second.empty())
-    throw InvalidInput(fmt::format("a study of {} without its option {}", experiment.topic, name));
-  return found->second;
-}
-
-double number_option(const TrialExperiment& experiment, const std::string& name) {
-  return list_option(experiment, name).front();
 }
 
 }  // namespace mapproof

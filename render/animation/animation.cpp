@@ -63,13 +63,13 @@ std::string content_of(const Descriptor& file, const std::filesystem::path& prog
   return bytes;
 }
 
-/// The program's own words stand last: FFmpeg says what it found before.
+/// The last line of messages is the program's own; those of FFmpeg come before it.
 std::string last_line(std::string text) {
   while (text.ends_with('\n')) text.pop_back();
   return text.substr(text.rfind('\n') + 1);
 }
 
-/// Runs the program on an input and gives its output.
+/// Runs the program on an input and returns its output.
 std::string run(const std::filesystem::path& program, const Descriptor& input) {
   if (::access(program.c_str(), X_OK) != 0 && !MAPPROOF_HAS_ANIMATION)
     throw AnimationError(
@@ -133,7 +133,7 @@ std::string encode_animation(std::span<const Image> frames, const AnimationOptio
                                        sizeof(frame.pixels[0]) * frame.pixels.size()});
   if (!whole) fail(program, std::strerror(errno));
   std::string png = run(program, input);
-  // After the signature of 8 bytes and the header of 25, where texts of a still picture stand too.
+  // After the signature of 8 bytes and the header of 25, where other PNG have their texts too.
   constexpr std::size_t kHeaderEnd = 33;
   if (png.size() < kHeaderEnd || png.substr(1, 3) != "PNG") fail(program, "it gave no PNG");
   png.insert(kHeaderEnd, png_texts(options.texts));

@@ -18,7 +18,7 @@ AnimationInput read_header() {
     throw std::runtime_error("no header");
   constexpr int kLargest = 100'000;
   for (const int number : {input.width, input.height, input.frames, input.frame_ms})
-    if (number < 1 || number > kLargest) throw std::runtime_error("a header of odd numbers");
+    if (number < 1 || number > kLargest) throw std::runtime_error("a header out of range");
   return input;
 }
 
@@ -40,8 +40,8 @@ void run() {
 }  // namespace
 }  // namespace mapproof
 
-/// Reads an AnimationInput with its frames and writes an animated PNG. Started by mapproof; of no
-/// use to a person.
+/// Reads an AnimationInput with its frames and writes an animated PNG. mapproof starts it; it is
+/// not meant for direct use.
 int main() {
   try {
     mapproof::run();

@@ -20,17 +20,17 @@ namespace {
 
 constexpr int kMillisecondsASecond = 1000;
 
-/// @throws std::bad_alloc or std::runtime_error if FFmpeg's answer is an error.
+/// Returns FFmpeg's answer. @throws std::bad_alloc or std::runtime_error if it is an error.
 int checked(int answer, const char* what) {
   if (answer >= 0) return answer;
-  // zlib, which FFmpeg calls external, can fail here for want of memory alone.
+  // AVERROR_EXTERNAL is an error of zlib, which can fail here only for want of memory.
   if (answer == AVERROR(ENOMEM) || answer == AVERROR_EXTERNAL) throw std::bad_alloc();
   std::array<char, AV_ERROR_MAX_STRING_SIZE> words{};
   av_strerror(answer, words.data(), words.size());
   throw std::runtime_error(std::string(what) + ": " + words.data());
 }
 
-/// What FFmpeg makes, or has no memory for.
+/// An object that FFmpeg made. @throws std::bad_alloc if it had no memory for it.
 template <typename Kind>
 Kind* made(Kind* pointer) {
   if (pointer == nullptr) throw std::bad_alloc();
@@ -54,14 +54,14 @@ struct FreePacket {
   void operator()(AVPacket* packet) const { av_packet_free(&packet); }
 };
 
-/// A file in memory. FFmpeg's own pads its end wherever it stands, which is within the file here:
-/// the number of frames is written into the header last.
+/// A file in memory. FFmpeg's own dynamic buffer appends padding at the current offset, which is
+/// inside the file here: the number of frames is written into the header last.
 struct MemoryFile {
   std::string bytes;
   std::size_t at = 0;
 };
 
-/// Of const bytes from FFmpeg 7 on.
+/// FFmpeg 7 and newer hand over const bytes.
 template <typename Byte>
 int write_to_memory(void* opaque, Byte* data, int size) {
   auto& file = *static_cast<MemoryFile*>(opaque);
@@ -108,13 +108,12 @@ struct ApngEncoder::State {
   std::int64_t next = 0;  ///< Frames that were added.
 };
 
-ApngEncoder::ApngEncoder(const AnimationInput& input) : state_(nullptr) {
-  auto state = std::make_unique<State>();
-  state->frame_ms = input.frame_ms;
+ApngEncoder::ApngEncoder(const AnimationInput& input) : state_(std::make_unique<State>()) {
+  state_->frame_ms = input.frame_ms;
   const AVCodec* kind = avcodec_find_encoder(AV_CODEC_ID_APNG);
   if (kind == nullptr) throw std::runtime_error("FFmpeg has no encoder of APNG");
-  state->codec.reset(made(avcodec_alloc_context3(kind)));
-  AVCodecContext& codec = *state->codec;
+  state_->codec.reset(made(avcodec_alloc_context3(kind)));
+  AVCodecContext& codec = *state_->codec;
   codec.width = input.width;
   codec.height = input.height;
   codec.pix_fmt = AV_PIX_FMT_RGB24;
@@ -127,25 +126,24 @@ ApngEncoder::ApngEncoder(const AnimationInput& input) : state_(nullptr) {
 
   AVFormatContext* format = nullptr;
   checked(avformat_alloc_output_context2(&format, nullptr, "apng", nullptr), "APNG");
-  state->format.reset(format);
+  state_->format.reset(format);
   format->flags |= AVFMT_FLAG_BITEXACT;
   AVStream* stream = made(avformat_new_stream(format, nullptr));
   stream->time_base = codec.time_base;
   checked(avcodec_parameters_from_context(stream->codecpar, &codec), "stream");
   checked(av_opt_set_int(format->priv_data, "plays", 0, 0), "endless play");
-  format->pb = opened(state->file);
+  format->pb = opened(state_->file);
   checked(avformat_write_header(format, nullptr), "header");
 
-  state->frame.reset(made(av_frame_alloc()));
-  state->frame->format = codec.pix_fmt;
-  state->frame->width = input.width;
-  state->frame->height = input.height;
-  checked(av_frame_get_buffer(state->frame.get(), 0), "frame");
-  state->packet.reset(made(av_packet_alloc()));
-  state_ = state.release();
+  state_->frame.reset(made(av_frame_alloc()));
+  state_->frame->format = codec.pix_fmt;
+  state_->frame->width = input.width;
+  state_->frame->height = input.height;
+  checked(av_frame_get_buffer(state_->frame.get(), 0), "frame");
+  state_->packet.reset(made(av_packet_alloc()));
 }
 
-ApngEncoder::~ApngEncoder() { delete state_; }
+ApngEncoder::~ApngEncoder() = default;
 
 void ApngEncoder::add(const std::vector<std::uint32_t>& pixels) {
   AVFrame& frame = *state_->frame;

@@ -56,13 +56,14 @@ void set_words(const Drawing& drawing, cairo_surface_t* surface) {
 }
 
 /// Draws the only page and closes the file.
-void draw_pdf(const Drawing& drawing, cairo_surface_t* surface) {
+void draw_pdf(const Drawing& drawing, cairo_surface_t* surface,
+              std::vector<SurfaceHandle>& images) {
   set_words(drawing, surface);
   const ContextHandle context(cairo_create(surface));
   const Colour paper = drawing.background;
   cairo_set_source_rgb(context.get(), paper.red / 255.0, paper.green / 255.0, paper.blue / 255.0);
   cairo_paint(context.get());
-  paint(drawing, context.get(), true);
+  paint(drawing, context.get(), true, images);
   cairo_show_page(context.get());
   check(cairo_status(context.get()));
   cairo_surface_finish(surface);
@@ -87,7 +88,8 @@ Image to_image(const Drawing& drawing) {
       image.height, 4 * image.width));
   const ContextHandle context(cairo_create(surface.get()));
   cairo_scale(context.get(), image.width / drawing.width, image.height / drawing.height);
-  paint(drawing, context.get(), false);
+  std::vector<SurfaceHandle> images;
+  paint(drawing, context.get(), false, images);
   check(cairo_status(context.get()));
   cairo_surface_flush(surface.get());
   check(cairo_surface_status(surface.get()));
@@ -112,17 +114,25 @@ std::string to_png(const Drawing& drawing) {
 std::string to_pdf(const Drawing& drawing) {
   std::string bytes;
   errno = 0;
+  std::vector<SurfaceHandle> images;
   SurfaceHandle surface(
       cairo_pdf_surface_create_for_stream(append_to, &bytes, drawing.width, drawing.height));
+  // Cairo 1.16 makes a copy of an image before it destroys it, and dies where it has no memory for
+  // that. So the images stay: less than 1 KiB each, the pixels belong to the drawing.
+  const auto keep = [&images] {
+    for (SurfaceHandle& image : images) image.release();
+  };
   try {
-    draw_pdf(drawing, surface.get());
+    draw_pdf(drawing, surface.get(), images);
+    // Nor does it report every piece of memory that it did not get.
+    if (errno == ENOMEM) throw std::bad_alloc();
   } catch (...) {
     // Cairo goes on with what failed when such a surface is closed, up to an abort.
     surface.release();
+    keep();
     throw;
   }
-  // Cairo 1.16 says nothing of fonts that it found no memory for.
-  if (errno == ENOMEM) throw std::bad_alloc();
+  keep();
   return bytes;
 }
 

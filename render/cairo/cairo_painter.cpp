@@ -9,8 +9,9 @@ namespace {
 
 class Painter {
  public:
-  Painter(const Drawing& drawing, cairo_t* context, bool keeps_text)
-      : drawing_(drawing), context_(context), keeps_text_(keeps_text) {
+  Painter(const Drawing& drawing, cairo_t* context, bool keeps_text,
+          std::vector<SurfaceHandle>& images)
+      : drawing_(drawing), context_(context), keeps_text_(keeps_text), images_(images) {
     cairo_set_font_face(context_, thread_font_face());
     cairo_set_font_options(context_, plain_font_options().get());
     cairo_set_line_join(context_, CAIRO_LINE_JOIN_ROUND);
@@ -113,7 +114,7 @@ class Painter {
     const Image& image = *raster.image;
     // Cairo only reads it; pixels without alpha are Image's own form.
     auto* pixels = reinterpret_cast<unsigned char*>(const_cast<std::uint32_t*>(image.row(0)));
-    const SurfaceHandle surface(cairo_image_surface_create_for_data(
+    const SurfaceHandle& surface = images_.emplace_back(cairo_image_surface_create_for_data(
         pixels, CAIRO_FORMAT_RGB24, image.width, image.height, 4 * image.width));
     check(cairo_surface_status(surface.get()));
     cairo_save(context_);
@@ -162,14 +163,16 @@ class Painter {
   const Drawing& drawing_;
   cairo_t* context_;
   bool keeps_text_;
+  std::vector<SurfaceHandle>& images_;
   bool clipped_ = false;
   std::size_t panel_ = 0;
 };
 
 }  // namespace
 
-void paint(const Drawing& drawing, cairo_t* context, bool keeps_text) {
-  Painter(drawing, context, keeps_text).paint();
+void paint(const Drawing& drawing, cairo_t* context, bool keeps_text,
+           std::vector<SurfaceHandle>& images) {
+  Painter(drawing, context, keeps_text, images).paint();
 }
 
 }  // namespace mapproof

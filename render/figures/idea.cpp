@@ -121,14 +121,14 @@ Figure idea_figure(const IdeaSpec& spec) {
       "The robot walks among landmarks (left); each landmark's row of observations, {} (middle); "
       "landmarks with like rows come to stand close together (right: {}, {}{}). Open circles: true "
       "positions; dots: estimates; squares: anchors.",
-      colours(spec.history.sensor), label(spec.map.setting), counted(spec.map.step, "step"),
+      colours(spec.history.sensor), method_label(spec.map), counted(spec.map.step, "step"),
       score.empty() ? "" : ", " + score);
   figure.alt = fmt::format(
       "Three panels: a room with {} and a robot's path, their {} observations over {}, and the map "
       "by {}{}.",
       counted(spec.world.landmarks_m.rows(), "landmark"), name(spec.history.sensor),
       counted(std::min<Eigen::Index>(spec.steps, spec.history.steps()), "step"),
-      label(spec.map.setting), score.empty() ? "" : ", " + score);
+      method_label(spec.map), score.empty() ? "" : ", " + score);
   require_valid(figure);
   return figure;
 }

@@ -19,7 +19,9 @@ constexpr std::size_t kMostNamed = 5;            // Names in one sentence.
 constexpr Eigen::Index kMostLabelsOfShape = 30;  // Without a truth all names are shown up to this.
 
 std::string subject(const MapRecord& record, std::string_view separator) {
-  return fmt::format("{}{}{}{}{}", label(record.setting), separator, name(record.sensor), separator,
+  if (!std::holds_alternative<FromSensor>(record.origin))
+    return method_label(record) + ", " + sensor_label(record);
+  return fmt::format("{}{}{}{}{}", method_label(record), separator, sensor_label(record), separator,
                      counted(static_cast<std::size_t>(std::max(record.step, 0)), "step"));
 }
 
@@ -112,7 +114,7 @@ class MapFigure {
     const std::size_t mapped = record_.names.size() - view_.unmapped.size();
     figure_.alt =
         fmt::format("Map of {} of {} by {}, {}.", mapped, counted(record_.names.size(), "landmark"),
-                    what_.empty() ? label(record_.setting) : what_,
+                    what_.empty() ? method_label(record_) : what_,
                     record_.frame == Frame::kTruth ? "in metres" : "in an arbitrary frame");
     if (!score.empty()) figure_.alt += " " + score + ".";
     if (!view_.worst.empty()) figure_.alt += " The largest errors: " + worst_text() + ".";

@@ -4,8 +4,8 @@
 
 #include "core/base/errors.hpp"
 #include "core/base/words.hpp"
-#include "render/figures/covariance_ellipse.hpp"
 #include "render/figures/map.hpp"
+#include "render/figures/map_ellipses.hpp"
 #include "render/figures/parts.hpp"
 #include "render/figures/words.hpp"
 
@@ -14,8 +14,6 @@ namespace {
 
 void require_consistent(const MeasuredMapSpec& spec) {
   const Eigen::Index rows = spec.map.estimate.rows();
-  if (!spec.covariances.empty() && std::ssize(spec.covariances) != rows)
-    throw InvalidInput("figure " + printable(spec.id) + ": not one covariance a landmark");
   for (const MeasuredPair& pair : spec.pairs)
     if (pair.first < 0 || pair.second >= rows || pair.first >= pair.second)
       throw InvalidInput("figure " + printable(spec.id) + ": a pair of rows that are not there");
@@ -37,36 +35,14 @@ Segments pair_lines(const MeasuredMapSpec& spec) {
   return lines;
 }
 
-Ellipses scatter_ellipses(const MeasuredMapSpec& spec) {
-  Ellipses ellipses{
-      .label = "95 % of the estimator", .ink = Ink::kSeries1, .fill = Fill::kTint, .width = 0.6};
-  for (std::size_t i = 0; i < spec.covariances.size(); ++i) {
-    const auto place = spec.map.estimate.row(static_cast<Eigen::Index>(i));
-    if (!spec.covariances[i].allFinite() || !place.allFinite()) continue;
-    const Ellipse axes = covariance_ellipse(spec.covariances[i]);
-    ellipses.x.push_back(place(0)), ellipses.y.push_back(place(1));
-    ellipses.a.push_back(axes.a), ellipses.b.push_back(axes.b);
-    ellipses.turn_rad.push_back(axes.turn_rad);
-    ellipses.marks.push_back({fmt::format("ellipse-{}", i + 1),
-                              {{"landmark", spec.map.names[i]},
-                               {"a", data_number(axes.a)},
-                               {"b", data_number(axes.b)}}});
-  }
-  return ellipses;
-}
-
 }  // namespace
 
 Figure measured_map_figure(const MeasuredMapSpec& spec) {
   require_consistent(spec);
   Figure figure = map_figure(spec.map, spec.id, spec.title);
   std::vector<Layer>& layers = figure.panels.front().layers;
-  const Ellipses ellipses = scatter_ellipses(spec);
+  if (spec.certainty) add_ellipses(spec.map, *spec.certainty, figure);
   const Segments lines = pair_lines(spec);
-  if (!ellipses.x.empty()) {
-    layers.insert(layers.begin(), ellipses);
-    figure.caption += " Ellipses hold 95 % of a normal scatter of the estimator.";
-  }
   if (!lines.x0.empty()) {
     layers.insert(layers.begin(), lines);
     figure.caption += fmt::format(" Thin lines: {} whose distance was measured.",

@@ -132,7 +132,7 @@ class Forming {
         "{}: the map after so many steps, with its mean position error. Pillars stand at true "
         "places; arrows lead to where the map has them, and their colours are their lengths, cut "
         "at {} m, the 95th percentile over all steps.",
-        label(spec_.maps.front().setting), significant(most_m_));
+        method_label(spec_.maps.front()), significant(most_m_));
     scene.alt =
         "A room with arrows from true to estimated positions of landmarks; mean position "
         "error ";

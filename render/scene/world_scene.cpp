@@ -129,7 +129,7 @@ class WorldScene {
         spec_.run.layout, spec_.run.pose, counted(landmarks, "landmark"),
         significant(1000.0 * world_.landmark_diameter_m),
         scene_.views[0].camera.parallel ? "" : " (heights are the drawing's)", spec_.path_m.rows(),
-        label(spec_.map.setting), spec_.map.step);
+        method_label(spec_.map), spec_.map.step);
     scene_.alt =
         fmt::format("A room of {} m by {} m with {}, {} of them anchors", significant(side_),
                     significant(side_), counted(landmarks, "landmark"), spec_.map.anchors.size());

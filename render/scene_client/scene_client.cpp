@@ -7,11 +7,13 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <array>
 #include <cerrno>
 #include <cstdlib>
 #include <cstring>
-#include <new>
+#include <string_view>
+#include <system_error>
 #include <utility>
 
 #include <fmt/format.h>
@@ -23,10 +25,10 @@
 namespace mapproof {
 namespace {
 
-constexpr time_t kPatience_s = 600;  // Far beyond what the largest picture takes.
+constexpr time_t kPatience_s = 600;  // Far longer than the largest image takes.
 
-/// In the child: becomes the program, its input and output the socket. Only calls that a child of
-/// a process with threads may make.
+/// In the child: runs the program, with the socket as its input and output. Makes only calls that
+/// are allowed in the child of a process with threads.
 [[noreturn]] void become(const char* program, int socket, int messages) {
   ::dup2(socket, STDIN_FILENO);
   ::dup2(socket, STDOUT_FILENO);
@@ -36,7 +38,8 @@ constexpr time_t kPatience_s = 600;  // Far beyond what the largest picture take
   ::_exit(kNotStarted);
 }
 
-/// Sends all; false if the other end is gone. No signal, which would end this program.
+/// Sends all bytes, without a signal that would end this program. @return False if the other end is
+/// closed.
 bool send_all(int socket, std::string_view bytes) {
   while (!bytes.empty()) {
     const ssize_t count = ::send(socket, bytes.data(), bytes.size(), MSG_NOSIGNAL);
@@ -47,7 +50,7 @@ bool send_all(int socket, std::string_view bytes) {
   return true;
 }
 
-/// The last line of a file of messages that has any words.
+/// The last line of a file of messages that is not empty.
 std::string last_line(int file) {
   std::array<char, 4096> block{};
   const off_t size = ::lseek(file, 0, SEEK_END);
@@ -71,7 +74,7 @@ std::filesystem::path scenes_program() {
 SceneClient::SceneClient(std::filesystem::path program) : program_(std::move(program)) {}
 
 SceneClient::~SceneClient() {
-  socket_.close();  // The program reads its end and leaves.
+  socket_.close();  // The program reads the end of its input, and ends.
   if (process_ > 0) ::waitpid(process_, nullptr, 0);
 }
 
@@ -129,7 +132,7 @@ void SceneClient::read_bytes(char* to, std::size_t count) {
     const ssize_t got = ::recv(socket_.get(), to + done, count - done, 0);
     if (got < 0 && errno == EINTR) continue;
     if (got < 0 && errno == EAGAIN) give_up();
-    if (got <= 0) fail("it stopped in the middle of a picture");
+    if (got <= 0) fail("it stopped in the middle of an image");
     done += static_cast<std::size_t>(got);
   }
 }
@@ -158,9 +161,9 @@ Image SceneClient::draw(const Scene& scene, std::size_t view, int width, int hei
     throw InvalidInput(fmt::format("scene {}: there is no view {}", scene.id, view));
   if (std::min(width, height) < 1 || std::max(width, height) > kLargestSide)
     throw InvalidInput(
-        fmt::format("scene {}: no picture is {} x {} pixels", scene.id, width, height));
+        fmt::format("scene {}: no image is {} x {} pixels", scene.id, width, height));
   if (samples < 0 || samples > kMostSamples)
-    throw InvalidInput(fmt::format("scene {}: {} samples a pixel", scene.id, samples));
+    throw InvalidInput(fmt::format("scene {}: {} samples per pixel", scene.id, samples));
   const std::lock_guard lock(mutex_);
   if (process_ < 0) start();
   const SceneRequest request = scene_request(view, width, height, samples, theme);

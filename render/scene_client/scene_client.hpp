@@ -14,23 +14,24 @@
 
 namespace mapproof {
 
-/// No pixels came: the program that draws is missing, has no context, or ended. One line.
+/// A scene could not be drawn: the program that draws is missing, has no context, or ended. One
+/// line.
 class SceneError : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;
 };
 
-/// The program that draws scenes: what the environment's MAPPROOF_SCENES names, else
+/// The program that draws scenes: the one that the environment variable MAPPROOF_SCENES names, else
 /// `mapproof-scenes` beside the running program.
 std::filesystem::path scenes_program();
 
-/// Draws scenes by a program of its own, so that no other has to load VTK. It is started when the
-/// first picture is asked for, draws all of them in one context, and ends with this object. Safe
-/// from any thread; pictures are drawn one at a time.
+/// Draws scenes by a separate program, so that no other loads VTK. The first draw() starts it; it
+/// draws all images in one context and ends with this object. Safe for several threads; images are
+/// drawn one at a time.
 class SceneClient {
  public:
-  static constexpr int kLargestSide = 8192;
-  static constexpr int kMostSamples = 16;
+  static constexpr int kLargestSide = 8192;  ///< Pixels.
+  static constexpr int kMostSamples = 16;    ///< Per pixel.
 
   explicit SceneClient(std::filesystem::path program = scenes_program());
   ~SceneClient();
@@ -38,14 +39,15 @@ class SceneClient {
   SceneClient& operator=(const SceneClient&) = delete;
 
   /// One view in the theme's colours; the same pixels each time.
-  /// @param samples  A pixel, up to 16, taken up to the next square; 0: no antialiasing. Fewer
-  ///                 where the whole would have more than 2^27.
-  /// @throws InvalidInput if the scene cannot be drawn (see `problem`), a side is not in
-  ///         1 to kLargestSide or `samples` not in 0 to kMostSamples; SceneError.
+  /// @param width, height  Pixels, each in 1 to kLargestSide.
+  /// @param samples  Per pixel, in 0 to kMostSamples, rounded up to a square; 0: no antialiasing.
+  ///                 Fewer where the image would have more than 2^27, or 16384 along a side.
+  /// @throws InvalidInput if the scene is not valid (see require_valid()), has no such view, or a
+  ///         number is out of its bounds; SceneError.
   Image draw(const Scene& scene, std::size_t view, int width, int height, int samples,
              const Theme& theme);
 
-  /// What drew, with versions; empty before the first picture.
+  /// The names and versions of what drew the last image; empty before the first.
   std::string renderer();
 
  private:
@@ -60,7 +62,7 @@ class SceneClient {
   std::mutex mutex_;
   pid_t process_ = -1;
   Descriptor socket_{-1};
-  Descriptor messages_{-1};  ///< What the program says on its standard error.
+  Descriptor messages_{-1};  ///< The standard error of the program, as a file in memory.
   std::string unread_;
   std::string renderer_;
 };

@@ -23,7 +23,7 @@ GlContext::GlContext() : parts_(std::make_unique<Parts>()) {
       eglGetPlatformDisplay(EGL_PLATFORM_SURFACELESS_MESA, EGL_DEFAULT_DISPLAY, nullptr);
   if (!eglInitialize(parts_->display, nullptr, nullptr) || !eglBindAPI(EGL_OPENGL_API))
     throw std::runtime_error("EGL has no display of Mesa's without a surface");
-  // What VTK's OpenGL 2 back end asks for.
+  // The version and profile that VTK's module RenderingOpenGL2 needs.
   const std::array<EGLint, 7> wanted = {EGL_CONTEXT_MAJOR_VERSION,
                                         3,
                                         EGL_CONTEXT_MINOR_VERSION,

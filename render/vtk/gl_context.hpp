@@ -4,22 +4,22 @@
 
 namespace mapproof {
 
-/// A context of OpenGL 3.2 in memory, without a screen. A program is linked with one of its two
-/// sources: osmesa_context.cpp, or egl_context.cpp (EGL without a surface).
+/// An OpenGL 3.2 context without a screen. A program is linked with one of two implementations:
+/// osmesa_context.cpp, or egl_context.cpp (EGL without a surface).
 class GlContext {
  public:
-  /// @throws std::runtime_error, in one line, if there is none.
+  /// @throws std::runtime_error, in one line, if no context can be made.
   GlContext();
   ~GlContext();
   GlContext(const GlContext&) = delete;
   GlContext& operator=(const GlContext&) = delete;
 
-  /// @return Whether it is the current one now.
+  /// @return Whether that worked.
   bool make_current();
   bool is_current() const;
 
   using Function = void (*)();
-  /// OpenGL's function of this name; null if there is none.
+  /// The OpenGL function of this name; null if there is none.
   static Function function(const char* name);
 
  private:

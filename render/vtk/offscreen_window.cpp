@@ -17,7 +17,7 @@
 namespace mapproof {
 namespace {
 
-/// VTK draws into a framebuffer of its own, in the context that this window holds.
+/// A window that owns an OpenGL context, in which VTK draws into a framebuffer of its own.
 class OffscreenWindow : public vtkGenericOpenGLRenderWindow {
  public:
   static OffscreenWindow* New();
@@ -79,8 +79,8 @@ void OffscreenWindow::MakeCurrent() {
 bool OffscreenWindow::IsCurrent() { return context_ != nullptr && context_->is_current(); }
 
 #ifdef GLEW_OK
-/// As VTK's own, but that GLEW may find no display of GLX: it looks for one after it has loaded
-/// every function of OpenGL.
+/// As the base class does it, but a missing GLX display is not an error: GLEW looks for one only
+/// after it has loaded every function of OpenGL.
 void OffscreenWindow::OpenGLInitContext() {
   ContextCreationTime.Modified();
   if (Initialized) return;

@@ -5,8 +5,8 @@
 
 namespace mapproof {
 
-/// A window without a screen, its context (see GlContext) made.
-/// @throws std::runtime_error, in one line, if there is no context.
+/// A window without a screen, with a current context (see GlContext).
+/// @throws std::runtime_error, in one line, if no context can be made.
 vtkSmartPointer<vtkRenderWindow> make_window();
 
 }  // namespace mapproof

@@ -9,7 +9,7 @@
 namespace mapproof {
 namespace {
 
-// VTK draws into a framebuffer of its own; the context's is never read.
+// VTK draws into a framebuffer of its own; that of the context is never read.
 constexpr int kBufferSide = 16;
 constexpr int kBytesAPixel = 4;
 
@@ -21,7 +21,7 @@ struct GlContext::Parts {
 };
 
 GlContext::GlContext() : parts_(std::make_unique<Parts>()) {
-  // What VTK's OpenGL 2 back end asks for.
+  // The version and profile that VTK's module RenderingOpenGL2 needs.
   const std::array<int, 13> wanted = {OSMESA_FORMAT,
                                       OSMESA_RGBA,
                                       OSMESA_DEPTH_BITS,
@@ -52,8 +52,9 @@ GlContext::Function GlContext::function(const char* name) { return OSMesaGetProc
 
 }  // namespace mapproof
 
-// GLEW, which loads OpenGL's functions for a VTK before 9.4, asks GLX for them. The program gives
-// it OSMesa's under GLX's names (it must export them), so that no X library is ever called.
+// VTK before 9.4 loads the functions of OpenGL by GLEW, which asks GLX for them. The program
+// exports two functions under names of GLX that give those of OSMesa, so that no X library is
+// called.
 extern "C" {
 
 void* glXGetCurrentDisplay() { return nullptr; }

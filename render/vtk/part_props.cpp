@@ -28,7 +28,7 @@ namespace {
 
 using Props = std::vector<vtkSmartPointer<vtkProp>>;
 
-constexpr int kSides = 24;
+constexpr int kSides = 24;  // Of the polygon that stands for a circle.
 constexpr int kTubeSides = 12;
 constexpr double kAmbient = 0.42;  // White stays near white where no light falls.
 constexpr double kDiffuse = 0.58;
@@ -37,7 +37,7 @@ Colour plain_colour(const Look& look, const SceneRequest& request) {
   return mix(request.inks[static_cast<std::size_t>(look.ink)], request.background, look.share);
 }
 
-/// Of the i-th value; the look's where there is none.
+/// The colour of the i-th value; the plain colour where there is none.
 Colour toned_colour(const Look& look, const Tones& tones, std::size_t i,
                     const SceneRequest& request) {
   if (tones.values.empty() || std::isnan(tones.values[i])) return plain_colour(look, request);
@@ -89,7 +89,7 @@ vtkSmartPointer<vtkActor> actor_of(vtkPolyDataMapper* mapper, const Look& look,
   return actor;
 }
 
-/// Points' colours are the data's own, if it has some.
+/// Points have the colours of `data`, if it has any.
 vtkSmartPointer<vtkActor> actor_of(vtkPolyData* data, const Look& look,
                                    const SceneRequest& request) {
   vtkNew<vtkPolyDataMapper> mapper;
@@ -112,7 +112,7 @@ Props mesh_props(const TriangleMesh& mesh, ColourList* colours, const Look& look
   return {actor_of(data, look, request)};
 }
 
-/// Solids made one by one, each in the colour of its value.
+/// One mesh of `count` solids, each in the colour of its value.
 template <typename AddOne>
 Props solid_props(std::size_t count, const Look& look, const Tones& tones,
                   const SceneRequest& request, AddOne add_one) {
@@ -219,8 +219,8 @@ vtkSmartPointer<vtkProp> contour_prop(const Field& field, vtkPolyData* surface,
   return actor_of(mapper, {.ink = Ink::kText, .lit = false}, request);
 }
 
-/// Interpolated before it is coloured, so that a triangle shows the ramp and not a mixture of the
-/// colours at its corners.
+/// Values are interpolated before they are coloured, so that a triangle shows the colours of the
+/// ramp and not a mixture of those at its corners.
 Props part_props(const Field& field, const SceneRequest& request) {
   vtkNew<vtkPolyData> data;
   data->SetPoints(points_of(field.points));

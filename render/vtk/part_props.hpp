@@ -10,7 +10,7 @@
 
 namespace mapproof {
 
-/// What VTK draws for a part, in the request's colours; nothing for an empty one.
+/// The VTK props of a part, in the colours of the request; none for an empty part.
 std::vector<vtkSmartPointer<vtkProp>> props_of(const Part& part, const SceneRequest& request);
 
 }  // namespace mapproof

@@ -28,7 +28,7 @@
 namespace mapproof {
 namespace {
 
-/// Keeps what VTK reports, which would otherwise go to the standard error stream or to a window.
+/// Keeps VTK's first error message; messages would otherwise go to standard error or to a window.
 class ErrorLog : public vtkOutputWindow {
  public:
   static ErrorLog* New();
@@ -47,7 +47,7 @@ vtkStandardNewMacro(ErrorLog);
 constexpr std::string_view kVersion = "OpenGL version string";
 constexpr std::string_view kDriver = "OpenGL renderer string";
 
-/// What VTK's list of what an OpenGL can says about one thing: "OpenGL version string:  4.5 ...".
+/// One entry of VTK's report about an OpenGL, as "OpenGL version string:  4.5 ...".
 std::string capability(vtkRenderWindow* window, std::string_view what) {
   const std::string_view all = window->ReportCapabilities();
   const std::size_t found = all.find(what);
@@ -87,10 +87,10 @@ void add_lights(const Scene& scene, vtkRenderer* renderer) {
   }
 }
 
-/// How many samples a pixel has along each side. Fewer than asked for where the whole would be too
+/// Samples along each side of a pixel, fewer than requested where the whole image would be too
 /// large for the driver.
 int side_samples(const SceneRequest& request) {
-  constexpr int kLongest = 16384;                        // llvmpipe's.
+  constexpr int kLongest = 16384;                        // The limit of llvmpipe.
   constexpr std::int64_t kMost = std::int64_t{1} << 27;  // Some 2 GiB with depth and copies.
   int side = 1;
   while (side * side < request.samples) ++side;
@@ -112,8 +112,8 @@ std::uint32_t mean_of(const unsigned char* first, vtkIdType row_bytes, int side)
   return sum[0] / count << 16 | sum[1] / count << 8 | sum[2] / count;
 }
 
-/// Samples upside down, as OpenGL has them, to Image's rows, each pixel the mean of `side` x
-/// `side`.
+/// An image of samples whose lowest row is the first, as in OpenGL. Each pixel is the mean of
+/// `side` x `side` samples.
 Image image_of(vtkUnsignedCharArray* bytes, int width, int height, int side) {
   Image image{width, height, std::vector<std::uint32_t>(static_cast<std::size_t>(width) * height)};
   const auto row_bytes = static_cast<vtkIdType>(3) * side * width;
@@ -143,7 +143,7 @@ struct SceneRenderer::Parts {
 };
 
 void pin_driver() {
-  // What neither Mesa nor VTK draws by.
+  // Variables that change no pixel.
   constexpr std::array kKept = {"HOME",
                                 "XDG_CACHE_HOME",
                                 "PATH",
@@ -160,7 +160,7 @@ void pin_driver() {
   for (const auto& [name, value] : kept) ::setenv(name, value.c_str(), 1);
   ::setenv("GALLIUM_DRIVER", "llvmpipe", 1);
   ::setenv("LP_NATIVE_VECTOR_WIDTH", "128", 1);
-  // EGL's: no graphics card, whoever's.
+  // Keeps EGL from every graphics card.
   ::setenv("LIBGL_ALWAYS_SOFTWARE", "1", 1);
   constexpr const char* kMesaOfEgl = "/usr/share/glvnd/egl_vendor.d/50_mesa.json";
   if (::access(kMesaOfEgl, R_OK) == 0) ::setenv("__EGL_VENDOR_LIBRARY_FILENAMES", kMesaOfEgl, 1);
@@ -197,7 +197,7 @@ Image SceneRenderer::draw(const Scene& scene, const SceneRequest& request) {
   renderer->ResetCameraClippingRange();
 
   vtkRenderWindow* window = parts_->window;
-  // llvmpipe's own multisampling takes twice as long as as many samples with a shade each.
+  // Each sample is shaded: llvmpipe's own multisampling takes twice as long for as many samples.
   const int side = side_samples(request);
   const int width = side * request.width, height = side * request.height;
   window->SetMultiSamples(0);

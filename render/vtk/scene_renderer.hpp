@@ -9,21 +9,21 @@
 
 namespace mapproof {
 
-/// Fixes what the driver's pixels hang on, other than the scene: llvmpipe, with vectors of 128 bits
-/// (their width decides how sums are rounded, and follows the processor otherwise), and nothing
-/// of the environment but where caches and libraries are and how many threads draw. To be called
-/// before anything of OpenGL.
+/// Fixes what the pixels depend on besides the scene. The driver is llvmpipe with vectors of 128
+/// bits; otherwise their width depends on the processor and decides how sums are rounded. EGL takes
+/// Mesa, never a graphics card. Of the environment only the variables remain that say where caches
+/// and libraries are and how many threads draw. Call it before any function of OpenGL.
 void pin_driver();
 
-/// Draws scenes by VTK in one context of llvmpipe. For one thread.
+/// Draws scenes by VTK in one context of llvmpipe. Not safe for several threads.
 class SceneRenderer {
  public:
-  /// @throws std::runtime_error, in one line, if there is no context, or not of llvmpipe.
+  /// @throws std::runtime_error, in one line, if there is no context or its driver is not llvmpipe.
   SceneRenderer();
   ~SceneRenderer();
 
   /// The same pixels for the same scene and request, whatever was drawn before.
-  /// @throws InvalidInput if there is no such view; std::runtime_error with VTK's words if it
+  /// @throws InvalidInput if there is no such view; std::runtime_error with VTK's message if VTK
   ///         reports an error.
   Image draw(const Scene& scene, const SceneRequest& request);
 

@@ -28,7 +28,7 @@ void answer(const SceneReply& reply, const Image* image) {
   std::fflush(stdout);
 }
 
-/// One request and its scene; a scene that cannot be drawn is answered with what is wrong.
+/// Answers one request with its image, or with the reason why the scene cannot be drawn.
 void serve(SceneRenderer& renderer, const std::string& request_line,
            const std::string& scene_line) {
   try {
@@ -67,7 +67,7 @@ int run() {
 }  // namespace
 }  // namespace mapproof
 
-/// Freed pictures are kept for the next one: fresh pages cost more than what is drawn on them.
+/// Keeps the memory of freed images for the next one: new pages cost more time than drawing does.
 static void keep_memory() {
 #ifdef __GLIBC__
   constexpr int kLargestBlock = 32 << 20;  // All that mallopt takes.
@@ -77,13 +77,13 @@ static void keep_memory() {
 #endif
 }
 
-/// Reads requests, each a line (see SceneRequest) and a scene on a line, and answers each with a
-/// line (see SceneReply) and raw pixels. Started by mapproof; of no use to a person.
+/// Reads requests, each one line (see SceneRequest) and one line of a scene, and answers each with
+/// one line (see SceneReply) and raw pixels. mapproof starts it; it is not meant for direct use.
 int main() {
   keep_memory();
   mapproof::pin_driver();
   std::ios::sync_with_stdio(false);
-  std::cin.exceptions(std::ios::badbit);  // What a line finds no memory for is no end of the input.
+  std::cin.exceptions(std::ios::badbit);  // Want of memory for a line must not look like the end.
   try {
     return mapproof::run();
   } catch (const std::bad_alloc&) {

@@ -52,7 +52,7 @@ ApprovalFiles approval_files(const fs::path& root) {
   ApprovalFiles files;
   std::error_code error;
   if (!fs::exists(root, error)) return files;
-  if (!fs::is_directory(root, error)) throw IoError(root.string(), "is no folder");
+  if (!fs::is_directory(root, error)) throw IoError(root.string(), "is not a folder");
   if (holds_records(root)) add_records(files, kRecordsItem, root, root);
   fs::recursive_directory_iterator entry(root, error), end;
   for (; !error && entry != end; entry.increment(error)) {
@@ -91,7 +91,7 @@ void require_gone(const fs::path& file) {
   require_no_folder(file);
   std::error_code error;
   if (fs::exists(fs::symlink_status(file, error)))
-    throw InvalidInput("not approved: " + file.string() + ": is no file that can be read");
+    throw InvalidInput("not approved: " + file.string() + ": is not a file that can be read");
 }
 
 }  // namespace mapproof

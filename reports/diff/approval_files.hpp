@@ -9,20 +9,21 @@ namespace mapproof {
 
 inline constexpr const char* kRecordsItem = "records";  ///< All records of a study.
 
-/// Files of the items on one side, below its folder: id, and the paths of it.
+/// The files of each item of one side, by its id; paths relative to the side's folder.
 using ApprovalFiles = std::map<std::string, std::set<std::filesystem::path>>;
 
-/// None of a folder that is not there. @throws IoError if it cannot be listed, or is no folder.
+/// The items of a folder; none if it does not exist.
+/// @throws IoError if it cannot be listed, or is not a folder.
 ApprovalFiles approval_files(const std::filesystem::path& root);
 
-/// What cannot be read is never made a baseline. @throws InvalidInput with the reason.
+/// A file that cannot be read never becomes a baseline. @throws InvalidInput with the reason.
 void require_readable(const std::filesystem::path& file);
 
 /// @throws InvalidInput if a folder has the file's name.
 void require_no_folder(const std::filesystem::path& file);
 
-/// A baseline's file goes only if nothing stands in its place: a folder, say, is no absence.
-/// @throws InvalidInput.
+/// A file of the baseline is removed only if the current has nothing of its name.
+/// @param file  The path in the current. @throws InvalidInput if anything is there, as a folder.
 void require_gone(const std::filesystem::path& file);
 
 }  // namespace mapproof

@@ -20,14 +20,14 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Records that are no study.
+/// Records that are not a study.
 constexpr std::array<std::pair<std::string_view, std::string_view>, 2> kOtherRecords = {
     {{"mapproof.map", "one map"}, {"mapproof.slam_run", "the result of one range log"}}};
 
-/// The file that records begin with.
+/// The file that has the schema of a folder's records.
 constexpr std::array kHeads = {"study.json", "map.json", "slam.json"};
 
-/// Of a schema; empty if no records are of it.
+/// The title of a schema of records; empty if it is of none.
 std::string_view title_of(std::string_view schema) {
   for (const StudyKind* kind : all_study_kinds())
     if (kind->study == schema) return kind->title;
@@ -36,8 +36,8 @@ std::string_view title_of(std::string_view schema) {
   return "";
 }
 
-/// What the records of a folder are of, in words; empty if that cannot be read, which is told
-/// elsewhere.
+/// The kind of a folder's records, in words; empty if they cannot be read, which other functions
+/// report.
 std::string_view kind_of_records(const fs::path& folder) {
   std::error_code error;
   for (const char* name : kHeads) {
@@ -58,7 +58,7 @@ bool is_drawn(const fs::path& file) {
   return !kind.empty() && kind != "csv" && kind != "md" && kind != "tex" && kind != "html";
 }
 
-/// What a side holds, in words; empty if nothing tells.
+/// What a side holds, in words; empty if that is not known.
 std::string_view kind_of(const ApprovalSide& side) {
   if (side.files.contains(kRecordsItem)) return kind_of_records(side.root);
   const auto several = side.files.lower_bound(std::string(kRecordsItem) + "/");
@@ -82,7 +82,7 @@ void require_same_kind(std::string_view before, std::string_view after, const fs
                                    baseline.string(), before, current.string(), after));
 }
 
-/// "png": of an item, else the extension.
+/// The kind of an item, as "png", or else the extension.
 std::string format_of(const fs::path& file) {
   std::error_code error;
   if (fs::is_directory(file, error)) return "a folder";
@@ -92,7 +92,7 @@ std::string format_of(const fs::path& file) {
   return extension.size() < 2 ? "a file without an extension" : extension.substr(1);
 }
 
-/// @throws IoError if the folder's records do not begin as records of any kind do.
+/// @throws IoError if the first file of the folder's records has no schema.
 void require_records(const fs::path& folder) {
   std::error_code error;
   for (const char* name : kHeads)

@@ -12,7 +12,7 @@
 #include "core/base/files.hpp"
 #include "core/base/paths.hpp"
 #include "core/base/spelling.hpp"
-#include "core/json/json_cursor.hpp"
+#include "core/json/record_json.hpp"
 #include "core/records/folder_replacement.hpp"
 #include "core/records/study_folder.hpp"
 #include "core/topics/study_kind.hpp"
@@ -22,13 +22,13 @@
 #include "reports/diff/item_files.hpp"
 #include "reports/diff/record_files.hpp"
 #include "reports/diff/record_set.hpp"
+#include "reports/diff/settings_fields.hpp"
 
 namespace mapproof {
 namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::size_t kMostIds = 100'000;
 constexpr std::size_t kLongestName = 4096;  // Characters, as printed.
 
 std::vector<std::string> chosen_ids(const ApprovalOrder& order, const ApprovalFiles& before,
@@ -37,7 +37,7 @@ std::vector<std::string> chosen_ids(const ApprovalOrder& order, const ApprovalFi
   for (const ApprovalFiles* side : {&before, &after})
     for (const auto& [id, paths] : *side) known.insert(id);
   if (order.all) {
-    // Other valid baselines of an item go with it, or stay with it.
+    // Further baselines ID@KEY are replaced or kept with their item ID.
     std::erase_if(known, [&](const std::string& id) {
       return !after.contains(id) && after.contains(id.substr(0, id.rfind('@')));
     });
@@ -46,14 +46,14 @@ std::vector<std::string> chosen_ids(const ApprovalOrder& order, const ApprovalFi
   const std::vector<std::string_view> names(known.begin(), known.end());
   std::vector<std::string> ids;
   for (const std::string& id : order.ids) {
-    // As they are, or as a diff prints those that a terminal cannot show.
+    // The id itself, or as a diff prints it if a terminal cannot show it.
     const auto own = known.contains(id) ? known.find(id)
                                         : std::ranges::find_if(known, [&](const std::string& one) {
                                             return printable(one, kLongestName) == id;
                                           });
     if (own == known.end()) {
       const std::string_view meant = likely_word(id, names);
-      throw InvalidInput("no figure or picture \"" + printable(id) + "\"" +
+      throw InvalidInput("neither BASELINE nor CURRENT has \"" + printable(id) + "\"" +
                          (meant.empty() ? "" : "; did you mean \"" + std::string(meant) + "\"?"));
     }
     ids.push_back(*own);
@@ -103,7 +103,7 @@ class Planner {
   }
 
   /// Why the item cannot be taken; empty if it can.
-  /// @param whole  The records go with it.
+  /// @param whole  All records are taken with it.
   std::string refusal(const std::string& id, bool whole) {
     planned_.clear();
     steps_.clear();
@@ -120,14 +120,14 @@ class Planner {
   bool has_records() const { return after_.contains(kRecordsItem); }
 
  private:
-  /// @param whole  The records go as a whole.
+  /// @param whole  All records are taken too.
   void add_id(const std::string& id, const std::string& key, bool whole) {
     if (!key.empty()) return add_keyed(id, key);
     if (!whole) add_records_of(id);
     add_item(id);
   }
 
-  /// A mistaken CURRENT shows by what it lacks.
+  /// Many removed files are the sign of a mistaken CURRENT.
   void require_most_stays(const std::vector<ApprovalStep>& steps) const {
     std::set<fs::path> files;
     for (const auto& [id, paths] : before_) files.insert(paths.begin(), paths.end());
@@ -140,7 +140,7 @@ class Planner {
                       removed, files.size(), baseline_.string(), current_.string()));
   }
 
-  /// Whether the file is another one than the baseline's.
+  /// Adds a step for a file that differs and has none yet. @return Whether it did.
   bool add(const fs::path& relative) {
     const fs::path from = current_ / relative, to = baseline_ / relative;
     if (!planned_.insert(relative).second || same_bytes(from, to)) return false;
@@ -154,7 +154,7 @@ class Planner {
     if (planned_.insert(relative).second) steps_.push_back({{}, relative});
   }
 
-  /// Other baselines of a picture that is replaced are of what it was.
+  /// Removes the further baselines ID@KEY of an image that is replaced: they show the old one.
   void remove_keyed(const std::string& id, const fs::path& extension) {
     for (const auto& [other, paths] : before_)
       if (other.starts_with(id + "@") && !after_.contains(other))
@@ -175,7 +175,7 @@ class Planner {
       }
   }
 
-  /// Pictures alone, under names of their own.
+  /// Adds the images of an item as ID@KEY.
   void add_keyed(const std::string& id, const std::string& key) {
     const auto after = after_.find(id);
     if (after == after_.end()) return;
@@ -188,7 +188,7 @@ class Planner {
     }
   }
 
-  /// The records that a figure names go with it, if both sides are studies.
+  /// Adds the records that a figure names, if both sides are studies.
   void add_records_of(const std::string& id) {
     const auto after = after_.find(id);
     if (after == after_.end() || !is_study(current_) || !is_study(baseline_)) return;
@@ -249,11 +249,37 @@ std::map<std::string, ApprovalRefusal> approval_refusals(const fs::path& baselin
   return refusals;
 }
 
-void apply(const ApprovalPlan& plan, const fs::path& baseline) {
+namespace {
+
+/// Makes the results.csv of a study again if records were taken without it.
+/// @return Whether it did.
+bool renew_results_table(const ApprovalPlan& plan, FolderReplacement& next) {
+  std::error_code error;
+  if (!fs::is_regular_file(next.copy() / kStudyFile, error) ||
+      !fs::is_regular_file(next.copy() / kResultsFile, error))
+    return false;
+  const StudyKind* kind = kind_of_study(next.copy());
+  if (kind == nullptr || kind->experiment.empty()) return false;  // The table itself is the record.
+  const auto is_record = [&](const ApprovalStep& step) {
+    return std::ranges::any_of(kind->records, [&](const fs::path& record) {
+      return std::ranges::mismatch(record, step.file).in1 == record.end();
+    });
+  };
+  const bool is_taken = std::ranges::find(plan.steps, fs::path(kResultsFile),
+                                          &ApprovalStep::file) != plan.steps.end();
+  if (is_taken || std::ranges::none_of(plan.steps, is_record)) return false;
+  next.write(kResultsFile, results_table_of(next.copy()));
+  return true;
+}
+
+}  // namespace
+
+void apply(ApprovalPlan& plan, const fs::path& baseline) {
   if (plan.steps.empty()) return;
   FolderReplacement next(real_path(baseline));
   for (const ApprovalStep& step : plan.steps)
     step.from.empty() ? next.remove(step.file) : next.write(step.file, read_file(step.from));
+  if (renew_results_table(plan, next)) plan.made.emplace_back(kResultsFile);
   next.commit();
 }
 
@@ -264,16 +290,7 @@ void approve_file(const fs::path& baseline, const fs::path& current) {
 }
 
 std::vector<std::string> parse_approvals(std::string_view text, const std::string& source) {
-  const JsonDocument document = parse_json(text, source);
-  const JsonCursor root = document.cursor();
-  expect_schema(root, "mapproof.approvals");
-  root.allow_only({"schema", "baseline", "current", "ids"});
-  for (const char* side : {"baseline", "current"})
-    if (const auto value = root.find(side)) value->text();
-  std::vector<std::string> ids;
-  for (const JsonCursor& id : root.at("ids").elements(0, kMostIds)) ids.push_back(id.text());
-  if (ids.empty()) root.at("ids").fail("names nothing that is to be approved");
-  return ids;
+  return from_json_text<ApprovalsFile>(text, source).ids;
 }
 
 }  // namespace mapproof

@@ -8,60 +8,65 @@
 
 namespace mapproof {
 
-/// One file of the baseline to be replaced, or removed.
+/// One file of the baseline that is replaced or removed.
 struct ApprovalStep {
-  std::filesystem::path from;  ///< Of the current; empty: the baseline's file goes.
-  std::filesystem::path file;  ///< Below the baseline.
+  std::filesystem::path from;  ///< File of the current; empty: the baseline's file is removed.
+  std::filesystem::path file;  ///< Relative to the baseline.
 };
 
-/// What is to be taken as the new baseline.
+/// What is to become the new baseline.
 struct ApprovalOrder {
   std::vector<std::string> ids;  ///< Of items.
   bool all = false;              ///< Every item of either side.
-  std::string key;               ///< Pictures become further baselines ID@KEY; [A-Za-z0-9._-]*.
+  std::string key;               ///< Images become further baselines ID@KEY; [A-Za-z0-9._-]*.
   bool force = false;            ///< `all` may remove more than half of the baseline's files.
 };
 
 struct ApprovalPlan {
   std::vector<ApprovalStep> steps;
-  std::vector<std::string> refused = {};  ///< Items that cannot be taken, and why.
+  std::vector<std::string> refused = {};  ///< With `all`: items that cannot be taken, and why.
+  /// Below the baseline: files that apply() makes from the records that it takes.
+  std::vector<std::filesystem::path> made = {};
 };
 
-/// The files of two folders that belong to the items, those that are the same on both sides left
-/// out: of a figure
-/// its records, ID.figure.json, ID.scene.json, SVG, PNG and PDF; of a table its formats; of
-/// "records" all of the study with its timings. Records come before what is drawn of them. Items
-/// are taken whole or not at all: of all together those that cannot be are refused, else it throws.
-/// A file of the baseline goes only where the current has nothing of its name, no folder either.
+/// The steps that make the items of the baseline those of the current, without the files that are
+/// equal. An item has these files: a figure its records, ID.figure.json, ID.scene.json, SVG, PNG
+/// and PDF; a table its formats; "records" the whole study with its timings. Records come before
+/// the figures made from them. An item is taken whole or not at all. A file of the baseline is
+/// removed only where the current has no file and no folder of that name.
 /// @throws InvalidInput for sides that are not comparable (see require_comparable()), an id that is
-///         on neither side, a key that cannot be part of a name, a current file that cannot be read,
-///         a figure whose records are of another experiment than the baseline's (these go as a
-///         whole), or if `all` would remove more than half of the baseline without `force`.
-/// @throws IoError if a folder cannot be listed.
+///         on neither side, a key that cannot be part of a name, or if `all` would remove more than
+///         half of the baseline without `force`. Without `all` also for a current file that cannot
+///         be read, and for a figure whose records are of another experiment than the baseline's:
+///         such records are taken only as a whole.
+/// @throws IoError if the current does not exist, a folder cannot be listed, or the file with the
+///         schema of its records cannot be read.
+/// @note Reads each file of the items once or twice.
 ApprovalPlan approval_plan(const std::filesystem::path& baseline,
                            const std::filesystem::path& current, const ApprovalOrder& order);
 
 /// Why an item cannot be approved by itself.
 struct ApprovalRefusal {
   std::string why;
-  bool goes_with_records = false;  ///< It can be, together with all records.
+  bool goes_with_records = false;  ///< It can be approved together with all records.
 };
 
-/// Those of the items that cannot be approved by themselves; none where the current is no folder.
+/// The items that cannot be approved by themselves; none if the current is not a folder.
 /// @throws IoError if a folder cannot be listed.
-/// @note Reads the items' files of the current, as approval_plan does.
+/// @note Reads the items' files of the current, as approval_plan() does.
 std::map<std::string, ApprovalRefusal> approval_refusals(const std::filesystem::path& baseline,
                                                          const std::filesystem::path& current,
                                                          const std::vector<std::string>& ids);
 
-/// Takes a plan's files in one step: after a kill at any moment the baseline is wholly the old one or
-/// wholly the new one (see FolderReplacement). It should be locked if it is there.
-/// @throws IoError: then it is the old one.
-void apply(const ApprovalPlan& plan, const std::filesystem::path& baseline);
+/// Applies a plan in one step: after a kill at any moment the baseline is wholly the old one or
+/// wholly the new one (see FolderReplacement). The caller holds its lock, if it exists. Where
+/// records of a study are taken without its results.csv, that table is made again from the records.
+/// @throws IoError, and leaves the old baseline.
+void apply(ApprovalPlan& plan, const std::filesystem::path& baseline);
 
-/// Takes a single file as the new baseline of another one, at once.
-/// @throws InvalidInput if they are the same file, of two formats, or the current is empty or cannot
-///         be read; IoError.
+/// Replaces a single baseline file by another file, in one step.
+/// @throws InvalidInput if they are the same file or of two formats, or if the current is empty or
+///         cannot be read; IoError if the baseline cannot be written.
 void approve_file(const std::filesystem::path& baseline, const std::filesystem::path& current);
 
 /// The ids in a file of approvals (docs/schemas/approvals.schema.json).

@@ -1,6 +1,5 @@
 #include "reports/diff/picture_diff.hpp"
 
-#include <cmath>
 #include <utility>
 
 #include <fmt/format.h>
@@ -13,6 +12,7 @@
 #include "render/image/png_chunks.hpp"
 #include "render/image/png_read.hpp"
 #include "reports/diff/image_diff.hpp"
+#include "reports/diff/settings_fields.hpp"
 #include "reports/diff/svg_diff.hpp"
 
 namespace mapproof {
@@ -212,19 +212,12 @@ std::string_view name(PictureState state) {
 }
 
 std::string PictureOptions::problem() const {
-  const auto within = [](double value, double least, double most) {
-    return value >= least && value <= most;
-  };
   for (const PixelBox& box : ignored)
     if (box.width < 1 || box.height < 1) return "ignored: a box needs a width and a height above 0";
-  if (!within(noise, 0, 64)) return "noise: must be 0 to 64";
-  if (!within(mean_noise, 0, 64)) return "mean_noise: must be 0 to 64";
-  if (!within(displacement_px, 0, 4)) return "displacement_px: must be 0 to 4";
-  if (!within(changed_share, 0, 1)) return "changed_share: must be 0 to 1";
-  if (!(svg_distance >= 0) || !std::isfinite(svg_distance))
-    return "svg_distance: must be finite and 0 or more";
-  if (!within(svg_colour, 0, 255)) return "svg_colour: must be 0 to 255";
-  return "";
+  BoundsVisitor bounds;
+  PictureOptions options = *this;
+  picture_option_fields(bounds, options);
+  return bounds.problem;
 }
 
 PictureDiff picture_diff(const std::filesystem::path& baseline,

@@ -8,6 +8,7 @@
 
 #include "core/base/errors.hpp"
 #include "core/base/input_file.hpp"
+#include "reports/diff/record_set.hpp"
 
 namespace mapproof {
 namespace {
@@ -32,6 +33,15 @@ std::size_t read_block(const Descriptor& file, std::string& to, const std::strin
 }
 
 }  // namespace
+
+std::optional<fs::path> folder_of_record(const fs::path& root, const fs::path& file) {
+  for (fs::path folder = file.parent_path();; folder = folder.parent_path()) {
+    const fs::path inner = folder.empty() ? file : file.lexically_relative(folder);
+    if (std::ranges::find(kParts, *inner.begin()) != kParts.end() && holds_records(root / folder))
+      return folder;
+    if (folder.empty()) return std::nullopt;
+  }
+}
 
 std::vector<fs::path> record_files(const fs::path& place) {
   std::vector<fs::path> files;

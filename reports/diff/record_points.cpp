@@ -143,6 +143,9 @@ std::optional<PointsDiff> points_diff(const std::string& record, const PlacedPoi
   for (Eigen::Index row = 0; row < before.rows(); ++row)
     if (has_place(before, row) && has_place(after, row)) both.push_back(row);
   const bool is_shape = a.frame == Frame::kSimilarity;
+  if (a.is_free && b.is_free && both.size() >= 3 && !equal(before, after))
+    after = fit_similarity(rows_of(after, both), rows_of(before, both),
+                           Alignment::kRigidWithReflection)(after);
   if (is_shape && !equal(before, after)) {
     lay_on(before, after, both);
     const double spread = spread_of(rows_of(before, both));

@@ -107,7 +107,7 @@ RecordSet read_single(const fs::path& file) {
   const MapRecord map = parse_map(text, source);
   RecordSet set = set_of(contents_of(map));
   set.called[map.id] = set.values.begin()->first.subject;
-  set.settings["/method"] = label(map.setting);
+  set.settings["/method"] = method_label(map);
   return set;
 }
 

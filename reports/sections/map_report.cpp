@@ -9,6 +9,7 @@
 #include "core/base/errors.hpp"
 #include "core/base/words.hpp"
 #include "render/figures/score_words.hpp"
+#include "render/figures/status_words.hpp"
 #include "reports/model/format.hpp"
 #include "reports/sections/proofs.hpp"
 #include "reports/sections/wording.hpp"
@@ -137,11 +138,11 @@ Section summary(const MapReportInput& input) {
   section.blocks.emplace_back(highlights(record));
   BulletList findings;
   const std::string landmarks = counted(record.estimate.rows(), "landmark");
-  findings.items.push_back(
-      plain(input.what.empty()
-                ? fmt::format("{} from {} observations of {}: {}.", label(record.setting),
-                              name(record.sensor), landmarks, info(record.setting.method).summary)
-                : fmt::format("{}, of {}.", input.what, landmarks)));
+  findings.items.push_back(plain(
+      std::holds_alternative<FromSensor>(record.origin)
+          ? fmt::format("{} from {} observations of {}: {}.", method_label(record),
+                        sensor_label(record), landmarks, info(setting_of(record)->method).summary)
+          : fmt::format("{}, {}, of {}.", method_label(record), sensor_label(record), landmarks)));
   if (record.frame == Frame::kTruth && any_truth(record))
     if (Paragraph worst = worst_finding(record); !worst.phrases.empty())
       findings.items.push_back(std::move(worst));
@@ -171,7 +172,7 @@ Section input_section(const MapReportInput& input) {
   return section;
 }
 
-Section statuses(const MapRecord& record, const std::string& what) {
+Section statuses(const MapRecord& record) {
   Section section{"statuses", "What went other than well", {}};
   if (record.statuses.empty()) {
     section.blocks.emplace_back(plain("Nothing: the solve ended well."));
@@ -181,11 +182,11 @@ Section statuses(const MapRecord& record, const std::string& what) {
   for (const Status& status : record.statuses)
     list.items.push_back({std::string(name(status.code)),
                           std::string(meaning(status.code)),
-                          what.empty() ? label(record.setting) : what,
+                          method_label(record),
                           1,
                           1,
                           status.code == StatusCode::kFailed,
-                          {{record.id, status.detail}}});
+                          {{record.id, status_words(status)}}});
   section.blocks.emplace_back(std::move(list));
   return section;
 }
@@ -214,10 +215,9 @@ Report map_report(const MapReportInput& input) {
   require_sizes(input.record);
   Report report;
   report.title = input.title;
-  const std::string what = input.what.empty() ? fmt::format("{}, {}", label(input.record.setting),
-                                                            name(input.record.sensor))
-                                              : input.what;
-  report.subtitle = fmt::format("{}, {}", what, counted(input.record.step, "observation"));
+  report.subtitle =
+      fmt::format("{}, {}, {}", method_label(input.record), sensor_label(input.record),
+                  counted(input.record.step, "observation"));
   report.sections.push_back(summary(input));
   report.sections.push_back({"map", "Map", {input.figure}});
   for (const FigureBlock& figure : input.more_figures)
@@ -230,7 +230,7 @@ Report map_report(const MapReportInput& input) {
   report.sections.push_back(input_section(input));
   if (input.record.certificate)
     report.sections.push_back(certificate_section(*input.record.certificate));
-  report.sections.push_back(statuses(input.record, input.what));
+  report.sections.push_back(statuses(input.record));
   report.sections.push_back(provenance(input));
   report.footer =
       fmt::format("Made by mapproof {} ({}).", input.provenance.version, input.provenance.commit);

@@ -21,10 +21,7 @@ struct MapReportInput {
   FigureBlock figure;                      ///< figure_block(map_figure(record, id)).
   std::vector<FigureBlock> more_figures;   ///< Below it.
   Provenance provenance;
-  std::string command;  ///< The one that makes it again, ready to be typed.
-  /// What was mapped and how, where the record's method and sensor do not say it: "SMACOF of
-  /// measured pairs, range and bearing". Empty: they do.
-  std::string what = {};
+  std::string command;             ///< The one that makes it again, ready to be typed.
   std::vector<Section> more = {};  ///< After the landmarks: what else was asked for.
 };
 

@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include "core/base/words.hpp"
+#include "render/figures/status_words.hpp"
 #include "reports/sections/method_summary.hpp"
 #include "reports/sections/study_counts.hpp"
 #include "reports/sections/study_report.hpp"
@@ -29,7 +30,7 @@ void add_record(StatusList::Item& item, const RunId& run, const RunRecord& recor
   for (const Status& status : record.statuses)
     if (status.code == code)
       item.places.push_back(
-          {record_id(run, record.sensor, record.setting, record.step), status.detail});
+          {record_id(run, record.sensor, record.setting, record.step), status_words(status)});
 }
 
 /// Severest first: no map, then by share.

@@ -1,9 +1,10 @@
 # shellcheck shell=bash
 # Sourced by the checks.
-# make_sysroot ARCHITECTURE TRIPLET FOLDER PACKAGE...   FOLDER as the root of a Debian of that
-#   architecture that has the packages and what they depend on, but for /etc and what the packages'
-#   scripts do. It takes this machine's apt sources, but keeps lists of its own: dpkg of this machine
-#   learns nothing of it. Nothing to do where FOLDER was made of the same packages.
+# make_sysroot ARCHITECTURE TRIPLET FOLDER PACKAGE...
+#   Makes FOLDER the root of a Debian of that architecture, with the packages and what they depend
+#   on. It lacks /etc and what the packages' scripts would do. It uses this machine's apt sources,
+#   but lists of its own, so that this machine's dpkg does not change. A FOLDER that was made of the
+#   same packages stays.
 
 make_sysroot() {
   local architecture=$1 triplet=$2 folder=$3
@@ -19,7 +20,7 @@ make_sysroot() {
     -o Dir::State="$folder/apt" -o Dir::State::status="$folder/apt/status"
     -o Dir::Cache="$folder/apt" -o APT::Sandbox::User="$(id -un)")
   echo "getting $# packages for $architecture, and what they depend on" >&2
-  "${apt[@]}" update >&2 || true  # A source that has nothing for this architecture is no loss.
+  "${apt[@]}" update >&2 || true  # Some sources have nothing for this architecture.
   "${apt[@]}" -y --no-install-recommends --download-only install "$@" >&2 || return
 
   local directory package
@@ -34,8 +35,8 @@ make_sysroot() {
   printf '%s' "$wanted" >"$folder/made-of"
 }
 
-# settle_sysroot FOLDER LIBRARIES: what the packages' scripts would have done; and what names a path
-# from / names it from FOLDER.
+# settle_sysroot FOLDER LIBRARIES: does what the packages' scripts would have done, and makes
+# absolute paths point into FOLDER.
 settle_sysroot() {
   local folder=$1 libraries=$2 name link
   for name in blas lapack; do

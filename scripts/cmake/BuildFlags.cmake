@@ -6,7 +6,7 @@ target_compile_options(mapproof_build_flags INTERFACE
   -Wall -Wextra -Wpedantic -Wshadow -Wnon-virtual-dtor -Wconversion -Wno-sign-conversion
   # False alarms of g++ 12 on every "literal" + string.
   $<$<CXX_COMPILER_ID:GNU>:-Wno-restrict>
-  # Results must not hang on how the compiler contracts a * b + c.
+  # Results must not depend on how the compiler contracts a * b + c.
   -ffp-contract=off
   $<$<BOOL:${MAPPROOF_WERROR}>:-Werror>)
 # Eigen's own threads would make sums depend on the number of cores.

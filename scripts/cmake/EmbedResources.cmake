@@ -1,7 +1,7 @@
 # mapproof_embed_resources(TARGET FUNCTION ROOT FILE...)
 #
-# Puts files into TARGET. `std::span<const mapproof::Resource> FUNCTION()` (declare it in a header of
-# the target) then lists them, sorted, each under its path below ROOT.
+# Embeds files in TARGET. `std::span<const mapproof::Resource> FUNCTION()` (declare it in a header
+# of the target) returns them, sorted, each with its path relative to ROOT.
 function(mapproof_embed_resources target function root)
   set(files ${ARGN})
   list(SORT files)

@@ -1,12 +1,12 @@
-# CSDP::sdp: CSDP with the reference BLAS and LAPACK, as archives, so that no alternative BLAS of a
-# machine, whose kernels change with its processor, takes their place.
+# CSDP::sdp: CSDP with the reference BLAS and LAPACK, as static libraries, so that no alternative
+# BLAS of the machine, whose results depend on the processor, replaces them.
 find_path(CSDP_INCLUDE_DIR csdp/declarations.h REQUIRED)
 find_library(CSDP_LIBRARY libsdp.a REQUIRED)
 find_library(CSDP_LAPACK_LIBRARY liblapack.a PATH_SUFFIXES lapack REQUIRED)
 find_library(CSDP_BLAS_LIBRARY libblas.a PATH_SUFFIXES blas REQUIRED)
 find_library(CSDP_FORTRAN_LIBRARY libgfortran.so.5 REQUIRED)
-# CSDP says so on standard output and ends the program where it finds no memory. In a copy of it,
-# functions of core/embed/sde/csdp.cpp are called instead.
+# When memory runs out, CSDP prints a message on standard output and calls exit(). A copy of the
+# library calls functions of core/embed/sde/csdp.cpp in place of puts() and exit().
 set(csdp_copy ${PROJECT_BINARY_DIR}/generated/libsdp.a)
 file(MAKE_DIRECTORY ${PROJECT_BINARY_DIR}/generated)
 execute_process(COMMAND_ERROR_IS_FATAL ANY COMMAND ${CMAKE_OBJCOPY}

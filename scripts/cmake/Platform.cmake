@@ -1,4 +1,4 @@
-# Refuses, in one line, what mapproof does not run on. After project().
+# Refuses, in one line, the systems that mapproof does not run on. Include it after project().
 if(NOT CMAKE_SYSTEM_NAME STREQUAL "Linux")
   message(FATAL_ERROR "mapproof runs on Linux only; this is ${CMAKE_SYSTEM_NAME}")
 elseif(NOT CMAKE_SIZEOF_VOID_P EQUAL 8)

@@ -1,5 +1,5 @@
-# Cross-compiles for aarch64 with the packages that MAPPROOF_SYSROOT holds, and runs the programs under
-# qemu. scripts/check aarch64 makes the folder.
+# Cross-compiles for aarch64 with the packages in the folder MAPPROOF_SYSROOT, and runs the programs
+# under qemu. scripts/check aarch64 makes that folder.
 set(CMAKE_SYSTEM_NAME Linux)
 set(CMAKE_SYSTEM_PROCESSOR aarch64)
 set(CMAKE_LIBRARY_ARCHITECTURE aarch64-linux-gnu)

@@ -1,4 +1,5 @@
-# Run at each build: cmake -D ROOT= -D VERSION= -D OUT= -P write_source_version.cmake
+# Runs at each build: cmake -D ROOT= -D VERSION= -D OUT= -P write_source_version.cmake
+cmake_minimum_required(VERSION 3.25)
 set(commit unknown)
 find_program(GIT git)
 if(GIT AND EXISTS "${ROOT}/.git")
@@ -14,7 +15,29 @@ if(GIT AND EXISTS "${ROOT}/.git")
   endif()
 endif()
 
+# What the solver's digest is made of (docs/decisions/0004): every folder of core is in one of two
+# lists. Of those that compute, some sources hold words alone; of those that do not, some read
+# measurements, of which records know the file and not what was read.
+set(computing align base certainty choice embed experiment follow graph labels linalg missing mixed
+  model observe pairs range_slam score simulate statistics submaps topics trials)
+set(not_computing json records results)
+set(words base/spelling base/version base/words)
+set(readers records/csv_columns records/mat_tables records/mrclam records/number_rows
+  records/path_motions records/range_log records/range_tables records/sighting records/table_)
+
+file(GLOB entries RELATIVE ${ROOT}/core LIST_DIRECTORIES true ${ROOT}/core/*)
+foreach(folder IN LISTS entries)
+  if(IS_DIRECTORY ${ROOT}/core/${folder} AND NOT folder IN_LIST computing AND NOT folder IN_LIST not_computing)
+    message(FATAL_ERROR "core/${folder} is in neither list of scripts/cmake/write_source_version.cmake: "
+      "does it compute what records hold?")
+  endif()
+endforeach()
+string(REPLACE ";" "|" folders "${computing}")
+string(REPLACE ";" "|" words "${words}")
+string(REPLACE ";" "|" readers "${readers}")
 file(GLOB_RECURSE sources RELATIVE ${ROOT} ${ROOT}/core/*.cpp ${ROOT}/core/*.hpp)
+list(FILTER sources INCLUDE REGEX "^core/((${folders})/|(${readers}))")
+list(FILTER sources EXCLUDE REGEX "^core/(${words})\\.")
 list(SORT sources)
 set(digests "")
 foreach(source IN LISTS sources)

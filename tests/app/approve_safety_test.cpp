@@ -15,7 +15,7 @@
 namespace mapproof::test {
 namespace {
 
-/// What approve refuses: with exit code 2, one line, and nothing touched.
+/// Expects that approve refuses with exit code 2 and one line, and changes no file.
 void expect_refused(const TemporaryFolder& folder, const std::vector<std::string>& arguments,
                     const std::string& words) {
   SCOPED_TRACE(words);
@@ -65,8 +65,7 @@ TEST(ApproveVerb, RefusesACurrentOfAnotherKind) {
   const TwoStudies two;
   const fs::path ranges = two.folder / "ranges", pictures = two.folder / "pictures",
                  several = two.folder / "several", map = two.folder / "map";
-  write_file(ranges / "study.json",
-             R"({"schema": {"name": "mapproof.slam_study", "version": 1}})");
+  write_file(ranges / "study.json", R"({"schema": {"name": "mapproof.slam_study", "version": 1}})");
   fs::copy(two.after + "/figures", pictures);
   fs::create_directory(several);
   fs::copy(two.after, several / "one", fs::copy_options::recursive);
@@ -105,7 +104,8 @@ TEST(ApproveVerb, AsksBeforeMoreThanHalfOfABaselineGoes) {
   const TemporaryFolder folder;
   const std::string baseline = folder / "baseline", current = folder / "current";
   const std::string picture = read_file(fs::path(kPictures) / "map-usual.png");
-  for (const char* name : {"a", "b", "c", "d", "e"}) write_file(baseline + "/" + name + ".png", picture);
+  for (const char* name : {"a", "b", "c", "d", "e"})
+    write_file(baseline + "/" + name + ".png", picture);
   write_file(current + "/a.png", picture);
   write_file(current + "/b.png", picture);
   expect_refused(folder, {baseline, current, "--all"}, "--all would remove 3 of 5 files of ");
@@ -176,7 +176,8 @@ TEST(ApproveVerb, ReplacesABaselineBehindALinkAndWritesBehindNoneWithinIt) {
   fs::create_directory_symlink(away, figures);
   fs::copy_file(fs::path(kPictures) / "map-usual.png", two.after + "/figures/map-usual.png",
                 fs::copy_options::overwrite_existing);
-  expect_refused(two.folder, {two.before, two.after, "map-usual"}, "figures: is not a folder of its own");
+  expect_refused(two.folder, {two.before, two.after, "map-usual"},
+                 "figures: is not a folder of its own");
 }
 
 TEST(ApproveVerb, RefusesABaselineThatMayNotBeChangedOrIsWorkedIn) {
@@ -193,7 +194,7 @@ TEST(ApproveVerb, RefusesABaselineThatMayNotBeChangedOrIsWorkedIn) {
   ::chmod((two.before + "/figures").c_str(), 0755);
 }
 
-/// A baseline of some pictures and files of others, and a current with other pictures.
+/// A baseline with images and a file that is not of mapproof, and a current with other images.
 struct Sides {
   TemporaryFolder folder;
   std::string baseline = folder / "baseline", current = folder / "current";
@@ -216,16 +217,16 @@ struct Sides {
     fs::remove_all(baseline);
     for (const auto& [name, bytes] : old_files) write_file(fs::path(baseline) / name, bytes);
   }
-  /// How many files and folders lie beside the two.
+  /// The number of files and folders beside the two sides.
   long others() const {
     return std::distance(fs::directory_iterator(folder.path()), fs::directory_iterator()) - 2;
   }
   Outcome approve() const { return mapproof({"approve", baseline, current, "--all"}); }
 };
 
-/// Kills approve at every call that changes a file system, one after the other.
+/// Kills approve at every call that changes a file system, one call per run.
 /// @param more  Further faults.
-/// @return In how many of them the baseline was not there.
+/// @return The number of runs after which the baseline was missing.
 int kill_at_every_step(const Sides& sides, const std::string& more) {
   long steps = 0;
   {
@@ -285,6 +286,20 @@ TEST(ApproveVerb, ThatFailsAtAnyStepLeavesTheOldBaselineOrTheNewOneWhole) {
       EXPECT_EQ(std::ranges::count(outcome.error, '\n'), 1) << outcome.error;
     }
   }
+}
+
+TEST(ApproveVerb, WithoutHardLinksCopiesFilesWholeOrLeavesTheOldBaseline) {
+  const Sides sides;
+  write_file(fs::path(sides.baseline) / "notes/large", std::string(400'000, 'x'));
+  const Contents before = contents(sides.baseline);
+  const Faults no_links("link:1-:fail");
+  const Outcome full =
+      mapproof({"approve", sides.baseline, sides.current, "--all"}, {.file_bytes = 200'000});
+  EXPECT_EQ(full.exit_code, 2) << full.error;
+  EXPECT_EQ(std::ranges::count(full.error, '\n'), 1) << full.error;
+  expect_same(before, contents(sides.baseline));
+  EXPECT_EQ(sides.approve().exit_code, 0);
+  EXPECT_EQ(read_file(fs::path(sides.baseline) / "notes/large"), std::string(400'000, 'x'));
 }
 
 TEST(ApproveVerb, TakesBackABaselineThatWasLeftUnderAnotherName) {

@@ -71,6 +71,7 @@ TEST(MapEllipses, AreInEveryOutputAndTheSameAgain) {
   EXPECT_NE(read_file(folder.path() / "one/figures/map.svg").find("ellipse-5"), std::string::npos);
   EXPECT_NE(read_file(folder.path() / "one/report.html").find("How sure each landmark is"),
             std::string::npos);
+  EXPECT_EQ(mapproof({"validate", folder / "one"}).exit_code, 0);
   ASSERT_EQ(run(folder.path() / "two").exit_code, 0);
   EXPECT_EQ(read_file(folder.path() / "two" / "map.json"), text);
 }

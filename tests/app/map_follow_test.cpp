@@ -1,12 +1,4 @@
-#include <fcntl.h>
-#include <sys/stat.h>
-#include <unistd.h>
-
-#include <atomic>
-#include <chrono>
 #include <cmath>
-#include <csignal>
-#include <thread>
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
@@ -16,6 +8,7 @@
 #include "core/base/random.hpp"
 #include "core/records/map_files.hpp"
 #include "core/records/table_reader.hpp"
+#include "tests/app/following.hpp"
 #include "tests/core/labels/noisy_looks.hpp"
 #include "tests/support/looks.hpp"
 #include "tests/support/packing.hpp"
@@ -25,38 +18,6 @@ namespace mapproof::test {
 namespace {
 
 using nlohmann::json;
-
-/// Writes the bytes into a pipe once somebody reads it, for as long as somebody does.
-void feed(const std::string& pipe, const std::string& bytes, const std::atomic<bool>& ended) {
-  int file = -1;
-  while (!ended && (file = ::open(pipe.c_str(), O_WRONLY | O_NONBLOCK)) < 0)
-    std::this_thread::sleep_for(std::chrono::milliseconds(1));
-  if (file < 0) return;
-  ::fcntl(file, F_SETFL, 0);  // From here on it waits for the reader.
-  for (std::size_t at = 0; at < bytes.size();) {
-    const ssize_t written = ::write(file, bytes.data() + at, bytes.size() - at);
-    if (written <= 0) break;
-    at += static_cast<std::size_t>(written);
-  }
-  ::close(file);
-}
-
-/// Runs `map PIPE --follow ...` while the bytes are written into the pipe, then closed.
-Outcome followed(const TemporaryFolder& folder, const std::string& bytes,
-                 const std::vector<std::string>& more) {
-  const std::string pipe = folder / "pipe";
-  EXPECT_EQ(::mkfifo(pipe.c_str(), 0600), 0);
-  std::signal(SIGPIPE, SIG_IGN);  // A program that ends early fails its test, not all of them.
-  std::atomic<bool> ended = false;
-  std::thread writer([&] { feed(pipe, bytes, ended); });
-  std::vector<std::string> all = {"map", pipe, "--follow", "--json"};
-  all.insert(all.end(), more.begin(), more.end());
-  const Outcome outcome = mapproof(all);
-  ended = true;
-  writer.join();
-  ::unlink(pipe.c_str());
-  return outcome;
-}
 
 json mapped(std::vector<std::string> arguments) {
   arguments.insert(arguments.begin(), "map");
@@ -108,8 +69,8 @@ TEST(FollowedMapFile, ReadsWhatThePlainMapReads) {
   const std::string text =
       "step,landmark,value\n0,\"x;y\",1\n0,b,1\n1,b,1\n1,c,1\n2,x;y,1\n2,c,1\n2,d,1\n3,d,1\n3,b,"
       "1\n4,b,1";
-  const Outcome outcome =
-      followed(folder, text, {"--kind", "visibility", "--method", "lpca", "--out", folder / "a"});
+  const Outcome outcome = followed(
+      "map", folder, text, {"--kind", "visibility", "--method", "lpca", "--out", folder / "a"});
   ASSERT_EQ(outcome.exit_code, 0) << outcome.error;
   EXPECT_EQ(json::parse(outcome.out)["landmarks"][0]["name"], "x;y");
   EXPECT_NE(outcome.error.find(kCutRemark), std::string::npos) << outcome.error;
@@ -132,7 +93,7 @@ TEST(FollowedMapFile, IsScoredByTheTruthAsThePlainMapIs) {
     all.push_back(out);
     return all;
   };
-  const Outcome outcome = followed(folder, text, with_out(folder / "followed"));
+  const Outcome outcome = followed("map", folder, text, with_out(folder / "followed"));
   ASSERT_EQ(outcome.exit_code, 0) << outcome.error;
   std::vector<std::string> plain = with_out(folder / "whole");
   plain.insert(plain.begin(), folder.file("all.csv", text));
@@ -150,7 +111,7 @@ TEST(FollowedMapFile, OfRangeAndBearingIsThePlainMapAndNamesWhatMoved) {
   const std::string text = sightings_csv(log);
   const std::string anchors = folder.file("anchors.csv", places_csv(log, {0, 2, 12, 14}));
   const Outcome outcome =
-      followed(folder, text,
+      followed("map", folder, text,
                {"--kind", "range-bearing", "--find-moved", "--every", "50", "--anchors", anchors,
                 "--fit", "rigid", "--out", folder / "followed"});
   ASSERT_EQ(outcome.exit_code, 0) << outcome.error;
@@ -175,10 +136,10 @@ TEST(FollowedMapFile, MayBeGzippedAndCutThere) {
   const SightingLog log = noisy_looks(400, 3);
   const std::string packed = gzipped(sightings_csv(log));
   const Outcome whole =
-      followed(folder, packed, {"--kind", "range-bearing", "--out", folder / "a"});
+      followed("map", folder, packed, {"--kind", "range-bearing", "--out", folder / "a"});
   ASSERT_EQ(whole.exit_code, 0) << whole.error;
   EXPECT_EQ(json::parse(whole.out)["steps"], 400);
-  const Outcome part = followed(folder, packed.substr(0, packed.size() * 3 / 4),
+  const Outcome part = followed("map", folder, packed.substr(0, packed.size() * 3 / 4),
                                 {"--kind", "range-bearing", "--out", folder / "b"});
   ASSERT_EQ(part.exit_code, 0) << part.error;
   EXPECT_LT(json::parse(part.out)["steps"], 400);

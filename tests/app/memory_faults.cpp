@@ -21,7 +21,7 @@ Files files_below(const fs::path& folder) {
   return {all.begin(), all.end()};
 }
 
-/// A study and one with other scores, and pictures of which one is changed.
+/// Two studies with different scores, and images of which one is changed.
 void make_two_studies(const fs::path& folder) {
   for (const char* side : {"before", "after"}) {
     fs::copy(kStudy, folder / side, fs::copy_options::recursive);
@@ -43,7 +43,7 @@ void make_study(const fs::path& folder) {
   fs::copy(kStudy, folder / "study", fs::copy_options::recursive);
 }
 
-/// Readings of `landmarks` landmarks over so many steps that no buffer is small.
+/// Detections of 30 landmarks over so many steps that no buffer is small.
 void make_observations(const fs::path& folder) {
   std::ostringstream text;
   constexpr int kSteps = 1500, kLandmarks = 30;
@@ -60,7 +60,7 @@ std::vector<std::string> with(std::vector<std::string> words,
   return words;
 }
 
-/// A case in a folder of its own.
+/// One case in its own folder.
 struct Trial {
   TemporaryFolder folder;
   const MemoryCase& tried;
@@ -73,7 +73,7 @@ struct Trial {
     const std::vector<std::string> command = {"taskset", "-c", cores, program()};
     return run_program(with(command, tried.command(folder.path())));
   }
-  /// With what depends on the folder's name taken out.
+  /// The files, without the name of the folder in their bytes.
   Files files() const {
     Files files = files_below(folder.path());
     for (auto& [name, bytes] : files)
@@ -91,7 +91,7 @@ long lines_of_program(const std::string& text) {
   return count;
 }
 
-/// All files of a run that failed are those of before or those of a whole run.
+/// Each file after a failed run is that of before the run or that of a whole run.
 void expect_whole(const Files& found, const Files& before, const Files& whole) {
   for (const auto& [name, bytes] : found) {
     const auto old_one = before.find(name), new_one = whole.find(name);
@@ -117,8 +117,8 @@ void fail_at(const MemoryCase& tried, const std::string& cores, long call, const
     EXPECT_EQ(lines_of_program(outcome.error), 1) << outcome.error;
     EXPECT_NE(outcome.error.find("out of memory"), std::string::npos) << outcome.error;
     Files found = trial.files();
-    // Where the program that draws scenes has no memory, the rest is made and the report lacks
-    // them.
+    // Where the program that draws scenes has no memory, the rest is made, and the report lacks the
+    // scenes.
     if (outcome.error.find("mapproof: scenes cannot be drawn") != std::string::npos)
       std::erase_if(found, [](const auto& file) { return file.first.ends_with("report.html"); });
     expect_whole(found, before, whole);

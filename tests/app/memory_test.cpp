@@ -12,14 +12,12 @@ namespace {
 
 class OutOfMemory : public ::testing::TestWithParam<MemoryCase> {};
 
-TEST_P(OutOfMemory, IsOneLineAndLeavesNoWrongFile) {
-  expect_memory_faults_told(GetParam(), 3);
-}
+TEST_P(OutOfMemory, IsOneLineAndLeavesNoWrongFile) { expect_memory_faults_told(GetParam(), 3); }
 
 INSTANTIATE_TEST_SUITE_P(SomeAllocations, OutOfMemory, ::testing::ValuesIn(memory_cases()),
                          [](const auto& one) { return one.param.name; });
 
-/// A run that has to end by itself, in little memory. 137: it was killed as it did not.
+/// Runs the program in a small address space; exit code 137: it did not end within a minute.
 Outcome within(std::size_t kib, std::vector<std::string> arguments) {
   arguments.insert(arguments.begin(), {"timeout", "-s", "KILL", "60", program()});
   return run_program(arguments, {.address_bytes = kib << 10});
@@ -31,8 +29,7 @@ TEST(LittleMemory, IsEnoughForWhatIsSmall) {
   EXPECT_EQ(within(kLimit, {"--version"}).out, mapproof({"--version"}).out);
 
   const TemporaryFolder folder;
-  const std::string observations =
-      std::string(MAPPROOF_TEST_DATA) + "/observations/wide_plain.csv";
+  const std::string observations = std::string(MAPPROOF_TEST_DATA) + "/observations/wide_plain.csv";
   const auto map = [&](const std::string& out) {
     return std::vector<std::string>{"map", observations, "--kind", "visibility", "--out", out};
   };
@@ -50,9 +47,10 @@ TEST(LittleMemory, IsEnoughForWhatIsSmall) {
 
 TEST(LittleMemory, StartsNoOtherBlasOfTheMachine) {
   const Environment other{{"LD_LIBRARY_PATH", MAPPROOF_OTHER_BLAS}};
-  EXPECT_EQ(run_program({"sh", "-c", "exec cat \"$0/libblas.so.3\" > /dev/null", MAPPROOF_OTHER_BLAS})
-                .exit_code,
-            0);
+  EXPECT_EQ(
+      run_program({"sh", "-c", "exec cat \"$0/libblas.so.3\" > /dev/null", MAPPROOF_OTHER_BLAS})
+          .exit_code,
+      0);
   const Outcome outcome = mapproof({"--version"});
   EXPECT_EQ(outcome.exit_code, 0);
   EXPECT_EQ(outcome.error, "");

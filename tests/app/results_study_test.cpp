@@ -141,6 +141,14 @@ TEST_F(StudyOfAnotherProgram, NamesAFewFindingsOfANightAndWhereAllAre) {
       std::string::npos);
 }
 
+TEST_F(StudyOfAnotherProgram, IsNotTakenForObservationsWithoutItsStudyJson) {
+  fs::copy(fs::path(folder_ / "mine") / "results.csv", folder_ / "numbers.csv");
+  const Outcome outcome = mapproof({"validate", folder_ / "numbers.csv"});
+  EXPECT_EQ(outcome.exit_code, 1);
+  EXPECT_NE((outcome.out + outcome.error).find("check the study's folder"), std::string::npos)
+      << outcome.out << outcome.error;
+}
+
 TEST_F(StudyOfAnotherProgram, IsJudgedByNightlyRuns) {
   const auto night = [&] {
     return mapproof({"nightly", folder_ / "mine", "--store", folder_ / "history"});

@@ -33,8 +33,8 @@ Outcome shell(const fs::path& folder, const std::string& line, double seconds = 
        fmt::format("cd '{}' && MAPPROOF='{}' && {}", folder.string(), program(), line)});
 }
 
-/// A way to hand a file `f` to a command as its input: what stands before the command, and the
-/// input's name. `f.gz` and `f.xz` are the same file packed.
+/// A way to give a file `f` to a command: the text before the command, and the name of the input.
+/// `f.gz` and `f.xz` are the same file, packed.
 struct Way {
   std::string name;
   std::string before;
@@ -54,8 +54,8 @@ const std::vector<Way>& ways() {
 struct Reader {
   std::string name;
   std::function<std::string()> bytes;  ///< Of the input.
-  std::string arguments;  ///< With {} where the input stands; what is written goes to `out`.
-  /// What has to be equal: files below `out`, or what is said as JSON if there are none.
+  std::string arguments;               ///< With {} for the input; outputs go to `out`.
+  /// What has to be equal: these files below `out`, or, without any, the printed JSON.
   std::vector<std::string> written = {};
 };
 
@@ -117,8 +117,8 @@ std::string looks_csv() { return sightings_csv(looks()); }
 
 std::string looks_json() { return sightings_json(looks()); }
 
-/// What commands find beside their input: observations, anchors, a log as `set` and, without its
-/// odometry, as `bare`; and, once it was asked for, `map` with its figures and `slam`.
+/// The files beside the input of a command: observations, anchors, a log as `set` and, without its
+/// odometry, as `bare`; after its first use, `map` with its figures and `slam`.
 class Samples {
  public:
   Samples() {
@@ -132,7 +132,7 @@ class Samples {
 
   const fs::path& path() const { return folder_.path(); }
 
-  /// The bytes of one of them.
+  /// The bytes of a file.
   std::string operator[](const std::string& file) const {
     if (file.starts_with("map/") && !fs::exists(folder_ / "map"))
       make("map wide.csv --kind bearing --anchors anchors.csv --out map");
@@ -231,7 +231,7 @@ class InputReader : public ::testing::TestWithParam<std::size_t> {
                  seconds);
   }
 
-  /// What has to be equal of a run.
+  /// The part of an outcome that has to be equal.
   std::string result(const Outcome& outcome) const {
     std::string all = fmt::format("exit code {}\n", outcome.exit_code);
     for (const std::string& file : reader().written) all += read_file(folder_ / ("out/" + file));
@@ -298,7 +298,7 @@ TEST_P(InputReader, SaysThatAPackedInputIsCutOff) {
 INSTANTIATE_TEST_SUITE_P(Streams, InputReader, ::testing::Range(std::size_t{0}, readers().size()),
                          [](const auto& test) { return readers()[test.param].name; });
 
-/// A refusal by one line on standard error.
+/// Expects a refusal in one line on standard error.
 void expect_refused(const Outcome& outcome, const std::string& words) {
   EXPECT_EQ(outcome.exit_code, 2) << outcome.error;
   EXPECT_NE(outcome.error.find(words), std::string::npos) << outcome.error;
@@ -347,7 +347,7 @@ TEST(Streams, AFolderIsNotReadFromStandardInput) {
   expect_refused(shell(folder.path(), "cat seen.csv | $MAPPROOF diff - ."), "not to be compared");
 }
 
-/// Each command is refused, and names the file and what it is.
+/// Expects that each command is refused with `words`, which name the file and what it is.
 void expect_named(const TemporaryFolder& folder, const std::string& words,
                   std::initializer_list<const char*> commands) {
   for (const char* command : commands) {

@@ -5,7 +5,9 @@
 #include "core/base/errors.hpp"
 #include "render/figures/error_curve.hpp"
 #include "render/figures/map.hpp"
+#include "render/figures/map_ellipses.hpp"
 #include "render/figures/map_view.hpp"
+#include "render/figures/measured_map.hpp"
 #include "render/figures/score_words.hpp"
 #include "render/figures/words.hpp"
 #include "tests/support/sample_figures.hpp"
@@ -38,6 +40,20 @@ TEST(MapFigure, JoinsEachEstimateToItsTruth) {
   EXPECT_EQ(layer_of<Scatter>(figure, "anchor").x.size(), 4u);
   EXPECT_EQ(layer_of<Scatter>(figure, "true position").x.size(), 46u);
   EXPECT_EQ(layer_of<Scatter>(figure, "estimate").x.size(), 50u);
+}
+
+TEST(MeasuredMap, DrawsTheSameEllipsesAsTheMapOfOneCommand) {
+  const MapRecord map = sample_map(5, 0.1, 1);
+  MapCertainty certainty{.squared_radius = 9.5, .replicates = 20, .maps = 20, .block_steps = 4};
+  certainty.covariances.assign(5, Eigen::Matrix2d::Identity() * 1e-4);
+  Figure of_command = map_figure(map, "map");
+  add_ellipses(map, certainty, of_command);
+  const Figure of_study = measured_map_figure(
+      {.id = "map", .title = "", .map = map, .pairs = {}, .certainty = certainty});
+  const auto drawn = layer_of<Ellipses>(of_study, "95 % ellipse");
+  ASSERT_EQ(drawn.a.size(), 5u);
+  EXPECT_NEAR(drawn.a[0], std::sqrt(9.5) * 1e-2, 1e-15);
+  EXPECT_EQ(drawn.a, layer_of<Ellipses>(of_command, "95 % ellipse").a);
 }
 
 TEST(MapFigure, SaysItsScoreInTheCaption) {
@@ -103,8 +119,8 @@ TEST(MapFigure, ShowsAnEstimateFarOutsideAsAnArrowAndSaysSo) {
 
 TEST(MapFigure, DrawsStatusesAndKeepsThemInTheCaption) {
   MapRecord map = sample_map(20, 0.1, 1);
-  map.statuses = {{StatusCode::kBridged, "The graph was in 2 pieces."},
-                  {StatusCode::kNotConverged, ""}};
+  map.statuses = {status_with_message(StatusCode::kBridged, "The graph was in 2 pieces."),
+                  status_with_message(StatusCode::kNotConverged, "not converged")};
   const Figure figure = map_figure(map, "map");
   EXPECT_TRUE(has_note(figure, "The graph was in 2 pieces."));
   EXPECT_TRUE(has_note(figure, "not converged"));

@@ -109,7 +109,8 @@ TEST(PathMap, NamesMethodsWithoutAPathAndWhy) {
   SlamRun run = sample_drive("plaza-1", 200, 1);
   run.records[3].estimate = {};
   run.records[3].error_m.clear();
-  run.records[3].estimate.statuses = {{StatusCode::kDegenerateGeometry, "The path is a line."}};
+  run.records[3].estimate.statuses = {
+      status_with_message(StatusCode::kDegenerateGeometry, "The path is a line.")};
   const Figure figure = figure_of(run);
   EXPECT_TRUE(notes_contain(figure, "spectral, 4-D: The path is a line."));
   EXPECT_FALSE(labelled<Polyline>(figure.panels[0], "spectral, 4-D"));

@@ -2,6 +2,7 @@
 #include <filesystem>
 
 #include "core/base/files.hpp"
+#include "tests/support/comparison_schemas.hpp"
 #include "tests/support/drawing_schemas.hpp"
 #include "tests/support/file_schemas.hpp"
 
@@ -12,7 +13,8 @@ int main(int argc, char** argv) {
     std::fputs("usage: write_schemas FOLDER\n", stderr);
     return 2;
   }
-  for (const auto& schemas : {test::drawing_schemas(), test::file_schemas()})
+  for (const auto& schemas :
+       {test::comparison_schemas(), test::drawing_schemas(), test::file_schemas()})
     for (const auto& [name, text] : schemas)
       write_file(std::filesystem::path(argv[1]) / name, text);
 }

@@ -12,8 +12,7 @@ namespace {
 MapRecord triangle() {
   MapRecord record;
   record.id = "map/isomap-K4/10";
-  record.sensor = Sensor::kBearing;
-  record.setting = {Method::kIsomap, 4};
+  record.origin = FromSensor{Sensor::kBearing, {Method::kIsomap, 4}};
   record.step = 10;
   record.names = {"a", "b", "c"};
   record.estimate.resize(3, 2);
@@ -21,7 +20,7 @@ MapRecord triangle() {
   record.truth_m = Points(3, 2);
   *record.truth_m << 0, 0, 0, 0, 1, 1;
   record.anchors = {0};
-  record.statuses = {{StatusCode::kLandmarkUnseen, "1 landmark: c."}};
+  record.statuses = {status_with_message(StatusCode::kLandmarkUnseen, "1 landmark: c.")};
   return record;
 }
 
@@ -81,7 +80,8 @@ TEST(MapReport, SaysOnlyErrorsThatAreKnown) {
 TEST(MapReport, TellsAnchorsThatDidNotTieTheMapFromNone) {
   MapRecord record = triangle();
   record.frame = Frame::kSimilarity;
-  record.statuses.push_back({StatusCode::kAnchorsMissing, "1 of 1 anchors are on the map."});
+  record.statuses.push_back(
+      status_with_message(StatusCode::kAnchorsMissing, "1 of 1 anchors are on the map."));
   const auto findings = [](const Report& report) {
     std::string text;
     for (const Paragraph& item : std::get<BulletList>(report.sections[0].blocks[1]).items)

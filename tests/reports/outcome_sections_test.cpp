@@ -30,7 +30,8 @@ TEST(StatusesSection, CountsMapsOfEachKindAndListsFailuresFirst) {
 TEST(StatusesSection, CountsAMapOnceThatCarriesOneStatusTwice) {
   Study study = synthetic_study(1, 1);
   study.runs[0].records.resize(1);
-  study.runs[0].records[0].statuses = {{StatusCode::kBridged, "a"}, {StatusCode::kBridged, "b"}};
+  study.runs[0].records[0].statuses = {status_with_message(StatusCode::kBridged, "a"),
+                                       status_with_message(StatusCode::kBridged, "b")};
   const Section section = statuses_section(study);
   EXPECT_EQ(std::get<StatusList>(section.blocks.back()).items[0].count, 1);
 }

@@ -101,6 +101,20 @@ TEST(ResultsView, SubjectsOfARunAreOneValueAndLostRunsAreCounted) {
   EXPECT_EQ(numbers.lost, 1);
 }
 
+TEST(ResultsView, ARunThatLostOneSubjectIsLost) {
+  const ResultsStudy study = Rows()
+                                 .add("m", "a1", 1.0, {}, "L1")
+                                 .add("m", "a1", kNaN, {}, "L2")
+                                 .add("m", "b1", 2.0, {}, "L1")
+                                 .add("m", "b1", 4.0, {}, "L2")
+                                 .study();
+  const ResultsView view(study);
+  const ResultsBlock& block = view.blocks()[0];
+  const RunNumbers numbers = view.numbers(block.conditions[0], view.lines(block, mpe())[0], mpe());
+  EXPECT_EQ(numbers.values, (std::map<std::string, double>{{"b1", 3.0}}));
+  EXPECT_EQ(numbers.lost, 1);
+}
+
 TEST(ResultsView, RunsThatAreNoRepeatsHaveLinesOfTheirOwnAndNoTests) {
   const ResultsStudy study =
       Rows().add("m", "a1", 1.0).add("m", "b1", 3.0).add("n", "a1", 2.0).study(false);
@@ -424,6 +438,22 @@ TEST(ResultsFigures, TwoFactorsOfNumbersGiveAHeatMapPerMethod) {
   EXPECT_DOUBLE_EQ(cells.values[0], 1.0);  // Noise 0.1 at size 10, in the upper row.
   EXPECT_DOUBLE_EQ(cells.values[5], 1.5);
   EXPECT_EQ(group.figures[1].notes.size(), 1U) << "a missing cell is said";
+}
+
+TEST(ResultsFigures, HaveIdsOfTheirOwnWhereMethodsDifferByCaseAlone) {
+  Rows rows;
+  for (const char* run : {"a", "b"})
+    for (const double noise : {0.1, 0.2, 0.3})
+      for (const double size : {5.0, 10.0})
+        for (const auto& [method, error] : {std::pair("EKF", 1.0), std::pair("ekf", 2.0)})
+          rows.add(method, run, error * noise * size, {{"noise", noise}, {"size", size}});
+  const ResultsStudy study = rows.study();
+  std::set<std::string> ids;
+  std::size_t count = 0;
+  for (const FigureGroup& group : results_figures(ResultsView(study), {}).groups)
+    for (const Figure& figure : group.figures) ids.insert(figure.id), ++count;
+  EXPECT_GE(count, 4U);
+  EXPECT_EQ(ids.size(), count);
 }
 
 TEST(ResultsFigures, OneFactorOrATextGivesNoHeatMap) {

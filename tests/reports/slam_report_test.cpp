@@ -73,7 +73,7 @@ TEST(SlamFigures, HaveAQuadricForEachUpgradeAndTheFlightInSpace) {
 TEST(SlamReport, TellsTheErrorsOfAFlightInSpaceAndItsStatuses) {
   SlamStudy study = sample_slam_study();
   SpaceRecord& record = study.space->records[1];
-  record.estimate.statuses = {{StatusCode::kUndetermined, "Another fits."}};
+  record.estimate.statuses = {status_with_message(StatusCode::kUndetermined, "Another fits.")};
   record.landmarks_error_m.reset();
   const std::vector<Section> sections = sections_of(study);
   const auto section = std::ranges::find(sections, "slam-space", &Section::id);

@@ -51,14 +51,17 @@ RunRecord synthetic_record(Sensor sensor, const MethodSetting& setting, const Ru
   const double mpe = synthetic_mpe(setting, run, step);
   record.score = Score{mpe, 20.0 * mpe, 0.8 * mpe, 20.0 * mpe};
   if (setting.method == Method::kIsomap && setting.parameter == 4.0) {
-    record.statuses.push_back({StatusCode::kBridged, "2 pieces of 3 and 9 landmarks; 1 bridge."});
+    record.statuses.push_back(
+        status_with_message(StatusCode::kBridged, "2 pieces of 3 and 9 landmarks; 1 bridge."));
     if (run == RunId{1, 1}) {
-      record.statuses.push_back({StatusCode::kFailed, "The matrix of distances is not finite."});
+      record.statuses.push_back(
+          status_with_message(StatusCode::kFailed, "The matrix of distances is not finite."));
       record.score.reset();
     }
   }
   if (setting.method == Method::kSmacof && step <= 500)
-    record.statuses.push_back({StatusCode::kNotConverged, "300 iterations, relative fall 2e-4."});
+    record.statuses.push_back(
+        status_with_message(StatusCode::kNotConverged, "300 iterations, relative fall 2e-4."));
   return record;
 }
 
@@ -108,8 +111,7 @@ std::vector<MapRecord> synthetic_maps(const Study& study, const RunId& run) {
       if (!record.score) continue;
       MapRecord& map = maps.emplace_back();
       map.id = record_id(run, record.sensor, record.setting, record.step);
-      map.sensor = record.sensor;
-      map.setting = record.setting;
+      map.origin = FromSensor{record.sensor, record.setting};
       map.step = record.step;
       map.truth_m = grid_points();
       map.estimate = grid_points();

@@ -1,7 +1,9 @@
 // A library for LD_PRELOAD that lets calls of a program fail, or ends the program at them.
 //
-//   MAPPROOF_FAULT        rules, comma between: KIND:FIRST-LAST:WHAT. The calls FIRST to LAST of the
-//                         kind, counted from 1 over all threads, fail or kill. LAST may be left out.
+//   MAPPROOF_FAULT        rules, comma between: KIND:FIRST-LAST:WHAT. The calls FIRST to LAST of
+//   the
+//                         kind, counted from 1 over all threads, fail or kill. LAST may be left
+//                         out.
 //   MAPPROOF_FAULT_IN     the name of the program that it is for; missing: of all.
 //   MAPPROOF_FAULT_COUNT  a file that gets the number of calls of each kind at the end.
 
@@ -28,6 +30,7 @@ enum class Kind : std::size_t {
   kAlloc,     ///< Memory of at least 64 KiB.
   kDisk,      ///< What changes a file system.
   kExchange,  ///< renameat2, which some file systems do not know.
+  kLink,      ///< linkat, likewise.
 };
 
 struct Rule {
@@ -38,7 +41,8 @@ struct Rule {
   std::atomic<long> calls = 0;
 };
 
-std::array<Rule, 3> rules{{{"alloc", ENOMEM}, {"disk", EIO}, {"exchange", EINVAL}}};
+std::array<Rule, 4> rules{
+    {{"alloc", ENOMEM}, {"disk", EIO}, {"exchange", EINVAL}, {"link", EPERM}}};
 std::atomic<bool> is_on = false;
 const char* counts = nullptr;  // Programs may clear their environment.
 
@@ -58,9 +62,10 @@ bool fails(std::size_t bytes) { return bytes >= std::size_t{1} << 16 && fails(Ki
 void read_rule(const char* text) {
   std::array<char, 32> name{}, what{};
   long first = 0, last = 0;
-  const bool open = std::sscanf(text, "%31[a-z]:%ld-:%31[a-z]", name.data(), &first, what.data()) == 3;
-  if (!open && std::sscanf(text, "%31[a-z]:%ld-%ld:%31[a-z]", name.data(), &first, &last,
-                           what.data()) != 4)
+  const bool open =
+      std::sscanf(text, "%31[a-z]:%ld-:%31[a-z]", name.data(), &first, what.data()) == 3;
+  if (!open &&
+      std::sscanf(text, "%31[a-z]:%ld-%ld:%31[a-z]", name.data(), &first, &last, what.data()) != 4)
     std::abort();
   for (Rule& rule : rules)
     if (std::strcmp(rule.name, name.data()) == 0) {
@@ -167,6 +172,7 @@ int renameat2(int from_folder, const char* from, int to_folder, const char* to,
   return static_cast<int>(changing(SYS_renameat2, from_folder, at(from), to_folder, at(to), flags));
 }
 int linkat(int from_folder, const char* from, int to_folder, const char* to, int flags) noexcept {
+  if (fails(Kind::kLink)) return -1;
   return static_cast<int>(changing(SYS_linkat, from_folder, at(from), to_folder, at(to), flags));
 }
 int symlink(const char* target, const char* path) noexcept {

@@ -3,10 +3,13 @@
 #include "core/json/json_text.hpp"
 #include "core/records/details_fields.hpp"
 #include "core/records/map_fields.hpp"
+#include "core/records/observation_fields.hpp"
+#include "core/records/results_study_fields.hpp"
 #include "core/records/run_fields.hpp"
-#include "core/records/slam_fields.hpp"
+#include "core/records/slam_experiment_fields.hpp"
 #include "core/records/space_fields.hpp"
 #include "core/records/timing_fields.hpp"
+#include "core/records/trial_fields.hpp"
 #include "tests/support/record_schema.hpp"
 
 namespace mapproof::test {
@@ -31,18 +34,41 @@ nlohmann::ordered_json timing_schema() {
   return record_json::file_schema(std::move(whole), definitions);
 }
 
+/// The schema of the file of an experiment, which may have profiles: they are gone once one of them
+/// was applied.
+template <typename T>
+std::string experiment_schema() {
+  nlohmann::ordered_json schema = json_schema<T>();
+  nlohmann::ordered_json& profiles = schema["properties"]["profiles"];
+  profiles["type"] = "object";
+  profiles["additionalProperties"] = {{"type", "object"},
+                                      {"properties", {{"schema", false}, {"profiles", false}}}};
+  profiles["description"] = "Merge patches (RFC 7396) of the experiment, by name.";
+  return json_text(schema);
+}
+
 }  // namespace
 
 std::map<std::string, std::string> file_schemas() {
   return {{"details.schema.json", json_text(json_schema<RunDetails>())},
+          {"experiment.schema.json", experiment_schema<Experiment>()},
           {"map.schema.json", json_text(json_schema<MapFile>())},
           {"maps.schema.json", json_text(json_schema<MapsFile>())},
+          {"observations.schema.json", json_text(json_schema<ObservationsFile>())},
           {"range_histories.schema.json", json_text(json_schema<RangeHistoryStudy>())},
+          {"results_study.schema.json", json_text(json_schema<ResultsHead>())},
           {"run.schema.json", json_text(json_schema<Run>())},
+          {"sightings.schema.json", json_text(json_schema<SightingsFile>())},
           {"slam_convergence.schema.json", json_text(json_schema<ConvergenceCurve>())},
+          {"slam_experiment.schema.json", experiment_schema<SlamExperiment>()},
           {"slam_run.schema.json", json_text(json_schema<SlamRun>())},
+          {"slam_study.schema.json", json_text(json_schema<SlamOrder>())},
           {"space_run.schema.json", json_text(json_schema<SpaceRun>())},
-          {"timing.schema.json", json_text(timing_schema())}};
+          {"study.schema.json", json_text(json_schema<Study>())},
+          {"timing.schema.json", json_text(timing_schema())},
+          {"trial_experiment.schema.json", experiment_schema<TrialExperimentFile>()},
+          {"trial_part.schema.json", json_text(json_schema<TrialPartFile>())},
+          {"trial_study.schema.json", json_text(json_schema<TrialStudy>())}};
 }
 
 }  // namespace mapproof::test

@@ -74,24 +74,25 @@ void SchemaMaker::put(std::string_view key, Json schema, bool is_required) {
 
 Json choices_schema(const std::vector<Decision>& decisions) {
   Json choices = Json::array();
-  std::vector<std::vector<std::string_view>> seen;
+  std::vector<std::pair<std::vector<std::string_view>, Keys>> seen;
   for (const Decision& decision : decisions) {
     if (decision.key.empty()) return choices;
-    const auto same = std::ranges::find(seen, decision.barred);
+    const std::string decider(decision.key);
+    const auto same = std::ranges::find(seen, std::pair(decision.barred, decision.keys));
     if (same != seen.end()) {
-      choices[static_cast<std::size_t>(same - seen.begin())]["properties"]
-             [std::string(decision.key)]["enum"]
-                 .push_back(decision.name);
+      choices[static_cast<std::size_t>(same - seen.begin())]["properties"][decider]["enum"]
+          .push_back(decision.name);
       continue;
     }
-    seen.push_back(decision.barred);
-    Json& choice = choices.emplace_back();
-    choice["properties"][std::string(decision.key)]["enum"] = Json::array({decision.name});
+    seen.emplace_back(decision.barred, decision.keys);
+    Json& choice = choices.emplace_back(Json::object());
+    if (!decision.name.empty())
+      choice["properties"][decider]["enum"] = Json::array({decision.name});
     for (const auto& [key, is_needed] : decision.keys) {
-      const auto is_barred = [&key = key](const Decision& other) {
-        return std::ranges::find(other.barred, key) != other.barred.end();
+      const auto is_free = [&key = key](const Decision& other) {
+        return std::ranges::find(other.keys, std::pair(key, true)) == other.keys.end();
       };
-      if (is_needed && std::ranges::any_of(decisions, is_barred)) choice["required"].push_back(key);
+      if (is_needed && std::ranges::any_of(decisions, is_free)) choice["required"].push_back(key);
     }
     for (const std::string_view key : decision.barred)
       choice["not"]["anyOf"].push_back({{"required", Json::array({key})}});
@@ -114,6 +115,7 @@ Json SchemaMaker::take(Json choices) {
       always.push_back(key);
   if (!always.empty()) schema["required"] = std::move(always);
   schema["properties"] = std::move(properties_);
+  schema.update(bounds_);
   if (choices.size() > 1) schema["anyOf"] = std::move(choices);
   if (type_.empty()) return schema;
   const auto [known, is_new] = definitions_.emplace(type_, schema);

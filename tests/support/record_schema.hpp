@@ -50,10 +50,13 @@ class SchemaMaker : public FieldVisitor {
   }
 
   template <typename Fields>
-  void group(std::string_view key, Fields visit) {
+  void group(std::string_view key, Fields visit, const FieldRule& rule = {}) {
     SchemaMaker maker(definitions_);
     visit(maker);
-    put(key, maker.take({}), true);
+    put(key, described(maker.take({}), rule.description), is_required(rule) && rule.when);
+  }
+  void key_count(std::size_t least, std::size_t most) {
+    bounds_ = {{"minProperties", least}, {"maxProperties", most}};
   }
 
   /// The schema, or a reference to it. `choices` may be empty.
@@ -65,18 +68,21 @@ class SchemaMaker : public FieldVisitor {
 
   Definitions& definitions_;
   std::string type_, about_, title_;
-  Json properties_ = Json::object(), required_ = Json::array();
+  Json properties_ = Json::object(), required_ = Json::array(), bounds_ = Json::object();
 };
 
-/// Sets the enumeration that decides to one of its values and notes which keys then have to be
-/// there, and which must not.
+using Keys = std::vector<std::pair<std::string_view, bool>>;
+
+/// Sets the field that decides to one of its values and notes which keys then have to be there, and
+/// which must not.
 struct Decision : FieldVisitor {
   explicit Decision(std::size_t choice) : index(choice) {}
 
   std::size_t index;
-  std::string_view key, name;  ///< Of the enumeration; none: nothing is decided.
-  std::size_t count = 0;       ///< Of its values.
-  std::vector<std::pair<std::string_view, bool>> keys;  ///< And whether each has to be there.
+  std::string_view key;   ///< That decides; none: nothing is decided.
+  std::string_view name;  ///< Its value; empty: any other than the known ones.
+  std::size_t count = 0;  ///< Of its values.
+  Keys keys;              ///< And whether each has to be there.
   std::vector<std::string_view> barred;
 
   template <typename T>
@@ -85,6 +91,13 @@ struct Decision : FieldVisitor {
       if (rule.decides) {
         value = static_cast<T>(index);
         decide(field_key, enum_names(value));
+      }
+    } else if constexpr (std::same_as<T, std::string>) {
+      if (rule.decides) {
+        value = index < rule.known.size() ? rule.known[index] : "";
+        key = field_key;
+        name = index < rule.known.size() ? rule.known[index] : "";
+        count = rule.known.size() + 1;
       }
     } else if constexpr (Kind<T>::is_optional) {
       if constexpr (Enumeration<typename T::value_type>)
@@ -147,7 +160,7 @@ Json matrix_schema(const FieldRule& rule) {
   if (!Vector<T>) {
     const std::size_t columns =
         kColumns == Eigen::Dynamic ? rule.columns : static_cast<std::size_t>(kColumns);
-    item = columns == 0 ? array_schema(std::move(item), 0, FieldRule{}.max_items)
+    item = columns == 0 ? array_schema(std::move(item), rule.not_empty, FieldRule{}.max_items)
                         : array_of(std::move(item), columns);
   }
   if (!Vector<T> && rule.nullable) item = or_null(std::move(item));
@@ -166,6 +179,7 @@ Json value_schema(const FieldRule& rule, Definitions& definitions) {
     return number_schema(rule.integer ? "integer" : "number", rule);
   } else if constexpr (std::integral<T>) {
     FieldRule bounds = rule;
+    bounds.nullable = false;
     if (std::unsigned_integral<T>) bounds.minimum = std::max(bounds.minimum, 0.0);
     return number_schema("integer", bounds);
   } else if constexpr (std::same_as<T, std::string>) {
@@ -182,14 +196,22 @@ Json value_schema(const FieldRule& rule, Definitions& definitions) {
   } else if constexpr (List<T>) {
     Json item = of_items(static_cast<const typename T::value_type*>(nullptr));
     if (rule.as_columns) return columns_schema(std::move(item), rule);
-    Json schema = array_schema(std::move(item), rule.min_items, rule.max_items);
-    if (rule.unique) schema["uniqueItems"] = true;
+    Json schema = array_schema(item, rule.min_items, rule.max_items);
+    if (rule.unique || rule.ascending) schema["uniqueItems"] = true;
+    return rule.or_one ? Json{{"oneOf", {std::move(item), std::move(schema)}}} : schema;
+  } else if constexpr (Kind<T>::is_map) {
+    Json schema = {{"type", "object"}};
+    schema["additionalProperties"] = value_schema<typename T::mapped_type>(rule, definitions);
     return schema;
   } else if constexpr (Kind<T>::is_tuple || AsTuple<T>) {
     T value{};
-    Json item;  // Of all elements: they are alike.
-    for_each_element(value, [&]<typename Item>(const Item& one) { item = of_items(&one); });
-    return array_schema(std::move(item), element_count<T>(), element_count<T>());
+    Json items = Json::array();
+    for_each_element(value,
+                     [&]<typename Item>(const Item& one) { items.push_back(of_items(&one)); });
+    const bool are_alike =
+        std::ranges::all_of(items, [&](const Json& one) { return one == items[0]; });
+    return array_schema(are_alike ? Json(items[0]) : std::move(items), element_count<T>(),
+                        element_count<T>());
   } else {
     return record_schema<T>(definitions);
   }

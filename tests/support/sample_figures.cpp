@@ -60,22 +60,24 @@ void add_maps(std::vector<Figure>& figures) {
   add("all-nan", 50, 0.1, [](MapRecord& r) {
     r.estimate.setConstant(NAN);
     r.score.reset();
-    r.statuses = {
-        {StatusCode::kFailed, "No map: the eigenvalues did not converge after 300 sweeps."}};
+    r.statuses = {status_with_message(
+        StatusCode::kFailed, "No map: the eigenvalues did not converge after 300 sweeps.")};
   });
   add("identical", 50, 0.1, [](MapRecord& r) {
     r.estimate.setConstant(1.0);
-    r.statuses = {
-        {StatusCode::kRankDeficient, "The data have rank 0: all landmarks fall on one point."}};
+    r.statuses = {status_with_message(StatusCode::kRankDeficient,
+                                      "The data have rank 0: all landmarks fall on one point.")};
   });
   add("some-missing", 50, 0.1, [](MapRecord& r) {
     for (const int row : {3, 9, 12, 30, 31, 32, 33}) r.estimate.row(row).setConstant(NAN);
     r.truth_m->row(5).setConstant(NAN);
-    r.statuses = {{StatusCode::kLandmarkUnseen, "7 of 50 landmarks were never observed."},
-                  {StatusCode::kBridged,
-                   "The graph of 6 nearest neighbours had 3 components; the 2 "
-                   "shortest bridges, 0.71 and 0.93 long, join them."},
-                  {StatusCode::kNotConverged, "Stress still fell by 2e-4 after 1000 iterations."}};
+    r.statuses = {
+        status_with_message(StatusCode::kLandmarkUnseen, "7 of 50 landmarks were never observed."),
+        status_with_message(StatusCode::kBridged,
+                            "The graph of 6 nearest neighbours had 3 components; the 2 "
+                            "shortest bridges, 0.71 and 0.93 long, join them."),
+        status_with_message(StatusCode::kNotConverged,
+                            "Stress still fell by 2e-4 after 1000 iterations.")};
   });
   add("long-names", 50, 0.2, [](MapRecord& r) {
     for (std::string& name : r.names) name = "the landmark beside the third window, " + name;
@@ -154,7 +156,7 @@ MapRecord sample_map(int landmarks, double error_m, std::uint64_t seed) {
   Random random(seed);
   MapRecord record;
   record.id = fmt::format("layout-1-pose-{}/visibility/isomap-K6/2000", seed);
-  record.setting = {Method::kIsomap, 6.0};
+  record.origin = FromSensor{Sensor::kVisibility, {Method::kIsomap, 6.0}};
   record.step = 2000;
   Points truth(landmarks, 2);
   record.estimate.resize(landmarks, 2);

@@ -46,8 +46,9 @@ void add_paths(std::vector<Figure>& figures) {
       record.error_m.clear();
       record.errors.clear();
       record.estimate.statuses = {
-          {StatusCode::kTooFewObservations, "3 landmarks were heard; the factorisation needs 4."},
-          {StatusCode::kFailed, ""}};
+          status_with_message(StatusCode::kTooFewObservations,
+                              "3 landmarks were heard; the factorisation needs 4."),
+          status_with_message(StatusCode::kFailed, "failed")};
     }
   });
   add("hostile-names", [](SlamRun& run) {

@@ -144,7 +144,7 @@ SlamRun sample_drive(const std::string& id, int poses, std::uint64_t seed) {
   run.records[5].estimate.cost = 812.4;
   add_covariances(run.records[5], 0.05);
   run.records[1].estimate.statuses = {
-      {StatusCode::kNotConverged, "14 of 3529 ranges were gated out."}};
+      status_with_message(StatusCode::kNotConverged, "14 of 3529 ranges were gated out.")};
   run.starts = sample_starts();
   run.published = PublishedDrive{1.9, 9658, 3529};
   return run;
@@ -239,7 +239,8 @@ RangeHistoryStudy sample_histories() {
           squared, (squared ? 0.2 : 0.5) + 0.1 * static_cast<double>(method.method));
   study.maps[8].positions_m.setConstant(NAN);
   study.maps[8].score.reset();
-  study.maps[8].statuses = {{StatusCode::kFailed, "No map: the graph has no edges."}};
+  study.maps[8].statuses = {
+      status_with_message(StatusCode::kFailed, "No map: the graph has no edges.")};
   add(std::nullopt, true, 0.004);
   return study;
 }

@@ -1,7 +1,6 @@
 #pragma once
 
 #include <algorithm>
-#include <string>
 
 #include "core/model/embedding.hpp"
 
@@ -11,10 +10,10 @@ inline bool has(const Embedding& embedding, StatusCode code) {
   return std::ranges::find(embedding.statuses, code, &Status::code) != embedding.statuses.end();
 }
 
-/// The detail of the first status of that code; empty if there is none.
-inline std::string detail_of(const Embedding& embedding, StatusCode code) {
-  const auto found = std::ranges::find(embedding.statuses, code, &Status::code);
-  return found == embedding.statuses.end() ? "" : found->detail;
+/// The first status for that reason; null if there is none.
+inline const Status* status_for(const Embedding& embedding, StatusReason reason) {
+  const auto found = std::ranges::find(embedding.statuses, reason, &Status::reason);
+  return found == embedding.statuses.end() ? nullptr : &*found;
 }
 
 }  // namespace mapproof::test

@@ -3,10 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <string>
 #include <utility>
-
-#include <fmt/format.h>
 
 #include "core/base/errors.hpp"
 #include "core/embed/connected_graph.hpp"
@@ -90,26 +87,18 @@ unfolding::ProvedSolution solve(const unfolding::Problem& problem, const Eigen::
 
 /// What was not proved, and by how much.
 Status shortfall(const Certificate& certificate, const SdeOptions& options) {
-  const std::string off =
-      fmt::format("the squared distances to be kept are off by up to {:.1e} of the largest",
-                  certificate.constraint_residual);
   if (certificate.dual < 0.0)  // A variance is not.
-    return {StatusCode::kNotEuclidean,
-            fmt::format("No points have the distances to be kept, as the bound proves; {}.", off)};
-  std::string text;
-  if (!std::isfinite(certificate.dual))
-    text = "Nothing was proved of the greatest variance.";
-  else if (certificate.relative_gap > options.relative_gap && certificate.dual < certificate.primal)
-    text = fmt::format(
-        "The map spreads more than points that keep the distances can: their variance is at most "
-        "{:.2g} % of its own.",
-        100.0 * certificate.dual / certificate.primal);
-  else if (certificate.relative_gap > options.relative_gap)
-    text = fmt::format("The greatest variance is bounded only to within {:.2g} %.",
-                       100.0 * certificate.relative_gap);
-  if (certificate.constraint_residual > options.constraint_residual)
-    text += fmt::format("{}T{}.", text.empty() ? "" : " ", off.substr(1));
-  return {StatusCode::kUnproved, text};
+    return status_of<StatusReason::kBoundBelowZero>(certificate.constraint_residual);
+  const double excess = certificate.constraint_residual > options.constraint_residual
+                            ? certificate.constraint_residual
+                            : 0.0;
+  if (!std::isfinite(certificate.dual)) return status_of<StatusReason::kNoBound>(excess);
+  if (!(certificate.relative_gap > options.relative_gap))
+    return status_of<StatusReason::kDistancesNotKept>(excess);
+  if (certificate.dual < certificate.primal)
+    return status_of<StatusReason::kVarianceTooGreat>(100.0 * certificate.dual / certificate.primal,
+                                                      excess);
+  return status_of<StatusReason::kLooseBound>(100.0 * certificate.relative_gap, excess);
 }
 
 /// Eigenvalues up to `floor` of the largest carry no direction.
@@ -127,11 +116,7 @@ void put_coordinates(const unfolding::Problem& problem, const Eigen::MatrixXd& Y
        ++axes)
     result.coordinates.col(axes) = rows * pairs.vectors.col(axes);
   fix_signs(result.coordinates);
-  if (axes < 2)
-    result.statuses.push_back(
-        {StatusCode::kRankDeficient,
-         fmt::format("The unfolded points spread in {} direction{}, a map needs two.", axes,
-                     axes == 1 ? "" : "s")});
+  if (axes < 2) result.statuses.push_back(status_of<StatusReason::kUnfoldedFlat>(axes));
 }
 
 }  // namespace

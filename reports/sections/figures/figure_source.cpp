@@ -37,7 +37,7 @@ const MapRecord* FigureSource::map(const RunId& run, Sensor sensor, const Method
   const auto [found, is_new] = maps_.try_emplace(run);
   if (is_new) found->second = reader_.maps(run);
   for (const MapRecord& map : found->second)
-    if (map.sensor == sensor && map.setting == setting && map.step == step) return &map;
+    if (map.origin == MapOrigin(FromSensor{sensor, setting}) && map.step == step) return &map;
   return nullptr;
 }
 

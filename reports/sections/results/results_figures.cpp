@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <optional>
+#include <set>
 #include <utility>
 
 #include <fmt/format.h>
@@ -299,6 +300,20 @@ FigureGroup given_figures(const ResultsStudy& study, const std::vector<MapRecord
   return group;
 }
 
+namespace {
+
+/// Ids leave out what file names must not hold, so that two may become one.
+void make_ids_unique(StudyFigures& figures) {
+  std::set<std::string> ids;
+  for (FigureGroup& group : figures.groups)
+    for (Figure& figure : group.figures) {
+      const std::string id = figure.id;
+      for (int i = 2; !ids.insert(figure.id).second; ++i) figure.id = fmt::format("{}-{}", id, i);
+    }
+}
+
+}  // namespace
+
 StudyFigures results_figures(const ResultsView& view,
                              const std::vector<MethodComparison>& comparisons) {
   StudyFigures figures;
@@ -325,6 +340,7 @@ StudyFigures results_figures(const ResultsView& view,
           group.figures.push_back(*std::move(figure));
     if (!group.empty()) figures.groups.push_back(std::move(group));
   }
+  make_ids_unique(figures);
   return figures;
 }
 

@@ -94,7 +94,7 @@ std::vector<ResultsLine> lines_in(const ResultsView& view, const Grid& grid,
 }  // namespace
 
 FigureGroup heat_maps(const ResultsView& view, const Label& setup) {
-  const std::string id = fmt::format("{}-{}-grid", view.study().name, slug_of(setup.id));
+  const std::string id = fmt::format("{}-{}-grid", view.study().name, view.setup_slug(setup.id));
   FigureGroup group{id, setup.label, "", {}};
   if (!view.study().results.are_repeats) return group;
   const std::optional<Grid> grid = grid_of(view, setup);

@@ -1,6 +1,7 @@
 #include "reports/sections/results/results_report.hpp"
 
 #include <algorithm>
+#include <optional>
 #include <utility>
 
 #include <fmt/format.h>
@@ -92,7 +93,7 @@ Section overview_section(const ResultsReportInput& input, const ResultsOverview&
 /// The heat maps of a setup, if it has any.
 void add_grid_section(const ResultsReportInput& input, const std::string& setup,
                       std::vector<Section>& sections) {
-  const std::string id = fmt::format("{}-{}-grid", input.view.study().name, slug_of(setup));
+  const std::string id = fmt::format("{}-{}-grid", input.view.study().name, input.view.setup_slug(setup));
   const auto group = std::ranges::find(input.figures.groups, id, &FigureGroup::id);
   if (group == input.figures.groups.end()) return;
   sections.push_back({id, group->title, {gallery_of(*group)}});
@@ -101,13 +102,14 @@ void add_grid_section(const ResultsReportInput& input, const std::string& setup,
 std::vector<Section> sections_of(const ResultsReportInput& input, bool has_opening) {
   std::vector<Section> sections{summary_section(input, has_opening)};
   if (sections[0].blocks.empty()) sections.clear();
-  for (const ResultsOverview& overview : input.view.overviews())
-    sections.push_back(overview_section(input, overview));
-  std::string setup;
+  std::optional<std::string> setup;
   for (const ResultsBlock& block : input.view.blocks()) {
     if (const std::string& of = block.conditions.front().setup; of != setup) {
       setup = of;
       add_grid_section(input, of, sections);
+      for (const ResultsOverview& overview : input.view.overviews())
+        if (overview.conditions.front().setup == of)
+          sections.push_back(overview_section(input, overview));
     }
     sections.push_back(block_section(input, block));
   }

@@ -227,9 +227,13 @@ RunNumbers ResultsView::numbers(const Condition& at, const ResultsLine& line,
   if (const auto found = sums_.find(key); found != sums_.end())
     for (const auto& [run, sum] : found->second)
       if (is_of_line(run)) numbers.values[run] = sum.first / sum.second;
+  // The mean over what is left of a run's subjects would say that losing one makes a method better.
   if (const auto found = lost_.find(key); found != lost_.end())
-    for (const std::string& run : found->second)
-      if (is_of_line(run) && !numbers.values.contains(run)) ++numbers.lost;
+    for (const std::string& run : found->second) {
+      if (!is_of_line(run)) continue;
+      numbers.values.erase(run);
+      ++numbers.lost;
+    }
   return numbers;
 }
 
@@ -310,6 +314,16 @@ std::string ResultsView::words_of(const ResultsBlock& block, std::size_t conditi
 bool is_lost(double value) {
   constexpr double kMost = 1e100;
   return !(std::abs(value) < kMost);
+}
+
+std::string ResultsView::setup_slug(const std::string& setup) const {
+  const auto slug = [](const std::string& id) { return slug_of(id.empty() ? "all" : id); };
+  int same = 1;
+  for (const Label& other : study_.setups) {
+    if (other.id == setup) break;
+    if (slug(other.id) == slug(setup)) ++same;
+  }
+  return same == 1 ? slug(setup) : fmt::format("{}-{}", slug(setup), same);
 }
 
 std::string slug_of(const std::string& text) {

@@ -97,6 +97,8 @@ class ResultsView {
   std::string level_words(const Level& level) const;
   /// "noise [m]".
   std::string factor_label(const std::string& factor) const;
+  /// A part of ids; unique among the setups.
+  std::string setup_slug(const std::string& setup) const;
   /// "Indoors, noise 0.1 m": a block at one of its conditions.
   std::string words_of(const ResultsBlock& block, std::size_t condition) const;
 

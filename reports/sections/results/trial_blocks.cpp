@@ -50,7 +50,7 @@ FigureGroup trial_maps(const TrialStudy& study, const std::string& prefix) {
   for (const TrialPart& part : study.parts)
     for (const TrialMap& map : part.maps) {
       maps.figures.push_back(measured_map_figure(
-          {prefix + "-map-" + map.id, map.title, map.map, map.pairs, map.covariances}));
+          {prefix + "-map-" + map.id, map.title, map.map, map.pairs, map.certainty}));
       if (!map.pairs.empty())
         maps.figures.push_back(pair_distances_figure(
             {prefix + "-pairs-" + map.id, map.title + ", measured pairs", map.map, map.pairs}));
@@ -61,7 +61,7 @@ FigureGroup trial_maps(const TrialStudy& study, const std::string& prefix) {
 std::optional<Table> trial_seconds_table(const TrialStudy& study, const std::string& prefix) {
   if (!is_of_data(study)) return std::nullopt;
   Table table;
-  table.id = prefix + "-seconds";
+  table.id = "seconds--" + prefix;
   table.caption = "What it took";
   table.columns.push_back({"Method", "", "", ""});
   for (const TrialPart& part : study.parts)
@@ -108,7 +108,7 @@ std::vector<Block> trial_provenance(const TrialStudy& study, std::span<const Ses
     facts.items.push_back({name, {fmt::format("{:g}", fmt::join(values, ", ")), Emphasis::kData}});
   blocks.emplace_back(std::move(facts));
   blocks.emplace_back(provenance_items(study.provenance));
-  if (!sessions.empty()) blocks.emplace_back(sessions_table(prefix + "-sessions", sessions));
+  if (!sessions.empty()) blocks.emplace_back(sessions_table("sessions--" + prefix, sessions));
   return blocks;
 }
 

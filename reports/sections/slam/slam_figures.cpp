@@ -108,8 +108,10 @@ TitledMap titled_map(const RangeHistoryStudy& study, const RangeHistoryMap& map)
   MapRecord& record = titled.map;
   record.id = fmt::format("histories/{}/{}", map.squared ? "squared" : "range",
                           map.setting ? info(map.setting->method).name : "spectral");
-  record.sensor = Sensor::kRange;
-  record.setting = map.setting.value_or(MethodSetting{});
+  if (map.setting)
+    record.origin = FromSensor{Sensor::kRange, *map.setting};
+  else
+    record.origin = FromRanges{};
   record.step = study.steps;
   const Eigen::Index rows = study.landmarks_m.rows();
   for (Eigen::Index i = 0; i < rows; ++i) record.names.push_back(fmt::format("{}", i + 1));

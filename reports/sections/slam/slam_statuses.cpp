@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include "render/figures/status_words.hpp"
 #include "reports/sections/slam/slam_report.hpp"
 #include "reports/sections/slam/slam_words.hpp"
 #include "reports/sections/wording.hpp"
@@ -27,7 +28,7 @@ void add_statuses(const std::string& where, const std::string& id,
       item = list.items.end() - 1;
     }
     item->count = 1;
-    item->places.push_back({id, status.detail});
+    item->places.push_back({id, status_words(status)});
   }
 }
 

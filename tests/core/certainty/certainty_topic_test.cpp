@@ -5,6 +5,7 @@
 #include "core/simulate/world.hpp"
 #include "core/trials/certainty.hpp"
 #include "core/trials/certainty_walks.hpp"
+#include "reports/sections/trials/topic_words.hpp"
 
 namespace mapproof {
 namespace {
@@ -58,8 +59,9 @@ TEST(CertaintyTopic, TriesEverySeriesAtEveryLevelOfBothSensors) {
     EXPECT_GT(trial.values[3], 0.0);
   }
   ASSERT_EQ(study.parts[0].maps.size(), 2U);
-  EXPECT_EQ(study.parts[0].maps[0].covariances.size(), 15U);
-  EXPECT_EQ(kCertaintyTopic.conclude(study).size(), 6U);
+  ASSERT_TRUE(study.parts[0].maps[0].certainty);
+  EXPECT_EQ(study.parts[0].maps[0].certainty->covariances.size(), 15U);
+  EXPECT_EQ(conclusions_of(study).size(), 6U);
 }
 
 TEST(CertaintyTopic, MakesTheSameAgain) {

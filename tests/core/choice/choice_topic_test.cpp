@@ -6,6 +6,7 @@
 #include "core/simulate/robot_walk.hpp"
 #include "core/simulate/world.hpp"
 #include "core/trials/choice.hpp"
+#include "reports/sections/trials/topic_words.hpp"
 
 namespace mapproof {
 namespace {
@@ -39,7 +40,7 @@ TEST(ChoiceTopic, RegretsNothingOfTheBestAndTriesEverySeries) {
       EXPECT_GE(trial.values[1], 0.0) << trial.series;
     }
   }
-  const auto sentences = kChoiceTopic.conclude(study);
+  const auto sentences = conclusions_of(study);
   ASSERT_EQ(sentences.size(), 2U);
   EXPECT_EQ(sentences[0].find("nan"), std::string::npos) << sentences[0];
 }

@@ -11,8 +11,8 @@
 namespace mapproof {
 namespace {
 
-using test::detail_of;
 using test::has;
+using test::status_for;
 
 TEST(HistoryEmbedder, LeavesUnseenLandmarksOutAndNamesThem) {
   Eigen::MatrixXd angles = Eigen::MatrixXd::NullaryExpr(10, 50, [](Eigen::Index i, Eigen::Index j) {
@@ -26,17 +26,17 @@ TEST(HistoryEmbedder, LeavesUnseenLandmarksOutAndNamesThem) {
   EXPECT_TRUE(map.coordinates.row(3).hasNaN());
   EXPECT_TRUE(map.coordinates.row(2).allFinite());
   ASSERT_TRUE(has(map, StatusCode::kLandmarkUnseen));
-  EXPECT_NE(map.statuses.back().detail.find("L4"), std::string::npos);
+  EXPECT_EQ(map.statuses.back().names, std::vector<std::string>{"L4"});
 }
 
-TEST(HistoryEmbedder, NamesTenUnseenLandmarksAndCountsTheRest) {
+TEST(HistoryEmbedder, NamesEveryUnseenLandmark) {
   Eigen::MatrixXd seen = Eigen::MatrixXd::Zero(20, 6);
   seen.topRows(5).setOnes();
   const ObservationHistory history{
       .sensor = Sensor::kVisibility, .names = landmark_names(20), .values = seen};
   const Embedding map = HistoryEmbedder(history, 6).embed({Method::kLpca, std::nullopt});
-  const std::string detail = map.statuses.back().detail;
-  EXPECT_TRUE(detail.ends_with("L14, L15 and 5 more.")) << detail;
+  EXPECT_EQ(map.statuses.back().values, (std::vector<double>{15, 20}));
+  EXPECT_EQ(map.statuses.back().names.size(), 15U);
 }
 
 TEST(HistoryEmbedder, RefusesStepsThatTheHistoryDoesNotHave) {
@@ -79,10 +79,10 @@ TEST(HistoryEmbedder, SaysWhenNeighboursWereNeverSeenTogether) {
   for (const MethodInfo& method : all_methods()) {
     if (!on_graph(method.method)) continue;
     // Each landmark was seen together with four others.
-    const std::string few =
-        detail_of(embedder.embed({method.method, 6.0}), StatusCode::kArbitraryNeighbours);
-    EXPECT_TRUE(few.starts_with("16 landmarks have fewer than K = 6 others")) << few;
-    EXPECT_NE(few.find("the graph is in 2 pieces"), std::string::npos) << method.name << few;
+    const Embedding map = embedder.embed({method.method, 6.0});
+    const Status* few = status_for(map, StatusReason::kFewSeenTogether);
+    ASSERT_NE(few, nullptr) << method.name;
+    EXPECT_EQ(*few, status_of<StatusReason::kFewSeenTogether>(16, 6, 2)) << method.name;
     EXPECT_FALSE(has(embedder.embed({method.method, 4.0}), StatusCode::kArbitraryNeighbours))
         << method.name;
   }
@@ -96,11 +96,9 @@ TEST(HistoryEmbedder, SaysOfEveryMethodThatRoomsWereNeverSeenTogether) {
     for (const MethodInfo& method : all_methods()) {
       const Embedding map = embedder.embed(embedder.usual_setting(method.method));
       // Beside it, such even rooms leave other things undetermined.
-      const bool said = std::ranges::any_of(map.statuses, [](const Status& status) {
-        return status.code == StatusCode::kUndetermined &&
-               status.detail.find("in 2 groups") != std::string::npos;
-      });
-      EXPECT_TRUE(said || has(map, StatusCode::kFailed)) << method.name;
+      const Status* groups = status_for(map, StatusReason::kGroupsNeverTogether);
+      EXPECT_TRUE((groups != nullptr && groups->values[0] == 2.0) || has(map, StatusCode::kFailed))
+          << method.name;
     }
   }
 }

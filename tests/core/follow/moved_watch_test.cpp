@@ -40,9 +40,9 @@ TEST(MovedWatch, NoticesAMoveSoonAfterItWithItsTimeAndOnce) {
   });
   ASSERT_EQ(noticed.size(), 1U);
   EXPECT_LT(noticed.front().first, 620);
-  EXPECT_EQ(noticed.front().second.landmark, 7);
+  EXPECT_EQ(noticed.front().second.found.landmark, 7);
   EXPECT_NEAR(watch.moved().front().from.key, 400.0, 15.0);
-  EXPECT_NE(noticed.front().second.sentence.find("between step"), std::string::npos);
+  EXPECT_LT(noticed.front().second.found.earliest_step, noticed.front().second.found.latest_step);
 
   const SightingLog split = watch.split(looks, looks.log(log.names, false));
   ASSERT_EQ(split.names.size(), log.names.size() + 1);

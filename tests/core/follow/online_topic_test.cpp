@@ -4,6 +4,7 @@
 #include "core/simulate/robot_walk.hpp"
 #include "core/simulate/world.hpp"
 #include "core/trials/online.hpp"
+#include "reports/sections/trials/topic_words.hpp"
 
 namespace mapproof {
 namespace {
@@ -39,7 +40,7 @@ TEST(OnlineTopic, FollowsEverySensorToEveryLevel) {
     const double steps = std::get<double>(trial.at.levels.at(0).value);
     EXPECT_EQ(trial.values[3], trial.series.ends_with("-anew") ? steps : 50.0);
   }
-  EXPECT_EQ(kOnlineTopic.conclude(study).size(), 3U);
+  EXPECT_EQ(conclusions_of(study).size(), 3U);
 }
 
 }  // namespace

@@ -317,21 +317,81 @@ TEST(RecordJson, SchemaDescribesAndDefines) {
   EXPECT_EQ(schema["definitions"]["round"]["properties"]["shape"]["const"], "round");
 }
 
+/// Whether the reader takes it; the schema has to agree.
+template <typename T>
+bool is_taken(const std::string& text) {
+  static const nlohmann::json schema = nlohmann::json::parse(json_schema<T>().dump());
+  const JsonDocument document = parse_json(text, "f.json");
+  const bool is_read = error_of([&] { from_json_value<T>(document.cursor()); }) == "no error";
+  EXPECT_EQ(test::schema_problem_of(schema, document.root) == "", is_read) << text;
+  return is_read;
+}
+
 TEST(RecordJson, SchemaHoldsKeysToTheFieldThatDecides) {
-  const nlohmann::json schema = nlohmann::json::parse(json_schema<Basket>().dump());
-  const auto agree = [&](const std::string& text) {
-    const JsonDocument document = parse_json(text, "f.json");
-    const bool is_read =
-        error_of([&] { from_json_value<Basket>(document.cursor()); }) == "no error";
-    EXPECT_EQ(test::schema_problem_of(schema, document.root) == "", is_read) << text;
-    return is_read;
+  EXPECT_TRUE(is_taken<Basket>(R"({"fruit": "plum", "stone": 0.5})"));
+  EXPECT_TRUE(is_taken<Basket>(R"({"fruit": "pear", "kernels": 5})"));
+  EXPECT_FALSE(is_taken<Basket>(R"({"fruit": "cherry"})"));
+  EXPECT_FALSE(is_taken<Basket>(R"({"fruit": "cherry", "kernels": 5})"));
+  EXPECT_FALSE(is_taken<Basket>(R"({"fruit": "cherry", "stone": 1, "kernels": 5})"));
+  EXPECT_FALSE(is_taken<Basket>(R"({"fruit": "apple"})"));
+}
+
+/// Keys that a file chooses itself, or may leave out, and arrays within bounds.
+struct Freedom {
+  std::map<std::string, std::vector<double>> numbers;
+  std::vector<int> steps;
+  std::vector<std::vector<Colour>> orders;
+  std::string word = "a", label;
+  std::optional<double> left, right;
+};
+
+constexpr std::array<std::string_view, 2> kKnownWords = {"a", "b"};
+constexpr FieldRule kOrder = {.unique = true, .min_items = 2};
+
+template <typename Visitor>
+void fields(Visitor& v, Freedom& freedom) {
+  v.field("numbers", freedom.numbers, {.integer = true, .or_one = true, .min_items = 1});
+  v.field("steps", freedom.steps, {.ascending = true});
+  v.field("orders", freedom.orders, {.items = &kOrder});
+  v.field("word", freedom.word, {.decides = true, .known = kKnownWords});
+  const bool is_known = std::ranges::find(kKnownWords, freedom.word) != kKnownWords.end();
+  v.field("label", freedom.label, {.key = is_known ? Key::kOptional : Key::kRequired});
+  const auto sides = [&](auto& side) {
+    side.key_count(1, 1);
+    side.field("left", freedom.left, {.key = Key::kIfAny});
+    side.field("right", freedom.right, {.key = Key::kIfAny});
   };
-  EXPECT_TRUE(agree(R"({"fruit": "plum", "stone": 0.5})"));
-  EXPECT_TRUE(agree(R"({"fruit": "pear", "kernels": 5})"));
-  EXPECT_FALSE(agree(R"({"fruit": "cherry"})"));
-  EXPECT_FALSE(agree(R"({"fruit": "cherry", "kernels": 5})"));
-  EXPECT_FALSE(agree(R"({"fruit": "cherry", "stone": 1, "kernels": 5})"));
-  EXPECT_FALSE(agree(R"({"fruit": "apple"})"));
+  v.group("sides", sides, {.key = Key::kOptional, .written = freedom.left || freedom.right});
+}
+
+TEST(RecordJson, TakesKeysThatFilesChooseAndHoldsArraysToTheirBounds) {
+  const auto text = [](const std::string& from = "{", const std::string& to = "{") {
+    std::string sound = R"({"numbers": {"x": 3, "y": [1, 2]}, "steps": [1, 4], "orders":)"
+                        R"( [["red", "blue"]], "word": "b", "sides": {"left": 1}})";
+    return sound.replace(sound.find(from), from.size(), to);
+  };
+  EXPECT_TRUE(is_taken<Freedom>(text()));
+  EXPECT_TRUE(is_taken<Freedom>(text("\"b\"", "\"c\", \"label\": \"C\"")));
+  EXPECT_TRUE(is_taken<Freedom>(text(", \"sides\": {\"left\": 1}", "")));
+  EXPECT_FALSE(is_taken<Freedom>(text("\"b\"", "\"c\"")));
+  EXPECT_FALSE(is_taken<Freedom>(text("[1, 2]", "[]")));
+  EXPECT_FALSE(is_taken<Freedom>(text("[1, 2]", "[1.5]")));
+  EXPECT_FALSE(is_taken<Freedom>(text("\"red\", ", "")));
+  EXPECT_FALSE(is_taken<Freedom>(text("red", "blue")));
+  EXPECT_FALSE(is_taken<Freedom>(text("\"left\": 1", "")));
+  EXPECT_FALSE(is_taken<Freedom>(text("\"left\": 1", "\"left\": 1, \"right\": 1")));
+  const JsonDocument document = parse_json(text("[1, 4]", "[4, 1]"), "f.json");
+  EXPECT_EQ(error_of([&] { from_json_value<Freedom>(document.cursor()); }),
+            "f.json: /steps/1: expected values in ascending order, got 1 after 4");
+}
+
+TEST(RecordJson, WritesAMapKeyByKeyAndLeavesOutAGroupThatIsNotThere) {
+  Freedom freedom;
+  freedom.numbers["x"] = {1.0, 2.0};
+  EXPECT_EQ(to_json_value(freedom).dump(),
+            R"({"numbers":{"x":[1,2]},"steps":[],"orders":[],"word":"a","label":""})");
+  freedom.left = 0.5;
+  EXPECT_EQ(to_json_value(freedom)["sides"].dump(), R"({"left":0.5})");
 }
 
 TEST(JsonText, FlattenedNamesEveryValueByItsPointer) {

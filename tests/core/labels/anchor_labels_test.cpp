@@ -95,11 +95,5 @@ TEST(AnchorLabels, TakesWhatHasNoMap) {
   EXPECT_THROW(check_anchor_labels(lonely, Points::Zero(3, 2)), InvalidInput);
 }
 
-TEST(AnchorLabels, SaysWhatItFound) {
-  EXPECT_EQ(described(AnchorExchange{0, 2, 1.93, 0.12}, noisy_looks(10, 1)),
-            "A and C look exchanged in all sightings: known places missed by 1.930 m, then by "
-            "0.120 m");
-}
-
 }  // namespace
 }  // namespace mapproof::test

@@ -50,7 +50,7 @@ struct Sweep {
     std::cout << fmt::format("{} and {}, {} labels, {} left:\n", log.names[a], log.names[b],
                              wrong_labels(wrong, log), left);
     for (const LabelFinding& one : check.findings)
-      std::cout << "  " << described(one, wrong) << '\n';
+      std::cout << fmt::format("  {} {}, {}\n", name(one.fault), one.first, one.second);
   }
 };
 

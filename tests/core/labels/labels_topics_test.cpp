@@ -8,6 +8,7 @@
 #include "core/simulate/world.hpp"
 #include "core/trials/labels.hpp"
 #include "core/trials/moved.hpp"
+#include "reports/sections/trials/topic_words.hpp"
 
 namespace mapproof::test {
 namespace {
@@ -56,7 +57,7 @@ TEST(LabelsTopic, EstimatesBetterThanLabelsAsGiven) {
             trial(study, "unlabelled", "estimated", 0.0).values[1]);
   EXPECT_GT(trial(study, "unlabelled", "estimated", 20.0).values[0], 70.0);
   EXPECT_TRUE(std::isnan(trial(study, "unlabelled", "given", 20.0).values[0]));  // None, by design.
-  EXPECT_EQ(kLabelsTopic.conclude(study).size(), 3U);
+  EXPECT_EQ(conclusions_of(study).size(), 3U);
   // Its MOE allows for a reflection, and says so.
   EXPECT_EQ(study.design.quantities[2], known_quantity("moe_unmirrored_percent"));
 }
@@ -70,7 +71,7 @@ TEST(MovedTopic, NamesWhatMovedFarAndNothingElse) {
   EXPECT_EQ(trial(study, "distance", "permutations", 0.0).values[1], 0.0);
   EXPECT_EQ(trial(study, "distance", "permutations", 0.3).values[0], 100.0);
   EXPECT_LT(trial(study, "distance", "permutations", 0.3).values[3], 0.03);
-  EXPECT_EQ(kMovedTopic.conclude(study).size(), 3U);
+  EXPECT_EQ(conclusions_of(study).size(), 3U);
 }
 
 }  // namespace

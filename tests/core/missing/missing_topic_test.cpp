@@ -6,6 +6,7 @@
 
 #include "core/base/errors.hpp"
 #include "core/trials/missing.hpp"
+#include "reports/sections/trials/topic_words.hpp"
 #include "tests/support/gappy.hpp"
 
 namespace mapproof {
@@ -74,7 +75,7 @@ TEST(MissingTopic, TriesEverySeriesAndConcludesWithNumbers) {
   for (const TrialMap& map : part.maps) expect_scores_of(map.map, trial_of(study, map.id), study);
   EXPECT_EQ(part.trials.front().values,
             kMissingTopic.make(context).trials.front().values);  // nothing but its arguments counts
-  const std::vector<std::string> sentences = kMissingTopic.conclude(study);
+  const std::vector<std::string> sentences = conclusions_of(study);
   ASSERT_FALSE(sentences.empty());
   EXPECT_NE(sentences.front().find(" m"), std::string::npos);
 }

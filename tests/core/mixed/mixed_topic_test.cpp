@@ -6,6 +6,7 @@
 #include "core/simulate/robot_walk.hpp"
 #include "core/simulate/world.hpp"
 #include "core/trials/mixed.hpp"
+#include "reports/sections/trials/topic_words.hpp"
 
 namespace mapproof {
 namespace {
@@ -38,7 +39,7 @@ TEST(MixedTopic, MapsEverySensorAndEveryMixAtEveryLevel) {
   // 2 sensors in two ways and 3 mixes at 4 levels, 3 sensors in two ways and 3 mixes at 2.
   ASSERT_EQ(study.parts[0].trials.size(), 46U);
   for (const Trial& trial : study.parts[0].trials) EXPECT_GT(trial.values[0], 0.0);
-  const std::vector<std::string> sentences = kMixedTopic.conclude(study);
+  const std::vector<std::string> sentences = conclusions_of(study);
   // Of each setup what mixing gains, then what choosing by the neighbourhoods costs.
   ASSERT_EQ(sentences.size(), 6U);
   for (const char* part :

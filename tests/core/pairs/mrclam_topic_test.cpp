@@ -7,6 +7,7 @@
 #include <gtest/gtest.h>
 
 #include "core/base/errors.hpp"
+#include "reports/sections/trials/topic_words.hpp"
 #include "tests/support/looks.hpp"
 #include "tests/support/temporary_folder.hpp"
 #include "tests/support/worlds.hpp"
@@ -86,7 +87,8 @@ TEST(MrclamTopic, PairsOfPerfectRobotsGiveThePerfectMap) {
   EXPECT_EQ(pairs.values[5], 9.0);
   // Labels made wrong have scores and no maps of their own.
   ASSERT_EQ(part.maps.size() + 4, design.series.size());
-  EXPECT_EQ(part.maps.back().covariances.size(), 9U);
+  ASSERT_TRUE(part.maps.back().certainty);
+  EXPECT_EQ(part.maps.back().certainty->covariances.size(), 9U);
   EXPECT_GT(trial(part, "swapped").values[3], 0.1);
   EXPECT_LT(trial(part, "swapped-mended").values[3], 1e-6);
   EXPECT_GE(trial(part, "swapped-mended").values[6], 1.0);
@@ -102,9 +104,10 @@ TEST(MrclamTopic, WithoutATruthThereAreMapsAndNoErrors) {
   EXPECT_LT(trial(part, "pairs").values[4], 1e-8);
   EXPECT_TRUE(part.maps.back().map.estimate.allFinite());
   TrialStudy study;
+  study.experiment = experiment();
   study.parts = {part};
   study.parts[0].id = "set";
-  EXPECT_EQ(kMrclamTopic.conclude(study).size(), 1U);
+  EXPECT_EQ(conclusions_of(study).size(), 1U);
 }
 
 TEST(MrclamTopic, ASetThatCannotBeReadIsSaidToBeSo) {

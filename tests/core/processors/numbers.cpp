@@ -35,7 +35,7 @@ void add_simulated_run(Numbers& numbers) {
   const RunResult result = simulate_run(small_experiment(), {.layout = 1, .pose = 1});
   numbers["run/landmarks"] = values_of(result.run.world.landmarks_m);
   for (const MapRecord& map : result.maps) {
-    if (map.setting.method == Method::kLaplacianEigenmap) continue;  // Landmarks coincide.
+    if (setting_of(map)->method == Method::kLaplacianEigenmap) continue;  // Landmarks coincide.
     numbers["run/map/" + map.id] = values_of(map.estimate);
     if (map.score)
       numbers["run/score/" + map.id] = {map.score->mpe_m, map.score->moe_percent,

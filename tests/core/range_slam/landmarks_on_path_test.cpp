@@ -50,7 +50,7 @@ TEST(NearlyALine, IsSaidWithItsConditionNumber) {
   const auto landmarks = landmarks_on_a_line(points);
   ASSERT_TRUE(landmarks);
   EXPECT_EQ(landmarks->code, StatusCode::kDegenerateGeometry);
-  EXPECT_NE(landmarks->detail.find("condition number 173"), std::string::npos) << landmarks->detail;
+  EXPECT_NEAR(landmarks->values[0], 173.0, 0.5);
   EXPECT_EQ(path_on_a_line(points)->code, StatusCode::kUndetermined);
   points(1, 1) = 5.0;
   EXPECT_FALSE(landmarks_on_a_line(points));

@@ -11,6 +11,7 @@
 #include "core/records/landmarks_csv.hpp"
 #include "core/records/map_files.hpp"
 #include "core/records/observations.hpp"
+#include "core/records/profiles.hpp"
 #include "core/records/run_json.hpp"
 #include "core/records/timings_jsonl.hpp"
 #include "core/topics/validate.hpp"
@@ -47,7 +48,8 @@ std::vector<Input> make_inputs() {
   const RunResult result = test::made_up_result({1, 1});
   const auto experiment = [](const std::string& text) {
     parse_experiment(text, "e");
-    for (const std::string& name : profiles(text, "e")) parse_experiment(text, "e", name);
+    for (const std::string& name : profile_names(text, "e", "mapproof.experiment"))
+      parse_experiment(text, "e", name);
   };
   return {
       {"experiment", read_file(test::data_file("experiments/small.json")), experiment, true},

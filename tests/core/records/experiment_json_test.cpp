@@ -9,6 +9,7 @@
 
 #include "core/base/errors.hpp"
 #include "core/base/files.hpp"
+#include "core/records/profiles.hpp"
 #include "tests/core/records/samples.hpp"
 
 namespace mapproof {
@@ -61,7 +62,8 @@ TEST(ExperimentJson, PutsMethodsInTheOrderOfTheTablesAndSensorsInTheirs) {
 
 TEST(ExperimentJson, AppliesAProfileAsAMergePatch) {
   const std::string text = read_file(test::data_file("experiments/small.json"));
-  EXPECT_EQ(profiles(text, "e.json"), (std::vector<std::string>{"noisy", "tiny"}));
+  EXPECT_EQ(profile_names(text, "e.json", "mapproof.experiment"),
+            (std::vector<std::string>{"noisy", "tiny"}));
   const Experiment tiny = parse_experiment(text, "e.json", "tiny");
   EXPECT_EQ(tiny.layouts, 1);
   EXPECT_EQ(tiny.sensors.size(), 1U);
@@ -157,7 +159,7 @@ TEST(ExperimentJson, RefusesOrderingsThatOrderNothing) {
   EXPECT_EQ(experiment_error(place, json::array({json::array({"lpca"})})),
             "e.json: " + place + "/0: expected at least 2 elements, got 1");
   EXPECT_EQ(experiment_error(place, json::array({json::array({"lpca", "isomap", "lpca"})})),
-            "e.json: " + place + "/0/2: lpca stands twice in one ordering");
+            "e.json: " + place + "/0/2: is there twice: at " + place + "/0/0 before");
   EXPECT_EQ(experiment_error(place, json::array({json::array({"lpca", "smakof"})})),
             "e.json: " + place + "/0/1: unknown method \"smakof\": did you mean \"smacof\"?");
 }
@@ -199,8 +201,7 @@ TEST(ExperimentJson, RefusesAWalkWithoutRoomEvenByDefault) {
 
 TEST(ExperimentJson, AsksWhichMethodWasMeant) {
   EXPECT_EQ(experiment_error("/sensors/range/methods/isomapp", {{"K", {4}}}),
-            "e.json: /sensors/range/methods/isomapp: unknown method \"isomapp\": did you mean "
-            "\"isomap\"?");
+            "e.json: /sensors/range/methods: unknown key \"isomapp\": did you mean \"isomap\"?");
 }
 
 TEST(ExperimentJson, RefusesKThatIsNotBelowTheNumberOfLandmarks) {
@@ -217,7 +218,7 @@ TEST(ExperimentJson, RefusesKThatIsNoInteger) {
 
 TEST(ExperimentJson, RefusesAParameterForAMethodWithoutOne) {
   EXPECT_EQ(experiment_error("/sensors/visibility/methods/lpca/K", {4}),
-            "e.json: /sensors/visibility/methods/lpca: lpca has no parameter: expected {}");
+            "e.json: /sensors/visibility/methods/lpca: unknown key \"K\"");
 }
 
 TEST(ExperimentJson, RefusesCheckpointsThatDoNotAscend) {
@@ -264,21 +265,25 @@ TEST(ExperimentJson, RefusesVariationsThatTheExperimentCannotMake) {
             "e.json: /variations/0/levels/1: expected a number from 0 to 0.5, got 0.6");
   EXPECT_EQ(experiment_error("/variations/1/levels", {3, 12}),
             "e.json: /variations/1/levels/1: expected an integer from 3 to 11, got 12");
-  EXPECT_EQ(experiment_error("/variations/1/id", "noise"), "e.json: /variations/1/id: is there twice");
+  EXPECT_EQ(experiment_error("/variations/1/id", "noise"),
+            "e.json: /variations/1/id: is there twice");
   EXPECT_EQ(experiment_error("/variations/0/methods/isomap/K", {12}),
             "e.json: /variations/0/methods/isomap/K/0: K must be below the number of landmarks, "
             "12, got 12");
-  EXPECT_EQ(experiment_error("/figures/0/id", "../fig"),
-            "e.json: /figures/0/id: expected lower-case letters, digits and '-', a letter first, "
-            "got \"../fig\"");
-  EXPECT_EQ(experiment_error("/figures/0/id", "map-visibility-lpca"),
-            "e.json: /figures/0/id: expected \"fig-\" first, got \"map-visibility-lpca\"");
-  EXPECT_EQ(experiment_error("/figures/1/methods", {"isomap", "isomap"}),
-            "e.json: /figures/1/methods/1: \"isomap\" is there twice");
   EXPECT_EQ(
-      experiment_error("/figures/0", {{"id", "fig-2"}, {"kind", "measurement"}, {"sensor", "range"}}),
-      "e.json: /figures/0/sensor: a look of ranges has no figure; expected visibility or "
-      "bearing");
+      experiment_error("/figures/0/id", "../fig"),
+      "e.json: /figures/0/id: expected \"fig-\", then lower-case letters, digits and '-', got "
+      "\"../fig\"");
+  EXPECT_EQ(
+      experiment_error("/figures/0/id", "map-visibility-lpca"),
+      "e.json: /figures/0/id: expected \"fig-\", then lower-case letters, digits and '-', got "
+      "\"map-visibility-lpca\"");
+  EXPECT_EQ(experiment_error("/figures/1/methods", {"isomap", "isomap"}),
+            "e.json: /figures/1/methods/1: is there twice: at /figures/1/methods/0 before");
+  EXPECT_EQ(experiment_error("/figures/0",
+                             {{"id", "fig-2"}, {"kind", "measurement"}, {"sensor", "range"}}),
+            "e.json: /figures/0/sensor: a look of ranges has no figure; expected visibility or "
+            "bearing");
 }
 
 TEST(ExperimentJson, RefusesWhatHasNoNameOrNoSensors) {
@@ -286,9 +291,10 @@ TEST(ExperimentJson, RefusesWhatHasNoNameOrNoSensors) {
   EXPECT_EQ(experiment_error("/name", "../x"),
             "e.json: /name: expected letters, digits, '-' and '_', got \"../x\"");
   EXPECT_EQ(experiment_error("/sensors", json::object()),
-            "e.json: /sensors: expected at least one of visibility, bearing, range");
+            "e.json: /sensors: expected at least 1 of visibility, bearing, range, got 0");
   EXPECT_EQ(experiment_error("/sensors/range/methods", json::object()),
-            "e.json: /sensors/range/methods: expected at least one method");
+            "e.json: /sensors/range/methods: expected at least 1 of lpca, smacof, smacof-knn, "
+            "kpca-gaussian, kpca-polynomial, isomap, lle, lem, hlle, sde, got 0");
 }
 
 }  // namespace

@@ -23,7 +23,7 @@ MapRecord sample() {
 
 TEST(MapJson, ComesBackTheSame) {
   const MapRecord map = sample();
-  EXPECT_EQ(map.setting, (MethodSetting{Method::kIsomap, 4.0}));
+  EXPECT_EQ(*setting_of(map), (MethodSetting{Method::kIsomap, 4.0}));
   EXPECT_EQ(map.statuses[0].code, StatusCode::kLandmarkUnseen);
   EXPECT_TRUE(map.estimate.row(2).array().isNaN().all());
   EXPECT_TRUE(map.truth_m->row(3).array().isNaN().all());
@@ -32,20 +32,44 @@ TEST(MapJson, ComesBackTheSame) {
 
 TEST(MapJson, OfMeasuredPairsSaysSo) {
   MapRecord map = sample();
-  map.of_pairs = true;
-  map.sensor = Sensor::kRange;
-  map.setting = {Method::kSmacof, std::nullopt};
+  map.origin = FromPairs{};
   std::string text = map_json(map);
   EXPECT_NE(text.find("\"range-bearing\""), std::string::npos);
   EXPECT_NE(text.find("\"pairs\""), std::string::npos);
   const MapRecord again = parse_map(text, "m");
-  EXPECT_TRUE(again.of_pairs);
-  EXPECT_EQ(again.setting, map.setting);
+  EXPECT_EQ(again.origin, map.origin);
   EXPECT_EQ(map_json(again), text);
   EXPECT_EQ(test::schema_problem("map", nlohmann::json::parse(text)), "");
   text.replace(text.find("\"pairs\""), 7, "\"smacof\"");
   EXPECT_EQ(error_of([&] { parse_map(text, "m"); }),
             "m: /method: expected pairs for range-bearing, got \"smacof\"");
+}
+
+TEST(MapJson, OfSeveralSensorsNamesThem) {
+  MapRecord map = sample();
+  map.origin = FromSensors{{Sensor::kBearing, Sensor::kRange}, {Method::kIsomap, 4.0}};
+  const std::string text = map_json(map);
+  EXPECT_EQ(parse_map(text, "m").origin, map.origin);
+  EXPECT_EQ(test::schema_problem("map", nlohmann::json::parse(text)), "");
+  nlohmann::json one = nlohmann::json::parse(text);
+  one["sensor"] = "bearing";
+  EXPECT_NE(error_of([&] { parse_map(one.dump(), "m"); }).find("m: /sensors: "), std::string::npos);
+}
+
+TEST(MapJson, HoldsAStatusToItsReason) {
+  const std::string text = map_json(sample());
+  const auto error_with = [&](const std::string& from, const std::string& to) {
+    std::string other = text;
+    other.replace(other.find(from), from.size(), to);
+    return error_of([&] { parse_map(other, "m"); });
+  };
+  EXPECT_EQ(error_with("never_observed", "never_obseved"),
+            "m: /statuses/0/reason: unknown reason \"never_obseved\": did you mean "
+            "\"never_observed\"?");
+  EXPECT_EQ(error_with("\"values\": [1, 4]", "\"values\": [1]"),
+            "m: /statuses/0/values: expected 2 values of never_observed, got 1");
+  EXPECT_EQ(error_with("never_observed", "few_anchors_mapped"),
+            "m: /statuses/0/names: expected no names");
 }
 
 TEST(MapJson, NeedsARowForEveryName) {
@@ -61,7 +85,7 @@ TEST(MapJson, KnowsItsAnchorsAndMethods) {
   EXPECT_EQ(error_of([&] { parse_map(map_json(map), "m"); }),
             "m: /anchors/1: expected an integer from 0 to 3, got 4");
   map = sample();
-  map.setting = {Method::kLpca, std::nullopt};
+  map.origin = FromSensor{Sensor::kVisibility, {Method::kLpca, std::nullopt}};
   std::string text = map_json(map);
   text.replace(text.find("\"lpca\""), 6, "\"lpca\", \"K\": 4");
   EXPECT_EQ(error_of([&] { parse_map(text, "m"); }), "m: /: unknown key \"K\"");

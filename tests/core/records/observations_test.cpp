@@ -262,8 +262,8 @@ TEST(JsonObservations, NameThePlaceOfWhatIsWrong) {
   };
   EXPECT_EQ(error("[[0, 1], [1, 0.5]]"), "/values/1/1: visibility is 0 or 1, got 0.5");
   EXPECT_EQ(error("[[0, 1], [1]]"), "/values/1: expected 2 elements, got 1");
-  EXPECT_EQ(error("[[0, 1]]"), "/values: expected at least 2 elements, got 1");
-  EXPECT_EQ(error("[[], []]"), "/values/0: expected at least one step");
+  EXPECT_EQ(error("[[0, 1]]"), "/values: expected 2 rows, one per landmark, got 1");
+  EXPECT_EQ(error("[[], []]"), "/values/0: expected at least 1 elements, got 0");
   EXPECT_EQ(error("[[0, \"1\"], [0, 1]]"), "/values/0/1: expected a number, got \"1\"");
 }
 

@@ -83,10 +83,11 @@ TEST(ResultsStudy, WhatIsWrongIsOneLineWithFileAndPlace) {
   EXPECT_EQ(problem(kHead + kOwn + R"(, "methods": [{"id": "z", "label": "Z"}]})", kTable),
             "study.json: methods: z: results.csv has no row of it");
   EXPECT_EQ(problem(kHead + kOwn + R"(, "name": "A b"})", kTable),
-            "study.json: /name: expected lower-case letters, digits and '-', a letter first");
+            "study.json: /name: expected lower-case letters, digits and '-', a letter first, got "
+            "\"A b\"");
   EXPECT_EQ(
       problem(kHead + R"(, "quantities": [{"id": "q", "label": "Q", "better": "more"}]})", kTable),
-      "study.json: /quantities/0/better: expected lower, higher or neither");
+      "study.json: /quantities/0/better: expected lower, higher or neither, got \"more\"");
   EXPECT_NE(problem(kHead + R"(, "quantities": [{"id": "mpe_m", "label": "M", "unit": "cm",
                                                  "better": "lower"}]})",
                     kTable)
@@ -128,7 +129,7 @@ TEST(ResultsStudy, PathsAreAlignedAsItSays) {
   EXPECT_THROW(alignment(R"(, "paths": {"align": "rigid"})"), IoError) << "other times";
   EXPECT_EQ(alignment(""), Alignment::kNone);
   EXPECT_EQ(problem(kHead + R"(, "paths": {"align": "best"}})", kTable),
-            "study.json: /paths/align: expected none, rigid or similarity");
+            "study.json: /paths/align: expected none, rigid or similarity, got \"best\"");
 }
 
 TEST(ResultsStudy, OnTheDiskIsAsItsSchemaSays) {

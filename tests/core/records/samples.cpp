@@ -93,7 +93,7 @@ RunResult made_up_result(const RunId& id) {
                  {.sensor = Sensor::kRange,
                   .setting = {Method::kSmacofKnn, 4.0},
                   .step = 100,
-                  .statuses = {{StatusCode::kFailed, "No map: \"made up\"."}},
+                  .statuses = {status_with_message(StatusCode::kFailed, "No map: \"made up\".")},
                   .score = std::nullopt,
                   .iterations = 17,
                   .stress = 0.1 * x,
@@ -111,7 +111,11 @@ RunResult made_up_result(const RunId& id) {
                     {.variation = "noise",
                      .level = 0.25,
                      .setting = {Method::kLpca, std::nullopt},
-                     .statuses = {{StatusCode::kFailed, "No map."}},
+                     .statuses = {{.code = StatusCode::kFailed,
+                                   .reason = StatusReason::kTooManyNeighbours,
+                                   .values = {4, 3},
+                                   .starts = {Method::kSmacof},
+                                   .submaps = SubmapCount{.count = 1, .submaps = 2}}},
                      .score = std::nullopt}};
   result.details = made_up_details(id);
   MapRecord map;

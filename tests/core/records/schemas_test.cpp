@@ -9,11 +9,10 @@
 #include "core/records/experiment_json.hpp"
 #include "core/records/map_files.hpp"
 #include "core/records/observations.hpp"
+#include "core/records/profiles.hpp"
 #include "core/records/slam_experiment_json.hpp"
 #include "core/records/slam_run_json.hpp"
-#include "core/records/space_run_json.hpp"
 #include "core/records/timings_jsonl.hpp"
-#include "core/records/trial_experiment_json.hpp"
 #include "core/topics/validate.hpp"
 #include "tests/core/records/samples.hpp"
 #include "tests/core/records/slam_samples.hpp"
@@ -25,7 +24,6 @@ namespace {
 
 namespace fs = std::filesystem;
 using nlohmann::json;
-using test::schema_file;
 using test::schema_problem;
 
 /// "mapproof.run" -> "run".
@@ -78,13 +76,11 @@ TEST(Schemas, HoldForEveryExperimentInTheTemplatesAndTheirProfiles) {
        {fs::path(MAPPROOF_SOURCE_DIR) / "templates/experiments", test::data_file("experiments")})
     for (const auto& entry : fs::directory_iterator(folder)) {
       const std::string text = read_file(entry.path());
-      if (is_slam_experiment(text, entry.path().string())) continue;
-      if (is_trial_experiment(text, entry.path().string())) {
-        EXPECT_EQ(schema_problem("trial_experiment", json::parse(text)), "") << entry.path();
-        continue;
-      }
-      EXPECT_EQ(schema_problem("experiment", json::parse(text)), "") << entry.path();
-      for (const std::string& profile : profiles(text, entry.path().string())) {
+      const json value = json::parse(text);
+      EXPECT_EQ(schema_problem(kind_of(value), value), "") << entry.path();
+      if (kind_of(value) != "experiment") continue;
+      for (const std::string& profile :
+           profile_names(text, entry.path().string(), "mapproof.experiment")) {
         const Experiment experiment = parse_experiment(text, entry.path().string(), profile);
         EXPECT_EQ(schema_problem("experiment", json::parse(experiment_json(experiment))), "")
             << entry.path() << " " << profile;
@@ -97,8 +93,8 @@ TEST(Schemas, HoldForEveryExperimentInTheTemplatesAndTheirProfiles) {
 TEST(Schemas, HoldForTheRangeOnlyExperimentAndItsProfiles) {
   const fs::path path = fs::path(MAPPROOF_SOURCE_DIR) / "templates/experiments/boots2013.json";
   const std::string text = read_file(path);
-  EXPECT_EQ(schema_problem("slam_experiment", json::parse(text)), "");
-  for (const std::string& profile : slam_profiles(text, path.string())) {
+  for (const std::string& profile :
+       profile_names(text, path.string(), "mapproof.slam_experiment")) {
     const std::string whole =
         slam_experiment_json(parse_slam_experiment(text, path.string(), profile));
     EXPECT_EQ(schema_problem("slam_experiment", json::parse(whole)), "") << profile;
@@ -120,23 +116,6 @@ TEST(Schemas, HoldForEveryFileOfARangeOnlyStudy) {
   EXPECT_EQ(schema_problem("timing", json::parse(timing_line(timing))), "");
   const FactorizationCost cost{.landmarks = 4, .steps = 20, .seconds = 0.001};
   EXPECT_EQ(schema_problem("timing", json::parse(timing_line(cost))), "");
-}
-
-TEST(Schemas, KnowEveryMethodAndStatus) {
-  const json definitions = schema_file("values.schema.json").at("definitions");
-  std::vector<std::string> methods;
-  for (const MethodInfo& method : all_methods()) methods.emplace_back(method.name);
-  EXPECT_EQ(definitions.at("method").at("enum"), methods);
-  std::vector<std::string> slam_methods;
-  for (const SlamMethodInfo& method : all_slam_methods()) slam_methods.emplace_back(method.name);
-  EXPECT_EQ(definitions.at("slam_method").at("enum"), slam_methods);
-  const json experiment = schema_file("experiment.schema.json");
-  const json& grids = experiment.at("definitions").at("methods").at("properties");
-  EXPECT_EQ(grids.size(), methods.size());
-  for (const std::string& method : methods) EXPECT_TRUE(grids.contains(method)) << method;
-  const json& codes = definitions.at("statuses").at("items").at("properties").at("code").at("enum");
-  for (std::size_t i = 0; i < codes.size(); ++i)
-    EXPECT_EQ(name(static_cast<StatusCode>(i)), codes[i].get<std::string>());
 }
 
 struct Damage {

@@ -45,7 +45,8 @@ SlamRecord made_up_record() {
   estimate.condition = 12.5;
   estimate.iterations = 7;
   estimate.cost = 123.456;
-  estimate.statuses = {{StatusCode::kLandmarkUnseen, "Landmark \"post, left\" has no place."}};
+  estimate.statuses = {
+      status_with_message(StatusCode::kLandmarkUnseen, "Landmark \"post, left\" has no place.")};
   record.errors = {{.alignment = Alignment::kRigid,
                     .mean_m = 0.2,
                     .rmse_m = 0.25,
@@ -75,7 +76,7 @@ SlamRun made_up_slam_run(const std::string& id) {
   SlamRecord failed{.method = SlamMethod::kEkf, .estimate = {}, .errors = {}, .error_m = {}};
   failed.estimate.path.positions_m.resize(0, 2);
   failed.estimate.landmarks_m = Points::Constant(3, 2, kNaN);
-  failed.estimate.statuses = {{StatusCode::kFailed, "It is lost."}};
+  failed.estimate.statuses = {status_with_message(StatusCode::kFailed, "It is lost.")};
   run.records.push_back(failed);
   run.starts = {{.method = SlamMethod::kRefinedFromRandom,
                  .number = 2,
@@ -109,7 +110,7 @@ RangeHistoryStudy made_up_histories() {
   study.maps.push_back({.setting = MethodSetting{Method::kIsomap, 3.0},
                         .squared = true,
                         .positions_m = Points::Constant(4, 2, 0.5),
-                        .statuses = {{StatusCode::kBridged, "In two pieces."}},
+                        .statuses = {status_with_message(StatusCode::kBridged, "In two pieces.")},
                         .score = Score{.mpe_m = kNaN,
                                        .moe_percent = kNaN,
                                        .mpe_all_fitted_m = 0.25,
@@ -143,7 +144,8 @@ SpaceRun made_up_space_run() {
   record.alignment = Alignment::kRigidWithReflection;
   record.estimate.landmarks_m.setConstant(kNaN);
   record.estimate.positions_m.resize(0, 3);
-  record.estimate.statuses = {{StatusCode::kDegenerateGeometry, "All in a plane."}};
+  record.estimate.statuses = {
+      status_with_message(StatusCode::kDegenerateGeometry, "All in a plane.")};
   record.landmarks_error_m = record.positions_error_m = std::nullopt;
   run.records.push_back(record);
   return run;

@@ -8,7 +8,6 @@
 #include "core/base/files.hpp"
 #include "core/records/slam_experiment_json.hpp"
 #include "core/records/slam_run_json.hpp"
-#include "core/records/space_run_json.hpp"
 #include "core/records/study_store.hpp"
 #include "core/topics/validate.hpp"
 #include "tests/core/records/samples.hpp"

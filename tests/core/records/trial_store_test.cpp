@@ -25,8 +25,7 @@ TrialStudy small_trials() {
   study.experiment.seed = 7;
   study.experiment.layouts = 2;
   study.experiment.options = {{"dimensions", {10.0}}, {"shares", {0.1, 0.5}}};
-  study.design = {.question = "How much may be missing?",
-                  .setups = {{.id = "random",
+  study.design = {.setups = {{.id = "random",
                               .title = "At random",
                               .factors = {{"share", "share missing", "", {0.1, 0.5}}}}},
                   .series = {{.id = "ppca", .label = "PPCA"}, {.id = "fill", .label = "Mean fill"}},
@@ -43,7 +42,7 @@ TrialPart made_up_part(const RunId& run) {
   part.trials = {{.at = condition("random", {{"share", 0.1}}),
                   .series = "ppca",
                   .values = {0.05, 100.0},
-                  .statuses = {{StatusCode::kNotConverged, "after 9 steps"}}},
+                  .statuses = {status_with_message(StatusCode::kNotConverged, "after 9 steps")}},
                  {.at = condition("random", {{"share", 0.5}}),
                   .series = "fill",
                   .values = {kNaN, 0.0},
@@ -52,10 +51,11 @@ TrialPart made_up_part(const RunId& run) {
                .title = "PPCA",
                .map = test::made_up_result({1, 1}).maps[0],
                .pairs = {},
-               .covariances = {}};
+               .certainty = {}};
   map.pairs = {{.first = 0, .second = 1, .distance_m = 2.0, .precision = 4.0, .looks = 9}};
-  map.covariances.assign(map.map.names.size(), Eigen::Matrix2d::Identity());
-  map.covariances.back().setConstant(kNaN);
+  map.certainty = MapCertainty{.squared_radius = 6.5, .replicates = 9, .maps = 8, .block_steps = 3};
+  map.certainty->covariances.assign(map.map.names.size(), Eigen::Matrix2d::Identity());
+  map.certainty->covariances.back().setConstant(kNaN);
   part.maps = {map};
   part.seconds = {{.part = part.id, .series = "ppca", .seconds = 1.0},
                   {.part = part.id, .series = "ppca", .seconds = 0.5}};
@@ -98,7 +98,10 @@ TEST(TrialStudy, IsReadBackAsItWasWritten) {
   EXPECT_EQ(study.parts[0].id, "layout-1-pose-1");
   EXPECT_EQ(trial_part_json(study.parts[1], ""), trial_part_json(made_up_part({2, 1}), ""));
   EXPECT_TRUE(std::isnan(study.parts[0].trials[1].values[0]));
-  EXPECT_FALSE(study.parts[0].maps[0].covariances.back().allFinite());
+  const auto& certainty = study.parts[0].maps[0].certainty;
+  ASSERT_TRUE(certainty);
+  EXPECT_FALSE(certainty->covariances.back().allFinite());
+  EXPECT_EQ(certainty->squared_radius, 6.5);
   ASSERT_EQ(study.parts[0].seconds.size(), 1U);
   EXPECT_EQ(study.parts[0].seconds[0].seconds, 0.5) << "the later of two";
   EXPECT_EQ(study_schema(folder.path()), "mapproof.trial_study");
@@ -157,9 +160,9 @@ TEST(TrialExperiment, TakesAProfile) {
 
 TEST(TrialExperiment, NamesThePlaceOfWhatIsWrong) {
   EXPECT_EQ(refusal(R"(, "options": {"dimensions": 0})"),
-            "gaps.json: /options/dimensions: expected a number from 1 to 50, got 0");
+            "gaps.json: /options/dimensions: expected an integer from 1 to 50, got 0");
   EXPECT_EQ(refusal(R"(, "options": {"dimensions": 2.5})"),
-            "gaps.json: /options/dimensions: expected an integer");
+            "gaps.json: /options/dimensions: expected an integer from 1 to 50, got 2.5");
   EXPECT_EQ(refusal(R"(, "options": {"share": [0.5]})"),
             "gaps.json: /options: unknown key \"share\": did you mean \"shares\"?");
   EXPECT_EQ(refusal(R"(, "anchors": 51)"), "gaps.json: /anchors: 51 anchors of 50 landmarks");

@@ -94,8 +94,7 @@ TEST(Join, LeavesOutWhatSharesTooLittleAndSaysSo) {
       join_submaps({part({0, 1, 2, 3, 4, 5, 6, 7}), part({6, 7, 8, 9}), part({4, 5, 6, 12, 13})},
                    JoinKind::kSimilarity, 16);
   ASSERT_EQ(result.statuses.size(), 1U);
-  EXPECT_EQ(result.statuses.front().code, StatusCode::kTooFewObservations);
-  EXPECT_EQ(result.statuses.front().detail.substr(0, 6), "2 of 3");
+  EXPECT_EQ(result.statuses.front(), status_of<StatusReason::kSubmapsLeftOut>(2, 3));
   EXPECT_TRUE(result.joined.positions.topRows(8).allFinite());
   EXPECT_TRUE(result.joined.positions.bottomRows(8).array().isNaN().all());
   EXPECT_TRUE(result.joined.submaps[0].placed);

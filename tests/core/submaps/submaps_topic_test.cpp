@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "core/trials/submaps.hpp"
+#include "reports/sections/trials/topic_words.hpp"
 #include "tests/support/gappy.hpp"
 
 namespace mapproof {
@@ -42,7 +43,7 @@ TEST(SubmapsTopic, HoldsPartsAgainstTheWholeAndSaysWhichIsWorse) {
       EXPECT_TRUE(std::isnan(trial.values[3]));
     }
   }
-  const auto sentences = kSubmapsTopic.conclude(study);
+  const auto sentences = conclusions_of(study);
   ASSERT_FALSE(sentences.empty());
   // One layout tells nothing of chance.
   EXPECT_NE(sentences.front().find("no difference is beyond chance"), std::string::npos)

@@ -9,6 +9,7 @@
 #include "core/simulate/sensors.hpp"
 #include "core/trials/run_trials.hpp"
 #include "core/trials/sweep.hpp"
+#include "reports/sections/trials/topic_words.hpp"
 
 namespace mapproof {
 namespace {
@@ -61,7 +62,7 @@ TEST(SweepTopic, TriesEveryCombinationOfEverySensorThatHasTheFactors) {
   EXPECT_EQ(study.parts.front().trials.size(), 2U + 2U * 2U + 2U * 6U);
   EXPECT_EQ(study.design.quantities[0].id, "mpe_m");
   EXPECT_EQ(study.design.quantities[1].id, "moe_percent");
-  EXPECT_EQ(kSweepTopic.conclude(study).size(), 3U);
+  EXPECT_EQ(conclusions_of(study).size(), 3U);
 }
 
 TEST(SweepTopic, AtTheExperimentsOwnLevelsIsTheExperiment) {
@@ -137,11 +138,17 @@ TEST(SweepTopic, RefusesWhatCannotBeInOneLine) {
   EXPECT_NE(refusal(R"({"side_m": [0.5, 2], "landmarks": [10, 200]})")
                 .find("landmarks = 200, side_m = 0.5: 200 landmarks"),
             std::string::npos);
-  EXPECT_NE(refusal(R"({"landmarks": [5, 20], "anchors": [3]})").find("K = "), std::string::npos);
+  EXPECT_NE(refusal(R"({"landmarks": [5, 20], "anchors": [3]})").find("K must be below"),
+            std::string::npos);
   EXPECT_EQ(refusal(R"({"range_noise_m": [0, 1]})"),
             "s.json: /sweeps/0: no sensor of the experiment has these factors");
   EXPECT_EQ(refusal(R"({"steps": [50], "anchors": [4], "side_m": [3]})"),
-            "s.json: /sweeps/0: expected one factor or two, got 3");
+            "s.json: /sweeps/0: expected at most 2 of anchors, bearing_noise_deg, "
+            "landmark_diameter_m, landmarks, range_noise_m, reach_m, side_m, steps, "
+            "visibility_errors_percent, got 3");
+  EXPECT_NE(refusal(R"({"side_m": [1.5, 2], "steps": [50]}, {"steps": [80], "side_m": [3]})")
+                .find("varies the same factors as sweeps/0"),
+            std::string::npos);
   EXPECT_NE(refusal(R"({"ancors": [4]})").find("anchors"), std::string::npos) << "a near name";
   EXPECT_NE(refusal(R"({"anchors": [4.5]})").find("expected an integer"), std::string::npos);
   EXPECT_NE(refusal(R"({"steps": [100, 50]})").find("ascending"), std::string::npos);

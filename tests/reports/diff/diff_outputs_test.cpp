@@ -4,17 +4,14 @@
 
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
-#include <valijson/adapters/nlohmann_json_adapter.hpp>
-#include <valijson/schema.hpp>
-#include <valijson/schema_parser.hpp>
-#include <valijson/validation_results.hpp>
-#include <valijson/validator.hpp>
 
 #include "core/base/errors.hpp"
 #include "core/base/files.hpp"
 #include "reports/diff/diff_settings.hpp"
 #include "reports/diff/folder_diff.hpp"
 #include "tests/reports/diff/value_cases.hpp"
+#include "tests/support/comparison_schemas.hpp"
+#include "tests/support/schema_problem.hpp"
 #include "tests/support/temporary_folder.hpp"
 #include "tests/support/xml.hpp"
 
@@ -22,21 +19,6 @@ namespace mapproof::test {
 namespace {
 
 using nlohmann::json;
-using Adapter = valijson::adapters::NlohmannJsonAdapter;
-
-std::string schema_problem(const std::string& name, const json& value) {
-  const json document =
-      json::parse(read_file(std::string(MAPPROOF_SOURCE_DIR) + "/docs/schemas/" + name));
-  valijson::Schema schema;
-  valijson::SchemaParser().populateSchema(Adapter(document), schema);
-  valijson::ValidationResults results;
-  if (valijson::Validator().validate(schema, Adapter(value), &results)) return {};
-  valijson::ValidationResults::Error error;
-  results.popError(error);
-  std::string place;
-  for (const std::string& part : error.context) place += part;
-  return place + ": " + error.description;
-}
 
 /// One item of each verdict, with names that have broken something somewhere.
 DiffResult hostile_result() {
@@ -81,6 +63,12 @@ TEST(DiffOutputs, MarkdownEndsAtFiftyRowsAndSaysHowManyAreLeft) {
   EXPECT_NE(diff_markdown(result).find("and 70 more"), std::string::npos);
 }
 
+TEST(DiffOutputs, SchemasAreThoseOfTheCode) {
+  for (const auto& [name, text] : comparison_schemas())
+    EXPECT_EQ(read_file(std::filesystem::path(MAPPROOF_SOURCE_DIR) / "docs/schemas" / name), text)
+        << "cmake --build build --target write_schemas";
+}
+
 TEST(DiffOutputs, JsonIsAsItsSchemaSays) {
   const TemporaryFolder folder;
   write_base_study(folder / "a");
@@ -93,7 +81,7 @@ TEST(DiffOutputs, JsonIsAsItsSchemaSays) {
     std::filesystem::copy(folder / "a", folder / "b", std::filesystem::copy_options::recursive);
     cases[i].change(folder / "b");
     const json value = json::parse(diff_json(folder_diff(folder / "a", folder / "b")).dump());
-    EXPECT_EQ(schema_problem("diff.schema.json", value), "");
+    EXPECT_EQ(schema_problem("diff", value), "");
   }
 }
 
@@ -109,7 +97,7 @@ TEST(DiffSettings, TakeEveryKeyThatTheSchemaHas) {
                {"id": "*", "x": 9, "y": 9, "width": 1, "height": 1}],
     "allow": ["better", "style"]
   })";
-  EXPECT_EQ(schema_problem("diff_settings.schema.json", json::parse(text)), "");
+  EXPECT_EQ(schema_problem("diff_settings", json::parse(text)), "");
   const DiffSettings settings = parse_diff_settings(text, "s.json");
   EXPECT_EQ(settings.records.significance, 0.01);
   EXPECT_EQ(settings.records.tolerances.at("mpe_m").absolute, 0.001);

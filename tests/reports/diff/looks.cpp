@@ -78,7 +78,8 @@ Image drawn(const Drawing& drawing, const Look& look) {
   Drawing shapes = drawing;
   std::erase_if(shapes.items,
                 [](const Item& item) { return std::holds_alternative<TextLine>(item.what); });
-  paint(shapes, context.get(), false);
+  std::vector<SurfaceHandle> images;
+  paint(shapes, context.get(), false, images);
   cairo_reset_clip(context.get());
   cairo_set_antialias(context.get(), CAIRO_ANTIALIAS_DEFAULT);
   const FontOptionsHandle options = plain_font_options();

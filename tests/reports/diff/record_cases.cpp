@@ -171,11 +171,11 @@ void add_runs(std::vector<ValueCase>& cases) {
          .passes = false,
          .change = [=](const fs::path& folder) { write_changed(SmallStudy(7, layouts), folder); },
          .alone = false});
-  cases.push_back(changed_study(
-      "a status more", "records", Verdict::kChanged, {"status of layout-3-pose-1", "bridged"},
-      [](SmallStudy& study) {
-        study.study.runs[2].records[1].statuses.push_back({StatusCode::kBridged, "Two pieces."});
-      }));
+  cases.push_back(changed_study("a status more", "records", Verdict::kChanged,
+                                {"status of layout-3-pose-1", "bridged"}, [](SmallStudy& study) {
+                                  study.study.runs[2].records[1].statuses.push_back(
+                                      status_with_message(StatusCode::kBridged, "Two pieces."));
+                                }));
   cases.push_back(
       changed_study("a score lost", "records", Verdict::kWorse, {"lost in 1 run"},
                     [](SmallStudy& study) { study.study.runs[2].records[1].score.reset(); }));

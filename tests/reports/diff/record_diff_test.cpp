@@ -220,6 +220,21 @@ TEST(PointsDiff, LaysShapesOnEachOtherByPlaceTurnScaleAndMirror) {
   EXPECT_EQ(other->moves[0].name, "4");
 }
 
+TEST(PointsDiff, LaysMetricMapsWithoutAFrameOnEachOtherWithoutScale) {
+  Points points(4, 2), turned(4, 2);
+  points << 0, 0, 1, 0, 2, 1, 0.5, 3;
+  for (Eigen::Index i = 0; i < 4; ++i) turned.row(i) << points(i, 1) + 4.0, points(i, 0) - 7.0;
+  const auto beyond = [&](const Points& other, bool is_free) {
+    PlacedPoints a, b;
+    a.points = points, b.points = other;
+    a.is_free = b.is_free = is_free;
+    return points_diff("m", a, b, {}).value().beyond;
+  };
+  EXPECT_EQ(beyond(turned, true), 0);
+  EXPECT_GT(beyond(turned, false), 0);
+  EXPECT_GT(beyond(1.1 * turned, true), 0);
+}
+
 TEST(PointsDiff, TellsAPlaceThatIsLostAndOneThatIsGained) {
   PlacedPoints before, after;
   before.points.resize(4, 2);

@@ -59,8 +59,7 @@ MapRecord make_map(const RunId& run, const MethodSetting& setting, int step, con
                    Random& random) {
   MapRecord map;
   map.id = record_id(run, kSensor, setting, step);
-  map.sensor = kSensor;
-  map.setting = setting;
+  map.origin = FromSensor{kSensor, setting};
   map.step = step;
   map.anchors = {0, 3, 8, 11};
   map.truth_m = truth;
@@ -159,8 +158,7 @@ void SmallStudy::rescore() {
 std::vector<Figure> SmallStudy::figures() const {
   std::vector<Figure> all;
   for (const MapRecord& map : maps.at({2, 1}))
-    if (map.step == 200)
-      all.push_back(map_figure(map, "map-" + std::string(info(map.setting.method).name)));
+    if (map.step == 200) all.push_back(map_figure(map, "map-" + std::string(method_name(map))));
   all.push_back(curve_figure(study));
   return all;
 }

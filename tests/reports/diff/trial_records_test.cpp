@@ -15,8 +15,7 @@ TrialStudy two_runs() {
   study.experiment.name = "labels";
   study.experiment.topic = "labels";
   study.experiment.layouts = 2;
-  study.design = {.question = "?",
-                  .setups = {{.id = "all", .title = "All"}},
+  study.design = {.setups = {{.id = "all", .title = "All"}},
                   .series = {{.id = "joint", .label = "Joint"}},
                   .quantities = {known_quantity("mpe_m"),
                                  study_quantity("found", "found", "%", Better::kHigher)}};

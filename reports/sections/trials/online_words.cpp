@@ -1,0 +1,56 @@
+#include <algorithm>
+#include <string>
+#include <vector>
+
+#include <fmt/format.h>
+
+#include "reports/sections/trials/topic_words.hpp"
+#include "reports/sections/trials/trial_means.hpp"
+
+namespace mapproof {
+namespace {
+
+constexpr const char* kCarriedOn[] = {"smacof", "smacof-knn", "isomap"};
+
+std::string online_question(const TrialExperiment& experiment) {
+  return fmt::format(
+      "Observations arrive one by one, and every {:g} of them the map is made from sums over pairs "
+      "that are carried on. How far is it from the map that all observations so far make anew, and "
+      "through how many of them does each go?",
+      number_option(experiment, "every"));
+}
+
+std::vector<std::string> online_conclusions(const TrialStudy& study) {
+  std::vector<std::string> sentences;
+  for (const TrialSetup& setup : study.design.setups) {
+    const double last = levels_of(setup).back();
+    const Condition at = condition_at(setup, last);
+    double greatest = 0.0, beyond = 0.0;
+    for (const char* method : kCarriedOn) {
+      const auto most = [&](const char* quantity, double so_far) {
+        for (const double value : trial_values(study, at, method, quantity))
+          so_far = std::max(so_far, value);
+        return so_far;
+      };
+      greatest = most("greatest_gap_ppm", greatest);
+      beyond = most("beyond_percent", beyond);
+    }
+    sentences.push_back(fmt::format(
+        "{}: up to {:g} observations no map carried on, whatever the method, was further than "
+        "{:.2g} ppm of its size from the map made anew{}; it goes through {:g} observations for "
+        "its last update instead of {:g}.",
+        setup.title, last, greatest,
+        beyond > 0.0
+            ? fmt::format("; beyond the stated bound in {:.2g} % of the updates of one run", beyond)
+            : "",
+        trial_mean(study, at, kCarriedOn[0], "steps_gone_through"), last));
+  }
+  return sentences;
+}
+
+}  // namespace
+
+const TopicWords kOnlineWords = {
+    .topic = "online", .question = online_question, .conclusions = online_conclusions};
+
+}  // namespace mapproof

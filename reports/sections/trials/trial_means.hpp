@@ -1,0 +1,42 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "core/model/trial_study.hpp"
+#include "core/statistics/intervals.hpp"
+
+namespace mapproof {
+
+/// What all parts of a study came to for one quantity, over them all: for conclusions.
+///
+/// @return Of the finite values alone, in the order of the parts.
+/// @throws InvalidInput if the design has no such quantity.
+std::vector<double> trial_values(const TrialStudy& study, const Condition& at,
+                                 std::string_view series, std::string_view quantity);
+
+/// Their mean; NaN without any.
+double trial_mean(const TrialStudy& study, const Condition& at, std::string_view series,
+                  std::string_view quantity);
+
+/// "share missing [%]", "observations".
+std::string label_with_unit(const TrialFactor& factor);
+
+/// "a, b and c", all of them.
+std::string all_listed(const std::vector<std::string>& words);
+
+/// How far one series is from another, run by run: `series` less `other` wherever both have a
+/// value.
+/// @return Its mean, and the 95 % interval over layouts (none with one layout); empty without any
+///         pair.
+std::optional<MeanEstimate> trial_difference(const TrialStudy& study, const Condition& at,
+                                             std::string_view series, std::string_view other,
+                                             std::string_view quantity);
+
+/// "better", "worse" or "no different beyond chance", of a quantity that is better if lower;
+/// without an interval nothing is said of chance: "better, in one layout".
+std::string verdict_words(const MeanEstimate& difference);
+
+}  // namespace mapproof

@@ -1,0 +1,36 @@
+#include "reports/sections/trials/topic_words.hpp"
+
+#include <gtest/gtest.h>
+
+#include "core/trials/topic.hpp"
+
+namespace mapproof {
+namespace {
+
+TEST(TopicWords, AreThoseOfEveryTopic) {
+  std::vector<std::string_view> with_words, topics;
+  for (const TopicWords* words : all_topic_words()) with_words.push_back(words->topic);
+  for (const Topic* topic : all_topics()) topics.push_back(topic->name);
+  EXPECT_EQ(with_words, topics);
+}
+
+TEST(TopicWords, AskAQuestionOfEveryTopic) {
+  for (const Topic* topic : all_topics()) {
+    TrialExperiment experiment;
+    experiment.topic = topic->name;
+    for (const TrialOption& option : topic->options)
+      experiment.options[std::string(option.name)] = option.usual;
+    EXPECT_GT(question_of(experiment).size(), 40U) << topic->name;
+  }
+}
+
+TEST(TopicWords, AreNoneOfATopicThatIsNotKnown) {
+  TrialStudy study;
+  study.experiment.topic = "weather";
+  study.parts.emplace_back();
+  EXPECT_EQ(question_of(study.experiment), "");
+  EXPECT_TRUE(conclusions_of(study).empty());
+}
+
+}  // namespace
+}  // namespace mapproof

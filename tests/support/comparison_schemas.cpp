@@ -1,0 +1,15 @@
+#include "tests/support/comparison_schemas.hpp"
+
+#include "core/json/json_text.hpp"
+#include "reports/diff/settings_fields.hpp"
+#include "tests/support/record_schema.hpp"
+
+namespace mapproof::test {
+
+std::map<std::string, std::string> comparison_schemas() {
+  return {{"approvals.schema.json", json_text(json_schema<ApprovalsFile>())},
+          {"diff.schema.json", json_text(json_schema<DiffResult>())},
+          {"diff_settings.schema.json", json_text(json_schema<DiffSettings>())}};
+}
+
+}  // namespace mapproof::test
