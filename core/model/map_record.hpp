@@ -27,9 +27,6 @@ enum class Frame {
 /// The name used in files: "truth", "similarity".
 std::string_view name(Frame frame);
 
-/// The frame of that name; empty if there is none.
-std::optional<Frame> frame_named(std::string_view name);
-
 /// An embedding of what one sensor observed.
 struct FromSensor {
   Sensor sensor = Sensor::kVisibility;

@@ -81,23 +81,6 @@ Condition condition_at(const TrialSetup& setup, double level) {
   return condition(setup.id, {{.factor = setup.factors.front().id, .value = level}});
 }
 
-std::string level_words(const TrialSetup& setup, const Condition& at) {
-  std::vector<std::string> words;
-  for (const TrialFactor& factor : setup.factors) {
-    const auto level = std::ranges::find(at.levels, factor.id, &Level::factor);
-    if (level == at.levels.end()) continue;
-    words.push_back(fmt::format("{} {:g}{}{}", factor.label, std::get<double>(level->value),
-                                factor.unit.empty() || factor.unit == "\u00B0" ? "" : " ",
-                                factor.unit));
-  }
-  return fmt::format("{}", fmt::join(words, ", "));
-}
-
-std::string series_label(const TrialDesign& design, std::string_view id) {
-  const auto found = std::ranges::find(design.series, id, &TrialSeries::id);
-  return found == design.series.end() ? std::string(id) : found->label;
-}
-
 void add_seconds(TrialPart& part, std::string_view series, double seconds) {
   const auto found = std::ranges::find(part.seconds, series, &TrialSeconds::series);
   if (found == part.seconds.end())

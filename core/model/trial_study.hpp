@@ -47,10 +47,6 @@ std::vector<double> levels_of(const TrialSetup& setup);
 /// @throws InvalidInput as levels_of().
 Condition condition_at(const TrialSetup& setup, double level);
 
-/// "noise of bearings 20°", "observations 2000": the levels of a condition of the setup with what
-/// they are of; empty if it has no factors.
-std::string level_words(const TrialSetup& setup, const Condition& at);
-
 /// One of what is held against each other: a method, a criterion, a sensor.
 struct TrialSeries {
   std::string id;     ///< [a-z][a-z0-9-]*: "ppca-q10".
@@ -74,14 +70,12 @@ struct TrialDesign {
   std::vector<Quantity> quantities;  ///< By which trials are judged: study_quantity().
 };
 
-/// The label of a series of the design; its id if there is none of it.
-std::string series_label(const TrialDesign& design, std::string_view id);
-
 /// What one series came to under one condition of a setup. Not every combination has to be tried.
 struct Trial {
   Condition at;  ///< The setup and a level of each of its factors.
   std::string series;
-  std::vector<double> values;  ///< As many as the design has quantities; NaN: nothing came out.
+  /// By quantity of the design. One that does not apply is not there; NaN: nothing came out.
+  std::map<std::string, double> values;
   std::vector<Status> statuses;
 };
 
@@ -96,8 +90,9 @@ struct MeasuredPair {
 
 /// A map to be looked at.
 struct TrialMap {
-  std::string id;     ///< [a-z][a-z0-9-]*, unique in the study: "ranged-dataset2".
-  std::string title;  ///< What it shows, a sentence for its caption.
+  std::string id;      ///< [a-z][a-z0-9-]*, unique in the study: "ranged-dataset2".
+  Condition at;        ///< The setup and a level of each of its factors.
+  std::string series;  ///< That made it.
   MapRecord map;
   std::vector<MeasuredPair> pairs;        ///< Drawn thin under the map; may be empty.
   std::optional<MapCertainty> certainty;  ///< The ellipses of its landmarks.

@@ -217,6 +217,10 @@ std::optional<RecordFault> fault_of(const TrialExperiment& experiment) {
   if (static_cast<double>(landmarks) * experiment.steps > kMostEntries)
     return {{"steps", fmt::format("{} landmarks at {} steps are more than {:g} entries", landmarks,
                                   experiment.steps, kMostEntries)}};
+  const auto observations = experiment.options.find("observations");
+  if (observations != experiment.options.end() && observations->second.back() > experiment.steps)
+    return {{"options/observations", fmt::format("{:g} observations of {} steps",
+                                                 observations->second.back(), experiment.steps)}};
   std::vector<std::set<std::string>> swept;
   for (std::size_t i = 0; i < experiment.sweeps.size(); ++i) {
     const std::string pointer = fmt::format("sweeps/{}", i);

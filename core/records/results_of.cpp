@@ -2,8 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <set>
-#include <tuple>
 #include <utility>
 
 #include <fmt/format.h>
@@ -134,23 +132,6 @@ std::string figure_prefix(const std::string& name) {
   return id.front() >= 'a' && id.front() <= 'z' ? id : "study-" + id;
 }
 
-/// See labelled_results().
-void drop_what_does_not_apply(Results& results) {
-  using Cell = std::tuple<std::string, std::string, std::string>;  // Setup, method, quantity.
-  const auto cell_of = [](const Result& row) {
-    return Cell{row.at.setup, row.method, row.quantity};
-  };
-  std::set<Cell> with_value;
-  for (const Result& row : results.rows)
-    if (!std::isnan(row.value)) with_value.insert(cell_of(row));
-  std::set<std::pair<std::string, std::string>> explained;
-  for (const RunOutcome& outcome : results.outcomes)
-    if (!outcome.codes.empty()) explained.insert({outcome.at.setup, outcome.method});
-  std::erase_if(results.rows, [&](const Result& row) {
-    return !with_value.contains(cell_of(row)) && !explained.contains({row.at.setup, row.method});
-  });
-}
-
 std::string group_of(const TrialPart& part) { return part.run ? layout_of(*part.run) : part.id; }
 
 }  // namespace
@@ -197,8 +178,7 @@ Results results_of(const TrialStudy& study) {
   for (const TrialPart& part : study.parts)
     for (const Trial& trial : part.trials) {
       RecordRows rows(results, trial.at, trial.series, part.id, group_of(part));
-      for (std::size_t i = 0; i < trial.values.size(); ++i)
-        rows.add(study.design.quantities.at(i).id, trial.values[i]);
+      for (const auto& [quantity, value] : trial.values) rows.add(quantity, value);
       rows.add(trial.statuses);
     }
   sort_results(results);
@@ -218,7 +198,6 @@ ResultsStudy labelled_results(const TrialStudy& study) {
                         .factors = {},
                         .runs = {},
                         .results = results_of(study)};
-  drop_what_does_not_apply(labelled.results);
   for (const Quantity& quantity : study.design.quantities) {
     labelled.quantities.push_back(quantity.id);
     labelled.quantity_labels.push_back({.id = quantity.id, .label = quantity.label});

@@ -23,8 +23,7 @@ Results results_of(const SlamStudy& study);
 /// Setups, factors and quantities are the design's; groups are layouts or data sets.
 Results results_of(const TrialStudy& study);
 
-/// The same under the labels of its design, for the report. Values that no run of a series has in a
-/// setup, and no status explains, do not apply: they are not there.
+/// The same under the labels of its design, for the report.
 ResultsStudy labelled_results(const TrialStudy& study);
 
 /// Of one log, of one map.

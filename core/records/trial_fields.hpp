@@ -212,18 +212,25 @@ void fields(Visitor& v, TrialStudy& study) {
   v.field("provenance", study.provenance);
 }
 
+/// What was tried under which condition.
+template <typename Visitor>
+void tried_fields(Visitor& v, Condition& at, std::string& series) {
+  v.field("setup", at.setup);
+  v.field("series", series);
+  std::map<std::string, double> levels;
+  for (const Level& level : at.levels) levels[level.factor] = std::get<double>(level.value);
+  v.field("levels", levels, {.description = "By factor.", .whole_as_integers = true});
+  if constexpr (Visitor::kReads)
+    for (const auto& [factor, level] : levels) at.levels.push_back({factor, level});
+}
+
 template <typename Visitor>
 void fields(Visitor& v, Trial& trial) {
   using namespace record_rules;
-  v.field("setup", trial.at.setup);
-  v.field("series", trial.series);
-  std::map<std::string, double> levels;
-  for (const Level& level : trial.at.levels) levels[level.factor] = std::get<double>(level.value);
-  v.field("levels", levels, {.description = "By factor.", .whole_as_integers = true});
-  if constexpr (Visitor::kReads)
-    for (const auto& [factor, level] : levels) trial.at.levels.push_back({factor, level});
+  tried_fields(v, trial.at, trial.series);
   v.field("values", trial.values,
-          {.description = "One for each quantity of the design; null: nothing came out.",
+          {.description = "By quantity of the design. One that does not apply is not there; null: "
+                          "nothing came out.",
            .nullable = true,
            .whole_as_integers = true});
   FieldRule statuses = kStatuses;
@@ -245,7 +252,7 @@ template <typename Visitor>
 void fields(Visitor& v, TrialMap& map) {
   using namespace record_rules;
   v.field("id", map.id, kId);
-  v.field("title", map.title);
+  tried_fields(v, map.at, map.series);
   v.field("map", map.map);
   v.field("pairs", map.pairs);
   v.field("certainty", map.certainty, {.description = "The ellipses of its landmarks; null: none."});
@@ -267,8 +274,17 @@ struct TrialPartFile {
   const TrialDesign* design = nullptr;  ///< That trials belong to; null: not known.
 };
 
-/// What is wrong with a trial as one of the design.
+/// What is wrong with a trial, or a map, as one of the design.
 std::optional<RecordFault> fault_of(const Trial& trial, const TrialDesign& design);
+std::optional<RecordFault> fault_of(const TrialMap& map, const TrialDesign& design);
+
+template <typename Visitor, typename Item>
+void check_all(Visitor& v, std::string_view key, const std::vector<Item>& items,
+               const TrialDesign& design) {
+  for (std::size_t i = 0; i < items.size(); ++i)
+    if (const auto fault = fault_of(items[i], design))
+      v.refuse(fmt::format("{}/{}/{}", key, i, fault->pointer), fault->what);
+}
 
 template <typename Visitor>
 void fields(Visitor& v, TrialPartFile& file) {
@@ -283,9 +299,10 @@ void fields(Visitor& v, TrialPartFile& file) {
   v.field("maps", part.maps, {.max_items = record_rules::kMostOfATrial});
   check_ids(v, "maps", part.maps);
   if constexpr (Visitor::kReads)
-    for (std::size_t i = 0; file.design != nullptr && i < part.trials.size(); ++i)
-      if (const auto fault = fault_of(part.trials[i], *file.design))
-        v.refuse(fmt::format("trials/{}/{}", i, fault->pointer), fault->what);
+    if (file.design != nullptr) {
+      check_all(v, "trials", part.trials, *file.design);
+      check_all(v, "maps", part.maps, *file.design);
+    }
 }
 
 }  // namespace mapproof

@@ -10,23 +10,37 @@
 
 namespace mapproof {
 
-std::optional<RecordFault> fault_of(const Trial& trial, const TrialDesign& design) {
-  const auto setup = std::ranges::find(design.setups, trial.at.setup, &TrialSetup::id);
+namespace {
+
+std::optional<RecordFault> fault_of(const Condition& at, const std::string& series,
+                                    const TrialDesign& design) {
+  const auto setup = std::ranges::find(design.setups, at.setup, &TrialSetup::id);
   if (setup == design.setups.end()) return {{"setup", "the study has no such setup"}};
   for (const TrialFactor& factor : setup->factors) {
-    const auto found = std::ranges::find(trial.at.levels, factor.id, &Level::factor);
-    if (found == trial.at.levels.end())
+    const auto found = std::ranges::find(at.levels, factor.id, &Level::factor);
+    if (found == at.levels.end())
       return {{"levels", "lacks the factor " + in_quotes(factor.id)}};
     if (std::ranges::find(factor.levels, std::get<double>(found->value)) == factor.levels.end())
       return {{"levels/" + factor.id, "the setup has no such level"}};
   }
-  if (trial.at.levels.size() > setup->factors.size())
+  if (at.levels.size() > setup->factors.size())
     return {{"levels", "has a factor that the setup does not have"}};
-  if (std::ranges::find(design.series, trial.series, &TrialSeries::id) == design.series.end())
+  if (std::ranges::find(design.series, series, &TrialSeries::id) == design.series.end())
     return {{"series", "the study has no such series"}};
-  if (trial.values.size() != design.quantities.size())
-    return {{"values", fmt::format("expected {} elements, got {}", design.quantities.size(),
-                                   trial.values.size())}};
+  return std::nullopt;
+}
+
+}  // namespace
+
+std::optional<RecordFault> fault_of(const TrialMap& map, const TrialDesign& design) {
+  return fault_of(map.at, map.series, design);
+}
+
+std::optional<RecordFault> fault_of(const Trial& trial, const TrialDesign& design) {
+  if (auto fault = fault_of(trial.at, trial.series, design)) return fault;
+  for (const auto& [quantity, value] : trial.values)
+    if (std::ranges::find(design.quantities, quantity, &Quantity::id) == design.quantities.end())
+      return {{"values/" + quantity, "the study has no such quantity"}};
   return std::nullopt;
 }
 

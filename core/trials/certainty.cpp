@@ -87,19 +87,22 @@ class WalkedWorld {
     const Coverage found = coverage(maps, certainties, frame_);
     return {.at = {},
             .series = series_id(setting),
-            .values = {found.mean_percent, found.truth_percent, found.bias_m, found.spread_m,
-                       found.told_m},
+            .values = {{"mean_covered_percent", found.mean_percent},
+                       {"truth_covered_percent", found.truth_percent},
+                       {"bias_m", found.bias_m},
+                       {"spread_m", found.spread_m},
+                       {"told_m", found.told_m}},
             .statuses = {}};
   }
 
   /// The first walk's map with its ellipses.
-  TrialMap shown(const MethodSetting& setting, const std::string& id) const {
+  TrialMap shown(const MethodSetting& setting, const Condition& at) const {
     const ObservationHistory& history = histories_.front();
     HistoryEmbedder embedder(history, history.steps());
     TrialMap shown;
-    shown.id = fmt::format("{}-{}", id, series_id(setting));
-    shown.title = fmt::format("{} from {}, with 95 % ellipses by the bootstrap", label(setting),
-                              name(history.sensor));
+    shown.id = fmt::format("{}-{}", at.setup, series_id(setting));
+    shown.at = at;
+    shown.series = series_id(setting);
     MapRecord& map = shown.map;
     map.id = shown.id;
     map.origin = FromSensor{history.sensor, setting};
@@ -143,7 +146,10 @@ TrialPart make_certainty(const TrialContext& context) {
         for (const Method method : {Method::kLpca, Method::kSmacof})
           add(part, walked.tried({method, std::nullopt}, walked.most_steps(), blocks, part),
               kBlocks, kBlockLength, blocks);
-    if (context.with_maps) part.maps.push_back(walked.shown(kSettings[1], id));
+    const double most = list_option(context.experiment, "observations").back();
+    if (context.with_maps)
+      part.maps.push_back(walked.shown(
+          kSettings[1], condition(id, {{.factor = std::string(kStepsFactor), .value = most}})));
   }
   return part;
 }

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <optional>
 
 #include <fmt/format.h>
 
@@ -90,9 +91,9 @@ class Picks {
     std::vector<Trial> trials;
     for (const CriterionInfo& criterion : all_criteria()) {
       const double error = errors_.first(ranked(anchored_, criterion.criterion));
-      const double shape_error = criterion.needs_anchors
-                                     ? kNaN
-                                     : shape_errors_.first(ranked(shapes_, criterion.criterion));
+      std::optional<double> shape_error;
+      if (!criterion.needs_anchors)
+        shape_error = shape_errors_.first(ranked(shapes_, criterion.criterion));
       trials.push_back(trial(criterion.name, error, shape_error));
     }
     trials.push_back(trial(kFixed, of_fixed(errors_), of_fixed(shape_errors_)));
@@ -101,11 +102,14 @@ class Picks {
   }
 
  private:
-  Trial trial(std::string_view series, double error, double shape_error) const {
-    return {.at = {},
-            .series = std::string(series),
-            .values = {error - errors_.best, shape_error - shape_errors_.best, error},
-            .statuses = {}};
+  /// @param shape_error  Empty: the criterion does not apply without anchors.
+  Trial trial(std::string_view series, double error, std::optional<double> shape_error) const {
+    Trial trial{.at = {},
+                .series = std::string(series),
+                .values = {{"regret_m", error - errors_.best}, {"mpe_m", error}},
+                .statuses = {}};
+    if (shape_error) trial.values["regret_shape_m"] = *shape_error - shape_errors_.best;
+    return trial;
   }
 
   double of_fixed(const Errors& errors) const {

@@ -3,6 +3,7 @@
 #include <chrono>
 #include <cmath>
 #include <limits>
+#include <optional>
 
 #include <fmt/format.h>
 
@@ -90,12 +91,12 @@ Confused confused_history(const ObservationHistory& truth, double share, Eigen::
 }
 
 /// Of the readings that the dealing gave to another landmark, the share that is where it belongs;
-/// NaN without any.
-double correct_percent(const ObservationHistory& found, const ObservationHistory& truth,
+/// empty without any.
+std::optional<double> correct_percent(const ObservationHistory& found, const ObservationHistory& truth,
                        const ObservationHistory& given) {
   const Mask wrong = given.values.array() != truth.values.array();
   const auto all = wrong.count();
-  if (all == 0) return std::numeric_limits<double>::quiet_NaN();
+  if (all == 0) return std::nullopt;
   const auto right = (wrong && (found.values.array() == truth.values.array())).count();
   return 100.0 * static_cast<double>(right) / static_cast<double>(all);
 }
@@ -138,14 +139,16 @@ class ConfusedMaps {
     const ScoredMap map = scored_map(embedder.embed(setting), context_.world->landmarks_m,
                                      context_.anchors, AffineFit::kLeastSquares);
     const double none = std::numeric_limits<double>::quiet_NaN();
-    part_.trials.push_back({condition_at(setup_, level_),
-                            series,
-                            {series == std::string_view(kEstimated)
-                                 ? correct_percent(history, truth_, confused.history)
-                                 : none,
-                             map.score ? map.score->mpe_m : none,
-                             map.score ? map.score->moe_unmirrored_percent : none},
-                            map.statuses});
+    Trial trial{.at = condition_at(setup_, level_),
+                .series = series,
+                .values = {{"mpe_m", map.score ? map.score->mpe_m : none},
+                           {"moe_unmirrored_percent",
+                            map.score ? map.score->moe_unmirrored_percent : none}},
+                .statuses = map.statuses};
+    if (trial.series == kEstimated)
+      if (const auto correct = correct_percent(history, truth_, confused.history))
+        trial.values["correct_percent"] = *correct;
+    part_.trials.push_back(std::move(trial));
     if (context_.with_maps && level_ == levels_of(setup_).back() &&
         series != std::string_view(kLeftOut))
       show(series, setting, map);
@@ -155,9 +158,8 @@ class ConfusedMaps {
     const std::string id = fmt::format("{}-{}", setup_.id, series);
     TrialMap shown;
     shown.id = id;
-    shown.title =
-        fmt::format("{}, {}: {}", setup_.title, level_words(setup_, condition_at(setup_, level_)),
-                    series_label(labels_design(context_.experiment), series));
+    shown.at = condition_at(setup_, level_);
+    shown.series = series;
     shown.map.id = id;
     shown.map.origin = FromSensor{truth_.sensor, setting};
     shown.map.step = static_cast<int>(truth_.steps());

@@ -80,12 +80,13 @@ TrialDesign missing_design(const TrialExperiment& experiment) {
   return design;
 }
 
-std::vector<double> values_of(const ScoredMap& map) {
+std::map<std::string, double> values_of(const ScoredMap& map) {
   const auto mapped = (map.positions_m.array().col(0).isNaN() == false).count();
   const double share = 100.0 * static_cast<double>(mapped) /
                        static_cast<double>(std::max<Eigen::Index>(map.positions_m.rows(), 1));
-  if (!map.score) return {std::nan(""), std::nan(""), share};
-  return {map.score->mpe_m, map.score->moe_unmirrored_percent, share};
+  return {{"mpe_m", map.score ? map.score->mpe_m : std::nan("")},
+          {"moe_unmirrored_percent", map.score ? map.score->moe_unmirrored_percent : std::nan("")},
+          {"mapped_percent", share}};
 }
 
 /// One history with gaps, mapped in every way.
@@ -169,8 +170,8 @@ class GappedHistory {
     const std::string id = fmt::format("{}-{}", setup_.id, series);
     part_.maps.push_back(
         {.id = id,
-         .title = fmt::format("{}, {}: {}", setup_.title, level_words(setup_, at()),
-                              series_label(missing_design(context_.experiment), series)),
+         .at = at(),
+         .series = series,
          .map = {.id = id,
                  .origin = FromSensor{history_.sensor, setting},
                  .step = static_cast<int>(steps()),

@@ -97,13 +97,18 @@ class MixedTrials {
     Trial trial{
         .at = at_,
         .series = series,
-        .values = {kNaN, kNaN, mixed_continuity(distances_, weights_, embedding.coordinates)},
+        .values = {{"mpe_m", kNaN},
+                   {"moe_percent", kNaN},
+                   {"continuity",
+                    mixed_continuity(distances_, weights_, embedding.coordinates)}},
         .statuses = embedding.statuses};
     trial.statuses.insert(trial.statuses.end(), map.statuses.begin(), map.statuses.end());
     if (map.aligned)
       if (const auto score =
-              score_map(map.positions_m, truth, context_.anchors, AffineFit::kLeastDistances))
-        trial.values = {score->mpe_m, score->moe_percent, trial.values.back()};
+              score_map(map.positions_m, truth, context_.anchors, AffineFit::kLeastDistances)) {
+        trial.values["mpe_m"] = score->mpe_m;
+        trial.values["moe_percent"] = score->moe_percent;
+      }
     part_.trials.push_back(std::move(trial));
   }
 

@@ -6,7 +6,6 @@
 
 #include <fmt/format.h>
 
-#include "core/base/not_finite.hpp"
 #include "core/base/random.hpp"
 #include "core/labels/moved.hpp"
 #include "core/trials/simulated_sightings.hpp"
@@ -66,9 +65,13 @@ struct Tally {
   }
 
   /// @param moves  False: nothing moved, so that nothing could be named.
-  std::vector<double> values(bool moves) const {
-    return {moves ? 100.0 * named / tried : kNaN, 100.0 * wrong / tried,
-            named > 0 ? step_error / named : kNaN, named > 0 ? length_error_m / named : kNaN};
+  std::map<std::string, double> values(bool moves) const {
+    std::map<std::string, double> values{{"false_percent", 100.0 * wrong / tried}};
+    if (moves) values["named_percent"] = 100.0 * named / tried;
+    if (named == 0) return values;
+    values["step_error"] = step_error / named;
+    values["length_error_m"] = length_error_m / named;
+    return values;
   }
 };
 

@@ -94,14 +94,13 @@ std::vector<Eigen::Index> anchors_of(const SightingSource& source) {
 }
 
 /// Mean distance from the truth after the turn, mirror and shift that fit best.
-double rigid_error(const Points& map, const std::optional<Points>& truth_m) {
-  if (!truth_m) return kNaN;
+double rigid_error(const Points& map, const Points& truth_m) {
   std::vector<Eigen::Index> both;
   for (Eigen::Index i = 0; i < map.rows(); ++i)
-    if (map.row(i).allFinite() && truth_m->row(i).allFinite()) both.push_back(i);
+    if (map.row(i).allFinite() && truth_m.row(i).allFinite()) both.push_back(i);
   if (both.size() < 3) return kNaN;
   const Points from = map(both, Eigen::all);
-  const Points to = (*truth_m)(both, Eigen::all);
+  const Points to = truth_m(both, Eigen::all);
   return (fit_similarity(from, to, Alignment::kRigidWithReflection)(from) - to)
       .rowwise()
       .norm()
@@ -172,16 +171,20 @@ MapRecord record_of(const RealWay& way, const RealSet& set, const Made& made) {
 
 Trial trial_of(const char* setup, const std::string& series, const RealWay& way, const RealSet& set,
                const Made& made, const MapRecord& map) {
-  const Score score = map.score.value_or(Score{kNaN, kNaN, kNaN, kNaN});
-  const double mapped =
-      static_cast<double>((map.estimate.col(0).array() == map.estimate.col(0).array()).count());
   const Points& own = made.embedding.coordinates;
-  return {.at = condition(setup),
-          .series = series,
-          .values = {score.mpe_m, score.moe_percent, score.mpe_all_fitted_m,
-                     way.method ? kNaN : rigid_error(own, set.source.truth_m),
-                     median_residual(own, made.pairs), mapped, kNaN},
-          .statuses = map.statuses};
+  Trial trial{.at = condition(setup), .series = series, .values = {}, .statuses = map.statuses};
+  trial.values["mapped"] =
+      static_cast<double>((map.estimate.col(0).array() == map.estimate.col(0).array()).count());
+  if (!set.anchors.empty()) {
+    const Score score = map.score.value_or(Score{kNaN, kNaN, kNaN, kNaN});
+    trial.values["mpe_m"] = score.mpe_m;
+    trial.values["moe_percent"] = score.moe_percent;
+    trial.values["mpe_all_fitted_m"] = score.mpe_all_fitted_m;
+  }
+  if (way.method) return trial;
+  trial.values["pair_m"] = median_residual(own, made.pairs);
+  if (set.source.truth_m) trial.values["rigid_m"] = rigid_error(own, *set.source.truth_m);
+  return trial;
 }
 
 void add_way(const RealWay& way, const RealSet& set, const TrialContext& context, TrialPart& part) {
@@ -190,7 +193,8 @@ void add_way(const RealWay& way, const RealSet& set, const TrialContext& context
   part.seconds.push_back(
       {context.part, way.id, std::chrono::duration<double>(Clock::now() - start).count()});
   TrialMap shown{.id = fmt::format("{}-{}", way.id, context.part),
-                 .title = fmt::format("{}: {}", context.part, way.label),
+                 .at = condition(kSetup),
+                 .series = way.id,
                  .map = record_of(way, set, made),
                  .pairs = made.pairs,
                  .certainty = {}};
@@ -228,7 +232,7 @@ void add_labels(const RealSet& set, const TrialContext& context, TrialPart& part
     const Clock::time_point start = Clock::now();
     const MendedLabels mended = mended_log(spoilt.log, set.source.truth_m);
     add(spoilt.id + "-mended", mended.log, start);
-    part.trials.back().values.back() = mended.faults;
+    part.trials.back().values["faults"] = mended.faults;
   }
 }
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <utility>
 
 #include <fmt/format.h>
 
@@ -103,18 +104,23 @@ void follow(const TrialContext& context, const Followed& method, const Observati
     const Embedding whole = HistoryEmbedder(history, t).embed(method.setting);
     anew_s += seconds_since(start);
     gaps.add(relative_gap(update.coordinates, whole.coordinates));
-    const auto trial = [&](const char* series, const std::vector<double>& values) {
+    const auto trial = [&](const char* series, std::map<std::string, double> values) {
       part.trials.push_back({.at = condition(setup, {{.factor = std::string(kStepsFactor),
                                                       .value = static_cast<double>(t)}}),
                              .series = series,
-                             .values = values,
+                             .values = std::move(values),
                              .statuses = {}});
     };
     if (asked) {
-      trial(method.carried_on, {1e6 * gaps.last, 1e6 * gaps.greatest,
-                                100.0 * gaps.beyond / static_cast<double>(gaps.updates),
-                                static_cast<double>(t - before)});
-      trial(method.anew, {0.0, 0.0, 0.0, static_cast<double>(t)});
+      trial(method.carried_on,
+            {{"gap_ppm", 1e6 * gaps.last},
+             {"greatest_gap_ppm", 1e6 * gaps.greatest},
+             {"beyond_percent", 100.0 * gaps.beyond / static_cast<double>(gaps.updates)},
+             {"steps_gone_through", static_cast<double>(t - before)}});
+      trial(method.anew, {{"gap_ppm", 0.0},
+                          {"greatest_gap_ppm", 0.0},
+                          {"beyond_percent", 0.0},
+                          {"steps_gone_through", static_cast<double>(t)}});
     }
     before = t;
   }

@@ -87,7 +87,6 @@ class Trials {
            const Way& way) {
     const Clock::time_point start = Clock::now();
     SubmapEmbedding made;
-    made.median_residual = std::nan("");
     if (way.whole)
       made.embedding = HistoryEmbedder(history, history.steps(), {}, way.parts.rule).embed(setting);
     else
@@ -99,12 +98,16 @@ class Trials {
                                      AffineFit::kLeastSquares);
     const double mapped = 100.0 * map.positions_m.array().col(0).isFinite().cast<double>().mean();
     const double unknown = std::nan("");
-    part_.trials.push_back({at,
-                            series,
-                            {map.score ? map.score->mpe_m : unknown,
-                             map.score ? map.score->moe_unmirrored_percent : unknown, mapped,
-                             100.0 * made.median_residual},
-                            map.statuses});
+    Trial trial{.at = at,
+                .series = series,
+                .values = {{"mpe_m", map.score ? map.score->mpe_m : unknown},
+                           {"moe_unmirrored_percent",
+                            map.score ? map.score->moe_unmirrored_percent : unknown},
+                           {"mapped_percent", mapped}},
+                .statuses = map.statuses};
+    if (!way.whole && !std::isnan(made.median_residual))
+      trial.values["residual_percent"] = 100.0 * made.median_residual;
+    part_.trials.push_back(std::move(trial));
   }
 
  private:

@@ -85,7 +85,8 @@ void map_at(const Experiment& experiment, const TrialContext& context, const Con
     part.trials.push_back(
         {.at = at,
          .series = swept_series(setting),
-         .values = {map.score ? map.score->mpe_m : kNaN, map.score ? map.score->moe_percent : kNaN},
+         .values = {{"mpe_m", map.score ? map.score->mpe_m : kNaN},
+                    {"moe_percent", map.score ? map.score->moe_percent : kNaN}},
          .statuses = map.statuses});
   }
 }

@@ -21,7 +21,8 @@ TrialStudy study_of(double by, double jitter) {
       part.run = RunId{layout, pose};
       const double first = 0.1 * layout + 0.01 * pose;
       const double second = first - by + (layout == 2 ? jitter : 0.0);
-      part.trials = {{at(5.0), "one", {first}, {}}, {at(5.0), "two", {second}, {}}};
+      part.trials = {{at(5.0), "one", {{"mpe_m", first}}, {}},
+                     {at(5.0), "two", {{"mpe_m", second}}, {}}};
       study.parts.push_back(std::move(part));
     }
   return study;

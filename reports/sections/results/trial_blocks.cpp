@@ -10,6 +10,7 @@
 #include "render/figures/measured_map.hpp"
 #include "render/figures/pair_distances.hpp"
 #include "reports/sections/sessions_table.hpp"
+#include "reports/sections/trials/trial_means.hpp"
 #include "reports/sections/wording.hpp"
 
 namespace mapproof {
@@ -43,17 +44,30 @@ void add_extent(const TrialStudy& study, KeyValues& facts) {
   facts.items.push_back({"Steps", {fmt::format("{}", experiment.steps), Emphasis::kPlain}});
 }
 
+std::string title_of(const TrialStudy& study, const TrialPart& part, const TrialMap& map) {
+  const auto setup = std::ranges::find(study.design.setups, map.at.setup, &TrialSetup::id);
+  std::string title = is_of_data(study) || setup == study.design.setups.end()
+                          ? title_of(study, part.id)
+                          : setup->title;
+  if (setup != study.design.setups.end() && !setup->factors.empty())
+    title += ", " + level_words(*setup, map.at);
+  title += ": " + series_label(study.design, map.series);
+  if (map.certainty) title += ", with 95 % ellipses by the bootstrap";
+  return title;
+}
+
 }  // namespace
 
 FigureGroup trial_maps(const TrialStudy& study, const std::string& prefix) {
   FigureGroup maps{prefix + "-maps", "Maps", "", {}};
   for (const TrialPart& part : study.parts)
     for (const TrialMap& map : part.maps) {
+      const std::string title = title_of(study, part, map);
       maps.figures.push_back(measured_map_figure(
-          {prefix + "-map-" + map.id, map.title, map.map, map.pairs, map.certainty}));
+          {prefix + "-map-" + map.id, title, map.map, map.pairs, map.certainty}));
       if (!map.pairs.empty())
         maps.figures.push_back(pair_distances_figure(
-            {prefix + "-pairs-" + map.id, map.title + ", measured pairs", map.map, map.pairs}));
+            {prefix + "-pairs-" + map.id, title + ", measured pairs", map.map, map.pairs}));
     }
   return maps;
 }

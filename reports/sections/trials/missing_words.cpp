@@ -53,12 +53,12 @@ double regret_m(const TrialStudy& study, const std::string& series) {
   double sum = 0.0, count = 0.0;
   for (const TrialPart& part : study.parts)
     for (const Trial& trial : part.trials) {
-      if (trial.series != series || !std::isfinite(trial.values[0])) continue;
-      double best = trial.values[0];
+      if (trial.series != series || !std::isfinite(trial_value(trial, "mpe_m"))) continue;
+      double best = trial_value(trial, "mpe_m");
       for (const Trial& other : part.trials)
-        if (other.at == trial.at && std::isfinite(other.values[0]))
-          best = std::min(best, other.values[0]);
-      sum += trial.values[0] - best;
+        if (other.at == trial.at && std::isfinite(trial_value(other, "mpe_m")))
+          best = std::min(best, trial_value(other, "mpe_m"));
+      sum += trial_value(trial, "mpe_m") - best;
       count += 1.0;
     }
   return count > 0.0 ? sum / count : std::nan("");

@@ -64,13 +64,13 @@ std::string choice_words(const TrialStudy& study, const TrialSetup& setup) {
       const Trial* pick = nullptr;
       double best_m = HUGE_VAL, joint_m = kNaN;
       for (const Trial& trial : part.trials) {
-        if (trial.at != at || !std::isfinite(trial.values[0])) continue;
-        if (pick == nullptr || trial.values[2] > pick->values[2]) pick = &trial;
-        best_m = std::min(best_m, trial.values[0]);
-        if (trial.series == "joint") joint_m = trial.values[0];
+        if (trial.at != at || !std::isfinite(trial_value(trial, "mpe_m"))) continue;
+        if (pick == nullptr || trial_value(trial, "continuity") > trial_value(*pick, "continuity")) pick = &trial;
+        best_m = std::min(best_m, trial_value(trial, "mpe_m"));
+        if (trial.series == "joint") joint_m = trial_value(trial, "mpe_m");
       }
       if (pick == nullptr || std::isnan(joint_m)) continue;
-      picked += pick->values[0] - best_m, joint += joint_m - best_m, count += 1.0;
+      picked += trial_value(*pick, "mpe_m") - best_m, joint += joint_m - best_m, count += 1.0;
     }
   if (count == 0.0) return "";
   return fmt::format(

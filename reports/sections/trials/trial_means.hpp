@@ -10,6 +10,9 @@
 
 namespace mapproof {
 
+/// A trial's value of a quantity; NaN if nothing came out or the quantity does not apply.
+double trial_value(const Trial& trial, std::string_view quantity);
+
 /// What all parts of a study came to for one quantity, over them all: for conclusions.
 ///
 /// @return Of the finite values alone, in the order of the parts.
@@ -20,6 +23,13 @@ std::vector<double> trial_values(const TrialStudy& study, const Condition& at,
 /// Their mean; NaN without any.
 double trial_mean(const TrialStudy& study, const Condition& at, std::string_view series,
                   std::string_view quantity);
+
+/// "noise of bearings 20°", "observations 2000": the levels of a condition of the setup with what
+/// they are of; empty if it has no factors.
+std::string level_words(const TrialSetup& setup, const Condition& at);
+
+/// The label of a series of the design; its id if there is none of it.
+std::string series_label(const TrialDesign& design, std::string_view id);
 
 /// "share missing [%]", "observations".
 std::string label_with_unit(const TrialFactor& factor);

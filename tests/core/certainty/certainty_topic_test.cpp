@@ -54,9 +54,9 @@ TEST(CertaintyTopic, TriesEverySeriesAtEveryLevelOfBothSensors) {
   EXPECT_EQ(study.parts[0].trials.size(), 20U);
   for (const Trial& trial : study.parts[0].trials) {
     ASSERT_EQ(trial.values.size(), study.design.quantities.size());
-    EXPECT_GE(trial.values[0], 0.0);
-    EXPECT_LE(trial.values[0], 100.0);
-    EXPECT_GT(trial.values[3], 0.0);
+    EXPECT_GE(trial.values.at("mean_covered_percent"), 0.0);
+    EXPECT_LE(trial.values.at("mean_covered_percent"), 100.0);
+    EXPECT_GT(trial.values.at("spread_m"), 0.0);
   }
   ASSERT_EQ(study.parts[0].maps.size(), 2U);
   ASSERT_TRUE(study.parts[0].maps[0].certainty);

@@ -35,9 +35,9 @@ TEST(ChoiceTopic, RegretsNothingOfTheBestAndTriesEverySeries) {
                                     .with_maps = true})};
   EXPECT_EQ(study.parts[0].trials.size(), 2U * 2U * study.design.series.size());
   for (const Trial& trial : study.parts[0].trials) {
-    EXPECT_GE(trial.values[0], 0.0) << trial.series;
+    EXPECT_GE(trial.values.at("regret_m"), 0.0) << trial.series;
     if (trial.series != "anchors") {
-      EXPECT_GE(trial.values[1], 0.0) << trial.series;
+      EXPECT_GE(trial.values.at("regret_shape_m"), 0.0) << trial.series;
     }
   }
   const auto sentences = conclusions_of(study);

@@ -34,11 +34,11 @@ TEST(OnlineTopic, FollowsEverySensorToEveryLevel) {
   // Three sensors, three methods, two levels, carried on and anew.
   ASSERT_EQ(study.parts[0].trials.size(), 36U);
   for (const Trial& trial : study.parts[0].trials) {
-    EXPECT_GE(trial.values[1], trial.values[0]);
-    EXPECT_LE(trial.values[1], 1.0) << trial.at.setup << ' ' << trial.series;
-    EXPECT_EQ(trial.values[2], 0.0);
+    EXPECT_GE(trial.values.at("greatest_gap_ppm"), trial.values.at("gap_ppm"));
+    EXPECT_LE(trial.values.at("greatest_gap_ppm"), 1.0) << trial.at.setup << ' ' << trial.series;
+    EXPECT_EQ(trial.values.at("beyond_percent"), 0.0);
     const double steps = std::get<double>(trial.at.levels.at(0).value);
-    EXPECT_EQ(trial.values[3], trial.series.ends_with("-anew") ? steps : 50.0);
+    EXPECT_EQ(trial.values.at("steps_gone_through"), trial.series.ends_with("-anew") ? steps : 50.0);
   }
   EXPECT_EQ(conclusions_of(study).size(), 3U);
 }

@@ -51,12 +51,10 @@ const Trial& trial(const TrialStudy& study, std::string_view setup, std::string_
 
 TEST(LabelsTopic, EstimatesBetterThanLabelsAsGiven) {
   const TrialStudy study = small_study(kLabelsTopic, {{"shares", {0.0, 0.2}}, {"neighbours", {6}}});
-  for (const Trial& one : study.parts.front().trials)
-    EXPECT_EQ(one.values.size(), study.design.quantities.size());
-  EXPECT_EQ(trial(study, "unlabelled", "given", 0.0).values[1],
-            trial(study, "unlabelled", "estimated", 0.0).values[1]);
-  EXPECT_GT(trial(study, "unlabelled", "estimated", 20.0).values[0], 70.0);
-  EXPECT_TRUE(std::isnan(trial(study, "unlabelled", "given", 20.0).values[0]));  // None, by design.
+  EXPECT_EQ(trial(study, "unlabelled", "given", 0.0).values.at("mpe_m"),
+            trial(study, "unlabelled", "estimated", 0.0).values.at("mpe_m"));
+  EXPECT_GT(trial(study, "unlabelled", "estimated", 20.0).values.at("correct_percent"), 70.0);
+  EXPECT_FALSE(trial(study, "unlabelled", "given", 20.0).values.contains("correct_percent"));
   EXPECT_EQ(conclusions_of(study).size(), 3U);
   // Its MOE allows for a reflection, and says so.
   EXPECT_EQ(study.design.quantities[2], known_quantity("moe_unmirrored_percent"));
@@ -68,9 +66,10 @@ TEST(MovedTopic, NamesWhatMovedFarAndNothingElse) {
                                                      {"reach_m", {1.2}},
                                                      {"least_move", {1.5}},
                                                      {"tried", {3}}});
-  EXPECT_EQ(trial(study, "distance", "permutations", 0.0).values[1], 0.0);
-  EXPECT_EQ(trial(study, "distance", "permutations", 0.3).values[0], 100.0);
-  EXPECT_LT(trial(study, "distance", "permutations", 0.3).values[3], 0.03);
+  EXPECT_EQ(trial(study, "distance", "permutations", 0.0).values.at("false_percent"), 0.0);
+  EXPECT_FALSE(trial(study, "distance", "permutations", 0.0).values.contains("named_percent"));
+  EXPECT_EQ(trial(study, "distance", "permutations", 0.3).values.at("named_percent"), 100.0);
+  EXPECT_LT(trial(study, "distance", "permutations", 0.3).values.at("length_error_m"), 0.03);
   EXPECT_EQ(conclusions_of(study).size(), 3U);
 }
 

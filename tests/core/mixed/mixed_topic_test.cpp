@@ -38,7 +38,7 @@ TEST(MixedTopic, MapsEverySensorAndEveryMixAtEveryLevel) {
                                    .with_maps = true})};
   // 2 sensors in two ways and 3 mixes at 4 levels, 3 sensors in two ways and 3 mixes at 2.
   ASSERT_EQ(study.parts[0].trials.size(), 46U);
-  for (const Trial& trial : study.parts[0].trials) EXPECT_GT(trial.values[0], 0.0);
+  for (const Trial& trial : study.parts[0].trials) EXPECT_GT(trial.values.at("mpe_m"), 0.0);
   const std::vector<std::string> sentences = conclusions_of(study);
   // Of each setup what mixing gains, then what choosing by the neighbourhoods costs.
   ASSERT_EQ(sentences.size(), 6U);

@@ -80,28 +80,34 @@ TEST(MrclamTopic, PairsOfPerfectRobotsGiveThePerfectMap) {
   const TrialPart part = made(ordered, kMrclamTopic.data_sets(folder.path()).at(0));
   const TrialDesign design = kMrclamTopic.design(ordered);
   ASSERT_EQ(part.trials.size(), design.series.size());
-  for (const Trial& one : part.trials) EXPECT_EQ(one.values.size(), design.quantities.size());
   const Trial pairs = trial(part, "pairs");
-  EXPECT_LT(pairs.values[0], 1e-8);
-  EXPECT_LT(pairs.values[3], 1e-8);
-  EXPECT_EQ(pairs.values[5], 9.0);
+  EXPECT_LT(pairs.values.at("mpe_m"), 1e-8);
+  EXPECT_LT(pairs.values.at("rigid_m"), 1e-8);
+  EXPECT_EQ(pairs.values.at("mapped"), 9.0);
   // Labels made wrong have scores and no maps of their own.
   ASSERT_EQ(part.maps.size() + 4, design.series.size());
   ASSERT_TRUE(part.maps.back().certainty);
   EXPECT_EQ(part.maps.back().certainty->covariances.size(), 9U);
-  EXPECT_GT(trial(part, "swapped").values[3], 0.1);
-  EXPECT_LT(trial(part, "swapped-mended").values[3], 1e-6);
-  EXPECT_GE(trial(part, "swapped-mended").values[6], 1.0);
-  EXPECT_LT(trial(part, "misnamed-mended").values[3], 1e-6);
+  EXPECT_GT(trial(part, "swapped").values.at("rigid_m"), 0.1);
+  EXPECT_LT(trial(part, "swapped-mended").values.at("rigid_m"), 1e-6);
+  EXPECT_GE(trial(part, "swapped-mended").values.at("faults"), 1.0);
+  EXPECT_LT(trial(part, "misnamed-mended").values.at("rigid_m"), 1e-6);
   EXPECT_FALSE(part.maps.back().pairs.empty());
+  // What does not apply to a way is no result of it that was lost.
+  for (const Trial& one : part.trials)
+    for (const auto& [quantity, value] : one.values)
+      EXPECT_FALSE(std::isnan(value)) << one.series << ", " << quantity;
+  EXPECT_FALSE(trial(part, "bearing-cmds").values.contains("pair_m"));
+  EXPECT_FALSE(trial(part, "swapped").values.contains("faults"));
 }
 
 TEST(MrclamTopic, WithoutATruthThereAreMapsAndNoErrors) {
   const test::TemporaryFolder folder;
   write_set(folder, "set", false);
   const TrialPart part = made(experiment(), kMrclamTopic.data_sets(folder.path()).at(0));
-  EXPECT_TRUE(std::isnan(trial(part, "pairs").values[0]));
-  EXPECT_LT(trial(part, "pairs").values[4], 1e-8);
+  EXPECT_FALSE(trial(part, "pairs").values.contains("mpe_m"));
+  EXPECT_FALSE(trial(part, "pairs").values.contains("rigid_m"));
+  EXPECT_LT(trial(part, "pairs").values.at("pair_m"), 1e-8);
   EXPECT_TRUE(part.maps.back().map.estimate.allFinite());
   TrialStudy study;
   study.experiment = experiment();

@@ -78,7 +78,7 @@ TrialStudy made_up_trials(const TrialExperiment& experiment) {
           for (std::size_t i = 0; i < study.design.quantities.size(); ++i) {
             number *= 1.7;
             if (number > 1e9) number *= 1e-12;
-            trial.values.push_back(i % 3 == 2 ? kNaN : number);
+            trial.values[study.design.quantities[i].id] = i % 3 == 2 ? kNaN : number;
           }
           part.trials.push_back(std::move(trial));
         }

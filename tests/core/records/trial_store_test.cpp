@@ -41,14 +41,15 @@ TrialPart made_up_part(const RunId& run) {
   part.run = run;
   part.trials = {{.at = condition("random", {{"share", 0.1}}),
                   .series = "ppca",
-                  .values = {0.05, 100.0},
+                  .values = {{"mpe_m", 0.05}, {"found", 100.0}},
                   .statuses = {status_with_message(StatusCode::kNotConverged, "after 9 steps")}},
                  {.at = condition("random", {{"share", 0.5}}),
                   .series = "fill",
-                  .values = {kNaN, 0.0},
+                  .values = {{"mpe_m", kNaN}},
                   .statuses = {}}};
   TrialMap map{.id = "ppca",
-               .title = "PPCA",
+               .at = condition("random", {{"share", 0.5}}),
+               .series = "ppca",
                .map = test::made_up_result({1, 1}).maps[0],
                .pairs = {},
                .certainty = {}};
@@ -97,7 +98,7 @@ TEST(TrialStudy, IsReadBackAsItWasWritten) {
   ASSERT_EQ(study.parts.size(), 2U);
   EXPECT_EQ(study.parts[0].id, "layout-1-pose-1");
   EXPECT_EQ(trial_part_json(study.parts[1], ""), trial_part_json(made_up_part({2, 1}), ""));
-  EXPECT_TRUE(std::isnan(study.parts[0].trials[1].values[0]));
+  EXPECT_TRUE(std::isnan(study.parts[0].trials[1].values.at("mpe_m")));
   const auto& certainty = study.parts[0].maps[0].certainty;
   ASSERT_TRUE(certainty);
   EXPECT_FALSE(certainty->covariances.back().allFinite());

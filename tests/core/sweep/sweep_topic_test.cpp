@@ -48,7 +48,7 @@ TrialStudy study_of(const TrialExperiment& experiment) {
 /// NaN if there is no such trial.
 double mpe_of(const TrialStudy& study, const Condition& at, const std::string& series) {
   for (const Trial& trial : study.parts.front().trials)
-    if (trial.at == at && trial.series == series) return trial.values[0];
+    if (trial.at == at && trial.series == series) return trial.values.at("mpe_m");
   return std::nan("");
 }
 

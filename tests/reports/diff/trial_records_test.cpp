@@ -30,7 +30,7 @@ void write_study(const std::filesystem::path& folder, double mpe_m, double found
     part.run = RunId{.layout = layout, .pose = 1};
     part.id = slug(*part.run);
     part.trials = {
-        {.at = condition("all"), .series = "joint", .values = {mpe_m, found}, .statuses = {}}};
+        {.at = condition("all"), .series = "joint", .values = {{"mpe_m", mpe_m}, {"found", found}}, .statuses = {}}};
     store.write(part_of(part, ""));
   }
 }
