@@ -53,8 +53,18 @@ Mapped largest_group(const std::vector<PairItem>& items, int landmarks) {
   return mapped;
 }
 
+/// The pieces that the finite distances hold together, by row.
+std::vector<int> pieces_of(const Eigen::MatrixXd& D) {
+  Graph graph(static_cast<std::size_t>(D.rows()));
+  for (Eigen::Index i = 0; i < D.rows(); ++i)
+    for (Eigen::Index j = 0; j < D.rows(); ++j)
+      if (i != j && std::isfinite(D(i, j)))
+        graph[static_cast<std::size_t>(i)].push_back({static_cast<int>(j), D(i, j)});
+  return components(graph);
+}
+
 /// Takes pairs away that were seen in few looks, which may all be of wrong labels, but for those of
-/// landmarks that have few better ones.
+/// landmarks that have few better ones, and those that alone join what the others hold together.
 void leave_well_seen(Eigen::MatrixXd& D, const Eigen::MatrixXd& looks) {
   const auto well = [&](Eigen::Index i, Eigen::Index j) {
     return i != j && std::isfinite(D(i, j)) && looks(i, j) >= kFewestLooks;
@@ -65,11 +75,17 @@ void leave_well_seen(Eigen::MatrixXd& D, const Eigen::MatrixXd& looks) {
     for (Eigen::Index j = 0; j < D.rows(); ++j) count += well(i, j) ? 1 : 0;
     is_short.push_back(count < kPairsToPlace);
   }
+  const Eigen::MatrixXd all = D;
   for (Eigen::Index i = 0; i < D.rows(); ++i)
     for (Eigen::Index j = i + 1; j < D.rows(); ++j)
       if (!well(i, j) && !is_short[static_cast<std::size_t>(i)] &&
           !is_short[static_cast<std::size_t>(j)])
         D(i, j) = D(j, i) = kInfinite;
+  const std::vector<int> piece = pieces_of(D);
+  for (Eigen::Index i = 0; i < D.rows(); ++i)
+    for (Eigen::Index j = i + 1; j < D.rows(); ++j)
+      if (piece[static_cast<std::size_t>(i)] != piece[static_cast<std::size_t>(j)])
+        D(i, j) = D(j, i) = all(i, j);
 }
 
 /// Medians over the blocks, infinite for pairs never seen.

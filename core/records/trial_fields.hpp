@@ -255,7 +255,8 @@ void fields(Visitor& v, TrialMap& map) {
   tried_fields(v, map.at, map.series);
   v.field("map", map.map);
   v.field("pairs", map.pairs);
-  v.field("certainty", map.certainty, {.description = "The ellipses of its landmarks; null: none."});
+  v.field("certainty", map.certainty,
+          {.description = "The ellipses of its landmarks; null: none."});
   const std::size_t landmarks = map.map.names.size();
   for (std::size_t i = 0; i < map.pairs.size(); ++i)
     check_at_most(v, fmt::format("pairs/{}/second", i), map.pairs[i].second, Eigen::Index{0},

@@ -18,8 +18,7 @@ std::optional<RecordFault> fault_of(const Condition& at, const std::string& seri
   if (setup == design.setups.end()) return {{"setup", "the study has no such setup"}};
   for (const TrialFactor& factor : setup->factors) {
     const auto found = std::ranges::find(at.levels, factor.id, &Level::factor);
-    if (found == at.levels.end())
-      return {{"levels", "lacks the factor " + in_quotes(factor.id)}};
+    if (found == at.levels.end()) return {{"levels", "lacks the factor " + in_quotes(factor.id)}};
     if (std::ranges::find(factor.levels, std::get<double>(found->value)) == factor.levels.end())
       return {{"levels/" + factor.id, "the setup has no such level"}};
   }

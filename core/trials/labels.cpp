@@ -92,8 +92,9 @@ Confused confused_history(const ObservationHistory& truth, double share, Eigen::
 
 /// Of the readings that the dealing gave to another landmark, the share that is where it belongs;
 /// empty without any.
-std::optional<double> correct_percent(const ObservationHistory& found, const ObservationHistory& truth,
-                       const ObservationHistory& given) {
+std::optional<double> correct_percent(const ObservationHistory& found,
+                                      const ObservationHistory& truth,
+                                      const ObservationHistory& given) {
   const Mask wrong = given.values.array() != truth.values.array();
   const auto all = wrong.count();
   if (all == 0) return std::nullopt;

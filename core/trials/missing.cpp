@@ -168,23 +168,22 @@ class GappedHistory {
 
   void show(const std::string& series, const MethodSetting& setting, const ScoredMap& map) {
     const std::string id = fmt::format("{}-{}", setup_.id, series);
-    part_.maps.push_back(
-        {.id = id,
-         .at = at(),
-         .series = series,
-         .map = {.id = id,
-                 .origin = FromSensor{history_.sensor, setting},
-                 .step = static_cast<int>(steps()),
-                 .frame = map.frame,
-                 .names = landmark_names(all_),
-                 .estimate = map.positions_m,
-                 .truth_m = context_.world->landmarks_m,
-                 .anchors = context_.anchors,
-                 .statuses = map.statuses,
-                 .certificate = std::nullopt,
-                 .score = map.score},
-         .pairs = {},
-         .certainty = {}});
+    part_.maps.push_back({.id = id,
+                          .at = at(),
+                          .series = series,
+                          .map = {.id = id,
+                                  .origin = FromSensor{history_.sensor, setting},
+                                  .step = static_cast<int>(steps()),
+                                  .frame = map.frame,
+                                  .names = landmark_names(all_),
+                                  .estimate = map.positions_m,
+                                  .truth_m = context_.world->landmarks_m,
+                                  .anchors = context_.anchors,
+                                  .statuses = map.statuses,
+                                  .certificate = std::nullopt,
+                                  .score = map.score},
+                          .pairs = {},
+                          .certainty = {}});
   }
 
   Eigen::Index steps() const { return history_.steps(); }

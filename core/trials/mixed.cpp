@@ -99,8 +99,7 @@ class MixedTrials {
         .series = series,
         .values = {{"mpe_m", kNaN},
                    {"moe_percent", kNaN},
-                   {"continuity",
-                    mixed_continuity(distances_, weights_, embedding.coordinates)}},
+                   {"continuity", mixed_continuity(distances_, weights_, embedding.coordinates)}},
         .statuses = embedding.statuses};
     trial.statuses.insert(trial.statuses.end(), map.statuses.begin(), map.statuses.end());
     if (map.aligned)

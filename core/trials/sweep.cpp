@@ -82,12 +82,11 @@ void map_at(const Experiment& experiment, const TrialContext& context, const Con
                                      experiment.affine_fit);
     add_seconds(part, swept_series(setting),
                 std::chrono::duration<double>(Clock::now() - start).count());
-    part.trials.push_back(
-        {.at = at,
-         .series = swept_series(setting),
-         .values = {{"mpe_m", map.score ? map.score->mpe_m : kNaN},
-                    {"moe_percent", map.score ? map.score->moe_percent : kNaN}},
-         .statuses = map.statuses});
+    part.trials.push_back({.at = at,
+                           .series = swept_series(setting),
+                           .values = {{"mpe_m", map.score ? map.score->mpe_m : kNaN},
+                                      {"moe_percent", map.score ? map.score->moe_percent : kNaN}},
+                           .statuses = map.statuses});
   }
 }
 

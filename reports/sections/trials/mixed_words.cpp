@@ -65,7 +65,8 @@ std::string choice_words(const TrialStudy& study, const TrialSetup& setup) {
       double best_m = HUGE_VAL, joint_m = kNaN;
       for (const Trial& trial : part.trials) {
         if (trial.at != at || !std::isfinite(trial_value(trial, "mpe_m"))) continue;
-        if (pick == nullptr || trial_value(trial, "continuity") > trial_value(*pick, "continuity")) pick = &trial;
+        if (pick == nullptr || trial_value(trial, "continuity") > trial_value(*pick, "continuity"))
+          pick = &trial;
         best_m = std::min(best_m, trial_value(trial, "mpe_m"));
         if (trial.series == "joint") joint_m = trial_value(trial, "mpe_m");
       }

@@ -50,8 +50,7 @@ double trial_mean(const TrialStudy& study, const Condition& at, std::string_view
   const std::vector<double> values = trial_values(study, at, series, quantity);
   double sum = 0.0;
   for (const double value : values) sum += value;
-  return values.empty() ? kNaN
-                        : sum / static_cast<double>(values.size());
+  return values.empty() ? kNaN : sum / static_cast<double>(values.size());
 }
 
 std::string level_words(const TrialSetup& setup, const Condition& at) {

@@ -38,7 +38,8 @@ TEST(OnlineTopic, FollowsEverySensorToEveryLevel) {
     EXPECT_LE(trial.values.at("greatest_gap_ppm"), 1.0) << trial.at.setup << ' ' << trial.series;
     EXPECT_EQ(trial.values.at("beyond_percent"), 0.0);
     const double steps = std::get<double>(trial.at.levels.at(0).value);
-    EXPECT_EQ(trial.values.at("steps_gone_through"), trial.series.ends_with("-anew") ? steps : 50.0);
+    EXPECT_EQ(trial.values.at("steps_gone_through"),
+              trial.series.ends_with("-anew") ? steps : 50.0);
   }
   EXPECT_EQ(conclusions_of(study).size(), 3U);
 }

@@ -29,8 +29,10 @@ void write_study(const std::filesystem::path& folder, double mpe_m, double found
     TrialPart part;
     part.run = RunId{.layout = layout, .pose = 1};
     part.id = slug(*part.run);
-    part.trials = {
-        {.at = condition("all"), .series = "joint", .values = {{"mpe_m", mpe_m}, {"found", found}}, .statuses = {}}};
+    part.trials = {{.at = condition("all"),
+                    .series = "joint",
+                    .values = {{"mpe_m", mpe_m}, {"found", found}},
+                    .statuses = {}}};
     store.write(part_of(part, ""));
   }
 }
