@@ -105,7 +105,12 @@ RecordSet read_single(const fs::path& file) {
   if (schema == "mapproof.slam_run") return set_of(contents_of(parse_slam_run(text, source)));
   if (schema != "mapproof.map") throw IoError(source, "holds no records but " + schema);
   const MapRecord map = parse_map(text, source);
-  RecordSet set = set_of(contents_of(map));
+  StudyContents contents = contents_of(map);
+  // There is one map, whatever it was made of: the number of steps is a setting of it.
+  for (Result& row : contents.results.rows) row.at.levels.clear();
+  for (RunOutcome& outcome : contents.results.outcomes) outcome.at.levels.clear();
+  RecordSet set = set_of(std::move(contents));
+  set.settings["/steps"] = std::to_string(map.step);
   set.called[map.id] = set.values.begin()->first.subject;
   set.settings["/method"] = method_label(map);
   return set;

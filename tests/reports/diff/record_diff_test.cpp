@@ -5,7 +5,9 @@
 #include <gtest/gtest.h>
 
 #include "core/base/errors.hpp"
+#include "core/records/map_files.hpp"
 #include "reports/diff/record_points.hpp"
+#include "tests/support/temporary_folder.hpp"
 
 namespace mapproof {
 namespace {
@@ -312,6 +314,26 @@ TEST(RecordDiff, AnotherDirectionIsAChangeOfMeaning) {
   EXPECT_EQ(diff.judgement.verdict, Verdict::kChanged);
   EXPECT_EQ(diff.judgement.cause,
             "of gain lower is better in the baseline and higher in the current");
+}
+
+TEST(RecordDiff, OneMoreStepOfAMapIsASettingAndNoOtherRecord) {
+  const test::TemporaryFolder folder;
+  const auto map_of = [&](const std::string& name, int steps, double mpe_m) {
+    MapRecord map{.id = "map",
+                  .origin = FromPairs{},
+                  .step = steps,
+                  .names = {"a", "b", "c"},
+                  .estimate = Points::Random(3, 2),
+                  .score = Score{mpe_m, 1.0, mpe_m, 1.0}};
+    folder.file(name, map_json(map));
+    return folder / name;
+  };
+  const auto before = map_of("a/map.json", 1000, 0.1), after = map_of("b/map.json", 1001, 0.2);
+  const RecordDiff diff = record_diff(read_records(before, after), read_records(after, before));
+  EXPECT_TRUE(diff.missing_subjects.empty() && diff.new_subjects.empty());
+  ASSERT_EQ(diff.settings.size(), 1U);
+  EXPECT_EQ(diff.settings[0].pointer, "/steps");
+  EXPECT_EQ(diff.judgement.verdict, Verdict::kWorse) << diff.judgement.cause;
 }
 
 }  // namespace
