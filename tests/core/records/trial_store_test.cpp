@@ -54,7 +54,8 @@ TrialPart made_up_part(const RunId& run) {
                .pairs = {},
                .certainty = {}};
   map.pairs = {{.first = 0, .second = 1, .distance_m = 2.0, .precision = 4.0, .looks = 9}};
-  map.certainty = MapCertainty{.squared_radius = 6.5, .replicates = 9, .maps = 8, .block_steps = 3};
+  map.certainty = MapCertainty{
+      .covariances = {}, .squared_radius = 6.5, .replicates = 9, .maps = 8, .block_steps = 3};
   map.certainty->covariances.assign(map.map.names.size(), Eigen::Matrix2d::Identity());
   map.certainty->covariances.back().setConstant(kNaN);
   part.maps = {map};

@@ -31,7 +31,7 @@ TEST_P(FrozenFolder, IsValidFileByFile) {
 
 INSTANTIATE_TEST_SUITE_P(Version1, FrozenFolder,
                          ::testing::Values("study", "slam_study", "trial_study"),
-                         [](const auto& info) { return std::string(info.param); });
+                         [](const auto& folder) { return std::string(folder.param); });
 
 }  // namespace
 }  // namespace mapproof
