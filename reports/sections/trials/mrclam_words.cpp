@@ -23,38 +23,38 @@ std::string mrclam_question(const TrialExperiment&) {
          "are wrong: can they be found from the looks themselves, and mended?";
 }
 
-double trial_value(const TrialPart& part, std::string_view series, std::size_t quantity) {
+double series_value(const TrialPart& part, std::string_view series, std::string_view quantity) {
   const auto trial = std::ranges::find(part.trials, series, &Trial::series);
-  return trial == part.trials.end() ? kNaN : trial->values.at(quantity);
+  return trial == part.trials.end() ? kNaN : trial_value(*trial, quantity);
 }
 
 /// "Visibility, ISOMAP (1.46 m)": the best of some series on a set; empty if none has an error.
 std::string best_alone(const TrialStudy& study, const TrialPart& part, std::string_view start) {
   const TrialSeries* best = nullptr;
   for (const TrialSeries& series : study.design.series) {
-    const double error = trial_value(part, series.id, 0);
+    const double error = series_value(part, series.id, "mpe_m");
     if (!series.id.starts_with(start) || std::isnan(error)) continue;
-    if (best == nullptr || error < trial_value(part, best->id, 0)) best = &series;
+    if (best == nullptr || error < series_value(part, best->id, "mpe_m")) best = &series;
   }
   return best == nullptr
              ? std::string()
-             : fmt::format("{} ({:.3f} m)", best->label, trial_value(part, best->id, 0));
+             : fmt::format("{} ({:.3f} m)", best->label, series_value(part, best->id, "mpe_m"));
 }
 
 std::vector<std::string> mrclam_conclusions(const TrialStudy& study) {
   std::vector<std::string> sentences;
   for (const TrialPart& part : study.parts) {
-    const double error = trial_value(part, "pairs", 0);
+    const double error = series_value(part, "pairs", "mpe_m");
     if (std::isnan(error)) {
       sentences.push_back(fmt::format(
           "{}: no error can be told; {:.0f} landmarks are mapped from range and bearing.", part.id,
-          std::max(0.0, trial_value(part, "pairs", 5))));
+          std::max(0.0, series_value(part, "pairs", "mapped"))));
       continue;
     }
     sentences.push_back(
         fmt::format("{}: range and bearing together put the landmarks {:.3f} m off (MPE), {:.3f} m "
                     "after a rigid fit; the distances of pairs say it, no pose.",
-                    part.id, error, trial_value(part, "pairs", 3)));
+                    part.id, error, series_value(part, "pairs", "rigid_m")));
     std::vector<std::string> others;
     for (const char* start : {"visibility", "bearing", "range"})
       if (const std::string best = best_alone(study, part, start); !best.empty())
@@ -62,12 +62,12 @@ std::vector<std::string> mrclam_conclusions(const TrialStudy& study) {
     if (!others.empty())
       sentences.push_back(fmt::format("{}: the best of each sensor alone: {}.", part.id,
                                       listed(others, others.size() + 1)));
-    if (const double swapped = trial_value(part, "swapped", 0); !std::isnan(swapped))
+    if (const double swapped = series_value(part, "swapped", "mpe_m"); !std::isnan(swapped))
       sentences.push_back(fmt::format(
           "{}: with two labels swapped in half of the looks the map is {:.3f} m off, mended {:.3f} "
           "m; with a landmark called by another's name in all looks {:.3f} m, mended {:.3f} m.",
-          part.id, swapped, trial_value(part, "swapped-mended", 0),
-          trial_value(part, "misnamed", 0), trial_value(part, "misnamed-mended", 0)));
+          part.id, swapped, series_value(part, "swapped-mended", "mpe_m"),
+          series_value(part, "misnamed", "mpe_m"), series_value(part, "misnamed-mended", "mpe_m")));
   }
   return sentences;
 }
