@@ -53,8 +53,8 @@ std::string level_words(const TrialSetup& setup, const Condition& at);
 
 /// One of what is held against each other: a method, a criterion, a sensor.
 struct TrialSeries {
-  std::string id;     ///< [a-z][a-z0-9-]*: "ppca-q10".
-  std::string label;  ///< "PPCA by EM, q = 10".
+  std::string id;     ///< [a-z][A-Za-z0-9.+-]*; a method's is slug(): "isomap-K6", "ppca-isomap".
+  std::string label;  ///< "ISOMAP, K = 6".
 };
 
 /// An option of a topic, as an experiment file may give it.
@@ -96,7 +96,7 @@ struct MeasuredPair {
 
 /// A map to be looked at.
 struct TrialMap {
-  std::string id;     ///< [a-z][a-z0-9-]*, unique in the study: "ranged-dataset2".
+  std::string id;     ///< [a-z][A-Za-z0-9.+-]*, unique in its part: "bearing-isomap-K8".
   std::string title;  ///< What it shows, a sentence for its caption.
   MapRecord map;
   std::vector<MeasuredPair> pairs;        ///< Drawn thin under the map; may be empty.

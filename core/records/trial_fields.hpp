@@ -186,7 +186,7 @@ void fields(Visitor& v, TrialSetup& setup) {
 
 template <typename Visitor>
 void fields(Visitor& v, TrialSeries& series) {
-  v.field("id", series.id, record_rules::kId);
+  v.field("id", series.id, record_rules::kMethod);
   v.field("label", series.label, {.max_bytes = 200});
 }
 
@@ -244,11 +244,12 @@ void fields(Visitor& v, MeasuredPair& pair) {
 template <typename Visitor>
 void fields(Visitor& v, TrialMap& map) {
   using namespace record_rules;
-  v.field("id", map.id, kId);
+  v.field("id", map.id, kMethod);
   v.field("title", map.title);
   v.field("map", map.map);
   v.field("pairs", map.pairs);
-  v.field("certainty", map.certainty, {.description = "The ellipses of its landmarks; null: none."});
+  v.field("certainty", map.certainty,
+          {.description = "The ellipses of its landmarks; null: none."});
   const std::size_t landmarks = map.map.names.size();
   for (std::size_t i = 0; i < map.pairs.size(); ++i)
     check_at_most(v, fmt::format("pairs/{}/second", i), map.pairs[i].second, Eigen::Index{0},

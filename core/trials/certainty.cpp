@@ -28,10 +28,6 @@ constexpr std::pair<const char*, Sensor> kSensors[] = {{"bearing", Sensor::kBear
 constexpr const char* kBlocks = "blocks";
 constexpr const char* kBlockLength = "block_length";
 
-std::string series_id(const MethodSetting& setting) {
-  return std::string(info(setting.method).name);
-}
-
 TrialDesign certainty_design(const TrialExperiment& experiment) {
   TrialDesign design;
   for (const auto& [id, sensor] : kSensors)
@@ -43,7 +39,7 @@ TrialDesign certainty_design(const TrialExperiment& experiment) {
                            {{kBlockLength, "length of the blocks, of the usual one", "",
                              list_option(experiment, "blocks")}}});
   for (const MethodSetting& setting : kSettings)
-    design.series.push_back({series_id(setting), label(setting)});
+    design.series.push_back({slug(setting), label(setting)});
   design.quantities = {
       study_quantity("mean_covered_percent", "Mean in the ellipse", "%", Better::kHigher),
       study_quantity("truth_covered_percent", "Truth in the ellipse", "%", Better::kHigher),
@@ -82,11 +78,10 @@ class WalkedWorld {
       options.seed = derive_seed(context_.seed, {w});
       certainties.push_back(history_certainty(histories_[w], steps, frame_, options));
     }
-    add_seconds(part, series_id(setting),
-                std::chrono::duration<double>(Clock::now() - start).count());
+    add_seconds(part, slug(setting), std::chrono::duration<double>(Clock::now() - start).count());
     const Coverage found = coverage(maps, certainties, frame_);
     return {.at = {},
-            .series = series_id(setting),
+            .series = slug(setting),
             .values = {found.mean_percent, found.truth_percent, found.bias_m, found.spread_m,
                        found.told_m},
             .statuses = {}};
@@ -97,7 +92,7 @@ class WalkedWorld {
     const ObservationHistory& history = histories_.front();
     HistoryEmbedder embedder(history, history.steps());
     TrialMap shown;
-    shown.id = fmt::format("{}-{}", id, series_id(setting));
+    shown.id = fmt::format("{}-{}", id, slug(setting));
     shown.title = fmt::format("{} from {}, with 95 % ellipses by the bootstrap", label(setting),
                               name(history.sensor));
     MapRecord& map = shown.map;

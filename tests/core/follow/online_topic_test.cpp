@@ -40,6 +40,8 @@ TEST(OnlineTopic, FollowsEverySensorToEveryLevel) {
     const double steps = std::get<double>(trial.at.levels.at(0).value);
     EXPECT_EQ(trial.values[3], trial.series.ends_with("-anew") ? steps : 50.0);
   }
+  EXPECT_EQ(study.design.series[4].id, "isomap-K6");
+  EXPECT_EQ(study.design.series[5].id, "isomap-K6-anew");
   EXPECT_EQ(conclusions_of(study).size(), 3U);
 }
 
