@@ -23,6 +23,16 @@ std::vector<GivenPath> aligned_paths(const std::filesystem::path& folder) {
   return paths;
 }
 
+/// About study.json, maps/ and paths/.
+std::vector<std::string> file_remarks(const ResultsStudy& study,
+                                      const std::filesystem::path& folder) {
+  std::vector<std::string> remarks;
+  for (const std::string& remark : label_remarks_of(study))
+    remarks.push_back("In study.json, " + remark + ".");
+  for (const std::string& remark : passed_over_files(folder)) remarks.push_back(remark + ".");
+  return remarks;
+}
+
 FolderReport table_report(const std::filesystem::path& folder, const std::string& command) {
   const ResultsStudy study = read_results_study(folder);
   const ResultsView view(study);
@@ -33,7 +43,8 @@ FolderReport table_report(const std::filesystem::path& folder, const std::string
   const ResultsReportInput input{.view = view,
                                  .comparisons = comparisons,
                                  .figures = figures,
-                                 .provenance = given_provenance(view, command)};
+                                 .provenance = given_provenance(view, command),
+                                 .remarks = file_remarks(study, folder)};
   FolderReport result{.folder = folder,
                       .of_paper = false,
                       .report = results_report(input),

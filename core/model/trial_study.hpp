@@ -49,8 +49,8 @@ Condition condition_at(const TrialSetup& setup, double level);
 
 /// One of what is held against each other: a method, a criterion, a sensor.
 struct TrialSeries {
-  std::string id;     ///< [a-z][a-z0-9-]*: "ppca-q10".
-  std::string label;  ///< "PPCA by EM, q = 10".
+  std::string id;     ///< [a-z][A-Za-z0-9.+-]*; a method's is slug(): "isomap-K6", "ppca-isomap".
+  std::string label;  ///< "ISOMAP, K = 6".
 };
 
 /// An option of a topic, as an experiment file may give it.
@@ -90,7 +90,7 @@ struct MeasuredPair {
 
 /// A map to be looked at.
 struct TrialMap {
-  std::string id;      ///< [a-z][a-z0-9-]*, unique in the study: "ranged-dataset2".
+  std::string id;      ///< [a-z][A-Za-z0-9.+-]*, unique in its part: "bearing-isomap-K8".
   Condition at;        ///< The setup and a level of each of its factors.
   std::string series;  ///< That made it.
   MapRecord map;

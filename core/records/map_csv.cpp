@@ -73,6 +73,16 @@ class MapReader {
     return *value;
   }
 
+  /// Two coordinates, both known or both not.
+  std::array<double, 2> pair(std::string_view x, std::string_view y) const {
+    const std::array<double, 2> point = {number(x), number(y)};
+    const bool has_x = !std::isnan(point[0]), has_y = !std::isnan(point[1]);
+    if (has_x != has_y)
+      fail(fmt::format("{} has {} and no {}", in_quotes(cell("name")), has_x ? x : y,
+                       has_x ? y : x));
+    return point;
+  }
+
   void read_row() {
     if (row_.cells.size() != columns_.size())
       fail(fmt::format("has {} cells, expected {}", row_.cells.size(), columns_.size()));
@@ -83,8 +93,8 @@ class MapReader {
     if (has("anchor") && cell("anchor") == "1")
       anchors_.push_back(static_cast<Eigen::Index>(names_.size()));
     names_.push_back(name);
-    positions_.push_back({number(is_metric_ ? "x_m" : "x"), number(is_metric_ ? "y_m" : "y")});
-    if (has("true_x_m")) truth_.push_back({number("true_x_m"), number("true_y_m")});
+    positions_.push_back(pair(is_metric_ ? "x_m" : "x", is_metric_ ? "y_m" : "y"));
+    if (has("true_x_m")) truth_.push_back(pair("true_x_m", "true_y_m"));
   }
 
   static Points points_of(const std::vector<std::array<double, 2>>& rows) {

@@ -13,7 +13,8 @@ namespace mapproof {
 /// @param text  From checked_text().
 /// @return Without an id; what it was observed and made by is not known.
 /// @throws IoError with the line: columns that are missing, unknown or there twice, a row of
-///         another length, a cell that is no number, a name that is empty or there twice, no row.
+///         another length, a cell that is no number, one coordinate without the other, a name that
+///         is empty or there twice, no row.
 MapRecord parse_map_csv(std::string_view text, const std::string& source);
 
 }  // namespace mapproof

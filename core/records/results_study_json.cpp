@@ -1,6 +1,7 @@
 #include "core/records/results_study_json.hpp"
 
 #include <algorithm>
+#include <tuple>
 #include <utility>
 
 #include <fmt/format.h>
@@ -12,6 +13,7 @@
 #include "core/records/map_csv.hpp"
 #include "core/records/results_study_fields.hpp"
 #include "core/records/results_table.hpp"
+#include "core/records/study_folder.hpp"
 #include "core/records/study_store.hpp"
 #include "core/records/trajectory_files.hpp"
 
@@ -29,13 +31,14 @@ Eigen::Index poses_within(const Trajectory& truth, const Trajectory& path) {
 
 constexpr std::string_view kTruth = ".truth";
 
-/// The files with that extension in a folder, in ascending order; none if it is not there.
+/// The files with that extension in a folder, or all if it is empty, in ascending order; none if
+/// the folder is not there.
 std::vector<fs::path> files_in(const fs::path& folder, const std::string& extension) {
   std::vector<fs::path> files;
   std::error_code error;
   for (fs::directory_iterator entry(folder, error), end; !error && entry != end;
        entry.increment(error))
-    if (entry->path().extension() == extension) files.push_back(entry->path());
+    if (extension.empty() || entry->path().extension() == extension) files.push_back(entry->path());
   std::ranges::sort(files);
   return files;
 }
@@ -47,7 +50,7 @@ ResultsStudy parse_results_study(std::string_view text, const std::string& sourc
 }
 
 ResultsStudy read_results_study(const fs::path& folder) {
-  if (!is_study(folder)) throw IoError(folder.string(), "holds no study: study.json is missing");
+  require_study(folder);
   const std::string head = (folder / "study.json").string();
   const std::string table = (folder / "results.csv").string();
   ResultsStudy study = parse_results_study(read_file(head), head);
@@ -103,6 +106,18 @@ std::vector<fs::path> results_study_files(const fs::path& folder) {
     for (const fs::path& file : files_in(folder / below, extension))
       files.push_back(below / file.filename());
   return files;
+}
+
+std::vector<std::string> passed_over_files(const fs::path& folder) {
+  std::vector<std::string> remarks;
+  for (const auto& [below, extension, read] :
+       {std::tuple("maps", ".csv", "a map is maps/NAME.csv"),
+        std::tuple("paths", ".tum", "a path is paths/NAME.tum")})
+    for (const fs::path& file : files_in(folder / below, ""))
+      if (file.extension() != extension && !file.filename().string().starts_with('.'))
+        remarks.push_back(fmt::format("{}/{}: is not read: {}", below,
+                                      printable(file.filename().string()), read));
+  return remarks;
 }
 
 bool is_results_study(const fs::path& folder) { return study_schema(folder) == kResultsStudy; }

@@ -35,6 +35,10 @@ std::vector<GivenPath> read_given_paths(const std::filesystem::path& folder);
 /// Every file of a study of results, below the folder: study.json, results.csv, maps and paths.
 std::vector<std::filesystem::path> results_study_files(const std::filesystem::path& folder);
 
+/// What is in maps/ and paths/ and is not read, a sentence each that begins with the file as seen
+/// from the folder: all but maps/NAME.csv, paths/NAME.tum and hidden files.
+std::vector<std::string> passed_over_files(const std::filesystem::path& folder);
+
 /// Whether the folder's study.json is of that schema, be the rest readable or not.
 bool is_results_study(const std::filesystem::path& folder);
 

@@ -18,7 +18,12 @@ bool is_study(const fs::path& folder) {
 void require_study(const fs::path& folder) {
   std::error_code error;
   if (!fs::exists(folder, error)) throw IoError(folder.string(), "does not exist");
-  if (!is_study(folder)) throw IoError(folder.string(), "holds no study: study.json is missing");
+  if (is_study(folder)) return;
+  if (!fs::exists(folder / "results.csv", error))
+    throw IoError(folder.string(), "holds no study: study.json is missing");
+  throw IoError(folder.string(),
+                "holds results.csv without study.json; write one beside it, at least "
+                R"({"schema": {"name": "mapproof.results_study", "version": 1}, "title": "..."})");
 }
 
 std::string study_schema(const fs::path& folder) {

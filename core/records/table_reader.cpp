@@ -84,7 +84,17 @@ bool TableReader::skip_to_row() {
   return false;
 }
 
+/// Throws where carriage returns stand for line feeds: all rows would be one.
+void TableReader::check_line_ends() const {
+  const std::string_view content = trimmed(text_);
+  if (content.find_first_of("\n\"") == std::string_view::npos &&
+      content.find('\r') != std::string_view::npos)
+    throw IoError(source_, fmt::format("line {}", line_),
+                  "the lines end with carriage returns alone; line feeds are needed");
+}
+
 bool TableReader::next(TableRow& row) {
+  if (at_ == 0) check_line_ends();
   row.cells.clear();
   unescaped_.clear();
   if (!skip_to_row()) return false;
@@ -156,11 +166,12 @@ std::string_view TableReader::quoted_cell(std::size_t row_line) {
   std::string_view cell = text_.substr(first, close - first);
   line_ += static_cast<std::size_t>(std::ranges::count(cell, '\n'));
   at_ = close + 1;
-  const std::string_view behind = text_.substr(at_, cell_end() - at_);
-  if (!bare(behind, separator_).empty())
+  const std::size_t end = cell_end();
+  const std::string_view behind = bare(text_.substr(at_, end - at_), separator_);
+  if (!behind.empty())
     throw IoError(source_, fmt::format("line {}", line_),
                   "text behind a closing quote: " + in_quotes(behind));
-  at_ += behind.size();
+  at_ = end;
   if (!has_escapes) return cell;
   std::string& plain = unescaped_.emplace_back();
   for (std::size_t i = 0; i < cell.size(); ++i) {

@@ -41,10 +41,12 @@ class TableReader {
   /// What separates the cells of the text's first row.
   static char separator_in(std::string_view text);
 
-  /// @return Whether there was a row. @throws IoError with the line for broken quotes.
+  /// @return Whether there was a row.
+  /// @throws IoError with the line for broken quotes, and for lines that end with CR alone.
   bool next(TableRow& row);
 
  private:
+  void check_line_ends() const;
   bool skip_to_row();
   void split_blanks(std::string_view line, TableRow& row) const;
   void split_bare(std::string_view line, TableRow& row) const;

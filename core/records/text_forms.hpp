@@ -28,6 +28,17 @@ inline constexpr TextForm kPlainIdOrNone = {
     "^([a-z][a-z0-9-]*)?$",
     [](std::string_view text) { return text.empty() || kPlainId.holds(text); }, kPlainId.expected};
 
+/// Of a method, with its parameter: "isomap-K6", "kpca-gaussian-sigma2-0.05".
+inline constexpr TextForm kMethodId = {
+    "^[a-z][A-Za-z0-9.+-]*$",
+    [](std::string_view text) {
+      constexpr std::string_view kAllowed =
+          "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789.+-";
+      return !text.empty() && text[0] >= 'a' && text[0] <= 'z' &&
+             text.find_first_not_of(kAllowed) == std::string_view::npos;
+    },
+    "letters, digits, '.', '+' and '-', a small letter first"};
+
 /// Of a figure of a paper: the ids that the program gives begin otherwise.
 inline constexpr TextForm kFigureId = {
     "^fig-[a-z0-9-]*$",
@@ -55,6 +66,7 @@ inline constexpr TextForm kStudyName = {
 namespace record_rules {
 
 inline constexpr FieldRule kId = {.max_bytes = 64, .form = &kPlainId};
+inline constexpr FieldRule kMethod = {.max_bytes = 64, .form = &kMethodId};
 
 }  // namespace record_rules
 

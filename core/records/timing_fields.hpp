@@ -50,7 +50,7 @@ template <typename Visitor>
 void fields(Visitor& v, TrialSeconds& timing) {
   v.tag("kind", "trial");
   v.field("part", timing.part, {.description = "Its id.", .max_bytes = 200});
-  v.field("series", timing.series, {.max_bytes = 64, .form = &kPlainId});
+  v.field("series", timing.series, record_rules::kMethod);
   v.field("seconds", timing.seconds, record_rules::kSeconds);
 }
 

@@ -53,6 +53,11 @@ Trajectory parse_trajectory_tum(std::string_view text, const std::string& source
         throw IoError(source, place, number_problem(row.cells[i]));
       pose[i] = *number;
     }
+    if (pose[4] == 0.0 && pose[5] == 0.0 && pose[6] == 0.0 && pose[7] == 0.0)
+      throw IoError(
+          source, place,
+          "the quaternion qx qy qz qw is 0 0 0 0, which is no orientation; without one it "
+          "is 0 0 0 1");
     if (poses.size() < 2) continue;
     const double before = poses[poses.size() - 2][0];
     if (pose[0] < before) throw IoError(source, place, "its time is before that of the pose above");

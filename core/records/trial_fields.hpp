@@ -186,7 +186,7 @@ void fields(Visitor& v, TrialSetup& setup) {
 
 template <typename Visitor>
 void fields(Visitor& v, TrialSeries& series) {
-  v.field("id", series.id, record_rules::kId);
+  v.field("id", series.id, record_rules::kMethod);
   v.field("label", series.label, {.max_bytes = 200});
 }
 
@@ -251,7 +251,7 @@ void fields(Visitor& v, MeasuredPair& pair) {
 template <typename Visitor>
 void fields(Visitor& v, TrialMap& map) {
   using namespace record_rules;
-  v.field("id", map.id, kId);
+  v.field("id", map.id, kMethod);
   tried_fields(v, map.at, map.series);
   v.field("map", map.map);
   v.field("pairs", map.pairs);

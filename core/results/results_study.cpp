@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <set>
 #include <utility>
 
@@ -89,6 +90,27 @@ std::vector<std::string> remarks_of(const ResultsStudy& study) {
     if (quantity.unit == "%" && are_shares(study.results.rows, id))
       remarks.push_back(fmt::format(
           "all values of {} lie between 0 and 1, but its unit is %: are they shares?", id));
+  }
+  return remarks;
+}
+
+std::vector<std::string> label_remarks_of(const ResultsStudy& study) {
+  std::vector<std::string> remarks;
+  std::vector<Label> quantities;
+  for (const std::string& id : study.quantities)
+    quantities.push_back({id, study.results.quantities.at(id).label});
+  for (const auto& [list, labels] :
+       {std::pair<const char*, const std::vector<Label>*>{"quantities", &quantities},
+        {"setups", &study.setups},
+        {"methods", &study.methods},
+        {"factors", &study.factors}}) {
+    std::map<std::string, std::string> ids;  // The first of each label.
+    for (const Label& label : *labels)
+      if (const auto [first, is_new] = ids.emplace(label.label, label.id); !is_new)
+        remarks.push_back(fmt::format(
+            "{}: {} and {} have the same label \"{}\": figures and tables do not tell them apart",
+            list, printable(first->second, 40), printable(label.id, 40),
+            printable(label.label, 40)));
   }
   return remarks;
 }

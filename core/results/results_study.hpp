@@ -43,6 +43,10 @@ std::string complete(ResultsStudy& study);
 /// to 1.
 std::vector<std::string> remarks_of(const ResultsStudy& study);
 
+/// What of its labels a reader could mistake, a sentence each that begins with the list: two ids of
+/// one list with the same label.
+std::vector<std::string> label_remarks_of(const ResultsStudy& study);
+
 /// The label of an id; the id itself if there is none.
 std::string label_of(const std::vector<Label>& labels, const std::string& id);
 

@@ -37,9 +37,14 @@ const StudyKind kTableStudies = {
     .read = read_table,
     .check =
         [](const fs::path& folder) {
+          const ResultsStudy study = read_results_study(folder);
           std::vector<std::string> remarks;
-          for (const std::string& remark : remarks_of(read_results_study(folder)))
+          for (const std::string& remark : label_remarks_of(study))
+            remarks.push_back((folder / kStudyFile).string() + ": " + remark);
+          for (const std::string& remark : remarks_of(study))
             remarks.push_back((folder / kResultsFile).string() + ": " + remark);
+          for (const std::string& remark : passed_over_files(folder))
+            remarks.push_back((folder / "").string() + remark);
           read_given_maps(folder);
           read_given_paths(folder);
           return remarks;

@@ -28,10 +28,6 @@ constexpr std::pair<const char*, Sensor> kSensors[] = {{"bearing", Sensor::kBear
 constexpr const char* kBlocks = "blocks";
 constexpr const char* kBlockLength = "block_length";
 
-std::string series_id(const MethodSetting& setting) {
-  return std::string(info(setting.method).name);
-}
-
 TrialDesign certainty_design(const TrialExperiment& experiment) {
   TrialDesign design;
   for (const auto& [id, sensor] : kSensors)
@@ -43,7 +39,7 @@ TrialDesign certainty_design(const TrialExperiment& experiment) {
                            {{kBlockLength, "length of the blocks, of the usual one", "",
                              list_option(experiment, "blocks")}}});
   for (const MethodSetting& setting : kSettings)
-    design.series.push_back({series_id(setting), label(setting)});
+    design.series.push_back({slug(setting), label(setting)});
   design.quantities = {
       study_quantity("mean_covered_percent", "Mean in the ellipse", "%", Better::kHigher),
       study_quantity("truth_covered_percent", "Truth in the ellipse", "%", Better::kHigher),
@@ -82,11 +78,10 @@ class WalkedWorld {
       options.seed = derive_seed(context_.seed, {w});
       certainties.push_back(history_certainty(histories_[w], steps, frame_, options));
     }
-    add_seconds(part, series_id(setting),
-                std::chrono::duration<double>(Clock::now() - start).count());
+    add_seconds(part, slug(setting), std::chrono::duration<double>(Clock::now() - start).count());
     const Coverage found = coverage(maps, certainties, frame_);
     return {.at = {},
-            .series = series_id(setting),
+            .series = slug(setting),
             .values = {{"mean_covered_percent", found.mean_percent},
                        {"truth_covered_percent", found.truth_percent},
                        {"bias_m", found.bias_m},
@@ -100,9 +95,9 @@ class WalkedWorld {
     const ObservationHistory& history = histories_.front();
     HistoryEmbedder embedder(history, history.steps());
     TrialMap shown;
-    shown.id = fmt::format("{}-{}", at.setup, series_id(setting));
+    shown.id = fmt::format("{}-{}", at.setup, slug(setting));
     shown.at = at;
-    shown.series = series_id(setting);
+    shown.series = slug(setting);
     MapRecord& map = shown.map;
     map.id = shown.id;
     map.origin = FromSensor{history.sensor, setting};

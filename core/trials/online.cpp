@@ -19,18 +19,12 @@ using Clock = std::chrono::steady_clock;
 
 constexpr Sensor kFollowedSensors[] = {Sensor::kBearing, Sensor::kVisibility, Sensor::kRange};
 
-/// A method, with one setting for all histories, and its two series.
-struct Followed {
-  MethodSetting setting;
-  const char* carried_on;
-  const char* anew;
-};
+/// Each has one setting for all histories, and two series: carried on and made anew.
+const MethodSetting kFollowedSettings[] = {
+    {Method::kSmacof, std::nullopt}, {Method::kSmacofKnn, 6.0}, {Method::kIsomap, 6.0}};
 
-const Followed kMethods[] = {
-    {{Method::kSmacof, std::nullopt}, "smacof", "smacof-anew"},
-    {{Method::kSmacofKnn, 6.0}, "smacof-knn", "smacof-knn-anew"},
-    {{Method::kIsomap, 6.0}, "isomap", "isomap-anew"},
-};
+/// Of the maps made anew; those carried on have slug(setting).
+std::string anew_series(const MethodSetting& setting) { return slug(setting) + "-anew"; }
 
 TrialDesign online_design(const TrialExperiment& experiment) {
   TrialDesign design;
@@ -39,9 +33,9 @@ TrialDesign online_design(const TrialExperiment& experiment) {
                              fmt::format("Maps from {}, carried on", name(sensor)),
                              {{std::string(kStepsFactor), "observations so far", "",
                                list_option(experiment, "observations")}}});
-  for (const Followed& method : kMethods) {
-    design.series.push_back({method.carried_on, label(method.setting) + ", carried on"});
-    design.series.push_back({method.anew, label(method.setting) + ", anew"});
+  for (const MethodSetting& setting : kFollowedSettings) {
+    design.series.push_back({slug(setting), label(setting) + ", carried on"});
+    design.series.push_back({anew_series(setting), label(setting) + ", anew"});
   }
   design.quantities = {
       study_quantity("gap_ppm", "Off the map made anew", "ppm", Better::kLower),
@@ -81,12 +75,12 @@ struct Gaps {
 };
 
 /// Follows one history from its first step to its last by one method.
-void follow(const TrialContext& context, const Followed& method, const ObservationHistory& history,
-            TrialPart& part) {
+void follow(const TrialContext& context, const MethodSetting& setting,
+            const ObservationHistory& history, TrialPart& part) {
   const auto every = static_cast<Eigen::Index>(number_option(context.experiment, "every"));
   const std::vector<double>& levels = list_option(context.experiment, "observations");
   const std::string setup{name(history.sensor)};
-  FollowedMap map(history.sensor, {.setting = method.setting, .embedder = {}});
+  FollowedMap map(history.sensor, {.setting = setting, .embedder = {}});
   map.grow(history.landmarks());
   Gaps gaps;
   Eigen::Index before = 0;
@@ -101,10 +95,10 @@ void follow(const TrialContext& context, const Followed& method, const Observati
     const Embedding update = map.update().embedding;
     carried_on_s += seconds_since(start);
     start = Clock::now();
-    const Embedding whole = HistoryEmbedder(history, t).embed(method.setting);
+    const Embedding whole = HistoryEmbedder(history, t).embed(setting);
     anew_s += seconds_since(start);
     gaps.add(relative_gap(update.coordinates, whole.coordinates));
-    const auto trial = [&](const char* series, std::map<std::string, double> values) {
+    const auto trial = [&](const std::string& series, std::map<std::string, double> values) {
       part.trials.push_back({.at = condition(setup, {{.factor = std::string(kStepsFactor),
                                                       .value = static_cast<double>(t)}}),
                              .series = series,
@@ -112,20 +106,20 @@ void follow(const TrialContext& context, const Followed& method, const Observati
                              .statuses = {}});
     };
     if (asked) {
-      trial(method.carried_on,
+      trial(slug(setting),
             {{"gap_ppm", 1e6 * gaps.last},
              {"greatest_gap_ppm", 1e6 * gaps.greatest},
              {"beyond_percent", 100.0 * gaps.beyond / static_cast<double>(gaps.updates)},
              {"steps_gone_through", static_cast<double>(t - before)}});
-      trial(method.anew, {{"gap_ppm", 0.0},
-                          {"greatest_gap_ppm", 0.0},
-                          {"beyond_percent", 0.0},
-                          {"steps_gone_through", static_cast<double>(t)}});
+      trial(anew_series(setting), {{"gap_ppm", 0.0},
+                                   {"greatest_gap_ppm", 0.0},
+                                   {"beyond_percent", 0.0},
+                                   {"steps_gone_through", static_cast<double>(t)}});
     }
     before = t;
   }
-  add_seconds(part, method.carried_on, carried_on_s);
-  add_seconds(part, method.anew, anew_s);
+  add_seconds(part, slug(setting), carried_on_s);
+  add_seconds(part, anew_series(setting), anew_s);
 }
 
 TrialPart make_online(const TrialContext& context) {
@@ -135,7 +129,7 @@ TrialPart make_online(const TrialContext& context) {
     options.sensor = sensor;
     Random noise(derive_seed(context.seed, {static_cast<std::uint64_t>(sensor)}));
     const ObservationHistory history = observe(*context.world, *context.path, options, noise);
-    for (const Followed& method : kMethods) follow(context, method, history, part);
+    for (const MethodSetting& setting : kFollowedSettings) follow(context, setting, history, part);
   }
   return part;
 }

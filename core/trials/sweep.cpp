@@ -7,7 +7,6 @@
 #include <fmt/format.h>
 
 #include "core/base/not_finite.hpp"
-#include "core/base/words.hpp"
 #include "core/embed/embedder.hpp"
 #include "core/experiment/run.hpp"
 #include "core/experiment/scored_map.hpp"
@@ -23,14 +22,6 @@ struct SweptSetup {
   const Sweep& sweep;
   TrialSetup setup;
 };
-
-/// "isomap-k6".
-std::string swept_series(const MethodSetting& setting) {
-  std::string id = lower_case(slug(setting));
-  std::ranges::replace_if(
-      id, [](char c) { return c == '.' || c == '+' || c == '_'; }, '-');
-  return id;
-}
 
 TrialSetup setup_of(Sensor sensor, const Sweep& sweep) {
   TrialSetup setup{.id = std::string(name(sensor)), .title = {}};
@@ -62,9 +53,8 @@ TrialDesign sweep_design(const TrialExperiment& experiment) {
   for (SweptSetup& swept : setups_of(experiment)) design.setups.push_back(std::move(swept.setup));
   for (const SensorStudy& sensor : experiment.sensors)
     for (const MethodSetting& setting : settings_of(sensor))
-      if (std::ranges::find(design.series, swept_series(setting), &TrialSeries::id) ==
-          design.series.end())
-        design.series.push_back({swept_series(setting), label(setting)});
+      if (std::ranges::find(design.series, slug(setting), &TrialSeries::id) == design.series.end())
+        design.series.push_back({slug(setting), label(setting)});
   design.quantities = {known_quantity("mpe_m"), known_quantity("moe_percent")};
   return design;
 }
@@ -80,10 +70,9 @@ void map_at(const Experiment& experiment, const TrialContext& context, const Con
     const Clock::time_point start = Clock::now();
     const ScoredMap map = scored_map(embedder.embed(setting), made.world.landmarks_m, made.anchors,
                                      experiment.affine_fit);
-    add_seconds(part, swept_series(setting),
-                std::chrono::duration<double>(Clock::now() - start).count());
+    add_seconds(part, slug(setting), std::chrono::duration<double>(Clock::now() - start).count());
     part.trials.push_back({.at = at,
-                           .series = swept_series(setting),
+                           .series = slug(setting),
                            .values = {{"mpe_m", map.score ? map.score->mpe_m : kNaN},
                                       {"moe_percent", map.score ? map.score->moe_percent : kNaN}},
                            .statuses = map.statuses});

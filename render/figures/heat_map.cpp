@@ -7,18 +7,19 @@
 #include <fmt/format.h>
 
 #include "core/base/errors.hpp"
-#include "core/base/words.hpp"
+#include "core/base/unit_text.hpp"
 #include "render/figures/parts.hpp"
-#include "render/theme/ticks.hpp"
+#include "render/figures/words.hpp"
 
 namespace mapproof {
 namespace {
 
 constexpr double kWideRange = 10.0;  ///< Of greatest to least, from which colours are logarithmic.
+constexpr int kCellDigits = 2;       ///< Of numbers that decimals do not show: cells are narrow.
 constexpr int kHatchLines = 5;       ///< Across a missing cell, each way of its diagonal.
 
 std::string with_unit_of(const HeatMapSpec& spec, double value) {
-  return number_text(value, spec.decimals) + (spec.unit.empty() ? "" : " " + spec.unit);
+  return with_plain_spaces(with_unit(rounded_text(value, spec.decimals), spec.unit));
 }
 
 std::string place_of(const HeatMapSpec& spec, std::size_t cell) {
@@ -72,7 +73,7 @@ Cells cells_of(const HeatMapSpec& spec) {
       const double value = spec.values[row * columns + column];
       const bool is_there = std::isfinite(value);
       cells.values.push_back(is_there ? value : std::nan(""));
-      cells.text.push_back(is_there ? number_text(value, spec.decimals) : "");
+      cells.text.push_back(is_there ? rounded_text(value, spec.decimals, kCellDigits) : "");
     }
   return cells;
 }

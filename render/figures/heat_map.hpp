@@ -15,7 +15,7 @@ struct HeatMapSpec {
   std::vector<std::string> x_names, y_names;  ///< Of their levels, ascending.
   /// One per combination: row by row, the rows in the order of `y_names`; NaN: missing.
   std::vector<double> values;
-  int decimals = 3;                  ///< Of the numbers in the cells.
+  int decimals = 3;                  ///< Of the numbers in the cells: rounded_text().
   std::string quantity;              ///< "MPE".
   std::string unit;                  ///< "m"; may be empty.
   std::string missing = "no value";  ///< What a hatched cell means.

@@ -18,6 +18,13 @@ std::string significant(double value, int digits) {
   return number_text(value, std::max(0, digits - 1 - exponent));
 }
 
+std::string rounded_text(double value, int decimals, int digits) {
+  constexpr int kMostDecimals = 6;
+  const std::string text = number_text(value, decimals);
+  if (value == 0.0 || text.find_first_of("123456789") != std::string::npos) return text;
+  return decimals >= kMostDecimals ? significant(value, digits) : "≈ 0";
+}
+
 std::string data_number(double value) { return fmt::format("{:.6g}", value); }
 
 }  // namespace mapproof

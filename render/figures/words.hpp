@@ -9,6 +9,10 @@ namespace mapproof {
 /// `value` with so many significant digits, never in scientific notation below 1e6.
 std::string significant(double value, int digits = 3);
 
+/// `value` with so many decimals. Where these would show zeros alone of a value that is none, it is
+/// "≈ 0"; with six decimals or more, which a quantity of small values has, significant digits.
+std::string rounded_text(double value, int decimals, int digits = 3);
+
 /// A number for a data attribute: six significant digits, "." for the point.
 std::string data_number(double value);
 

@@ -37,18 +37,35 @@ Ticks named_ticks(const std::vector<std::string>& names, const Range& range, int
 
 }  // namespace
 
+std::string axis_title(const Axis& axis, const Ticks& ticks) {
+  return ticks.factor.empty() ? axis.label : axis.label + " " + ticks.factor;
+}
+
+std::vector<ShapedText> upward_lines(const std::string& label, double height, double em) {
+  constexpr std::size_t kMostLines = 3;
+  return wrap_text(label, std::max(height, 0.0) / em, kMostLines);
+}
+
+double further_lines(const std::vector<ShapedText>& lines, double em) {
+  return lines.empty() ? 0.0 : static_cast<double>(lines.size() - 1) * FontFacts::kLine * em;
+}
+
 AxesLayout::AxesLayout(const Panel& panel, const Theme& theme, AxisLabels shown)
     : panel_(panel), theme_(theme), shown_(shown), limits_(panel_limits(panel)) {}
 
 Axes AxesLayout::within(const Box& room) const {
-  // The margins depend on the ticks' labels, those on the frame: twice is enough.
+  // The margins depend on the labels, those on the frame: twice is enough, but for long labels
+  // that fall into more lines beside a shorter frame.
+  constexpr int kMostPasses = 4;
   Axes axes;
   axes.frame = room;
-  for (int pass = 0; pass < 2; ++pass) {
+  for (int pass = 0; pass < kMostPasses; ++pass) {
     axes = in(axes.frame);
+    const double lines = label_lines(axes);
     const Margins m = margins(axes);
     axes.frame = {room.x0 + m.left, room.y0 + m.top, room.x1 - m.right, room.y1 - m.bottom};
     if (panel_.equal_aspect) shrink_to_aspect(axes.frame);
+    if (pass > 0 && label_lines(axes) <= lines) break;
   }
   return axes;
 }
@@ -128,7 +145,12 @@ Margins AxesLayout::margins(const Axes& axes) const {
   m.right = std::max(m.right, colour_bar_room(panel_, axes.frame.height(), theme_));
   if (panel_.bare) return m;
   const double em = theme_.tick_font_pt;
-  const double y_label = has_y_label() ? 1.5 * theme_.font_pt : 0.0;
+  const double y_label =
+      has_y_label()
+          ? 1.5 * theme_.font_pt + further_lines(upward_lines(axis_title(panel_.y, axes.y.ticks),
+                                                              axes.frame.height(), theme_.font_pt),
+                                                 theme_.font_pt)
+          : 0.0;
   const double y_ticks = axes.y.texts.empty() ? 0.0 : axes.y.widest * em + tick_gap();
   const double last = axes.x.texts.empty() ? 0.0 : axes.x.texts.back().advance * em / 2.0;
   m.left = std::max(m.left, y_label + y_ticks + tick_length());
@@ -136,6 +158,14 @@ Margins AxesLayout::margins(const Axes& axes) const {
   m.right = std::max({m.right, last, theme_.hairline_pt});
   m.bottom = std::max(m.bottom, below_frame());
   return m;
+}
+
+/// What further lines of the labels beside the frame take across, in points.
+double AxesLayout::label_lines(const Axes& axes) const {
+  const double height = axes.frame.height(), em = theme_.font_pt;
+  const double of_bar = colour_bar_label_room(panel_, height, theme_);
+  if (!has_y_label()) return of_bar;
+  return of_bar + further_lines(upward_lines(axis_title(panel_.y, axes.y.ticks), height, em), em);
 }
 
 /// How far texts at points reach over the sides of the frame.

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <string>
 #include <vector>
 
 #include "render/plot/axis_map.hpp"
@@ -15,6 +16,17 @@ struct TickLabels {
   std::vector<ShapedText> texts;
   double widest = 0.0;  ///< In em.
 };
+
+/// The label of an axis with the factor of its ticks.
+std::string axis_title(const Axis& axis, const Ticks& ticks);
+
+/// A label that is read from below to above, in one line, or more where one is longer than `height`
+/// points; what does not fit in the last one is elided. The first line is the leftmost.
+/// @param em  Size of its letters, in points.
+std::vector<ShapedText> upward_lines(const std::string& label, double height, double em);
+
+/// What the lines after the first take across, in points.
+double further_lines(const std::vector<ShapedText>& lines, double em);
 
 /// A frame with its ticks.
 struct Axes {
@@ -60,6 +72,7 @@ class AxesLayout {
   bool labels_touch(const Axes& axes) const;
   Ticks ticks_for(const Axis& axis, Range range, int most) const;
   Margins overhang(const Box& frame) const;
+  double label_lines(const Axes& axes) const;
   void shrink_to_aspect(Box& frame) const;
 
   const Panel& panel_;

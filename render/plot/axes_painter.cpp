@@ -5,10 +5,6 @@
 namespace mapproof {
 namespace {
 
-std::string axis_title(const Axis& axis, const Ticks& ticks) {
-  return ticks.factor.empty() ? axis.label : axis.label + " " + ticks.factor;
-}
-
 /// Draws grid, frame, ticks and their labels.
 class AxesPainter {
  public:
@@ -81,11 +77,14 @@ class AxesPainter {
     }
     if (layout_.has_y_label()) {
       const std::string whole = axis_title(panel.y, axes_.y.ticks);
-      const ShapedText text = shape_text_within(whole, f.height() / em);
-      add_text(drawing_, Role::kAxisLabel, index_, text, whole,
-               {f.x0 - away - axes_.y.widest * theme_.tick_font_pt - 0.6 * em,
-                f.centre().y + text.advance * em / 2.0},
-               em, theme_.text, true);
+      const std::vector<ShapedText> lines = upward_lines(whole, f.height(), em);
+      double x =
+          f.x0 - away - axes_.y.widest * theme_.tick_font_pt - 0.6 * em - further_lines(lines, em);
+      for (const ShapedText& line : lines) {
+        add_text(drawing_, Role::kAxisLabel, index_, line, whole,
+                 {x, f.centre().y + line.advance * em / 2.0}, em, theme_.text, true);
+        x += FontFacts::kLine * em;
+      }
     }
   }
 

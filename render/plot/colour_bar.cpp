@@ -14,7 +14,8 @@
 namespace mapproof {
 namespace {
 
-constexpr double kBarWidth = 1.2;  // em of the axis labels.
+constexpr double kBarWidth = 1.2;   // em of the axis labels.
+constexpr double kLabelRoom = 1.6;  // Of one line of the label, em.
 constexpr int kBarSteps = 64;
 
 struct Bar {
@@ -60,7 +61,14 @@ double colour_bar_room(const Panel& panel, double height, const Theme& theme) {
   if (cells == nullptr) return 0.0;
   const Bar bar = bar_of(*cells, height, theme);
   return bar.gap_pt + kBarWidth * theme.font_pt + 2.0 * bar.tick_pt + bar.widest_pt +
-         1.6 * theme.font_pt;
+         kLabelRoom * theme.font_pt + colour_bar_label_room(panel, height, theme);
+}
+
+double colour_bar_label_room(const Panel& panel, double height, const Theme& theme) {
+  const Cells* cells = cells_with_bar(panel);
+  if (cells == nullptr) return 0.0;
+  const std::string label = whole_label(*cells, bar_of(*cells, height, theme).ticks);
+  return further_lines(upward_lines(label, height, theme.font_pt), theme.font_pt);
 }
 
 void draw_colour_bar(const Panel& panel, std::size_t panel_index, const Box& frame,
@@ -97,11 +105,12 @@ void draw_colour_bar(const Panel& panel, std::size_t panel_index, const Box& fra
              theme.tick_font_pt, theme.text);
   const double em = theme.font_pt;
   const std::string whole = whole_label(*cells, bar.ticks);
-  const ShapedText label = shape_text_within(whole, frame.height() / em);
-  add_text(drawing, Role::kLegendText, panel_index, label, whole,
-           {box.x1 + 2.0 * bar.tick_pt + bar.widest_pt + 1.3 * em,
-            frame.centre().y + label.advance * em / 2.0},
-           em, theme.text, true);
+  double x = box.x1 + 2.0 * bar.tick_pt + bar.widest_pt + 1.3 * em;
+  for (const ShapedText& line : upward_lines(whole, frame.height(), em)) {
+    add_text(drawing, Role::kLegendText, panel_index, line, whole,
+             {x, frame.centre().y + line.advance * em / 2.0}, em, theme.text, true);
+    x += FontFacts::kLine * em;
+  }
 }
 
 }  // namespace mapproof

@@ -15,6 +15,9 @@ const Cells* cells_with_bar(const Panel& panel);
 /// @param height  Of the frame, which is the bar's.
 double colour_bar_room(const Panel& panel, double height, const Theme& theme);
 
+/// What of it lines of the bar's label after the first need, in points.
+double colour_bar_label_room(const Panel& panel, double height, const Theme& theme);
+
 /// Draws the bar beside the frame, its least value at the foot, with ticks and its label.
 void draw_colour_bar(const Panel& panel, std::size_t panel_index, const Box& frame,
                      const Theme& theme, Drawing& drawing);

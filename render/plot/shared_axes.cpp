@@ -112,7 +112,10 @@ class SharedGrid {
   }
 
   double y_label_width() const {
-    return figure_.shared_y && !panels_.front().y.label.empty() ? 1.5 * theme_.font_pt : 0.0;
+    if (!figure_.shared_y || panels_.front().y.label.empty()) return 0.0;
+    const auto rows = static_cast<double>((panels_.size() + columns_ - 1) / columns_);
+    const double em = theme_.font_pt;
+    return 1.5 * em + further_lines(upward_lines(panels_.front().y.label, rows * height_, em), em);
   }
 
   double aspect() const {
@@ -160,10 +163,12 @@ class SharedGrid {
     const double em = theme_.font_pt;
     const double top = drawing_.frames.front().y0, bottom = drawing_.frames.back().y1;
     const std::string& label = panels_.front().y.label;
-    const ShapedText text = shape_text_within(label, (bottom - top) / em);
-    add_text(drawing_, Role::kAxisLabel, 0, text, label,
-             {room_.x0 + FontFacts::kAscent * em, (top + bottom + text.advance * em) / 2.0}, em,
-             theme_.text, true);
+    double x = room_.x0 + FontFacts::kAscent * em;
+    for (const ShapedText& line : upward_lines(label, bottom - top, em)) {
+      add_text(drawing_, Role::kAxisLabel, 0, line, label,
+               {x, (top + bottom + line.advance * em) / 2.0}, em, theme_.text, true);
+      x += FontFacts::kLine * em;
+    }
   }
 
   /// In the grid's last row if that has room for it, else below. @return Where it ends.

@@ -9,6 +9,7 @@
 #include <fmt/format.h>
 #include <boost/math/distributions/binomial.hpp>
 
+#include "core/base/unit_text.hpp"
 #include "core/base/words.hpp"
 #include "core/statistics/paired_change.hpp"
 #include "core/statistics/signed_rank.hpp"
@@ -241,11 +242,11 @@ NightFinding finding_of(const Comparison& comparison, const PairedChange& change
           .since = evidence.trend.nights.back().number,
           .sentence = fmt::format(
               "{}: {} {} than on night {}, 95\u00a0% interval {}; median {:.4g} → "
-              "{:.4g}{}{}{}; {}, {} corrected for {}",
+              "{}{}; {}, {} corrected for {}",
               shown_subject(comparison.subject), quantity.label,
               worse_words(quantity, change.shift), evidence.reference->night, interval,
-              comparison.before, comparison.after, quantity.unit.empty() ? "" : "\u00a0",
-              quantity.unit, comparison.has_steps ? " at the last step" : "", units, p_text(p),
+              comparison.before, with_unit(fmt::format("{:.4g}", comparison.after), quantity.unit),
+              comparison.has_steps ? " at the last step" : "", units, p_text(p),
               counted(static_cast<long long>(tests), "test"))};
 }
 

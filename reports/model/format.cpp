@@ -15,6 +15,8 @@ constexpr const char* kMinus = "\u2212";
 constexpr const char* kReplacement = "\uFFFD";
 constexpr double kLargest = 1e6;  ///< From here on an exponent reads better.
 
+constexpr int kManyDecimals = 6;  ///< What has these is small as a whole.
+
 struct CellFormatter {
   std::string operator()(const TextCell& cell) const { return displayable(cell.text); }
   std::string operator()(const NumberCell& cell) const {
@@ -33,10 +35,13 @@ struct CellFormatter {
 std::string format_number(double value, int decimals, bool with_sign) {
   if (!std::isfinite(value)) return kMissingText;
   const double size = std::abs(value);
-  const std::string digits =
-      size >= kLargest ? fmt::format("{:.2e}", size) : fmt::format("{:.{}f}", size, decimals);
-  const bool zero = digits.find_first_of("123456789") == std::string::npos;
-  if (zero) return digits;
+  const auto is_zero = [](const std::string& digits) {
+    return digits.find_first_of("123456789") == std::string::npos;
+  };
+  std::string digits = fmt::format("{:.{}f}", size, decimals);
+  const bool is_hidden = size > 0.0 && decimals >= kManyDecimals && is_zero(digits);
+  if (size >= kLargest || is_hidden) digits = fmt::format("{:.2e}", size);
+  if (is_zero(digits)) return digits;
   if (value < 0) return kMinus + digits;
   return with_sign ? "+" + digits : digits;
 }

@@ -3,6 +3,7 @@
 #include <vector>
 
 #include "core/base/csv.hpp"
+#include "core/base/unit_text.hpp"
 #include "reports/model/format.hpp"
 #include "reports/tables/write_tables.hpp"
 
@@ -42,7 +43,7 @@ TableLines csv_lines(const Table& table) {
   std::vector<bool> intervals;
   for (std::size_t i = 0; i < table.columns.size(); ++i) {
     intervals.push_back(is_interval(table, i));
-    const std::string title = full_heading(table.columns[i]);
+    const std::string title = with_plain_spaces(full_heading(table.columns[i]));
     if (i > 0) lines.head += ',';
     lines.head += intervals[i] ? harmless(title + ", low") + "," + harmless(title + ", high")
                                : harmless(title);

@@ -406,6 +406,22 @@ TEST(HeatMapFigure, WritesNumbersOnlyWhereAllOfThemFit) {
   EXPECT_EQ(numbers_in(sample_heat(30, 24)), 0);
 }
 
+TEST(HeatMapFigure, WritesSignificantDigitsOfSmallValues) {
+  const auto texts = [](const HeatMapSpec& spec) {
+    const Figure figure = heat_map_figure(spec);
+    return std::get<Cells>(figure.panels.at(0).layers.back()).text;
+  };
+  HeatMapSpec spec = sample_heat(2, 2);
+  spec.values = {1.23e-16, -4.5e-17, 0.0, 2e-16};
+  spec.decimals = 6;
+  EXPECT_EQ(texts(spec),
+            (std::vector<std::string>{"0.000000", "2.0×10⁻¹⁶", "1.2×10⁻¹⁶", "−4.5×10⁻¹⁷"}));
+  EXPECT_NE(heat_map_figure(spec).alt.find("greatest: 2.00×10⁻¹⁶ m"), std::string::npos);
+  spec.values = {0.25, 1e-16, 0.0, 0.5};
+  spec.decimals = 3;
+  EXPECT_EQ(texts(spec), (std::vector<std::string>{"0.000", "0.500", "0.250", "≈ 0"}));
+}
+
 TEST(HeatMapFigure, HasABarOfTheHeightOfItsFrameRightOfIt) {
   const Drawing drawing = lay_out(heat_map_figure(sample_heat(5, 4)), report_theme());
   const Box& frame = drawing.frames.at(0);

@@ -77,6 +77,61 @@ TEST(Layout, EqualAspectMakesUnitsEquallyLong) {
   EXPECT_NEAR(x_scale, -y_scale, 1e-9 * x_scale);  // y grows downward on the page.
 }
 
+/// The lines of a label with what they say, joined.
+std::string joined_text(const std::vector<TextLine>& lines) {
+  std::string text;
+  for (const TextLine& line : lines) text += (text.empty() ? "" : " ") + line.shaped.text;
+  return text;
+}
+
+TEST(Layout, ALongLabelOfTheYAxisIsWrapped) {
+  const std::string label =
+      "distance between the mean of the estimated positions and the truth [m]";
+  for (const bool is_equal : {false, true}) {
+    Figure figure = with_panels(1);
+    figure.panels[0].y.label = label;
+    figure.panels[0].equal_aspect = is_equal;
+    figure.panels[0].layers.push_back(Polyline{.x = {0, 3}, .y = {0, 1}});
+    const Drawing drawing = lay_out(figure, report_theme());
+    const std::vector<TextLine> lines = texts_of(drawing, Role::kAxisLabel);
+    EXPECT_GT(lines.size(), 1U);
+    EXPECT_EQ(joined_text(lines), label);
+    for (const TextLine& line : lines) EXPECT_EQ(line.whole, label);
+    EXPECT_TRUE(flaws(drawing).empty()) << flaws(drawing).front();
+  }
+}
+
+TEST(Layout, ALongLabelOfASharedYAxisIsWrapped) {
+  const std::string label =
+      "distance between the mean of the estimated positions and the truth [m]";
+  Figure figure = with_panels(3);
+  figure.shared_y = true;
+  for (Panel& panel : figure.panels) {
+    panel.y.label = label;
+    panel.layers.push_back(Polyline{.x = {0, 3}, .y = {0, 1}});
+  }
+  const Drawing drawing = lay_out(figure, report_theme());
+  EXPECT_EQ(joined_text(texts_of(drawing, Role::kAxisLabel)), label);
+  EXPECT_TRUE(flaws(drawing).empty()) << flaws(drawing).front();
+}
+
+TEST(Layout, ALongLabelOfAColourBarIsWrapped) {
+  const std::string label =
+      "distance between the mean of the estimated positions and the truth [m]";
+  Figure figure = with_panels(1);
+  figure.panels[0].layers.push_back(Cells{.x = {0, 1},
+                                          .y = {0, 1},
+                                          .columns = 2,
+                                          .values = {1, 2, 3, 4},
+                                          .limits = {1, 4},
+                                          .bar_label = label});
+  const Drawing drawing = lay_out(figure, report_theme());
+  std::vector<TextLine> lines = texts_of(drawing, Role::kLegendText);
+  std::erase_if(lines, [](const TextLine& line) { return !line.upward; });
+  EXPECT_EQ(joined_text(lines), label);
+  EXPECT_TRUE(flaws(drawing).empty()) << flaws(drawing).front();
+}
+
 TEST(Layout, PutsTheLegendInACornerThatIsFree) {
   Figure figure = with_panels(1);
   figure.panels[0].layers.push_back(Polyline{.label = "rising", .x = {0, 1}, .y = {0, 1}});

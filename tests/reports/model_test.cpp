@@ -33,6 +33,13 @@ TEST(FormatNumber, TurnsHugeNumbersIntoPowersAndMissingOnesIntoADash) {
   EXPECT_EQ(format_number(std::numeric_limits<double>::infinity(), 3), "\u2013");
 }
 
+TEST(FormatNumber, ShowsDigitsOfWhatIsSmallAsAWhole) {
+  EXPECT_EQ(format_number(1.23e-16, 6), "1.23e-16");
+  EXPECT_EQ(format_number(-1.23e-16, 6), "\u22121.23e-16");
+  EXPECT_EQ(format_number(0.0, 6), "0.000000");
+  EXPECT_EQ(format_number(0.000123, 6), "0.000123");
+}
+
 TEST(FormatCell, ShowsAnIntervalWithoutAnEndAsMissing) {
   EXPECT_EQ(format_cell(IntervalCell{0.1, 0.25, 2}), "0.10\u20130.25");
   EXPECT_EQ(format_cell(IntervalCell{-0.1, 0.25, 2}), "\u22120.10 to 0.25");

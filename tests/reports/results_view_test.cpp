@@ -11,6 +11,7 @@
 #include "reports/sections/results/results_figures.hpp"
 #include "reports/sections/results/results_heat_maps.hpp"
 #include "reports/sections/results/results_tables.hpp"
+#include "reports/tables/write_tables.hpp"
 
 namespace mapproof {
 namespace {
@@ -88,6 +89,32 @@ TEST(ResultsView, AnAxisIsTheNumericFactorWithTheMostLevels) {
   EXPECT_EQ(view.blocks()[0].id, "test-s-light-day-size-5");
 }
 
+TEST(ResultsView, IdsOfLevelsTellTheirSign) {
+  Rows rows;
+  for (const double tilt : {-5.0, 5.0, -0.5, 1e-7, 1e20})
+    for (const double noise : {0.1, 0.2, 0.3, 0.4, 0.5, 0.6})
+      rows.add("m", "a1", noise * tilt, {{"noise", noise}, {"tilt_deg", tilt}});
+  const ResultsStudy study = rows.study();
+  const ResultsView view(study);
+  std::vector<std::string> ids;
+  for (const ResultsBlock& block : view.blocks()) ids.push_back(block.id);
+  EXPECT_EQ(ids, (std::vector<std::string>{"test-s-tilt-deg-minus-5", "test-s-tilt-deg-minus-0-5",
+                                           "test-s-tilt-deg-1e-minus-07", "test-s-tilt-deg-5",
+                                           "test-s-tilt-deg-1e20"}));
+}
+
+TEST(ResultsComparison, IdsOfTextsTellTheirSign) {
+  Rows rows;
+  for (const char* offset : {"+5 V", "-5 V", "5 V"})
+    rows.add("m", "a1", 1.0, {{"offset", std::string(offset)}})
+        .add("n", "a1", 2.0, {{"offset", std::string(offset)}});
+  const ResultsStudy study = rows.study();
+  const ResultsView view(study);
+  std::vector<std::string> ids;
+  for (const MethodComparison& comparison : compare_methods(view)) ids.push_back(comparison.id);
+  EXPECT_EQ(ids, (std::vector<std::string>{"test-s-plus-5-v", "test-s-minus-5-v", "test-s-5-v"}));
+}
+
 TEST(ResultsView, SubjectsOfARunAreOneValueAndLostRunsAreCounted) {
   const ResultsStudy study = Rows()
                                  .add("m", "a1", 1.0, {}, "L1")
@@ -157,7 +184,7 @@ TEST(ResultsComparison, IsThePairedTestOverGroupsCorrectedForTheMethods) {
   EXPECT_DOUBLE_EQ(found.ranks->mean_ranks[0], 1.1);  // One tie with m2.
   EXPECT_DOUBLE_EQ(found.ranks->mean_ranks[2], 3.0);
   EXPECT_EQ(sentence_of(found, view).substr(0, 53),
-            "s: m1 has the lowest mean MPE, 1.1 m; m2 follows with");
+            "s: m1 has the lowest mean MPE, 1.1\u00A0m; m2 follows with");
 }
 
 TEST(ResultsComparison, PairsAreOfTheRunsThatAllComparedMethodsHave) {
@@ -322,6 +349,21 @@ TEST(ResultsView, AnOverviewHasAColumnPerLevelOfAText) {
   EXPECT_EQ(figures.groups.front().figures[0].panels.size(), 3U);
 }
 
+TEST(ResultsTables, NumberAndUnitStayOnOneLineInHeadsOfColumns) {
+  Rows rows;
+  for (const double side : {1.5, 4.0})
+    for (const double noise : {0.1, 0.2, 0.3})
+      rows.add("m", "a", side + noise, {{"noise", noise}, {"side", side}});
+  ResultsStudy study = rows.study();
+  for (Label& factor : study.factors)
+    if (factor.id == "side") factor.unit = "m";
+  const ResultsView view(study);
+  ASSERT_EQ(view.overviews().size(), 1U);
+  const Table table = overview_tables(view, view.overviews()[0]).at(0);
+  EXPECT_EQ(table.columns[1].title, "side 1.5\u00A0m");
+  EXPECT_NE(table_csv(table).find("side: side 1.5 m"), std::string::npos) << table_csv(table);
+}
+
 TEST(ResultsView, WithOneBlockHasNoOverview) {
   const ResultsStudy study =
       Rows().add("m", "a", 1.0, {{"noise", 1.0}}).add("m", "a", 2.0, {{"noise", 2.0}}).study();
@@ -483,9 +525,40 @@ TEST(ResultsFigures, ALevelOf0IsNoHindranceToALogarithmicAxis) {
 
 TEST(ResultsFigures, WhatIsTheSameEverywhereHasNone) {
   Rows rows;
-  for (const double noise : {0.1, 0.2}) rows.add("m", "a", 3.0, {{"noise", noise}});
+  for (const double noise : {0.1, 0.2})
+    for (const char* method : {"m", "n"}) rows.add(method, "a", 3.0, {{"noise", noise}});
   const ResultsStudy study = rows.study();
-  EXPECT_TRUE(results_figures(ResultsView(study), {}).groups.empty());
+  const ResultsView view(study);
+  EXPECT_TRUE(results_figures(view, {}).groups.empty());
+  EXPECT_EQ(why_no_figure(view, view.blocks()[0], mpe()),
+            "MPE: there is no curve, since the mean is 3\u00A0m at every level, for every method.");
+}
+
+TEST(ResultsFigures, EveryQuantityHasOneOrASentence) {
+  const auto why = [](Rows& rows, bool are_repeats = true) {
+    const ResultsStudy study = rows.study(are_repeats);
+    const ResultsView view(study);
+    const std::string sentence = why_no_figure(view, view.blocks()[0], mpe());
+    EXPECT_EQ(sentence.empty(), !results_figures(view, {}).groups.empty());
+    return sentence;
+  };
+  Rows single, lost, varied, repeated, many;
+  single.add("m", "a", 3.0);
+  EXPECT_EQ(why(single),
+            "MPE: there is no figure of the distribution over runs, since no method has two values "
+            "at one level.");
+  for (const double noise : {0.1, 0.2}) {
+    lost.add("m", "a", kNaN, {{"noise", noise}});
+    varied.add("m", "a", noise, {{"noise", noise}});
+  }
+  EXPECT_EQ(why(lost), "MPE: there is no curve, since no run gave a value.");
+  EXPECT_EQ(why(varied), "");
+  EXPECT_EQ(why(repeated.add("m", "a", 3.0).add("m", "b", 3.0)), "");
+  for (const char* terrain : {"a", "b", "c", "d", "e"})
+    many.add("m", "a", 1.0, {{"terrain", std::string(terrain)}})
+        .add("m", "b", 2.0, {{"terrain", std::string(terrain)}});
+  EXPECT_EQ(why(many),
+            "MPE: there is no figure of the distribution over runs, which shows 4 levels at most.");
 }
 
 TEST(ResultsTables, SayHowOftenAMethodEndedWithAStatus) {

@@ -62,10 +62,10 @@ TEST(TrialMeans, LevelsAreToldWithWhatTheyAreOf) {
     return level_words(setup, conditions_of(setup).front());
   };
   const TrialFactor share{"missing", "share missing", "%", {30}};
-  EXPECT_EQ(words({share}), "share missing 30 %");
+  EXPECT_EQ(words({share}), "share missing 30\u00A0%");
   EXPECT_EQ(words({{"noise", "noise of bearings", "\u00B0", {0}}}), "noise of bearings 0\u00B0");
   EXPECT_EQ(words({steps_factor({200})}), "observations 200");
-  EXPECT_EQ(words({share, steps_factor({200})}), "share missing 30 %, observations 200");
+  EXPECT_EQ(words({share, steps_factor({200})}), "share missing 30\u00A0%, observations 200");
   EXPECT_EQ(words({}), "");
   EXPECT_EQ(label_with_unit(share), "share missing [%]");
   EXPECT_EQ(label_with_unit(steps_factor({})), "observations");

@@ -99,6 +99,12 @@ void add_errors(std::vector<Figure>& figures) {
   HeatMapSpec wide = with_id(sample_heat(4, 3), "heat-log");
   for (double& value : wide.values) value = std::pow(10.0, 12.0 * value - 2.0);
   figures.push_back(heat_map_figure(wide));
+  HeatMapSpec tiny = with_id(sample_heat(4, 3), "heat-tiny");
+  for (double& value : tiny.values) value *= 1e-16;
+  tiny.decimals = 6;
+  tiny.quantity = "mean distance between the landmarks of two maps made from the same observations";
+  tiny.y_label = "greatest distance at which the sensor still observes a landmark [m]";
+  figures.push_back(heat_map_figure(tiny));
   HeatMapSpec same = with_id(sample_heat(2, 2), "heat-same");
   same.values.assign(4, 12.5);
   same.unit = "%";

@@ -10,6 +10,7 @@
 #include <fmt/format.h>
 
 #include "core/base/errors.hpp"
+#include "core/base/unit_text.hpp"
 #include "core/base/words.hpp"
 #include "core/statistics/nemenyi.hpp"
 #include "core/statistics/signed_rank.hpp"
@@ -141,7 +142,7 @@ std::vector<MethodComparison> compare_at_all(const ResultsView& view, const Resu
   std::vector<MethodComparison> comparisons;
   std::set<std::string> ids;
   for (std::size_t i = 0; i < block.conditions.size(); ++i) {
-    std::string id = block.id + "-" + slug_of(level_text(block.levels[i]));
+    std::string id = block.id + "-" + level_slug(block.levels[i]);
     if (id.back() == '-' || !ids.insert(id).second) id += fmt::format("-level-{}", i + 1);
     auto comparison = compare_at(view, block, quantity, block.conditions[i]);
     if (!comparison) continue;
@@ -169,8 +170,8 @@ std::vector<MethodComparison> compare_at_last(const ResultsView& view, const Res
   return {};
 }
 
-std::string with_unit(double value, const Quantity& quantity) {
-  return fmt::format("{:.3g}{}{}", value, quantity.unit.empty() ? "" : " ", quantity.unit);
+std::string value_words(double value, const Quantity& quantity) {
+  return with_unit(fmt::format("{:.3g}", value), quantity.unit);
 }
 
 std::string p_words(double p) { return p < 1e-3 ? "p < 0.001" : fmt::format("p = {:.2g}", p); }
@@ -278,8 +279,8 @@ std::string sentence_of(const MethodComparison& comparison, const ResultsView& v
   const ComparedMethod &best = comparison.methods[0], &next = comparison.methods[1];
   std::string text = fmt::format("{}: {} has the {} mean {}, {}; {} follows with {}",
                                  where_of(comparison), label_of(best, view), best_word(quantity),
-                                 quantity.label, with_unit(best.mean, quantity),
-                                 label_of(next, view), with_unit(next.mean, quantity));
+                                 quantity.label, value_words(best.mean, quantity),
+                                 label_of(next, view), value_words(next.mean, quantity));
   if (!comparison.has_all_runs)
     text += fmt::format(", over the {} that all of these methods have",
                         counted(comparison.runs, "run"));

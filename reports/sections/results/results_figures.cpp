@@ -9,6 +9,7 @@
 #include <fmt/format.h>
 
 #include "core/base/not_finite.hpp"
+#include "core/base/unit_text.hpp"
 #include "render/figures/critical_difference.hpp"
 #include "render/figures/level_curve.hpp"
 #include "render/figures/map.hpp"
@@ -174,10 +175,21 @@ ErrorLine distribution_of(const std::map<std::string, double>& runs) {
   return curve;
 }
 
+/// The most runs that any method has values of at one level.
+std::size_t most_runs(const ResultsView& view, const ResultsBlock& block,
+                      const Quantity& quantity) {
+  std::size_t most = 0;
+  for (const ResultsLine& line : view.lines(block, quantity))
+    for (const Condition& at : block.conditions)
+      most = std::max(most, view.numbers(at, line, quantity).values.size());
+  return most;
+}
+
 /// Where no factor has numbers: the distribution over runs, a panel per level.
 std::optional<Figure> distribution_figure(const ResultsView& view, const ResultsBlock& block,
                                           const Quantity& quantity) {
-  if (!view.study().results.are_repeats || block.conditions.size() > kMostPanels)
+  if (!view.study().results.are_repeats || block.conditions.size() > kMostPanels ||
+      most_runs(view, block, quantity) < 2)
     return std::nullopt;
   ErrorLinesSpec spec;
   spec.id = figure_id(block.id, quantity.id);
@@ -190,14 +202,12 @@ std::optional<Figure> distribution_figure(const ResultsView& view, const Results
   spec.log_from = HUGE_VAL;
   const std::vector<ResultsLine> lines = view.lines(block, quantity);
   std::vector<double> values;
-  std::size_t most = 0;
   for (std::size_t i = 0; i < block.conditions.size(); ++i) {
     ErrorPanel& panel = spec.panels.emplace_back();
     if (!block.factor.empty()) panel.title = view.level_words(block.levels[i]);
     panel.x.label = label_with_unit(quantity);
     for (std::size_t k = 0; k < lines.size(); ++k) {
       const auto runs = view.numbers(block.conditions[i], lines[k], quantity).values;
-      most = std::max(most, runs.size());
       ErrorLine curve = distribution_of(runs);
       if (curve.x.empty()) continue;
       values.insert(values.end(), curve.x.begin(), curve.x.end());
@@ -207,7 +217,6 @@ std::optional<Figure> distribution_figure(const ResultsView& view, const Results
       panel.lines.push_back(std::move(curve));
     }
   }
-  if (most < 2) return std::nullopt;
   if (spans_widely(values))
     for (ErrorPanel& panel : spec.panels) panel.x.scale = Scale::kLog;
   return error_lines_figure(spec);
@@ -313,6 +322,35 @@ void make_ids_unique(StudyFigures& figures) {
 }
 
 }  // namespace
+
+std::string why_no_figure(const ResultsView& view, const ResultsBlock& block,
+                          const Quantity& quantity) {
+  if (block.has_axis()) {
+    const std::vector<ErrorLine> curves = curves_of(view, block, quantity);
+    if (curves.empty())
+      return fmt::format("{}: there is no curve, since no run gave a value.", quantity.label);
+    if (tells_apart(curves)) return "";
+    const double mean = *std::ranges::find_if(curves.front().mean, is_known);
+    const std::string value = with_unit(fmt::format("{:.6g}", mean), quantity.unit);
+    const bool are_repeats = view.study().results.are_repeats;
+    return fmt::format("{}: there is no curve, since the {} is {} at every level{}.",
+                       quantity.label, are_repeats ? "mean" : "value", value,
+                       curves.size() == 1 ? ""
+                       : are_repeats      ? ", for every method"
+                                          : ", for every method and run");
+  }
+  if (!view.study().results.are_repeats) return "";
+  if (block.conditions.size() > kMostPanels)
+    return fmt::format(
+        "{}: there is no figure of the distribution over runs, which shows {} levels at most.",
+        quantity.label, kMostPanels);
+  if (most_runs(view, block, quantity) < 2)
+    return fmt::format(
+        "{}: there is no figure of the distribution over runs, since no method has two values at "
+        "one level.",
+        quantity.label);
+  return "";
+}
 
 StudyFigures results_figures(const ResultsView& view,
                              const std::vector<MethodComparison>& comparisons) {

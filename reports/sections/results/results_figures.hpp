@@ -1,5 +1,6 @@
 #pragma once
 
+#include <string>
 #include <vector>
 
 #include "core/model/given_path.hpp"
@@ -15,6 +16,11 @@ namespace mapproof {
 /// of three methods or more, their mean ranks with the critical difference.
 StudyFigures results_figures(const ResultsView& view,
                              const std::vector<MethodComparison>& comparisons);
+
+/// Why results_figures() has no figure of a quantity of a block, a sentence; empty where it has
+/// one, and where runs are no repeats of each other and there is no axis for a curve.
+std::string why_no_figure(const ResultsView& view, const ResultsBlock& block,
+                          const Quantity& quantity);
 
 /// The maps, each landmark's error as a line where the ground truth is known, and the paths beside
 /// theirs: maps as they were given, paths as their alignment says. Without either the group is

@@ -41,6 +41,8 @@ Section summary_section(const ResultsReportInput& input, bool has_opening) {
                 plain(fmt::format("{} of {} have no value. Means rest on the others; the notes "
                                   "under the tables count the lost ones.",
                                   lost, counted(rows, "result")))});
+  for (const std::string& remark : input.remarks)
+    section.blocks.emplace_back(Callout{Callout::Tone::kNote, "About the files", plain(remark)});
   for (const std::string& remark : remarks_of(study))
     section.blocks.emplace_back(
         Callout{Callout::Tone::kNote, "About the table", plain("In results.csv " + remark)});
@@ -71,6 +73,9 @@ Section block_section(const ResultsReportInput& input, const ResultsBlock& block
   Section section{block.id, block.title, {}};
   const auto group = std::ranges::find(input.figures.groups, block.id, &FigureGroup::id);
   if (group != input.figures.groups.end()) section.blocks.emplace_back(gallery_of(*group));
+  for (const Quantity* quantity : input.view.quantities(block))
+    if (std::string why = why_no_figure(input.view, block, *quantity); !why.empty())
+      section.blocks.emplace_back(plain(std::move(why)));
   for (Table& table : results_tables(input.view, block))
     section.blocks.emplace_back(std::move(table));
   for (const MethodComparison& comparison : input.comparisons)
@@ -93,7 +98,8 @@ Section overview_section(const ResultsReportInput& input, const ResultsOverview&
 /// The heat maps of a setup, if it has any.
 void add_grid_section(const ResultsReportInput& input, const std::string& setup,
                       std::vector<Section>& sections) {
-  const std::string id = fmt::format("{}-{}-grid", input.view.study().name, input.view.setup_slug(setup));
+  const std::string id =
+      fmt::format("{}-{}-grid", input.view.study().name, input.view.setup_slug(setup));
   const auto group = std::ranges::find(input.figures.groups, id, &FigureGroup::id);
   if (group == input.figures.groups.end()) return;
   sections.push_back({id, group->title, {gallery_of(*group)}});

@@ -17,7 +17,9 @@ struct ResultsReportInput {
   /// What came out, a sentence each, by whoever knows what the study asked; the report says them in
   /// place of what the comparisons came to.
   std::vector<std::string> conclusions = {};
-  std::string incomplete = {};   ///< What is still missing, a sentence; empty: nothing.
+  std::string incomplete = {};  ///< What is still missing, a sentence; empty: nothing.
+  std::vector<std::string> remarks =
+      {};                        ///< On the study's files beside the table, a sentence each.
   std::vector<Table> cost = {};  ///< What it took.
   std::string footer = "Made by mapproof.";
 };

@@ -8,6 +8,7 @@
 
 #include <fmt/format.h>
 
+#include "core/base/unit_text.hpp"
 #include "core/base/words.hpp"
 
 namespace mapproof {
@@ -104,7 +105,7 @@ void ResultsView::add_setup(const Label& setup) {
     block.others = others.levels;
     for (const Level& other : others.levels) {
       block.title += ", " + level_words(other);
-      block.id += "-" + slug_of(other.factor + "-" + level_text(other));
+      block.id += "-" + slug_of(other.factor) + "-" + level_slug(other);
     }
     for (const std::string& factor : factors)
       if (std::ranges::find(at.levels, factor, &Level::factor) == at.levels.end()) {
@@ -292,8 +293,7 @@ std::string ResultsView::level_words(const Level& level) const {
   const std::string text =
       is_number(level) ? fmt::format("{:.6g}", std::get<double>(level.value)) : level_text(level);
   if (found == study_.factors.end()) return level.factor + " " + text;
-  const bool is_close = found->unit.empty() || found->unit == "\u00B0";
-  return found->label + " " + text + (is_close ? "" : " ") + found->unit;
+  return found->label + " " + with_unit(text, found->unit);
 }
 
 std::string ResultsView::factor_label(const std::string& factor) const {
@@ -337,6 +337,23 @@ std::string slug_of(const std::string& text) {
   }
   while (!slug.empty() && slug.back() == '-') slug.pop_back();
   return slug;
+}
+
+std::string level_slug(const Level& level) {
+  std::string text = level_text(level);
+  std::string sign;
+  const auto is_digit = [](char c) { return c >= '0' && c <= '9'; };
+  if (text.size() > 1 && (is_digit(text[1]) || text[1] == '.')) {
+    if (text[0] == '-') sign = "minus-";
+    if (text[0] == '+') sign = "plus-";
+  }
+  if (is_number(level)) {
+    // Of an exponent only a minus is a sign that tells numbers apart: "1e-05", "1e05".
+    std::erase(text, '+');
+    if (const std::size_t minus = text.find("e-"); minus != std::string::npos)
+      text.replace(minus, 2, "e-minus-");
+  }
+  return sign + slug_of(text);
 }
 
 int decimals_of(std::vector<double> sizes) {

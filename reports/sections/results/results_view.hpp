@@ -130,6 +130,9 @@ bool is_lost(double value);
 /// [a-z0-9-]+ of any text, for ids.
 std::string slug_of(const std::string& text);
 
+/// The level's text for ids, with its sign in words: "minus-5", "0-5", "grass".
+std::string level_slug(const Level& level);
+
 /// Decimals that tell these values apart: three significant digits of their median.
 int decimals_of(std::vector<double> sizes);
 

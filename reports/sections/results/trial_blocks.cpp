@@ -9,6 +9,7 @@
 #include "core/base/words.hpp"
 #include "render/figures/measured_map.hpp"
 #include "render/figures/pair_distances.hpp"
+#include "reports/sections/results/results_view.hpp"
 #include "reports/sections/sessions_table.hpp"
 #include "reports/sections/trials/trial_means.hpp"
 #include "reports/sections/wording.hpp"
@@ -64,10 +65,11 @@ FigureGroup trial_maps(const TrialStudy& study, const std::string& prefix) {
     for (const TrialMap& map : part.maps) {
       const std::string title = title_of(study, part, map);
       maps.figures.push_back(measured_map_figure(
-          {prefix + "-map-" + map.id, title, map.map, map.pairs, map.certainty}));
+          {prefix + "-map-" + slug_of(map.id), title, map.map, map.pairs, map.certainty}));
       if (!map.pairs.empty())
-        maps.figures.push_back(pair_distances_figure(
-            {prefix + "-pairs-" + map.id, title + ", measured pairs", map.map, map.pairs}));
+        maps.figures.push_back(
+            pair_distances_figure({prefix + "-pairs-" + slug_of(map.id), title + ", measured pairs",
+                                   map.map, map.pairs}));
     }
   return maps;
 }

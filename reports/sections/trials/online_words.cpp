@@ -10,7 +10,13 @@
 namespace mapproof {
 namespace {
 
-constexpr const char* kCarriedOn[] = {"smacof", "smacof-knn", "isomap"};
+/// The series of maps that are carried on, not made anew.
+std::vector<std::string> carried_on(const TrialDesign& design) {
+  std::vector<std::string> ids;
+  for (const TrialSeries& series : design.series)
+    if (!series.id.ends_with("-anew")) ids.push_back(series.id);
+  return ids;
+}
 
 std::string online_question(const TrialExperiment& experiment) {
   return fmt::format(
@@ -22,11 +28,13 @@ std::string online_question(const TrialExperiment& experiment) {
 
 std::vector<std::string> online_conclusions(const TrialStudy& study) {
   std::vector<std::string> sentences;
+  const std::vector<std::string> methods = carried_on(study.design);
+  if (methods.empty()) return sentences;
   for (const TrialSetup& setup : study.design.setups) {
     const double last = levels_of(setup).back();
     const Condition at = condition_at(setup, last);
     double greatest = 0.0, beyond = 0.0;
-    for (const char* method : kCarriedOn) {
+    for (const std::string& method : methods) {
       const auto most = [&](const char* quantity, double so_far) {
         for (const double value : trial_values(study, at, method, quantity))
           so_far = std::max(so_far, value);
@@ -43,7 +51,7 @@ std::vector<std::string> online_conclusions(const TrialStudy& study) {
         beyond > 0.0
             ? fmt::format("; beyond the stated bound in {:.2g} % of the updates of one run", beyond)
             : "",
-        trial_mean(study, at, kCarriedOn[0], "steps_gone_through"), last));
+        trial_mean(study, at, methods[0], "steps_gone_through"), last));
   }
   return sentences;
 }

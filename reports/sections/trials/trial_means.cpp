@@ -8,6 +8,7 @@
 
 #include "core/base/errors.hpp"
 #include "core/base/not_finite.hpp"
+#include "core/base/unit_text.hpp"
 #include "core/base/words.hpp"
 
 namespace mapproof {
@@ -58,9 +59,8 @@ std::string level_words(const TrialSetup& setup, const Condition& at) {
   for (const TrialFactor& factor : setup.factors) {
     const auto level = std::ranges::find(at.levels, factor.id, &Level::factor);
     if (level == at.levels.end()) continue;
-    words.push_back(fmt::format("{} {:g}{}{}", factor.label, std::get<double>(level->value),
-                                factor.unit.empty() || factor.unit == "\u00B0" ? "" : " ",
-                                factor.unit));
+    words.push_back(factor.label + " " +
+                    with_unit(fmt::format("{:g}", std::get<double>(level->value)), factor.unit));
   }
   return fmt::format("{}", fmt::join(words, ", "));
 }

@@ -58,6 +58,9 @@ TEST(CertaintyTopic, TriesEverySeriesAtEveryLevelOfBothSensors) {
     EXPECT_LE(trial.values.at("mean_covered_percent"), 100.0);
     EXPECT_GT(trial.values.at("spread_m"), 0.0);
   }
+  std::vector<std::string> methods;
+  for (const TrialSeries& series : study.design.series) methods.push_back(series.id);
+  EXPECT_EQ(methods, (std::vector<std::string>{"lpca", "smacof", "smacof-knn-K8", "isomap-K8"}));
   ASSERT_EQ(study.parts[0].maps.size(), 2U);
   ASSERT_TRUE(study.parts[0].maps[0].certainty);
   EXPECT_EQ(study.parts[0].maps[0].certainty->covariances.size(), 15U);

@@ -41,6 +41,8 @@ TEST(OnlineTopic, FollowsEverySensorToEveryLevel) {
     EXPECT_EQ(trial.values.at("steps_gone_through"),
               trial.series.ends_with("-anew") ? steps : 50.0);
   }
+  EXPECT_EQ(study.design.series[4].id, "isomap-K6");
+  EXPECT_EQ(study.design.series[5].id, "isomap-K6-anew");
   EXPECT_EQ(conclusions_of(study).size(), 3U);
 }
 

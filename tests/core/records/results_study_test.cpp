@@ -113,6 +113,70 @@ TEST(ResultsStudy, SaysWhatLooksUnusualInATable) {
   EXPECT_TRUE(remarks("s,m,found,1,0,1\n").empty());
 }
 
+TEST(ResultsStudy, SaysWhichLabelsAreTheSame) {
+  const std::string methods =
+      R"(, "methods": [{"id": "b", "label": "EKF"}, {"id": "a", "label": "EKF"}]})";
+  EXPECT_EQ(label_remarks_of(study_of(kHead + kOwn + methods, kTable)),
+            std::vector<std::string>{"methods: b and a have the same label \"EKF\": figures and "
+                                     "tables do not tell them apart"});
+  EXPECT_EQ(label_remarks_of(
+                study_of(kHead + kOwn + R"(, "methods": [{"id": "b", "label": "a"}]})", kTable))
+                .size(),
+            1U)
+      << "the other is labelled by its id";
+  EXPECT_TRUE(label_remarks_of(study_of(kHead + kOwn + "}", kTable)).empty());
+}
+
+TEST(ResultsStudy, NamesFilesThatAreNotRead) {
+  const test::TemporaryFolder folder;
+  for (const char* file : {"maps/a.csv", "maps/b.txt", "maps/.hidden", "paths/a.csv", "paths/b.tum",
+                           "paths/b.truth.tum"})
+    write_file(folder / file, "");
+  EXPECT_EQ(passed_over_files(folder.path()),
+            (std::vector<std::string>{"maps/b.txt: is not read: a map is maps/NAME.csv",
+                                      "paths/a.csv: is not read: a path is paths/NAME.tum"}));
+}
+
+TEST(ResultsStudy, WithoutItsStudyJsonSaysWhatToAdd) {
+  const test::TemporaryFolder folder;
+  write_file(folder / "results.csv", kTable);
+  const std::string problem = test::error_of([&] { read_results_study(folder.path()); });
+  EXPECT_EQ(problem, folder.path().string() +
+                         ": holds results.csv without study.json; write one beside it, at least "
+                         R"({"schema": {"name": "mapproof.results_study", "version": 1}, )"
+                         R"("title": "..."})");
+  const std::size_t head = problem.find('{');
+  EXPECT_EQ(parse_results_study(problem.substr(head), "study.json").title, "...");
+}
+
+TEST(ResultsStudy, MapsAndPathsAreGivenWhole) {
+  const test::TemporaryFolder folder;
+  write_file(folder / "study.json", kHead + "}");
+  const auto problem_of_map = [&](const std::string& rows) {
+    write_file(folder / "maps/a.csv", "name,x_m,y_m,true_x_m,true_y_m\n" + rows);
+    const std::string what = test::error_of([&] { read_given_maps(folder.path()); });
+    const std::string prefix = folder.path().string() + "/";
+    return what.starts_with(prefix) ? what.substr(prefix.size()) : what;
+  };
+  EXPECT_EQ(problem_of_map("a,1,2,3,4\nb,1,2,,\nc,,,1,2\n"), "no error");
+  EXPECT_EQ(problem_of_map("a,1,2,3,4\nb,1,2,3,\n"),
+            "maps/a.csv: line 3: \"b\" has true_x_m and no true_y_m");
+  EXPECT_EQ(problem_of_map("a,,2,3,4\n"), "maps/a.csv: line 2: \"a\" has y_m and no x_m");
+  write_file(folder / "paths/a.tum", "0 0 0 0 0 0 0 1\n1 1 0 0 0 0 0 0\n");
+  EXPECT_EQ(test::error_of([&] { read_given_paths(folder.path()); }),
+            (folder / "paths/a.tum").string() +
+                ": line 2: the quaternion qx qy qz qw is 0 0 0 0, which is no orientation; without "
+                "one it is 0 0 0 1");
+}
+
+TEST(ResultsStudy, ErrorsDoNotShowCarriageReturns) {
+  EXPECT_EQ(problem(kHead + "}", "setup,method,quantity,run,value\r\n\"s\" x\r\n"),
+            "results.csv: line 2: text behind a closing quote: \"x\"");
+  EXPECT_EQ(
+      problem(kHead + "}", "setup,method,quantity,run,value\rs,b,mpe_m,1,2\r"),
+      "results.csv: line 1: the lines end with carriage returns alone; line feeds are needed");
+}
+
 TEST(ResultsStudy, PathsAreAlignedAsItSays) {
   const test::TemporaryFolder folder;
   const auto alignment = [&](const std::string& key) {

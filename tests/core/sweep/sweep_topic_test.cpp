@@ -4,8 +4,10 @@
 #include <gtest/gtest.h>
 
 #include "core/base/errors.hpp"
+#include "core/base/unit_text.hpp"
 #include "core/experiment/run.hpp"
 #include "core/records/trial_experiment_json.hpp"
+#include "core/records/trial_json.hpp"
 #include "core/simulate/sensors.hpp"
 #include "core/trials/run_trials.hpp"
 #include "core/trials/sweep.hpp"
@@ -78,10 +80,55 @@ TEST(SweepTopic, AtTheExperimentsOwnLevelsIsTheExperiment) {
                                       {"landmark_diameter_m", 0.048}}) {
     std::string setup = std::string("bearing-") + factor;
     std::ranges::replace(setup, '_', '-');
-    same.push_back(mpe_of(study, condition(setup, {{factor, level}}), "smacof-knn-k6"));
+    same.push_back(mpe_of(study, condition(setup, {{factor, level}}), "smacof-knn-K6"));
   }
   for (const double mpe : same) EXPECT_EQ(mpe, same.front());
   EXPECT_GT(same.front(), 0.0);
+}
+
+TEST(SweepTopic, SaysInPlainEnglishWhatCameOut) {
+  const TrialExperiment experiment =
+      parsed(R"({"side_m": [1.5, 4]}, {"anchors": [3, 6], "bearing_noise_deg": [0, 5]})");
+  TrialStudy study;
+  study.experiment = experiment;
+  study.design = kSweepTopic.design(experiment);
+  TrialPart& part = study.parts.emplace_back();
+  for (const TrialSetup& setup : study.design.setups) {
+    double mpe_m = 0.1;
+    for (const Condition& at : conditions_of(setup)) {
+      part.trials.push_back({.at = at, .series = "lpca", .values = {mpe_m, 1.0}, .statuses = {}});
+      part.trials.push_back(
+          {.at = at, .series = "smacof-knn-K6", .values = {0.2, 1.0}, .statuses = {}});
+      mpe_m += 0.3;
+    }
+  }
+  const std::vector<std::string> found = conclusions_of(study);
+  ASSERT_EQ(found.size(), 3U);
+  EXPECT_EQ(with_plain_spaces(found[1]),
+            "Maps from bearing by side of the room: as the side of the room goes from 1.5 m to 4 "
+            "m, the mean MPE of LPCA grows from 0.1 m to 0.4 m and that of SMACOF (kNN weights, K "
+            "= 6) stays at 0.2 m.");
+  EXPECT_EQ(with_plain_spaces(found[2]),
+            "Maps from bearing by anchors and noise of bearings: as the number of anchors goes "
+            "from 3 to 6 and the noise of bearings from 0\u00B0 to 5\u00B0, the mean MPE of LPCA "
+            "grows from 0.1 m to 1 m and that of SMACOF (kNN weights, K = 6) stays at 0.2 m.");
+}
+
+TEST(SweepTopic, SpellsMethodsAsAllStudiesDo) {
+  const TrialExperiment experiment = parse_trial_experiment(
+      R"({"schema": {"name": "mapproof.trial_experiment", "version": 1}, "name": "s",
+          "topic": "sweep", "steps": 150, "world": {"landmarks": 16},
+          "sensors": {"bearing": {"methods": {"lpca": {}, "isomap": {"K": [6]},
+                                              "kpca-gaussian": {"sigma2": [0.05]}}}},
+          "sweeps": [{"anchors": [4]}]})",
+      "s.json", input_of_topics());
+  const TrialStudy study = study_of(experiment);
+  std::vector<std::string> ids;
+  for (const TrialSeries& series : study.design.series) ids.push_back(series.id);
+  std::ranges::sort(ids);
+  EXPECT_EQ(ids, (std::vector<std::string>{"isomap-K6", "kpca-gaussian-sigma2-0.05", "lpca"}));
+  const std::string text = trial_study_json(study);
+  EXPECT_EQ(trial_study_json(parse_trial_study(text, "study.json")), text);
 }
 
 TEST(SweepTopic, PairsLayoutsWalksAndNoiseAcrossLevels) {
