@@ -11,7 +11,8 @@
 namespace mapproof {
 namespace {
 
-constexpr int kResultVersion = 1;  ///< Raised when a key is renamed, removed or means another thing.
+constexpr int kResultVersion =
+    1;  ///< Raised when a key is renamed, removed or means another thing.
 
 /// One line of a message, however hostile the names in it.
 std::string one_line(const std::string& message) { return printable(message, 4000); }
@@ -39,8 +40,7 @@ void Console::warning(const std::string& message) const {
 
 void Console::result(const std::string& text, const nlohmann::ordered_json& object) const {
   nlohmann::ordered_json whole_object;
-  if (!object.contains("schema"))
-    whole_object["schema"] = {{"name", "mapproof.result." + verb_}, {"version", kResultVersion}};
+  whole_object["schema"] = {{"name", "mapproof.result." + verb_}, {"version", kResultVersion}};
   whole_object.update(object);
   const std::string out =
       json_ ? whole_object.dump(2, ' ', false, nlohmann::json::error_handler_t::replace) + "\n"

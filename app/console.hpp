@@ -33,8 +33,8 @@ class Console {
   /// What a person should look at, --quiet or not.
   void warning(const std::string& message) const;
 
-  /// The result: `text`, or with --json `object`, whose schema comes first unless it names one.
-  /// Text that is not UTF-8 is mended.
+  /// The result: `text`, or with --json `object` behind the schema of the verb's results; it names
+  /// none of its own. Text that is not UTF-8 is mended.
   void result(const std::string& text, const nlohmann::ordered_json& object) const;
 
  private:

@@ -69,7 +69,8 @@ bool is_run_by_ctest() {
 
 void add_diff_options(CLI::App& app, DiffOptions& options) {
   app.remove_option(app.get_option("--json"));
-  app.add_option("--json", options.json, "Write all that was found as JSON; - to standard output");
+  app.add_option("--json", options.json,
+                 "Write all that was found as JSON, a file of its own form; - to standard output");
   app.add_option("--templates", options.templates,
                  "Folder whose templates replace those of the page")
       ->check(names_folder());
@@ -113,7 +114,7 @@ int hand_out(const DiffResult& result, const DiffSettings& settings, const DiffO
     text = diff_text(result, console.is_quiet() ? DiffWords::kFailures : DiffWords::kAll);
     if (is_run_by_ctest()) text += ctest_lines(result);
   }
-  console.result(text, object);
+  console.result(text, {});  // --json is an output like the others.
   return result.passes ? kDone : kNo;
 }
 

@@ -29,8 +29,10 @@ constexpr const char* kExitCodes =
     "  4  nightly: only seconds or memory grew\n";
 
 constexpr const char* kFooter =
-    "Every verb takes --json (its result as one JSON object on standard output), --quiet and "
-    "--verbose;\nmessages go to standard error. \"mapproof VERB --help\" shows examples.\n";
+    "Every verb takes --json (its result as one JSON object on standard output; diff and check "
+    "take\n--json FILE, where - is standard output), --quiet and --verbose; messages go to "
+    "standard "
+    "error.\n\"mapproof VERB --help\" shows examples.\n";
 
 struct Common {
   bool json = false;

@@ -8,7 +8,6 @@
 
 #include "core/base/errors.hpp"
 #include "core/base/files.hpp"
-#include "core/json/json_text.hpp"
 #include "core/records/folder_lock.hpp"
 #include "reports/history/history_export.hpp"
 
@@ -80,7 +79,7 @@ void begin_night(const fs::path& folder, const std::vector<StudyOrder>& orders,
 }
 
 void end_night(const fs::path& folder, const Night& night) {
-  write_file(end_file(folder), json_text(night_value(night.facts, night.findings)));
+  write_file(end_file(folder), night_json(night));
 }
 
 LostNights lost_nights(const fs::path& store, std::span<const NightFacts> known) {

@@ -9,6 +9,7 @@
 #include <csignal>
 #include <cstdio>
 #include <cstring>
+#include <map>
 #include <system_error>
 #include <utility>
 
@@ -18,23 +19,46 @@
 #include "app/study_run.hpp"
 #include "core/base/errors.hpp"
 #include "core/records/results_study_json.hpp"
+#include "core/records/study_folder.hpp"
 #include "reports/history/night_scores.hpp"
 
 namespace mapproof {
 
 namespace fs = std::filesystem;
 
+namespace {
+
+/// Two studies of a night that share their name would share their folder and their history.
+/// @throws InvalidInput.
+[[noreturn]] void refuse_same_name(const StudyOrder& order, const std::string& first,
+                                   const std::string& second) {
+  if (first == second) throw InvalidInput(printable(first) + ": is given twice");
+  const bool may_be_left_out = !order.given.empty() && order.name == kNamelessResults;
+  throw InvalidInput(fmt::format(
+      "{} and {}: both studies have the name \"{}\"{}; add a \"name\" of its own to one of them",
+      printable(first), printable(second), printable(order.name),
+      may_be_left_out ? ", which is that of a study.json without one" : ""));
+}
+
+}  // namespace
+
 std::vector<StudyOrder> read_nightly_orders(const std::vector<std::string>& experiments,
                                             OrderOptions options) {
   options.profile_if_there = options.one_of_several = true;
   std::vector<StudyOrder> orders;
+  std::map<std::string, std::string> files;  // By the study's name.
   for (const std::string& experiment : experiments) {
-    StudyOrder order = is_results_study(experiment)
-                           ? given_study_order(experiment)
-                           : read_study_order(experiment_of(experiment), options);
-    for (const StudyOrder& other : orders)
-      if (other.name == order.name)
-        throw InvalidInput("two experiments have the name " + printable(order.name));
+    StudyOrder order;
+    std::string file = (fs::path(experiment) / kStudyFile).string();
+    if (is_results_study(experiment)) {
+      order = given_study_order(experiment);
+    } else {
+      const ExperimentText text = experiment_of(experiment);
+      file = text.source;
+      order = read_study_order(text, options);
+    }
+    const auto [other, is_new] = files.try_emplace(order.name, file);
+    if (!is_new) refuse_same_name(order, other->second, file);
     orders.push_back(std::move(order));
   }
   check_data_used(orders, options);

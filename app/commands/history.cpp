@@ -38,7 +38,10 @@ int list(HistoryStore& history, const Console& console) {
       text += fmt::format("         {}: {}\n", finding.study, finding.sentence);
   }
   if (text.empty()) text = "no night yet\n";
-  console.result(text, history_json(history, false));
+  // The result of a verb; the exported file names its own schema.
+  nlohmann::ordered_json object = history_json(history, false);
+  object.erase("schema");
+  console.result(text, object);
   return kDone;
 }
 

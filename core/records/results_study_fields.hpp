@@ -6,6 +6,7 @@
 
 #include "core/model/given_path.hpp"
 #include "core/records/quantity_fields.hpp"
+#include "core/records/results_study_json.hpp"
 #include "core/records/text_forms.hpp"
 #include "core/records/value_fields.hpp"
 #include "core/results/results_study.hpp"
@@ -63,7 +64,7 @@ void fields(Visitor& v, ResultsHead& head) {
   using namespace record_rules;
   ResultsStudy& study = head.study;
   if constexpr (Visitor::kReads) {
-    study.name = "results";
+    study.name = kNamelessResults;
     study.results.are_repeats = true;
   }
   v.file("mapproof.results_study",

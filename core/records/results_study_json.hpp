@@ -14,6 +14,9 @@ namespace mapproof {
 /// The schema of a study.json that stands beside a results.csv and nothing else.
 inline constexpr std::string_view kResultsStudy = "mapproof.results_study";
 
+/// The name of a study of that schema that has none.
+inline constexpr std::string_view kNamelessResults = "results";
+
 /// Reads a study.json of that schema (docs/file-formats.md); the rows and the labels of what it
 /// does not name are missing.
 /// @throws IoError with the place.

@@ -11,6 +11,7 @@
 #include "core/model/slam_study.hpp"
 #include "core/model/study.hpp"
 #include "core/results/results.hpp"
+#include "core/results/study_labels.hpp"
 
 namespace mapproof {
 
@@ -18,7 +19,8 @@ namespace mapproof {
 struct PlacedPoints {
   std::string quantity = "landmark_m";  ///< Quantity::id.
   Frame frame = Frame::kTruth;
-  bool is_free = false;  ///< In metres, in a frame known up to a rotation, a shift and a reflection.
+  bool is_free =
+      false;  ///< In metres, in a frame known up to a rotation, a shift and a reflection.
   std::vector<std::string> names;  ///< One a row; empty: rows are counted from 1.
   Points points;                   ///< n x 2; NaN rows: no place.
   std::optional<Points> truth;     ///< n x 2; NaN rows: not known.
@@ -36,6 +38,7 @@ struct StudyContents {
                      ///< "mapproof.results_study", "mapproof.map", "mapproof.slam_run": the schema
                      ///< of its first file.
   Provenance provenance;
+  StudyLabels labels;  ///< Of studies that declare them; mapproof's own methods are known.
   Results results;
   std::vector<Result> seconds;                 ///< Of its parts: they vary from run to run.
   std::map<std::string, std::string> runs;     ///< Id of each, and its group; of one that cannot be

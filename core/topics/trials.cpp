@@ -81,6 +81,10 @@ void read_trials(const fs::path& folder, const std::string& text, const Contents
                  StudyContents& contents) {
   TrialStudy study = parse_trial_study(text, (folder / "study.json").string());
   contents.provenance = study.provenance;
+  for (const TrialSetup& setup : study.design.setups)
+    contents.labels.setups[setup.id] = setup.title;
+  for (const TrialSeries& series : study.design.series)
+    contents.labels.methods[series.id] = series.label;
   for (const fs::path& path : part_files(folder)) {
     contents.runs[path.stem().string()] = "";
     try_file(contents, folder, path, asked, [&] {

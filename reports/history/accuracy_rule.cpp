@@ -34,6 +34,7 @@ struct RunPairs {
 /// What one test is of.
 struct Comparison {
   std::string subject = {};
+  std::string shown = {};   ///< The subject, for readers.
   std::string method = {};  ///< method_of() its series.
   const Quantity* quantity = nullptr;
   std::vector<double> differences = {};  ///< One a unit.
@@ -44,6 +45,7 @@ struct Comparison {
 
 struct Losses {
   std::string subject = {};
+  std::string shown = {};
   const Quantity* quantity = nullptr;
   int lost = 0, gained = 0, of = 0;
 };
@@ -51,6 +53,7 @@ struct Losses {
 /// Series of the reference that tonight does not have at all.
 struct Vanished {
   std::string subject = {};
+  std::string shown = {};
   std::string quantity = {};  ///< Of the first of them.
   std::set<std::string> quantities = {};
   int series = 0;
@@ -120,8 +123,10 @@ struct Work {
 void add_family(Work& work, const StudyEvidence& evidence, const RegressionRules& rules,
                 const std::vector<const SeriesId*>& steps) {
   const Quantity& quantity = evidence.trend.quantities.at(steps.front()->quantity);
+  const StudyLabels& labels = evidence.trend.labels;
   const std::string method = method_of(*steps.back());
-  Losses losses{method, &quantity};
+  const std::string shown = shown_method_of(labels, *steps.back());
+  Losses losses{method, shown, &quantity};
   std::map<std::string, RunPairs> all;
   std::map<std::string, RunPairs> last;
   for (const SeriesId* series : steps) {
@@ -131,9 +136,11 @@ void add_family(Work& work, const StudyEvidence& evidence, const RegressionRules
     Losses of_last;
     if (series == steps.back()) add_step(last, of_last, quantity, before, after);
   }
-  const auto add = [&](const std::map<std::string, RunPairs>& runs, const std::string& subject) {
+  const auto add = [&](const std::map<std::string, RunPairs>& runs, const std::string& subject,
+                       const std::string& shown_as) {
     if (runs.empty()) return;
     Comparison comparison{.subject = subject,
+                          .shown = shown_as,
                           .method = method,
                           .quantity = &quantity,
                           .has_steps = steps.back()->step != 0};
@@ -142,14 +149,14 @@ void add_family(Work& work, const StudyEvidence& evidence, const RegressionRules
     comparison.before = known_median(evidence.reference->scores.at(*steps.back()));
     comparison.after = known_median(evidence.tonight.at(*steps.back()));
     if (std::cmp_less(comparison.differences.size(), rules.least_units))
-      work.too_few.insert(shown_subject(method));
+      work.too_few.insert(shown);
     else
       work.comparisons.push_back(std::move(comparison));
   };
-  add(last, subject_of(*steps.back()));
-  if (steps.size() > 1) add(all, fmt::format("{}, mean of {} steps", method, steps.size()));
-  if (all.empty() && losses.lost > 0 && losses.gained > 0)
-    work.other_runs.insert(shown_subject(method));
+  add(last, subject_of(*steps.back()), shown_subject(labels, *steps.back()));
+  const std::string mean = fmt::format(", mean of {} steps", steps.size());
+  if (steps.size() > 1) add(all, method + mean, shown + mean);
+  if (all.empty() && losses.lost > 0 && losses.gained > 0) work.other_runs.insert(shown);
   // Quantities that are lost together are one finding.
   const auto same = std::ranges::find_if(work.losses, [&](const Losses& other) {
     return other.subject == losses.subject && other.lost == losses.lost &&
@@ -163,9 +170,11 @@ void add_family(Work& work, const StudyEvidence& evidence, const RegressionRules
 
 /// Names what is gone by the widest thing that is gone: a setup, a method of it, one of its levels.
 void add_vanished(Work& work, const StudyEvidence& evidence) {
-  const auto base = [](const SeriesId& series) {
-    return series.sensor + ", " + series.method.substr(0, levels_begin(series.method));
+  const auto without_levels = [](SeriesId series) {
+    series.method.resize(levels_begin(series.method));
+    return series;
   };
+  const auto base = [&](const SeriesId& series) { return method_of(without_levels(series)); };
   std::set<std::string> setups, methods, quantities, subjects;
   for (const auto& [series, values] : evidence.tonight) {
     setups.insert(series.sensor);
@@ -178,16 +187,23 @@ void add_vanished(Work& work, const StudyEvidence& evidence) {
     const Quantity* quantity = evidence.trend.quantities.find(series.quantity);
     if (quantity == nullptr || quantity->nightly == NightlyRule::kDuration) continue;
     if (evidence.tonight.contains(series) || std::ranges::none_of(values, is_known)) continue;
-    const std::string subject = !setups.contains(series.sensor)         ? series.sensor
-                                : !methods.contains(base(series))       ? base(series)
-                                : !quantities.contains(series.quantity) ? "all methods"
-                                                                        : method_of(series);
+    const auto [subject, shown] = [&, &series = series]() -> std::pair<std::string, std::string> {
+      const StudyLabels& labels = evidence.trend.labels;
+      if (!setups.contains(series.sensor)) {
+        const std::string setup = shown_setup(labels, series.sensor);
+        return {series.sensor, setup.empty() ? "the setup without a name" : setup};
+      }
+      if (!methods.contains(base(series)))
+        return {base(series), shown_method_of(labels, without_levels(series))};
+      if (!quantities.contains(series.quantity)) return {"all methods", "all methods"};
+      return {method_of(series), shown_method_of(labels, series)};
+    }();
     const bool of_quantity = subject == "all methods" || subjects.contains(subject);
-    auto same = std::ranges::find_if(work.vanished, [&](const Vanished& other) {
+    auto same = std::ranges::find_if(work.vanished, [&, &subject = subject](const Vanished& other) {
       return other.subject == subject && (!of_quantity || other.quantity == series.quantity);
     });
     if (same == work.vanished.end()) {
-      work.vanished.push_back({.subject = subject, .quantity = series.quantity});
+      work.vanished.push_back({.subject = subject, .shown = shown, .quantity = series.quantity});
       same = std::prev(work.vanished.end());
     }
     ++same->series;
@@ -235,19 +251,19 @@ NightFinding finding_of(const Comparison& comparison, const PairedChange& change
   const Quantity& quantity = *comparison.quantity;
   const std::string interval = range_words(quantity, change.low, change.high);
   const std::string units = counted(change.units, comparison.unit);
-  return {.study = evidence.trend.name,
-          .rule = NightRule::kAccuracy,
-          .subject = comparison.subject,
-          .quantity = quantity.id,
-          .since = evidence.trend.nights.back().number,
-          .sentence = fmt::format(
-              "{}: {} {} than on night {}, 95\u00a0% interval {}; median {:.4g} → "
-              "{}{}; {}, {} corrected for {}",
-              shown_subject(comparison.subject), quantity.label,
-              worse_words(quantity, change.shift), evidence.reference->night, interval,
-              comparison.before, with_unit(fmt::format("{:.4g}", comparison.after), quantity.unit),
-              comparison.has_steps ? " at the last step" : "", units, p_text(p),
-              counted(static_cast<long long>(tests), "test"))};
+  return {
+      .study = evidence.trend.name,
+      .rule = NightRule::kAccuracy,
+      .subject = comparison.subject,
+      .quantity = quantity.id,
+      .since = evidence.trend.nights.back().number,
+      .sentence = fmt::format("{}: {} {} than on night {}, 95\u00a0% interval {}; median {:.4g} → "
+                              "{}{}; {}, {} corrected for {}",
+                              comparison.shown, quantity.label, worse_words(quantity, change.shift),
+                              evidence.reference->night, interval, comparison.before,
+                              with_unit(fmt::format("{:.4g}", comparison.after), quantity.unit),
+                              comparison.has_steps ? " at the last step" : "", units, p_text(p),
+                              counted(static_cast<long long>(tests), "test"))};
 }
 
 NightFinding finding_of(const Losses& losses, double p, const StudyEvidence& evidence) {
@@ -258,8 +274,8 @@ NightFinding finding_of(const Losses& losses, double p, const StudyEvidence& evi
           .since = evidence.trend.nights.back().number,
           .sentence = fmt::format(
               "{}: {} of the {} results of night {} no longer come out, {} do that did not; {}",
-              shown_subject(losses.subject), losses.lost, losses.of, evidence.reference->night,
-              losses.gained, p_text(p))};
+              losses.shown, losses.lost, losses.of, evidence.reference->night, losses.gained,
+              p_text(p))};
 }
 
 NightFinding finding_of(const Vanished& vanished, const StudyEvidence& evidence) {
@@ -269,9 +285,7 @@ NightFinding finding_of(const Vanished& vanished, const StudyEvidence& evidence)
           .quantity = vanished.quantity,
           .since = evidence.trend.nights.back().number,
           .sentence = fmt::format(
-              "{}: no result any more, where night {} had {} ({})",
-              vanished.subject.find(", ") == std::string::npos ? vanished.subject
-                                                               : shown_subject(vanished.subject),
+              "{}: no result any more, where night {} had {} ({})", vanished.shown,
               evidence.reference->night,
               vanished.series == 1 ? "one series" : fmt::format("{} series", vanished.series),
               listed({vanished.quantities.begin(), vanished.quantities.end()}, 4))};
@@ -304,7 +318,7 @@ void judge_losses(const Work& work, std::span<const double> p, const StudyEviden
       outcome.findings.push_back(finding_of(losses, p[i], evidence));
     } else if (losses.lost > 0) {
       lost += losses.lost;
-      methods.insert(shown_subject(losses.subject));
+      methods.insert(losses.shown);
     }
   }
   if (lost > 0)

@@ -29,9 +29,16 @@ std::vector<double> picked(const std::vector<double>& values,
   return out;
 }
 
+/// The seconds of a method.
+struct MethodSeconds {
+  std::string shown = {};  ///< The method, for readers.
+  std::vector<double> logs = {};
+};
+
 /// The mean over steps of the logarithms of a method's median seconds, night by night; a night that
 /// lacks a step has none, and neither has a method whose pieces are too short.
-std::map<std::string, std::vector<double>> log_seconds(const StudyTrend& trend, double shortest) {
+std::map<std::string, MethodSeconds> log_seconds(const StudyTrend& trend, double shortest) {
+  std::map<std::string, MethodSeconds> methods;
   std::map<std::string, std::vector<std::vector<double>>> steps;
   for (const auto& [series, values] : trend.medians) {
     if (trend.quantities.at(series.quantity).nightly != NightlyRule::kDuration) continue;
@@ -40,14 +47,14 @@ std::map<std::string, std::vector<double>> log_seconds(const StudyTrend& trend, 
     std::vector<double> logs;
     for (const double value : values) logs.push_back(std::log(std::max(value, 1e-9)));
     steps[method_of(series)].push_back(std::move(logs));
+    methods[method_of(series)].shown = shown_method_of(trend.labels, series);
   }
-  std::map<std::string, std::vector<double>> methods;
   for (const auto& [method, all] : steps) {
     std::vector<double> mean(trend.nights.size(), 0.0);
     for (const auto& logs : all)
       for (std::size_t i = 0; i < mean.size(); ++i)
         mean[i] += logs[i] / static_cast<double>(all.size());
-    methods[method] = std::move(mean);
+    methods[method].logs = std::move(mean);
   }
   return methods;
 }
@@ -101,10 +108,9 @@ NightFinding finding_of(const NightSeries& series, const Limit& limit, const Stu
           .quantity = series.quantity,
           .since = since,
           .sentence = fmt::format(
-              "{}: {} {} than usual in {} good nights, where the limit is {}{}",
-              shown_subject(series.subject), label,
-              change_words(series.values.back() - limit.usual, series.ratio, word), limit.nights,
-              change_words(limit.most - limit.usual, series.ratio, word),
+              "{}: {} {} than usual in {} good nights, where the limit is {}{}", series.shown,
+              label, change_words(series.values.back() - limit.usual, series.ratio, word),
+              limit.nights, change_words(limit.most - limit.usual, series.ratio, word),
               since == trend.nights.back().number ? "" : fmt::format("; since night {}", since))};
 }
 
@@ -179,15 +185,16 @@ std::vector<NightSeries> seconds_series(const StudyTrend& trend,
                                         const std::vector<std::size_t>& usual,
                                         const RegressionRules& rules) {
   std::vector<NightSeries> all;
-  for (auto& [method, values] : log_seconds(trend, rules.shortest_s)) {
-    const double level = median_of(picked(values, usual));
+  for (auto& [method, seconds] : log_seconds(trend, rules.shortest_s)) {
+    const double level = median_of(picked(seconds.logs, usual));
     if (std::isnan(level)) continue;
     NightSeries series{.rule = NightRule::kSeconds,
                        .subject = method,
+                       .shown = seconds.shown,
                        .quantity = "seconds",
                        .least = std::log1p(rules.least_slowdown),
                        .floor = rules.seconds_floor,
-                       .values = values};
+                       .values = seconds.logs};
     for (double& value : series.values) value -= level;
     all.push_back(std::move(series));
   }
@@ -197,6 +204,7 @@ std::vector<NightSeries> seconds_series(const StudyTrend& trend,
   }
   NightSeries common{.rule = NightRule::kAllSeconds,
                      .subject = "all methods",
+                     .shown = "all methods",
                      .quantity = "seconds",
                      .least = std::log1p(rules.least_slowdown),
                      .floor = rules.seconds_floor};
@@ -213,6 +221,7 @@ std::vector<NightSeries> seconds_series(const StudyTrend& trend,
 std::vector<NightSeries> memory_series(const StudyTrend& trend, const RegressionRules& rules) {
   NightSeries series{.rule = NightRule::kMemory,
                      .subject = "the whole study",
+                     .shown = "the whole study",
                      .quantity = "memory",
                      .least = std::log1p(rules.least_growth),
                      .floor = rules.memory_floor};
@@ -233,6 +242,7 @@ std::vector<NightSeries> accuracy_series(const StudyTrend& trend, const Regressi
     const bool ratio = rule == NightlyRule::kRatio;
     NightSeries series{.rule = NightRule::kAccuracy,
                        .subject = method_of(id),
+                       .shown = shown_method_of(trend.labels, id),
                        .quantity = id.quantity,
                        .ratio = ratio,
                        .least = ratio ? std::log1p(rules.least_ratio) : rules.least_points,

@@ -77,8 +77,8 @@ NightFinding finding_of(const Known& known, double p, std::size_t tests, const S
           .since = since,
           .sentence = fmt::format(
               "{}: {} {} since about night {}, {}; p = {:.2g} corrected for {} series of {} nights",
-              shown_subject(series.subject), label, change, since,
-              known.change.gradual ? "a slow drift" : "a step", p, tests, known.values.size())};
+              series.shown, label, change, since, known.change.gradual ? "a slow drift" : "a step",
+              p, tests, known.values.size())};
 }
 
 }  // namespace

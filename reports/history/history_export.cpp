@@ -1,63 +1,57 @@
 #include "reports/history/history_export.hpp"
 
 #include <cmath>
+#include <utility>
 
 #include <fmt/format.h>
 
 #include "core/base/csv.hpp"
+#include "core/base/errors.hpp"
+#include "core/json/record_json.hpp"
+#include "reports/history/night_fields.hpp"
+#include "reports/history/shown_names.hpp"
 
 namespace mapproof {
 namespace {
 
 using nlohmann::ordered_json;
 
-ordered_json optional_value(const std::optional<double>& value) {
-  return value ? ordered_json(*value) : ordered_json(nullptr);
-}
-
-/// What made a night, as an object again; text that is none stays text.
-ordered_json provenance_object(const std::string& text) {
-  ordered_json parsed = ordered_json::parse(text, nullptr, false);
-  return parsed.is_discarded() ? ordered_json(text) : parsed;
-}
-
-ordered_json study_value(HistoryStore& history, int night, const StudyNight& study,
-                         bool with_scores) {
-  ordered_json value{{"name", study.name},
-                     {"kind", study.kind},
-                     {"order_digest", study.order_digest},
-                     {"runs", study.runs},
-                     {"seconds", optional_value(study.seconds)},
-                     {"peak_memory_mib", optional_value(study.peak_memory_mib)},
-                     {"quantities", ordered_json::array()},
-                     {"figures", ordered_json::array()}};
-  for (const Quantity& quantity : study.quantities.declared())
-    value["quantities"].push_back({{"id", quantity.id},
-                                   {"label", quantity.label},
-                                   {"unit", quantity.unit},
-                                   {"better", name(quantity.better)}});
-  for (const FigureFile& file : study.figures)
-    value["figures"].push_back(
-        {{"file", file.file}, {"sha256", file.digest}, {"bytes", file.bytes}});
-  if (!with_scores) return value;
-  value["scores"] = ordered_json::array();
-  for (const auto& [series, values] : history.scores(night, study.name)) {
-    ordered_json runs = ordered_json::object();
-    for (const RunValue& run : values)
-      runs[run.run] = std::isfinite(run.value) ? ordered_json(run.value) : ordered_json(nullptr);
-    value["scores"].push_back({{"sensor", series.sensor},
-                               {"method", series.method},
-                               {"step", series.step},
-                               {"quantity", series.quantity},
-                               {"runs", std::move(runs)}});
+/// What made a night; nothing if another version wrote it in another way.
+Provenance provenance_of(const NightFacts& facts) {
+  try {
+    return from_json_text<Provenance>(facts.provenance, "provenance");
+  } catch (const IoError&) {
+    return {};
   }
-  return value;
+}
+
+NightFile file_of(const NightFacts& facts, const std::vector<NightFinding>& findings) {
+  return {.facts = facts, .provenance = provenance_of(facts), .findings = findings};
+}
+
+/// Puts what made a night into its JSON as it was written that night; text that is no JSON stays
+/// text.
+void put_provenance(ordered_json& night, const std::string& text) {
+  ordered_json parsed = ordered_json::parse(text, nullptr, false);
+  night["provenance"] = parsed.is_discarded() ? ordered_json(text) : std::move(parsed);
+}
+
+ExportedStudy exported(HistoryStore& history, int night, StudyNight study, bool with_scores) {
+  ExportedStudy whole{.study = std::move(study), .with_scores = with_scores};
+  if (!with_scores) return whole;
+  for (const auto& [series, values] : history.scores(night, whole.study.name)) {
+    ExportedSeries one{.id = series};
+    for (const RunValue& run : values) one.runs[run.run] = run.value;
+    whole.scores.push_back(std::move(one));
+  }
+  return whole;
 }
 
 }  // namespace
 
 std::string history_csv(HistoryStore& history) {
-  std::string text = "night,started_utc,study,sensor,method,step,quantity,run,value\r\n";
+  std::string text =
+      "night,started_utc,study,sensor,method,step,quantity,run,value,sensor_label,method_label\r\n";
   for (const NightFacts& night : history.nights())
     for (const StudyNight& study : history.studies(night.number))
       for (const auto& [series, values] : history.scores(night.number, study.name)) {
@@ -65,48 +59,39 @@ std::string history_csv(HistoryStore& history) {
             fmt::format("{},{},{},{},{},{},{},", night.number, csv_field(night.started_utc),
                         csv_field(study.name), csv_field(series.sensor), csv_field(series.method),
                         series.step, csv_field(series.quantity));
+        const std::string labels =
+            fmt::format(",{},{}\r\n", csv_field(shown_setup(study.labels, series.sensor)),
+                        csv_field(shown_method(study.labels, series.method)));
         for (const RunValue& run : values)
           text += head + csv_field(run.run) + "," +
-                  (std::isfinite(run.value) ? fmt::format("{}", run.value) : "") + "\r\n";
+                  (std::isfinite(run.value) ? fmt::format("{}", run.value) : "") + labels;
       }
   return text;
 }
 
+std::string night_json(const Night& night) {
+  return to_json_text(file_of(night.facts, night.findings));
+}
+
 ordered_json night_value(const NightFacts& facts, const std::vector<NightFinding>& findings) {
-  ordered_json value{{"night", facts.number},
-                     {"started_utc", facts.started_utc},
-                     {"ended_utc", facts.ended_utc},
-                     {"command", facts.command},
-                     {"provenance", provenance_object(facts.provenance)},
-                     {"host", facts.host},
-                     {"processor", facts.processor},
-                     {"cores", facts.cores},
-                     {"jobs", facts.jobs},
-                     {"reference", nullptr},
-                     {"pinned", facts.pinned},
-                     {"verdict", verdict_word(facts)},
-                     {"findings", ordered_json::array()}};
-  if (facts.reference) value["reference"] = *facts.reference;
-  for (const NightFinding& finding : findings)
-    value["findings"].push_back({{"study", finding.study},
-                                 {"rule", name(finding.rule)},
-                                 {"subject", finding.subject},
-                                 {"quantity", finding.quantity},
-                                 {"since", finding.since},
-                                 {"sentence", finding.sentence}});
+  ordered_json value = to_json_value(file_of(facts, findings));
+  value.erase("schema");
+  put_provenance(value, facts.provenance);
   return value;
 }
 
 ordered_json history_json(HistoryStore& history, bool with_scores) {
-  ordered_json nights = ordered_json::array();
+  ExportedHistory whole;
   for (const NightFacts& night : history.nights()) {
-    ordered_json value = night_value(night, history.findings(night.number));
-    value["studies"] = ordered_json::array();
-    for (const StudyNight& study : history.studies(night.number))
-      value["studies"].push_back(study_value(history, night.number, study, with_scores));
-    nights.push_back(std::move(value));
+    ExportedNight& one = whole.nights.emplace_back();
+    one.night = file_of(night, history.findings(night.number));
+    for (StudyNight& study : history.studies(night.number))
+      one.studies.push_back(exported(history, night.number, std::move(study), with_scores));
   }
-  return {{"schema", {{"name", "mapproof.history"}, {"version", 1}}}, {"nights", nights}};
+  ordered_json value = to_json_value(whole);
+  for (std::size_t i = 0; i < whole.nights.size(); ++i)
+    put_provenance(value["nights"][i], whole.nights[i].night.facts.provenance);
+  return value;
 }
 
 }  // namespace mapproof

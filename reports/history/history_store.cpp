@@ -1,6 +1,7 @@
 #include "reports/history/history_store.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <map>
@@ -51,6 +52,19 @@ Quantities read_quantities(Database& database, std::int64_t study) {
     quantities.declare(study_quantity(rows.text(0), rows.text(1), rows.text(2),
                                       better_named(rows.text(3)).value_or(Better::kNeither)));
   return quantities;
+}
+
+/// What each kind of label is called in the table.
+constexpr std::array kLabelKinds = {std::pair("setup", &StudyLabels::setups),
+                                    std::pair("method", &StudyLabels::methods)};
+
+/// Adds what a study called its setups and methods; labels that are there already are replaced.
+void read_labels(Database& database, std::int64_t study, StudyLabels& labels) {
+  for (const auto& [kind, of_kind] : kLabelKinds) {
+    Statement rows(database, "SELECT id, label FROM labels WHERE study = ? AND kind = ?");
+    rows.bind(study).bind(kind);
+    while (rows.step()) (labels.*of_kind)[rows.text(0)] = rows.text(1);
+  }
 }
 
 template <typename Row>
@@ -174,6 +188,7 @@ std::vector<StudyNight> HistoryStore::studies(int night) {
                     "SELECT file, digest, bytes FROM figures WHERE study = ? ORDER BY file");
     files.bind(rows.integer(0));
     study.quantities = read_quantities(*database_, rows.integer(0));
+    read_labels(*database_, rows.integer(0), study.labels);
     while (files.step()) study.figures.push_back({files.text(0), files.text(1), files.integer(2)});
     studies.push_back(std::move(study));
   }
@@ -214,6 +229,7 @@ StudyTrend HistoryStore::trend(const std::string& study, const std::string& orde
   std::ranges::reverse(trend.peak_memory_mib);
   if (!ids.empty()) trend.quantities = read_quantities(*database_, ids.back());
   for (std::size_t i = 0; i < ids.size(); ++i) {
+    read_labels(*database_, ids[i], trend.labels);
     Statement medians(
         *database_,
         "SELECT s.sensor, s.method, s.step, s.quantity, t.median, t.level FROM trends t "
@@ -282,6 +298,10 @@ void HistoryStore::append_study(int night, const StudyNight& study) {
         .bind(quantity.unit)
         .bind(name(quantity.better))
         .run();
+  Statement call(*database_, "INSERT INTO labels (study, kind, id, label) VALUES (?, ?, ?, ?)");
+  for (const auto& [kind, of_kind] : kLabelKinds)
+    for (const auto& [what, label] : study.labels.*of_kind)
+      call.bind(id).bind(kind).bind(what).bind(label).run();
 
   Statement find_series(*database_,
                         "SELECT id FROM series WHERE sensor = ? AND method = ? AND step = ? AND "

@@ -123,9 +123,10 @@ Table accuracy_table(const StudyTrend& trend) {
     const Quantity& quantity = trend.quantities.at(id.quantity);
     const std::vector<double>& values = trend.medians.at(id);
     const double before = values.size() > 1 ? values[values.size() - 2] : std::nan("");
-    table.rows.push_back({{text(shown_subject(id)), text(quantity.label), text(quantity.unit),
-                           number(values.front(), 4), number(before, 4), number(values.back(), 4)},
-                          "medians over runs"});
+    table.rows.push_back(
+        {{text(shown_subject(trend.labels, id)), text(quantity.label), text(quantity.unit),
+          number(values.front(), 4), number(before, 4), number(values.back(), 4)},
+         "medians over runs"});
   }
   return table;
 }

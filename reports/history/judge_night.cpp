@@ -66,6 +66,8 @@ void add_tonight(StudyTrend& trend, const NightFacts& facts, const StudyNight& s
   };
   add(trend.medians, [](const SeriesId&, const auto& values) { return known_median(values); });
   for (const Quantity& quantity : study.quantities.declared()) trend.quantities.declare(quantity);
+  for (const auto& [id, label] : study.labels.setups) trend.labels.setups[id] = label;
+  for (const auto& [id, label] : study.labels.methods) trend.labels.methods[id] = label;
   add(trend.levels, [&](const SeriesId& series, const auto& values) {
     return level_of(trend.quantities.at(series.quantity), values);
   });

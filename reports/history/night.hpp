@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "core/results/quantity.hpp"
+#include "core/results/study_labels.hpp"
 
 namespace mapproof {
 
@@ -57,6 +58,7 @@ struct StudyNight {
   std::optional<double> seconds = {};  ///< Of all sessions that made it.
   std::optional<double> peak_memory_mib = {};
   Quantities quantities = {};  ///< The dictionary and what the study declares.
+  StudyLabels labels = {};
   Scores scores = {};
   std::vector<FigureFile> figures = {};
 };
@@ -136,6 +138,7 @@ struct Night {
 struct StudyTrend {
   std::string name = {};
   Quantities quantities = {};
+  StudyLabels labels = {};  ///< Of all these nights, the last one's first.
   std::vector<NightFacts> nights = {};
   std::vector<double> peak_memory_mib = {};  ///< One a night; NaN: not known.
   /// Medians over runs, one a night; NaN: none.

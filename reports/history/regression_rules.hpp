@@ -71,6 +71,7 @@ RuleOutcome judge_drifts(const StudyEvidence& evidence, const RegressionRules& r
 struct NightSeries {
   NightRule rule = NightRule::kSeconds;  ///< Of a step; a drift's is made of it.
   std::string subject = {};
+  std::string shown = {};  ///< The subject, for readers.
   std::string quantity = {};
   bool ratio = true;   ///< Logarithms.
   double least = 0.0;  ///< As in RegressionRules, of the values as they stand.

@@ -122,7 +122,29 @@ UPDATE series SET quantity = 'observation_error' WHERE quantity = 'observation';
 UPDATE findings SET quantity = 'observation_error' WHERE quantity = 'observation';
 )";
 
-constexpr std::array kVersions = {kVersion1, kVersion2, kVersion3};
+/// What a study itself calls its setups and methods. Before, methods had mapproof's words for them,
+/// which are another's where a study declares its own: there each is its id, the words before its
+/// levels ("ekf" of "ekf noise=0.1").
+constexpr const char* kVersion4 = R"(
+CREATE TABLE labels (
+  study INTEGER NOT NULL REFERENCES studies(id) ON DELETE CASCADE,
+  kind TEXT NOT NULL,
+  id TEXT NOT NULL,
+  label TEXT NOT NULL,
+  PRIMARY KEY (study, kind, id)
+) WITHOUT ROWID;
+INSERT OR IGNORE INTO labels (study, kind, id, label)
+  SELECT study, 'method', id, id FROM (
+    SELECT study, CASE WHEN words = '' THEN method ELSE words END AS id FROM (
+      SELECT study, method, rtrim(rtrim(head, replace(head, ' ', ''))) AS words FROM (
+        SELECT t.study, s.method,
+               CASE WHEN instr(s.method, '=') = 0 THEN s.method || ' '
+                    ELSE substr(s.method, 1, instr(s.method, '=') - 1) END AS head
+        FROM trends t JOIN series s ON s.id = t.series JOIN studies u ON u.id = t.study
+        WHERE u.kind IN ('mapproof.results_study', 'mapproof.trial_study'))));
+)";
+
+constexpr std::array kVersions = {kVersion1, kVersion2, kVersion3, kVersion4};
 
 int pragma(Database& database, const std::string& name) {
   Statement statement(database, "PRAGMA " + name);

@@ -1,7 +1,5 @@
 #include "reports/history/shown_names.hpp"
 
-#include <algorithm>
-
 #include <fmt/format.h>
 
 #include "core/model/method.hpp"
@@ -10,10 +8,10 @@
 namespace mapproof {
 namespace {
 
-/// A setting without its variation's level.
+/// One of mapproof's settings without its variation's level.
 std::string shown_setting(const std::string& setting) {
   if (const auto slam = slam_method_named(setting)) return std::string(info(*slam).label);
-  const std::optional<Method> known = method_named(base_method(setting));
+  const std::optional<Method> known = method_named(base_method({}, setting));
   if (!known) return setting;
   const std::string label(info(*known).label);
   const std::string_view name = info(*known).name;
@@ -24,9 +22,26 @@ std::string shown_setting(const std::string& setting) {
   return fmt::format("{}, {} = {}", label, parameter->shown, value);
 }
 
+/// The size of the id that a SeriesId::method begins with: of those that are declared the longest,
+/// else all before its levels.
+std::size_t id_size(const StudyLabels& labels, const std::string& method) {
+  std::size_t size = 0;
+  for (const auto& [id, label] : labels.methods)
+    if (id.size() > size && method.starts_with(id) &&
+        (method.size() == id.size() || method[id.size()] == ' '))
+      size = id.size();
+  return size > 0 ? size : levels_begin(method);
+}
+
+std::string label_in(const std::map<std::string, std::string>& labels, const std::string& id) {
+  const auto found = labels.find(id);
+  return found == labels.end() ? id : found->second;
+}
+
 }  // namespace
 
-std::string base_method(const std::string& method) {
+std::string base_method(const StudyLabels& labels, const std::string& method) {
+  if (!labels.methods.empty()) return method.substr(0, id_size(labels, method));
   std::string best;
   for (const MethodInfo& known : all_methods())
     if (method.starts_with(known.name) && known.name.size() > best.size() &&
@@ -35,21 +50,27 @@ std::string base_method(const std::string& method) {
   return best.empty() ? method : best;
 }
 
-std::string shown_method(const std::string& method) {
-  const std::size_t levels = levels_begin(method);
-  const std::string shown = shown_setting(method.substr(0, levels));
-  return levels == method.size() ? shown : shown + ", " + method.substr(levels + 1);
+std::string shown_setup(const StudyLabels& labels, const std::string& setup) {
+  return label_in(labels.setups, setup);
 }
 
-std::string shown_subject(const std::string& subject) {
-  const std::size_t sensor = subject.find(", ");
-  if (sensor == std::string::npos) return subject;
-  const std::size_t method = sensor + 2;
-  const std::size_t rest = std::min(subject.find(", ", method), subject.size());
-  return subject.substr(0, method) + shown_method(subject.substr(method, rest - method)) +
-         subject.substr(rest);
+std::string shown_method(const StudyLabels& labels, const std::string& method) {
+  const std::size_t size = id_size(labels, method);
+  const std::string id = method.substr(0, size), rest = method.substr(size);
+  const std::string shown =
+      labels.methods.empty() ? shown_setting(id) : label_in(labels.methods, id);
+  // Levels, or whom it is of.
+  return rest.empty() || rest.starts_with(" of ") ? shown + rest : shown + ", " + rest.substr(1);
 }
 
-std::string shown_subject(const SeriesId& series) { return shown_subject(subject_of(series)); }
+std::string shown_method_of(const StudyLabels& labels, const SeriesId& series) {
+  const std::string setup = shown_setup(labels, series.sensor);
+  return (setup.empty() ? "" : setup + ", ") + shown_method(labels, series.method);
+}
+
+std::string shown_subject(const StudyLabels& labels, const SeriesId& series) {
+  return shown_method_of(labels, series) +
+         (series.step == 0 ? "" : fmt::format(", {} steps", series.step));
+}
 
 }  // namespace mapproof

@@ -6,19 +6,25 @@
 
 namespace mapproof {
 
-/// The method's name without its parameter: "smacof-knn" of "smacof-knn-K6"; what is no method of
-/// the mapping ones as it is.
-std::string base_method(const std::string& method);
+// Ids as pages, findings and exports show them: under the labels of their study; where a study
+// labels no method, methods are shown as tables and figures have mapproof's own.
 
-/// As tables and figures have it: "ISOMAP, K = 6" of "isomap-K6", "ISOMAP, K = 6, anchor-count=5"
-/// of a variation; what is no method as it is.
-std::string shown_method(const std::string& method);
+/// What settings have in common: the method that the study declares, without its levels; without
+/// labels the name without its parameter, "smacof-knn" of "smacof-knn-K6". What is neither as it
+/// is.
+std::string base_method(const StudyLabels& labels, const std::string& method);
 
-/// Likewise of what a finding is about: "bearing, ISOMAP, K = 6, 2000 steps" of
-/// "bearing, isomap-K6, 2000 steps".
-std::string shown_subject(const std::string& subject);
+/// Its label; the id if it has none.
+std::string shown_setup(const StudyLabels& labels, const std::string& setup);
 
-/// subject_of() as shown.
-std::string shown_subject(const SeriesId& series);
+/// "My EKF, noise=0.1" of "ekf noise=0.1"; without labels "ISOMAP, K = 6" of "isomap-K6". What is
+/// no method as it is.
+std::string shown_method(const StudyLabels& labels, const std::string& method);
+
+/// method_of() as shown, "bearing, ISOMAP, K = 6"; of a setup without a name the method alone.
+std::string shown_method_of(const StudyLabels& labels, const SeriesId& series);
+
+/// subject_of() as shown: "bearing, ISOMAP, K = 6, 2000 steps".
+std::string shown_subject(const StudyLabels& labels, const SeriesId& series);
 
 }  // namespace mapproof

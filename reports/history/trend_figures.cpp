@@ -98,17 +98,21 @@ std::vector<Line> shown_settings(const Told& told, const std::string& sensor,
                                  const std::string& quantity) {
   const std::vector<Line> all = all_settings(told, sensor, quantity);
   std::map<std::string, const Line*> best;
+  const bool higher = told.trend.quantities.at(quantity).better == Better::kHigher;
+  const auto is_better = [&](const Line& a, const Line& b) {
+    const double level = level_over_nights(*a.values), other = level_over_nights(*b.values);
+    return higher ? level > other : level < other;
+  };
   const auto is_variation = [&](const std::string& method) {
-    const std::size_t blank = method.find(' ');
-    return blank != std::string::npos && std::ranges::any_of(all, [&](const Line& line) {
-             return line.id.method == method.substr(0, blank);
+    const std::size_t levels = levels_begin(method);
+    return levels < method.size() && std::ranges::any_of(all, [&](const Line& line) {
+             return line.id.method == method.substr(0, levels);
            });
   };
   for (const Line& line : all) {
     if (is_variation(line.id.method)) continue;
-    const Line*& known = best[base_method(line.id.method)];
-    if (known == nullptr || level_over_nights(*line.values) < level_over_nights(*known->values))
-      known = &line;
+    const Line*& known = best[base_method(told.trend.labels, line.id.method)];
+    if (known == nullptr || is_better(line, *known)) known = &line;
   }
   std::vector<Line> lines;
   for (const Line& line : all)
@@ -172,8 +176,9 @@ std::optional<Figure> lines_figure(const Told& told, const std::string& sensor,
   const std::vector<Line> lines = shown_settings(told, sensor, quantity);
   if (lines.empty()) return std::nullopt;
   const Quantity& facts = told.trend.quantities.at(quantity);
+  const std::string setup = shown_setup(told.trend.labels, sensor);
   ErrorLinesSpec spec = named_spec(told, id_of(quantity) + "-" + id_of(sensor),
-                                   fmt::format("{}: {}", sensor, facts.label));
+                                   setup.empty() ? facts.label : setup + ": " + facts.label);
   spec.y_label = label_with_unit(facts);
   spec.quantity = facts.label;
   spec.caption = fmt::format(
@@ -186,7 +191,7 @@ std::optional<Figure> lines_figure(const Told& told, const std::string& sensor,
           : "");
   ErrorPanel panel = panel_of(told.trend);
   for (const Line& line : lines) {
-    const std::string label = shown_method(line.id.method);
+    const std::string label = shown_method(told.trend.labels, line.id.method);
     panel.lines.push_back({.label = label,
                            .key = id_of(line.id.method),
                            .x = night_numbers(told.trend),

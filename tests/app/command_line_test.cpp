@@ -1,19 +1,41 @@
-#include <gtest/gtest.h>
 #include <algorithm>
+#include <filesystem>
+#include <fstream>
+#include <set>
+#include <sstream>
+
+#include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
+#include "tests/app/own_logs.hpp"
 #include "tests/support/program.hpp"
 
 namespace mapproof::test {
 namespace {
 
-const std::vector<std::string> kVerbs = {"reproduce", "run",  "render",  "report",
-                                         "map",       "slam", "methods", "validate"};
+/// As the help lists them.
+std::vector<std::string> all_verbs() {
+  std::istringstream help(mapproof({"--help"}).out);
+  std::vector<std::string> verbs;
+  std::string line;
+  while (std::getline(help, line) && line != "Subcommands:") {
+  }
+  while (std::getline(help, line) && line.starts_with("  ")) {
+    const std::string verb = line.substr(2, line.find(' ', 2) - 2);
+    if (!verb.empty()) verbs.push_back(verb);
+  }
+  std::ranges::sort(verbs);
+  return verbs;
+}
 
 TEST(CommandLine, HelpShowsEveryVerbAndItsExamplesAndExitCodes) {
   const Outcome help = mapproof({"--help"});
   EXPECT_EQ(help.exit_code, 0);
-  for (const std::string& verb : kVerbs) {
+  const std::vector<std::string> verbs = all_verbs();
+  EXPECT_GE(verbs.size(), 13U) << help.out;
+  for (const char* verb : {"check", "history", "map", "nightly", "reproduce", "slam"})
+    EXPECT_TRUE(std::ranges::binary_search(verbs, verb)) << verb;
+  for (const std::string& verb : verbs) {
     EXPECT_NE(help.out.find("\n  " + verb), std::string::npos) << verb;
     const Outcome own = mapproof({verb, "--help"});
     EXPECT_EQ(mapproof({"help", verb}).out, own.out) << verb;
@@ -66,10 +88,23 @@ TEST(CommandLine, JsonIsOneObjectOnStandardOutputForEveryVerb) {
       {"report", study},
       {"reproduce", "yairi2007", "--profile", "quick", "--out", folder / "paper"},
       {"map", data + "/mrclam", "--method", "lpca", "--out", folder / "map"},
+      {"slam", folder / "log", "--out", folder / "slam"},
       {"methods"},
       {"validate", data + "/experiments/small.json", study},
+      {"approve", folder / "baseline", study, "--all"},
+      {"nightly", data + "/experiments/small.json", "--profile", "tiny", "--store",
+       folder / "nights"},
+      {"history", folder / "nights"},
+      {"history", folder / "nights", "--pin", "1"},
+      {"history", folder / "nights", "--verify"},
+      {"history", folder / "nights", "--prune", "last=3"},
   };
+  write_log(own_log(), folder / "log");
+  std::set<std::string> called = {"diff", "check"};  // Their --json names a file.
   for (std::vector<std::string> call : calls) {
+    called.insert(call[0]);
+    if (call[0] == "approve")
+      std::filesystem::copy(study, folder / "baseline", std::filesystem::copy_options::recursive);
     call.emplace_back("--json");
     const Outcome outcome = mapproof(call);
     EXPECT_EQ(outcome.exit_code, 0) << call[0] << ": " << outcome.error;
@@ -81,6 +116,34 @@ TEST(CommandLine, JsonIsOneObjectOnStandardOutputForEveryVerb) {
     // What is wrong with a map is said there, too.
     const std::string said = mapproof(call).error;
     EXPECT_TRUE(said.empty() || said.starts_with("warning: ")) << call.front() << said;
+    std::filesystem::remove_all(folder / "baseline");
+  }
+  const std::vector<std::string> verbs = all_verbs();
+  EXPECT_EQ(std::vector<std::string>(called.begin(), called.end()), verbs)
+      << "a verb without a call here";
+}
+
+TEST(CommandLine, JsonOfADiffIsAFileOfItsOwnFormAsHelpSays) {
+  const TemporaryFolder folder;
+  const std::string study = folder / "study";
+  const std::string small = std::string(MAPPROOF_TEST_DATA) + "/experiments/small.json";
+  ASSERT_EQ(mapproof({"run", small, "--profile", "tiny", "--out", study}).exit_code, 0);
+  const std::vector<std::vector<std::string>> calls = {
+      {"diff", study, study},
+      {"check", small, "--profile", "tiny", "--baseline", study, "--out", folder / "check"}};
+  EXPECT_NE(mapproof({"--help"}).out.find("diff and check take\n--json FILE"), std::string::npos);
+  for (std::vector<std::string> call : calls) {
+    EXPECT_NE(mapproof({call[0], "--help"}).out.find("--json TEXT"), std::string::npos);
+    call.insert(call.end(), {"--json", "-"});
+    const Outcome printed = mapproof(call);
+    const auto object = nlohmann::json::parse(printed.out, nullptr, false);
+    ASSERT_TRUE(object.is_object()) << printed.out << printed.error;
+    EXPECT_EQ(object["schema"].dump(), R"({"name":"mapproof.diff","version":1})");
+    call.back() = folder / "diff.json";
+    const Outcome written = mapproof(call);
+    EXPECT_FALSE(nlohmann::json::accept(written.out)) << "the verdict in words";
+    std::ifstream file(folder / "diff.json");
+    EXPECT_EQ(nlohmann::json::parse(file)["schema"], object["schema"]);
   }
 }
 
@@ -104,7 +167,8 @@ TEST(CommandLine, ValidateSaysNoToABrokenFileAndNamesThePlace) {
   EXPECT_NE(outcome.out.find("broken.json: line 1"), std::string::npos) << outcome.out;
   const Outcome missing = mapproof({"validate", folder / "none", good});
   EXPECT_EQ(missing.exit_code, 1);
-  EXPECT_NE(missing.out.find("none: cannot be opened: No such file"), std::string::npos) << missing.out;
+  EXPECT_NE(missing.out.find("none: cannot be opened: No such file"), std::string::npos)
+      << missing.out;
   EXPECT_NE(missing.out.find("small.json: mapproof.experiment 1"), std::string::npos);
 }
 

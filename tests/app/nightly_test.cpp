@@ -11,6 +11,7 @@
 
 #include "core/base/files.hpp"
 #include "tests/support/program.hpp"
+#include "tests/support/schema_problem.hpp"
 
 namespace mapproof::test {
 namespace {
@@ -75,6 +76,22 @@ TEST(Nightly, RecordsANightAndItsReportAndFindsNothingWorseInTheNext) {
   EXPECT_NE(report_of("0001").find("Night 1: not compared"), std::string::npos);
   EXPECT_NE(report_of("0002").find("Night 2: nothing got worse than on night 1"),
             std::string::npos);
+}
+
+TEST(Nightly, LeavesAFileThatSaysWhatItIs) {
+  const TemporaryFolder folder;
+  const Outcome outcome = night(folder / "h");
+  ASSERT_EQ(outcome.exit_code, 0) << outcome.error;
+  const json file = json::parse(read_file(folder / "h/nights/0001/night.json"));
+  EXPECT_EQ(schema_problem("night", file), "");
+  EXPECT_EQ(file["schema"].dump(), R"({"name":"mapproof.night","version":1})");
+  EXPECT_FALSE(file["provenance"]["version"].get<std::string>().empty());
+  json printed = json::parse(outcome.out);
+  EXPECT_EQ(printed["schema"]["name"], "mapproof.result.nightly");
+  for (const auto& [key, value] : file.items())
+    if (key != "schema") EXPECT_EQ(printed[key], value) << key;
+  const json exported = json::parse(mapproof({"history", folder / "h", "--export", "json"}).out);
+  EXPECT_EQ(schema_problem("history", exported), "");
 }
 
 TEST(Nightly, OfARangeOnlyExperimentIsRecordedToo) {

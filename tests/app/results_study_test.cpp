@@ -165,6 +165,87 @@ TEST_F(StudyOfAnotherProgram, IsJudgedByNightlyRuns) {
     EXPECT_NE(third.out.find(part), std::string::npos) << part << " in:\n" << third.out;
 }
 
+TEST_F(StudyOfAnotherProgram, IsNamedByItsOwnLabelsInEveryNight) {
+  // Ids that mapproof has methods of; one is labelled, two stand under their ids.
+  const auto rename = [&] {
+    const fs::path folder = folder_ / "mine";
+    json head = json::parse(read_file(folder / "study.json"));
+    head["methods"] = json::array({{{"id", "ekf"}, {"label", "My EKF"}}});
+    head["setups"] = json::array({{{"id", "indoors"}, {"label", "The hall"}}});
+    write_file(folder / "study.json", head.dump());
+    std::string table = read_file(folder / "results.csv");
+    for (const auto& [from, to] : {std::pair(",mcl,", ",spectral,"), {",icp,", ",isomap-K6,"}})
+      for (std::size_t at = 0; (at = table.find(from, at)) != std::string::npos;)
+        table.replace(at, std::string(from).size(), to);
+    write_file(folder / "results.csv", table);
+  };
+  const fs::path store = folder_ / "history";
+  Outcome last;
+  for (const char* worse : {"0", "0.05"}) {
+    make("mine", worse);
+    rename();
+    last = mapproof({"nightly", folder_ / "mine", "--store", store});
+  }
+  EXPECT_EQ(last.exit_code, 1) << last.error;
+  EXPECT_NE(last.out.find("localisers: The hall, My EKF, noise="), std::string::npos) << last.out;
+
+  std::vector<std::pair<std::string, std::string>> shown = {
+      {"console", last.out}, {"list", mapproof({"history", store}).out}};
+  std::string figures;
+  for (const auto& [file, bytes] : contents(store)) {
+    if (file.ends_with(".html")) shown.emplace_back(file, bytes);
+    if (file.starts_with("trends/") && file.ends_with(".figure.json")) figures += bytes;
+  }
+  EXPECT_GE(shown.size(), 6U);
+  shown.emplace_back("figures", figures);
+  for (const auto& [where, text] : shown) {
+    if (where != "nights/0001/localisers/report.html") {
+      EXPECT_NE(text.find("My EKF"), std::string::npos) << where;
+      EXPECT_NE(text.find("The hall"), std::string::npos) << where;
+    }
+    for (const char* ours : {"extended Kalman filter", "ISOMAP", "spectral, 4-D"})
+      EXPECT_EQ(text.find(ours), std::string::npos) << ours << " in " << where;
+  }
+  for (const char* label : {"\"My EKF, noise=0.01\"", "\"spectral, noise=0.01\"",
+                            "\"isomap-K6, noise=0.01\"", "\"The hall: absolute trajectory error"})
+    EXPECT_NE(figures.find(label), std::string::npos) << label;
+  const std::string csv = mapproof({"history", store, "--export", "csv"}).out;
+  EXPECT_NE(csv.find(",indoors,ekf noise=0.01,0,ate_m,"), std::string::npos) << "ids stay";
+  EXPECT_NE(csv.find(",The hall,\"My EKF, noise=0.01\"\r\n"), std::string::npos);
+  const json exported = json::parse(mapproof({"history", store, "--export", "json"}).out);
+  EXPECT_EQ(exported["schema"]["name"], "mapproof.history");
+  EXPECT_EQ(exported["nights"][1]["studies"][0]["methods"][0].dump(),
+            R"({"id":"ekf","label":"My EKF"})");
+}
+
+TEST_F(StudyOfAnotherProgram, WithoutANameIsNotTakenForAnother) {
+  make("theirs");
+  for (const char* name : {"mine", "theirs"}) {
+    const fs::path file = fs::path(folder_ / name) / "study.json";
+    json head = json::parse(read_file(file));
+    head.erase("name");
+    write_file(file, head.dump());
+  }
+  const std::string mine = folder_ / "mine", theirs = folder_ / "theirs";
+  const auto night = [&](const std::vector<std::string>& folders) {
+    std::vector<std::string> words = {"nightly", "--store", folder_ / "history"};
+    words.insert(words.end(), folders.begin(), folders.end());
+    return mapproof(words);
+  };
+  const Outcome both = night({mine, theirs});
+  EXPECT_EQ(both.exit_code, 2);
+  EXPECT_EQ(both.error, "mapproof: " + mine + "/study.json and " + theirs +
+                            "/study.json: both studies have the name \"results\", which is that of "
+                            "a study.json without one; add a \"name\" of its own to one of them\n");
+  EXPECT_FALSE(fs::exists(folder_ / "history/nights"));
+  EXPECT_EQ(night({mine, mine}).error, "mapproof: " + mine + "/study.json: is given twice\n");
+  make("theirs");  // Named again.
+  EXPECT_EQ(night({mine, theirs}).exit_code, 0);
+  make("mine");
+  EXPECT_NE(night({mine, theirs}).error.find("both studies have the name \"localisers\"; "),
+            std::string::npos);
+}
+
 TEST_F(StudyOfAnotherProgram, WithAWrongTableIsOneLineThatNamesTheRow) {
   change("mine", "indoors,mcl,ate_m,1,room-1,", "indoors,mcl,ate_m,1,room-1,x");
   for (const char* command : {"report", "validate"}) {

@@ -2,6 +2,7 @@
 
 #include "core/json/json_text.hpp"
 #include "reports/diff/settings_fields.hpp"
+#include "reports/history/night_fields.hpp"
 #include "tests/support/record_schema.hpp"
 
 namespace mapproof::test {
@@ -9,7 +10,9 @@ namespace mapproof::test {
 std::map<std::string, std::string> comparison_schemas() {
   return {{"approvals.schema.json", json_text(json_schema<ApprovalsFile>())},
           {"diff.schema.json", json_text(json_schema<DiffResult>())},
-          {"diff_settings.schema.json", json_text(json_schema<DiffSettings>())}};
+          {"diff_settings.schema.json", json_text(json_schema<DiffSettings>())},
+          {"history.schema.json", json_text(json_schema<ExportedHistory>())},
+          {"night.schema.json", json_text(json_schema<NightFile>())}};
 }
 
 }  // namespace mapproof::test

@@ -1,3 +1,4 @@
+#include <filesystem>
 #include <functional>
 #include <limits>
 
@@ -7,6 +8,7 @@
 #include "core/records/results_study_json.hpp"
 #include "reports/history/history_tables.hpp"
 #include "reports/history/judge_night.hpp"
+#include "reports/history/night_scores.hpp"
 #include "tests/support/temporary_folder.hpp"
 
 namespace mapproof::test {
@@ -21,6 +23,7 @@ struct ForeignNight {
   };
   std::function<double(const SeriesId&, int run)> factor = [](const SeriesId&, int) { return 1.0; };
   std::string setup = "indoors";
+  StudyLabels labels = {};
 };
 
 Night night_of(int number, const ForeignNight& plan = {}) {
@@ -32,6 +35,7 @@ Night night_of(int number, const ForeignNight& plan = {}) {
                         .host = "host"}};
   StudyNight study{
       .name = "mine", .kind = std::string(kResultsStudy), .order_digest = "d", .runs = 18};
+  study.labels = plan.labels;
   study.quantities.declare(study_quantity("ate_m", "ATE", "m", Better::kLower));
   study.quantities.declare(study_quantity("found", "found", "%", Better::kHigher));
   for (const char* method : {"alpha", "scan matching", "gamma"})
@@ -158,6 +162,50 @@ TEST(ForeignNights, GroupsAreTheUnitsHoweverFew) {
     return second_night(plan, worse).findings.size();
   };
   EXPECT_EQ(judged(3), 0U);
+}
+
+TEST(ForeignNights, FindingsAndRemarksHaveTheLabelsOfTheStudyAndKeepItsIds) {
+  const StudyLabels labels{
+      .setups = {{"indoors", "In the hall"}},
+      .methods = {{"alpha", "Odometry"}, {"scan matching", "My ICP, faster"}, {"gamma", "gamma"}}};
+  const Night worse =
+      second_night({.labels = labels},
+                   {.factor =
+                        [](const SeriesId& series, int run) {
+                          const bool is_it = series.method == "scan matching noise=0.4";
+                          return is_it && series.quantity == "ate_m" ? 1.2 + 0.001 * run : 1.0;
+                        },
+                    .labels = labels});
+  ASSERT_EQ(worse.findings.size(), 1U);
+  EXPECT_EQ(worse.findings[0].subject, "indoors, scan matching noise=0.4");
+  EXPECT_TRUE(
+      worse.findings[0].sentence.starts_with("In the hall, My ICP, faster, noise=0.4: ATE "))
+      << worse.findings[0].sentence;
+
+  ForeignNight gone{.labels = labels};
+  gone.labels.methods.erase("scan matching");
+  gone.is_there = [](const SeriesId& series, int) {
+    return !series.method.starts_with("scan matching");
+  };
+  const Night lost = second_night({.labels = labels}, gone);
+  ASSERT_EQ(lost.findings.size(), 1U);
+  EXPECT_EQ(lost.findings[0].subject, "indoors, scan matching");
+  EXPECT_TRUE(lost.findings[0].sentence.starts_with("In the hall, My ICP, faster: no result"))
+      << lost.findings[0].sentence;
+
+  const Night elsewhere = second_night({.labels = labels}, {.setup = "outdoors", .labels = labels});
+  ASSERT_EQ(elsewhere.findings.size(), 1U);
+  EXPECT_TRUE(elsewhere.findings[0].sentence.starts_with("In the hall: no result any more"))
+      << elsewhere.findings[0].sentence;
+}
+
+TEST(ForeignNights, OfATopicHaveTheLabelsOfItsDesign) {
+  const StudyNight night =
+      read_study_night(std::filesystem::path(MAPPROOF_TEST_DATA) / "trial_study", "topic");
+  EXPECT_EQ(night.labels.setups.at("visibility"), "Ellipses of maps from visibility");
+  EXPECT_EQ(night.labels.methods.at("isomap"), "ISOMAP, K = 8");
+  EXPECT_TRUE(read_study_night(std::filesystem::path(MAPPROOF_TEST_DATA) / "study", "ours")
+                  .labels.methods.empty());
 }
 
 TEST(ForeignNights, TablesHaveNoStepsThatTheStudyHasNot) {

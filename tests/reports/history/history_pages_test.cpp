@@ -1,14 +1,18 @@
 #include <algorithm>
+#include <cmath>
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
+#include "core/json/record_json.hpp"
+#include "core/records/value_fields.hpp"
 #include "reports/history/history_export.hpp"
 #include "reports/history/history_pages.hpp"
 #include "reports/history/history_store.hpp"
 #include "reports/history/night_standing.hpp"
 #include "reports/history/shown_names.hpp"
 #include "tests/reports/history/sample_nights.hpp"
+#include "tests/support/schema_problem.hpp"
 #include "tests/support/temporary_folder.hpp"
 
 namespace mapproof::test {
@@ -104,7 +108,8 @@ TEST(HistoryPages, LabelWhatAStudyDeclaresAsItDoes) {
   ASSERT_EQ(figures.size(), 3U);  // MPE, what is declared, memory.
   EXPECT_EQ(figures[1].id, "trend-found-percent-size");
   EXPECT_EQ(figures[1].panels.front().y.label, "Landmarks found [%]");
-  EXPECT_EQ(curves(figures[1]).size(), 1U);  // The better level stands for the method.
+  EXPECT_EQ(curves(figures[1]), std::vector<std::string>{"ISOMAP, K = 5, level=30"})
+      << "the better level stands for the method";
   const Table table = accuracy_table(trend);
   EXPECT_EQ(std::get<TextCell>(table.rows.back().cells[1]).text, "Landmarks found");
 }
@@ -174,14 +179,45 @@ TEST(HistoryPages, SayThatAHistoryWasDamagedAndWhereItsReportsAre) {
 }
 
 TEST(HistoryPages, NameMethodsAsTheStudysReportDoes) {
-  EXPECT_EQ(shown_method("isomap-K6"), "ISOMAP, K = 6");
-  EXPECT_EQ(shown_method("smacof-knn-K6"), "SMACOF, kNN weights, K = 6");
-  EXPECT_EQ(shown_method("kpca-gaussian-sigma2-10"), "KPCA, Gaussian, σ² = 10");
-  EXPECT_EQ(shown_method("isomap-K6 anchor-count=5"), "ISOMAP, K = 6, anchor-count=5");
-  EXPECT_EQ(shown_method("dead-reckoning"), "dead reckoning");
-  EXPECT_EQ(shown_method("factorization-of-9"), "factorization-of-9");
-  EXPECT_EQ(shown_subject("bearing, lpca, 150 steps"), "bearing, LPCA, 150 steps");
-  EXPECT_EQ(shown_subject("all methods"), "all methods");
+  const StudyLabels own;
+  EXPECT_EQ(shown_method(own, "isomap-K6"), "ISOMAP, K = 6");
+  EXPECT_EQ(shown_method(own, "smacof-knn-K6"), "SMACOF, kNN weights, K = 6");
+  EXPECT_EQ(shown_method(own, "kpca-gaussian-sigma2-10"), "KPCA, Gaussian, σ² = 10");
+  EXPECT_EQ(shown_method(own, "isomap-K6 anchor-count=5"), "ISOMAP, K = 6, anchor-count=5");
+  EXPECT_EQ(shown_method(own, "dead-reckoning"), "dead reckoning");
+  EXPECT_EQ(shown_method(own, "factorization-of-9"), "factorization-of-9");
+  EXPECT_EQ(shown_subject(own, {"bearing", "lpca", 150}), "bearing, LPCA, 150 steps");
+}
+
+TEST(HistoryPages, NameMethodsAsTheirStudyLabelsThem) {
+  const StudyLabels labels{.setups = {{"hall", "Indoors, at night"}},
+                           .methods = {{"ekf", "My EKF"},
+                                       {"ekf slow", "My EKF, slower"},
+                                       {"spectral", "spectral"},
+                                       {"isomap-K6", "Walk"}}};
+  EXPECT_EQ(shown_method(labels, "ekf"), "My EKF");
+  EXPECT_EQ(shown_method(labels, "ekf noise=0.1 pace=2"), "My EKF, noise=0.1 pace=2");
+  EXPECT_EQ(shown_method(labels, "ekf noise=0.1 of robot 2"), "My EKF, noise=0.1 of robot 2");
+  EXPECT_EQ(shown_method(labels, "ekf of robot 2"), "My EKF of robot 2");
+  EXPECT_EQ(shown_method(labels, "ekf slow noise=0.1"), "My EKF, slower, noise=0.1");
+  EXPECT_EQ(shown_method(labels, "spectral"), "spectral");
+  EXPECT_EQ(shown_method(labels, "isomap-K6"), "Walk");
+  EXPECT_EQ(shown_method(labels, "isomap-K7 noise=0.1"), "isomap-K7, noise=0.1");
+  EXPECT_EQ(shown_subject(labels, {"hall", "ekf", 20}), "Indoors, at night, My EKF, 20 steps");
+  EXPECT_EQ(shown_subject(labels, {"", "ekf", 0}), "My EKF") << "there is one setup, without name";
+}
+
+TEST(HistoryPages, TakeNoTwoMethodsOfAnotherProgramForSettingsOfOne) {
+  StudyTrend trend = best_got_worse();
+  trend.labels.setups = {{"bearing", "By compass"}};
+  for (const char* id : {"isomap-K5", "isomap-K6", "isomap-K7"})
+    trend.labels.methods[id] = fmt::format("Walk {}", id);
+  const Figure figure = trend_figures(trend, {}).front();
+  EXPECT_EQ(curves(figure),
+            (std::vector<std::string>{"Walk isomap-K5", "Walk isomap-K6", "Walk isomap-K7"}));
+  EXPECT_EQ(figure.title, "By compass: MPE, night by night");
+  EXPECT_EQ(std::get<TextCell>(accuracy_table(trend).rows[0].cells[0]).text,
+            "By compass, Walk isomap-K5, 150 steps");
 }
 
 TEST(HistoryExport, HasALineAValue) {
@@ -190,7 +226,50 @@ TEST(HistoryExport, HasALineAValue) {
   store.append(sample_night(1, 1));
   const std::string csv = history_csv(store);
   EXPECT_EQ(std::count(csv.begin(), csv.end(), '\n'), 1 + 6 * 2 * 25);
+  EXPECT_NE(csv.find(",bearing,\"ISOMAP, K = 6\"\r\n"), std::string::npos);
   EXPECT_EQ(history_json(store, true)["nights"][0]["studies"][0]["scores"].size(), 12U);
+}
+
+TEST(HistoryExport, IsAsItsSchemasSay) {
+  const TemporaryFolder folder;
+  HistoryStore store = HistoryStore::open(folder.path());
+  std::vector<Night> nights;
+  for (int number = 1; number <= 2; ++number) {
+    Night night = sample_night(number, 1, {.error = {{"lpca", number == 2 ? 1.1 : 1.0}}});
+    night.facts.provenance = json_line(to_json_value(Provenance{.version = "1.2"}));
+    StudyNight& study = night.studies[0];
+    study.quantities.declare(study_quantity("found", "Found", "%", Better::kHigher));
+    study.labels = {.setups = {{"bearing", "By compass"}}, .methods = {{"lpca", "Mine"}}};
+    study.figures = {{"fig-1.svg", "00", 1}};
+    study.scores.begin()->second.front().value = NAN;
+    nights.push_back(judged(store, night));
+  }
+  ASSERT_FALSE(nights[1].findings.empty());
+  for (const Night& night : nights) {
+    const auto file = nlohmann::json::parse(night_json(night));
+    EXPECT_EQ(schema_problem("night", file), "");
+    EXPECT_EQ(file["schema"], nlohmann::json::parse(R"({"name": "mapproof.night", "version": 1})"));
+    EXPECT_EQ(file["provenance"]["version"], "1.2");
+  }
+  EXPECT_EQ(nlohmann::json::parse(night_json(nights[0]))["verdict"], "not compared");
+  for (const bool with_scores : {false, true}) {
+    const auto exported = nlohmann::json::parse(history_json(store, with_scores).dump());
+    EXPECT_EQ(schema_problem("history", exported), "");
+    EXPECT_EQ(exported["nights"][1]["studies"][0].contains("scores"), with_scores);
+    EXPECT_EQ(exported["nights"][1]["studies"][0]["methods"].dump(),
+              R"([{"id":"lpca","label":"Mine"}])");
+  }
+}
+
+TEST(HistoryExport, KeepsWhatMadeANightAsThatNightWroteIt) {
+  const TemporaryFolder folder;
+  HistoryStore store = HistoryStore::open(folder.path());
+  Night night = sample_night(1, 1);
+  night.facts.provenance = R"({"compiler": "of another version"})";
+  store.append(night);
+  EXPECT_EQ(history_json(store, false)["nights"][0]["provenance"]["compiler"],
+            "of another version");
+  EXPECT_FALSE(night_value(night.facts, {}).contains("schema"));
 }
 
 }  // namespace

@@ -7,6 +7,7 @@
 #include "reports/history/history_export.hpp"
 #include "reports/history/history_store.hpp"
 #include "reports/history/schema.hpp"
+#include "reports/history/shown_names.hpp"
 #include "tests/reports/history/sample_nights.hpp"
 #include "tests/support/temporary_folder.hpp"
 
@@ -94,6 +95,61 @@ TEST(HistoryStore, OfVersion2GivesOtherNumbersTheirNamesBack) {
   EXPECT_EQ(trend.medians.at({"size", "ppca@30", 0, "mapped_percent"}), std::vector<double>{0.5});
   EXPECT_EQ(trend.medians.at({"convergence", "spectral-known", 50, "observation_error"}),
             std::vector<double>{0.25});
+}
+
+TEST(HistoryStore, KeepsWhatAStudyCallsItsSetupsAndMethods) {
+  const TemporaryFolder folder;
+  HistoryStore store = HistoryStore::open(folder.path());
+  const auto append = [&](int number, const StudyLabels& labels) {
+    Night night = sample_night(number, 4);
+    night.studies[0].labels = labels;
+    store.append(night);
+  };
+  const StudyLabels first{.setups = {{"bearing", "Compass"}},
+                          .methods = {{"lpca", "Mine"}, {"smacof", "Gone later"}}};
+  append(1, first);
+  append(2, {.setups = {}, .methods = {{"lpca", "Mine, renamed"}}});
+  EXPECT_EQ(store.studies(1)[0].labels, first);
+  const StudyLabels both{.setups = {{"bearing", "Compass"}},
+                         .methods = {{"lpca", "Mine, renamed"}, {"smacof", "Gone later"}}};
+  EXPECT_EQ(store.trend("sample", "d", 60, 2).labels, both);
+  EXPECT_EQ(store.trend("sample", "d", 60, 1).labels, first);
+  store.remove({1, 2});
+  Database database(history_file(folder.path()), Database::Access::kRead);
+  Statement left(database, "SELECT count(*) FROM labels");
+  ASSERT_TRUE(left.step());
+  EXPECT_EQ(left.integer(0), 0);
+}
+
+TEST(HistoryStore, OfVersion3CallsMethodsThatAStudyDeclaresByTheirIds) {
+  const TemporaryFolder folder;
+  {
+    Database old(history_file(folder.path()), Database::Access::kCreate);
+    make_tables(old, 3);
+    old.execute(
+        "INSERT INTO nights (number, started_utc, ended_utc, command, provenance, host, processor, "
+        "cores, jobs, reference, verdict) VALUES (1, '2026-01-01T00:00:00Z', "
+        "'2026-01-01T01:00:00Z', 'c', '{}', 'h', 'p', 2, 2, NULL, 'good');"
+        "INSERT INTO studies VALUES (1, 1, 'theirs', 'mapproof.results_study', 'd', 1, NULL, NULL),"
+        " (2, 1, 'ours', 'mapproof.study', 'd', 1, NULL, NULL),"
+        " (3, 1, 'topic', 'mapproof.trial_study', 'd', 1, NULL, NULL);"
+        "INSERT INTO series VALUES (1, 'hall', 'isomap-K6', 0, 'ate_m'),"
+        " (2, 'hall', 'scan matching noise=0.1 pace=2', 0, 'ate_m'),"
+        " (3, 'hall', 'K=6', 0, 'ate_m'), (4, 'bearing', 'isomap-K6', 0, 'mpe_m'),"
+        " (5, 'hall', 'scan matching noise=0.4', 0, 'ate_m');"
+        "INSERT INTO trends VALUES (1, 1, 1, 1, 1), (1, 2, 1, 1, 1), (1, 3, 1, 1, 1),"
+        " (1, 5, 1, 1, 1), (2, 4, 1, 1, 1), (3, 1, 1, 1, 1);");
+  }
+  HistoryStore store = HistoryStore::open(folder.path());
+  ASSERT_EQ(store.remarks().size(), 1U);
+  const StudyLabels theirs = store.trend("theirs", "d", 60, 1).labels;
+  EXPECT_EQ(theirs.methods,
+            (std::map<std::string, std::string>{
+                {"K=6", "K=6"}, {"isomap-K6", "isomap-K6"}, {"scan matching", "scan matching"}}));
+  EXPECT_EQ(shown_method(theirs, "scan matching noise=0.1 pace=2"),
+            "scan matching, noise=0.1 pace=2");
+  EXPECT_EQ(store.trend("ours", "d", 60, 1).labels, StudyLabels());
+  EXPECT_EQ(store.trend("topic", "d", 60, 1).labels.methods.count("isomap-K6"), 1U);
 }
 
 TEST(HistoryStore, OfALaterVersionOrOfAnotherProgramIsRefused) {
