@@ -102,8 +102,7 @@ TEST(Layout, ALongLabelOfTheYAxisIsWrapped) {
 }
 
 TEST(Layout, ALongLabelOfASharedYAxisIsWrapped) {
-  const std::string label =
-      "distance between the mean of the estimated positions and the truth [m]";
+  const std::string label = "distance of the map from the truth [m]";
   Figure figure = with_panels(3);
   figure.shared_y = true;
   for (Panel& panel : figure.panels) {

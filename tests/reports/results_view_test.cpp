@@ -183,7 +183,7 @@ TEST(ResultsComparison, IsThePairedTestOverGroupsCorrectedForTheMethods) {
   ASSERT_TRUE(found.ranks);
   EXPECT_DOUBLE_EQ(found.ranks->mean_ranks[0], 1.1);  // One tie with m2.
   EXPECT_DOUBLE_EQ(found.ranks->mean_ranks[2], 3.0);
-  EXPECT_EQ(sentence_of(found, view).substr(0, 53),
+  EXPECT_EQ(sentence_of(found, view).substr(0, 54),
             "s: m1 has the lowest mean MPE, 1.1\u00A0m; m2 follows with");
 }
 
@@ -580,6 +580,22 @@ TEST(ResultsTables, HaveTheStudysLabelsOfKnownQuantities) {
   study.quantity_labels = {{.id = "mpe_m", .label = "MPE of the pick"}};
   const ResultsView view(study);
   EXPECT_EQ(results_tables(view, view.blocks()[0]).at(0).columns.at(1).title, "MPE of the pick");
+}
+
+TEST(ResultsTables, MethodsOfTheSameLabelHaveARowEach) {
+  Rows rows;
+  for (const char* light : {"day", "night"})
+    rows.add("m", "a", 1.0, {{"light", std::string(light)}, {"size", 1.0}})
+        .add("n", "a", 2.0, {{"light", std::string(light)}, {"size", 1.0}});
+  ResultsStudy study = rows.study();
+  for (Label& method : study.methods) method.label = "EKF";
+  const ResultsView view(study);
+  for (const Table& table : results_tables(view, view.blocks()[0]))
+    EXPECT_EQ(table.rows.size(), 2U);
+  ResultsStudy single = Rows().add("m", "a", 1.0).add("n", "a", 2.0).study();
+  for (Label& method : single.methods) method.label = "EKF";
+  const ResultsView other(single);
+  EXPECT_EQ(results_tables(other, other.blocks()[0]).at(0).rows.size(), 2U);
 }
 
 TEST(ResultsTables, LabelledRunsHaveATableEach) {

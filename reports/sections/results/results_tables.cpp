@@ -129,13 +129,19 @@ Table level_table(const ResultsView& view, const ResultsBlock& block, const Quan
   return table;
 }
 
+/// Methods may have the same label, lines of a table not the same method and run.
+bool has_line(const std::vector<ResultsLine>& lines, const ResultsLine& line) {
+  return std::ranges::any_of(lines, [&](const ResultsLine& other) {
+    return other.method == line.method && other.run == line.run;
+  });
+}
+
 /// The lines that any of a block's quantities has, in the order of methods.
 std::vector<ResultsLine> all_lines(const ResultsView& view, const ResultsBlock& block) {
   std::vector<ResultsLine> lines;
   for (const Quantity* quantity : view.quantities(block))
     for (const ResultsLine& line : view.lines(block, *quantity))
-      if (std::ranges::find(lines, line.label, &ResultsLine::label) == lines.end())
-        lines.push_back(line);
+      if (!has_line(lines, line)) lines.push_back(line);
   std::ranges::stable_sort(lines, {}, &ResultsLine::index);
   return lines;
 }
@@ -223,8 +229,7 @@ std::vector<Table> overview_tables(const ResultsView& view, const ResultsOvervie
     std::vector<ResultsLine> lines;
     for (const ResultsBlock* block : overview.blocks)
       for (const ResultsLine& line : view.lines(*block, quantity))
-        if (std::ranges::find(lines, line.label, &ResultsLine::label) == lines.end())
-          lines.push_back(line);
+        if (!has_line(lines, line)) lines.push_back(line);
     if (lines.empty()) continue;
     std::ranges::stable_sort(lines, {}, &ResultsLine::index);
     Table table;
