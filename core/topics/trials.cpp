@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 
+#include "core/base/errors.hpp"
 #include "core/base/files.hpp"
 #include "core/records/profiles.hpp"
 #include "core/records/results_of.hpp"
