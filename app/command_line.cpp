@@ -44,7 +44,7 @@ void add_experiment_options(CLI::App& app, ExperimentChanges& changes) {
     const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
     if (error != std::errc() || end != text.data() + text.size())
       throw CLI::ValidationError(
-          "--seed", "\"" + printable(text) + "\" is no whole number from 0 to 2^64 - 1");
+          "--seed", "\"" + printable(text) + "\" is not a whole number from 0 to 2^64 - 1");
     changes.seed = value;
   };
   app.add_option_function<std::string>("--seed", read, "Replaces the experiment's seed");
@@ -56,8 +56,8 @@ void add_experiment_options(CLI::App& app, ExperimentChanges& changes) {
 
 CLI::Validator names_folder() {
   const auto problem = [](const std::string& text) -> std::string {
-    if (text == "-") return "standard input is no folder";
-    return text.empty() ? "an empty name is no folder" : "";
+    if (text == "-") return "standard input is not a folder";
+    return text.empty() ? "an empty name is not a folder" : "";
   };
   return {problem, ""};
 }

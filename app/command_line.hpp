@@ -15,32 +15,32 @@
 
 namespace mapproof {
 
-/// What a verb is given beside its own arguments.
+/// What a command is given beside its own arguments.
 struct Invocation {
   const Console& console;
   std::string command;  ///< As typed, quoted so that a shell takes it again.
 };
 
-/// A verb's work once its arguments are parsed; returns an ExitCode.
+/// A command's work once its arguments are parsed; returns an ExitCode.
 using Action = std::function<int(const Invocation&)>;
 
-/// Adds a verb to the program: its options to `app`, its work to be returned.
-using AddVerb = Action (*)(CLI::App& app);
+/// Adds a command to the program: its options to `app`, its work to be returned.
+using AddCommand = Action (*)(CLI::App& app);
 
 /// The words of a command line, quoted for a POSIX shell where needed.
 std::string quoted_command(const std::vector<std::string>& words);
 
-/// Adds --jobs to a verb: threads, by default one a core.
+/// Adds --jobs to a command: threads, by default one a core.
 void add_jobs_option(CLI::App& app, int& jobs);
 
 /// Adds --seed (a whole number from 0 to 2^64 - 1; others are refused, not wrapped round),
-/// --layouts and --poses to a verb.
+/// --layouts and --poses to a command.
 void add_experiment_options(CLI::App& app, ExperimentChanges& changes);
 
-/// Refuses the empty name and "-": standard input is no folder.
+/// Refuses the empty name and "-": standard input is not a folder.
 CLI::Validator names_folder();
 
-/// Adds --out to a verb: a folder, with a name.
+/// Adds --out to a command: a folder, with a name.
 CLI::Option* add_out_option(CLI::App& app, std::string& out, const std::string& what);
 
 }  // namespace mapproof

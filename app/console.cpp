@@ -19,8 +19,8 @@ std::string one_line(const std::string& message) { return printable(message, 400
 
 }  // namespace
 
-Console::Console(Verbosity verbosity, bool json, std::string verb)
-    : verbosity_(verbosity), json_(json), verb_(std::move(verb)) {
+Console::Console(Verbosity verbosity, bool json, std::string command)
+    : verbosity_(verbosity), json_(json), command_(std::move(command)) {
   auto logger = std::make_shared<spdlog::logger>("mapproof",
                                                  std::make_shared<spdlog::sinks::stderr_sink_mt>());
   logger->set_pattern("%v");
@@ -40,8 +40,8 @@ void Console::warning(const std::string& message) const {
 
 void Console::result(const std::string& text, const nlohmann::ordered_json& object) const {
   nlohmann::ordered_json whole_object;
-  whole_object["schema"] = {{"name", "mapproof.result." + verb_}, {"version", kResultVersion}};
-  whole_object.update(object);
+  whole_object["schema"] = {{"name", "mapproof.result." + command_}, {"version", kResultVersion}};
+  if (!object.is_null()) whole_object.update(object);
   const std::string out =
       json_ ? whole_object.dump(2, ' ', false, nlohmann::json::error_handler_t::replace) + "\n"
             : text;

@@ -6,7 +6,7 @@
 
 namespace mapproof {
 
-/// What every verb ends with.
+/// What every command ends with.
 enum ExitCode {
   kDone = 0,      ///< Done.
   kNo = 1,        ///< The check that was asked for says no, or no map came out.
@@ -18,11 +18,11 @@ enum ExitCode {
 /// How much is said on standard error.
 enum class Verbosity { kQuiet, kNormal, kVerbose };
 
-/// Where a verb talks: messages to standard error, its result to standard output.
+/// Where a command talks: messages to standard error, its result to standard output.
 class Console {
  public:
-  /// @param verb  Names the schema of the result: "mapproof.result.map".
-  Console(Verbosity verbosity, bool json, std::string verb);
+  /// @param command  Names the schema of the result: "mapproof.result.map".
+  Console(Verbosity verbosity, bool json, std::string command);
 
   bool is_quiet() const { return verbosity_ == Verbosity::kQuiet; }
 
@@ -33,14 +33,14 @@ class Console {
   /// What a person should look at, --quiet or not.
   void warning(const std::string& message) const;
 
-  /// The result: `text`, or with --json `object` behind the schema of the verb's results; it names
-  /// none of its own. Text that is not UTF-8 is mended.
+  /// The result: `text`, or with --json `object` behind the schema of the command's results; it
+  /// names none of its own. Text that is not UTF-8 is corrected.
   void result(const std::string& text, const nlohmann::ordered_json& object) const;
 
  private:
   Verbosity verbosity_;
   bool json_;
-  std::string verb_;
+  std::string command_;
 };
 
 }  // namespace mapproof

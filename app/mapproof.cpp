@@ -12,8 +12,9 @@
 #include <CLI/CLI.hpp>
 
 #include "app/build_facts.hpp"
-#include "app/commands/verbs.hpp"
+#include "app/commands.hpp"
 #include "app/failures.hpp"
+#include "app/retired_options.hpp"
 #include "core/base/errors.hpp"
 #include "core/base/spelling.hpp"
 
@@ -29,10 +30,10 @@ constexpr const char* kExitCodes =
     "  4  nightly: only seconds or memory grew\n";
 
 constexpr const char* kFooter =
-    "Every verb takes --json (its result as one JSON object on standard output; diff and check "
+    "Every command takes --json (its result as one JSON object on standard output; diff and check "
     "take\n--json FILE, where - is standard output), --quiet and --verbose; messages go to "
     "standard "
-    "error.\n\"mapproof VERB --help\" shows examples.\n";
+    "error.\n\"mapproof COMMAND --help\" shows examples.\n";
 
 struct Common {
   bool json = false;
@@ -46,20 +47,20 @@ void add_common_options(CLI::App& app, Common& common) {
   app.add_flag("--verbose", common.verbose, "Details")->excludes(quiet);
 }
 
-/// What is wrong with the first word if it is meant as a verb and is none; empty otherwise.
-std::string unknown_verb(const CLI::App& app, int argc, char** argv) {
+/// What is wrong with the first word if it is meant as a command and is none; empty otherwise.
+std::string unknown_command(const CLI::App& app, int argc, char** argv) {
   if (argc < 2 || argv[1][0] == '-') return "";
   const std::string word = argv[1];
-  std::vector<std::string_view> verbs;
-  for (const CLI::App* sub : app.get_subcommands({})) verbs.push_back(sub->get_name());
-  if (std::ranges::find(verbs, word) != verbs.end()) return "";
-  const std::string_view meant = likely_word(word, verbs);
-  return "unknown verb \"" + printable(word) + "\"" +
+  std::vector<std::string_view> commands;
+  for (const CLI::App* sub : app.get_subcommands({})) commands.push_back(sub->get_name());
+  if (std::ranges::find(commands, word) != commands.end()) return "";
+  const std::string_view meant = likely_word(word, commands);
+  return "unknown command \"" + printable(word) + "\"" +
          (meant.empty() ? "; \"mapproof --help\" lists them"
                         : "; did you mean \"" + std::string(meant) + "\"?");
 }
 
-/// "help" and "help VERB" as "--help" and "VERB --help".
+/// "help" and "help COMMAND" as "--help" and "COMMAND --help".
 std::vector<char*> with_help(int argc, char** argv) {
   std::vector<char*> words(argv, argv + argc);
   static char help[] = "--help";
@@ -69,7 +70,7 @@ std::vector<char*> with_help(int argc, char** argv) {
   return words;
 }
 
-int run_verb_of(int argc, char** argv) {
+int run_command_of(int argc, char** argv) {
   CLI::App app(
       "Maps from what a robot observed, without ever estimating its pose, and proof of them",
       "mapproof");
@@ -77,23 +78,32 @@ int run_verb_of(int argc, char** argv) {
   app.set_version_flag("--version", std::function<std::string()>(version_text));
   app.require_subcommand(1);
   Common common;
-  const std::vector<std::pair<const char*, AddVerb>> verbs = {
-      {"reproduce", reproduce_verb}, {"run", run_verb},           {"render", render_verb},
-      {"report", report_verb},       {"map", map_verb},           {"slam", slam_verb},
-      {"diff", diff_verb},           {"approve", approve_verb},   {"check", check_verb},
-      {"methods", methods_verb},     {"validate", validate_verb}, {"nightly", nightly_verb},
-      {"history", history_verb},
+  const std::vector<std::pair<const char*, AddCommand>> commands = {
+      {"reproduce", reproduce_command},
+      {"run", run_command},
+      {"render", render_command},
+      {"report", report_command},
+      {"map", map_command},
+      {"slam", slam_command},
+      {"diff", diff_command},
+      {"approve", approve_command},
+      {"check", check_command},
+      {"methods", methods_command},
+      {"validate", validate_command},
+      {"nightly", nightly_command},
+      {"history", history_command},
   };
   std::vector<std::pair<CLI::App*, Action>> actions;
-  for (const auto& [name, verb] : verbs) {
+  for (const auto& [name, command] : commands) {
     CLI::App* sub = app.add_subcommand(name);
     add_common_options(*sub, common);
-    actions.emplace_back(sub, verb(*sub));
+    actions.emplace_back(sub, command(*sub));
     sub->footer(sub->get_footer() + "\n" + kExitCodes);
   }
 
-  if (const std::string complaint = unknown_verb(app, argc, argv); !complaint.empty())
+  if (const std::string complaint = unknown_command(app, argc, argv); !complaint.empty())
     throw InvalidInput(complaint);
+  refuse_retired_options({argv, static_cast<std::size_t>(argc)});
   try {
     app.parse(argc, argv);
   } catch (const CLI::Success& asked) {  // --help, --version
@@ -133,6 +143,6 @@ int main(int argc, char** argv) {
   std::signal(SIGXFSZ, SIG_IGN);
   return exit_code_of([&] {
     std::vector<char*> words = with_help(argc, argv);
-    return run_verb_of(static_cast<int>(words.size()), words.data());
+    return run_command_of(static_cast<int>(words.size()), words.data());
   });
 }

@@ -15,9 +15,9 @@
 #include "core/base/errors.hpp"
 #include "core/base/files.hpp"
 #include "core/base/input_file.hpp"
-#include "core/records/table_reader.hpp"
+#include "core/records/observations/table_reader.hpp"
 #include "render/image/png_check.hpp"
-#include "reports/diff/xml_place.hpp"
+#include "reports/diff/svg/xml_place.hpp"
 
 namespace mapproof {
 namespace {
@@ -63,12 +63,12 @@ void check_page(const std::string& bytes, const std::string& source) {
 void check_latex(const std::string& bytes, const std::string& source) {
   for (const char* part : {"\\toprule", "\\bottomrule"})
     if (bytes.find(part) == std::string::npos)
-      throw IoError(source, fmt::format("is no table of ours: {} is missing", part));
+      throw IoError(source, fmt::format("is not a table of ours: {} is missing", part));
 }
 
 void check_markdown(const std::string& bytes, const std::string& source) {
   if (bytes.find("\n|") == std::string::npos)
-    throw IoError(source, "is no table of ours: it has no row");
+    throw IoError(source, "is not a table of ours: it has no row");
 }
 
 void check_csv(const std::string& bytes, const std::string& source) {

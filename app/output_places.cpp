@@ -47,7 +47,7 @@ void require_replaceable(const fs::path& place) {
   std::error_code error;
   const fs::file_status status = fs::status(place, error);
   if (fs::exists(status) && !fs::is_regular_file(status))
-    throw IoError(place.string(), "is no regular file, and cannot be replaced");
+    throw IoError(place.string(), "is not a regular file, and cannot be replaced");
 }
 
 }  // namespace
@@ -66,8 +66,7 @@ void check_output_places(const DiffOptions& options, std::span<const fs::path> i
       if (!input.empty()) check_place(output, input);
     require_replaceable(output.place);
     for (const Output& other : outputs)
-      if (&other != &output && is_file(other) &&
-          real_path(other.place) == real_path(output.place))
+      if (&other != &output && is_file(other) && real_path(other.place) == real_path(output.place))
         throw InvalidInput(fmt::format("{} and {} are one file: {}", output.option, other.option,
                                        printable(output.place.string())));
   }

@@ -1,6 +1,6 @@
 // Ticks, the file of approvals and the command that does the same.
 
-// Names travel byte by byte; one that is no UTF-8 cannot stand in a file of JSON.
+// Names travel byte by byte; one that is not UTF-8 cannot stand in a file of JSON.
 function decoded(text) {
   try {
     return decodeURIComponent(text);
@@ -104,7 +104,7 @@ function makeTicks() {
     if (!tick) continue;
     tick.closest("label").hidden = false;
     tick.disabled = decoded(item.dataset.code) === null;
-    if (tick.disabled) tick.title = "Its name is no UTF-8: approve it by hand";
+    if (tick.disabled) tick.title = "Its name is not UTF-8: approve it by hand";
     tick.addEventListener("change", tellTicks);
   }
   by("tick-shown").addEventListener("click", () => tickAll(items.filter(shown), true));

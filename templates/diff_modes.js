@@ -15,7 +15,7 @@ function setShown(side) {
 
 const flip = () => setShown(root.dataset.shown === "baseline" ? "current" : "baseline");
 
-// Never by itself: only a button or a key starts it, and 0.7 flips a second are no flashing.
+// Never by itself: only a button or a key starts it, and 0.7 flips a second are not flashing.
 function setBlinking(on) {
   clearInterval(blinking);
   blinking = on ? setInterval(flip, 1400) : null;

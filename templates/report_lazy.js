@@ -24,7 +24,7 @@ function putIn(figure) {
   const text = sourceOf(figure);
   const svg = new DOMParser().parseFromString(text, "image/svg+xml").documentElement;
   if (svg.localName !== "svg") return;
-  // A drawing is one image with a title and a description: its words are no elements of their own.
+  // A drawing is one image with a title and a description: its words are not elements of their own.
   for (const words of svg.querySelectorAll("g[aria-label]")) words.removeAttribute("aria-label");
   holder.replaceWith(document.adoptNode(svg));
   for (const each of whenPutIn) each(figure, svg);

@@ -2,7 +2,7 @@
 
 #include <limits>
 
-#include "core/align/laid_on.hpp"
+#include "core/align/aligned_to.hpp"
 #include "core/base/errors.hpp"
 #include "core/certainty/block_length.hpp"
 #include "core/certainty/map_bootstrap.hpp"
@@ -24,7 +24,7 @@ std::optional<Points> in_frame(const Points& coordinates, const CertaintyFrame& 
     if (!map.aligned) return std::nullopt;
     return std::move(map.positions_m);
   }
-  return laid_on(coordinates, frame.positions_m);
+  return aligned_to(coordinates, frame.positions_m);
 }
 
 MapCertainty history_certainty(const ObservationHistory& history, Eigen::Index steps,

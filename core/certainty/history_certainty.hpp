@@ -22,7 +22,7 @@ struct HistoryCertaintyOptions {
 };
 
 /// How the maps of other steps are brought to the frame of the estimate: fitted to the anchors if
-/// there are any, else laid on the estimate by the similarity or mirrored similarity that fits
+/// there are any, else aligned to the estimate by the similarity or mirrored similarity that fits
 /// best, since what such a map leaves open is not uncertainty.
 struct CertaintyFrame {
   Points positions_m;                 ///< M x 2: the anchors' rows are read; or the estimate.

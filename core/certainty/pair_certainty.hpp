@@ -3,33 +3,33 @@
 #include <cstdint>
 
 #include "core/certainty/history_certainty.hpp"
+#include "core/model/detection_log.hpp"
 #include "core/model/experiment.hpp"
 #include "core/model/map_certainty.hpp"
-#include "core/model/sighting_log.hpp"
 
 namespace mapproof {
 
 /// How the ellipses of a map of measured pairs are drawn.
 struct PairCertaintyOptions {
   int replicates = 200;    ///< 10 to 10,000.
-  Eigen::Index block = 0;  ///< Consecutive looks drawn together; 0: pair_block_length().
+  Eigen::Index block = 0;  ///< Consecutive scans drawn together; 0: pair_block_length().
   std::uint64_t seed = 1;
   AffineFit fit = AffineFit::kLeastDistances;
 };
 
-/// The usual length of the blocks: looks that follow each other err alike. Of up to 60 pairs, those
-/// that most looks measured, the series over all looks of whether each measured more or less than
+/// The usual length of the blocks: scans that follow each other err alike. Of up to 60 pairs, those
+/// that most scans measured, the series over all scans of whether each measured more or less than
 /// the pair's median, or not at all; of each its best_block_length(); their mean.
-/// @return 1 to (looks + 2) / 3, or 1 without looks.
+/// @return 1 to (scans + 2) / 3, or 1 without scans.
 /// @throws InvalidInput as measured_pairs().
 /// @note Fewer pairs of long logs: some 3e8 multiplications, or those of one pair.
-Eigen::Index pair_block_length(const SightingLog& log);
+Eigen::Index pair_block_length(const DetectionLog& log);
 
-/// The certainty of sighted_map(log), see bootstrap_map: of looks drawn anew. Which pairs are
-/// trusted is of the looks as they are: drawn twice, a wrong one would pass.
-/// @throws InvalidInput if a bound is broken, the log has no look or the frame other landmarks.
+/// The certainty of pair_map_of(log), see bootstrap_map: of scans drawn anew. Which pairs are
+/// trusted is of the scans as they are: drawn twice, a wrong one would pass.
+/// @throws InvalidInput if a bound is broken, the log has no scan or the frame other landmarks.
 /// @note As costly as `replicates` maps.
-MapCertainty pair_certainty(const SightingLog& log, const CertaintyFrame& frame,
+MapCertainty pair_certainty(const DetectionLog& log, const CertaintyFrame& frame,
                             const PairCertaintyOptions& options = {});
 
 }  // namespace mapproof

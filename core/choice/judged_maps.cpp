@@ -4,7 +4,7 @@
 #include <cmath>
 #include <limits>
 
-#include "core/align/laid_on.hpp"
+#include "core/align/aligned_to.hpp"
 #include "core/base/errors.hpp"
 #include "core/base/not_finite.hpp"
 #include "core/certainty/block_length.hpp"

@@ -263,7 +263,7 @@ const Embedding& Embedder::equal_weights() {
 
 namespace {
 
-/// One look puts all bearings on a circle, two on a torus: no map is told by so few.
+/// One scan puts all bearings on a circle, two on a torus: no map is told by so few.
 constexpr Eigen::Index kFewestSteps = 3;
 
 }  // namespace

@@ -9,7 +9,7 @@ namespace mapproof {
 
 /// ISOMAP: classical scaling of the shortest paths in the neighbour graph [tenenbaum2000].
 ///
-/// @param distances  n x n, symmetric, zero diagonal, entries >= 0; infinite entries are no edges.
+/// @param distances  n x n, symmetric, zero diagonal, entries >= 0; infinite entries are not edges.
 /// @return kBridged if the graph was in pieces and had to be joined by its shortest bridges;
 ///         kFailed, with NaN coordinates, if no finite bridge exists.
 /// @throws InvalidInput if K is not in [1, n) or n < 3.

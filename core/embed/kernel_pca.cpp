@@ -17,7 +17,7 @@ void check(const Eigen::MatrixXd& matrix) {
   if (!matrix.allFinite()) throw InvalidInput("kernel PCA needs finite values");
 }
 
-/// A second eigenvalue within these many times the mean one is no axis of a map: all are alike.
+/// A second eigenvalue within these many times the mean one is not an axis of a map: all are alike.
 constexpr double kLeastOfMean = 0.5;
 constexpr double kMostOfMean = 2.0;
 

@@ -3,7 +3,7 @@
 #include "core/model/experiment.hpp"
 #include "core/model/observation_history.hpp"
 #include "core/model/world.hpp"
-#include "core/records/study_store.hpp"
+#include "core/records/studies/study_store.hpp"
 
 namespace mapproof {
 

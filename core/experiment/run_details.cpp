@@ -16,7 +16,7 @@ constexpr Eigen::Index kFirstSteps = 60;
 constexpr int kManifoldNeighbours = 5;
 
 /// Counted from 0.
-Eigen::Index telling_look(const SensorStudy& study, const World& world, const Path& path,
+Eigen::Index telling_scan(const SensorStudy& study, const World& world, const Path& path,
                           Eigen::Index steps) {
   Eigen::Index best = 0;
   if (study.sensor.sensor != Sensor::kVisibility) {
@@ -65,12 +65,12 @@ SensorDetails sensor_details(const SensorStudy& study, const World& world, const
                              const ObservationHistory& history) {
   const int step = study.checkpoints.back();
   const Eigen::MatrixXd squared = observed_squares(history, step);
-  const Eigen::Index look = telling_look(study, world, path, step);
+  const Eigen::Index scan = telling_scan(study, world, path, step);
   SensorDetails details{
       .sensor = study.sensor.sensor,
-      .look_step = static_cast<int>(look) + 1,
+      .scan_step = static_cast<int>(scan) + 1,
       .views = {},
-      .values = history.values.col(look),
+      .values = history.values.col(scan),
       .first_steps = history.values.leftCols(std::min<Eigen::Index>(kFirstSteps, step)),
       .step = step,
       .distances = upper_triangle(squared),
@@ -78,7 +78,7 @@ SensorDetails sensor_details(const SensorStudy& study, const World& world, const
       .spectra = {}};
   if (study.sensor.sensor == Sensor::kVisibility) {
     details.reach_m = visibility_reach(world, study.sensor);
-    details.views = views_from(world, path.positions_m.row(look), study.sensor);
+    details.views = views_from(world, path.positions_m.row(scan), study.sensor);
   }
   return details;
 }

@@ -8,7 +8,7 @@ namespace mapproof {
 
 /// What figures show of one sensor's history, spectra apart.
 ///
-/// The look is the one that shows most: for visibility the step with the most hidden landmarks (of
+/// The scan is the one that shows most: for visibility the step with the most hidden landmarks (of
 /// those the one with the most visible), for other sensors the step nearest the room's centre; of
 /// equals the first.
 /// @param history  Of that sensor, along `path`, as long as the last checkpoint or longer.

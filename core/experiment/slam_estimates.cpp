@@ -8,14 +8,14 @@
 #include "core/base/errors.hpp"
 #include "core/base/random.hpp"
 #include "core/experiment/seeds.hpp"
-#include "core/range_slam/bootstrap.hpp"
 #include "core/range_slam/dead_reckoning.hpp"
 #include "core/range_slam/ekf.hpp"
-#include "core/range_slam/refine.hpp"
-#include "core/range_slam/refine_starts.hpp"
-#include "core/range_slam/spectral_slam.hpp"
-#include "core/range_slam/spread_rows.hpp"
-#include "core/range_slam/synchronous_slam.hpp"
+#include "core/range_slam/factors/spectral_slam.hpp"
+#include "core/range_slam/factors/spread_rows.hpp"
+#include "core/range_slam/factors/synchronous_slam.hpp"
+#include "core/range_slam/refinement/bootstrap.hpp"
+#include "core/range_slam/refinement/refine.hpp"
+#include "core/range_slam/refinement/refine_starts.hpp"
 
 namespace mapproof {
 namespace {

@@ -3,7 +3,7 @@
 #include <optional>
 
 #include "core/experiment/slam_run.hpp"
-#include "core/range_slam/windowed_ranges.hpp"
+#include "core/range_slam/factors/windowed_ranges.hpp"
 
 namespace mapproof {
 

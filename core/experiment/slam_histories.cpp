@@ -8,7 +8,7 @@
 #include "core/experiment/slam_worlds.hpp"
 #include "core/observe/features.hpp"
 #include "core/observe/proximities.hpp"
-#include "core/range_slam/metric_upgrade.hpp"
+#include "core/range_slam/factors/metric_upgrade.hpp"
 #include "core/score/map_score.hpp"
 
 namespace mapproof {

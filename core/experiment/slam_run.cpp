@@ -68,7 +68,7 @@ void add_random_starts(SlamEstimates& estimates, const SlamRunOptions& options, 
   }
 }
 
-/// Without a truth all paths are laid on the first there is.
+/// Without a truth all paths are aligned to the first there is.
 void lay_on_first(SlamRun& run, const SlamRunOptions& options) {
   const SlamRecord* first = nullptr;
   for (SlamRecord& record : run.records) {

@@ -5,8 +5,8 @@
 #include <vector>
 
 #include "core/model/slam_study.hpp"
+#include "core/range_slam/factors/squared_ranges.hpp"
 #include "core/range_slam/known_landmarks.hpp"
-#include "core/range_slam/squared_ranges.hpp"
 
 namespace mapproof {
 

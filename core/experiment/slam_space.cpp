@@ -3,7 +3,7 @@
 #include "core/base/random.hpp"
 #include "core/experiment/seeds.hpp"
 #include "core/experiment/slam_worlds.hpp"
-#include "core/range_slam/space_slam.hpp"
+#include "core/range_slam/factors/space_slam.hpp"
 #include "core/simulate/range_flight.hpp"
 
 namespace mapproof {
@@ -13,7 +13,7 @@ double mean_distance(const SpacePoints& a, const SpacePoints& b) {
   return (a - b).rowwise().norm().mean();
 }
 
-/// What a flight's ranges give, laid on the truth where no landmark tied it down.
+/// What a flight's ranges give, aligned to the truth where no landmark tied it down.
 SpaceRecord record_of(const RangeFlight& flight, const RangeNoise& noise,
                       const std::optional<KnownSpaceLandmarks>& known) {
   SpaceRecord record{.knows_landmarks = known.has_value(),

@@ -6,7 +6,7 @@
 #include "core/base/random.hpp"
 #include "core/experiment/seeds.hpp"
 #include "core/experiment/slam_run.hpp"
-#include "core/range_slam/metric_upgrade.hpp"
+#include "core/range_slam/factors/metric_upgrade.hpp"
 
 namespace mapproof {
 namespace {

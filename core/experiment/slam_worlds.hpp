@@ -3,7 +3,7 @@
 #include <cstdint>
 
 #include "core/model/slam_experiment.hpp"
-#include "core/range_slam/convergence.hpp"
+#include "core/range_slam/factors/convergence.hpp"
 #include "core/simulate/range_world.hpp"
 
 namespace mapproof {

@@ -41,7 +41,7 @@ void PairSums::add(const std::vector<StepEntry>& step) {
       throw InvalidInput("a step needs finite values of landmarks there are");
     if (k > 0 && entries[k - 1].landmark == entry.landmark)
       throw InvalidInput("a step lists a landmark twice");
-    if (sensor_ == Sensor::kVisibility && entry.value == 0.0) lists_sightings_ = false;
+    if (sensor_ == Sensor::kVisibility && entry.value == 0.0) lists_detections_ = false;
     if (sensor_ != Sensor::kRange) continue;
     const double square = entry.value * entry.value;
     if (counts_(entry.landmark, entry.landmark) == 0.0) first_(entry.landmark) = square;
@@ -102,7 +102,7 @@ double PairSums::centred_product(Eigen::Index i, Eigen::Index j) const {
 
 double PairSums::centred_square(Eigen::Index i, Eigen::Index j) const {
   if (sensor_ == Sensor::kBearing) return count(i, j);
-  if (sensor_ == Sensor::kVisibility) return lists_sightings_ ? products_(i, i) : squares_(i, j);
+  if (sensor_ == Sensor::kVisibility) return lists_detections_ ? products_(i, i) : squares_(i, j);
   const double mean = values_(i, i) / count(i, i);
   return squares_(i, j) - 2.0 * mean * values_(i, j) + count(i, j) * mean * mean;
 }
@@ -118,7 +118,7 @@ Proximities PairSums::proximities_of(const std::vector<Eigen::Index>& rows) cons
       const Eigen::Index i = rows[static_cast<std::size_t>(a)];
       const Eigen::Index j = rows[static_cast<std::size_t>(b)];
       const double common =
-          visibility && lists_sightings_ ? static_cast<double>(steps_) : count(i, j);
+          visibility && lists_detections_ ? static_cast<double>(steps_) : count(i, j);
       double product = centred_product(i, j);
       const double square_i = centred_square(i, j), square_j = centred_square(j, i);
       double distance = 0.0;

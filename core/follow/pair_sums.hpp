@@ -39,7 +39,7 @@ class PairSums {
   std::vector<Eigen::Index> seen() const;
 
   /// The proximities of some landmarks that were seen: those of proximities() of all steps, but for
-  /// rounding. Where visibility lists sightings alone, what is not listed counts as not seen.
+  /// rounding. Where visibility lists detections alone, what is not listed counts as not seen.
   /// @note O(n^2) for n rows.
   Proximities proximities_of(const std::vector<Eigen::Index>& rows) const;
 
@@ -53,7 +53,7 @@ class PairSums {
   Sensor sensor_;
   Eigen::Index landmarks_ = 0;  ///< The matrices have room for more.
   Eigen::Index steps_ = 0;
-  bool lists_sightings_ = true;  ///< Visibility: no 0 was listed so far.
+  bool lists_detections_ = true;  ///< Visibility: no 0 was listed so far.
   // Entry (i, j) is over the steps that list both. Those that are the same both ways are kept below
   // the diagonal, and what a sensor has no use for is empty.
   Eigen::MatrixXd products_;  ///< i >= j: of i's value and j's; cosines of differences of bearings.

@@ -28,7 +28,7 @@ class JsonCursor {
 
   [[noreturn]] void fail(const std::string& what) const;
 
-  /// The value of an object's key. @throws IoError if this is no object or lacks the key.
+  /// The value of an object's key. @throws IoError if this is not an object or lacks the key.
   JsonCursor at(const std::string& key) const;
   /// The same; empty if the key is missing.
   std::optional<JsonCursor> find(const std::string& key) const;

@@ -9,7 +9,7 @@
 #include <utility>
 
 #include "core/base/errors.hpp"
-#include "core/labels/labelled_looks.hpp"
+#include "core/labels/labelled_scans.hpp"
 #include "core/labels/robust_map.hpp"
 #include "core/pairs/pair_map.hpp"
 
@@ -194,7 +194,7 @@ bool decided(const KnownPlaces& places, const Exchanges& chosen, const Exchanges
   if (!in_place(places, chosen, fit, deviation)) return false;
   const double variance = deviation * deviation;
   const double cost = places.fit(chosen, deviation).cost;
-  // A map seen in a mirror, as with bearings of the other sign, is no fault of labels.
+  // A map seen in a mirror, as with bearings of the other sign, is not a fault of labels.
   if (places.fit({}, deviation, true).cost < cost + kLeastEvidence * variance) return false;
   for (std::size_t k = 0; k < chosen.size(); ++k) {
     Exchanges others = chosen;
@@ -224,7 +224,7 @@ double deviation_of(const PairMap& map) {
   return std::max({1.48 * *middle, 1e-3 * longest, 1e-9});
 }
 
-SightingLog exchanged(const SightingLog& log, const Exchanges& exchanges) {
+DetectionLog exchanged(const DetectionLog& log, const Exchanges& exchanges) {
   std::vector<int> labels = given_labels(log);
   for (const auto& [a, b] : exchanges)
     for (int& label : labels) label = label == a ? b : label == b ? a : label;
@@ -233,10 +233,10 @@ SightingLog exchanged(const SightingLog& log, const Exchanges& exchanges) {
 
 }  // namespace
 
-AnchorCheck check_anchor_labels(const SightingLog& log, const Points& known_m) {
+AnchorCheck check_anchor_labels(const DetectionLog& log, const Points& known_m) {
   if (known_m.rows() != std::ssize(log.names))
     throw InvalidInput("known places have a row for each landmark");
-  const PairMap map = sighted_map(log);
+  const PairMap map = pair_map_of(log);
   const KnownPlaces places(map.embedding.coordinates, known_m);
   AnchorCheck check;
   check.places = static_cast<int>(places.rows().size());

@@ -3,7 +3,7 @@
 #include <optional>
 #include <vector>
 
-#include "core/labels/labelled_looks.hpp"
+#include "core/labels/labelled_scans.hpp"
 #include "core/labels/robust_map.hpp"
 
 namespace mapproof {
@@ -14,14 +14,14 @@ struct FaultTrial {
   StepStretch stretch;
   std::vector<int> labels;
   RobustMap map;
-  bool scattered = false;  ///< In single looks, whenever; the stretch is then the whole log.
+  bool scattered = false;  ///< In single scans, whenever; the stretch is then the whole log.
 };
 
 /// The fault that lowers the cost of a map the most; empty if none does. The best of each kind is
-/// sharpened to the look before they are compared: whole blocks favour now one, now the other.
-/// @param labels  A landmark of each sighting, as they are so far.
+/// sharpened to the scan before they are compared: whole blocks favour now one, now the other.
+/// @param labels  A landmark of each detection, as they are so far.
 /// @param map  Of the pairs under these labels.
-std::optional<FaultTrial> best_trial(const LabelledLooks& looks, const std::vector<int>& labels,
+std::optional<FaultTrial> best_trial(const LabelledScans& scans, const std::vector<int>& labels,
                                      const RobustMap& map);
 
 }  // namespace mapproof

@@ -37,9 +37,9 @@ double spread_of(const std::vector<PairItem>& items) {
 
 }  // namespace
 
-LabelDoubts label_doubts(const LabelledLooks& looks, const std::vector<int>& labels,
+LabelDoubts label_doubts(const LabelledScans& scans, const std::vector<int>& labels,
                          const RobustMap& map) {
-  const std::vector<PairItem> items = pair_items(looks.pairs, labels, looks.blocks);
+  const std::vector<PairItem> items = pair_items(scans.pairs, labels, scans.blocks);
   std::vector<double> distances;
   for (const PairItem& item : items) distances.push_back(item.distance_m);
   const double far = kFar * middle(distances);

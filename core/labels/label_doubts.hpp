@@ -2,12 +2,12 @@
 
 #include <vector>
 
-#include "core/labels/labelled_looks.hpp"
+#include "core/labels/labelled_scans.hpp"
 #include "core/labels/robust_map.hpp"
 
 namespace mapproof {
 
-/// How far the looks fit one map.
+/// How far the scans fit one map.
 struct LabelDoubts {
   double residual_m = 0.0;  ///< Root mean square of the pairs' residuals, those beyond .25 of the
                             ///< median distance counted as that.
@@ -22,7 +22,7 @@ struct LabelDoubts {
 
 /// @param map  Of the pairs under these labels.
 /// @note O(P log P) time for P pairs.
-LabelDoubts label_doubts(const LabelledLooks& looks, const std::vector<int>& labels,
+LabelDoubts label_doubts(const LabelledScans& scans, const std::vector<int>& labels,
                          const RobustMap& map);
 
 }  // namespace mapproof

@@ -14,7 +14,7 @@ namespace {
 constexpr int kMostRobots = 64;
 
 /// What stands for the time of each step: the log's own, or the step.
-std::vector<double> clock_of(const SightingLog& log) {
+std::vector<double> clock_of(const DetectionLog& log) {
   const auto steps = static_cast<std::size_t>(log.steps);
   if (!log.times_s.empty() && log.times_s.size() != steps)
     throw InvalidInput("a log needs no times, or one of each step");
@@ -32,10 +32,10 @@ std::vector<double> clock_of(const SightingLog& log) {
 }
 
 /// The first times of all slices but the first: quantiles of the pairs' times.
-std::vector<double> cuts_of(const std::vector<double>& clock, const std::vector<LookPair>& pairs,
+std::vector<double> cuts_of(const std::vector<double>& clock, const std::vector<ScanPair>& pairs,
                             int slices) {
   std::vector<double> times;
-  for (const LookPair& pair : pairs) times.push_back(clock[static_cast<std::size_t>(pair.step)]);
+  for (const ScanPair& pair : pairs) times.push_back(clock[static_cast<std::size_t>(pair.step)]);
   std::ranges::sort(times);
   std::vector<double> cuts;
   for (int k = 1; k < slices && !times.empty(); ++k) {
@@ -49,7 +49,7 @@ std::vector<double> cuts_of(const std::vector<double>& clock, const std::vector<
 
 }  // namespace
 
-LogBlocks cut_in_blocks(const SightingLog& log, const std::vector<LookPair>& pairs, int slices) {
+LogBlocks cut_in_blocks(const DetectionLog& log, const std::vector<ScanPair>& pairs, int slices) {
   if (slices < 1) throw InvalidInput("a log is cut into one slice or more");
   const std::vector<double> clock = clock_of(log);
   const std::vector<double> cuts = cuts_of(clock, pairs, slices);

@@ -2,7 +2,7 @@
 
 #include <vector>
 
-#include "core/labels/look_pairs.hpp"
+#include "core/labels/scan_pairs.hpp"
 
 namespace mapproof {
 
@@ -21,8 +21,8 @@ struct LogBlocks {
 /// Cuts a log: where times fall back another robot begins (up to 64, else the times are not
 /// believed), and all robots are cut at common times, so that the slices hold pairs in about equal
 /// numbers. Without times steps are cut.
-/// @param slices  Of time, >= 1; fewer where there are fewer looks.
+/// @param slices  Of time, >= 1; fewer where there are fewer scans.
 /// @throws InvalidInput if the times are neither none nor one a step and finite.
-LogBlocks cut_in_blocks(const SightingLog& log, const std::vector<LookPair>& pairs, int slices);
+LogBlocks cut_in_blocks(const DetectionLog& log, const std::vector<ScanPair>& pairs, int slices);
 
 }  // namespace mapproof

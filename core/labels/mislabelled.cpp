@@ -6,36 +6,36 @@
 
 #include "core/base/not_finite.hpp"
 #include "core/labels/fault_trials.hpp"
-#include "core/labels/look_costs.hpp"
 #include "core/labels/place_costs.hpp"
+#include "core/labels/scan_costs.hpp"
 #include "core/pairs/pair_map.hpp"
 
 namespace mapproof {
 namespace {
 
-constexpr double kFitsNot = 8.0;  ///< A sighting's cost, in variances, under a label not its own.
-constexpr double kNearlyAll = 0.97;  ///< Of the sightings that a fault may hold for.
+constexpr double kFitsNot = 8.0;  ///< A detection's cost, in variances, under a label not its own.
+constexpr double kNearlyAll = 0.97;  ///< Of the detections that a fault may hold for.
 
 /// How well the fall of the cost is explained by the labels tried.
 struct Explanation {
   double share = 0.0;        ///< The fall, of what all pairs of both labels cost.
   double left = 0.0;         ///< What a relabelled pair costs on the average, in variances.
-  std::size_t partners = 0;  ///< Landmarks that relabelled sightings are seen with.
+  std::size_t partners = 0;  ///< Landmarks that relabelled detections are seen with.
 };
 
-Explanation explained(const LabelledLooks& looks, const std::vector<int>& labels,
+Explanation explained(const LabelledScans& scans, const std::vector<int>& labels,
                       const RobustMap& before, const FaultTrial& trial) {
   double concerned = 0.0;
-  for (const PairItem& item : pair_items(looks.pairs, labels, looks.blocks))
+  for (const PairItem& item : pair_items(scans.pairs, labels, scans.blocks))
     for (const int label : {trial.fault.first, trial.fault.second})
       if (item.first == label || item.second == label) {
         concerned += map_cost({item}, before.positions_m, before.width_m);
         break;
       }
-  std::vector<char> partners(looks.log.names.size(), 0);
+  std::vector<char> partners(scans.log.names.size(), 0);
   double after = 0.0;
   int count = 0;
-  for (const LookPair& pair : looks.pairs) {
+  for (const ScanPair& pair : scans.pairs) {
     const int a = trial.labels[pair.first];
     const int b = trial.labels[pair.second];
     const bool first_changed = a != labels[pair.first];
@@ -54,16 +54,16 @@ Explanation explained(const LabelledLooks& looks, const std::vector<int>& labels
           static_cast<std::size_t>(std::ranges::count(partners, 1))};
 }
 
-/// Whether the finding's stretch of steps is one robot's, and no sighting of both labels by it lies
-/// outside.
-bool is_all_of_robot(const SightingLog& log, const std::vector<int>& labels,
+/// Whether the finding's stretch of steps is one robot's, and no detection of both labels by it
+/// lies outside.
+bool is_all_of_robot(const DetectionLog& log, const std::vector<int>& labels,
                      const LabelFinding& finding) {
-  if (finding.by_time || log.looks.empty()) return false;
-  const auto robot = [&](int step) { return log.looks[static_cast<std::size_t>(step)].robot; };
+  if (finding.by_time || log.scans.empty()) return false;
+  const auto robot = [&](int step) { return log.scans[static_cast<std::size_t>(step)].robot; };
   const int one = robot(finding.first_step);
   if (robot(finding.last_step) != one) return false;
   for (std::size_t k = 0; k < labels.size(); ++k) {
-    const int step = log.sightings[k].step;
+    const int step = log.detections[k].step;
     if ((labels[k] == finding.first || labels[k] == finding.second) && robot(step) == one &&
         (step < finding.first_step || step > finding.last_step))
       return false;
@@ -71,15 +71,15 @@ bool is_all_of_robot(const SightingLog& log, const std::vector<int>& labels,
   return true;
 }
 
-/// Where and when the sightings are that a trial relabelled.
-LabelFinding found(const LabelledLooks& looks, const std::vector<int>& labels,
+/// Where and when the detections are that a trial relabelled.
+LabelFinding found(const LabelledScans& scans, const std::vector<int>& labels,
                    const FaultTrial& trial) {
   LabelFinding finding{.fault = trial.fault.fault,
                        .first = trial.fault.first,
                        .second = trial.fault.second,
                        .by_time = trial.stretch.order > 0,
                        .scattered = trial.scattered};
-  const std::vector<std::size_t>& places = looks.places[trial.stretch.order];
+  const std::vector<std::size_t>& places = scans.places[trial.stretch.order];
   std::size_t first = places.size();
   std::size_t last = 0;
   std::size_t first_of_all = places.size();
@@ -87,14 +87,14 @@ LabelFinding found(const LabelledLooks& looks, const std::vector<int>& labels,
   int meant = 0;
   for (std::size_t k = 0; k < labels.size(); ++k) {
     if (labels[k] != finding.first && labels[k] != finding.second) continue;
-    const std::size_t place = places[static_cast<std::size_t>(looks.log.sightings[k].step)];
+    const std::size_t place = places[static_cast<std::size_t>(scans.log.detections[k].step)];
     first_of_all = std::min(first_of_all, place);
     last_of_all = std::max(last_of_all, place);
     const bool is_meant = finding.fault == LabelFault::kSwapped || labels[k] == finding.first;
     if (is_meant && place >= trial.stretch.begin && place < trial.stretch.end) ++meant;
     if (labels[k] == trial.labels[k]) continue;
-    ++finding.sightings;
-    // Looks beside the stretch that were given otherwise one by one do not widen it.
+    ++finding.detections;
+    // Scans beside the stretch that were given otherwise one by one do not widen it.
     if (place < trial.stretch.begin || place >= trial.stretch.end) continue;
     first = std::min(first, place);
     last = std::max(last, place);
@@ -102,12 +102,12 @@ LabelFinding found(const LabelledLooks& looks, const std::vector<int>& labels,
   if (first > last) return finding;
   finding.from_the_start = first == first_of_all;
   finding.to_the_end = last == last_of_all;
-  const std::vector<int>& steps = looks.blocks.step_orders[trial.stretch.order];
+  const std::vector<int>& steps = scans.blocks.step_orders[trial.stretch.order];
   finding.first_step = steps[first];
   finding.last_step = steps[last];
-  finding.in_part = finding.sightings < kNearlyAll * meant;
-  finding.all_of_robot = is_all_of_robot(looks.log, labels, finding);
-  const std::vector<double>& times = looks.log.times_s;
+  finding.in_part = finding.detections < kNearlyAll * meant;
+  finding.all_of_robot = is_all_of_robot(scans.log, labels, finding);
+  const std::vector<double>& times = scans.log.times_s;
   const auto time = [&](int step) {
     return times.empty() ? kNaN : times[static_cast<std::size_t>(step)];
   };
@@ -116,19 +116,19 @@ LabelFinding found(const LabelledLooks& looks, const std::vector<int>& labels,
   return finding;
 }
 
-/// A swap that changes most sightings of both labels is its complement under other names. Of a
-/// complement in two parts the one with more sightings is taken; the other is left for the next
+/// A swap that changes most detections of both labels is its complement under other names. Of a
+/// complement in two parts the one with more detections is taken; the other is left for the next
 /// search.
-void turn_to_minority(const LabelledLooks& looks, const std::vector<int>& labels,
+void turn_to_minority(const LabelledScans& scans, const std::vector<int>& labels,
                       FaultTrial& trial) {
   if (trial.fault.fault != LabelFault::kSwapped || trial.scattered) return;
-  const std::vector<std::size_t>& places = looks.places[trial.stretch.order];
+  const std::vector<std::size_t>& places = scans.places[trial.stretch.order];
   std::size_t before = 0;
   std::size_t inside = 0;
   std::size_t after = 0;
   for (std::size_t k = 0; k < labels.size(); ++k) {
     if (labels[k] != trial.fault.first && labels[k] != trial.fault.second) continue;
-    const std::size_t place = places[static_cast<std::size_t>(looks.log.sightings[k].step)];
+    const std::size_t place = places[static_cast<std::size_t>(scans.log.detections[k].step)];
     (place < trial.stretch.begin ? before : place < trial.stretch.end ? inside : after) += 1;
   }
   // In two parts only if it is plainly the smaller: halves are about equal either way.
@@ -139,16 +139,16 @@ void turn_to_minority(const LabelledLooks& looks, const std::vector<int>& labels
                       ? StepStretch{trial.stretch.order, trial.stretch.end, places.size()}
                       : StepStretch{trial.stretch.order, 0, trial.stretch.begin};
   if (in_parts)
-    trial.labels = mended_labels(looks, labels, trial.fault, trial.stretch);
+    trial.labels = corrected_labels(scans, labels, trial.fault, trial.stretch);
   else
     for (int& label : trial.labels) label = other_label(trial.fault, label);
   trial.map.positions_m.row(trial.fault.first).swap(trial.map.positions_m.row(trial.fault.second));
   if (in_parts)
-    trial.map = lowered_map(pair_items(looks.pairs, trial.labels, looks.blocks),
+    trial.map = lowered_map(pair_items(scans.pairs, trial.labels, scans.blocks),
                             trial.map.positions_m, trial.map.width_m);
 }
 
-/// What gains little in many looks may be a sensor's error in one part of the hall.
+/// What gains little in many scans may be a sensor's error in one part of the hall.
 bool convincing(const Explanation& explanation, const LabelCheckOptions& options) {
   return explanation.share >= options.least_share && explanation.left <= options.most_left &&
          explanation.partners >= static_cast<std::size_t>(options.fewest_partners);
@@ -164,29 +164,29 @@ RobustMap better_map(const std::vector<PairItem>& items, RobustMap map, const Po
 }
 
 /// The map of all pairs under some labels at a width of its own: from nothing, from the map that
-/// takes few looks and folds for wrong, or from a start, whichever costs less.
-RobustMap map_under(const LabelledLooks& looks, const std::vector<int>& labels,
+/// takes few scans and folds for wrong, or from a start, whichever costs less.
+RobustMap map_under(const LabelledScans& scans, const std::vector<int>& labels,
                     const Points* start_m = nullptr) {
-  const std::vector<PairItem> items = pair_items(looks.pairs, labels, looks.blocks);
-  RobustMap map = robust_map(items, static_cast<int>(looks.log.names.size()));
-  map = unfolded_map(items, std::move(map), looks.blocks.count);
+  const std::vector<PairItem> items = pair_items(scans.pairs, labels, scans.blocks);
+  RobustMap map = robust_map(items, static_cast<int>(scans.log.names.size()));
+  map = unfolded_map(items, std::move(map), scans.blocks.count);
   map = better_map(items, std::move(map),
-                   sighted_map(relabelled(looks.log, labels)).embedding.coordinates);
+                   pair_map_of(relabelled(scans.log, labels)).embedding.coordinates);
   return start_m == nullptr ? map : better_map(items, std::move(map), *start_m);
 }
 
-double loss_at(const LabelledLooks& looks, const std::vector<int>& labels, const Points& map_m,
+double loss_at(const LabelledScans& scans, const std::vector<int>& labels, const Points& map_m,
                double width_m) {
-  return lowered_map(pair_items(looks.pairs, labels, looks.blocks), map_m, width_m).loss_m;
+  return lowered_map(pair_items(scans.pairs, labels, scans.blocks), map_m, width_m).loss_m;
 }
 
-/// Sightings of labels at fault in single looks that fit neither of both: they would be all that
+/// Detections of labels at fault in single scans that fit neither of both: they would be all that
 /// some pairs are known by.
-std::vector<char> fitting_neither(const LabelledLooks& looks, const std::vector<int>& labels,
+std::vector<char> fitting_neither(const LabelledScans& scans, const std::vector<int>& labels,
                                   const RobustMap& map, std::vector<LabelFinding>& findings) {
   std::vector<char> left_out(labels.size(), 0);
-  const Points turned_m = turned_as_seen(looks, labels, map.positions_m);
-  LookCosts costs(looks, turned_m, map.width_m);
+  const Points turned_m = turned_as_seen(scans, labels, map.positions_m);
+  ScanCosts costs(scans, turned_m, map.width_m);
   for (LabelFinding& finding : findings)
     for (std::size_t row = 0, end = 0; row < labels.size() && finding.scattered; row = end) {
       end = costs.take(labels, row, finding.first, finding.second);
@@ -203,10 +203,10 @@ std::vector<char> fitting_neither(const LabelledLooks& looks, const std::vector<
 
 }  // namespace
 
-LabelCheck check_labels(const SightingLog& log, const LabelCheckOptions& options) {
-  const LabelledLooks looks = labelled_looks(log, options.most_blocks);
+LabelCheck check_labels(const DetectionLog& log, const LabelCheckOptions& options) {
+  const LabelledScans scans = labelled_scans(log, options.most_blocks);
   std::vector<int> labels = given_labels(log);
-  RobustMap map = map_under(looks, labels);
+  RobustMap map = map_under(scans, labels);
   const double told_width_m = map.width_m;
   LabelCheck check{.findings = {},
                    .loss_before_m = map.loss_m,
@@ -214,26 +214,26 @@ LabelCheck check_labels(const SightingLog& log, const LabelCheckOptions& options
                    .doubts = {},
                    .repaired = log};
   for (int round = 0; round < options.most_findings; ++round) {
-    std::optional<FaultTrial> trial = best_trial(looks, labels, map);
+    std::optional<FaultTrial> trial = best_trial(scans, labels, map);
     if (!trial) break;
     const double evidence = (map.cost - trial->map.cost) / residual_variance(map);
     if (evidence < options.least_evidence ||
-        !convincing(explained(looks, labels, map, *trial), options))
+        !convincing(explained(scans, labels, map, *trial), options))
       break;
-    turn_to_minority(looks, labels, *trial);
-    LabelFinding finding = found(looks, labels, *trial);
-    if (finding.sightings < std::max(1, options.fewest_sightings)) break;
+    turn_to_minority(scans, labels, *trial);
+    LabelFinding finding = found(scans, labels, *trial);
+    if (finding.detections < std::max(1, options.fewest_detections)) break;
     finding.evidence = evidence;
     finding.loss_before_m = check.loss_after_m;
     labels = std::move(trial->labels);
     // Labels that were wrong may have widened the residuals that the width stands for.
-    map = map_under(looks, labels, &trial->map.positions_m);
-    check.loss_after_m = loss_at(looks, labels, map.positions_m, told_width_m);
+    map = map_under(scans, labels, &trial->map.positions_m);
+    check.loss_after_m = loss_at(scans, labels, map.positions_m, told_width_m);
     finding.loss_after_m = check.loss_after_m;
     check.findings.push_back(finding);
   }
-  check.doubts = label_doubts(looks, labels, map);
-  check.repaired = relabelled(log, labels, fitting_neither(looks, labels, map, check.findings));
+  check.doubts = label_doubts(scans, labels, map);
+  check.repaired = relabelled(log, labels, fitting_neither(scans, labels, map, check.findings));
   return check;
 }
 

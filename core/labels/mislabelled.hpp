@@ -15,8 +15,8 @@ struct LabelCheckOptions {
   double least_share = 0.12;
   /// What relabelled pairs may cost on the average, in variances of the residuals.
   double most_left = 3.0;
-  /// In how many sightings, and with how many other landmarks, the fault must show.
-  int fewest_sightings = 10;
+  /// In how many detections, and with how many other landmarks, the fault must show.
+  int fewest_detections = 10;
   int fewest_partners = 3;
   int most_findings = 10;  ///< >= 1; each is a search of its own.
   int most_blocks = 40;    ///< The log is cut into about so many, >= 1.
@@ -28,17 +28,17 @@ struct LabelFinding {
   int first = 0;  ///< As in LabelHypothesis.
   int second = 0;
   bool by_time = false;    ///< The stretch is one of time, over all robots; else one of steps.
-  bool scattered = false;  ///< In single looks, whenever, between the steps that follow.
-  int first_step = 0;      ///< Where it begins and ends, at sightings that it relabels.
+  bool scattered = false;  ///< In single scans, whenever, between the steps that follow.
+  int first_step = 0;      ///< Where it begins and ends, at detections that it relabels.
   int last_step = 0;
   double first_time_s = 0.0;  ///< The same in time; NaN for a log without times.
   double last_time_s = 0.0;
-  bool in_part = false;  ///< Not all sightings of the labels there are relabelled: look by look.
+  bool in_part = false;  ///< Not all detections of the labels there are relabelled: scan by scan.
   bool all_of_robot = false;    ///< One robot's looks from its first to its last of both labels.
-  bool to_the_end = false;      ///< No sighting of either label comes after it in its order.
+  bool to_the_end = false;      ///< No detection of either label comes after it in its order.
   bool from_the_start = false;  ///< None before.
-  int sightings = 0;            ///< Relabelled.
-  int untold = 0;    ///< If scattered: sightings of both seen alone, which stay as they are,
+  int detections = 0;           ///< Relabelled.
+  int untold = 0;    ///< If scattered: detections of both seen alone, which stay as they are,
   int left_out = 0;  ///< and those that fit neither landmark, which the repaired log is without.
   double loss_before_m = 0.0;  ///< See RobustMap; of all pairs, at one width.
   double loss_after_m = 0.0;
@@ -50,18 +50,18 @@ struct LabelCheck {
   std::vector<LabelFinding> findings;  ///< In the order found, the plainest first.
   double loss_before_m = 0.0;
   double loss_after_m = 0.0;
-  LabelDoubts doubts;    ///< What none of the findings explains.
-  SightingLog repaired;  ///< The log under the labels found, a landmark once a look.
+  LabelDoubts doubts;     ///< What none of the findings explains.
+  DetectionLog repaired;  ///< The log under the labels found, a landmark once a scan.
 };
 
-/// Looks for labels swapped, or wrong, over a stretch of steps or of time or in single looks: the
+/// Looks for labels swapped, or wrong, over a stretch of steps or of time or in single scans: the
 /// fault that lowers the loss of the map the most, again and again.
 ///
-/// Two labels that are swapped in all sightings are the same data under other names: no pair
+/// Two labels that are swapped in all detections are the same data under other names: no pair
 /// contradicts another, and only known positions could tell.
-/// Of a swap and its complement that one is named that changes fewer sightings.
-/// @throws InvalidInput as look_pairs, cut_in_blocks and robust_map do.
+/// Of a swap and its complement that one is named that changes fewer detections.
+/// @throws InvalidInput as scan_pairs, cut_in_blocks and robust_map do.
 /// @note Some 2 s for 15 landmarks and 20,000 pairs, and as much for each finding.
-LabelCheck check_labels(const SightingLog& log, const LabelCheckOptions& options = {});
+LabelCheck check_labels(const DetectionLog& log, const LabelCheckOptions& options = {});
 
 }  // namespace mapproof

@@ -19,7 +19,7 @@ struct Tried {
   std::vector<int> splits;  ///< Landmarks that were split, and what they became.
 };
 
-std::vector<PairItem> items_of(const std::vector<LookPair>& pairs, const Tried& tried,
+std::vector<PairItem> items_of(const std::vector<ScanPair>& pairs, const Tried& tried,
                                const LogBlocks& blocks) {
   return pair_items(pairs, tried.labels, blocks);
 }
@@ -80,8 +80,8 @@ struct Timed {
 /// Splits a landmark at the place in time that lowers the cost the most.
 class Splitter {
  public:
-  Splitter(const std::vector<LookPair>& pairs, const LogBlocks& blocks,
-           const std::vector<std::size_t>& places, const SightingLog& log)
+  Splitter(const std::vector<ScanPair>& pairs, const LogBlocks& blocks,
+           const std::vector<std::size_t>& places, const DetectionLog& log)
       : pairs_(pairs), blocks_(blocks), places_(places), log_(log) {}
 
   /// @param place  The first that is of the new landmark.
@@ -93,7 +93,7 @@ class Splitter {
     result.splits.push_back(fresh);
     for (std::size_t k = 0; k < result.labels.size(); ++k)
       if (result.labels[k] == landmark &&
-          places_[static_cast<std::size_t>(log_.sightings[k].step)] >= place)
+          places_[static_cast<std::size_t>(log_.detections[k].step)] >= place)
         result.labels[k] = fresh;
     return result;
   }
@@ -112,7 +112,7 @@ class Splitter {
     std::vector<Timed> result;
     const Eigen::RowVector2d old_m = map.positions_m.row(landmark);
     const Eigen::RowVector2d new_m = map.positions_m.bottomRows(1);
-    for (const LookPair& pair : pairs_) {
+    for (const ScanPair& pair : pairs_) {
       const int a = tried.labels[pair.first];
       const int b = tried.labels[pair.second];
       if (a != landmark && b != landmark) continue;
@@ -127,13 +127,13 @@ class Splitter {
   }
 
  private:
-  const std::vector<LookPair>& pairs_;
+  const std::vector<ScanPair>& pairs_;
   const LogBlocks& blocks_;
   const std::vector<std::size_t>& places_;
-  const SightingLog& log_;
+  const DetectionLog& log_;
 };
 
-/// The split that explains the looks best, and between which looks it lies.
+/// The split that explains the scans best, and between which looks it lies.
 struct Change {
   std::size_t place = 0;
   std::size_t earliest = 0;
@@ -147,7 +147,7 @@ Change change_of(const std::vector<Timed>& gains, double width_m) {
   std::size_t best = 0;
   for (std::size_t k = 1; k < gains.size(); ++k)
     if (sums[k] > sums[best]) best = k;
-  // 1.92 is half of chi square's 95 % point of one parameter; looks that follow each other err
+  // 1.92 is half of chi square's 95 % point of one parameter; scans that follow each other err
   // alike, so that ten of them are taken to tell what one does.
   const double variance = width_m * width_m / 2.25;
   const double enough = sums[best] - 10.0 * 1.92 * variance;
@@ -167,9 +167,9 @@ void check(const MovedOptions& options) {
 
 }  // namespace
 
-MovedCheck find_moved(const SightingLog& log, const MovedOptions& options) {
+MovedCheck find_moved(const DetectionLog& log, const MovedOptions& options) {
   check(options);
-  const std::vector<LookPair> pairs = look_pairs(log);
+  const std::vector<ScanPair> pairs = scan_pairs(log);
   const LogBlocks blocks = cut_in_blocks(log, pairs, options.slices);
   const std::vector<std::size_t> places = places_in_time(blocks);
   const Splitter splitter(pairs, blocks, places, log);
@@ -204,8 +204,8 @@ MovedCheck find_moved(const SightingLog& log, const MovedOptions& options) {
   check.loss_after_m = map.loss_m;
   check.split.names = tried.names;
   for (std::size_t k = 0; k < tried.labels.size(); ++k)
-    check.split.sightings[k].landmark = tried.labels[k];
-  sort_sightings(check.split.sightings);
+    check.split.detections[k].landmark = tried.labels[k];
+  sort_detections(check.split.detections);
   return check;
 }
 

@@ -5,7 +5,7 @@
 
 #include "core/labels/log_blocks.hpp"
 #include "core/labels/robust_map.hpp"
-#include "core/model/sighting_log.hpp"
+#include "core/model/detection_log.hpp"
 
 namespace mapproof {
 
@@ -22,9 +22,9 @@ struct MovedOptions {
 /// A landmark that stands elsewhere from some step on.
 struct MovedLandmark {
   int landmark = 0;
-  int step = 0;           ///< The first sighting at the new place, in order of time.
-  int earliest_step = 0;  ///< The move lies between these looks: elsewhere it would explain the
-  int latest_step = 0;    ///< looks worse by more than chance does.
+  int step = 0;           ///< The first detection at the new place, in order of time.
+  int earliest_step = 0;  ///< The move lies between these scans: elsewhere it would explain the
+  int latest_step = 0;    ///< scans worse by more than chance does.
   double distance_m = 0.0;
   double p = 1.0;              ///< Holm's, over all landmarks.
   double loss_before_m = 0.0;  ///< See RobustMap; of the map with one place,
@@ -34,7 +34,7 @@ struct MovedLandmark {
 /// What moved, and the log with two landmarks for each that did.
 struct MovedCheck {
   std::vector<MovedLandmark> moved;  ///< In the order found, the plainest first.
-  SightingLog split;  ///< A moved landmark's later sightings are of a landmark "NAME (moved)".
+  DetectionLog split;  ///< A moved landmark's later detections are of a landmark "NAME (moved)".
   double loss_before_m = 0.0;
   double loss_after_m = 0.0;
 };
@@ -47,9 +47,9 @@ struct MovedCheck {
 /// The landmark of the least p is split and the rest are tried anew, while Holm's p is below the
 /// level and the move above its least size. A landmark that two labels were swapped of moves too:
 /// check the labels first.
-/// @throws InvalidInput if an option breaks its bounds, or as look_pairs and robust_map do.
-/// @note A round, one more than moves found: some 200 places for each pair of a look, and at most
+/// @throws InvalidInput if an option breaks its bounds, or as scan_pairs and robust_map do.
+/// @note A round, one more than moves found: some 200 places for each pair of a scan, and at most
 ///       M * permutations * slices, stopped early for landmarks that plainly stand.
-MovedCheck find_moved(const SightingLog& log, const MovedOptions& options = {});
+MovedCheck find_moved(const DetectionLog& log, const MovedOptions& options = {});
 
 }  // namespace mapproof

@@ -13,8 +13,8 @@ namespace mapproof {
 /// @param side  >= 2.
 Points grid_over(const Points& map, int side);
 
-/// What the sightings under one label cost in each block, were their landmark anywhere on a grid
-/// while the others stay: whose sightings they are can then be asked of any stretch of blocks by
+/// What the detections under one label cost in each block, were their landmark anywhere on a grid
+/// while the others stay: whose detections they are can then be asked of any stretch of blocks by
 /// sums alone.
 struct PlaceCosts {
   Points grid_m;       ///< G x 2, over the map and a quarter of its extent around.

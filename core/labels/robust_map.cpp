@@ -16,7 +16,7 @@ namespace mapproof {
 namespace {
 
 constexpr double kWidths = 1.5;       ///< Standard deviations in RobustMap::width_m.
-constexpr double kFewestLooks = 3.0;  ///< Of a pair that the start of a map is made of,
+constexpr double kFewestScans = 3.0;  ///< Of a pair that the start of a map is made of,
 constexpr int kPairsToPlace = 3;      ///< if each of its landmarks has so many.
 constexpr double kInfinite = std::numeric_limits<double>::infinity();
 constexpr int kMostLandmarks = 2000;
@@ -63,11 +63,11 @@ std::vector<int> pieces_of(const Eigen::MatrixXd& D) {
   return components(graph);
 }
 
-/// Takes pairs away that were seen in few looks, which may all be of wrong labels, but for those of
+/// Takes pairs away that were seen in few scans, which may all be of wrong labels, but for those of
 /// landmarks that have few better ones, and those that alone join what the others hold together.
-void leave_well_seen(Eigen::MatrixXd& D, const Eigen::MatrixXd& looks) {
+void leave_well_seen(Eigen::MatrixXd& D, const Eigen::MatrixXd& scans) {
   const auto well = [&](Eigen::Index i, Eigen::Index j) {
-    return i != j && std::isfinite(D(i, j)) && looks(i, j) >= kFewestLooks;
+    return i != j && std::isfinite(D(i, j)) && scans(i, j) >= kFewestScans;
   };
   std::vector<bool> is_short;
   for (Eigen::Index i = 0; i < D.rows(); ++i) {
@@ -102,7 +102,7 @@ Eigen::MatrixXd median_distances(const std::vector<PairItem>& items, const Mappe
   const auto size = static_cast<Eigen::Index>(n);
   Eigen::MatrixXd D = Eigen::MatrixXd::Constant(size, size, kInfinite);
   D.diagonal().setZero();
-  Eigen::MatrixXd looks = Eigen::MatrixXd::Zero(size, size);
+  Eigen::MatrixXd scans = Eigen::MatrixXd::Zero(size, size);
   for (Eigen::Index i = 0; i < size; ++i)
     for (Eigen::Index j = i + 1; j < size; ++j) {
       auto& pair = values[static_cast<std::size_t>(i) * n + static_cast<std::size_t>(j)];
@@ -110,12 +110,12 @@ Eigen::MatrixXd median_distances(const std::vector<PairItem>& items, const Mappe
       std::ranges::sort(pair);
       double half = 0.0;
       for (const auto& [distance, weight] : pair) half += weight / 2.0;
-      looks(i, j) = looks(j, i) = 2.0 * half;
+      scans(i, j) = scans(j, i) = 2.0 * half;
       std::size_t at = 0;
       while (at + 1 < pair.size() && (half -= pair[at].second) > 0.0) ++at;
       D(i, j) = D(j, i) = pair[at].first;
     }
-  leave_well_seen(D, looks);
+  leave_well_seen(D, scans);
   return D;
 }
 
@@ -171,11 +171,11 @@ double huber_cost(double residual, double width) {
   return size <= width ? 0.5 * size * size : width * (size - 0.5 * width);
 }
 
-std::vector<PairItem> pair_items(const std::vector<LookPair>& pairs, const std::vector<int>& labels,
-                                 const LogBlocks& blocks, double most_looks) {
+std::vector<PairItem> pair_items(const std::vector<ScanPair>& pairs, const std::vector<int>& labels,
+                                 const LogBlocks& blocks, double most_scans) {
   std::vector<std::tuple<int, int, int, double>> sorted;
   sorted.reserve(pairs.size());
-  for (const LookPair& pair : pairs) {
+  for (const ScanPair& pair : pairs) {
     const auto [a, b] = std::minmax(labels[pair.first], labels[pair.second]);
     if (a != b)
       sorted.emplace_back(a, b, blocks.of_step[static_cast<std::size_t>(pair.step)],
@@ -190,7 +190,7 @@ std::vector<PairItem> pair_items(const std::vector<LookPair>& pairs, const std::
       ++end;
     // Sorted by distance at last: the middle one is the median.
     items.push_back({a, b, block, std::get<3>(sorted[(begin + end - 1) / 2]),
-                     std::min(static_cast<double>(end - begin), most_looks)});
+                     std::min(static_cast<double>(end - begin), most_scans)});
   }
   return items;
 }

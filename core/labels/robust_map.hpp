@@ -9,22 +9,22 @@
 
 namespace mapproof {
 
-/// What the looks of one block say of one pair: the median of its distances.
+/// What the scans of one block say of one pair: the median of its distances.
 struct PairItem {
   int first = 0;  ///< Landmarks, first < second.
   int second = 0;
   int block = 0;
   double distance_m = 0.0;
-  double weight = 0.0;  ///< Looks, at most `PairItemOptions::most_looks`.
+  double weight = 0.0;  ///< Scans, at most `PairItemOptions::most_scans`.
 };
 
 /// The medians of a log's pairs, block by block, under the given labels.
-/// @param labels  A landmark of each sighting; pairs of one landmark with itself are left out.
-/// @param most_looks  Looks beyond which a block says no more of a pair: a robot that stands still
+/// @param labels  A landmark of each detection; pairs of one landmark with itself are left out.
+/// @param most_scans  Scans beyond which a block says no more of a pair: a robot that stands still
 ///                    sees the same over and over.
 /// @note O(P log P) time for P pairs.
-std::vector<PairItem> pair_items(const std::vector<LookPair>& pairs, const std::vector<int>& labels,
-                                 const LogBlocks& blocks, double most_looks = 10.0);
+std::vector<PairItem> pair_items(const std::vector<ScanPair>& pairs, const std::vector<int>& labels,
+                                 const LogBlocks& blocks, double most_scans = 10.0);
 
 /// Half the square up to `width`, a line beyond: what a residual costs [huber1964].
 double huber_cost(double residual, double width);

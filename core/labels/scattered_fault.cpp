@@ -2,9 +2,9 @@
 
 #include <algorithm>
 
-#include "core/labels/look_by_look.hpp"
-#include "core/labels/look_costs.hpp"
 #include "core/labels/place_costs.hpp"
+#include "core/labels/scan_by_scan.hpp"
+#include "core/labels/scan_costs.hpp"
 #include "core/labels/two_places.hpp"
 
 namespace mapproof {
@@ -15,11 +15,11 @@ constexpr double kLeastGain = 0.3;        ///< Of the first one's.
 /// So rare, and so much rarer than the other label's, one label's changes are chance.
 constexpr double kByChance = 0.1;
 constexpr double kRarer = 0.25;
-/// Looks against a stretch, as a share of those that it explains, and what it may cost more.
+/// Scans against a stretch, as a share of those that it explains, and what it may cost more.
 constexpr double kStrays = 0.05;
 constexpr double kAsGood = 1.1;
 
-/// Sightings that a trial gives another label, of each of both.
+/// Detections that a trial gives another label, of each of both.
 struct Changes {
   double all = 0.0;
   double first_share = 0.0;  ///< Of those under the first label.
@@ -49,27 +49,27 @@ Changes changes_of(const std::vector<int>& labels, const FaultTrial& trial) {
   return {first + second, first / of_first, second / of_second};
 }
 
-FaultTrial settled(const LabelledLooks& looks, const std::vector<int>& labels,
+FaultTrial settled(const LabelledScans& scans, const std::vector<int>& labels,
                    const SharedPlaces& shared, const Points& start, LabelFault fault, bool turned,
                    double width_m) {
   FaultTrial trial;
   trial.fault.fault = fault;
   trial.fault.first = turned ? shared.second : shared.first;
   trial.fault.second = turned ? shared.first : shared.second;
-  trial.stretch = {0, 0, looks.places.front().size()};
+  trial.stretch = {0, 0, scans.places.front().size()};
   trial.scattered = true;
-  return settled_trial(looks, labels, labels, std::move(trial), start, shared.map.width_m, width_m);
+  return settled_trial(scans, labels, labels, std::move(trial), start, shared.map.width_m, width_m);
 }
 
 /// Both ways of telling whose the places are; of them the simpler one.
-FaultTrial simpler_trial(const LabelledLooks& looks, const std::vector<int>& labels,
+FaultTrial simpler_trial(const LabelledScans& scans, const std::vector<int>& labels,
                          const SharedPlaces& shared, double width_m) {
   const Points& start = shared.map.positions_m;
   Points exchanged = start;
   exchanged.row(shared.first).swap(exchanged.row(shared.second));
-  FaultTrial best = settled(looks, labels, shared, start, LabelFault::kSwapped, false, width_m);
+  FaultTrial best = settled(scans, labels, shared, start, LabelFault::kSwapped, false, width_m);
   FaultTrial other =
-      settled(looks, labels, shared, exchanged, LabelFault::kSwapped, false, width_m);
+      settled(scans, labels, shared, exchanged, LabelFault::kSwapped, false, width_m);
   Changes changes = changes_of(labels, best);
   const Changes of_other = changes_of(labels, other);
   if (changes.one_sided() != of_other.one_sided() ? of_other.one_sided()
@@ -79,21 +79,21 @@ FaultTrial simpler_trial(const LabelledLooks& looks, const std::vector<int>& lab
   }
   if (!changes.one_sided()) return best;
   const Points places = best.map.positions_m;
-  return settled(looks, labels, shared, places, LabelFault::kInPart,
+  return settled(scans, labels, shared, places, LabelFault::kInPart,
                  changes.second_share > changes.first_share, width_m);
 }
 
-/// For each place of an order: looks given another label, less those that tell and keep theirs.
-Eigen::VectorXi balance(const LabelledLooks& looks, const std::vector<int>& labels,
+/// For each place of an order: scans given another label, less those that tell and keep theirs.
+Eigen::VectorXi balance(const LabelledScans& scans, const std::vector<int>& labels,
                         const FaultTrial& trial, std::size_t order) {
-  Eigen::VectorXi result = Eigen::VectorXi::Zero(looks.log.steps);
+  Eigen::VectorXi result = Eigen::VectorXi::Zero(scans.log.steps);
   const bool both = trial.fault.fault == LabelFault::kSwapped;
-  LookCosts costs(looks, trial.map.positions_m, 1.0);
+  ScanCosts costs(scans, trial.map.positions_m, 1.0);
   for (std::size_t row = 0, end = 0; row < labels.size(); row = end) {
     end = costs.take(labels, row, trial.fault.first, trial.fault.second);
     if (!costs.tells()) continue;
-    const auto step = static_cast<std::size_t>(looks.log.sightings[row].step);
-    int& sum = result(static_cast<Eigen::Index>(looks.places[order][step]));
+    const auto step = static_cast<std::size_t>(scans.log.detections[row].step);
+    int& sum = result(static_cast<Eigen::Index>(scans.places[order][step]));
     for (std::size_t k = row; k < end; ++k)
       if (labels[k] == trial.fault.first || (both && labels[k] == trial.fault.second))
         sum = labels[k] != trial.labels[k] ? 1 : -1;
@@ -101,11 +101,11 @@ Eigen::VectorXi balance(const LabelledLooks& looks, const std::vector<int>& labe
   return result;
 }
 
-/// The stretch that holds the fault, if there is one but for a few looks.
-std::optional<StepStretch> stretch_of(const LabelledLooks& looks, const std::vector<int>& labels,
+/// The stretch that holds the fault, if there is one but for a few scans.
+std::optional<StepStretch> stretch_of(const LabelledScans& scans, const std::vector<int>& labels,
                                       const FaultTrial& trial) {
-  for (std::size_t order = 0; order < looks.places.size(); ++order) {
-    const Eigen::VectorXi balances = balance(looks, labels, trial, order);
+  for (std::size_t order = 0; order < scans.places.size(); ++order) {
+    const Eigen::VectorXi balances = balance(scans, labels, trial, order);
     const StepStretch best = greatest_sum(order, balances.cast<double>());
     const auto begin = static_cast<Eigen::Index>(best.begin);
     const auto length = static_cast<Eigen::Index>(best.end) - begin;
@@ -118,24 +118,24 @@ std::optional<StepStretch> stretch_of(const LabelledLooks& looks, const std::vec
   return std::nullopt;
 }
 
-/// The same fault over a stretch, where sightings that no look tells of are mended too.
-FaultTrial over_stretch(const LabelledLooks& looks, const std::vector<int>& labels,
+/// The same fault over a stretch, where detections that no scan tells of are corrected too.
+FaultTrial over_stretch(const LabelledScans& scans, const std::vector<int>& labels,
                         FaultTrial trial, double width_m) {
-  const std::optional<StepStretch> stretch = stretch_of(looks, labels, trial);
+  const std::optional<StepStretch> stretch = stretch_of(scans, labels, trial);
   if (!stretch) return trial;
   FaultTrial whole = trial;
   whole.scattered = false;
   whole.stretch = *stretch;
   if (whole.fault.fault == LabelFault::kInPart) whole.fault.fault = LabelFault::kWrong;
-  whole.labels = mended_labels(looks, labels, whole.fault, *stretch);
-  whole = settled_trial(looks, labels, std::vector(whole.labels), whole, trial.map.positions_m,
+  whole.labels = corrected_labels(scans, labels, whole.fault, *stretch);
+  whole = settled_trial(scans, labels, std::vector(whole.labels), whole, trial.map.positions_m,
                         width_m, width_m);
   return whole.map.cost < kAsGood * trial.map.cost ? whole : trial;
 }
 
 }  // namespace
 
-FaultTrial simplified(const LabelledLooks& looks, const std::vector<int>& labels,
+FaultTrial simplified(const LabelledScans& scans, const std::vector<int>& labels,
                       FaultTrial trial) {
   if (trial.fault.fault != LabelFault::kSwapped) return trial;
   const Changes changes = changes_of(labels, trial);
@@ -149,21 +149,21 @@ FaultTrial simplified(const LabelledLooks& looks, const std::vector<int>& labels
   for (std::size_t k = 0; k < labels.size(); ++k)
     if (labels[k] != simple.fault.first) simple.labels[k] = labels[k];
   const double width_m = trial.map.width_m;
-  simple = settled_trial(looks, labels, std::vector(simple.labels), simple, trial.map.positions_m,
+  simple = settled_trial(scans, labels, std::vector(simple.labels), simple, trial.map.positions_m,
                          width_m, width_m);
   return simple.map.cost < kAsGood * trial.map.cost ? simple : trial;
 }
 
-std::optional<FaultTrial> scattered_trial(const LabelledLooks& looks,
+std::optional<FaultTrial> scattered_trial(const LabelledScans& scans,
                                           const std::vector<int>& labels, const RobustMap& map) {
   std::optional<FaultTrial> best;
-  const std::vector<SharedPlaces> all = shared_places(looks, labels, map, kSettledPairs);
+  const std::vector<SharedPlaces> all = shared_places(scans, labels, map, kSettledPairs);
   for (const SharedPlaces& shared : all) {
     if (shared.gain < kLeastGain * all.front().gain) break;
-    FaultTrial trial = simpler_trial(looks, labels, shared, map.width_m);
+    FaultTrial trial = simpler_trial(scans, labels, shared, map.width_m);
     if (!best || trial.map.cost < best->map.cost) best = std::move(trial);
   }
-  return best ? std::optional(over_stretch(looks, labels, std::move(*best), map.width_m)) : best;
+  return best ? std::optional(over_stretch(scans, labels, std::move(*best), map.width_m)) : best;
 }
 
 }  // namespace mapproof

@@ -5,9 +5,9 @@
 #include <span>
 #include <utility>
 
-#include "core/labels/labelled_looks.hpp"
-#include "core/labels/look_pose.hpp"
+#include "core/labels/labelled_scans.hpp"
 #include "core/labels/robust_map.hpp"
+#include "core/labels/scan_pose.hpp"
 #include "core/pairs/pair_map.hpp"
 #include "core/pairs/seen_place.hpp"
 #include "core/statistics/intervals.hpp"
@@ -15,51 +15,51 @@
 namespace mapproof {
 namespace {
 
-constexpr int kFewestSightings = 20;  ///< That tell where they stand,
-constexpr double kLeastShare = 0.06;  ///< of which the second place has at least this share.
-constexpr double kMostStrays = 0.25;  ///< Share that stand at neither.
-constexpr double kReach = 0.3;        ///< Of a place, of the usual distance of neighbours.
-constexpr double kApart = 3.0;        ///< The places are so many reaches apart.
-constexpr double kFurthest = 4.0;     ///< A sighting from the others, in their extents.
-constexpr double kLeastFall = 0.25;   ///< Of the cost, to call a label shared.
+constexpr int kFewestDetections = 20;  ///< That tell where they stand,
+constexpr double kLeastShare = 0.06;   ///< of which the second place has at least this share.
+constexpr double kMostStrays = 0.25;   ///< Share that stand at neither.
+constexpr double kReach = 0.3;         ///< Of a place, of the usual distance of neighbours.
+constexpr double kApart = 3.0;         ///< The places are so many reaches apart.
+constexpr double kFurthest = 4.0;      ///< A detection from the others, in their extents.
+constexpr double kLeastFall = 0.25;    ///< Of the cost, to call a label shared.
 constexpr std::size_t kTriedLabels = 4;
 constexpr int kBlocks = 40;
 
-/// Where a sighting stands.
+/// Where a detection stands.
 struct Standing {
-  std::size_t row;  ///< Among the log's sightings.
+  std::size_t row;  ///< Among the log's detections.
   Eigen::RowVector2d place_m;
 };
 
-/// Where a look's sighting of a label stands, as two others or more in it tell; nothing if they
+/// Where a scan's detection of a label stands, as two others or more in it tell; nothing if they
 /// stand too close together to.
-std::optional<Eigen::RowVector2d> standing(std::span<const Sighting> look, const Sighting& own,
+std::optional<Eigen::RowVector2d> standing(std::span<const Detection> scan, const Detection& own,
                                            const Points& map) {
   std::vector<Eigen::RowVector2d> mapped;
   std::vector<Eigen::RowVector2d> seen;
-  for (const Sighting& other : look)
+  for (const Detection& other : scan)
     if (other.landmark != own.landmark && is_located(other) &&
         map.row(other.landmark).allFinite()) {
       mapped.push_back(map.row(other.landmark));
       seen.push_back(place_seen(other));
     }
   if (seen.size() < 2 || !is_located(own)) return std::nullopt;
-  const LookPose pose(mapped, seen);
+  const ScanPose pose(mapped, seen);
   if ((place_seen(own) - pose.seen_mean_m()).norm() > kFurthest * pose.extent_m())
     return std::nullopt;
   return pose.to_map(place_seen(own));
 }
 
-std::vector<Standing> standings(const SightingLog& log, int label, const Points& map) {
+std::vector<Standing> standings(const DetectionLog& log, int label, const Points& map) {
   std::vector<Standing> result;
-  for (std::size_t begin = 0, end = 0; begin < log.sightings.size(); begin = end) {
-    while (end < log.sightings.size() && log.sightings[end].step == log.sightings[begin].step)
+  for (std::size_t begin = 0, end = 0; begin < log.detections.size(); begin = end) {
+    while (end < log.detections.size() && log.detections[end].step == log.detections[begin].step)
       ++end;
-    const std::span look(log.sightings.data() + begin, end - begin);
-    const auto own = std::ranges::find(look, label, &Sighting::landmark);
-    if (own == look.end()) continue;
-    if (const auto place_m = standing(look, *own, map))
-      result.push_back({begin + static_cast<std::size_t>(own - look.begin()), *place_m});
+    const std::span scan(log.detections.data() + begin, end - begin);
+    const auto own = std::ranges::find(scan, label, &Detection::landmark);
+    if (own == scan.end()) continue;
+    if (const auto place_m = standing(scan, *own, map))
+      result.push_back({begin + static_cast<std::size_t>(own - scan.begin()), *place_m});
   }
   return result;
 }
@@ -93,17 +93,17 @@ std::pair<Eigen::RowVector2d, int> densest(const std::vector<Eigen::RowVector2d>
   return best;
 }
 
-SightingLog without(SightingLog log, int label) {
-  std::erase_if(log.sightings, [&](const Sighting& seen) { return seen.landmark == label; });
+DetectionLog without(DetectionLog log, int label) {
+  std::erase_if(log.detections, [&](const Detection& seen) { return seen.landmark == label; });
   return log;
 }
 
 /// The two places of a label, if it has two.
-std::optional<SharedLabel> two_places(const SightingLog& log, int label) {
-  const Points map = sighted_map(without(log, label)).embedding.coordinates;
+std::optional<SharedLabel> two_places(const DetectionLog& log, int label) {
+  const Points map = pair_map_of(without(log, label)).embedding.coordinates;
   const double reach_m = kReach * neighbour_distance(map);
   const std::vector<Standing> all = standings(log, label, map);
-  if (std::ssize(all) < kFewestSightings || reach_m == 0.0) return std::nullopt;
+  if (std::ssize(all) < kFewestDetections || reach_m == 0.0) return std::nullopt;
   std::vector<Eigen::RowVector2d> places;
   for (const Standing& one : all) places.push_back(one.place_m);
   const auto [first_m, first] = densest(places, reach_m);
@@ -112,28 +112,28 @@ std::optional<SharedLabel> two_places(const SightingLog& log, int label) {
   });
   const auto [second_m, second] = densest(places, reach_m);
   const auto count = static_cast<double>(all.size());
-  if (second < kLeastShare * count || second < kFewestSightings / 2 ||
+  if (second < kLeastShare * count || second < kFewestDetections / 2 ||
       first + second < (1.0 - kMostStrays) * count)
     return std::nullopt;
   SharedLabel shared{.label = label, .apart_m = (first_m - second_m).norm()};
-  shared.place.assign(log.sightings.size(), 0);
+  shared.place.assign(log.detections.size(), 0);
   for (const Standing& one : all) {
     const double to_first = (one.place_m - first_m).norm();
     const double to_second = (one.place_m - second_m).norm();
     if (std::min(to_first, to_second) > 0.5 * shared.apart_m) continue;
     shared.place[one.row] = to_first <= to_second ? 1 : 2;
-    ++(to_first <= to_second ? shared.first_sightings : shared.second_sightings);
+    ++(to_first <= to_second ? shared.first_detections : shared.second_detections);
   }
-  for (std::size_t k = 0; k < log.sightings.size(); ++k)
-    if (log.sightings[k].landmark == label && shared.place[k] == 0) ++shared.untold;
+  for (std::size_t k = 0; k < log.detections.size(); ++k)
+    if (log.detections[k].landmark == label && shared.place[k] == 0) ++shared.untold;
   return shared;
 }
 
 /// The pairs of a log, and the map that they are costed from.
 struct MappedLabels {
-  explicit MappedLabels(const SightingLog& log) : start(sighted_map(log).embedding.coordinates) {
-    const LabelledLooks looks = labelled_looks(log, kBlocks);
-    items = pair_items(looks.pairs, given_labels(log), looks.blocks);
+  explicit MappedLabels(const DetectionLog& log) : start(pair_map_of(log).embedding.coordinates) {
+    const LabelledScans scans = labelled_scans(log, kBlocks);
+    items = pair_items(scans.pairs, given_labels(log), scans.blocks);
   }
 
   std::vector<PairItem> items;
@@ -142,31 +142,31 @@ struct MappedLabels {
 
 }  // namespace
 
-SightingLog split_label(const SightingLog& log, const SharedLabel& shared, int second) {
-  SightingLog split = log;
-  split.sightings.clear();
-  for (std::size_t k = 0; k < log.sightings.size(); ++k) {
-    Sighting seen = log.sightings[k];
+DetectionLog split_label(const DetectionLog& log, const SharedLabel& shared, int second) {
+  DetectionLog split = log;
+  split.detections.clear();
+  for (std::size_t k = 0; k < log.detections.size(); ++k) {
+    Detection seen = log.detections[k];
     if (seen.landmark == shared.label && shared.place[k] == 0) continue;
     if (shared.place[k] == 2) seen.landmark = second;
-    split.sightings.push_back(seen);
+    split.detections.push_back(seen);
   }
-  sort_sightings(split.sightings);
+  sort_detections(split.detections);
   return split;
 }
 
-std::optional<SharedLabel> shared_label(const SightingLog& log) {
+std::optional<SharedLabel> shared_label(const DetectionLog& log) {
   std::vector<SharedLabel> candidates;
   for (int label = 0; label < std::ssize(log.names); ++label)
     if (std::optional<SharedLabel> one = two_places(log, label))
       candidates.push_back(std::move(*one));
-  std::ranges::stable_sort(candidates, std::ranges::greater(), &SharedLabel::second_sightings);
+  std::ranges::stable_sort(candidates, std::ranges::greater(), &SharedLabel::second_detections);
   candidates.resize(std::min(candidates.size(), kTriedLabels));
   // While one label folds the map, others seem to stand at two places as well.
   std::optional<SharedLabel> best;
   std::optional<MappedLabels> whole;
   for (SharedLabel& candidate : candidates) {
-    SightingLog split = split_label(log, candidate, static_cast<int>(log.names.size()));
+    DetectionLog split = split_label(log, candidate, static_cast<int>(log.names.size()));
     split.names.push_back(log.names[static_cast<std::size_t>(candidate.label)] + " (2)");
     const MappedLabels parts(split);
     const RobustMap two = lowered_map(parts.items, parts.start, width_of(parts.items, parts.start));

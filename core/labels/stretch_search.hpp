@@ -10,7 +10,7 @@ namespace mapproof {
 /// How labels may be wrong over a stretch.
 enum class LabelFault {
   kSwapped,  ///< Two landmarks bear each other's label.
-  kWrong,    ///< Sightings under one label are of another landmark.
+  kWrong,    ///< Detections under one label are of another landmark.
   kInPart,   ///< Some of them are, whenever.
 };
 
@@ -21,7 +21,7 @@ std::string_view name(LabelFault fault);
 struct LabelHypothesis {
   LabelFault fault = LabelFault::kSwapped;
   int first = 0;   ///< The label; kSwapped: the lower of the two.
-  int second = 0;  ///< kSwapped: the other; kWrong: whose sightings they are.
+  int second = 0;  ///< kSwapped: the other; kWrong: whose detections they are.
   int order = 0;   ///< Which of the blocks' orders the stretch is one in.
   int begin = 0;   ///< Places in that order, [begin, end).
   int end = 0;
@@ -30,7 +30,7 @@ struct LabelHypothesis {
   Eigen::RowVector2d second_m = Eigen::RowVector2d::Zero();  ///< or may be looked for first.
 };
 
-/// What the sightings under some labels cost, block by block, for each value of what is not known
+/// What the detections under some labels cost, block by block, for each value of what is not known
 /// of their landmarks: costs of stretches are sums of columns, of labels that share a landmark too.
 struct StretchCosts {
   std::vector<int> labels;

@@ -13,12 +13,12 @@
 namespace mapproof {
 namespace {
 
-constexpr int kFewestOfTwo = 10;              ///< Of two landmarks, to ask for two distances.
-constexpr std::size_t kAskedLooks = 200;      ///< Of two landmarks, at most.
-constexpr std::size_t kAskedSightings = 250;  ///< Of a label, at most.
-constexpr std::size_t kLabels = 4;            ///< Of either kind of doubt, asked in twos.
-constexpr std::size_t kAskedLabels = 20;      ///< For two places.
-constexpr int kSide = 18;                     ///< Of the grid of places.
+constexpr int kFewestOfTwo = 10;               ///< Of two landmarks, to ask for two distances.
+constexpr std::size_t kAskedScans = 200;       ///< Of two landmarks, at most.
+constexpr std::size_t kAskedDetections = 250;  ///< Of a label, at most.
+constexpr std::size_t kLabels = 4;             ///< Of either kind of doubt, asked in twos.
+constexpr std::size_t kAskedLabels = 20;       ///< For two places.
+constexpr int kSide = 18;                      ///< Of the grid of places.
 
 /// Every so many of the values that at most `most` are left.
 template <typename Value>
@@ -51,18 +51,18 @@ double gain_of_two(const std::vector<double>& values, double width_m) {
   return (one - two) / static_cast<double>(n);
 }
 
-/// Costs of a label's sightings at each point of a grid: sightings x points.
-Eigen::MatrixXf sighting_costs(const LabelledLooks& looks, const std::vector<int>& labels,
-                               const RobustMap& core, int label, const Points& grid) {
+/// Costs of a label's detections at each point of a grid: detections x points.
+Eigen::MatrixXf detection_costs(const LabelledScans& scans, const std::vector<int>& labels,
+                                const RobustMap& core, int label, const Points& grid) {
   std::map<std::size_t, std::vector<std::pair<int, double>>> seen;  // row: others and distances
-  for (const LookPair& pair : looks.pairs)
+  for (const ScanPair& pair : scans.pairs)
     for (const auto& [own, other] :
          {std::pair(pair.first, pair.second), std::pair(pair.second, pair.first)})
       if (labels[own] == label && core.positions_m.row(labels[other]).allFinite())
         seen[own].emplace_back(labels[other], pair.distance_m);
   std::vector<std::vector<std::pair<int, double>>> asked;
   for (auto& [row, others] : seen) asked.push_back(std::move(others));
-  thin_out(asked, kAskedSightings);
+  thin_out(asked, kAskedDetections);
   Eigen::MatrixXf costs(std::ssize(asked), grid.rows());
   for (Eigen::Index i = 0; i < costs.rows(); ++i)
     for (Eigen::Index g = 0; g < grid.rows(); ++g) {
@@ -91,7 +91,7 @@ RobustMap core_map(const std::vector<PairItem>& items, int landmarks, int first,
   return anew;
 }
 
-/// Finds the two places, and which is whose: as fewer sightings ask for.
+/// Finds the two places, and which is whose: as fewer detections ask for.
 void place(SharedPlaces& shared, const Eigen::MatrixXf& A, const Eigen::MatrixXf& B,
            const Points& grid) {
   const Eigen::VectorXf of_a = A.colwise().sum();
@@ -111,10 +111,10 @@ void place(SharedPlaces& shared, const Eigen::MatrixXf& A, const Eigen::MatrixXf
       (one_each - least) / std::max<double>(1.0, static_cast<double>(A.rows() + B.rows()));
 }
 
-/// One label whose sightings may be of two places.
+/// One label whose detections may be of two places.
 struct TwoPlaces {
   int label = 0;
-  double gain = 0.0;         ///< Over one place, m^2 a sighting.
+  double gain = 0.0;         ///< Over one place, m^2 a detection.
   std::vector<int> next_to;  ///< The landmarks nearest to both.
 };
 
@@ -129,12 +129,12 @@ int nearest_to(const Points& map, const Eigen::RowVector2d& place) {
   return nearest;
 }
 
-/// The two places that explain one label's sightings best, in a map of all others.
-TwoPlaces two_places(const LabelledLooks& looks, const std::vector<int>& labels,
+/// The two places that explain one label's detections best, in a map of all others.
+TwoPlaces two_places(const LabelledScans& scans, const std::vector<int>& labels,
                      const std::vector<PairItem>& items, int landmarks, int label) {
-  const RobustMap core = core_map(items, landmarks, label, label, looks.blocks.count);
+  const RobustMap core = core_map(items, landmarks, label, label, scans.blocks.count);
   const Points grid = grid_over(core.positions_m, kSide);
-  const Eigen::MatrixXf costs = sighting_costs(looks, labels, core, label, grid);
+  const Eigen::MatrixXf costs = detection_costs(scans, labels, core, label, grid);
   if (costs.rows() == 0) return {label, 0.0, {}};
   Eigen::Index first = 0;
   Eigen::Index second = 0;
@@ -156,17 +156,17 @@ TwoPlaces two_places(const LabelledLooks& looks, const std::vector<int>& labels,
 
 /// Each two of the labels that seem to have two distances or two places, and each of them with
 /// those whose places it seems to have.
-std::set<std::pair<int, int>> worth_asking(const LabelledLooks& looks,
+std::set<std::pair<int, int>> worth_asking(const LabelledScans& scans,
                                            const std::vector<int>& labels,
                                            const std::vector<PairItem>& items,
                                            const RobustMap& map) {
   const auto landmarks = static_cast<int>(map.positions_m.rows());
   std::vector<TwoPlaces> places;
   for (const int label : costly_labels(items, map, kAskedLabels))
-    places.push_back(two_places(looks, labels, items, landmarks, label));
+    places.push_back(two_places(scans, labels, items, landmarks, label));
   std::ranges::stable_sort(places, std::greater<>(), &TwoPlaces::gain);
   std::set<int> doubtful;
-  for (const int label : labels_of_two_distances(looks, labels, landmarks, map.width_m, kLabels))
+  for (const int label : labels_of_two_distances(scans, labels, landmarks, map.width_m, kLabels))
     doubtful.insert(label);
   for (std::size_t k = 0; k < std::min(kLabels, places.size()); ++k)
     doubtful.insert(places[k].label);
@@ -182,16 +182,16 @@ std::set<std::pair<int, int>> worth_asking(const LabelledLooks& looks,
 
 }  // namespace
 
-std::vector<int> labels_of_two_distances(const LabelledLooks& looks, const std::vector<int>& labels,
+std::vector<int> labels_of_two_distances(const LabelledScans& scans, const std::vector<int>& labels,
                                          int landmarks, double width_m, std::size_t most) {
   std::map<std::pair<int, int>, std::vector<double>> distances;
-  for (const LookPair& pair : looks.pairs)
+  for (const ScanPair& pair : scans.pairs)
     if (labels[pair.first] != labels[pair.second])
       distances[std::minmax(labels[pair.first], labels[pair.second])].push_back(pair.distance_m);
   std::vector<double> gains(static_cast<std::size_t>(landmarks), 0.0);
   for (auto& [pair, values] : distances) {
     if (std::ssize(values) < kFewestOfTwo) continue;
-    thin_out(values, kAskedLooks);
+    thin_out(values, kAskedScans);
     const double gain = gain_of_two(values, width_m);
     gains[static_cast<std::size_t>(pair.first)] += gain;
     gains[static_cast<std::size_t>(pair.second)] += gain;
@@ -205,17 +205,17 @@ std::vector<int> labels_of_two_distances(const LabelledLooks& looks, const std::
   return found;
 }
 
-std::vector<SharedPlaces> shared_places(const LabelledLooks& looks, const std::vector<int>& labels,
+std::vector<SharedPlaces> shared_places(const LabelledScans& scans, const std::vector<int>& labels,
                                         const RobustMap& map, std::size_t most) {
-  const std::vector<PairItem> items = pair_items(looks.pairs, labels, looks.blocks);
+  const std::vector<PairItem> items = pair_items(scans.pairs, labels, scans.blocks);
   const auto landmarks = static_cast<int>(map.positions_m.rows());
   std::vector<SharedPlaces> found;
-  for (const auto& [first, second] : worth_asking(looks, labels, items, map)) {
+  for (const auto& [first, second] : worth_asking(scans, labels, items, map)) {
     SharedPlaces shared{first, second, {}, 0.0};
-    shared.map = core_map(items, landmarks, first, second, looks.blocks.count);
+    shared.map = core_map(items, landmarks, first, second, scans.blocks.count);
     const Points grid = grid_over(shared.map.positions_m, kSide);
-    place(shared, sighting_costs(looks, labels, shared.map, first, grid),
-          sighting_costs(looks, labels, shared.map, second, grid), grid);
+    place(shared, detection_costs(scans, labels, shared.map, first, grid),
+          detection_costs(scans, labels, shared.map, second, grid), grid);
     if (shared.gain > 0.0) found.push_back(std::move(shared));
   }
   std::ranges::stable_sort(found, std::greater<>(), &SharedPlaces::gain);

@@ -16,7 +16,7 @@ namespace {
 constexpr std::array kRecommendationNames = {
     std::string_view("common-steps"), std::string_view("ppca"), std::string_view("covisible")};
 constexpr double kFewSteps = 5.0;
-constexpr double kPatterned = 2.0;    ///< Dispersion above this is no chance.
+constexpr double kPatterned = 2.0;    ///< Dispersion above this is not chance.
 constexpr double kByDistance = -0.7;  ///< Nearness below this: a sensor of short range.
 constexpr double kManyApart = 0.15;   ///< Of pairs with few common steps: nothing fills them.
 

@@ -145,7 +145,7 @@ JointMap joint_map(const std::vector<Eigen::MatrixXd>& distances, const Points& 
   }
   Points map = start.rowwise() - start.colwise().mean();
   const double size = size_of(map);
-  if (!(size > 0.0)) throw InvalidInput("a joint map needs a start that is no point");
+  if (!(size > 0.0)) throw InvalidInput("a joint map needs a start that is not a point");
   for (int round = 0; round < options.rounds; ++round) {
     Eigen::MatrixXd sum = Eigen::MatrixXd::Zero(M, M), weights = Eigen::MatrixXd::Zero(M, M);
     for (std::size_t s = 0; s < distances.size(); ++s) {

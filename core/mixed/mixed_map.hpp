@@ -12,7 +12,7 @@ struct MixedSensor {
   Sensor sensor = Sensor::kVisibility;
   MethodSetting setting;      ///< Of its own map, with its parameter.
   Embedding own;              ///< Of its observations alone, M x 2.
-  Embedding by_order;         ///< The same by the joint map's way; empty if `own` is no map.
+  Embedding by_order;         ///< The same by the joint map's way; empty if `own` is not a map.
   Eigen::MatrixXd distances;  ///< M x M; infinite: not known to this sensor.
   double reliability = 0.0;   ///< See reliability().
   double weight = 0.0;        ///< In the mean distances that the joint map starts from; sum 1.

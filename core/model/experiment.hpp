@@ -55,7 +55,7 @@ struct SolverOptions {
   double smacof_relative_fall = 1e-7;
   /// The same of kNN-weighted SMACOF, which is stopped early: convergence makes worse maps.
   double smacof_knn_relative_fall = 1e-2;
-  /// Visibility: pairs never seen together are no neighbours.
+  /// Visibility: pairs never seen together are not neighbours.
   bool only_seen_together = false;
 };
 
@@ -91,7 +91,7 @@ std::vector<MethodSetting> settings_of(const SensorStudy& study);
 /// What a paper's figure shows.
 enum class FigureKind {
   kIdea,         ///< Observation histories become a map.
-  kMeasurement,  ///< One look of the sensor.
+  kMeasurement,  ///< One scan of the sensor.
   kErrorCurve,   ///< MPE over the steps, a curve a method.
   kMap,          ///< The map of one run.
 };

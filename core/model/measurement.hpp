@@ -17,7 +17,7 @@ namespace mapproof {
 enum class View {
   kVisible,
   kHidden,      ///< Within reach, but another landmark cuts the ray to its centre.
-  kOutOfReach,  ///< Looks narrower than the visual angle.
+  kOutOfReach,  ///< Scans narrower than the visual angle.
 };
 
 /// The name used in files: "visible", "hidden", "out_of_reach".

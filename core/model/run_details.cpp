@@ -5,12 +5,12 @@
 namespace mapproof {
 
 Measurement measurement(const RunDetails& run, const SensorDetails& sensor, const World& world) {
-  const Eigen::Index step = sensor.look_step;
+  const Eigen::Index step = sensor.scan_step;
   if (step < 1 || step > run.path.positions_m.rows())
     throw InvalidInput("a look at a step that the path does not have");
   return {.sensor = sensor.sensor,
           .run = run.id,
-          .step = sensor.look_step,
+          .step = sensor.scan_step,
           .world = world,
           .path_m = run.path.positions_m.topRows(step),
           .robot_m = run.path.positions_m.row(step - 1),

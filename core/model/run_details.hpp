@@ -17,10 +17,10 @@ namespace mapproof {
 /// What figures show of one sensor in one run beyond its maps.
 struct SensorDetails {
   Sensor sensor = Sensor::kVisibility;
-  int look_step = 1;            ///< The step of the look, counted from 1.
+  int scan_step = 1;            ///< The step of the scan, counted from 1.
   double reach_m = 0.0;         ///< See Measurement.
-  std::vector<View> views;      ///< Of the look; see Measurement.
-  Eigen::VectorXd values;       ///< Of the look: M; NaN: missing.
+  std::vector<View> views;      ///< Of the scan; see Measurement.
+  Eigen::VectorXd values;       ///< Of the scan: M; NaN: missing.
   Eigen::MatrixXd first_steps;  ///< M x at most 60: how the observation history begins.
   int step = 0;                 ///< The last checkpoint, which the rest is of.
   /// Distances of the observation vectors, M (M - 1) / 2: those of landmark 0 to all after it, then
@@ -38,7 +38,7 @@ struct RunDetails {
   std::vector<SensorDetails> sensors;
 };
 
-/// The look of one sensor as a figure shows it.
+/// The scan of one sensor as a figure shows it.
 /// @param world  Of the same run.
 Measurement measurement(const RunDetails& run, const SensorDetails& sensor, const World& world);
 

@@ -4,7 +4,7 @@ namespace mapproof {
 
 /// How far a map is from the truth [yairi2007, section 4.1]. NaN where there is nothing to judge.
 struct Score {
-  /// Mean position error over the mapped landmarks that are no anchors; NaN if there are none.
+  /// Mean position error over the mapped landmarks that are not anchors; NaN if there are none.
   double mpe_m = 0.0;
   /// Share of landmark triples whose orientation is wrong; NaN if the truth lies on one line.
   double moe_percent = 0.0;

@@ -13,8 +13,8 @@
 
 namespace mapproof {
 
-/// How an estimated path was laid on the true one before its error was taken. An error without it
-/// means nothing.
+/// How an estimated path was aligned to the true one before its error was taken. An error without
+/// it means nothing.
 enum class Alignment {
   kNone,                 ///< Compared as it came: known landmarks or a given start tie the frame.
   kRigid,                ///< Best rotation and translation.

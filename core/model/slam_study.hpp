@@ -18,7 +18,7 @@
 
 namespace mapproof {
 
-/// The ways to a path and a map from odometry and ranges that are held against each other.
+/// The ways to a path and a map from odometry and ranges that are compared with each other.
 enum class SlamMethod {
   kDeadReckoning,        ///< Odometry alone; baseline.
   kEkf,                  ///< Extended Kalman filter; baseline.

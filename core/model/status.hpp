@@ -19,7 +19,7 @@ struct SubmapCount {
   bool operator==(const SubmapCount&) const = default;
 };
 
-/// One thing that went other than well, with what was done about it.
+/// One warning or failure, with what was done about it.
 struct Status {
   StatusCode code;
   StatusReason reason;

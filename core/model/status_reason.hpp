@@ -7,8 +7,8 @@
 
 namespace mapproof {
 
-/// How a solve ended other than well. Data, never an exception: drawn on figures, listed in
-/// reports.
+/// Why a solve ended with a warning or failed. Data, never an exception: drawn on figures, listed
+/// in reports.
 enum class StatusCode {
   kBridged,              ///< The neighbour graph was in pieces; joined by the shortest bridges.
   kNotConverged,         ///< The iteration limit came before the stop rule.

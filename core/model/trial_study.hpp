@@ -47,7 +47,7 @@ std::vector<double> levels_of(const TrialSetup& setup);
 /// @throws InvalidInput as levels_of().
 Condition condition_at(const TrialSetup& setup, double level);
 
-/// One of what is held against each other: a method, a criterion, a sensor.
+/// One of what is compared with each other: a method, a criterion, a sensor.
 struct TrialSeries {
   std::string id;     ///< [a-z][A-Za-z0-9.+-]*; a method's is slug(): "isomap-K6", "ppca-isomap".
   std::string label;  ///< "ISOMAP, K = 6".
@@ -85,7 +85,7 @@ struct MeasuredPair {
   Eigen::Index second = 0;
   double distance_m = 0.0;
   double precision = 1.0;  ///< Weight, 1 / variance, 1/m^2.
-  int looks = 0;           ///< That showed both.
+  int scans = 0;           ///< That showed both.
 };
 
 /// A map to be looked at.
@@ -117,7 +117,7 @@ struct TrialPart {
 /// Adds to what a series took on a part: one entry a series.
 void add_seconds(TrialPart& part, std::string_view series, double seconds);
 
-/// A data set that is no part of the program.
+/// A data set that is not a part of the program.
 struct TrialDataSet {
   std::string id;      ///< [a-z0-9-]+, unique: "dataset2"; the id of its part.
   std::string title;   ///< "MRCLAM dataset 2".

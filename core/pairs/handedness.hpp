@@ -2,40 +2,40 @@
 
 #include <vector>
 
+#include "core/model/detection_log.hpp"
 #include "core/model/points.hpp"
-#include "core/model/sighting_log.hpp"
 
 namespace mapproof {
 
-/// Whether the looks show triples of landmarks the other way round than the map has them, more of
-/// their area than not. Looks with range and bearing of three mapped landmarks or more tell; no if
+/// Whether the scans show triples of landmarks the other way round than the map has them, more of
+/// their area than not. Scans with range and bearing of three mapped landmarks or more tell; no if
 /// there are none.
 /// @param map  M x 2; NaN rows: not mapped.
-/// @note Linear in the sightings: in each look the triples of neighbours by number.
-bool seen_mirrored(const SightingLog& log, const Points& map);
+/// @note Linear in the detections: in each scan the triples of neighbours by number.
+bool seen_mirrored(const DetectionLog& log, const Points& map);
 
-/// Which way round looks show three landmarks.
+/// Which way round scans show three landmarks.
 struct SeenTurn {
   int first = 0;  ///< Landmarks, first < second < third.
   int second = 0;
   int third = 0;
-  int looks = 0;           ///< With range and bearing of all three.
-  double direction = 0.0;  ///< 1: counter-clockwise in all looks, -1: clockwise; near 0 for three
+  int scans = 0;           ///< With range and bearing of all three.
+  double direction = 0.0;  ///< 1: counter-clockwise in all scans, -1: clockwise; near 0 for three
                            ///< that stand on a line, or whose labels are confused.
 };
 
-/// The triples that looks show; of looks of more than 8 landmarks those of neighbours by number.
-/// @note O(56 sightings log triples) time.
-std::vector<SeenTurn> seen_turns(const SightingLog& log);
+/// The triples that scans show; of scans of more than 8 landmarks those of neighbours by number.
+/// @note O(56 detections log triples) time.
+std::vector<SeenTurn> seen_turns(const DetectionLog& log);
 
-/// The triples that a map, or its mirror image if that has fewer, turns another way than the looks
+/// The triples that a map, or its mirror image if that has fewer, turns another way than the scans
 /// show, whose three clearly stand on no line.
 std::vector<SeenTurn> turned_otherwise(const std::vector<SeenTurn>& turns, const Points& map);
 
-/// In how many looks a map turns another way than they show, or its mirror image if that is less.
-/// @param most_looks  More of a triple say no more.
+/// In how many scans a map turns another way than they show, or its mirror image if that is less.
+/// @param most_scans  More of a triple say no more.
 /// @param map  M x 2; triples with NaN rows do not count.
-double looks_turned_otherwise(const std::vector<SeenTurn>& turns, const Points& map,
-                              double most_looks);
+double scans_turned_otherwise(const std::vector<SeenTurn>& turns, const Points& map,
+                              double most_scans);
 
 }  // namespace mapproof

@@ -2,38 +2,38 @@
 
 #include <vector>
 
-#include "core/model/sighting_log.hpp"
+#include "core/model/detection_log.hpp"
 #include "core/model/trial_study.hpp"
 
 namespace mapproof {
 
 /// How far a measured distance is believed. All are shares, so that the unit of length is free.
 struct PairNoise {
-  /// What no number of looks takes away, as a share of the distance: a sensor's own errors.
+  /// What no number of scans takes away, as a share of the distance: a sensor's own errors.
   double relative = 0.03;
   /// The same, as a share of the median distance of all pairs.
   double floor = 0.01;
-  /// Looks that the scatter common to all pairs counts as in a pair's own.
-  double prior_looks = 3.0;
+  /// Scans that the scatter common to all pairs counts as in a pair's own.
+  double prior_scans = 3.0;
 };
 
-/// Distance of two landmarks seen in one look, by the law of cosines in a form that keeps small
+/// Distance of two landmarks seen in one scan, by the law of cosines in a form that keeps small
 /// distances; NaN unless range and bearing of both were measured.
-double look_distance(const Sighting& a, const Sighting& b);
+double scan_distance(const Detection& a, const Detection& b);
 
-/// Distances of landmarks seen in one look: by the law of cosines from both ranges and the angle
-/// between both bearings, whatever the pose. Of each pair the median over its looks, so that up to
+/// Distances of landmarks seen in one scan: by the law of cosines from both ranges and the angle
+/// between both bearings, whatever the pose. Of each pair the median over its scans, so that up to
 /// half of them may be anything.
 ///
-/// The precision is 1 / (floor^2 + relative^2 + scatter^2 / looks): scatter from the median
+/// The precision is 1 / (floor^2 + relative^2 + scatter^2 / scans): scatter from the median
 /// absolute deviation, drawn towards the median scatter of all pairs as if that had been seen in
-/// `prior_looks` more looks.
-/// @return Every pair with a look that measured range and bearing of both; ascending.
-/// @throws InvalidInput if a sighting names no landmark or a value is infinite; or an option is
+/// `prior_scans` more scans.
+/// @return Every pair with a scan that measured range and bearing of both; ascending.
+/// @throws InvalidInput if a detection names no landmark or a value is infinite; or an option is
 ///         negative or not finite.
-/// @note O(sum of k^2) time over looks with k sightings. At most 2000 looks of a pair are used,
+/// @note O(sum of k^2) time over scans with k detections. At most 2000 scans of a pair are used,
 ///       fewer where there are more than 12,500 pairs, spread evenly over those there are: up to
 ///       200 MB, and 4 M^2 bytes to count.
-std::vector<MeasuredPair> measured_pairs(const SightingLog& log, const PairNoise& noise = {});
+std::vector<MeasuredPair> measured_pairs(const DetectionLog& log, const PairNoise& noise = {});
 
 }  // namespace mapproof

@@ -6,10 +6,10 @@ namespace mapproof {
 namespace {
 
 std::vector<int> pairs_of_each(const std::vector<MeasuredPair>& pairs, std::size_t landmarks,
-                               int fewest_looks) {
+                               int fewest_scans) {
   std::vector<int> count(landmarks, 0);
   for (const MeasuredPair& pair : pairs)
-    if (pair.looks >= fewest_looks)
+    if (pair.scans >= fewest_scans)
       for (const Eigen::Index i : {pair.first, pair.second}) ++count[static_cast<std::size_t>(i)];
   return count;
 }
@@ -17,14 +17,14 @@ std::vector<int> pairs_of_each(const std::vector<MeasuredPair>& pairs, std::size
 }  // namespace
 
 std::vector<bool> are_trusted(const std::vector<MeasuredPair>& pairs, std::size_t landmarks,
-                              int fewest_looks) {
-  const std::vector<int> count = pairs_of_each(pairs, landmarks, fewest_looks);
+                              int fewest_scans) {
+  const std::vector<int> count = pairs_of_each(pairs, landmarks, fewest_scans);
   const auto is_short = [&](Eigen::Index i) {
     return count[static_cast<std::size_t>(i)] < kPairsToPlace;
   };
   std::vector<bool> result;
   for (const MeasuredPair& pair : pairs)
-    result.push_back(pair.looks >= fewest_looks || is_short(pair.first) || is_short(pair.second));
+    result.push_back(pair.scans >= fewest_scans || is_short(pair.first) || is_short(pair.second));
   return result;
 }
 

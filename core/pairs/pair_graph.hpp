@@ -10,9 +10,9 @@ namespace mapproof {
 
 inline constexpr int kPairsToPlace = 3;  ///< Two leave a landmark its mirror image.
 
-/// Of each pair: it was seen in so many looks, or one of its landmarks has too few that were.
+/// Of each pair: it was seen in so many scans, or one of its landmarks has too few that were.
 std::vector<bool> are_trusted(const std::vector<MeasuredPair>& pairs, std::size_t landmarks,
-                              int fewest_looks);
+                              int fewest_scans);
 
 /// The pairs as edges as long as they were measured; edges ascend.
 Graph graph_of(const std::vector<MeasuredPair>& pairs, std::size_t landmarks);

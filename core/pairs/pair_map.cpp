@@ -33,13 +33,13 @@ void check(const std::vector<MeasuredPair>& pairs, std::size_t landmarks,
   }
   if (options.start && options.start->rows() != static_cast<Eigen::Index>(landmarks))
     throw InvalidInput("a map to begin with needs a row for each landmark");
-  if (options.fewest_looks < 1 || options.reweightings < 0 || !(options.tolerance > 0.0))
-    throw InvalidInput("a map of pairs needs fewest_looks >= 1, reweightings >= 0, tolerance > 0");
+  if (options.fewest_scans < 1 || options.reweightings < 0 || !(options.tolerance > 0.0))
+    throw InvalidInput("a map of pairs needs fewest_scans >= 1, reweightings >= 0, tolerance > 0");
 }
 
 std::vector<MeasuredPair> trusted(const std::vector<MeasuredPair>& pairs, std::size_t landmarks,
-                                  int fewest_looks) {
-  const std::vector<bool> is_taken = are_trusted(pairs, landmarks, fewest_looks);
+                                  int fewest_scans) {
+  const std::vector<bool> is_taken = are_trusted(pairs, landmarks, fewest_scans);
   std::vector<MeasuredPair> taken;
   for (std::size_t k = 0; k < pairs.size(); ++k)
     if (is_taken[k]) taken.push_back(pairs[k]);
@@ -147,7 +147,7 @@ PairMap pair_map(const std::vector<MeasuredPair>& pairs, const std::vector<std::
   PairMap result;
   result.embedding.coordinates.setConstant(std::ssize(names), 2,
                                            std::numeric_limits<double>::quiet_NaN());
-  const std::vector<MeasuredPair> taken = trusted(pairs, names.size(), options.fewest_looks);
+  const std::vector<MeasuredPair> taken = trusted(pairs, names.size(), options.fewest_scans);
   const Graph graph = graph_of(taken, names.size());
   const std::vector<Eigen::Index> group = largest_group(components(graph));
   if (group.size() < 3) {
@@ -170,7 +170,8 @@ PairMap pair_map(const std::vector<MeasuredPair>& pairs, const std::vector<std::
   return result;
 }
 
-PairMap sighted_map(const SightingLog& log, const PairNoise& noise, const PairMapOptions& options) {
+PairMap pair_map_of(const DetectionLog& log, const PairNoise& noise,
+                    const PairMapOptions& options) {
   PairMap map = pair_map(measured_pairs(log, noise), log.names, options, seen_turns(log));
   if (seen_mirrored(log, map.embedding.coordinates)) map.embedding.coordinates.col(0) *= -1.0;
   return map;

@@ -13,15 +13,15 @@ namespace mapproof {
 
 /// How measured pairs become a map.
 struct PairMapOptions {
-  /// A pair seen in fewer looks is left out, unless one of its landmarks has fewer than three
-  /// better ones: a few looks may all be of wrong ids. >= 1.
-  int fewest_looks = 3;
+  /// A pair seen in fewer scans is left out, unless one of its landmarks has fewer than three
+  /// better ones: a few scans may all be of wrong ids. >= 1.
+  int fewest_scans = 3;
   /// Times that pairs are weighted anew by how well they fit the map of the others; 0: never.
   int reweightings = 10;
   /// A pair this many typical residuals off has a quarter of its weight left; > 0.
   double tolerance = 2.0;
   bool refined = true;  ///< False: the start, the map of shortest paths, is all.
-  /// M x 2, a map to begin with instead of looking for one, as for draws of the same looks. Not
+  /// M x 2, a map to begin with instead of looking for one, as for draws of the same scans. Not
   /// taken if a landmark that pairs hold has no place in it.
   std::optional<Points> start = {};
   SmacofOptions smacof{.relative_fall = 1e-9, .max_iterations = 5000};
@@ -49,9 +49,9 @@ struct PairMap {
 PairMap pair_map(const std::vector<MeasuredPair>& pairs, const std::vector<std::string>& names,
                  const PairMapOptions& options = {}, const std::vector<SeenTurn>& turns = {});
 
-/// The pair map of what looks showed, mirrored so that landmarks turn the way round that the looks
+/// The pair map of what scans showed, mirrored so that landmarks turn the way round that the scans
 /// show them, bearings being counter-clockwise.
-PairMap sighted_map(const SightingLog& log, const PairNoise& noise = {},
+PairMap pair_map_of(const DetectionLog& log, const PairNoise& noise = {},
                     const PairMapOptions& options = {});
 
 }  // namespace mapproof

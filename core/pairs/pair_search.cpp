@@ -16,31 +16,31 @@ namespace {
 
 constexpr int kMostFolds = 5;           ///< Taken back, one after the other,
 constexpr std::size_t kTriedTurns = 3;  ///< by so many triples each.
-constexpr int kFirmLooks = 28;          ///< Of pairs that hold landmarks together in a fold.
-constexpr int kMostSay = 100;           ///< Looks that count for a pair when maps are compared.
+constexpr int kFirmScans = 28;          ///< Of pairs that hold landmarks together in a fold.
+constexpr int kMostSay = 100;           ///< Scans that count for a pair when maps are compared.
 constexpr double kAsGood = 1.15;        ///< Costs that maps of one quality differ by.
-constexpr double kAgreed = 0.02;        ///< Share of the looks that disagree with a map that fits.
+constexpr double kAgreed = 0.02;        ///< Share of the scans that disagree with a map that fits.
 
-/// Compares maps by how many looks they disagree with, by what those measured and by the way round
-/// that they show landmarks: a pair that lies off costs at most as much as its looks [geman1985].
+/// Compares maps by how many scans they disagree with, by what those measured and by the way round
+/// that they show landmarks: a pair that lies off costs at most as much as its scans [geman1985].
 class Judge {
  public:
   /// @param width  Residual of which a pair costs half of the most.
   Judge(const std::vector<MeasuredPair>& pairs, const std::vector<SeenTurn>& turns, double width)
       : pairs_(pairs), turns_(turns), width_(width) {}
 
-  /// Whether hardly any look disagrees.
+  /// Whether hardly any scan disagrees.
   bool is_agreed(const PairSolution& one) const {
     double most = 0.0;
-    for (const MeasuredPair& pair : pairs_) most += std::min(pair.looks, kMostSay);
+    for (const MeasuredPair& pair : pairs_) most += std::min(pair.scans, kMostSay);
     return cost(one) <= kAgreed * most;
   }
 
   double cost(const PairSolution& one) const {
-    double sum = looks_turned_otherwise(turns_, one.map.coordinates, kMostSay);
+    double sum = scans_turned_otherwise(turns_, one.map.coordinates, kMostSay);
     for (std::size_t k = 0; k < pairs_.size(); ++k) {
       const double off = one.residuals[k] / width_;
-      sum += std::min(pairs_[k].looks, kMostSay) * off * off / (1.0 + off * off);
+      sum += std::min(pairs_[k].scans, kMostSay) * off * off / (1.0 + off * off);
     }
     return sum;
   }
@@ -51,14 +51,14 @@ class Judge {
   double width_;
 };
 
-/// One landmark and what hangs on it once two others are gone, by pairs of many looks; it alone if
+/// One landmark and what hangs on it once two others are gone, by pairs of many scans; it alone if
 /// that is all the rest.
 std::vector<Eigen::Index> hanging_on(const PairProblem& problem, Eigen::Index one, Eigen::Index a,
                                      Eigen::Index b) {
   std::vector<MeasuredPair> firm;
   for (const MeasuredPair& pair : problem.pairs) {
     const auto is_gone = [&](Eigen::Index i) { return i == a || i == b; };
-    if (pair.looks >= kFirmLooks && !is_gone(pair.first) && !is_gone(pair.second))
+    if (pair.scans >= kFirmScans && !is_gone(pair.first) && !is_gone(pair.second))
       firm.push_back(pair);
   }
   const auto n = static_cast<std::size_t>(problem.distances.rows());
@@ -109,11 +109,11 @@ class Unfolding {
 
  private:
   /// Maps in which a landmark, with what hangs on it, is folded over the line through two others
-  /// with which the looks show it the other way round, and that are lowered again.
+  /// with which the scans show it the other way round, and that are lowered again.
   std::vector<PairSolution> folded_anew(const PairSolution& from) {
     const Points& map = from.map.coordinates;
     std::vector<SeenTurn> wrong = turned_otherwise(turns_, map);
-    std::ranges::stable_sort(wrong, std::ranges::greater(), &SeenTurn::looks);
+    std::ranges::stable_sort(wrong, std::ranges::greater(), &SeenTurn::scans);
     wrong.resize(std::min(wrong.size(), kTriedTurns));
     std::set<std::vector<Eigen::Index>> tried;
     std::vector<PairSolution> result;

@@ -7,7 +7,7 @@
 namespace mapproof {
 
 /// The best of what several starts come to, the first of those that are about as good: the map that
-/// most looks agree with, by what they measured and by the way round that they show landmarks.
+/// most scans agree with, by what they measured and by the way round that they show landmarks.
 /// Folds that distances alone leave are taken back.
 /// @param turns  In the problem's rows; may be empty.
 PairSolution searched(PairProblem& problem, const std::vector<SeenTurn>& turns,

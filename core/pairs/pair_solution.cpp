@@ -16,7 +16,7 @@ constexpr double kLeastResidual = 0.1;  ///< In units of what the precisions pro
 /// Weights that differ more than this allows would leave the landmarks in pieces.
 constexpr double kLeastWeight = 1e-5;  ///< Of that of a pair that fits.
 /// Of the pairs that starts after the first are made of.
-constexpr int kFewestLooksOfStarts[] = {7, 14, 28, 56, 112};
+constexpr int kFewestScansOfStarts[] = {7, 14, 28, 56, 112};
 
 /// Shares of the weights left by how far each pair is from the map [geman1985].
 std::vector<double> shares(const std::vector<double>& residuals, double tolerance) {
@@ -119,7 +119,7 @@ std::vector<double> shares_by_triangles(const PairProblem& problem) {
 std::vector<std::vector<double>> first_shares(const PairProblem& problem) {
   const auto n = static_cast<std::size_t>(problem.distances.rows());
   std::vector<std::vector<double>> starts = {shares_by_triangles(problem)};
-  for (const int fewest : kFewestLooksOfStarts) {
+  for (const int fewest : kFewestScansOfStarts) {
     const std::vector<bool> is_taken = are_trusted(problem.pairs, n, fewest);
     std::vector<double> left = starts.front();
     std::vector<MeasuredPair> pairs;

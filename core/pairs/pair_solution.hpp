@@ -50,7 +50,7 @@ PairSolution polished(PairProblem& problem, const PairSolution& rough,
 std::vector<double> shares_by_triangles(const PairProblem& problem);
 
 /// A set of them for each of several starts. The first is shares_by_triangles(); the others, one by
-/// one, also what was seen in ever more looks: pairs that none but wrong ids made agree with one
+/// one, also what was seen in ever more scans: pairs that none but wrong ids made agree with one
 /// another, and can only be told by being few.
 std::vector<std::vector<double>> first_shares(const PairProblem& problem);
 

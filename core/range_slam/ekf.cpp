@@ -10,8 +10,8 @@
 #include "core/base/errors.hpp"
 #include "core/linalg/decompositions.hpp"
 #include "core/range_slam/dead_reckoning.hpp"
+#include "core/range_slam/factors/spread_rows.hpp"
 #include "core/range_slam/log_checks.hpp"
-#include "core/range_slam/spread_rows.hpp"
 #include "core/range_slam/trilateration.hpp"
 
 namespace mapproof {

@@ -5,8 +5,8 @@
 
 #include "core/model/range_log.hpp"
 #include "core/model/slam.hpp"
-#include "core/range_slam/key_poses.hpp"
 #include "core/range_slam/known_landmarks.hpp"
+#include "core/range_slam/refinement/key_poses.hpp"
 
 namespace mapproof {
 

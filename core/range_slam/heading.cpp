@@ -4,7 +4,7 @@
 
 #include "core/base/errors.hpp"
 #include "core/linalg/decompositions.hpp"
-#include "core/range_slam/metric_upgrade.hpp"
+#include "core/range_slam/factors/metric_upgrade.hpp"
 
 namespace mapproof {
 namespace {

@@ -5,9 +5,9 @@
 
 #include <Eigen/Core>
 
-#include "core/range_slam/factorization.hpp"
+#include "core/range_slam/factors/factorization.hpp"
+#include "core/range_slam/factors/spectral_map.hpp"
 #include "core/range_slam/known_landmarks.hpp"
-#include "core/range_slam/spectral_map.hpp"
 
 namespace mapproof {
 

@@ -7,8 +7,8 @@
 
 #include "core/base/errors.hpp"
 #include "core/linalg/decompositions.hpp"
+#include "core/range_slam/factors/squared_ranges.hpp"
 #include "core/range_slam/log_checks.hpp"
-#include "core/range_slam/squared_ranges.hpp"
 
 namespace mapproof {
 namespace {

@@ -3,8 +3,8 @@
 #include <vector>
 
 #include "core/model/points.hpp"
-#include "core/range_slam/factorization.hpp"
-#include "core/range_slam/spectral_map.hpp"
+#include "core/range_slam/factors/factorization.hpp"
+#include "core/range_slam/factors/spectral_map.hpp"
 
 namespace mapproof {
 

@@ -12,7 +12,7 @@
 namespace mapproof {
 namespace {
 
-/// Longer ranges are no ranges; their fourth powers must not overflow.
+/// Longer ranges are not ranges; their fourth powers must not overflow.
 constexpr double kLongest_m = 1e9;
 
 template <StatusReason kReason>

@@ -6,7 +6,7 @@
 
 #include "core/base/errors.hpp"
 #include "core/linalg/decompositions.hpp"
-#include "core/range_slam/windowed_ranges.hpp"
+#include "core/range_slam/factors/windowed_ranges.hpp"
 
 namespace mapproof {
 namespace {

@@ -174,7 +174,7 @@ void fields(Visitor& v, Certificate& certificate) {
   v.type("certificate");
   v.about(
       "Of a method that is a semidefinite program: how near its optimum. A dual below 0: there "
-      "is no feasible point; null: nothing was proved.");
+      "is not a feasible point; null: nothing was proved.");
   v.field("solver", certificate.solver);
   v.field("primal", certificate.primal, {.minimum = 0.0});
   v.field("dual", certificate.dual, {.nullable = true, .null_is = kInfinity});

@@ -14,7 +14,7 @@ namespace mapproof {
 /// One factor of a condition and the level it stands at.
 struct Level {
   std::string factor;                       ///< "steps", "anchor-count", "missing_percent".
-  std::variant<double, std::string> value;  ///< A number that is no NaN, or a text.
+  std::variant<double, std::string> value;  ///< A number that is not NaN, or a text.
 
   auto operator<=>(const Level&) const = default;
 };

@@ -25,7 +25,7 @@ struct ResultsStudy {
   std::vector<std::string> quantities;          ///< Ids, in the order of tables.
   std::vector<Label> quantity_labels = {};      ///< In place of the dictionary's; may be empty.
   std::vector<Label> setups, methods, factors;  ///< In the order of tables.
-  /// Of runs that are no repeats of each other, such as data sets: each has tables of its own.
+  /// Of runs that are not repeats of each other, such as data sets: each has tables of its own.
   /// Empty: all stand in the same ones.
   std::vector<Label> runs = {};
   Results results;

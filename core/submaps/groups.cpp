@@ -77,8 +77,8 @@ std::vector<LandmarkGroup> overlapping_groups(const Eigen::MatrixXd& distances,
   std::iota(all.begin(), all.end(), 0);
   if (M <= options.size) return {{.own = all, .members = all}};
   const Eigen::MatrixXd paths = paths_of(distances, options.neighbours);
-  const double own_size = std::max(1.0, std::floor(options.size * (1.0 - options.overlap_share)));
-  const auto parts = static_cast<std::size_t>(std::ceil(static_cast<double>(M) / own_size));
+  const double part_size = std::max(1.0, std::floor(options.size * (1.0 - options.overlap_share)));
+  const auto parts = static_cast<std::size_t>(std::ceil(static_cast<double>(M) / part_size));
   std::vector<Rows> owned;
   divide(paths, all, parts, owned);
   std::vector<LandmarkGroup> groups;

@@ -8,7 +8,7 @@
 
 namespace mapproof {
 
-/// A joined map with what went other than well.
+/// A joined map with its warnings.
 struct JoinResult {
   JoinedSubmaps joined;
   std::vector<Status> statuses;  ///< kTooFewObservations: sub-maps that nothing ties to the others.

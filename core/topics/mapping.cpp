@@ -7,12 +7,12 @@
 #include "core/base/errors.hpp"
 #include "core/base/files.hpp"
 #include "core/experiment/run.hpp"
-#include "core/records/experiment_json.hpp"
-#include "core/records/profiles.hpp"
-#include "core/records/results_of.hpp"
-#include "core/records/run_json.hpp"
-#include "core/records/study_files.hpp"
-#include "core/records/study_store.hpp"
+#include "core/records/experiments/experiment_json.hpp"
+#include "core/records/experiments/profiles.hpp"
+#include "core/records/studies/results_of.hpp"
+#include "core/records/studies/run_json.hpp"
+#include "core/records/studies/study_files.hpp"
+#include "core/records/studies/study_store.hpp"
 #include "core/topics/experiment_changes.hpp"
 
 namespace mapproof {
@@ -59,7 +59,7 @@ void read_mapping(const fs::path& folder, const std::string& text, const Content
     contents.runs[slug(id)] = "";
     try_file(contents, folder, files.run(id), asked, [&] {
       if (!asked.keeps_on && !contains(study.experiment, id))
-        throw IoError(files.run(id).string(), "is no run of the experiment");
+        throw IoError(files.run(id).string(), "is not a run of the experiment");
       study.runs.push_back(read_run(files.run(id), id));
       add_world(contents, study.runs.back());
     });

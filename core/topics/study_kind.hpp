@@ -6,7 +6,7 @@
 #include <string_view>
 #include <vector>
 
-#include "core/records/study_contents.hpp"
+#include "core/records/studies/study_contents.hpp"
 #include "core/topics/study_plan.hpp"
 
 namespace mapproof {

@@ -6,8 +6,8 @@
 #include "core/base/files.hpp"
 #include "core/json/json_cursor.hpp"
 #include "core/json/text_input.hpp"
-#include "core/records/results_table.hpp"
-#include "core/records/study_folder.hpp"
+#include "core/records/studies/results_table.hpp"
+#include "core/records/studies/study_folder.hpp"
 #include "core/topics/mapping.hpp"
 #include "core/topics/ranges.hpp"
 #include "core/topics/table.hpp"
@@ -28,7 +28,7 @@ const StudyKind& kind_of_experiment(std::string_view text, const std::string& so
   const std::string schema = schema_of(document.cursor()).name;
   for (const StudyKind* kind : all_study_kinds())
     if (!kind->experiment.empty() && kind->experiment == schema) return *kind;
-  throw IoError(source, "/schema/name", "is no experiment: " + in_quotes(schema));
+  throw IoError(source, "/schema/name", "is not an experiment: " + in_quotes(schema));
 }
 
 const StudyKind* kind_of_study(const fs::path& folder) {
@@ -69,7 +69,7 @@ StudyContents read_study_contents(const fs::path& folder, const ContentsAsked& a
   const auto kinds = all_study_kinds();
   const auto kind = std::ranges::find(kinds, contents.kind, &StudyKind::study);
   if (kind == kinds.end())
-    throw IoError(source, "/schema/name", "is no study: \"" + printable(contents.kind) + "\"");
+    throw IoError(source, "/schema/name", "is not a study: \"" + printable(contents.kind) + "\"");
   (*kind)->read(folder, text, asked, contents);
   return contents;
 }

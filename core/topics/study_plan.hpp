@@ -8,7 +8,7 @@
 #include <string_view>
 #include <vector>
 
-#include "core/records/study_writer.hpp"
+#include "core/records/studies/study_writer.hpp"
 
 namespace mapproof {
 

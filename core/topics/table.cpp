@@ -2,8 +2,8 @@
 
 #include <utility>
 
-#include "core/records/results_study_json.hpp"
-#include "core/records/study_folder.hpp"
+#include "core/records/studies/results_study_json.hpp"
+#include "core/records/studies/study_folder.hpp"
 
 namespace mapproof {
 namespace {

@@ -7,11 +7,11 @@
 
 #include "core/base/errors.hpp"
 #include "core/base/files.hpp"
-#include "core/records/profiles.hpp"
-#include "core/records/results_of.hpp"
-#include "core/records/trial_experiment_json.hpp"
-#include "core/records/trial_json.hpp"
-#include "core/records/trial_store.hpp"
+#include "core/records/experiments/profiles.hpp"
+#include "core/records/experiments/trial_experiment_json.hpp"
+#include "core/records/studies/results_of.hpp"
+#include "core/records/studies/trial_json.hpp"
+#include "core/records/studies/trial_store.hpp"
 #include "core/topics/experiment_changes.hpp"
 #include "core/trials/run_trials.hpp"
 

@@ -13,17 +13,17 @@
 #include "core/base/input_file.hpp"
 #include "core/json/json_cursor.hpp"
 #include "core/json/text_input.hpp"
-#include "core/records/folder_lock.hpp"
-#include "core/records/input_kind.hpp"
-#include "core/records/map_files.hpp"
-#include "core/records/mrclam.hpp"
-#include "core/records/observation_values.hpp"
-#include "core/records/range_log_files.hpp"
-#include "core/records/results_table.hpp"
-#include "core/records/sightings.hpp"
-#include "core/records/study_folder.hpp"
-#include "core/records/timings_jsonl.hpp"
-#include "core/records/validate_table.hpp"
+#include "core/records/maps/map_files.hpp"
+#include "core/records/observations/detections.hpp"
+#include "core/records/observations/input_kind.hpp"
+#include "core/records/observations/mrclam.hpp"
+#include "core/records/observations/observation_values.hpp"
+#include "core/records/observations/validate_table.hpp"
+#include "core/records/ranges/range_log_files.hpp"
+#include "core/records/studies/folder_lock.hpp"
+#include "core/records/studies/results_table.hpp"
+#include "core/records/studies/study_folder.hpp"
+#include "core/records/studies/timings_jsonl.hpp"
 #include "core/topics/study_kind.hpp"
 
 namespace mapproof {
@@ -36,7 +36,8 @@ constexpr std::array kOtherFiles = {
     StudyFile{"mapproof.map", [](auto text, auto& source) { parse_map(text, source); }},
     StudyFile{"mapproof.observations",
               [](auto text, auto& source) { parse_observations(text, source, std::nullopt); }},
-    StudyFile{"mapproof.sightings", [](auto text, auto& source) { parse_sightings(text, source); }},
+    StudyFile{"mapproof.detections",
+              [](auto text, auto& source) { parse_detections(text, source); }},
 };
 
 /// Null if core has no such schema.
@@ -97,7 +98,7 @@ void check_source(ByteSource& source, const ForeignReader& foreign, Finding& fin
   } else if (may_be_table(source.path())) {
     check_table(source, finding.kind);
   } else {
-    throw IoError(finding.path, "is no file that mapproof reads or writes");
+    throw IoError(finding.path, "is not a file that mapproof reads or writes");
   }
 }
 

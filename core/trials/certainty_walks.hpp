@@ -30,7 +30,7 @@ std::vector<Points> walked_maps(const std::vector<ObservationHistory>& histories
                                 Eigen::Index steps, const CertaintyFrame& frame,
                                 const HistoryCertaintyOptions& options);
 
-/// Judges ellipses by all landmarks that are no anchors.
+/// Judges ellipses by all landmarks that are not anchors.
 /// @param maps         Of all walks, the first of them those that ellipses were drawn for.
 /// @param certainties  Of the first maps, as many or fewer.
 /// @return NaN without maps or ellipses.

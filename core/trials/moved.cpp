@@ -8,7 +8,7 @@
 
 #include "core/base/random.hpp"
 #include "core/labels/moved.hpp"
-#include "core/trials/simulated_sightings.hpp"
+#include "core/trials/simulated_detections.hpp"
 
 namespace mapproof {
 namespace {
@@ -91,7 +91,7 @@ Tally tallied(const TrialContext& context, double length, double noise, Random& 
   const auto tried = static_cast<int>(number_option(context.experiment, "tried"));
   for (int k = 0; k < tried; ++k) {
     const SimulatedMove move = drawn_move(context, length, random);
-    const SightingLog log = simulated_sightings(
+    const DetectionLog log = simulated_detections(
         *context.world, *context.path,
         {.reach_m = number_option(context.experiment, "reach_m"), .range_share = noise}, move,
         random);

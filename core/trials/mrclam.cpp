@@ -14,9 +14,9 @@
 #include "core/embed/embedder.hpp"
 #include "core/experiment/scored_map.hpp"
 #include "core/linalg/planarity.hpp"
-#include "core/observe/sighted_proximities.hpp"
+#include "core/observe/detected_proximities.hpp"
 #include "core/pairs/pair_map.hpp"
-#include "core/records/mrclam.hpp"
+#include "core/records/observations/mrclam.hpp"
 #include "core/statistics/intervals.hpp"
 #include "core/trials/mrclam_labels.hpp"
 #include "core/trials/mrclam_sets.hpp"
@@ -31,14 +31,14 @@ constexpr int kFewestReplicates = 10;  ///< Of a bootstrap.
 constexpr const char* kSetup = "sensors";
 constexpr const char* kLabels = "labels";
 
-/// Series of looks whose labels were made wrong, as they are and mended.
+/// Series of scans whose labels were made wrong, as they are and corrected.
 constexpr std::pair<const char*, const char*> kSpoilt[] = {
-    {"swapped", "Two labels swapped in half of the looks"},
-    {"swapped-mended", "The same, mended"},
-    {"misnamed", "One landmark called by another's name in all looks"},
-    {"misnamed-mended", "The name mended"}};
+    {"swapped", "Two labels swapped in half of the scans"},
+    {"swapped-corrected", "The same, corrected"},
+    {"misnamed", "One landmark called by another's name in all scans"},
+    {"misnamed-corrected", "The name corrected"}};
 
-/// One way from a set's looks to a map.
+/// One way from a set's scans to a map.
 struct RealWay {
   const char* id;
   const char* label;
@@ -79,14 +79,14 @@ TrialDesign mrclam_design(const TrialExperiment&) {
 
 /// A set as the ways take it.
 struct RealSet {
-  SightingSource source;
+  DetectionSource source;
   std::vector<Eigen::Index> anchors;  ///< Empty: without a truth, or none that serve.
 };
 
-std::vector<Eigen::Index> anchors_of(const SightingSource& source) {
+std::vector<Eigen::Index> anchors_of(const DetectionSource& source) {
   if (!source.truth_m) return {};
   Points known = Points::Constant(source.truth_m->rows(), 2, kNaN);
-  for (const Sighting& seen : source.log.sightings)
+  for (const Detection& seen : source.log.detections)
     known.row(seen.landmark) = source.truth_m->row(seen.landmark);
   const std::vector<Eigen::Index> anchors = diagonal_anchors(known);
   if (anchors.size() < 3 || planarity(known(anchors, Eigen::all)) <= kFlatPlanarity) return {};
@@ -124,18 +124,18 @@ struct Made {
 
 Made make_map(const RealWay& way, const RealSet& set, const TrialContext& context) {
   if (!way.method) {
-    PairMap map = sighted_map(set.source.log, {}, way.pairs);
+    PairMap map = pair_map_of(set.source.log, {}, way.pairs);
     return {std::move(map.embedding), std::move(map.pairs), {Method::kSmacof, std::nullopt}};
   }
   MethodSetting setting{*way.method, std::nullopt};
   if (on_graph(*way.method)) setting.parameter = number_option(context.experiment, "neighbours");
-  // Landmarks without a sighting would only make the others' map fail.
+  // Landmarks without a detection would only make the others' map fail.
   const std::vector<Eigen::Index> unseen = unseen_in(set.source.log);
   const auto landmarks = std::ssize(set.source.log.names);
   std::vector<Eigen::Index> rows;
   for (Eigen::Index i = 0; i < landmarks; ++i)
     if (!std::ranges::binary_search(unseen, i)) rows.push_back(i);
-  Proximities all = sighted_proximities(set.source.log, way.sensor);
+  Proximities all = detected_proximities(set.source.log, way.sensor);
   all.inner_products = Eigen::MatrixXd(all.inner_products(rows, rows));
   all.squared_distances = Eigen::MatrixXd(all.squared_distances(rows, rows));
   const Embedding some = Embedder(std::move(all)).embed(setting);
@@ -210,16 +210,17 @@ void add_way(const RealWay& way, const RealSet& set, const TrialContext& context
          set.anchors.empty()},
         {.replicates = std::max(kFewestReplicates, replicates),
          .block = static_cast<Eigen::Index>(std::min<double>(
-             number_option(context.experiment, "block_looks"), std::max(1, set.source.log.steps))),
+             number_option(context.experiment, "block_scans"), std::max(1, set.source.log.steps))),
          .seed = context.seed,
          .fit = kFit});
   if (context.with_maps) part.maps.push_back(std::move(shown));
 }
 
-/// The map of measured pairs of looks whose labels were made wrong, and mended.
+/// The map of measured pairs of scans whose labels were made wrong, and corrected.
 void add_labels(const RealSet& set, const TrialContext& context, TrialPart& part) {
   const RealWay& way = kWays[std::size(kWays) - 1];
-  const auto add = [&](const std::string& series, const SightingLog& log, Clock::time_point start) {
+  const auto add = [&](const std::string& series, const DetectionLog& log,
+                       Clock::time_point start) {
     RealSet other = set;
     other.source.log = log;
     const Made made = make_map(way, other, context);
@@ -230,16 +231,16 @@ void add_labels(const RealSet& set, const TrialContext& context, TrialPart& part
   for (const SpoiltLabels& spoilt : spoilt_labels(set.source.log, context.seed)) {
     add(spoilt.id, spoilt.log, Clock::now());
     const Clock::time_point start = Clock::now();
-    const MendedLabels mended = mended_log(spoilt.log, set.source.truth_m);
-    add(spoilt.id + "-mended", mended.log, start);
-    part.trials.back().values["faults"] = mended.faults;
+    const CorrectedLabels corrected = corrected_log(spoilt.log, set.source.truth_m);
+    add(spoilt.id + "-corrected", corrected.log, start);
+    part.trials.back().values["faults"] = corrected.faults;
   }
 }
 
 TrialPart make_mrclam(const TrialContext& context) {
   TrialPart part;
   RealSet set;
-  set.source = read_mrclam_sightings(context.data);
+  set.source = read_mrclam_detections(context.data);
   set.anchors = anchors_of(set.source);
   for (const RealWay& way : kWays) add_way(way, set, context, part);
   add_labels(set, context, part);
@@ -253,7 +254,7 @@ const Topic kMrclamTopic = {
     .of_data = true,
     .options = {{"neighbours", {5}, 1, 100, true, false},
                 {"replicates", {200}, 0, 10'000, true, false},
-                {"block_looks", {0}, 0, 100'000, true, false}},
+                {"block_scans", {0}, 0, 100'000, true, false}},
     .design = mrclam_design,
     .make = make_mrclam,
     .data_sets = mrclam_sets,

@@ -5,31 +5,31 @@
 #include <string>
 #include <vector>
 
+#include "core/model/detection_log.hpp"
 #include "core/model/points.hpp"
-#include "core/model/sighting_log.hpp"
 
 namespace mapproof {
 
-/// Real looks some of whose labels were made wrong.
+/// Real scans some of whose labels were made wrong.
 struct SpoiltLabels {
   std::string id;  ///< "swapped", "misnamed".
-  SightingLog log;
+  DetectionLog log;
 };
 
-/// Two labels swapped in half of the looks, drawn at random; and one landmark called by another's
+/// Two labels swapped in half of the scans, drawn at random; and one landmark called by another's
 /// name in all of them. The landmarks are among those seen most: so the fault weighs.
 /// @return None of fewer than 6 landmarks.
-std::vector<SpoiltLabels> spoilt_labels(const SightingLog& log, std::uint64_t seed);
+std::vector<SpoiltLabels> spoilt_labels(const DetectionLog& log, std::uint64_t seed);
 
 /// How much was found wrong, and the log without it.
-struct MendedLabels {
+struct CorrectedLabels {
   int faults = 0;
-  SightingLog log;
+  DetectionLog log;
 };
 
 /// Labels that contradict one another, that two landmarks bear, or that known places contradict,
-/// mended as `mapproof map --repair-labels` does.
+/// corrected as `mapproof map --repair-ids` does.
 /// @param known_m  M x 2; empty: no place is known.
-MendedLabels mended_log(const SightingLog& log, const std::optional<Points>& known_m);
+CorrectedLabels corrected_log(const DetectionLog& log, const std::optional<Points>& known_m);
 
 }  // namespace mapproof

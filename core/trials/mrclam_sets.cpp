@@ -9,7 +9,7 @@
 #include "core/base/errors.hpp"
 #include "core/base/input_file.hpp"
 #include "core/base/sha256.hpp"
-#include "core/records/mrclam.hpp"
+#include "core/records/observations/mrclam.hpp"
 
 namespace mapproof {
 namespace {
@@ -65,7 +65,7 @@ TrialData set_of(const fs::path& folder, const std::vector<TrialData>& others) {
        std::ranges::any_of(others, [&](const TrialData& other) { return other.set.id == id; });
        ++number)
     id = fmt::format("{}-{}", id_of(name), number);
-  read_mrclam_sightings(folder);  // A set that cannot be read is told before anything is made.
+  read_mrclam_detections(folder);  // A set that cannot be read is told before anything is made.
   return {.set = {.id = id, .title = printable(name), .digest = digest_of(folder)},
           .folder = folder};
 }

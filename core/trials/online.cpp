@@ -7,9 +7,9 @@
 
 #include <fmt/format.h>
 
-#include "core/align/laid_on.hpp"
+#include "core/align/aligned_to.hpp"
 #include "core/base/random.hpp"
-#include "core/follow/followed_map.hpp"
+#include "core/follow/incremental_map.hpp"
 #include "core/simulate/sensors.hpp"
 
 namespace mapproof {
@@ -80,7 +80,7 @@ void follow(const TrialContext& context, const MethodSetting& setting,
   const auto every = static_cast<Eigen::Index>(number_option(context.experiment, "every"));
   const std::vector<double>& levels = list_option(context.experiment, "observations");
   const std::string setup{name(history.sensor)};
-  FollowedMap map(history.sensor, {.setting = setting, .embedder = {}});
+  IncrementalMap map(history.sensor, {.setting = setting, .embedder = {}});
   map.grow(history.landmarks());
   Gaps gaps;
   Eigen::Index before = 0;

@@ -4,8 +4,8 @@
 #include <optional>
 #include <vector>
 
-#include "core/records/trial_experiment_json.hpp"
-#include "core/records/trial_store.hpp"
+#include "core/records/experiments/trial_experiment_json.hpp"
+#include "core/records/studies/trial_store.hpp"
 #include "core/trials/topic.hpp"
 
 namespace mapproof {

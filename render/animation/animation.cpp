@@ -75,7 +75,7 @@ std::string run(const std::filesystem::path& program, const Descriptor& input) {
     throw AnimationError(
         "animations are left out: this program was built without them (MAPPROOF_ANIMATION=OFF)");
   if (::access(program.c_str(), X_OK) != 0)
-    fail(program, fmt::format("{} is no program: {}", program.string(), std::strerror(errno)));
+    fail(program, fmt::format("{} is not a program: {}", program.string(), std::strerror(errno)));
   const Descriptor output = memory_file(program), messages = memory_file(program);
   ::lseek(input.get(), 0, SEEK_SET);
   posix_spawn_file_actions_t files;

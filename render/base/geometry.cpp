@@ -49,7 +49,7 @@ void Outline::add_circle(Point centre, double radius) {
       {{{x + k, y - r}, {x + r, y - k}, {x + r, y}}},
   }};
   for (const auto& quarter : quarters) {
-    verbs.push_back(Verb::kCubic);
+    commands.push_back(PathCommand::kCubic);
     points.insert(points.end(), quarter.begin(), quarter.end());
   }
   close();

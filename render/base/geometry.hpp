@@ -42,27 +42,27 @@ bool crosses(const Box& box, Point a, Point b);
 /// The part of the line from a to b that lies in the box, as parameters in [0, 1]; false if none.
 bool clip_line(const Box& box, Point a, Point b, double& enter, double& leave);
 
-enum class Verb : std::uint8_t { kMove, kLine, kQuad, kCubic, kClose };
+enum class PathCommand : std::uint8_t { kMove, kLine, kQuad, kCubic, kClose };
 
 /// Outlines: kMove and kLine take one point, kQuad two, kCubic three, kClose none.
 struct Outline {
-  std::vector<Verb> verbs;
+  std::vector<PathCommand> commands;
   std::vector<Point> points;
 
-  void move_to(Point p) { add(Verb::kMove, p); }
-  void line_to(Point p) { add(Verb::kLine, p); }
+  void move_to(Point p) { add(PathCommand::kMove, p); }
+  void line_to(Point p) { add(PathCommand::kLine, p); }
   void quad_to(Point control, Point p) {
-    add(Verb::kQuad, control);
+    add(PathCommand::kQuad, control);
     points.push_back(p);
   }
-  void close() { verbs.push_back(Verb::kClose); }
+  void close() { commands.push_back(PathCommand::kClose); }
   void add_box(const Box& box);
   /// Four cubics.
   void add_circle(Point centre, double radius);
 
  private:
-  void add(Verb verb, Point p) {
-    verbs.push_back(verb);
+  void add(PathCommand command, Point p) {
+    commands.push_back(command);
     points.push_back(p);
   }
 };

@@ -44,24 +44,24 @@ class Painter {
     const Point* next = path.points.data();
     const auto x = [&](std::size_t i) { return next[i].x + origin.x; };
     const auto y = [&](std::size_t i) { return next[i].y + origin.y; };
-    for (const Verb verb : path.verbs) {
-      switch (verb) {
-        case Verb::kMove:
+    for (const PathCommand command : path.commands) {
+      switch (command) {
+        case PathCommand::kMove:
           cairo_move_to(context_, x(0), y(0));
           next += 1;
           break;
-        case Verb::kLine:
+        case PathCommand::kLine:
           cairo_line_to(context_, x(0), y(0));
           next += 1;
           break;
-        case Verb::kQuad:
+        case PathCommand::kQuad:
           trace_quad(x(0), y(0), x(1), y(1)), next += 2;
           break;
-        case Verb::kCubic:
+        case PathCommand::kCubic:
           cairo_curve_to(context_, x(0), y(0), x(1), y(1), x(2), y(2));
           next += 3;
           break;
-        case Verb::kClose:
+        case PathCommand::kClose:
           cairo_close_path(context_);
           break;
       }

@@ -188,7 +188,7 @@ std::string reason_words(const Status& status) {
           "Range and bearing were never measured together with another's, so not mapped: {}.",
           listed_names(status));
     case StatusReason::kNotWithTheMapped:
-      return fmt::format("In no look with the {} landmarks that are mapped, so not mapped: {}.",
+      return fmt::format("In no scan with the {} landmarks that are mapped, so not mapped: {}.",
                          v(0), listed_names(status));
     case StatusReason::kFewPairs:
       return fmt::format(

@@ -19,7 +19,7 @@ std::uint32_t checksum(std::string_view bytes) {
 }  // namespace
 
 std::string png_problem(std::string_view bytes) {
-  if (!bytes.starts_with(kSignature)) return "is no PNG: the signature is missing";
+  if (!bytes.starts_with(kSignature)) return "is not a PNG: the signature is missing";
   constexpr std::size_t kFrame = 12;  // Length, type and checksum of a chunk.
   std::size_t at = kSignature.size();
   for (std::size_t chunk = 0;; ++chunk) {

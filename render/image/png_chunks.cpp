@@ -22,7 +22,7 @@ std::vector<PngChunk> png_chunks(std::string_view bytes) {
 }
 
 PngHeader png_header(const PngChunk& chunk) {
-  if (chunk.data.size() != 13) throw InvalidInput("its header is no PNG header");
+  if (chunk.data.size() != 13) throw InvalidInput("its header is not a PNG header");
   const auto byte = [&](std::size_t i) { return static_cast<unsigned char>(chunk.data[i]); };
   const PngHeader header{big_endian(chunk.data),
                          big_endian(chunk.data.substr(4)),
@@ -39,7 +39,7 @@ PngHeader png_header(const PngChunk& chunk) {
                                   : (colour == 2 || colour == 4 || colour == 6) && whole_bytes;
   if (!kind || header.compression != 0 || header.filter != 0 || header.interlace > 1 ||
       header.width == 0 || header.height == 0)
-    throw InvalidInput("its header is no PNG header");
+    throw InvalidInput("its header is not a PNG header");
   return header;
 }
 

@@ -28,7 +28,7 @@ struct PngHeader {
   int channels() const { return colour == 2 ? 3 : colour == 4 ? 2 : colour == 6 ? 4 : 1; }
 };
 
-/// @throws InvalidInput if the chunk is no header that the PNG specification allows.
+/// @throws InvalidInput if the chunk is not a header that the PNG specification allows.
 PngHeader png_header(const PngChunk& chunk);
 
 }  // namespace mapproof

@@ -198,8 +198,8 @@ using Layer = std::variant<Band, Segments, Polyline, Scatter, PointLabels, Area,
 struct Axis {
   std::string label = {};  ///< With its unit: "MPE [m]".
   Scale scale = Scale::kLinear;
-  std::optional<Range> limits = {};  ///< Empty: what the layers need, and a little more.
-  bool whole = false;                ///< Linear: ticks at whole numbers alone.
+  std::optional<Range> limits = {};     ///< Empty: what the layers need, and a little more.
+  bool whole = false;                   ///< Linear: ticks at whole numbers alone.
   std::vector<std::string> names = {};  ///< Linear: of the numbers 0, 1, ..., in their place.
 
   bool operator==(const Axis&) const = default;
@@ -257,7 +257,7 @@ bool is_figure_id(std::string_view id);
 bool is_empty(const Layer& layer);
 
 /// What keeps the figure from being drawn, as one line that names the place; empty if nothing does:
-/// ids, sizes that do not match, limits that are no range, values <= 0 on a log axis.
+/// ids, sizes that do not match, limits that are not range, values <= 0 on a log axis.
 std::string problem(const Figure& figure);
 
 /// @throws InvalidInput with `problem(figure)` if there is one.

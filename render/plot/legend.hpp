@@ -24,7 +24,7 @@ class Legend {
   bool empty() const { return entries_.empty(); }
   /// Width and height of the legend in so many columns.
   Point size(std::size_t columns) const;
-  /// The most columns that are no wider than `width`; at least 1.
+  /// The most columns that are not wider than `width`; at least 1.
   std::size_t columns_within(double width) const;
   /// A corner or edge inside `frame` where no data is covered; the corners first. Empty if all are.
   std::optional<Box> free_place(const Box& frame, const Obstacles& data) const;

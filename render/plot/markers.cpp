@@ -55,7 +55,7 @@ bool equal(const Shape& a, const Shape& b) {
     return shape.stroke ? std::pair(shape.stroke->colour, shape.stroke->width)
                         : std::pair(Colour{}, 0.0);
   };
-  return a.fill == b.fill && stroke(a) == stroke(b) && a.path.verbs == b.path.verbs &&
+  return a.fill == b.fill && stroke(a) == stroke(b) && a.path.commands == b.path.commands &&
          a.path.points == b.path.points;
 }
 

@@ -87,10 +87,11 @@ Outline ellipse_path(const Ellipses& ellipses, std::size_t i, const PanelMap& ma
 std::vector<std::vector<Point>> flattened(const Outline& path) {
   std::vector<std::vector<Point>> rings;
   const Point* next = path.points.data();
-  for (const Verb verb : path.verbs) {
-    if (verb == Verb::kMove) rings.emplace_back();
-    if (verb == Verb::kMove || verb == Verb::kLine) rings.back().push_back(*next++);
-    if (verb != Verb::kCubic) continue;
+  for (const PathCommand command : path.commands) {
+    if (command == PathCommand::kMove) rings.emplace_back();
+    if (command == PathCommand::kMove || command == PathCommand::kLine)
+      rings.back().push_back(*next++);
+    if (command != PathCommand::kCubic) continue;
     const Point from = rings.back().back();
     for (int piece = 1; piece <= kCurvePieces; ++piece)
       rings.back().push_back(
@@ -181,10 +182,10 @@ std::optional<TextLine> placed_text(const Texts& texts, std::size_t i, const Pan
   const Point at = map(texts.x[i], texts.y[i]);
   if (std::isnan(at.x + at.y)) return std::nullopt;
   const double em = theme.tick_font_pt;
-  TextLine line{
-      .shaped = shape_text_within(texts.text[i], kTextShareOfPage * theme.width_pt / em, Elide::kMiddle),
-      .size = em,
-      .colour = theme.of(texts.ink)};
+  TextLine line{.shaped = shape_text_within(texts.text[i], kTextShareOfPage * theme.width_pt / em,
+                                            Elide::kMiddle),
+                .size = em,
+                .colour = theme.of(texts.ink)};
   if (line.shaped.text != texts.text[i]) line.whole = texts.text[i];
   const double width = line.shaped.advance * em;
   const double left = texts.align == Align::kStart ? 0.0

@@ -13,9 +13,9 @@
 namespace mapproof {
 namespace {
 
-constexpr double kHighest = 0.35;  // The surface at the ramp's end, of the room's side.
-constexpr double kErrorFieldAspect = 1.35;   // Several views share a page.
-constexpr double kLift = 0.004;    // Of the side: no error still lies above the floor.
+constexpr double kHighest = 0.35;           // The surface at the ramp's end, of the room's side.
+constexpr double kErrorFieldAspect = 1.35;  // Several views share a page.
+constexpr double kLift = 0.004;             // Of the side: no error still lies above the floor.
 constexpr double kErrorPercentile = 0.95;
 constexpr int kMostLevels = 6;
 
@@ -90,7 +90,7 @@ bool has_error_field(const MapRecord& map, double side_m) {
 Scene error_field_scene(const ErrorFieldSpec& spec) {
   if (spec.maps.empty()) throw InvalidInput("error_field_scene: no map");
   if (!is_room_side(spec.side_m))
-    throw InvalidInput("error_field_scene: the room's side is no length");
+    throw InvalidInput("error_field_scene: the room's side is not a length");
   std::vector<std::vector<Sample>> samples;
   std::vector<double> errors_m;
   for (const ErrorFieldSpec::One& one : spec.maps) {

@@ -22,7 +22,7 @@ void require_usable(const FormingSceneSpec& spec) {
   const World& world = spec.world;
   if (spec.maps.empty() || spec.most < 1) throw InvalidInput("forming_scene: no map");
   if (!has_room(world))
-    throw InvalidInput("forming_scene: the room's side or the landmarks' diameter is no length");
+    throw InvalidInput("forming_scene: the room's side or the landmarks' diameter is not a length");
   const Eigen::Index landmarks = world.landmarks_m.rows();
   for (std::size_t i = 0; i < spec.maps.size(); ++i) {
     const MapRecord& map = spec.maps[i];
@@ -34,7 +34,7 @@ void require_usable(const FormingSceneSpec& spec) {
       throw InvalidInput("forming_scene: the steps do not ascend");
     for (const Eigen::Index row : map.anchors)
       if (row < 0 || row >= landmarks)
-        throw InvalidInput("forming_scene: an anchor is no landmark");
+        throw InvalidInput("forming_scene: an anchor is not a landmark");
   }
 }
 
@@ -89,7 +89,7 @@ class Forming {
       if ((std::ranges::find(given, i) != given.end()) == anchors) rows.push_back(i);
     Rods rods = pillars(world.landmarks_m, rows, pillar_radius_m(world), landmark_height(side_));
     rods.label = rods.from.empty() ? "" : anchors ? "anchor" : "landmark";
-    rods.look.ink = anchors ? Ink::kSeries2 : Ink::kSeries1;
+    rods.style.ink = anchors ? Ink::kSeries2 : Ink::kSeries1;
     return rods;
   }
 
@@ -97,7 +97,7 @@ class Forming {
     Rods arrows = found_[map].arrows;
     if (in_legend)
       arrows.label = fmt::format("true to estimated position, 0 to {} m", significant(most_m_));
-    arrows.look.ink = Ink::kText;
+    arrows.style.ink = Ink::kText;
     arrows.tones.values = found_[map].errors_m;
     arrows.tones.limits = {0.0, most_m_};
     return arrows;

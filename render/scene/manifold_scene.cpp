@@ -22,7 +22,7 @@ void require_usable(const ManifoldSceneSpec& spec) {
   if (spec.truth_m.rows() != rows)
     throw InvalidInput("manifold_scene: not as many true positions as coordinates");
   if (!(spec.side_m > 0.0 && std::isfinite(spec.side_m)))
-    throw InvalidInput("manifold_scene: the room's side is no length");
+    throw InvalidInput("manifold_scene: the room's side is not a length");
   for (const auto& [a, b] : spec.manifold.edges)
     if (std::min(a, b) < 0 || std::max(a, b) >= rows)
       throw InvalidInput("manifold_scene: an edge has no landmark");
@@ -46,7 +46,7 @@ Spheres landmarks(const ManifoldSceneSpec& spec, Eigen::Index axis, double radiu
 Rods graph(const ManifoldSceneSpec& spec, double radius) {
   Rods rods{.label = fmt::format("{} nearest neighbours", spec.manifold.neighbours),
             .radius = radius,
-            .look = {.ink = Ink::kMuted}};
+            .style = {.ink = Ink::kMuted}};
   for (const auto& [a, b] : spec.manifold.edges) {
     if (!spec.manifold.coordinates.row(a).allFinite() ||
         !spec.manifold.coordinates.row(b).allFinite())

@@ -7,7 +7,7 @@
 #include <fmt/format.h>
 
 #include "core/base/words.hpp"
-#include "render/figures/measurement_geometry.hpp"
+#include "render/figures/diagrams/measurement_geometry.hpp"
 #include "render/figures/words.hpp"
 #include "render/scene/projection.hpp"
 #include "render/scene/room.hpp"
@@ -109,14 +109,14 @@ class MeasurementScene {
   /// Of a much larger room only what is near, since a picture holds no such depths.
   Surface floor() const {
     if (is_whole()) return floor_of(side_);
-    Surface around{.look = floor_of(side_).look};
+    Surface around{.style = floor_of(side_).style};
     const double x0 = near(robot_.x, -1.0), x1 = near(robot_.x, 1.0);
     const double y0 = near(robot_.y, -1.0), y1 = near(robot_.y, 1.0);
     add_rectangle(around, {x0, y0, 0.0}, {x1, y0, 0.0}, {x1, y1, 0.0}, {x0, y1, 0.0});
     return around;
   }
   Surface walls() const {
-    return is_whole() ? walls_of(side_) : Surface{.look = walls_of(side_).look};
+    return is_whole() ? walls_of(side_) : Surface{.style = walls_of(side_).style};
   }
 
   bool is_whole() const { return side_ <= kNearViews * seen_m_; }
@@ -130,13 +130,13 @@ class MeasurementScene {
 
   Surface disc() const {
     Surface surface{.label = fmt::format("reach, {} mm", std::lround(1000.0 * m_.reach_m)),
-                    .look = {.ink = Ink::kSeries7, .share = kTintShare, .lit = false}};
+                    .style = {.ink = Ink::kSeries7, .share = kTintShare, .lit = false}};
     add_fan(surface, arc_points(robot_, m_.reach_m, 0.0, 2.0 * std::numbers::pi), lift(1));
     return surface;
   }
 
   Surface shadows() const {
-    Surface surface{.look = {.ink = Ink::kText, .share = kTintShare, .lit = false}};
+    Surface surface{.style = {.ink = Ink::kText, .share = kTintShare, .lit = false}};
     for (const std::vector<Point>& outline : shadow_outlines(m_))
       add_fan(surface, outline, lift(2));
     if (!surface.triangles.empty()) surface.label = "shadow";
@@ -152,16 +152,16 @@ class MeasurementScene {
     Rods rods = pillars(m_.world.landmarks_m, rows, m_.world.landmark_diameter_m / 2.0,
                         landmark_height(seen_m_));
     rods.label = "landmark";
-    rods.look.ink = Ink::kSeries1;
+    rods.style.ink = Ink::kSeries1;
     if (view == View::kVisible) rods.label = "visible";
-    if (view == View::kHidden) rods.label = "hidden", rods.look.ink = Ink::kSeries2;
-    if (view == View::kOutOfReach) rods.label = "out of reach", rods.look.ink = Ink::kMuted;
+    if (view == View::kHidden) rods.label = "hidden", rods.style.ink = Ink::kSeries2;
+    if (view == View::kOutOfReach) rods.label = "out of reach", rods.style.ink = Ink::kMuted;
     if (rows.empty()) rods.label.clear();
     return rods;
   }
 
   Rods rays(const std::vector<Eigen::Index>& named) const {
-    Rods rods{.label = "ray", .radius = 0.0012 * seen_m_, .look = {.ink = Ink::kMuted}};
+    Rods rods{.label = "ray", .radius = 0.0012 * seen_m_, .style = {.ink = Ink::kMuted}};
     for (Eigen::Index i = 0; i < m_.world.landmarks_m.rows(); ++i) {
       if (!std::isfinite(m_.bearings_rad(i)) || std::ranges::find(named, i) != named.end())
         continue;
@@ -174,9 +174,9 @@ class MeasurementScene {
 
   /// The ray to a landmark and the arc from the heading to it, the n-th farther out.
   void add_angle(Eigen::Index row, std::size_t n) {
-    const Look look{.ink = series_ink(n + 1)};
+    const Style style{.ink = series_ink(n + 1)};
     const double radius = (0.05 + 0.03 * static_cast<double>(n)) * seen_m_;
-    Tube arc{.radius = 0.003 * seen_m_, .look = look};
+    Tube arc{.radius = 0.003 * seen_m_, .style = style};
     for (const Point p :
          arc_points(robot_, radius, m_.heading_rad, m_.heading_rad + m_.bearings_rad(row)))
       arc.points.push_back(lifted(p, eye()));
@@ -184,11 +184,11 @@ class MeasurementScene {
     scene_.parts.emplace_back(Rods{.from = {lifted(robot_, eye())},
                                    .to = {place(row, eye())},
                                    .radius = 0.003 * seen_m_,
-                                   .look = look});
+                                   .style = style});
   }
 
   Tube trail() const {
-    Tube tube{.label = "path so far", .radius = 0.002 * seen_m_, .look = {.ink = Ink::kText}};
+    Tube tube{.label = "path so far", .radius = 0.002 * seen_m_, .style = {.ink = Ink::kText}};
     const Eigen::Index first = std::max<Eigen::Index>(0, m_.path_m.rows() - kTrail);
     for (Eigen::Index i = first; i < m_.path_m.rows(); ++i)
       tube.points.push_back(on_floor(m_.path_m.row(i), tube.radius));
@@ -200,14 +200,14 @@ class MeasurementScene {
     scene_.parts.emplace_back(Spheres{.label = "robot",
                                       .at = {lifted(robot_, eye())},
                                       .radius = 0.014 * seen_m_,
-                                      .look = {.ink = Ink::kText}});
+                                      .style = {.ink = Ink::kText}});
     scene_.parts.emplace_back(
         Rods{.label = "heading",
              .from = {lifted(robot_, eye())},
              .to = {lifted(beside(robot_, 0.1 * seen_m_, m_.heading_rad), eye())},
              .radius = 0.005 * seen_m_,
              .arrow = true,
-             .look = {.ink = Ink::kText}});
+             .style = {.ink = Ink::kText}});
   }
 
   /// Layers on the floor, one above the other.

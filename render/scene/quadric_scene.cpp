@@ -90,10 +90,10 @@ class QuadricScene {
     if (!quadric.sheet.triangles.empty()) {
       const bool is_first = scene_.views.empty();
       quadric.lines.radius = 0.0011 * box.size();
-      quadric.lines.look = {.ink = Ink::kSeries1, .share = 0.7, .lit = false};
+      quadric.lines.style = {.ink = Ink::kSeries1, .share = 0.7, .lit = false};
       add(std::move(quadric.lines));
       quadric.sheet.label = is_first ? "fitted quadric" : "";
-      quadric.sheet.look = {.ink = Ink::kSeries1, .share = 0.55, .opacity = 0.4};
+      quadric.sheet.style = {.ink = Ink::kSeries1, .share = 0.55, .opacity = 0.4};
       add(std::move(quadric.sheet));
     }
     scene_.views.push_back(std::move(view));

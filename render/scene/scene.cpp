@@ -11,10 +11,13 @@
 namespace mapproof {
 namespace {
 
-constexpr double kGreatestCoordinate = 1e9;  // Single precision, which a graphics library takes, bears it.
+constexpr double kGreatestCoordinate =
+    1e9;  // Single precision, which a graphics library takes, bears it.
 constexpr double kLeastAngle = 1e-6;
 
-bool is_place(const Point3& p) { return p.allFinite() && p.cwiseAbs().maxCoeff() <= kGreatestCoordinate; }
+bool is_place(const Point3& p) {
+  return p.allFinite() && p.cwiseAbs().maxCoeff() <= kGreatestCoordinate;
+}
 
 std::string places(const std::vector<Point3>& points, const char* name) {
   for (std::size_t i = 0; i < points.size(); ++i)
@@ -30,9 +33,9 @@ bool is_range(const Range& range) {
 
 bool is_length(double length) { return length > 0.0 && length <= kGreatestCoordinate; }
 
-std::string problem_of(const Look& look) {
-  if (!(look.share >= 0.0 && look.share <= 1.0)) return "look/share: not in [0, 1]";
-  if (!(look.opacity > 0.0 && look.opacity <= 1.0)) return "look/opacity: not in (0, 1]";
+std::string problem_of(const Style& style) {
+  if (!(style.share >= 0.0 && style.share <= 1.0)) return "style/share: not in [0, 1]";
+  if (!(style.opacity > 0.0 && style.opacity <= 1.0)) return "style/opacity: not in (0, 1]";
   return {};
 }
 
@@ -47,8 +50,8 @@ std::string problem_of(const Tones& tones, std::size_t count) {
 
 /// What all parts have in common.
 template <typename Any>
-std::string look_problem(const Any& part, std::size_t count) {
-  if (std::string what = problem_of(part.look); !what.empty()) return what;
+std::string style_problem(const Any& part, std::size_t count) {
+  if (std::string what = problem_of(part.style); !what.empty()) return what;
   return problem_of(part.tones, count);
 }
 
@@ -58,13 +61,13 @@ std::string part_problem(const Surface& surface) {
     for (const std::uint32_t corner : surface.triangles[i])
       if (corner >= surface.points.size())
         return fmt::format("triangles/{}: there is no point {}", i, corner);
-  return look_problem(surface, surface.points.size());
+  return style_problem(surface, surface.points.size());
 }
 
 std::string part_problem(const Tube& tube) {
   if (std::string what = places(tube.points, "points"); !what.empty()) return what;
   if (!is_length(tube.radius)) return "radius: not in (0, 1e9]";
-  return look_problem(tube, tube.points.size());
+  return style_problem(tube, tube.points.size());
 }
 
 std::string part_problem(const Rods& rods) {
@@ -72,13 +75,13 @@ std::string part_problem(const Rods& rods) {
   if (std::string what = places(rods.from, "from"); !what.empty()) return what;
   if (std::string what = places(rods.to, "to"); !what.empty()) return what;
   if (!is_length(rods.radius)) return "radius: not in (0, 1e9]";
-  return look_problem(rods, rods.from.size());
+  return style_problem(rods, rods.from.size());
 }
 
 std::string part_problem(const Spheres& spheres) {
   if (std::string what = places(spheres.at, "at"); !what.empty()) return what;
   if (!is_length(spheres.radius)) return "radius: not in (0, 1e9]";
-  return look_problem(spheres, spheres.at.size());
+  return style_problem(spheres, spheres.at.size());
 }
 
 std::string part_problem(const Field& field) {
@@ -95,7 +98,7 @@ std::string part_problem(const Field& field) {
     if (!std::isfinite(level)) return "levels: not finite";
   if (!std::ranges::is_sorted(field.levels, std::less_equal<>())) return "levels: not ascending";
   if (!is_length(field.contour_radius)) return "contour_radius: not in (0, 1e9]";
-  return look_problem(field, field.points.size());
+  return style_problem(field, field.points.size());
 }
 
 std::string problem_of(const Camera& camera) {

@@ -17,16 +17,16 @@ namespace mapproof {
 using Point3 = Eigen::Vector3d;
 
 /// How a surface looks.
-struct Look {
+struct Style {
   Ink ink = Ink::kMuted;
   double share = 1.0;    ///< Of the ink, the rest being background, in [0, 1].
   double opacity = 1.0;  ///< In (0, 1]; parts that are not opaque are drawn in their order.
   bool lit = true;       ///< Shaded by the lights; else in one flat colour.
 
-  bool operator==(const Look&) const = default;
+  bool operator==(const Style&) const = default;
 };
 
-/// Values that take the place of a look's ink, in viridis; none: the ink.
+/// Values that take the place of a style's ink, in viridis; none: the ink.
 struct Tones {
   std::vector<double> values = {};  ///< One a point, rod or sphere; NaN takes the ink.
   Range limits = {};                ///< The values at the ends of the ramp; beyond: the ends.
@@ -40,7 +40,7 @@ struct Surface {
   std::vector<Point3> points = {};
   std::vector<std::array<std::uint32_t, 3>> triangles = {};
   bool smooth = false;  ///< Shaded as if it were round.
-  Look look = {};
+  Style style = {};
   Tones tones = {};  ///< One a point.
 
   bool operator==(const Surface&) const = default;
@@ -51,7 +51,7 @@ struct Tube {
   std::string label = {};
   std::vector<Point3> points = {};  ///< Neighbours that fall on each other count once.
   double radius = 0.01;
-  Look look = {};
+  Style style = {};
   Tones tones = {};  ///< One a point.
 
   bool operator==(const Tube&) const = default;
@@ -64,7 +64,7 @@ struct Rods {
   std::vector<Point3> to = {};
   double radius = 0.01;
   bool arrow = false;  ///< With a head at `to`.
-  Look look = {};
+  Style style = {};
   Tones tones = {};  ///< One a rod.
 
   bool operator==(const Rods&) const = default;
@@ -74,7 +74,7 @@ struct Spheres {
   std::string label = {};
   std::vector<Point3> at = {};
   double radius = 0.01;
-  Look look = {};
+  Style style = {};
   Tones tones = {};  ///< One a sphere.
 
   bool operator==(const Spheres&) const = default;
@@ -85,7 +85,7 @@ struct Spheres {
 struct Field {
   std::string label = {};
   std::vector<Point3> points = {};  ///< At least three, no two of them above each other.
-  Look look = {};
+  Style style = {};
   Tones tones = {};                 ///< One a point, none of them NaN.
   std::vector<double> levels = {};  ///< Of the contours, ascending.
   double contour_radius = 0.004;

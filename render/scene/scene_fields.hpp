@@ -16,19 +16,19 @@ inline constexpr FieldRule kLength = {.minimum = 0.0, .maximum = 1e9, .above_min
 }  // namespace scene_rules
 
 template <typename Visitor>
-void fields(Visitor& v, Look& look) {
-  v.type("look");
-  v.field("ink", look.ink);
-  v.field("share", look.share, {.minimum = 0.0, .maximum = 1.0});
-  v.field("opacity", look.opacity, {.minimum = 0.0, .maximum = 1.0, .above_minimum = true});
-  v.field("lit", look.lit);
+void fields(Visitor& v, Style& style) {
+  v.type("style");
+  v.field("ink", style.ink);
+  v.field("share", style.share, {.minimum = 0.0, .maximum = 1.0});
+  v.field("opacity", style.opacity, {.minimum = 0.0, .maximum = 1.0, .above_minimum = true});
+  v.field("lit", style.lit);
 }
 
 template <typename Visitor>
 void fields(Visitor& v, Tones& tones) {
   v.type("tones");
   v.field("values", tones.values,
-          {.description = "One per point, rod or sphere, or none; null: the look's ink.",
+          {.description = "One per point, rod or sphere, or none; null: the style's ink.",
            .nullable = true});
   v.field("limits", tones.limits);
 }
@@ -40,7 +40,7 @@ void fields(Visitor& v, Surface& surface) {
   v.field("points", surface.points);
   v.field("triangles", surface.triangles, {.maximum = 1e9});
   v.field("smooth", surface.smooth);
-  v.field("look", surface.look);
+  v.field("style", surface.style);
   v.field("tones", surface.tones);
 }
 
@@ -50,7 +50,7 @@ void fields(Visitor& v, Tube& tube) {
   v.field("label", tube.label, figure_rules::kText);
   v.field("points", tube.points);
   v.field("radius", tube.radius, scene_rules::kLength);
-  v.field("look", tube.look);
+  v.field("style", tube.style);
   v.field("tones", tube.tones);
 }
 
@@ -62,7 +62,7 @@ void fields(Visitor& v, Rods& rods) {
   v.field("to", rods.to);
   v.field("radius", rods.radius, scene_rules::kLength);
   v.field("arrow", rods.arrow);
-  v.field("look", rods.look);
+  v.field("style", rods.style);
   v.field("tones", rods.tones);
 }
 
@@ -72,7 +72,7 @@ void fields(Visitor& v, Spheres& spheres) {
   v.field("label", spheres.label, figure_rules::kText);
   v.field("at", spheres.at);
   v.field("radius", spheres.radius, scene_rules::kLength);
-  v.field("look", spheres.look);
+  v.field("style", spheres.style);
   v.field("tones", spheres.tones);
 }
 
@@ -81,7 +81,7 @@ void fields(Visitor& v, Field& field) {
   v.tag("kind", "field");
   v.field("label", field.label, figure_rules::kText);
   v.field("points", field.points, {.min_items = 3});
-  v.field("look", field.look);
+  v.field("style", field.style);
   v.field("tones", field.tones);
   v.field("levels", field.levels);
   v.field("contour_radius", field.contour_radius, scene_rules::kLength);

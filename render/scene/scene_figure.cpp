@@ -13,8 +13,8 @@ namespace {
 constexpr int kMostClear = 12;    // Squares along a rod.
 constexpr double kMostEm = 0.22;  // Of a picture's half height.
 
-Fill fill_of(const Look& look) {
-  return look.share * look.opacity > 0.6 ? Fill::kSolid : Fill::kTint;
+Fill fill_of(const Style& style) {
+  return style.share * style.opacity > 0.6 ? Fill::kSolid : Fill::kTint;
 }
 
 /// What stands for a part in the legend; its layer is empty.
@@ -22,25 +22,25 @@ class LegendLayer {
  public:
   Layer operator()(const Surface& part) const {
     if (!part.tones.values.empty()) return ramp(part.label);
-    return Area{.label = part.label, .ink = part.look.ink, .fill = fill_of(part.look)};
+    return Area{.label = part.label, .ink = part.style.ink, .fill = fill_of(part.style)};
   }
   Layer operator()(const Tube& part) const {
     if (!part.tones.values.empty()) return ramp(part.label);
-    return Polyline{.label = part.label, .ink = part.look.ink, .width = 2.0};
+    return Polyline{.label = part.label, .ink = part.style.ink, .width = 2.0};
   }
   Layer operator()(const Rods& part) const {
     if (!part.tones.values.empty()) return ramp(part.label);
-    if (part.arrow) return Segments{.label = part.label, .ink = part.look.ink, .arrow = true};
-    const bool thin = part.look.share < 0.6;
+    if (part.arrow) return Segments{.label = part.label, .ink = part.style.ink, .arrow = true};
+    const bool thin = part.style.share < 0.6;
     return Area{.label = part.label,
-                .ink = part.look.ink,
+                .ink = part.style.ink,
                 .fill = thin ? Fill::kTint : Fill::kSolid,
                 .outlined = thin,
                 .width = 0.6};
   }
   Layer operator()(const Spheres& part) const {
     if (!part.tones.values.empty()) return ramp(part.label);
-    return Scatter{.label = part.label, .ink = part.look.ink, .size = 1.3};
+    return Scatter{.label = part.label, .ink = part.style.ink, .size = 1.3};
   }
   Layer operator()(const Field& part) const { return ramp(part.label); }
 

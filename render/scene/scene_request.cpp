@@ -21,7 +21,7 @@ Colour read_colour(const JsonCursor& json) {
   const char* end = given.data() + given.size();
   if (given.size() != 7 || given[0] != '#' ||
       std::from_chars(given.data() + 1, end, rgb, 16).ptr != end)
-    json.fail(in_quotes(given) + " is no colour #rrggbb");
+    json.fail(in_quotes(given) + " is not a colour #rrggbb");
   return colour(rgb);
 }
 

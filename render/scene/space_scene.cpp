@@ -18,7 +18,7 @@ namespace mapproof {
 namespace {
 
 constexpr double kSpaceAspect = 2.0;  // One view under the other.
-constexpr double kSeen = 0.035;  // A rod this long is seen, of the box.
+constexpr double kSeen = 0.035;       // A rod this long is seen, of the box.
 
 void require_usable(const SpaceRun& run) {
   if (!has_space_scene(run)) throw InvalidInput("space_scene: nothing that can be shown");
@@ -81,7 +81,7 @@ class SpaceScene {
  private:
   void add_truth() {
     scene_.parts.emplace_back(box_.edges());
-    Rods stalks{.radius = 0.0018 * box_.size(), .look = {.ink = Ink::kMuted, .share = 0.6}};
+    Rods stalks{.radius = 0.0018 * box_.size(), .style = {.ink = Ink::kMuted, .share = 0.6}};
     for (const Point3& p : as_points(run_.landmarks_m)) {
       stalks.from.emplace_back(p.x(), p.y(), box_.low.z());
       stalks.to.push_back(p);
@@ -91,7 +91,7 @@ class SpaceScene {
     scene_.parts.emplace_back(Spheres{.label = "true landmark",
                                       .at = as_points(run_.landmarks_m),
                                       .radius = 0.01 * box_.size(),
-                                      .look = {.ink = Ink::kSeries1}});
+                                      .style = {.ink = Ink::kSeries1}});
   }
 
   Tube path() const {
@@ -128,7 +128,7 @@ class SpaceScene {
       Spheres ends{.label = is_first ? "estimated landmark" : "",
                    .at = rods.to,
                    .radius = 0.007 * box_.size(),
-                   .look = {.ink = Ink::kSeries2}};
+                   .style = {.ink = Ink::kSeries2}};
       rods.label = is_first ? rods_label() : "";
       if (!rods.from.empty()) {
         add(std::move(rods));
@@ -144,7 +144,7 @@ class SpaceScene {
     const Point3 middle = 0.5 * (box_.low + box_.high);
     Tube tube{.label = is_first ? "estimated path" : "",
               .radius = 0.0016 * box_.size(),
-              .look = {.ink = Ink::kText, .share = 0.75}};
+              .style = {.ink = Ink::kText, .share = 0.75}};
     for (const Point3& p : as_points(estimate.positions_m))
       if ((p - middle).norm() < box_.size()) tube.points.push_back(p);
     const auto far = estimate.positions_m.rows() - std::ssize(tube.points);
@@ -164,7 +164,7 @@ class SpaceScene {
 
   /// To the estimates, which then stand where lengthened errors put them.
   Rods errors_of(const SpaceEstimate& estimate) const {
-    Rods rods{.radius = 0.0035 * box_.size(), .look = {.ink = Ink::kSeries2}};
+    Rods rods{.radius = 0.0035 * box_.size(), .style = {.ink = Ink::kSeries2}};
     for (Eigen::Index n = 0; n < run_.landmarks_m.rows(); ++n) {
       const Point3 truth = run_.landmarks_m.row(n).transpose();
       const Point3 error = estimate.landmarks_m.row(n).transpose() - truth;

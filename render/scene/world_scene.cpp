@@ -22,13 +22,13 @@ constexpr std::size_t kMostWorst = 3;
 void require_usable(const WorldSceneSpec& spec) {
   const World& world = spec.world;
   if (!has_room(world))
-    throw InvalidInput("world_scene: the room's side or the landmarks' diameter is no length");
+    throw InvalidInput("world_scene: the room's side or the landmarks' diameter is not a length");
   if (spec.map.estimate.rows() != world.landmarks_m.rows() ||
       spec.map.names.size() != static_cast<std::size_t>(world.landmarks_m.rows()))
     throw InvalidInput("world_scene: the map is not of the world's landmarks");
   for (const Eigen::Index row : spec.map.anchors)
     if (row < 0 || row >= world.landmarks_m.rows())
-      throw InvalidInput("world_scene: an anchor is no landmark");
+      throw InvalidInput("world_scene: an anchor is not a landmark");
 }
 
 class WorldScene {
@@ -58,7 +58,7 @@ class WorldScene {
     if (spec_.path_m.rows() > 1) scene_.parts.emplace_back(path());
     Rods arrows = found_.arrows;
     arrows.label = "true to estimated position";
-    arrows.look.ink = Ink::kText;
+    arrows.style.ink = Ink::kText;
     scene_.parts.emplace_back(std::move(arrows));
   }
 
@@ -68,7 +68,7 @@ class WorldScene {
       if (is_anchor(i) == anchors) rows.push_back(i);
     Rods rods = pillars(world_.landmarks_m, rows, pillar_radius_m(world_), landmark_height(side_));
     rods.label = anchors ? "anchor" : "landmark";
-    rods.look.ink = anchors ? Ink::kSeries2 : Ink::kSeries1;
+    rods.style.ink = anchors ? Ink::kSeries2 : Ink::kSeries1;
     if (rods.from.empty()) rods.label.clear();
     return rods;
   }
@@ -108,7 +108,7 @@ class WorldScene {
     labels.text.push_back(spec_.map.names[static_cast<std::size_t>(row)]);
   }
 
-  /// Places in `found_` of the largest errors of landmarks that are no anchors.
+  /// Places in `found_` of the largest errors of landmarks that are not anchors.
   std::vector<std::size_t> worst() const {
     std::vector<std::size_t> order(found_.drawn.size());
     std::iota(order.begin(), order.end(), 0);

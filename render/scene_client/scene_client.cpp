@@ -83,8 +83,8 @@ void SceneClient::start() {
     throw SceneError(
         "3-D figures are left out: this program was built without them (MAPPROOF_SCENES=OFF)");
   if (::access(program_.c_str(), X_OK) != 0)
-    throw SceneError(fmt::format("scenes cannot be drawn: {} is no program: {}", program_.string(),
-                                 std::strerror(errno)));
+    throw SceneError(fmt::format("scenes cannot be drawn: {} is not a program: {}",
+                                 program_.string(), std::strerror(errno)));
   std::array<int, 2> ends{};
   if (::socketpair(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0, ends.data()) != 0)
     throw SceneError(fmt::format("scenes cannot be drawn: no socket: {}", std::strerror(errno)));

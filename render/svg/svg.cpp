@@ -26,15 +26,20 @@ void append_path(std::string& out, const Outline& path, double scale) {
     const Point p = path.points[index];
     return std::pair{std::llround(p.x / scale), std::llround(p.y / scale)};
   };
-  for (const Verb verb : path.verbs) {
-    if (verb == Verb::kClose) {
+  for (const PathCommand command : path.commands) {
+    if (command == PathCommand::kClose) {
       out += 'z';
       x = start_x;
       y = start_y;
       continue;
     }
-    const std::size_t count = verb == Verb::kCubic ? 3 : verb == Verb::kQuad ? 2 : 1;
-    out += verb == Verb::kMove ? 'm' : verb == Verb::kLine ? 'l' : verb == Verb::kQuad ? 'q' : 'c';
+    const std::size_t count = command == PathCommand::kCubic  ? 3
+                              : command == PathCommand::kQuad ? 2
+                                                              : 1;
+    out += command == PathCommand::kMove   ? 'm'
+           : command == PathCommand::kLine ? 'l'
+           : command == PathCommand::kQuad ? 'q'
+                                           : 'c';
     for (std::size_t i = 0; i < count; ++i) {
       const auto [px, py] = point(next + i);
       number(px - x);
@@ -42,7 +47,7 @@ void append_path(std::string& out, const Outline& path, double scale) {
     }
     next += count;
     std::tie(x, y) = point(next - 1);
-    if (verb == Verb::kMove) std::tie(start_x, start_y) = std::pair{x, y};
+    if (command == PathCommand::kMove) std::tie(start_x, start_y) = std::pair{x, y};
   }
 }
 
@@ -114,7 +119,7 @@ class SvgWriter {
       const Shape& symbol = drawing_.symbols[i];
       const bool round = symbol.circle_radius > 0.0;
       out_ += fmt::format("<{} id=\"{}-s{}\"", round ? "circle" : "path", drawing_.id, i);
-      out_ += style(symbol);
+      out_ += paint_of(symbol);
       round ? attribute("r", symbol.circle_radius) : path_attribute(symbol.path);
       out_ += "/>\n";
     }
@@ -160,7 +165,7 @@ class SvgWriter {
     out_ += '"';
   }
 
-  static std::string style(const Shape& shape) {
+  static std::string paint_of(const Shape& shape) {
     std::string text = " fill=\"" + (shape.fill ? hex(*shape.fill) : "none") + '"';
     const auto number = [&text](std::string_view name, double value) {
       text += fmt::format(" {}=\"", name);
@@ -180,14 +185,14 @@ class SvgWriter {
     return text + '"';
   }
 
-  /// What neighbouring items share stands once, on a group around them: their look, or their mark.
+  /// What neighbouring items share stands once, on a group around them: their style, or their mark.
   void write_item(std::size_t index) {
     const Item& item = drawing_.items[index];
-    std::string look = fmt::format(" class=\"{}\"", name(item.role));
-    if (item.clipped) look += fmt::format(" clip-path=\"url(#{}-c{})\"", drawing_.id, item.panel);
-    if (const auto* shape = std::get_if<Shape>(&item.what)) look += style(*shape);
+    std::string style = fmt::format(" class=\"{}\"", name(item.role));
+    if (item.clipped) style += fmt::format(" clip-path=\"url(#{}-c{})\"", drawing_.id, item.panel);
+    if (const auto* shape = std::get_if<Shape>(&item.what)) style += paint_of(*shape);
     if (const auto* line = std::get_if<TextLine>(&item.what))
-      look += " fill=\"" + hex(line->colour) + '"';
+      style += " fill=\"" + hex(line->colour) + '"';
 
     const auto& items = drawing_.items;
     const bool continues = item.mark && item.mark == open_mark_;
@@ -195,8 +200,8 @@ class SvgWriter {
         item.mark && !continues && index + 1 < items.size() && items[index + 1].mark == item.mark;
     if (!continues) close_mark();
     if (starts) open_mark(*item.mark);
-    if (!open_mark_) open_group(look);
-    const std::string own = open_mark_ ? look : std::string();
+    if (!open_mark_) open_group(style);
+    const std::string own = open_mark_ ? style : std::string();
     std::visit([&](const auto& what) { write(what, item, own); }, item.what);
   }
 
@@ -208,11 +213,11 @@ class SvgWriter {
     open_mark_ = mark;
   }
 
-  void open_group(const std::string& look) {
-    if (look == open_group_) return;
+  void open_group(const std::string& style) {
+    if (style == open_group_) return;
     close_group();
-    out_ += "<g" + look + ">\n";
-    open_group_ = look;
+    out_ += "<g" + style + ">\n";
+    open_group_ = style;
   }
 
   void mark_attributes(std::size_t index) {

@@ -5,8 +5,8 @@
 
 namespace mapproof {
 
-/// Adds `text` fit for XML content and quoted attributes. What XML 1.0 forbids and what is no UTF-8
-/// becomes U+FFFD; white space other than blanks, invisible and direction-changing characters
+/// Adds `text` fit for XML content and quoted attributes. What XML 1.0 forbids and what is not
+/// UTF-8 becomes U+FFFD; white space other than blanks, invisible and direction-changing characters
 /// become references, so that the source shows them and a parser gives them back.
 void append_xml(std::string& out, std::string_view text);
 

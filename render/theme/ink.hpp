@@ -6,7 +6,7 @@ namespace mapproof {
 enum class Ink {
   kText,
   kMuted,    ///< Helps the eye; still at least 3:1 against the background.
-  kWarning,  ///< Text about something that went other than well.
+  kWarning,  ///< Text about a warning or a failure.
   kSeries1,
   kSeries2,
   kSeries3,

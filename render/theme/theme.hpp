@@ -8,7 +8,7 @@
 
 namespace mapproof {
 
-/// All that a figure's look depends on, the figure itself apart. Lengths are in points (1/72 in).
+/// All that a figure's style depends on, the figure itself apart. Lengths are in points (1/72 in).
 struct Theme {
   std::string name;
   double width_pt = 0.0;

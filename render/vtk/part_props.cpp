@@ -33,14 +33,14 @@ constexpr int kTubeSides = 12;
 constexpr double kAmbient = 0.42;  // White stays near white where no light falls.
 constexpr double kDiffuse = 0.58;
 
-Colour plain_colour(const Look& look, const SceneRequest& request) {
-  return mix(request.inks[static_cast<std::size_t>(look.ink)], request.background, look.share);
+Colour plain_colour(const Style& style, const SceneRequest& request) {
+  return mix(request.inks[static_cast<std::size_t>(style.ink)], request.background, style.share);
 }
 
 /// The colour of the i-th value; the plain colour where there is none.
-Colour toned_colour(const Look& look, const Tones& tones, std::size_t i,
+Colour toned_colour(const Style& style, const Tones& tones, std::size_t i,
                     const SceneRequest& request) {
-  if (tones.values.empty() || std::isnan(tones.values[i])) return plain_colour(look, request);
+  if (tones.values.empty() || std::isnan(tones.values[i])) return plain_colour(style, request);
   return viridis((tones.values[i] - tones.limits.low) / (tones.limits.high - tones.limits.low));
 }
 
@@ -74,15 +74,15 @@ class ColourList {
   vtkNew<vtkUnsignedCharArray> list_;
 };
 
-vtkSmartPointer<vtkActor> actor_of(vtkPolyDataMapper* mapper, const Look& look,
+vtkSmartPointer<vtkActor> actor_of(vtkPolyDataMapper* mapper, const Style& style,
                                    const SceneRequest& request) {
   auto actor = vtkSmartPointer<vtkActor>::New();
   actor->SetMapper(mapper);
-  const Colour colour = plain_colour(look, request);
+  const Colour colour = plain_colour(style, request);
   vtkProperty* property = actor->GetProperty();
   property->SetColor(colour.red / 255.0, colour.green / 255.0, colour.blue / 255.0);
-  property->SetOpacity(look.opacity);
-  property->SetLighting(look.lit);
+  property->SetOpacity(style.opacity);
+  property->SetLighting(style.lit);
   property->SetAmbient(kAmbient);
   property->SetDiffuse(kDiffuse);
   property->SetSpecular(0.0);
@@ -90,15 +90,15 @@ vtkSmartPointer<vtkActor> actor_of(vtkPolyDataMapper* mapper, const Look& look,
 }
 
 /// Points have the colours of `data`, if it has any.
-vtkSmartPointer<vtkActor> actor_of(vtkPolyData* data, const Look& look,
+vtkSmartPointer<vtkActor> actor_of(vtkPolyData* data, const Style& style,
                                    const SceneRequest& request) {
   vtkNew<vtkPolyDataMapper> mapper;
   mapper->SetInputData(data);
   mapper->SetScalarVisibility(data->GetPointData()->GetScalars() != nullptr);
-  return actor_of(mapper, look, request);
+  return actor_of(mapper, style, request);
 }
 
-Props mesh_props(const TriangleMesh& mesh, ColourList* colours, const Look& look,
+Props mesh_props(const TriangleMesh& mesh, ColourList* colours, const Style& style,
                  const SceneRequest& request) {
   if (mesh.triangles.empty()) return {};
   vtkNew<vtkPolyData> data;
@@ -109,21 +109,21 @@ Props mesh_props(const TriangleMesh& mesh, ColourList* colours, const Look& look
   for (const Point3& n : mesh.normals) normals->InsertNextTuple3(n.x(), n.y(), n.z());
   data->GetPointData()->SetNormals(normals);
   if (colours != nullptr) data->GetPointData()->SetScalars(colours->get());
-  return {actor_of(data, look, request)};
+  return {actor_of(data, style, request)};
 }
 
 /// One mesh of `count` solids, each in the colour of its value.
 template <typename AddOne>
-Props solid_props(std::size_t count, const Look& look, const Tones& tones,
+Props solid_props(std::size_t count, const Style& style, const Tones& tones,
                   const SceneRequest& request, AddOne add_one) {
   TriangleMesh mesh;
   ColourList colours;
   for (std::size_t i = 0; i < count; ++i) {
     const std::size_t before = mesh.points.size();
     add_one(mesh, i);
-    colours.add(toned_colour(look, tones, i, request), mesh.points.size() - before);
+    colours.add(toned_colour(style, tones, i, request), mesh.points.size() - before);
   }
-  return mesh_props(mesh, tones.values.empty() ? nullptr : &colours, look, request);
+  return mesh_props(mesh, tones.values.empty() ? nullptr : &colours, style, request);
 }
 
 Props part_props(const Surface& surface, const SceneRequest& request) {
@@ -133,10 +133,10 @@ Props part_props(const Surface& surface, const SceneRequest& request) {
   data->SetPolys(cells_of(surface.triangles));
   ColourList colours;
   for (std::size_t i = 0; i < surface.points.size(); ++i)
-    colours.add(toned_colour(surface.look, surface.tones, i, request));
+    colours.add(toned_colour(surface.style, surface.tones, i, request));
   if (!surface.tones.values.empty()) data->GetPointData()->SetScalars(colours.get());
   if (!surface.smooth) {
-    const auto actor = actor_of(data, surface.look, request);
+    const auto actor = actor_of(data, surface.style, request);
     actor->GetProperty()->SetInterpolationToFlat();
     return {actor};
   }
@@ -144,7 +144,7 @@ Props part_props(const Surface& surface, const SceneRequest& request) {
   normals->SetInputData(data);
   normals->SplittingOff();
   normals->Update();
-  return {actor_of(normals->GetOutput(), surface.look, request)};
+  return {actor_of(normals->GetOutput(), surface.style, request)};
 }
 
 Props part_props(const Tube& tube, const SceneRequest& request) {
@@ -153,7 +153,7 @@ Props part_props(const Tube& tube, const SceneRequest& request) {
   for (std::size_t i = 0; i < tube.points.size(); ++i) {
     if (!places.empty() && (tube.points[i] - places.back()).norm() < 1e-9 * tube.radius) continue;
     places.push_back(tube.points[i]);
-    colours.add(toned_colour(tube.look, tube.tones, i, request));
+    colours.add(toned_colour(tube.style, tube.tones, i, request));
   }
   if (places.size() < 2) return {};
   vtkNew<vtkPolyData> data;
@@ -169,11 +169,11 @@ Props part_props(const Tube& tube, const SceneRequest& request) {
   filter->SetNumberOfSides(kTubeSides);
   filter->CappingOn();
   filter->Update();
-  return {actor_of(filter->GetOutput(), tube.look, request)};
+  return {actor_of(filter->GetOutput(), tube.style, request)};
 }
 
 Props part_props(const Rods& rods, const SceneRequest& request) {
-  return solid_props(rods.from.size(), rods.look, rods.tones, request,
+  return solid_props(rods.from.size(), rods.style, rods.tones, request,
                      [&rods](TriangleMesh& mesh, std::size_t i) {
                        const auto add = rods.arrow ? add_arrow : add_rod;
                        add(mesh, rods.from[i], rods.to[i], rods.radius, kSides);
@@ -181,7 +181,7 @@ Props part_props(const Rods& rods, const SceneRequest& request) {
 }
 
 Props part_props(const Spheres& spheres, const SceneRequest& request) {
-  return solid_props(spheres.at.size(), spheres.look, spheres.tones, request,
+  return solid_props(spheres.at.size(), spheres.style, spheres.tones, request,
                      [&spheres](TriangleMesh& mesh, std::size_t i) {
                        add_sphere(mesh, spheres.at[i], spheres.radius, kSides);
                      });
@@ -237,7 +237,7 @@ Props part_props(const Field& field, const SceneRequest& request) {
   mapper->SetLookupTable(viridis_table(field.tones.limits));
   mapper->UseLookupTableScalarRangeOn();
   mapper->InterpolateScalarsBeforeMappingOn();
-  Props props = {actor_of(mapper, field.look, request)};
+  Props props = {actor_of(mapper, field.style, request)};
   if (!field.levels.empty()) props.push_back(contour_prop(field, surface, request));
   return props;
 }

@@ -5,10 +5,10 @@
 #include <string>
 #include <vector>
 
-#include "reports/diff/figure_diff.hpp"
-#include "reports/diff/picture_diff.hpp"
-#include "reports/diff/record_diff.hpp"
-#include "reports/diff/verdict.hpp"
+#include "reports/diff/figures/figure_diff.hpp"
+#include "reports/diff/images/picture_diff.hpp"
+#include "reports/diff/records/record_diff.hpp"
+#include "reports/diff/verdict/verdict.hpp"
 
 namespace mapproof {
 

@@ -5,9 +5,9 @@
 #include <string_view>
 #include <vector>
 
-#include "reports/diff/figure_diff.hpp"
-#include "reports/diff/picture_diff.hpp"
-#include "reports/diff/record_diff.hpp"
+#include "reports/diff/figures/figure_diff.hpp"
+#include "reports/diff/images/picture_diff.hpp"
+#include "reports/diff/records/record_diff.hpp"
 
 namespace mapproof {
 

@@ -11,10 +11,10 @@
 #include "core/base/files.hpp"
 #include "core/base/parallel.hpp"
 #include "core/base/words.hpp"
-#include "reports/diff/document_diff.hpp"
+#include "reports/diff/documents/document_diff.hpp"
 #include "reports/diff/item_diff.hpp"
 #include "reports/diff/item_files.hpp"
-#include "reports/diff/record_set.hpp"
+#include "reports/diff/records/record_set.hpp"
 #include "reports/diff/swapped_files.hpp"
 
 namespace mapproof {

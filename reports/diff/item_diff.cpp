@@ -9,8 +9,8 @@
 #include "core/base/errors.hpp"
 #include "core/base/words.hpp"
 #include "render/plot/figure_json.hpp"
-#include "reports/diff/pdf_diff.hpp"
-#include "reports/diff/scene_diff.hpp"
+#include "reports/diff/documents/pdf_diff.hpp"
+#include "reports/diff/figures/scene_diff.hpp"
 
 namespace mapproof {
 namespace {
@@ -108,7 +108,7 @@ std::vector<std::string> records_of(const Figure& a, const Figure& b) {
   return ids;
 }
 
-/// Pictures of a figure that varies follow from values that do: these are judged, not their looks.
+/// Pictures of a figure that varies follow from values that do: these are judged, not their styles.
 void leave_to_value(std::vector<PictureFile>& pictures) {
   for (PictureFile& file : pictures) {
     if (file.diff.state != PictureState::kDifferent) continue;

@@ -7,7 +7,7 @@
 
 #include "core/base/byte_source.hpp"
 #include "core/base/errors.hpp"
-#include "core/records/input_kind.hpp"
+#include "core/records/observations/input_kind.hpp"
 
 namespace mapproof {
 namespace {

@@ -5,7 +5,7 @@
 
 #include <fmt/format.h>
 
-#include "reports/diff/record_files.hpp"
+#include "reports/diff/records/record_files.hpp"
 
 namespace mapproof {
 namespace {
@@ -78,7 +78,7 @@ void name_swapped(std::vector<DiffItem>& items, std::span<const Verdict> allowed
   }
   for (auto& [item, text] : words) {
     Judgement& told = item->judgement;
-    // No renderer did it, and no other looks: the picture is another one.
+    // No renderer did it, and no other styles: the picture is another one.
     told.cause = told.verdict == Verdict::kRenderer ? text : told.cause + "; " + text;
     if (told.verdict != Verdict::kNew) told.verdict = heavier(told.verdict, Verdict::kChanged);
     told.visible = true;

@@ -59,7 +59,7 @@ std::map<std::string, MethodSeconds> log_seconds(const StudyTrend& trend, double
   return methods;
 }
 
-/// A limit that tonight is held against.
+/// A limit that tonight is compared with.
 struct Limit {
   double usual = 0.0;
   double most = 0.0;

@@ -68,7 +68,8 @@ class Database {
   /// Opens the file; only kCreate makes one that is not there. Waits up to ten seconds for another
   /// process that writes. A rollback journal is kept, not a write-ahead log: the store is then one
   /// file between two nights, on any file system, and a night is a single transaction.
-  /// @throws DamagedFile if it is no database or not a whole one; IoError if it cannot be opened;
+  /// @throws DamagedFile if it is not a database or not a whole one; IoError if it cannot be
+  /// opened;
   ///         std::bad_alloc, as all below do, if SQLite ran out of memory.
   Database(const std::filesystem::path& path, Access access);
   ~Database();

@@ -29,7 +29,7 @@ NightFile file_of(const NightFacts& facts, const std::vector<NightFinding>& find
   return {.facts = facts, .provenance = provenance_of(facts), .findings = findings};
 }
 
-/// Puts what made a night into its JSON as it was written that night; text that is no JSON stays
+/// Puts what made a night into its JSON as it was written that night; text that is not JSON stays
 /// text.
 void put_provenance(ordered_json& night, const std::string& text) {
   ordered_json parsed = ordered_json::parse(text, nullptr, false);

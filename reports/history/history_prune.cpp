@@ -37,7 +37,7 @@ PruneRule parse_prune_rule(const std::string& text) {
                                                 : number_of(all.substr(comma + 1), "every=");
   if (!last || !every)
     throw InvalidInput("\"" + printable(text) +
-                       "\" is no rule; there is last=N and last=N,every=K");
+                       "\" is not a rule; there is last=N and last=N,every=K");
   return {*last, *every};
 }
 

@@ -7,7 +7,7 @@
 
 #include "core/base/errors.hpp"
 #include "core/base/not_finite.hpp"
-#include "core/records/results_study_json.hpp"
+#include "core/records/studies/results_study_json.hpp"
 
 namespace mapproof {
 namespace {

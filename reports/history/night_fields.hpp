@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "core/json/fields.hpp"
-#include "core/records/results_study_fields.hpp"
+#include "core/records/studies/results_study_fields.hpp"
 #include "core/records/value_fields.hpp"
 #include "reports/history/night.hpp"
 

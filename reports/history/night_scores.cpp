@@ -10,13 +10,13 @@
 #include "core/base/sha256.hpp"
 #include "core/json/json_cursor.hpp"
 #include "core/json/json_text.hpp"
-#include "core/records/study_store.hpp"
+#include "core/records/studies/study_store.hpp"
 #include "core/topics/study_kind.hpp"
 
 namespace mapproof {
 namespace {
 
-/// The number of steps; 0 if the level is no whole number that is one.
+/// The number of steps; 0 if the level is not a whole number that is one.
 int step_of(const Level& level) {
   const auto* steps = std::get_if<double>(&level.value);
   const bool is_step = steps != nullptr && *steps >= 0.0 &&

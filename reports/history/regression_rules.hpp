@@ -34,7 +34,7 @@ struct ReferenceScores {
   Scores scores = {};
 };
 
-/// A study tonight, and what it is held against.
+/// A study tonight, and what it is compared with.
 struct StudyEvidence {
   StudyTrend trend = {};  ///< From the pinned night on, if there is one; tonight last.
   Scores tonight = {};

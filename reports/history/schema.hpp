@@ -9,15 +9,16 @@ namespace mapproof {
 /// The version of the tables that this program writes, in PRAGMA user_version.
 int schema_version();
 
-/// The version of a file; 0: it has no tables yet. @throws IoError if it is no store of ours or of
-/// a later version than this program's.
+/// The version of a file; 0: it has no tables yet. @throws IoError if it is not a store of ours or
+/// of a later version than this program's.
 int version_of(Database& database);
 
 /// What is wrong with its tables: it has none, of those of its version one is missing, or a column
 /// is; empty if nothing. @throws IoError as version_of() does.
 std::string damage_of_tables(Database& database);
 
-/// Makes the tables of a version (docs/file-formats.md lists them). For tests: one before the latest.
+/// Makes the tables of a version (docs/file-formats.md lists them). For tests: one before the
+/// latest.
 /// @throws IoError; InvalidInput unless 1 <= version <= schema_version().
 void make_tables(Database& database, int version);
 

@@ -12,7 +12,7 @@
 
 #include "core/base/words.hpp"
 #include "core/statistics/intervals.hpp"
-#include "render/figures/error_lines.hpp"
+#include "render/figures/curves/error_lines.hpp"
 #include "reports/history/shown_names.hpp"
 
 namespace mapproof {

@@ -9,7 +9,7 @@ namespace mapproof {
 /// The sign that stands for a missing value: an en dash.
 inline constexpr const char* kMissingText = "\u2013";
 
-/// `value` with `decimals` places and a true minus (U+2212); "–" if it is no finite number. Zero
+/// `value` with `decimals` places and a true minus (U+2212); "–" if it is not a finite number. Zero
 /// carries no sign. With an exponent beyond a million, and where six places or more show zeros
 /// alone of a value that is none.
 std::string format_number(double value, int decimals, bool with_sign = false);

@@ -17,7 +17,7 @@ bool is_id(const std::string& id) {
 class IdCheck {
  public:
   void add(const std::string& id) {
-    if (!is_id(id)) throw InvalidInput("report: \"" + printable(id) + "\" is no id");
+    if (!is_id(id)) throw InvalidInput("report: \"" + printable(id) + "\" is not an id");
     if (!seen_.insert(id).second) throw InvalidInput("report: the id \"" + id + "\" stands twice");
   }
 

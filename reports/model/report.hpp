@@ -61,7 +61,7 @@ struct TextCell {
   Emphasis emphasis = Emphasis::kPlain;
 };
 
-/// Shown as missing if the value is no finite number.
+/// Shown as missing if the value is not a finite number.
 struct NumberCell {
   double value = 0.0;
   int decimals = 3;
@@ -124,7 +124,7 @@ struct KeyValues {
   std::vector<Item> items;
 };
 
-/// What ended other than well, one item a kind.
+/// Warnings and failures, one item a kind.
 struct StatusList {
   struct Place {
     std::string record_id;

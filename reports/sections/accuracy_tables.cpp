@@ -177,7 +177,7 @@ Table spread_table(const SensorStudy& sensor, std::span<const SettingSummary> be
                    {"MOE", "%", free, "The smaller of MOE and 100 % less MOE."},
                    {"All", "", "Runs", ""},
                    {"Scored", "", "Runs", "Their map could be scored."},
-                   {"With status", "", "Runs", "Something went other than well."}};
+                   {"With status", "", "Runs", "A warning or a failure."}};
   const int decimals = mpe_decimals(best);
   for (const SettingSummary& s : best)
     table.rows.push_back(

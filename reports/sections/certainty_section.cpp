@@ -13,7 +13,7 @@
 #include "core/base/not_finite.hpp"
 #include "core/base/words.hpp"
 #include "core/statistics/intervals.hpp"
-#include "render/figures/map_ellipses.hpp"
+#include "render/figures/maps/map_ellipses.hpp"
 #include "reports/model/format.hpp"
 #include "reports/sections/wording.hpp"
 
@@ -71,9 +71,9 @@ Section certainty_section(const MapRecord& record, const MapCertainty& certainty
         format_number(median(axes), 3), record.frame == Frame::kTruth ? " m" : "",
         format_number(std::ranges::max(axes), 3), record.frame == Frame::kTruth ? " m" : "")));
   if (record.frame == Frame::kSimilarity)
-    section.blocks.emplace_back(
-        plain("The map has no anchors: maps of other steps were laid on it by the similarity that "
-              "fits best, and lengths are in its own unit."));
+    section.blocks.emplace_back(plain(
+        "The map has no anchors: maps of other steps were aligned to it by the similarity that "
+        "fits best, and lengths are in its own unit."));
   section.blocks.emplace_back(ellipse_table(record, ellipses));
   return section;
 }

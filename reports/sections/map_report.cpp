@@ -148,8 +148,8 @@ Section summary(const MapReportInput& input) {
       findings.items.push_back(std::move(worst));
   if (record.frame == Frame::kSimilarity) findings.items.push_back(plain(shape_finding(record)));
   if (!record.statuses.empty())
-    findings.items.push_back(plain(counted(std::ssize(record.statuses), "thing") +
-                                   " went other than well, listed below."));
+    findings.items.push_back(
+        plain(counted(std::ssize(record.statuses), "thing") + " need attention, listed below."));
   section.blocks.emplace_back(std::move(findings));
   return section;
 }
@@ -173,7 +173,7 @@ Section input_section(const MapReportInput& input) {
 }
 
 Section statuses(const MapRecord& record) {
-  Section section{"statuses", "What went other than well", {}};
+  Section section{"statuses", "Warnings and failures", {}};
   if (record.statuses.empty()) {
     section.blocks.emplace_back(plain("Nothing: the solve ended well."));
     return section;
@@ -206,7 +206,7 @@ void require_sizes(const MapRecord& record) {
       (record.truth_m && record.truth_m->rows() != rows))
     throw InvalidInput("map_report: names, estimate and truth must be of one length");
   for (const Index anchor : record.anchors)
-    if (anchor < 0 || anchor >= rows) throw InvalidInput("map_report: an anchor is no landmark");
+    if (anchor < 0 || anchor >= rows) throw InvalidInput("map_report: an anchor is not a landmark");
 }
 
 }  // namespace

@@ -27,7 +27,7 @@ struct MethodRanks {
 
 MethodRanks method_ranks(const Study& study, const SensorStudy& sensor, double alpha = 0.05);
 
-/// "One method has a lower MPE than another", held against the runs.
+/// "One method has a lower MPE than another", compared with the runs.
 struct OrderingClaim {
   Method less = Method::kLpca;
   Method more = Method::kLpca;

@@ -115,7 +115,7 @@ Table durations_table(const Durations& durations) {
           NumberCell{1e3 * duration.longest, 2}, NumberCell{duration.seconds, 2}},
          "",
          false});
-  table.notes.push_back("Seconds vary from run to run and are no part of any comparison.");
+  table.notes.push_back("Seconds vary from run to run and are not part of any comparison.");
   return table;
 }
 

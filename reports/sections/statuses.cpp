@@ -72,7 +72,7 @@ Section statuses_section(const Study& study) {
   const StudyCounts counts = count(study);
   Section section;
   section.id = "statuses";
-  section.title = "What went other than well";
+  section.title = "Warnings and failures";
   StatusList list = status_list(study);
   if (list.items.empty() && counts.unscored == 0) {
     section.blocks.emplace_back(

@@ -26,8 +26,8 @@ void number(std::vector<Figure>& figures) {
 StudyFigures study_figures(const Study& study, std::span<const Timing> timings,
                            const StudyReader& read) {
   FigureSource source(study, read);
-  std::vector<Figure> looks = idea_figures(source);
-  append(looks, measurement_figures(source));
+  std::vector<Figure> scans = idea_figures(source);
+  append(scans, measurement_figures(source));
 
   StudyFigures figures;
   const auto add = [&](const char* id, const char* title, const char* words,
@@ -36,7 +36,7 @@ StudyFigures study_figures(const Study& study, std::span<const Timing> timings,
     if (!group.empty()) figures.groups.push_back({id, title, words, std::move(group)});
   };
   add("observations", "From observations to a map",
-      "Drawn from actual runs: no pose of the robot enters a map.", std::move(looks));
+      "Drawn from actual runs: no pose of the robot enters a map.", std::move(scans));
   add("curves", "Error over observations",
       "Mean over runs; bands are 95 % intervals of the mean, layouts being the units. Each method "
       "stands with its best parameter at the last checkpoint.",
@@ -54,7 +54,7 @@ StudyFigures study_figures(const Study& study, std::span<const Timing> timings,
     figures.groups.push_back(
         {"scenes",
          "In space",
-         "What a look takes in; the room with the map of least mean MPE, the median run; where its "
+         "What a scan takes in; the room with the map of least mean MPE, the median run; where its "
          "landmarks lie in the space of their observations; how the map forms; and the error of "
          "each method over the floor. Drawn by VTK without a screen.",
          {},

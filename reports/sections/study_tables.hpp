@@ -31,7 +31,7 @@ Table paper_parameter_table(const SensorStudy& sensor, std::span<const SettingSu
 /// The parameter chosen on one half of the runs, the error from the other.
 Table half_table(const SensorStudy& sensor, const HalfChoices& choices);
 
-/// What the means hide: medians, the anchors' share in the error, runs that went other than well.
+/// What the means hide: medians, the anchors' share in the error, runs with warnings or failures.
 Table spread_table(const SensorStudy& sensor, std::span<const SettingSummary> best);
 
 Table parameter_table(const SensorStudy& sensor, std::span<const SettingSummary> all);
@@ -39,7 +39,7 @@ Table parameter_table(const SensorStudy& sensor, std::span<const SettingSummary>
 /// Mean ranks over layouts, Friedman's test and what Nemenyi's tells apart.
 Table rank_table(const SensorStudy& sensor, const MethodRanks& ranks);
 
-/// The paper's orderings, each held against the runs.
+/// The paper's orderings, each compared with the runs.
 Table ordering_table(const SensorStudy& sensor, std::span<const OrderingClaim> claims);
 
 }  // namespace mapproof

@@ -11,7 +11,7 @@ target_link_libraries(reference_blas INTERFACE -Wl,--push-state,--no-as-needed
   ${REFERENCE_BLAS_LIBRARY} ${REFERENCE_LAPACK_LIBRARY} -Wl,--pop-state)
 target_link_options(reference_blas INTERFACE -Wl,--disable-new-dtags)
 
-# Ceres links the alternatives too; the functions that it calls itself are in CSDP::sdp.
+# Ceres links the alternatives too: of LAPACK it gets the static library that CSDP::sdp has.
 foreach(target IN ITEMS Ceres::ceres BLAS::BLAS LAPACK::LAPACK)
   if(TARGET ${target})
     get_target_property(libraries ${target} INTERFACE_LINK_LIBRARIES)
@@ -19,3 +19,5 @@ foreach(target IN ITEMS Ceres::ceres BLAS::BLAS LAPACK::LAPACK)
     set_target_properties(${target} PROPERTIES INTERFACE_LINK_LIBRARIES "${libraries}")
   endif()
 endforeach()
+set_property(TARGET Ceres::ceres APPEND PROPERTY INTERFACE_LINK_LIBRARIES
+  ${CSDP_LAPACK_LIBRARY} ${CSDP_BLAS_LIBRARY} ${CSDP_FORTRAN_LIBRARY})

@@ -29,7 +29,7 @@ void expect_refused(const TemporaryFolder& folder, const std::vector<std::string
   expect_same(before, contents(folder.path()));
 }
 
-TEST(ApproveVerb, RefusesFoldersOfWhichOneIsTheOtherOrLiesInIt) {
+TEST(ApproveCommand, RefusesFoldersOfWhichOneIsTheOtherOrLiesInIt) {
   const TwoStudies two;
   const std::string link = two.folder / "link", deep = two.before + "/figures/deep";
   fs::create_directory_symlink(two.before, link);
@@ -48,7 +48,7 @@ TEST(ApproveVerb, RefusesFoldersOfWhichOneIsTheOtherOrLiesInIt) {
   expect_refused(two.folder, {file, link + "/figures/map-usual.png"}, words);
 }
 
-TEST(ApproveVerb, RefusesACurrentThatHoldsNothing) {
+TEST(ApproveCommand, RefusesACurrentThatHoldsNothing) {
   const TwoStudies two;
   const std::string empty = two.folder / "empty", strange = two.folder / "strange";
   fs::create_directory(empty);
@@ -61,7 +61,7 @@ TEST(ApproveVerb, RefusesACurrentThatHoldsNothing) {
   expect_refused(two.folder, {two.before, two.folder / "nowhere", "--all"}, "is not there");
 }
 
-TEST(ApproveVerb, RefusesACurrentOfAnotherKind) {
+TEST(ApproveCommand, RefusesACurrentOfAnotherKind) {
   const TwoStudies two;
   const fs::path ranges = two.folder / "ranges", pictures = two.folder / "pictures",
                  several = two.folder / "several", map = two.folder / "map";
@@ -86,7 +86,7 @@ TEST(ApproveVerb, RefusesACurrentOfAnotherKind) {
                  "holds png, CURRENT");
 }
 
-TEST(ApproveVerb, RefusesACurrentThatCannotBeRead) {
+TEST(ApproveCommand, RefusesACurrentThatCannotBeRead) {
   const TwoStudies two;
   const std::string study = two.after + "/study.json";
   for (const char* text : {"{", ""}) {
@@ -100,7 +100,7 @@ TEST(ApproveVerb, RefusesACurrentThatCannotBeRead) {
   expect_refused(two.folder, {picture, pipe}, "CURRENT " + pipe + " is not a file");
 }
 
-TEST(ApproveVerb, AsksBeforeMoreThanHalfOfABaselineGoes) {
+TEST(ApproveCommand, AsksBeforeMoreThanHalfOfABaselineGoes) {
   const TemporaryFolder folder;
   const std::string baseline = folder / "baseline", current = folder / "current";
   const std::string picture = read_file(fs::path(kPictures) / "map-usual.png");
@@ -118,7 +118,7 @@ TEST(ApproveVerb, AsksBeforeMoreThanHalfOfABaselineGoes) {
   EXPECT_EQ(contents(baseline).size(), 1U);
 }
 
-TEST(ApproveVerb, MakesABaselineThatIsNotThereAndNoneThatIsRefused) {
+TEST(ApproveCommand, MakesABaselineThatIsNotThereAndNoneThatIsRefused) {
   const TwoStudies two;
   const std::string baseline = two.folder / "deep/new";
   expect_refused(two.folder, {baseline, two.after, "no-such-figure"}, "no-such-figure");
@@ -127,7 +127,7 @@ TEST(ApproveVerb, MakesABaselineThatIsNotThereAndNoneThatIsRefused) {
   expect_same(contents(two.after), contents(baseline));
 }
 
-TEST(ApproveVerb, KeepsModesLinksAndFilesOfOthers) {
+TEST(ApproveCommand, KeepsModesLinksAndFilesOfOthers) {
   const TwoStudies two;
   two.change_picture();
   const fs::path before = two.before, changed = before / "figures/map-usual.png";
@@ -162,7 +162,7 @@ TEST(ApproveVerb, KeepsModesLinksAndFilesOfOthers) {
     }
 }
 
-TEST(ApproveVerb, ReplacesABaselineBehindALinkAndWritesBehindNoneWithinIt) {
+TEST(ApproveCommand, ReplacesABaselineBehindALinkAndWritesBehindNoneWithinIt) {
   const TwoStudies two;
   two.change_picture();
   const std::string link = two.folder / "link";
@@ -180,7 +180,7 @@ TEST(ApproveVerb, ReplacesABaselineBehindALinkAndWritesBehindNoneWithinIt) {
                  "figures: is not a folder of its own");
 }
 
-TEST(ApproveVerb, RefusesABaselineThatMayNotBeChangedOrIsWorkedIn) {
+TEST(ApproveCommand, RefusesABaselineThatMayNotBeChangedOrIsWorkedIn) {
   const TwoStudies two;
   two.change_picture();
   const std::string script = "cd \"$1\" && exec \"$0\" approve . \"$2\" --all";
@@ -261,17 +261,17 @@ int kill_at_every_step(const Sides& sides, const std::string& more) {
   return gone;
 }
 
-TEST(ApproveVerb, KilledAtAnyStepLeavesTheOldBaselineOrTheNewOneWhole) {
+TEST(ApproveCommand, KilledAtAnyStepLeavesTheOldBaselineOrTheNewOneWhole) {
   const Sides sides;
   EXPECT_EQ(kill_at_every_step(sides, ""), 0);
 }
 
-TEST(ApproveVerb, WithoutAnExchangeOfFoldersTheNextRunTakesTheBaselineBack) {
+TEST(ApproveCommand, WithoutAnExchangeOfFoldersTheNextRunTakesTheBaselineBack) {
   const Sides sides;
   EXPECT_GT(kill_at_every_step(sides, ",exchange:1-:fail"), 0);
 }
 
-TEST(ApproveVerb, ThatFailsAtAnyStepLeavesTheOldBaselineOrTheNewOneWhole) {
+TEST(ApproveCommand, ThatFailsAtAnyStepLeavesTheOldBaselineOrTheNewOneWhole) {
   const Sides sides;
   for (long step = 1, steps = 2; step <= steps; ++step) {
     SCOPED_TRACE(step);
@@ -288,7 +288,7 @@ TEST(ApproveVerb, ThatFailsAtAnyStepLeavesTheOldBaselineOrTheNewOneWhole) {
   }
 }
 
-TEST(ApproveVerb, WithoutHardLinksCopiesFilesWholeOrLeavesTheOldBaseline) {
+TEST(ApproveCommand, WithoutHardLinksCopiesFilesWholeOrLeavesTheOldBaseline) {
   const Sides sides;
   write_file(fs::path(sides.baseline) / "notes/large", std::string(400'000, 'x'));
   const Contents before = contents(sides.baseline);
@@ -302,7 +302,7 @@ TEST(ApproveVerb, WithoutHardLinksCopiesFilesWholeOrLeavesTheOldBaseline) {
   EXPECT_EQ(read_file(fs::path(sides.baseline) / "notes/large"), std::string(400'000, 'x'));
 }
 
-TEST(ApproveVerb, TakesBackABaselineThatWasLeftUnderAnotherName) {
+TEST(ApproveCommand, TakesBackABaselineThatWasLeftUnderAnotherName) {
   const Sides sides;
   fs::rename(sides.baseline, sides.folder / ".baseline.mapproof-old");
   const std::string notes = sides.folder / ".baseline.mapproof-notes";

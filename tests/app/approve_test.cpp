@@ -7,7 +7,7 @@
 namespace mapproof::test {
 namespace {
 
-TEST(ApproveVerb, TakesWhatIsNamedAndNothingElse) {
+TEST(ApproveCommand, TakesWhatIsNamedAndNothingElse) {
   const TwoStudies two;
   two.change_picture();
   fs::remove(two.after + "/figures/pair-usual.png");
@@ -22,7 +22,7 @@ TEST(ApproveVerb, TakesWhatIsNamedAndNothingElse) {
   EXPECT_EQ(mapproof({"diff", two.before, two.after}).exit_code, 0);
 }
 
-TEST(ApproveVerb, TakesAFileOfApprovals) {
+TEST(ApproveCommand, TakesAFileOfApprovals) {
   const TwoStudies two;
   two.change_picture();
   const fs::path approvals = two.folder.file(
@@ -40,7 +40,7 @@ TEST(ApproveVerb, TakesAFileOfApprovals) {
   EXPECT_NE(outcome.error.find("/ids: expected at least 1"), std::string::npos) << outcome.error;
 }
 
-TEST(ApproveVerb, NeverTakesWhatCannotBeRead) {
+TEST(ApproveCommand, NeverTakesWhatCannotBeRead) {
   const TwoStudies two;
   fs::resize_file(two.after + "/figures/map-usual.png", 100);
   const std::string before = read_file(two.before + "/figures/map-usual.png");
@@ -48,7 +48,7 @@ TEST(ApproveVerb, NeverTakesWhatCannotBeRead) {
   EXPECT_EQ(read_file(two.before + "/figures/map-usual.png"), before);
 }
 
-TEST(ApproveVerb, TakesAllThatCanBeTakenAndNamesTheRest) {
+TEST(ApproveCommand, TakesAllThatCanBeTakenAndNamesTheRest) {
   const TwoStudies two;
   two.change_score();
   fs::resize_file(two.after + "/figures/map-usual.png", 100);
@@ -63,7 +63,7 @@ TEST(ApproveVerb, TakesAllThatCanBeTakenAndNamesTheRest) {
             read_file(two.after + "/runs/layout-1-pose-1.json"));
 }
 
-TEST(ApproveVerb, TakesAFolderInAFilesPlaceForNoAbsence) {
+TEST(ApproveCommand, TakesAFolderInAFilesPlaceForNoAbsence) {
   for (const bool is_current : {true, false})
     for (const std::string name : {"figures/map-usual.png", "runs/layout-1-pose-1.json"}) {
       SCOPED_TRACE(name);
@@ -83,7 +83,7 @@ TEST(ApproveVerb, TakesAFolderInAFilesPlaceForNoAbsence) {
     }
 }
 
-TEST(ApproveVerb, NeverTakesRecordsThatCannotBeRead) {
+TEST(ApproveCommand, NeverTakesRecordsThatCannotBeRead) {
   const TwoStudies two;
   fs::resize_file(two.after + "/runs/layout-1-pose-1.json", 100);
   const std::string before = read_file(two.before + "/runs/layout-1-pose-1.json");
@@ -92,7 +92,7 @@ TEST(ApproveVerb, NeverTakesRecordsThatCannotBeRead) {
   EXPECT_EQ(read_file(two.before + "/runs/layout-1-pose-1.json"), before);
 }
 
-TEST(ApproveVerb, KeepsPicturesOfAnotherRendererBesideTheOthers) {
+TEST(ApproveCommand, KeepsPicturesOfAnotherRendererBesideTheOthers) {
   const TwoStudies two;
   two.change_picture();
   EXPECT_EQ(mapproof({"approve", two.before, two.after, "map-usual", "--key", "../x"}).exit_code,
@@ -110,7 +110,7 @@ TEST(ApproveVerb, KeepsPicturesOfAnotherRendererBesideTheOthers) {
   EXPECT_FALSE(fs::exists(keyed)) << "it is of the picture that was replaced";
 }
 
-TEST(ApproveVerb, MakesTheTableOfResultsAgainForRecordsThatItTakes) {
+TEST(ApproveCommand, MakesTheTableOfResultsAgainForRecordsThatItTakes) {
   const TemporaryFolder folder;
   const std::string experiment = std::string(MAPPROOF_TEST_DATA) + "/experiments/small.json";
   const std::string before = folder / "before", after = folder / "after";
@@ -135,7 +135,7 @@ TEST(ApproveVerb, MakesTheTableOfResultsAgainForRecordsThatItTakes) {
   EXPECT_EQ(mapproof({"validate", before}).exit_code, 1) << "the table contradicts its records";
 }
 
-TEST(CheckVerb, FailsWithoutABaselineAndKeepsTheCandidate) {
+TEST(CheckCommand, FailsWithoutABaselineAndKeepsTheCandidate) {
   const TemporaryFolder folder;
   const std::string experiment = std::string(MAPPROOF_TEST_DATA) + "/experiments/small.json";
   const std::string baseline = folder / "baseline", out = folder / "out";
@@ -159,7 +159,7 @@ TEST(CheckVerb, FailsWithoutABaselineAndKeepsTheCandidate) {
   EXPECT_NE(other.out.find("\u2192 77: other worlds"), std::string::npos) << other.out;
 }
 
-TEST(CheckVerb, WritesWhatIsAskedForWithoutABaseline) {
+TEST(CheckCommand, WritesWhatIsAskedForWithoutABaseline) {
   const TemporaryFolder folder;
   const std::string experiment = std::string(MAPPROOF_TEST_DATA) + "/experiments/small.json";
   const std::string diff = folder / "diff";
@@ -176,7 +176,7 @@ TEST(CheckVerb, WritesWhatIsAskedForWithoutABaseline) {
   EXPECT_FALSE(fs::exists(folder / "none"));
 }
 
-TEST(CheckVerb, NeverWritesTheCandidateOverTheBaseline) {
+TEST(CheckCommand, NeverWritesTheCandidateOverTheBaseline) {
   const TwoStudies two;
   const std::string experiment = std::string(MAPPROOF_TEST_DATA) + "/experiments/small.json";
   fs::create_directory_symlink(two.before, two.folder / "link");
@@ -190,7 +190,7 @@ TEST(CheckVerb, NeverWritesTheCandidateOverTheBaseline) {
   }
 }
 
-TEST(CheckVerb, PassesAgainstAStudyOfRecordsAlone) {
+TEST(CheckCommand, PassesAgainstAStudyOfRecordsAlone) {
   const TemporaryFolder folder;
   const std::string experiment = std::string(MAPPROOF_TEST_DATA) + "/experiments/small.json";
   const std::string baseline = folder / "baseline", out = folder / "out";

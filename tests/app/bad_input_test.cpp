@@ -33,8 +33,8 @@ class BadMapInput : public ::testing::TestWithParam<BadMap> {};
 TEST_P(BadMapInput, IsOneClearLineWithItsPlaceAndNothingWritten) {
   const TemporaryFolder folder;
   std::vector<std::string> arguments = {
-      "map",       folder.file("seen.csv", GetParam().observations), "--kind", "bearing",
-      "--anchors", folder.file("anchors.csv", GetParam().anchors),   "--out",  folder / "map"};
+      "map",       folder.file("seen.csv", GetParam().observations), "--sensor", "bearing",
+      "--anchors", folder.file("anchors.csv", GetParam().anchors),   "--out",    folder / "map"};
   arguments.insert(arguments.end(), GetParam().more.begin(), GetParam().more.end());
   const Outcome outcome = mapproof(arguments);
   EXPECT_EQ(outcome.exit_code, 2) << outcome.error;
@@ -127,7 +127,7 @@ INSTANTIATE_TEST_SUITE_P(
 TEST(BadInput, VisibilityThatIsAllZeroNamesItsLine) {
   const TemporaryFolder folder;
   const Outcome outcome = mapproof({"map", folder.file("seen.csv", "a,1,0,1\nb,1,1,0\nc,0,0,0\n"),
-                                    "--kind", "visibility", "--out", folder / "map"});
+                                    "--sensor", "visibility", "--out", folder / "map"});
   EXPECT_EQ(outcome.exit_code, 2);
   EXPECT_NE(outcome.error.find("seen.csv: line 3: landmark \"c\" is never observed (no 1"),
             std::string::npos)
@@ -231,9 +231,9 @@ TEST(BadInput, ARealSetThatIsBrokenIsToldBeforeAnythingIsMade) {
 TEST(BadInput, AFolderThatIsNoStudyIsNamed) {
   const TemporaryFolder folder;
   folder.file("study/study.json", "{}");
-  for (const char* verb : {"render", "report"}) {
-    EXPECT_EQ(mapproof({verb, folder / "none"}).exit_code, 2);
-    const Outcome outcome = mapproof({verb, folder / "study"});
+  for (const char* command : {"render", "report"}) {
+    EXPECT_EQ(mapproof({command, folder / "none"}).exit_code, 2);
+    const Outcome outcome = mapproof({command, folder / "study"});
     EXPECT_EQ(outcome.exit_code, 2);
     EXPECT_NE(outcome.error.find("study.json"), std::string::npos) << outcome.error;
   }

@@ -7,42 +7,42 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
-#include "tests/app/own_logs.hpp"
+#include "tests/app/range_logs.hpp"
 #include "tests/support/program.hpp"
 
 namespace mapproof::test {
 namespace {
 
 /// As the help lists them.
-std::vector<std::string> all_verbs() {
+std::vector<std::string> all_commands() {
   std::istringstream help(mapproof({"--help"}).out);
-  std::vector<std::string> verbs;
+  std::vector<std::string> commands;
   std::string line;
   while (std::getline(help, line) && line != "Subcommands:") {
   }
   while (std::getline(help, line) && line.starts_with("  ")) {
-    const std::string verb = line.substr(2, line.find(' ', 2) - 2);
-    if (!verb.empty()) verbs.push_back(verb);
+    const std::string command = line.substr(2, line.find(' ', 2) - 2);
+    if (!command.empty()) commands.push_back(command);
   }
-  std::ranges::sort(verbs);
-  return verbs;
+  std::ranges::sort(commands);
+  return commands;
 }
 
-TEST(CommandLine, HelpShowsEveryVerbAndItsExamplesAndExitCodes) {
+TEST(CommandLine, HelpShowsEveryCommandAndItsExamplesAndExitCodes) {
   const Outcome help = mapproof({"--help"});
   EXPECT_EQ(help.exit_code, 0);
-  const std::vector<std::string> verbs = all_verbs();
-  EXPECT_GE(verbs.size(), 13U) << help.out;
-  for (const char* verb : {"check", "history", "map", "nightly", "reproduce", "slam"})
-    EXPECT_TRUE(std::ranges::binary_search(verbs, verb)) << verb;
-  for (const std::string& verb : verbs) {
-    EXPECT_NE(help.out.find("\n  " + verb), std::string::npos) << verb;
-    const Outcome own = mapproof({verb, "--help"});
-    EXPECT_EQ(mapproof({"help", verb}).out, own.out) << verb;
+  const std::vector<std::string> commands = all_commands();
+  EXPECT_GE(commands.size(), 13U) << help.out;
+  for (const char* command : {"check", "history", "map", "nightly", "reproduce", "slam"})
+    EXPECT_TRUE(std::ranges::binary_search(commands, command)) << command;
+  for (const std::string& command : commands) {
+    EXPECT_NE(help.out.find("\n  " + command), std::string::npos) << command;
+    const Outcome own = mapproof({command, "--help"});
+    EXPECT_EQ(mapproof({"help", command}).out, own.out) << command;
     EXPECT_EQ(own.exit_code, 0);
     for (const char* part :
          {"Example", "mapproof ", "Exit codes", "--json", "--quiet", "--verbose"})
-      EXPECT_NE(own.out.find(part), std::string::npos) << verb << " " << part;
+      EXPECT_NE(own.out.find(part), std::string::npos) << command << " " << part;
   }
 }
 
@@ -78,7 +78,7 @@ TEST(CommandLine, WrongUsageIsTwoAndOneClearLine) {
   }
 }
 
-TEST(CommandLine, JsonIsOneObjectOnStandardOutputForEveryVerb) {
+TEST(CommandLine, JsonIsOneObjectOnStandardOutputForEveryCommand) {
   const TemporaryFolder folder;
   const std::string study = folder / "study";
   const std::string data = MAPPROOF_TEST_DATA;
@@ -99,7 +99,7 @@ TEST(CommandLine, JsonIsOneObjectOnStandardOutputForEveryVerb) {
       {"history", folder / "nights", "--verify"},
       {"history", folder / "nights", "--prune", "last=3"},
   };
-  write_log(own_log(), folder / "log");
+  write_log(drive_log(), folder / "log");
   std::set<std::string> called = {"diff", "check"};  // Their --json names a file.
   for (std::vector<std::string> call : calls) {
     called.insert(call[0]);
@@ -118,9 +118,9 @@ TEST(CommandLine, JsonIsOneObjectOnStandardOutputForEveryVerb) {
     EXPECT_TRUE(said.empty() || said.starts_with("warning: ")) << call.front() << said;
     std::filesystem::remove_all(folder / "baseline");
   }
-  const std::vector<std::string> verbs = all_verbs();
-  EXPECT_EQ(std::vector<std::string>(called.begin(), called.end()), verbs)
-      << "a verb without a call here";
+  const std::vector<std::string> commands = all_commands();
+  EXPECT_EQ(std::vector<std::string>(called.begin(), called.end()), commands)
+      << "a command without a call here";
 }
 
 TEST(CommandLine, JsonOfADiffIsAFileOfItsOwnFormAsHelpSays) {
@@ -209,7 +209,7 @@ TEST(CommandLine, ASeedThatIsNoneIsRefusedNotWrappedRound) {
   EXPECT_FALSE(std::filesystem::exists(folder / "study"));
 }
 
-TEST(CommandLine, AMisspeltVerbIsMetWithTheOneMeant) {
+TEST(CommandLine, AMisspeltCommandIsMetWithTheOneMeant) {
   EXPECT_NE(mapproof({"reprodcue"}).error.find("did you mean \"reproduce\"?"), std::string::npos);
 }
 

@@ -15,14 +15,14 @@ namespace {
 
 using nlohmann::json;
 
-TEST(DiffVerb, PassesAStudyAndItsCopy) {
+TEST(DiffCommand, PassesAStudyAndItsCopy) {
   const TwoStudies two;
   const Outcome outcome = mapproof({"diff", two.before, two.after});
   EXPECT_EQ(outcome.exit_code, 0) << outcome.out << outcome.error;
   EXPECT_NE(outcome.out.find("passes: 4 identical"), std::string::npos) << outcome.out;
 }
 
-TEST(DiffVerb, FailsWhatDiffersUnlessItIsAllowed) {
+TEST(DiffCommand, FailsWhatDiffersUnlessItIsAllowed) {
   const TwoStudies two;
   two.change_picture();
   two.change_score();
@@ -35,7 +35,7 @@ TEST(DiffVerb, FailsWhatDiffersUnlessItIsAllowed) {
   EXPECT_EQ(mapproof({"diff", two.before, two.after, "--allow", "changed,worse"}).exit_code, 0);
 }
 
-TEST(DiffVerb, QuietTellsOfWhatDoesNotPassAlone) {
+TEST(DiffCommand, QuietTellsOfWhatDoesNotPassAlone) {
   const TwoStudies two;
   // Where ctest runs it, its measurements are printed all the same.
   EXPECT_EQ(mapproof({"diff", two.before, two.after, "--quiet"}).out.find("passes"),
@@ -46,7 +46,7 @@ TEST(DiffVerb, QuietTellsOfWhatDoesNotPassAlone) {
   EXPECT_NE(outcome.out.find("does not pass"), std::string::npos) << outcome.out;
 }
 
-TEST(DiffVerb, WritesWhatIsAskedFor) {
+TEST(DiffCommand, WritesWhatIsAskedFor) {
   const TwoStudies two;
   two.change_picture();
   const std::string out = two.folder / "diff";
@@ -63,7 +63,7 @@ TEST(DiffVerb, WritesWhatIsAskedFor) {
   EXPECT_EQ(json::parse(printed.out), found);
 }
 
-TEST(DiffVerb, WritesOneOfItsOutputsToStandardOutput) {
+TEST(DiffCommand, WritesOneOfItsOutputsToStandardOutput) {
   const TwoStudies two;
   two.change_picture();
   for (const auto& [option, begin] : {std::pair{"--junit", "<?xml"},
@@ -77,7 +77,7 @@ TEST(DiffVerb, WritesOneOfItsOutputsToStandardOutput) {
   EXPECT_EQ(mapproof({"diff", two.before, two.after, "--json", "-", "--junit", "-"}).exit_code, 2);
 }
 
-TEST(DiffVerb, NeverReplacesWhatItCompares) {
+TEST(DiffCommand, NeverReplacesWhatItCompares) {
   const TwoStudies two;
   const auto before = contents(two.before);
   fs::create_directory_symlink(two.before, two.folder / "link");
@@ -105,7 +105,7 @@ TEST(DiffVerb, NeverReplacesWhatItCompares) {
               0);
 }
 
-TEST(DiffVerb, WritesThroughLinksAndRefusesWhatIsNoFile) {
+TEST(DiffCommand, WritesThroughLinksAndRefusesWhatIsNoFile) {
   const TwoStudies two;
   const std::string pipe = two.folder / "pipe", link = two.folder / "link.json";
   ASSERT_EQ(::mkfifo(pipe.c_str(), 0600), 0);
@@ -122,7 +122,7 @@ TEST(DiffVerb, WritesThroughLinksAndRefusesWhatIsNoFile) {
   EXPECT_NE(read_file(target).find("mapproof.diff"), std::string::npos);
 }
 
-TEST(DiffVerb, NeverWaitsForWhatHasNoEnd) {
+TEST(DiffCommand, NeverWaitsForWhatHasNoEnd) {
   const TwoStudies two;
   const std::string picture = two.after + "/figures/map-usual.png";
   const std::string run = two.after + "/runs/layout-1-pose-1.json";
@@ -144,7 +144,7 @@ TEST(DiffVerb, NeverWaitsForWhatHasNoEnd) {
   }
 }
 
-TEST(DiffVerb, EndsWithTwoWhereNothingCanBeCompared) {
+TEST(DiffCommand, EndsWithTwoWhereNothingCanBeCompared) {
   const TwoStudies two;
   const TemporaryFolder empty;
   const auto expect_two = [](const std::vector<std::string>& arguments, const std::string& word) {
@@ -162,7 +162,7 @@ TEST(DiffVerb, EndsWithTwoWhereNothingCanBeCompared) {
   expect_two({"diff", two.before, two.after, "--settings", settings}, "ignored");
 }
 
-TEST(DiffVerb, GoesByTheSettingsBesideTheBaseline) {
+TEST(DiffCommand, GoesByTheSettingsBesideTheBaseline) {
   const TwoStudies two;
   two.change_score();
   write_file(fs::path(two.before) / "mapproof-diff.json",
@@ -172,7 +172,7 @@ TEST(DiffVerb, GoesByTheSettingsBesideTheBaseline) {
   EXPECT_EQ(mapproof({"diff", two.after, two.before}).exit_code, 1);
 }
 
-TEST(DiffVerb, TakesFoldersOfPicturesOfOthersAndTwoFiles) {
+TEST(DiffCommand, TakesFoldersOfPicturesOfOthersAndTwoFiles) {
   const TwoStudies two;
   const std::string before = two.before + "/figures", after = two.after + "/figures";
   EXPECT_EQ(mapproof({"diff", before, after}).exit_code, 0);
@@ -186,7 +186,7 @@ TEST(DiffVerb, TakesFoldersOfPicturesOfOthersAndTwoFiles) {
   EXPECT_NE(outcome.out.find("missing"), std::string::npos);
 }
 
-TEST(DiffVerb, TakesTheMostAlikeOfSeveralBaselines) {
+TEST(DiffCommand, TakesTheMostAlikeOfSeveralBaselines) {
   const TwoStudies two;
   two.change_picture();
   fs::copy_file(two.after + "/figures/map-usual.png",
@@ -196,7 +196,7 @@ TEST(DiffVerb, TakesTheMostAlikeOfSeveralBaselines) {
   EXPECT_NE(outcome.out.find("\"baseline_key\": \"cairo-1.18\""), std::string::npos);
 }
 
-TEST(DiffVerb, HandsItsPicturesToCtest) {
+TEST(DiffCommand, HandsItsPicturesToCtest) {
   const TwoStudies two;
   two.change_picture();
   const Environment ctest({{"DASHBOARD_TEST_FROM_CTEST", "3.25"}});

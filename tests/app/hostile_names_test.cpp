@@ -47,7 +47,7 @@ TEST(HostileNames, StayTextInEveryOutputAndNeverReachTheFileSystem) {
   }
   const std::string positions = folder.file("truth.csv", truth);
   const Outcome outcome =
-      mapproof({"map", folder.file("seen.csv", seen), "--kind", "bearing", "--method", "lpca",
+      mapproof({"map", folder.file("seen.csv", seen), "--sensor", "bearing", "--method", "lpca",
                 "--anchors", positions, "--truth", positions, "--out", folder / "map", "--json"});
   ASSERT_EQ(outcome.exit_code, 0) << outcome.error;
   const auto result = nlohmann::json::parse(outcome.out);
@@ -73,7 +73,7 @@ TEST(HostileNames, StayTextInEveryOutputAndNeverReachTheFileSystem) {
 TEST(HostileNames, InFileNamesAndOptionsComeBackAsOneHarmlessLine) {
   const TemporaryFolder folder;
   const Outcome outcome = mapproof(
-      {"map", folder / "no\n\x1B[31mred\u202E.csv", "--kind", "range", "--out", folder / "x"});
+      {"map", folder / "no\n\x1B[31mred\u202E.csv", "--sensor", "range", "--out", folder / "x"});
   EXPECT_EQ(outcome.exit_code, 2);
   EXPECT_EQ(std::ranges::count(outcome.error, '\n'), 1) << outcome.error;
   EXPECT_EQ(outcome.error.find('\x1B'), std::string::npos);

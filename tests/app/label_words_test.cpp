@@ -1,30 +1,30 @@
-#include "app/label_words.hpp"
+#include "app/map/data_association_words.hpp"
 
 #include <gtest/gtest.h>
 
 namespace mapproof {
 namespace {
 
-SightingLog ten_looks() { return {.names = {"A", "B", "C"}, .sightings = {}, .steps = 10}; }
+DetectionLog ten_scans() { return {.names = {"A", "B", "C"}, .detections = {}, .steps = 10}; }
 
 TEST(LabelWords, SayWhenAndHowOften) {
-  const SightingLog log = ten_looks();
+  const DetectionLog log = ten_scans();
   LabelFinding finding{.fault = LabelFault::kSwapped,
                        .first = 0,
                        .second = 2,
                        .first_step = 4,
                        .last_step = 9,
                        .to_the_end = true,
-                       .sightings = 6,
+                       .detections = 6,
                        .loss_before_m = 0.41,
                        .loss_after_m = 0.13};
   EXPECT_EQ(described(finding, log),
-            "A and C look swapped from step 5 on (6 sightings): loss 0.410 -> 0.130 m");
+            "A and C look swapped from step 5 on (6 detections): loss 0.410 -> 0.130 m");
 }
 
 TEST(LabelWords, SayWhatKnownPlacesWereMissedBy) {
-  EXPECT_EQ(described(AnchorExchange{0, 2, 1.93, 0.12}, ten_looks()),
-            "A and C look exchanged in all sightings: known places missed by 1.930 m, then by "
+  EXPECT_EQ(described(AnchorExchange{0, 2, 1.93, 0.12}, ten_scans()),
+            "A and C look exchanged in all detections: known places missed by 1.930 m, then by "
             "0.120 m");
 }
 

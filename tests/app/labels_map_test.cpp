@@ -8,11 +8,11 @@
 #include <nlohmann/json.hpp>
 
 #include "core/base/files.hpp"
-#include "core/records/sightings.hpp"
-#include "tests/core/labels/noisy_looks.hpp"
-#include "tests/core/labels/real_looks.hpp"
+#include "core/records/observations/detections.hpp"
+#include "tests/core/labels/noisy_scans.hpp"
+#include "tests/core/labels/real_scans.hpp"
+#include "tests/support/detections_csv.hpp"
 #include "tests/support/program.hpp"
-#include "tests/support/sightings_csv.hpp"
 #include "tests/support/worlds.hpp"
 
 namespace mapproof::test {
@@ -21,7 +21,7 @@ namespace {
 using nlohmann::json;
 
 /// The places of some landmarks as a file of anchors.
-std::string corners_csv(const SightingLog& log) {
+std::string corners_csv(const DetectionLog& log) {
   std::string text = "name,x,y\n";
   const Points places = noisy_landmarks();
   for (const Eigen::Index k : {0, 2, 5, 9, 12, 14})
@@ -41,7 +41,7 @@ json mapped(const std::vector<std::string>& arguments) {
 }
 
 /// How far the map is from the true places, turned and scaled onto them.
-double gap(const json& result, const SightingLog& log) {
+double gap(const json& result, const DetectionLog& log) {
   Points map(noisy_landmarks().rows(), 2);
   for (const json& row : result.at("landmarks")) {
     const auto name = std::ranges::find(log.names, row.at("name").get<std::string>());
@@ -52,10 +52,10 @@ double gap(const json& result, const SightingLog& log) {
 
 TEST(MapWithLabels, NamesAndRepairsASwapInTheSecondHalf) {
   const TemporaryFolder folder;
-  const SightingLog clean = noisy_looks(600, 1);
-  const SightingLog wrong = swapped(clean, 3, 11, [](int step) { return step >= 300; });
-  const std::string file = folder.file("wrong.csv", sightings_csv(wrong));
-  const json named = mapped({file, "--check-labels", "--out", folder / "named"});
+  const DetectionLog clean = noisy_scans(600, 1);
+  const DetectionLog wrong = swapped(clean, 3, 11, [](int step) { return step >= 300; });
+  const std::string file = folder.file("wrong.csv", detections_csv(wrong));
+  const json named = mapped({file, "--check-ids", "--out", folder / "named"});
   ASSERT_EQ(named.at("labels").size(), 1U);
   const json& swap = named.at("labels")[0];
   EXPECT_EQ(swap.at("what"), "swapped");
@@ -66,29 +66,29 @@ TEST(MapWithLabels, NamesAndRepairsASwapInTheSecondHalf) {
   const std::string page = read_file(folder / "named/report.html");
   EXPECT_NE(page.find("look swapped from step"), std::string::npos);
 
-  const json repaired = mapped({file, "--repair-labels", "--out", folder / "repaired"});
+  const json repaired = mapped({file, "--repair-ids", "--out", folder / "repaired"});
   EXPECT_TRUE(repaired.at("labels").at(0).at("repaired").get<bool>());
-  const json best = mapped({folder.file("clean.csv", sightings_csv(clean)), "--check-labels",
-                            "--out", folder / "clean"});
+  const json best = mapped(
+      {folder.file("clean.csv", detections_csv(clean)), "--check-ids", "--out", folder / "clean"});
   EXPECT_TRUE(best.at("labels").empty());
   EXPECT_LT(gap(repaired, clean), 1.1 * gap(best, clean));
 }
 
-TEST(MapWithLabels, TellsAnExchangeInAllSightingsByTheAnchors) {
+TEST(MapWithLabels, TellsAnExchangeInAllDetectionsByTheAnchors) {
   const TemporaryFolder folder;
-  const SightingLog clean = noisy_looks(600, 2);
-  const SightingLog wrong = swapped(clean, 0, 8, [](int) { return true; });
-  const std::string file = folder.file("wrong.csv", sightings_csv(wrong));
+  const DetectionLog clean = noisy_scans(600, 2);
+  const DetectionLog wrong = swapped(clean, 0, 8, [](int) { return true; });
+  const std::string file = folder.file("wrong.csv", detections_csv(wrong));
   const std::string anchors = folder.file("anchors.csv", corners_csv(clean));
-  const json alone = mapped({file, "--check-labels", "--out", folder / "alone"});
+  const json alone = mapped({file, "--check-ids", "--out", folder / "alone"});
   EXPECT_TRUE(alone.at("labels").empty());
   EXPECT_NE(alone.at("remarks").dump().find("would not show"), std::string::npos);
   const json named =
-      mapped({file, "--repair-labels", "--anchors", anchors, "--out", folder / "named"});
+      mapped({file, "--repair-ids", "--anchors", anchors, "--out", folder / "named"});
   ASSERT_EQ(named.at("labels").size(), 1U);
   EXPECT_EQ(named.at("labels")[0].at("what"), "exchanged");
   EXPECT_EQ(named.at("labels")[0].at("second"), clean.names[8]);
-  EXPECT_LT(gap(named, clean), 1.1 * gap(mapped({folder.file("clean.csv", sightings_csv(clean)),
+  EXPECT_LT(gap(named, clean), 1.1 * gap(mapped({folder.file("clean.csv", detections_csv(clean)),
                                                  "--anchors", anchors, "--out", folder / "clean"}),
                                          clean));
 }
@@ -98,12 +98,12 @@ TEST(MapWithLabels, AreCheckedInAFolderOfMrclam) {
   if (sets == nullptr) GTEST_SKIP() << "MAPPROOF_MRCLAM does not name the folder of the sets";
   const std::string set = (std::filesystem::path(sets) / "dataset2").string();
   const TemporaryFolder folder;
-  const SightingLog log = real_looks("dataset2")->log;
-  EXPECT_TRUE(mapped({set, "--method", "isomap", "--check-labels", "--out", folder / "a"})["labels"]
-                  .empty());
-  const SightingLog wrong = swapped(log, 1, 7, [&](int step) { return step < log.steps / 2; });
-  const std::string file = folder.file("wrong.json", sightings_json(wrong));
-  const json named = mapped({file, "--repair-labels", "--out", folder / "b"});
+  const DetectionLog log = real_scans("dataset2")->log;
+  EXPECT_TRUE(
+      mapped({set, "--method", "isomap", "--check-ids", "--out", folder / "a"})["labels"].empty());
+  const DetectionLog wrong = swapped(log, 1, 7, [&](int step) { return step < log.steps / 2; });
+  const std::string file = folder.file("wrong.json", detections_json(wrong));
+  const json named = mapped({file, "--repair-ids", "--out", folder / "b"});
   ASSERT_EQ(named.at("labels").size(), 1U);
   EXPECT_EQ(named.at("labels")[0].at("first"), log.names[1]);
   EXPECT_EQ(named.at("labels")[0].at("second"), log.names[7]);
@@ -113,7 +113,7 @@ TEST(MapWithLabels, CannotBeCheckedOfOneKindOfValue) {
   const TemporaryFolder folder;
   const std::string file = folder.file("seen.csv", "A,1,0,1\nB,1,1,0\nC,0,1,1\nD,1,1,1\n");
   const Outcome run =
-      mapproof({"map", file, "--kind", "visibility", "--check-labels", "--out", folder / "map"});
+      mapproof({"map", file, "--sensor", "visibility", "--check-ids", "--out", folder / "map"});
   EXPECT_EQ(run.exit_code, 2);
   EXPECT_NE(run.error.find("range and bearing seen together"), std::string::npos);
 }

@@ -16,79 +16,43 @@ namespace fs = std::filesystem;
 
 using Modules = std::set<std::string>;
 
-/// Which modules each module may include, itself apart. docs/architecture.md draws this.
+/// The text of a file. Empty if there is none.
+std::string source_text(const fs::path& file) {
+  std::ostringstream text;
+  text << std::ifstream(file).rdbuf();
+  return text.str();
+}
+
+/// The words behind USES in a call of mapproof_module (scripts/cmake/Module.cmake).
+Modules uses_in(const std::string& cmake) {
+  std::istringstream words(cmake);
+  Modules uses;
+  bool in_uses = false;
+  for (std::string word; words >> word;) {
+    if (word == "USES")
+      in_uses = true;
+    else if (word == "PACKAGES" || word == "SOURCES" || word == "HEADERS")
+      in_uses = false;
+    else if (in_uses)
+      uses.insert(word.ends_with(')') ? word.substr(0, word.size() - 1) : word);
+  }
+  return uses;
+}
+
+/// Which modules each module may include, itself apart: as its CMakeLists.txt declares. CMake
+/// refuses circles.
 const std::map<std::string, Modules>& allowed() {
-  static const Modules leaves = {"core/model", "core/base", "core/statistics"};
-  static const auto with_leaves = [](Modules more) {
-    more.insert(leaves.begin(), leaves.end());
-    return more;
-  };
-  static const std::map<std::string, Modules> table = {
-      {"core/results", {"core/base"}},
-      {"core/model", {"core/base", "core/statistics", "core/results"}},
-      {"core/base", {}},
-      {"core/statistics", {"core/base"}},
-      {"core/linalg", with_leaves({})},
-      {"core/graph", with_leaves({})},
-      {"core/simulate", with_leaves({})},
-      {"core/observe", with_leaves({"core/linalg"})},
-      {"core/embed", with_leaves({"core/linalg", "core/graph", "core/observe"})},
-      {"core/align", with_leaves({"core/linalg"})},
-      {"core/range_slam", with_leaves({"core/linalg", "core/align"})},
-      {"core/score", with_leaves({"core/align", "core/linalg"})},
-      {"core/json", {"core/base"}},
-      {"core/records", {"core/model", "core/results", "core/base", "core/json"}},
-      {"core/experiment", with_leaves({"core/simulate", "core/observe", "core/embed", "core/align",
-                                       "core/range_slam", "core/score", "core/records"})},
-      {"core/pairs", with_leaves({"core/linalg", "core/graph", "core/observe", "core/embed"})},
-      {"core/missing", with_leaves({"core/linalg", "core/graph", "core/observe", "core/embed"})},
-      {"core/submaps", with_leaves({"core/linalg", "core/graph", "core/observe", "core/embed",
-                                    "core/align", "core/pairs", "core/missing"})},
-      {"core/labels", with_leaves({"core/linalg", "core/graph", "core/observe", "core/embed",
-                                   "core/align", "core/pairs"})},
-      {"core/mixed",
-       with_leaves({"core/linalg", "core/graph", "core/observe", "core/embed", "core/pairs"})},
-      {"core/certainty", with_leaves({"core/linalg", "core/observe", "core/embed", "core/align",
-                                      "core/score", "core/pairs"})},
-      {"core/choice", with_leaves({"core/linalg", "core/graph", "core/observe", "core/embed",
-                                   "core/align", "core/score", "core/pairs", "core/certainty"})},
-      {"core/follow", with_leaves({"core/linalg", "core/graph", "core/observe", "core/embed",
-                                   "core/align", "core/pairs", "core/labels"})},
-      {"core/trials",
-       with_leaves({"core/results", "core/simulate", "core/observe", "core/embed", "core/align",
-                    "core/score", "core/linalg", "core/graph", "core/records", "core/experiment",
-                    "core/pairs", "core/missing", "core/submaps", "core/labels", "core/mixed",
-                    "core/certainty", "core/choice", "core/follow"})},
-      {"core/topics", with_leaves({"core/results", "core/json", "core/records", "core/range_slam",
-                                   "core/experiment", "core/trials"})},
-      {"render/base", with_leaves({})},
-      {"render/image", with_leaves({"render/base"})},
-      {"render/theme", with_leaves({"render/base"})},
-      {"render/plot", with_leaves({"render/base", "render/theme", "render/image", "core/json"})},
-      {"render/svg", with_leaves({"render/base", "render/plot", "render/theme", "render/image"})},
-      {"render/cairo", with_leaves({"render/base", "render/plot", "render/theme", "render/image"})},
-      {"render/figures", with_leaves({"render/base", "render/plot", "render/theme"})},
-      {"render/scene",
-       with_leaves({"render/base", "render/plot", "render/theme", "render/figures", "core/json"})},
-      {"render/scene_client",
-       with_leaves({"render/base", "render/theme", "render/image", "render/scene"})},
-      {"render/vtk", with_leaves({"render/base", "render/theme", "render/image", "render/scene"})},
-      {"render/animation", with_leaves({"render/image"})},
-      {"render/output",
-       with_leaves({"render/base", "render/plot", "render/theme", "render/image", "render/svg",
-                    "render/cairo", "render/scene", "render/scene_client", "render/animation"})},
-      {"reports/model", with_leaves({})},
-      {"reports/sections", with_leaves({"core/results", "reports/model", "render/figures",
-                                        "render/plot", "render/scene"})},
-      {"reports/diff", with_leaves({"reports/model", "core/results", "core/json", "core/records",
-                                    "core/topics", "core/align", "render/base", "render/image",
-                                    "render/plot", "render/theme", "render/scene"})},
-      {"reports/history", with_leaves({"reports/model", "core/results", "core/json", "core/records",
-                                       "core/topics", "render/figures", "render/plot"})},
-      {"reports/html",
-       with_leaves({"reports/model", "reports/diff", "reports/tables", "render/image"})},
-      {"reports/tables", with_leaves({"reports/model"})},
-  };
+  static const std::map<std::string, Modules> table = [] {
+    std::map<std::string, Modules> modules;
+    for (const char* library : {"core", "render", "reports"})
+      for (const auto& entry : fs::directory_iterator(fs::path(MAPPROOF_SOURCE_DIR) / library))
+        if (entry.is_directory())
+          modules[std::string(library) + "/" + entry.path().filename().string()] =
+              uses_in(source_text(entry.path() / "CMakeLists.txt"));
+    // It is not a module of the library but a program that draws 3-D figures.
+    modules["render/vtk"] = {"core/base", "render/image", "render/scene", "render/theme"};
+    return modules;
+  }();
   return table;
 }
 
@@ -142,17 +106,20 @@ std::string objection(const std::string& module, const std::string& included, bo
   return "";
 }
 
+/// One for each line that includes what it may not.
 std::vector<std::string> objections_in(const std::string& text, const std::string& module) {
   std::vector<std::string> objections;
   std::istringstream lines(text);
+  int number = 0;
   for (std::string line; std::getline(lines, line);) {
+    ++number;
     if (!line.starts_with("#include ")) continue;
     const bool is_ours = line[9] == '"';
     const std::size_t end = line.find(is_ours ? '"' : '>', 10);
     const std::string included = line.substr(10, end - 10);
     if (is_ours && included.ends_with(".inc")) continue;  // generated
     const std::string why = objection(module, included, is_ours);
-    if (!why.empty()) objections.push_back(why);
+    if (!why.empty()) objections.push_back("line " + std::to_string(number) + ": " + why);
   }
   return objections;
 }
@@ -166,16 +133,16 @@ TEST(Layers, NoSourceIncludesWhatItsLayerMayNotSee) {
       if (extension != ".cpp" && extension != ".hpp") continue;
       ++sources;
       const std::string path = fs::relative(entry.path(), MAPPROOF_SOURCE_DIR).string();
-      std::ostringstream text;
-      text << std::ifstream(entry.path()).rdbuf();
-      for (const std::string& why : objections_in(text.str(), module_of(path)))
+      for (const std::string& why : objections_in(source_text(entry.path()), module_of(path)))
         ADD_FAILURE() << path << ": " << why;
     }
   EXPECT_GT(sources, 100);
 }
 
 TEST(Layers, TheCheckRefusesWhatItShould) {
-  EXPECT_EQ(objections_in("#include \"core/embed/isomap.hpp\"\n", "core/records").size(), 1U);
+  const auto objections = objections_in("\n#include \"core/embed/isomap.hpp\"\n", "core/records");
+  ASSERT_EQ(objections.size(), 1U);
+  EXPECT_EQ(objections[0], "line 2: core/records may not include core/embed");
   EXPECT_EQ(objections_in("#include \"render/plot/figure.hpp\"\n", "core/embed").size(), 1U);
   EXPECT_EQ(objections_in("#include \"render/cairo/x.hpp\"\n", "reports/html").size(), 1U);
   EXPECT_EQ(objections_in("#include <cairo.h>\n", "render/svg").size(), 1U);

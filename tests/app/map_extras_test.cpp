@@ -11,7 +11,7 @@
 #include <nlohmann/json.hpp>
 
 #include "core/base/files.hpp"
-#include "core/records/map_files.hpp"
+#include "core/records/maps/map_files.hpp"
 #include "tests/support/program.hpp"
 #include "tests/support/worlds.hpp"
 
@@ -55,7 +55,7 @@ TEST(MapEllipses, AreInEveryOutputAndTheSameAgain) {
   const std::string file = folder.file("bearings.csv", survey.file());
   const std::string anchors = folder.file("anchors.csv", survey.anchors());
   const auto run = [&](const std::string& out) {
-    return mapproof({"map", file, "--kind", "bearing", "--method", "smacof", "--anchors", anchors,
+    return mapproof({"map", file, "--sensor", "bearing", "--method", "smacof", "--anchors", anchors,
                      "--ellipses", "30", "--out", out, "--json"});
   };
   const Outcome outcome = run(folder.path() / "one");
@@ -79,11 +79,11 @@ TEST(MapEllipses, AreInEveryOutputAndTheSameAgain) {
 TEST(MapEllipses, NeedTenDrawsAndTakeTwoHundredIfNoneAreGiven) {
   const TemporaryFolder folder;
   const std::string file = folder.file("bearings.csv", Survey().file());
-  EXPECT_EQ(mapproof({"map", file, "--kind", "bearing", "--ellipses", "9", "--out",
+  EXPECT_EQ(mapproof({"map", file, "--sensor", "bearing", "--ellipses", "9", "--out",
                       folder.path() / "few"})
                 .exit_code,
             2);
-  const Outcome usual = mapproof({"map", file, "--kind", "bearing", "--method", "lpca", "--out",
+  const Outcome usual = mapproof({"map", file, "--sensor", "bearing", "--method", "lpca", "--out",
                                   folder.path() / "usual", "--ellipses"});
   ASSERT_EQ(usual.exit_code, 0) << usual.error;
   const std::string text = read_file(folder.path() / "usual" / "map.json");
@@ -96,8 +96,8 @@ TEST(MapAuto, SaysWhatItComparedAndTakesTheFirst) {
   const std::string file = folder.file("bearings.csv", survey.file());
   const std::string anchors = folder.file("anchors.csv", survey.anchors());
   const Outcome outcome =
-      mapproof({"map", file, "--kind", "bearing", "--method", "auto", "--anchors", anchors, "--out",
-                folder.path() / "out", "--json"});
+      mapproof({"map", file, "--sensor", "bearing", "--method", "auto", "--anchors", anchors,
+                "--out", folder.path() / "out", "--json"});
   ASSERT_EQ(outcome.exit_code, 0) << outcome.error;
   const nlohmann::json result = result_of(outcome);
   const nlohmann::json& candidates = result["choice"]["candidates"];
@@ -106,7 +106,7 @@ TEST(MapAuto, SaysWhatItComparedAndTakesTheFirst) {
   EXPECT_EQ(candidates[0]["parameter"], result["parameter"]);
   EXPECT_NE(read_file(folder.path() / "out/report.html").find("Why this method"),
             std::string::npos);
-  EXPECT_EQ(mapproof({"map", file, "--kind", "bearing", "--method", "auto", "-K", "5", "--out",
+  EXPECT_EQ(mapproof({"map", file, "--sensor", "bearing", "--method", "auto", "-K", "5", "--out",
                       folder.path() / "other"})
                 .exit_code,
             2);
@@ -129,7 +129,7 @@ TEST(MapFollow, GoesOnWithAFileAndEndsWithTheMapOfTheWhole) {
   const std::string anchors = folder.file("anchors.csv", survey.anchors());
   const std::string out = folder.path() / "out";
   const pid_t process =
-      start_mapproof({"map", file, "--follow", "--every", "20", "--kind", "bearing", "--method",
+      start_mapproof({"map", file, "--follow", "--every", "20", "--sensor", "bearing", "--method",
                       "smacof", "--anchors", anchors, "--out", out});
   ASSERT_TRUE(reaches(out, 99));
   std::ofstream(file, std::ios::app) << survey.rows(100, 300) << "300,post 1,0.";
@@ -142,7 +142,7 @@ TEST(MapFollow, GoesOnWithAFileAndEndsWithTheMapOfTheWhole) {
   EXPECT_TRUE(fs::exists(out + "/report.html"));
 
   const std::string all = folder.file("all.csv", survey.file());
-  ASSERT_EQ(mapproof({"map", all, "--kind", "bearing", "--method", "smacof", "--anchors", anchors,
+  ASSERT_EQ(mapproof({"map", all, "--sensor", "bearing", "--method", "smacof", "--anchors", anchors,
                       "--out", folder.path() / "whole"})
                 .exit_code,
             0);
@@ -157,7 +157,7 @@ TEST(MapFollow, EndsWithARemarkWhereTheFileIsCutShort) {
   const Survey survey;
   const std::string file = folder.file("growing.csv", survey.rows(0, 50));
   const std::string out = folder.path() / "out";
-  const pid_t process = start_mapproof({"map", file, "--follow", "--every", "10", "--kind",
+  const pid_t process = start_mapproof({"map", file, "--follow", "--every", "10", "--sensor",
                                         "bearing", "--method", "lpca", "--out", out});
   ASSERT_TRUE(reaches(out, 49));
   std::ofstream(file, std::ios::trunc) << "0,post 1,0.5\n";
@@ -175,7 +175,7 @@ TEST(MapFollow, NeedsAKindAndAKnownInterval) {
   EXPECT_EQ(mapproof({"map", file, "--follow", "--out", out}).exit_code, 2);
   for (const char* every : {"0", "1.5", "s", "-3s", "soon"})
     EXPECT_EQ(
-        mapproof({"map", file, "--follow", "--kind", "bearing", "--out", out, "--every", every})
+        mapproof({"map", file, "--follow", "--sensor", "bearing", "--out", out, "--every", every})
             .exit_code,
         2)
         << every;

@@ -6,13 +6,13 @@
 
 #include "core/base/files.hpp"
 #include "core/base/random.hpp"
-#include "core/records/map_files.hpp"
-#include "core/records/table_reader.hpp"
+#include "core/records/maps/map_files.hpp"
+#include "core/records/observations/table_reader.hpp"
 #include "tests/app/following.hpp"
-#include "tests/core/labels/noisy_looks.hpp"
-#include "tests/support/looks.hpp"
+#include "tests/core/labels/noisy_scans.hpp"
 #include "tests/support/packing.hpp"
 #include "tests/support/program.hpp"
+#include "tests/support/scans.hpp"
 
 namespace mapproof::test {
 namespace {
@@ -38,24 +38,24 @@ void expect_same_landmarks(const json& followed, const json& whole) {
   }
 }
 
-std::string sightings_csv(const SightingLog& log) {
+std::string detections_csv(const DetectionLog& log) {
   std::string text = "time,landmark,range,bearing\n";
-  for (const Sighting& seen : log.sightings)
+  for (const Detection& seen : log.detections)
     text += fmt::format("{},{},{},{}\n", 0.1 * seen.step,
                         log.names[static_cast<std::size_t>(seen.landmark)], seen.range_m,
                         seen.bearing_rad);
   return text;
 }
 
-std::string bearings_csv(const SightingLog& log) {
+std::string bearings_csv(const DetectionLog& log) {
   std::string text = "step,landmark,value\n";
-  for (const Sighting& seen : log.sightings)
+  for (const Detection& seen : log.detections)
     text += fmt::format("{},{},{}\n", seen.step, log.names[static_cast<std::size_t>(seen.landmark)],
                         seen.bearing_rad);
   return text;
 }
 
-std::string places_csv(const SightingLog& log, const std::vector<Eigen::Index>& rows) {
+std::string places_csv(const DetectionLog& log, const std::vector<Eigen::Index>& rows) {
   std::string text = "name,x,y\n";
   const Points places = noisy_landmarks();
   for (const Eigen::Index k : rows)
@@ -70,24 +70,24 @@ TEST(FollowedMapFile, ReadsWhatThePlainMapReads) {
       "step,landmark,value\n0,\"x;y\",1\n0,b,1\n1,b,1\n1,c,1\n2,x;y,1\n2,c,1\n2,d,1\n3,d,1\n3,b,"
       "1\n4,b,1";
   const Outcome outcome = followed(
-      "map", folder, text, {"--kind", "visibility", "--method", "lpca", "--out", folder / "a"});
+      "map", folder, text, {"--sensor", "visibility", "--method", "lpca", "--out", folder / "a"});
   ASSERT_EQ(outcome.exit_code, 0) << outcome.error;
   EXPECT_EQ(json::parse(outcome.out)["landmarks"][0]["name"], "x;y");
   EXPECT_NE(outcome.error.find(kCutRemark), std::string::npos) << outcome.error;
-  const json whole = mapped({folder.file("a.csv", text), "--kind", "visibility", "--method", "lpca",
-                             "--out", folder / "b"});
+  const json whole = mapped({folder.file("a.csv", text), "--sensor", "visibility", "--method",
+                             "lpca", "--out", folder / "b"});
   EXPECT_NE(whole["remarks"].dump().find(kCutRemark), std::string::npos);
   EXPECT_EQ(whole["landmarks"].size(), 4U);
 }
 
 TEST(FollowedMapFile, IsScoredByTheTruthAsThePlainMapIs) {
   const TemporaryFolder folder;
-  const SightingLog log = noisy_looks(400, 2);
+  const DetectionLog log = noisy_scans(400, 2);
   const std::string text = bearings_csv(log);
   const std::string anchors = folder.file("anchors.csv", places_csv(log, {0, 2, 12, 14}));
   const std::string truth = folder.file("truth.csv", places_csv(log, {0, 1, 2, 5, 7, 9, 12, 14}));
-  const std::vector<std::string> options = {"--kind", "bearing", "--method", "smacof", "--anchors",
-                                            anchors,  "--truth", truth,      "--out"};
+  const std::vector<std::string> options = {
+      "--sensor", "bearing", "--method", "smacof", "--anchors", anchors, "--truth", truth, "--out"};
   auto with_out = [&](const std::string& out) {
     std::vector<std::string> all = options;
     all.push_back(out);
@@ -107,22 +107,22 @@ TEST(FollowedMapFile, IsScoredByTheTruthAsThePlainMapIs) {
 
 TEST(FollowedMapFile, OfRangeAndBearingIsThePlainMapAndNamesWhatMoved) {
   const TemporaryFolder folder;
-  const SightingLog log = looks_with_move(800, 7, {0.3, -0.4}, 400);
-  const std::string text = sightings_csv(log);
+  const DetectionLog log = scans_with_move(800, 7, {0.3, -0.4}, 400);
+  const std::string text = detections_csv(log);
   const std::string anchors = folder.file("anchors.csv", places_csv(log, {0, 2, 12, 14}));
   const Outcome outcome =
       followed("map", folder, text,
-               {"--kind", "range-bearing", "--find-moved", "--every", "50", "--anchors", anchors,
+               {"--sensor", "range-bearing", "--find-moved", "--every", "50", "--anchors", anchors,
                 "--fit", "rigid", "--out", folder / "followed"});
   ASSERT_EQ(outcome.exit_code, 0) << outcome.error;
-  // Noticed while there were still looks to come, with the time.
-  const std::string noticed = fmt::format("looks: {} moved by 0.", log.names[7]);
+  // Noticed while there were still scans to come, with the time.
+  const std::string noticed = fmt::format("scans: {} moved by 0.", log.names[7]);
   EXPECT_NE(outcome.error.find(noticed), std::string::npos) << outcome.error;
   EXPECT_NE(outcome.error.find(" s and "), std::string::npos) << outcome.error;
   const json last = json::parse(outcome.out);
   const json whole =
-      mapped({folder.file("all.csv", text), "--kind", "range-bearing", "--find-moved", "--anchors",
-              anchors, "--fit", "rigid", "--out", folder / "whole"});
+      mapped({folder.file("all.csv", text), "--sensor", "range-bearing", "--find-moved",
+              "--anchors", anchors, "--fit", "rigid", "--out", folder / "whole"});
   ASSERT_EQ(last["labels"].size(), 1U);
   EXPECT_EQ(last["labels"], whole["labels"]);
   EXPECT_EQ(last["landmarks"].size(), log.names.size() + 1);
@@ -133,14 +133,14 @@ TEST(FollowedMapFile, OfRangeAndBearingIsThePlainMapAndNamesWhatMoved) {
 
 TEST(FollowedMapFile, MayBeGzippedAndCutThere) {
   const TemporaryFolder folder;
-  const SightingLog log = noisy_looks(400, 3);
-  const std::string packed = gzipped(sightings_csv(log));
+  const DetectionLog log = noisy_scans(400, 3);
+  const std::string packed = gzipped(detections_csv(log));
   const Outcome whole =
-      followed("map", folder, packed, {"--kind", "range-bearing", "--out", folder / "a"});
+      followed("map", folder, packed, {"--sensor", "range-bearing", "--out", folder / "a"});
   ASSERT_EQ(whole.exit_code, 0) << whole.error;
   EXPECT_EQ(json::parse(whole.out)["steps"], 400);
   const Outcome part = followed("map", folder, packed.substr(0, packed.size() * 3 / 4),
-                                {"--kind", "range-bearing", "--out", folder / "b"});
+                                {"--sensor", "range-bearing", "--out", folder / "b"});
   ASSERT_EQ(part.exit_code, 0) << part.error;
   EXPECT_LT(json::parse(part.out)["steps"], 400);
   EXPECT_NE(part.error.find("stops before its end"), std::string::npos);
@@ -163,12 +163,12 @@ TEST(FollowedMapFile, SaysWhatCannotBeCombinedAndWhy) {
       {{"--missing", "ppca"}, "--missing: not with --follow"},
       {{"--submaps", "8"}, "--submaps: not with --follow"},
       {{"--steps", "8"}, "--steps: not with --follow"},
-      {{"--check-labels"}, "--check-labels, --repair-labels: not with --follow"},
+      {{"--check-ids"}, "--check-ids, --repair-ids: not with --follow"},
       {{"--find-moved"}, "--find-moved: not with --follow: one kind of value"},
   };
   for (const auto& [options, expected] : cases) {
     std::vector<std::string> all = options;
-    all.insert(all.end(), {"--kind", "range"});
+    all.insert(all.end(), {"--sensor", "range"});
     EXPECT_NE(error(all).find(expected), std::string::npos) << error(all);
   }
   EXPECT_NE(error({}).find("range or range-bearing"), std::string::npos);

@@ -46,9 +46,9 @@ struct GappedSurvey {
   }
 
   Outcome mapped(const std::vector<std::string>& more, const std::string& out) const {
-    std::vector<std::string> arguments = {"map",   seen,      "--kind", "bearing",  "--anchors",
-                                          anchors, "--truth", truth,    "--method", "smacof-knn",
-                                          "-K",    "8",       "--out",  out,        "--json"};
+    std::vector<std::string> arguments = {"map",   seen,      "--sensor", "bearing",  "--anchors",
+                                          anchors, "--truth", truth,      "--method", "smacof-knn",
+                                          "-K",    "8",       "--out",    out,        "--json"};
     arguments.insert(arguments.end(), more.begin(), more.end());
     return mapproof(arguments);
   }
@@ -178,7 +178,7 @@ TEST(MapMissing, RefusesWhatDoesNotFitTogether) {
       << dimensions.error;
   const std::string seen = folder.file("v.csv", "a,1,0,1\nb,1,1,0\nc,0,1,1\nd,1,,1\n");
   const Outcome visibility = mapproof(
-      {"map", seen, "--kind", "visibility", "--missing", "covisible", "--out", folder / "c"});
+      {"map", seen, "--sensor", "visibility", "--missing", "covisible", "--out", folder / "c"});
   EXPECT_EQ(visibility.exit_code, 2);
   EXPECT_NE(visibility.error.find("--missing covisible"), std::string::npos);
 }

@@ -56,8 +56,8 @@ TEST(MapMixed, JoinsThreeSensorsAndTellsWeightsAndWhichMapIsBetter) {
   const MixedSurvey survey(folder);
   const std::string out = folder / "joint";
   const Outcome outcome =
-      mapproof({"map", survey.files[0], "--kind", "visibility", "--with", survey.files[1],
-                "--with-kind", "bearing", "--with", survey.files[2], "--with-kind", "range",
+      mapproof({"map", survey.files[0], "--sensor", "visibility", "--with", survey.files[1],
+                "--with-sensor", "bearing", "--with", survey.files[2], "--with-sensor", "range",
                 "--anchors", survey.anchors, "--truth", survey.truth, "--out", out, "--json"});
   ASSERT_EQ(outcome.exit_code, 0) << outcome.error;
   const auto result = nlohmann::json::parse(outcome.out);
@@ -86,7 +86,7 @@ TEST(MapMixed, PlacesLandmarksThatOneFileAloneHasAndSaysSo) {
       MixedSurvey::table(
           observe(survey.room.world, survey.room.path, {.sensor = Sensor::kRange}, random), 2));
   const Outcome outcome =
-      mapproof({"map", survey.files[1], "--kind", "bearing", "--with", fewer, "--with-kind",
+      mapproof({"map", survey.files[1], "--sensor", "bearing", "--with", fewer, "--with-sensor",
                 "range", "--truth", survey.truth, "--out", folder / "out", "--json"});
   ASSERT_EQ(outcome.exit_code, 0) << outcome.error;
   const auto result = nlohmann::json::parse(outcome.out);
@@ -102,8 +102,8 @@ TEST(MapMixed, RefusesWhatDoesNotFitTogether) {
   const MixedSurvey survey(folder);
   const auto refused = [&](const std::vector<std::string>& more) {
     std::vector<std::string> arguments = {
-        "map", survey.files[1], "--kind", "bearing", "--with",
-        "",    "--with-kind",   "range",  "--out",   folder / "out"};
+        "map", survey.files[1], "--sensor", "bearing", "--with",
+        "",    "--with-sensor", "range",    "--out",   folder / "out"};
     arguments[5] = more[0];
     arguments[7] = more[1];
     arguments.insert(arguments.end(), more.begin() + 2, more.end());
@@ -121,7 +121,7 @@ TEST(MapMixed, RefusesWhatDoesNotFitTogether) {
   EXPECT_NE(refused({folder.file("empty.csv", ""), "range"}).find("empty.csv"), std::string::npos);
   EXPECT_NE(refused({survey.files[2], "range", "--method", "auto"}).find("--with: not with"),
             std::string::npos);
-  EXPECT_NE(refused({survey.files[2], "range", "--with", survey.files[0]}).find("--with-kind"),
+  EXPECT_NE(refused({survey.files[2], "range", "--with", survey.files[0]}).find("--with-sensor"),
             std::string::npos);
 }
 

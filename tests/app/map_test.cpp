@@ -5,9 +5,9 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
-#include "app/own_map.hpp"
+#include "app/map/one_sensor.hpp"
 #include "core/align/diagonal_anchors.hpp"
-#include "core/records/observations.hpp"
+#include "core/records/observations/observations.hpp"
 #include "tests/support/program.hpp"
 #include "tests/support/worlds.hpp"
 
@@ -58,7 +58,7 @@ TEST(Map, OfAPersonsBearingsIsNearTheTruthAndEveryFileIsThere) {
   const Survey survey;
   const std::string anchors = folder.file("anchors.csv", survey.positions({0, 4, 15, 19}));
   const std::string truth = folder.file("truth.csv", survey.positions(survey.all()));
-  const Outcome outcome = mapproof({"map", folder.file("seen.csv", survey.wide()), "--kind",
+  const Outcome outcome = mapproof({"map", folder.file("seen.csv", survey.wide()), "--sensor",
                                     "bearing", "--anchors", anchors, "--truth", truth, "--method",
                                     "smacof", "--out", folder / "map", "--json"});
   ASSERT_EQ(outcome.exit_code, 0) << outcome.error;
@@ -82,7 +82,7 @@ TEST(Map, IsTheSameFromWideLongAndJsonObservations) {
   const std::string json = folder.file(
       "seen.json", observations_json(read_observations(wide, Sensor::kBearing).history));
   const auto csv_of = [&](const std::string& observations, const std::string& name) {
-    EXPECT_EQ(mapproof({"map", observations, "--kind", "bearing", "--method", "lpca", "--out",
+    EXPECT_EQ(mapproof({"map", observations, "--sensor", "bearing", "--method", "lpca", "--out",
                         folder / name})
                   .exit_code,
               0);
@@ -99,7 +99,7 @@ TEST(Map, IsTheSameFromWideLongAndJsonObservations) {
 TEST(Map, WithoutAnchorsIsAShapeAndSaysSo) {
   const TemporaryFolder folder;
   const Survey survey;
-  const Outcome outcome = mapproof({"map", folder.file("seen.csv", survey.wide()), "--kind",
+  const Outcome outcome = mapproof({"map", folder.file("seen.csv", survey.wide()), "--sensor",
                                     "bearing", "--out", folder / "map", "--json"});
   ASSERT_EQ(outcome.exit_code, 0) << outcome.error;
   const auto result = nlohmann::json::parse(outcome.out);
@@ -115,7 +115,7 @@ TEST(Map, WithATruthButNoAnchorsIsJudgedByWhatNeedsNone) {
   const TemporaryFolder folder;
   const Survey survey;
   const Outcome outcome =
-      mapproof({"map", folder.file("seen.csv", survey.wide()), "--kind", "bearing", "--truth",
+      mapproof({"map", folder.file("seen.csv", survey.wide()), "--sensor", "bearing", "--truth",
                 folder.file("truth.csv", survey.positions(survey.all())), "--out", folder / "map",
                 "--json"});
   ASSERT_EQ(outcome.exit_code, 0) << outcome.error;
@@ -128,8 +128,8 @@ TEST(Map, LeavesUnseenLandmarksOutOnlyWhenAsked) {
   const TemporaryFolder folder;
   const std::string seen =
       folder.file("seen.csv", "a,1,1,0,0,1\nb,1,0,1,0,1\nc,0,1,1,1,0\nd,0,0,0,0,0\ne,0,1,0,1,1\n");
-  const std::vector<std::string> base = {"map",      seen,   "--kind", "visibility",
-                                         "--method", "lpca", "--out",  folder / "map"};
+  const std::vector<std::string> base = {"map",      seen,   "--sensor", "visibility",
+                                         "--method", "lpca", "--out",    folder / "map"};
   const Outcome refused = mapproof(base);
   EXPECT_EQ(refused.exit_code, 2);
   EXPECT_NE(refused.error.find("seen.csv: line 4: landmark \"d\" is never observed"),
@@ -150,8 +150,8 @@ TEST(Map, ThatCannotBeMadeSaysWhyAndExitsWithOne) {
   const TemporaryFolder folder;
   const std::string seen =
       folder.file("seen.csv", "a,1,2,,\nb,1.1,2.1,,\nc,1.2,2,,\nd,,,1,2\ne,,,1.5,2\nf,,,1,2.5\n");
-  const Outcome outcome = mapproof(
-      {"map", seen, "--kind", "bearing", "--method", "isomap", "-K", "2", "--out", folder / "map"});
+  const Outcome outcome = mapproof({"map", seen, "--sensor", "bearing", "--method", "isomap", "-K",
+                                    "2", "--out", folder / "map"});
   EXPECT_EQ(outcome.exit_code, 1) << outcome.error;
   EXPECT_NE(outcome.error.find("share no observation"), std::string::npos);
   EXPECT_TRUE(fs::exists(folder / "map" / "report.html"));
@@ -213,7 +213,7 @@ TEST(Map, OfAnotherKindIsRefusedAFolderThatHoldsAMap) {
   for (const std::vector<std::string>& arguments :
        {std::vector<std::string>{"map", data, "--method", "smacof"},
         {"map", data, "--method", "lpca", "--steps", "3"},
-        {"map", other, "--kind", "bearing", "--method", "lpca"}}) {
+        {"map", other, "--sensor", "bearing", "--method", "lpca"}}) {
     std::vector<std::string> call = arguments;
     call.insert(call.end(), {"--out", folder / "map"});
     const Outcome outcome = mapproof(call);
@@ -230,7 +230,7 @@ TEST(Map, SaysWhenAnchorsAndTruthDisagree) {
   const std::string anchors =
       folder.file("anchors.csv", "post 0,0,0\npost 4,4,0\npost 15,0,9000\n");
   const Outcome outcome =
-      mapproof({"map", folder.file("seen.csv", survey.wide()), "--kind", "bearing", "--anchors",
+      mapproof({"map", folder.file("seen.csv", survey.wide()), "--sensor", "bearing", "--anchors",
                 anchors, "--truth", truth, "--out", folder / "map"});
   EXPECT_EQ(outcome.exit_code, 0);
   EXPECT_NE(outcome.error.find("Anchors that the truth puts elsewhere: 1."), std::string::npos)

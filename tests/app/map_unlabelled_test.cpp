@@ -48,7 +48,7 @@ struct LongSurvey {
   Outcome mapped(const TemporaryFolder& folder, const std::string& file,
                  const std::vector<std::string>& more = {}) const {
     std::vector<std::string> arguments = {"map",      folder.file("seen.csv", file),
-                                          "--kind",   "bearing",
+                                          "--sensor", "bearing",
                                           "--truth",  folder.file("truth.csv", positions()),
                                           "--method", "smacof-knn",
                                           "--out",    folder / "out",
@@ -96,7 +96,7 @@ TEST(MapUnlabelled, MendsSomeOfTwoLabelsThatAreConfusedInAQuarterOfTheStepsAndWa
     return survey.history.names[static_cast<std::size_t>(t % 4 == 0 ? other : i)];
   });
   const auto plain = nlohmann::json::parse(survey.mapped(folder, file).out);
-  const Outcome outcome = survey.mapped(folder, file, {"--labels-unsure", "L5,L18"});
+  const Outcome outcome = survey.mapped(folder, file, {"--uncertain-ids", "L5,L18"});
   ASSERT_EQ(outcome.exit_code, 0) << outcome.error;
   const auto result = nlohmann::json::parse(outcome.out);
   EXPECT_LT(result["score"]["mpe_all_fitted_m"], plain["score"]["mpe_all_fitted_m"]);
@@ -123,14 +123,14 @@ TEST(MapUnlabelled, RefusesWhatItCannotEstimate) {
   EXPECT_NE(refused(whole + "10,?,1\n", {}).find("more readings without a label than"),
             std::string::npos);
   EXPECT_NE(refused(whole + "5000,?,1\n", {}).find("has none left for"), std::string::npos);
-  EXPECT_NE(refused(whole, {"--labels-unsure", "L5"}).find("name two or more"), std::string::npos);
-  EXPECT_NE(refused(whole, {"--labels-unsure", "L5,oak"}).find("no landmark is named \"oak\""),
+  EXPECT_NE(refused(whole, {"--uncertain-ids", "L5"}).find("name two or more"), std::string::npos);
+  EXPECT_NE(refused(whole, {"--uncertain-ids", "L5,oak"}).find("no landmark is named \"oak\""),
             std::string::npos);
-  const std::string looks = folder.file("looks.csv", "step,landmark,range,bearing\n0,?,1,1\n");
-  const Outcome sightings = mapproof({"map", looks, "--out", folder / "looks"});
-  EXPECT_EQ(sightings.exit_code, 2);
-  EXPECT_NE(sightings.error.find("line 2: a reading without a label"), std::string::npos)
-      << sightings.error;
+  const std::string scans = folder.file("scans.csv", "step,landmark,range,bearing\n0,?,1,1\n");
+  const Outcome detections = mapproof({"map", scans, "--out", folder / "scans"});
+  EXPECT_EQ(detections.exit_code, 2);
+  EXPECT_NE(detections.error.find("line 2: a reading without a label"), std::string::npos)
+      << detections.error;
 }
 
 }  // namespace

@@ -148,8 +148,9 @@ const std::vector<MemoryCase>& memory_cases() {
        }},
       {"map", make_observations,
        [](const std::string& folder) {
-         return std::vector<std::string>{
-             "map", folder + "/observations.csv", "--kind", "visibility", "--out", folder + "/out"};
+         return std::vector<std::string>{"map",      folder + "/observations.csv",
+                                         "--sensor", "visibility",
+                                         "--out",    folder + "/out"};
        }},
   };
   return cases;

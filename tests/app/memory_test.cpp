@@ -31,7 +31,7 @@ TEST(LittleMemory, IsEnoughForWhatIsSmall) {
   const TemporaryFolder folder;
   const std::string observations = std::string(MAPPROOF_TEST_DATA) + "/observations/wide_plain.csv";
   const auto map = [&](const std::string& out) {
-    return std::vector<std::string>{"map", observations, "--kind", "visibility", "--out", out};
+    return std::vector<std::string>{"map", observations, "--sensor", "visibility", "--out", out};
   };
   const Outcome plain = mapproof(map(folder / "plain"));
   const Outcome little = within(kLimit, map(folder / "little"));

@@ -9,7 +9,7 @@
 #include <nlohmann/json.hpp>
 
 #include "core/base/files.hpp"
-#include "tests/app/own_logs.hpp"
+#include "tests/app/range_logs.hpp"
 #include "tests/support/plaza.hpp"
 #include "tests/support/program.hpp"
 

@@ -41,7 +41,7 @@ class ScenesOfAStudy : public ::testing::Test {
 TEST_F(ScenesOfAStudy, AreInItsReportWithWhatDrewThem) {
   ASSERT_EQ(made_.exit_code, 0) << made_.error;
   const std::string page = read_file(study() + "/report.html");
-  for (const char* id : {"scene-look-visibility", "scene-world-bearing", "scene-world-bearing-plan",
+  for (const char* id : {"scene-scan-visibility", "scene-world-bearing", "scene-world-bearing-plan",
                          "scene-manifold-visibility", "scene-error-bearing"}) {
     EXPECT_NE(page.find(std::string("id=\"") + id), std::string::npos) << id;
     for (const char* extension : {".svg", ".png", ".pdf", ".scene.json"})
@@ -87,7 +87,7 @@ TEST_F(ScenesOfAStudy, ThatCannotBeDrawnAreOneLineAndCodeThree) {
   const Outcome outcome = mapproof({"render", study(), "--figure", kScene, "--out", out});
   EXPECT_EQ(outcome.exit_code, 3);
   EXPECT_EQ(outcome.error,
-            "mapproof: scenes cannot be drawn: /nowhere/mapproof-scenes is no program: No such "
+            "mapproof: scenes cannot be drawn: /nowhere/mapproof-scenes is not a program: No such "
             "file or directory\n");
   EXPECT_TRUE(!fs::exists(out) || contents(out).empty());
 }

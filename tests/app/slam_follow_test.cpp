@@ -45,7 +45,7 @@ TEST(SlamFollow, MapsLandmarksExactlyWhereRangesAreExact) {
   for (const std::string& bytes : {"t,beacon,range\n" + table.rows, gzipped(table.rows)}) {
     const Outcome outcome =
         followed("slam", folder, bytes,
-                 {"--true-landmarks", truth, "--every", "20", "--out", folder / "out"});
+                 {"--ground-truth-landmarks", truth, "--every", "20", "--out", folder / "out"});
     ASSERT_EQ(outcome.exit_code, 0) << outcome.error;
     const json result = json::parse(outcome.out);
     EXPECT_EQ(result.at("method"), "spectral");

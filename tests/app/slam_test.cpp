@@ -5,7 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include "core/base/files.hpp"
-#include "tests/app/own_logs.hpp"
+#include "tests/app/range_logs.hpp"
 #include "tests/support/plaza.hpp"
 #include "tests/support/program.hpp"
 
@@ -28,7 +28,7 @@ double mean_error(const json& result, const std::string& name) {
 
 TEST(Slam, MapsALogAndWritesPathLandmarksFiguresAndReport) {
   const TemporaryFolder folder;
-  write_log(own_log(), folder / "log");
+  write_log(drive_log(), folder / "log");
   const Outcome outcome =
       mapproof({"slam", folder / "log", "--name", "Round", "--out", folder / "out", "--json"});
   ASSERT_EQ(outcome.exit_code, 0) << outcome.error;
@@ -47,7 +47,7 @@ TEST(Slam, MapsALogAndWritesPathLandmarksFiguresAndReport) {
 
 TEST(Slam, WithoutATruthClaimsNoError) {
   const TemporaryFolder folder;
-  write_log(own_log(), folder / "log", {.odometry = true, .truth = false, .landmarks = false});
+  write_log(drive_log(), folder / "log", {.odometry = true, .truth = false, .landmarks = false});
   const Outcome outcome = mapproof({"slam", folder / "log", "--out", folder / "out", "--json"});
   ASSERT_EQ(outcome.exit_code, 0) << outcome.error;
   for (const json& method : json::parse(outcome.out).at("methods"))
@@ -57,8 +57,8 @@ TEST(Slam, WithoutATruthClaimsNoError) {
 
 TEST(Slam, TruthOdometryAndKnownLandmarksMayStandInFilesOfTheirOwn) {
   const TemporaryFolder folder;
-  write_log(own_log(), folder / "whole");
-  write_log(own_log(), folder / "log", {.odometry = false, .truth = false, .landmarks = false});
+  write_log(drive_log(), folder / "whole");
+  write_log(drive_log(), folder / "log", {.odometry = false, .truth = false, .landmarks = false});
   const Outcome outcome =
       mapproof({"slam", folder / "log", "--odometry", folder / "whole/odometry.csv", "--truth",
                 folder / "whole/groundtruth.csv", "--known-landmarks",
@@ -84,7 +84,7 @@ TEST(Slam, WithoutOdometrySaysWhatItCannotDoAndMapsWhatComesTogether) {
   // The path is straight between its times, a second apart; the truth is not.
   EXPECT_LT(mean_error(result, "spectral"), 0.05);
 
-  write_log(own_log(), folder / "apart", {.odometry = false});
+  write_log(drive_log(), folder / "apart", {.odometry = false});
   const Outcome apart = mapproof({"slam", folder / "apart", "--out", folder / "none"});
   EXPECT_EQ(apart.exit_code, 1) << apart.error;
   EXPECT_NE(apart.out.find("No method gave a map"), std::string::npos) << apart.out;
@@ -93,7 +93,7 @@ TEST(Slam, WithoutOdometrySaysWhatItCannotDoAndMapsWhatComesTogether) {
 
 TEST(Slam, OneLandmarkIsAStatusAndNoCrash) {
   const TemporaryFolder folder;
-  RangeLog log = own_log();
+  RangeLog log = drive_log();
   log.landmarks.resize(1);
   std::erase_if(log.ranges, [](const RangeReading& reading) { return reading.landmark > 0; });
   log.true_landmarks = Points(log.true_landmarks->topRows(1));

@@ -13,12 +13,12 @@
 
 #include "core/base/files.hpp"
 #include "core/base/random.hpp"
-#include "core/records/sightings.hpp"
+#include "core/records/observations/detections.hpp"
 #include "tests/core/range_slam/sample_log.hpp"
-#include "tests/support/looks.hpp"
+#include "tests/support/detections_csv.hpp"
 #include "tests/support/packing.hpp"
 #include "tests/support/program.hpp"
-#include "tests/support/sightings_csv.hpp"
+#include "tests/support/scans.hpp"
 
 namespace mapproof::test {
 namespace {
@@ -106,16 +106,16 @@ std::string seen_table() {
   return text;
 }
 
-SightingLog looks() {
+DetectionLog scans() {
   Points places(9, 2);
   for (Eigen::Index i = 0; i < 9; ++i)
     places.row(i) << static_cast<double>(i % 3), 0.9 * static_cast<double>(i / 3);
-  return looks_at(places, 300, 5, 3);
+  return scans_at(places, 300, 5, 3);
 }
 
-std::string looks_csv() { return sightings_csv(looks()); }
+std::string scans_csv() { return detections_csv(scans()); }
 
-std::string looks_json() { return sightings_json(looks()); }
+std::string scans_json() { return detections_json(scans()); }
 
 /// The files beside the input of a command: observations, anchors, a log as `set` and, without its
 /// odometry, as `bare`; after its first use, `map` with its figures and `slam`.
@@ -135,7 +135,7 @@ class Samples {
   /// The bytes of a file.
   std::string operator[](const std::string& file) const {
     if (file.starts_with("map/") && !fs::exists(folder_ / "map"))
-      make("map wide.csv --kind bearing --anchors anchors.csv --out map");
+      make("map wide.csv --sensor bearing --anchors anchors.csv --out map");
     if (file.starts_with("slam/") && !fs::exists(folder_ / "slam"))
       make("slam set --name set --out slam");
     return read_file(folder_ / file);
@@ -165,19 +165,20 @@ std::function<std::string()> data(const std::string& file) {
 const std::vector<Reader>& readers() {
   static const std::string slam = "slam {} --name log --out out";
   static const std::vector<Reader> all = {
-      {"MapOfWideCsv", [] { return wide_table(); }, "map {} --kind bearing --method lpca --out out",
-       kMap},
-      {"MapOfLongCsv", long_table, "map {} --kind visibility --method lpca --out out", kMap},
+      {"MapOfWideCsv", [] { return wide_table(); },
+       "map {} --sensor bearing --method lpca --out out", kMap},
+      {"MapOfLongCsv", long_table, "map {} --sensor visibility --method lpca --out out", kMap},
       {"MapOfLongCsvAsSaid", long_table,
-       "map {} --kind visibility --layout long --method lpca --out out", kMap},
+       "map {} --sensor visibility --layout long --method lpca --out out", kMap},
       {"MapOfJson", data("observations/observations.json"), "map {} --method lpca --out out", kMap},
-      {"MapOfSightings", looks_csv, "map {} --out out", kMap},
-      {"MapOfSightingsJson", looks_json, "map {} --out out", kMap},
-      {"MapOfOneSensorOfSightings", looks_csv, "map {} --kind range --method lpca --out out", kMap},
-      {"Anchors", anchors, "map wide.csv --kind bearing --anchors {} --out out", kMap},
-      {"Truth", anchors, "map wide.csv --kind bearing --truth {} --out out", kMap},
+      {"MapOfDetections", scans_csv, "map {} --out out", kMap},
+      {"MapOfDetectionsJson", scans_json, "map {} --out out", kMap},
+      {"MapOfOneSensorOfDetections", scans_csv, "map {} --sensor range --method lpca --out out",
+       kMap},
+      {"Anchors", anchors, "map wide.csv --sensor bearing --anchors {} --out out", kMap},
+      {"Truth", anchors, "map wide.csv --sensor bearing --truth {} --out out", kMap},
       {"OtherSensor", seen_table,
-       "map wide.csv --kind bearing --with {} --with-kind visibility --out out", kMap},
+       "map wide.csv --sensor bearing --with {} --with-sensor visibility --out out", kMap},
       {"SlamOfMat", sample("log.mat"), slam, kSlam},
       {"SlamOfCsv", sample("set/ranges.csv"), slam + " --odometry set/odometry.csv", kSlam},
       {"SlamOfText", [] { return td_text_of(sample_log()); }, slam + " --odometry set/odometry.csv",
@@ -187,8 +188,8 @@ const std::vector<Reader>& readers() {
       {"KnownLandmarks", sample("set/landmarks.csv"), "slam set --known-landmarks {} --out out",
        kSlam},
       {"TruePath", sample("set/groundtruth.csv"), "slam bare --truth {} --out out", kSlam},
-      {"TrueLandmarks", sample("set/landmarks.csv"), "slam bare --true-landmarks {} --out out",
-       kSlam},
+      {"TrueLandmarks", sample("set/landmarks.csv"),
+       "slam bare --ground-truth-landmarks {} --out out", kSlam},
       {"DiffOfPng", sample("map/figures/map.png"), "diff map/figures/map.png {} --json -"},
       {"DiffOfBaseline", sample("map/figures/map.png"), "diff {} map/figures/map.png --json -"},
       {"DiffOfSvg", sample("map/figures/map.svg"), "diff map/figures/map.svg {} --json -"},
@@ -199,7 +200,7 @@ const std::vector<Reader>& readers() {
       {"DiffOfSlam", sample("slam/slam.json"), "diff slam/slam.json {} --json -"},
       {"ValidateWideCsv", [] { return wide_table(); }, "validate {} --json"},
       {"ValidateLongCsv", long_table, "validate {} --json"},
-      {"ValidateSightings", looks_csv, "validate {} --json"},
+      {"ValidateDetections", scans_csv, "validate {} --json"},
       {"ValidateAnchors", anchors, "validate {} --json"},
       {"ValidateMat", sample("log.mat"), "validate {} --json"},
       {"ValidateRanges", sample("set/ranges.csv"), "validate {} --json"},
@@ -310,8 +311,9 @@ TEST(Streams, AStreamIsNotGivenTwice) {
   folder.file("seen.csv", wide_table(50));
   folder.file("anchors.csv", kAnchors);
   for (const char* rest :
-       {"map - --kind bearing --anchors - --out out", "slam - --truth - --out out",
-        "map - --kind bearing --with - --with-kind range --out out", "validate - -", "diff - -"})
+       {"map - --sensor bearing --anchors - --out out", "slam - --truth - --out out",
+        "map - --sensor bearing --with - --with-sensor range --out out", "validate - -",
+        "diff - -"})
     expect_refused(shell(folder.path(), fmt::format("cat seen.csv | $MAPPROOF {}", rest)),
                    "standard input is given twice");
   expect_refused(shell(folder.path(), "cat seen.csv | $MAPPROOF validate - /dev/stdin"),
@@ -326,7 +328,7 @@ TEST(Streams, AStreamIsNotGivenTwice) {
                 .exit_code,
             0);
   EXPECT_EQ(shell(folder.path(),
-                  "$MAPPROOF map <(cat seen.csv) --kind bearing --anchors "
+                  "$MAPPROOF map <(cat seen.csv) --sensor bearing --anchors "
                   "<(cat anchors.csv) --truth - --out out < anchors.csv")
                 .exit_code,
             0);
@@ -338,10 +340,10 @@ TEST(Streams, AFolderIsNotReadFromStandardInput) {
   for (const char* rest :
        {"report -", "render -", "history - --list", "nightly yairi2007 --store -",
         "check yairi2007 --baseline -", "approve - out", "approve base -",
-        "map seen.csv --kind bearing --out -", "run yairi2007 --out -"}) {
+        "map seen.csv --sensor bearing --out -", "run yairi2007 --out -"}) {
     const Outcome outcome = shell(folder.path(), fmt::format("$MAPPROOF {} < seen.csv", rest), 5.0);
     EXPECT_EQ(outcome.exit_code, 2) << rest;
-    EXPECT_NE(outcome.error.find("standard input is no folder"), std::string::npos)
+    EXPECT_NE(outcome.error.find("standard input is not a folder"), std::string::npos)
         << rest << ": " << outcome.error;
   }
   expect_refused(shell(folder.path(), "cat seen.csv | $MAPPROOF diff - ."), "not to be compared");
@@ -367,7 +369,7 @@ TEST(Streams, PipesAndDevicesWithinFoldersAreNamedAtOnce) {
     fs::remove(folder / "set" / name);
     ASSERT_EQ(::mkfifo((folder / "set" / name).c_str(), 0600), 0);
     expect_named(folder, std::string(name) + ": is a named pipe",
-                 {"map set --out out", "validate set", "map set --kind range-bearing --out out"});
+                 {"map set --out out", "validate set", "map set --sensor range-bearing --out out"});
   }
   for (const char* name : {"ranges.csv", "odometry.csv", "groundtruth.csv", "landmarks.csv"}) {
     const TemporaryFolder folder;
@@ -392,7 +394,7 @@ TEST(Streams, AFollowedPipeThatNobodyWritesToCanBeStopped) {
   ASSERT_EQ(::mkfifo((folder / "f").c_str(), 0600), 0);
   const Outcome outcome =
       shell(folder.path(),
-            "timeout -s INT 0.5 $MAPPROOF map f --follow --kind visibility --out out", 10.0);
+            "timeout -s INT 0.5 $MAPPROOF map f --follow --sensor visibility --out out", 10.0);
   EXPECT_NE(outcome.error.find("f: held no observations"), std::string::npos) << outcome.error;
 }
 
@@ -400,7 +402,7 @@ TEST(Streams, ADiffOfPipesShowsBothOnItsPage) {
   const TemporaryFolder folder;
   folder.file("a.png", samples()["map/figures/map.png"]);
   ASSERT_EQ(shell(samples().path(),
-                  fmt::format("$MAPPROOF map wide.csv --kind bearing --method lpca --out {}",
+                  fmt::format("$MAPPROOF map wide.csv --sensor bearing --method lpca --out {}",
                               (folder / "other").string()))
                 .exit_code,
             0);

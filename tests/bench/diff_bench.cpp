@@ -13,7 +13,7 @@
 #include "render/cairo/cairo_backend.hpp"
 #include "render/image/png.hpp"
 #include "render/plot/layout.hpp"
-#include "reports/diff/picture_diff.hpp"
+#include "reports/diff/images/picture_diff.hpp"
 #include "tests/support/sample_figures.hpp"
 
 namespace mapproof {
@@ -100,10 +100,10 @@ void compare_folders(const fs::path& baseline, const fs::path& current, const fs
 /// Makes the pairs that scripts/bench diff compares, or compares all pictures of two folders and
 /// writes the heat maps of those that differ.
 int main(int argc, char** argv) {
-  const std::string verb = argc > 1 ? argv[1] : "";
-  if (verb == "make" && argc == 3) {
+  const std::string command = argc > 1 ? argv[1] : "";
+  if (command == "make" && argc == 3) {
     mapproof::make(argv[2]);
-  } else if (verb == "compare" && argc == 5) {
+  } else if (command == "compare" && argc == 5) {
     mapproof::compare_folders(argv[2], argv[3], argv[4]);
   } else {
     std::fputs("usage: diff_bench make FOLDER | compare BASELINE CURRENT HEAT_MAPS\n", stderr);

@@ -9,8 +9,8 @@
 #include <fmt/format.h>
 
 #include "core/base/files.hpp"
-#include "render/figures/error_curve.hpp"
-#include "render/figures/map.hpp"
+#include "render/figures/curves/error_curve.hpp"
+#include "render/figures/maps/map.hpp"
 #include "render/output/write_figure.hpp"
 #include "tests/support/sample_figures.hpp"
 

@@ -13,13 +13,13 @@
 
 #include "core/base/files.hpp"
 #include "core/base/random.hpp"
-#include "core/topics/ranges.hpp"
 #include "core/experiment/slam_worlds.hpp"
 #include "core/range_slam/dead_reckoning.hpp"
-#include "core/range_slam/online.hpp"
-#include "core/range_slam/refine.hpp"
-#include "core/range_slam/spectral_slam.hpp"
-#include "core/records/slam_experiment_json.hpp"
+#include "core/range_slam/factors/online.hpp"
+#include "core/range_slam/factors/spectral_slam.hpp"
+#include "core/range_slam/refinement/refine.hpp"
+#include "core/records/experiments/slam_experiment_json.hpp"
+#include "core/topics/ranges.hpp"
 
 namespace mapproof {
 namespace {

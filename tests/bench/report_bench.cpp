@@ -12,7 +12,7 @@
 #include <fmt/format.h>
 
 #include "core/base/files.hpp"
-#include "render/figures/map.hpp"
+#include "render/figures/maps/map.hpp"
 #include "render/plot/layout.hpp"
 #include "render/svg/svg.hpp"
 #include "reports/html/report_html.hpp"
@@ -71,14 +71,14 @@ void report(const fs::path& folder, int count) {
 }  // namespace mapproof::test
 
 int main(int count, char** arguments) {
-  const std::string verb = count == 4 ? arguments[1] : "";
-  if (verb != "make" && verb != "report") {
+  const std::string command = count == 4 ? arguments[1] : "";
+  if (command != "make" && command != "report") {
     std::fputs("usage: report_bench make|report FOLDER COUNT\n", stderr);
     return 2;
   }
   try {
     const int figures = std::stoi(arguments[3]);
-    if (verb == "make")
+    if (command == "make")
       mapproof::test::make(arguments[2], figures);
     else
       mapproof::test::report(arguments[2], figures);

@@ -70,12 +70,12 @@ void repeat(int count) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  const std::string verb = argc > 1 ? argv[1] : "";
-  if (verb == "write" && argc == 3)
+  const std::string command = argc > 1 ? argv[1] : "";
+  if (command == "write" && argc == 3)
     write_file(fs::path(argv[2]) / "scene.json", scene_to_json(bench_scene()));
-  else if (verb == "draw" && argc == 6)
+  else if (command == "draw" && argc == 6)
     draw(argv[2], std::atoi(argv[3]), std::atoi(argv[4]), std::atof(argv[5]));
-  else if (verb == "repeat" && argc == 3)
+  else if (command == "repeat" && argc == 3)
     repeat(std::atoi(argv[2]));
   else
     return 2;

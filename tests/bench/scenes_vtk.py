@@ -115,7 +115,7 @@ def renderer_of(scene):
             mapper.SetInputConnection(source.GetOutputPort())
         actor = vtkActor()
         actor.SetMapper(mapper)
-        actor.GetProperty().SetColor(INKS.get(part["look"]["ink"], (0.5, 0.5, 0.5)))
+        actor.GetProperty().SetColor(INKS.get(part["style"]["ink"], (0.5, 0.5, 0.5)))
         renderer.AddActor(actor)
     renderer.AutomaticLightCreationOff()
     for one in scene["lights"]:

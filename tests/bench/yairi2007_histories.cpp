@@ -13,7 +13,7 @@
 #include "core/base/files.hpp"
 #include "core/base/random.hpp"
 #include "core/experiment/seeds.hpp"
-#include "core/records/study_store.hpp"
+#include "core/records/studies/study_store.hpp"
 #include "core/simulate/robot_walk.hpp"
 #include "core/simulate/sensors.hpp"
 

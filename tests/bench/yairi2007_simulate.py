@@ -58,7 +58,7 @@ def bearings(landmarks, path):
 
 
 def visibility(landmarks, path, diameter, options):
-    """1 where a landmark looks wide enough and no nearer one stands before its centre."""
+    """1 where a landmark scans wide enough and no nearer one stands before its centre."""
     radius = diameter / 2.0
     reach = radius / numpy.sin(options["visual_angle_rad"] / 2.0)
     seen = numpy.zeros((len(landmarks), len(path)))

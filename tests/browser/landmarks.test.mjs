@@ -5,7 +5,7 @@ import { figure, open } from "./support.mjs";
 const rings = (page) => page.evaluate(() => Array.from(document.querySelectorAll("g.lit"),
   (layer) => layer.closest("figure").dataset.id));
 
-// A landmark of the map that is no anchor, with what its marks hold.
+// A landmark of the map that is not an anchor, with what its marks hold.
 const sample = (shown) => shown.locator("svg").evaluate((svg) => {
   const mark = svg.querySelector("use[data-kind=estimate]");
   const truth = svg.querySelector(`use[data-kind=true][data-landmark="${mark.dataset.landmark}"]`);

@@ -12,14 +12,14 @@ const pages = [
   [join(history, "trends", "small"), "report.html"],
   [join(history, "nights", "0002", "small"), "report.html"],
 ];
-const looks = [{}, { colorScheme: "dark" }, { viewport: { width: 390, height: 844 } },
+const scans = [{}, { colorScheme: "dark" }, { viewport: { width: 390, height: 844 } },
   { viewport: { width: 390, height: 844 }, colorScheme: "dark" }];
 
 for (const [folder, file] of pages) {
   const name = join(folder, file).slice(history.length + 1);
   test(`axe-core finds nothing against ${name}, wide and phone, light and dark`, async () => {
-    for (const look of looks) {
-      const { page, errors, requests, close } = await open(look, folder, file);
+    for (const scan of scans) {
+      const { page, errors, requests, close } = await open(scan, folder, file);
       assert.deepEqual(await violations(page), []);
       assert.equal(await page.evaluate(() => document.documentElement.scrollWidth - innerWidth), 0);
       assert.deepEqual([...errors, ...requests], []);

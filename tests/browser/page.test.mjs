@@ -83,7 +83,7 @@ test("axe-core finds nothing against the page of a comparison", { skip: !compari
   }
 });
 
-test("the page is no wider than a phone", async () => {
+test("the page is not a wider than a phone", async () => {
   const { page, close } = await open({ viewport: { width: 390, height: 844 } });
   await putAllIn(page);
   assert.ok(await page.evaluate(() => document.documentElement.scrollWidth) <= 390);

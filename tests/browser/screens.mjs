@@ -1,4 +1,4 @@
-// screens.mjs FOLDER: how the report looks, as PNG files, and in made-by.txt by which browser and
+// screens.mjs FOLDER: how the report scans, as PNG files, and in made-by.txt by which browser and
 // fonts; without these two the pictures of two machines cannot be compared.
 import { execFileSync } from "node:child_process";
 import { mkdirSync, writeFileSync } from "node:fs";

@@ -131,7 +131,7 @@ TEST(Variations, OfASensorThatIsNotThereAreRefused) {
   EXPECT_THROW(simulate_run(experiment, {1, 1}), InvalidInput);
 }
 
-TEST(RunDetails, ShowALookThatTheHistoryHolds) {
+TEST(RunDetails, ShowAScanThatTheHistoryHolds) {
   const RunResult result = simulate_run(small_experiment(), {1, 1});
   ASSERT_EQ(result.details.sensors.size(), 2U);
   const SensorDetails& visibility = result.details.sensors[0];
@@ -143,8 +143,8 @@ TEST(RunDetails, ShowALookThatTheHistoryHolds) {
   EXPECT_EQ(visibility.distances.size(), 66);
   EXPECT_NEAR(visibility.reach_m, 0.55, 0.001);
 
-  const Measurement look = measurement(result.details, visibility, result.run.world);
-  EXPECT_EQ(look.path_m.rows(), visibility.look_step);
+  const Measurement scan = measurement(result.details, visibility, result.run.world);
+  EXPECT_EQ(scan.path_m.rows(), visibility.scan_step);
   const SensorDetails& bearing = result.details.sensors[1];
   EXPECT_TRUE(bearing.views.empty());
   EXPECT_EQ(result.details.path.positions_m.rows(), 200);

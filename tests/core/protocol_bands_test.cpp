@@ -6,7 +6,7 @@
 
 #include "core/base/files.hpp"
 #include "core/experiment/run.hpp"
-#include "core/records/experiment_json.hpp"
+#include "core/records/experiments/experiment_json.hpp"
 
 namespace mapproof {
 namespace {

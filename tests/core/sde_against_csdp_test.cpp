@@ -1,4 +1,4 @@
-// Our solver held against CSDP's, by fixed simulated observations of both sensors.
+// Our solver compared with CSDP's, by fixed simulated observations of both sensors.
 #include <sys/resource.h>
 #include <unistd.h>
 

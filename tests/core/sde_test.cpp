@@ -120,7 +120,7 @@ TEST_P(EverySolver, SaysWhenNoPointsHaveSuchDistances) {
   EXPECT_FALSE(is_proved(*map.certificate));
   EXPECT_TRUE(map.coordinates.allFinite());
   EXPECT_GT(map.certificate->constraint_residual, 1e-3);
-  EXPECT_GT(map.certificate->relative_gap, 1e-3);  // Of no sign: a bound below 0 is no proof.
+  EXPECT_GT(map.certificate->relative_gap, 1e-3);  // Of no sign: a bound below 0 is not a proof.
 }
 
 INSTANTIATE_TEST_SUITE_P(Sde, EverySolver,

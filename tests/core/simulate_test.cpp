@@ -4,8 +4,8 @@
 
 #include <gtest/gtest.h>
 
-#include "core/base/errors.hpp"
 #include "core/base/angle.hpp"
+#include "core/base/errors.hpp"
 #include "core/simulate/robot_walk.hpp"
 #include "core/simulate/sensors.hpp"
 #include "core/simulate/world.hpp"
@@ -128,7 +128,7 @@ World landmarks_at(const Points& positions) {
   return {.side_m = 10.0, .landmark_diameter_m = 0.048, .landmarks_m = positions};
 }
 
-TEST(Observe, SeesACylinderThatLooksWiderThanFiveDegrees) {
+TEST(Observe, SeesACylinderThatScansWiderThanFiveDegrees) {
   Points positions(2, 2);
   positions << 0.549, 0, 0, 0.552;  // 5 degrees are reached at 0.550 m
   Random random(1);

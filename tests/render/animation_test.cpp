@@ -110,9 +110,10 @@ TEST(Animation, WithoutItsProgramIsOneLine) {
     }
     return "nothing";
   };
-  EXPECT_EQ(said("/nowhere/encoder"),
-            "the animation cannot be made: encoder: /nowhere/encoder is no program: No such file "
-            "or directory");
+  EXPECT_EQ(
+      said("/nowhere/encoder"),
+      "the animation cannot be made: encoder: /nowhere/encoder is not a program: No such file "
+      "or directory");
   EXPECT_EQ(said("/bin/false"), "the animation cannot be made: false: it ended with exit code 1");
   EXPECT_EQ(said("/bin/true"), "the animation cannot be made: true: it gave no PNG");
 }

@@ -13,7 +13,7 @@
 
 #include "core/base/errors.hpp"
 #include "core/base/files.hpp"
-#include "render/figures/map.hpp"
+#include "render/figures/maps/map.hpp"
 #include "render/image/png_read.hpp"
 #include "render/output/write_figure.hpp"
 #include "render/plot/figure_json.hpp"

@@ -4,8 +4,8 @@
 
 #include "core/base/errors.hpp"
 #include "render/cairo/cairo_backend.hpp"
-#include "render/figures/error_curve.hpp"
-#include "render/figures/map.hpp"
+#include "render/figures/curves/error_curve.hpp"
+#include "render/figures/maps/map.hpp"
 #include "render/image/palette_image.hpp"
 #include "render/image/png.hpp"
 #include "render/image/png_read.hpp"
@@ -38,7 +38,8 @@ Image shifted(const Image& image, int by) {
 bool alike(const Image& a, const Image& b) { return is_alike(compare_images(a, b)); }
 
 TEST(ImageComparison, ADrawingIsLikeItself) {
-  const ImageDifference difference = compare_images(drawn(map_to_compare()), drawn(map_to_compare()));
+  const ImageDifference difference =
+      compare_images(drawn(map_to_compare()), drawn(map_to_compare()));
   EXPECT_TRUE(difference.same_size);
   EXPECT_EQ(difference.changed_share, 0.0);
   EXPECT_EQ(difference.structure, 1.0);

@@ -3,7 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "core/base/errors.hpp"
-#include "render/figures/pair_distances.hpp"
+#include "render/figures/maps/pair_distances.hpp"
 #include "render/plot/layout.hpp"
 #include "tests/support/figure_parts.hpp"
 #include "tests/support/sample_comparisons.hpp"

@@ -82,8 +82,8 @@ TEST(DrawingSchemas, RefuseWhatTheReaderRefuses) {
        std::vector<std::pair<std::string, json>>{{"/views", json::array()},
                                                  {"/views/0/camera/aspect", 9},
                                                  {"/views/0/camera/eye", {1, 2}},
-                                                 {"/parts/0/look/opacity", 0},
-                                                 {"/parts/0/look/ink", "gold"},
+                                                 {"/parts/0/style/opacity", 0},
+                                                 {"/parts/0/style/ink", "gold"},
                                                  {"/parts/0/tones", nullptr}})
     expect_both_refuse("scene", damaged(scene, pointer, by));
 }

@@ -4,20 +4,20 @@
 #include <gtest/gtest.h>
 
 #include "core/base/errors.hpp"
-#include "render/figures/error_by_parameter.hpp"
+#include "render/figures/curves/error_by_parameter.hpp"
 #include "tests/support/figure_parts.hpp"
 #include "tests/support/sample_studies.hpp"
 
 namespace mapproof::test {
 namespace {
 
-TEST(SeriesLook, NoTwoOfTheFirstTwentyOneAreAlike) {
-  std::set<std::tuple<Ink, Dash, Marker>> looks;
+TEST(SeriesStyle, NoTwoOfTheFirstTwentyOneAreAlike) {
+  std::set<std::tuple<Ink, Dash, Marker>> styles;
   std::set<std::pair<Dash, Marker>> grey;
   for (std::size_t i = 0; i < 21; ++i) {
-    const SeriesLook look = series_look(i);
-    EXPECT_TRUE(looks.insert({look.ink, look.dash, look.marker}).second) << i;
-    grey.insert({look.dash, look.marker});
+    const SeriesStyle style = series_style(i);
+    EXPECT_TRUE(styles.insert({style.ink, style.dash, style.marker}).second) << i;
+    grey.insert({style.dash, style.marker});
     if (i == 9) {
       EXPECT_EQ(grey.size(), 10u);  // In grey.
     }
@@ -31,7 +31,7 @@ TEST(ErrorAxis, IsLogarithmicOnlyWhereTheMeansSpanMuch) {
   EXPECT_EQ(error_axis({NAN}, {}).limits, (Range{0.0, 1.0}));
 }
 
-TEST(SeriesOf, TakesWhatIsAskedForUnlessTwoWouldLookAlike) {
+TEST(SeriesOf, TakesWhatIsAskedForUnlessTwoWouldStyleAlike) {
   using Asked = std::vector<std::optional<std::size_t>>;
   using Series = std::vector<std::size_t>;
   EXPECT_EQ(series_of(Asked{7, 2, 5}), (Series{7, 2, 5}));

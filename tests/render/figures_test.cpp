@@ -3,11 +3,11 @@
 #include <gtest/gtest.h>
 
 #include "core/base/errors.hpp"
-#include "render/figures/error_curve.hpp"
-#include "render/figures/map.hpp"
-#include "render/figures/map_ellipses.hpp"
-#include "render/figures/map_view.hpp"
-#include "render/figures/measured_map.hpp"
+#include "render/figures/curves/error_curve.hpp"
+#include "render/figures/maps/map.hpp"
+#include "render/figures/maps/map_ellipses.hpp"
+#include "render/figures/maps/map_view.hpp"
+#include "render/figures/maps/measured_map.hpp"
 #include "render/figures/score_words.hpp"
 #include "render/figures/words.hpp"
 #include "tests/support/sample_figures.hpp"
@@ -167,12 +167,12 @@ TEST(ErrorCurveFigure, HasALineAndABandForEachCurve) {
 
 TEST(ErrorCurveFigure, CurvesDifferInMarkerAndDashNotInColourAlone) {
   const Figure figure = error_curve_figure(sample_curves(7, 1));
-  std::vector<std::pair<Marker, Dash>> looks;
+  std::vector<std::pair<Marker, Dash>> styles;
   for (const Layer& layer : figure.panels[0].layers)
     if (const auto* line = std::get_if<Polyline>(&layer))
-      looks.emplace_back(line->marker, line->dash);
-  for (std::size_t i = 0; i < looks.size(); ++i)
-    for (std::size_t j = i + 1; j < looks.size(); ++j) EXPECT_NE(looks[i].first, looks[j].first);
+      styles.emplace_back(line->marker, line->dash);
+  for (std::size_t i = 0; i < styles.size(); ++i)
+    for (std::size_t j = i + 1; j < styles.size(); ++j) EXPECT_NE(styles[i].first, styles[j].first);
 }
 
 TEST(ErrorCurveFigure, TurnsLogarithmicWhenTheSpanIsLarge) {

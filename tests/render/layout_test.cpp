@@ -5,7 +5,7 @@
 #include <gtest/gtest.h>
 
 #include "core/base/errors.hpp"
-#include "render/figures/map.hpp"
+#include "render/figures/maps/map.hpp"
 #include "render/plot/axis_map.hpp"
 #include "tests/support/figure_checks.hpp"
 #include "tests/support/sample_figures.hpp"

@@ -1,4 +1,4 @@
-#include "render/figures/measurement.hpp"
+#include "render/figures/diagrams/measurement.hpp"
 
 #include <cmath>
 #include <numbers>

@@ -1,12 +1,12 @@
-#include "render/figures/path_map.hpp"
+#include "render/figures/maps/path_map.hpp"
 
 #include <cmath>
 
 #include <gtest/gtest.h>
 
 #include "core/base/errors.hpp"
-#include "render/figures/covariance_ellipse.hpp"
-#include "render/figures/slam_looks.hpp"
+#include "render/figures/maps/covariance_ellipse.hpp"
+#include "render/figures/maps/path_styles.hpp"
 #include "tests/support/figure_parts.hpp"
 #include "tests/support/sample_slam.hpp"
 
@@ -36,7 +36,7 @@ TEST(PathMap, DrawsTheTruthBelowAndEachMethodInItsOwnInk) {
   EXPECT_GT(paths[0].width, 2.0 * paths[2].width);
   for (std::size_t i = 0; i < kShown.size(); ++i) {
     EXPECT_EQ(paths[i + 1].label, info(kShown[i]).label);
-    EXPECT_EQ(paths[i + 1].ink, slam_look(kShown[i]).ink);
+    EXPECT_EQ(paths[i + 1].ink, path_style(kShown[i]).ink);
   }
 }
 

@@ -104,7 +104,7 @@ TEST(ScenePixels, StandWhereTheProjectionSays) {
          {Point3{0.9, 0.2, 0.4}, Point3{-0.8, 0.5, -0.3}, Point3{0.0, -0.9, 0.6}}) {
       Scene scene = small_scene();
       scene.parts = {
-          Spheres{.at = {at}, .radius = 0.03, .look = {.ink = Ink::kText, .lit = false}}};
+          Spheres{.at = {at}, .radius = 0.03, .style = {.ink = Ink::kText, .lit = false}}};
       const std::vector<Point3> corners = {{-1, -1, -1}, {1, 1, 1}, {-1, 1, 1}, {1, -1, -1}};
       scene.views[0].camera = fitted_camera(corners, {0.7, -1.0, 0.5}, parallel);
       const Point p = Projection(scene.views[0].camera)(at);
@@ -159,9 +159,10 @@ TEST(SceneClient, SaysInOneLineThatTheProgramIsMissing) {
     drawn(none, small_scene());
     FAIL();
   } catch (const SceneError& error) {
-    EXPECT_STREQ(error.what(),
-                 "scenes cannot be drawn: /nowhere/mapproof-scenes is no program: No such file or "
-                 "directory");
+    EXPECT_STREQ(
+        error.what(),
+        "scenes cannot be drawn: /nowhere/mapproof-scenes is not a program: No such file or "
+        "directory");
   }
 }
 

@@ -36,8 +36,8 @@ TEST(Scene, LosesNothingThatIsNotAsItUsuallyIs) {
   Surface& sheet = std::get<Surface>(scene.parts[5]);
   sheet.smooth = true;
   sheet.tones = {{0.5, 1.0, 1.5, 2.0}, {0.25, 3.0}};
-  sheet.look.lit = false;
-  sheet.look.share = 0.25;
+  sheet.style.lit = false;
+  sheet.style.share = 0.25;
   Tube& tube = std::get<Tube>(scene.parts[1]);
   tube.tones.values[1] = 1.0;  // NaN is unequal to itself.
   Shot& view = scene.views[0];

@@ -3,12 +3,12 @@
 #include <gtest/gtest.h>
 
 #include "core/base/errors.hpp"
-#include "render/figures/convergence.hpp"
-#include "render/figures/log_log.hpp"
-#include "render/figures/map_grid.hpp"
-#include "render/figures/refinement_starts.hpp"
-#include "render/figures/singular_values.hpp"
-#include "render/figures/window_curve.hpp"
+#include "render/figures/curves/convergence.hpp"
+#include "render/figures/curves/log_log.hpp"
+#include "render/figures/curves/refinement_starts.hpp"
+#include "render/figures/curves/singular_values.hpp"
+#include "render/figures/curves/window_curve.hpp"
+#include "render/figures/maps/map_grid.hpp"
 #include "tests/support/figure_parts.hpp"
 #include "tests/support/sample_comparisons.hpp"
 #include "tests/support/sample_slam.hpp"

@@ -4,7 +4,7 @@
 
 #include <gtest/gtest.h>
 
-#include "render/figures/map.hpp"
+#include "render/figures/maps/map.hpp"
 #include "render/output/write_figure.hpp"
 #include "render/svg/xml_text.hpp"
 #include "tests/support/sample_figures.hpp"

@@ -1,4 +1,4 @@
-#include "render/figures/thinning.hpp"
+#include "render/figures/curves/thinning.hpp"
 
 #include <cmath>
 

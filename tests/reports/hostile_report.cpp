@@ -3,7 +3,7 @@
 #include <fmt/format.h>
 
 #include "core/model/map_record.hpp"
-#include "render/figures/map.hpp"
+#include "render/figures/maps/map.hpp"
 #include "render/plot/layout.hpp"
 #include "render/svg/svg.hpp"
 

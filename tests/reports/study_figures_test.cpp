@@ -5,7 +5,7 @@
 #include <gtest/gtest.h>
 
 #include "core/experiment/run.hpp"
-#include "render/figures/error_lines.hpp"
+#include "render/figures/curves/error_lines.hpp"
 #include "reports/sections/figures/builders.hpp"
 #include "reports/sections/study_report.hpp"
 #include "tests/reports/synthetic_study.hpp"
@@ -159,7 +159,7 @@ TEST(SeriesOfMethod, KeepsColoursOfOneFamilyApart) {
     std::set<Ink> inks;
     for (const MethodInfo& method : all_methods())
       if (on_graph(method.method) == graph) {
-        const Ink ink = series_look(series_of_method(method.method)).ink;
+        const Ink ink = series_style(series_of_method(method.method)).ink;
         EXPECT_TRUE(inks.insert(ink).second) << method.name;
       }
   }

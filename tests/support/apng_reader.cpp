@@ -41,7 +41,7 @@ std::string chunk(const std::string& type, const std::string& data) {
          big_endian(checksum(type + data));
 }
 
-/// Where a frame stands and how it is laid on.
+/// Where a frame stands and how it is aligned to.
 struct Control {
   std::uint32_t width, height, x, y;
   double seconds;

@@ -17,7 +17,7 @@ struct Apng {
   std::vector<ApngFrame> frames;
 };
 
-/// An animated PNG as a viewer shows it: each frame is decoded by libpng on its own and laid on the
+/// An animated PNG as a viewer shows it: each frame is decoded by libpng on its own and put on the
 /// ones before. @throws std::runtime_error for what is none, by its checksums too.
 Apng read_apng(const std::string& bytes);
 

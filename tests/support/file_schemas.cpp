@@ -1,15 +1,15 @@
 #include "tests/support/file_schemas.hpp"
 
 #include "core/json/json_text.hpp"
-#include "core/records/details_fields.hpp"
-#include "core/records/map_fields.hpp"
-#include "core/records/observation_fields.hpp"
-#include "core/records/results_study_fields.hpp"
-#include "core/records/run_fields.hpp"
-#include "core/records/slam_experiment_fields.hpp"
-#include "core/records/space_fields.hpp"
-#include "core/records/timing_fields.hpp"
-#include "core/records/trial_fields.hpp"
+#include "core/records/experiments/slam_experiment_fields.hpp"
+#include "core/records/maps/map_fields.hpp"
+#include "core/records/observations/observation_fields.hpp"
+#include "core/records/studies/details_fields.hpp"
+#include "core/records/studies/results_study_fields.hpp"
+#include "core/records/studies/run_fields.hpp"
+#include "core/records/studies/space_fields.hpp"
+#include "core/records/studies/timing_fields.hpp"
+#include "core/records/studies/trial_fields.hpp"
 #include "tests/support/record_schema.hpp"
 
 namespace mapproof::test {
@@ -58,7 +58,7 @@ std::map<std::string, std::string> file_schemas() {
           {"range_histories.schema.json", json_text(json_schema<RangeHistoryStudy>())},
           {"results_study.schema.json", json_text(json_schema<ResultsHead>())},
           {"run.schema.json", json_text(json_schema<Run>())},
-          {"sightings.schema.json", json_text(json_schema<SightingsFile>())},
+          {"detections.schema.json", json_text(json_schema<DetectionsFile>())},
           {"slam_convergence.schema.json", json_text(json_schema<ConvergenceCurve>())},
           {"slam_experiment.schema.json", experiment_schema<SlamExperiment>()},
           {"slam_run.schema.json", json_text(json_schema<SlamRun>())},

@@ -17,7 +17,7 @@ struct Outcome {
   std::string error;
 };
 
-/// Limits laid on the program before it starts.
+/// Limits put on the program before it starts.
 struct Limits {
   std::size_t file_bytes =
       0;  ///< Largest file it may write; 0: no limit. Stands in for a full disk.

@@ -2,17 +2,17 @@
 
 #include <vector>
 
-#include "render/figures/anchor_count.hpp"
-#include "render/figures/critical_difference.hpp"
-#include "render/figures/ellipse_map.hpp"
-#include "render/figures/heat_map.hpp"
-#include "render/figures/idea.hpp"
-#include "render/figures/level_curve.hpp"
-#include "render/figures/map_grid.hpp"
-#include "render/figures/occlusion.hpp"
-#include "render/figures/pareto.hpp"
-#include "render/figures/shepard.hpp"
-#include "render/figures/spectrum.hpp"
+#include "render/figures/curves/anchor_count.hpp"
+#include "render/figures/curves/level_curve.hpp"
+#include "render/figures/curves/pareto.hpp"
+#include "render/figures/curves/spectrum.hpp"
+#include "render/figures/diagrams/critical_difference.hpp"
+#include "render/figures/diagrams/heat_map.hpp"
+#include "render/figures/diagrams/idea.hpp"
+#include "render/figures/diagrams/shepard.hpp"
+#include "render/figures/maps/ellipse_map.hpp"
+#include "render/figures/maps/map_grid.hpp"
+#include "render/figures/maps/occlusion.hpp"
 
 namespace mapproof::test {
 

@@ -6,7 +6,7 @@
 #include <fmt/format.h>
 
 #include "core/base/random.hpp"
-#include "render/figures/map.hpp"
+#include "render/figures/maps/map.hpp"
 #include "tests/support/sample_comparisons.hpp"
 #include "tests/support/sample_slam.hpp"
 #include "tests/support/sample_studies.hpp"

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "core/model/map_record.hpp"
-#include "render/figures/error_curve.hpp"
+#include "render/figures/curves/error_curve.hpp"
 #include "render/plot/figure.hpp"
 
 namespace mapproof {

@@ -167,21 +167,23 @@ Scene small_scene() {
               .alt = "A box, a tube, rods, spheres and a field.",
               .record_ids = {"record/1"},
               .lights = usual_lights()};
-  Surface sheet{.label = "sheet", .look = {.ink = Ink::kSeries3, .opacity = 0.5}};
+  Surface sheet{.label = "sheet", .style = {.ink = Ink::kSeries3, .opacity = 0.5}};
   add_rectangle(sheet, {0.1, 0.1, 0.3}, {0.9, 0.1, 0.3}, {0.9, 0.9, 0.3}, {0.1, 0.9, 0.3});
   Tube tube{.label = "tube",
             .points = {{0.0, 0.0, 0.1}, {0.5, 0.2, 0.1}, {1.0, 0.0, 0.4}},
             .radius = 0.03};
   tube.tones = {{0.0, NAN, 2.0}, {0.0, 2.0}};
   Rods rods{.label = "rods", .from = {{0.2, 0.8, 0.0}}, .to = {{0.2, 0.8, 0.5}}, .radius = 0.06};
-  rods.look.ink = Ink::kSeries1;
+  rods.style.ink = Ink::kSeries1;
   Rods arrow{.label = "arrow",
              .from = {{0.5, 0.9, 0.05}},
              .to = {{0.9, 0.5, 0.05}},
              .radius = 0.02,
              .arrow = true};
-  Spheres spheres{
-      .label = "sphere", .at = {{0.75, 0.25, 0.15}}, .radius = 0.1, .look = {.ink = Ink::kSeries2}};
+  Spheres spheres{.label = "sphere",
+                  .at = {{0.75, 0.25, 0.15}},
+                  .radius = 0.1,
+                  .style = {.ink = Ink::kSeries2}};
   Field field{.label = "field",
               .points = {{0.0, 0.0, 0.0}, {1.0, 0.0, 0.0}, {0.0, 1.0, 0.0}, {1.0, 1.0, 0.1}}};
   field.tones = {{0.0, 1.0, 1.0, 2.0}, {0.0, 2.0}};
@@ -207,8 +209,8 @@ std::vector<Scene> sample_scenes() {
                                       .maps = {{"ISOMAP, K = 7", sample_map(50, 0.1, 7)},
                                                {"LLE, K = 9", sample_map(50, 0.3, 7)}}}));
   scenes.push_back(
-      measurement_scene(sample_measurement(Sensor::kVisibility, 50), "look-visibility"));
-  scenes.push_back(measurement_scene(sample_measurement(Sensor::kBearing, 50), "look-bearing"));
+      measurement_scene(sample_measurement(Sensor::kVisibility, 50), "scan-visibility"));
+  scenes.push_back(measurement_scene(sample_measurement(Sensor::kBearing, 50), "scan-bearing"));
   scenes.push_back(quadric_scene({.id = "quadric-usual",
                                   .title = "Metric upgrade",
                                   .name = "A sample",

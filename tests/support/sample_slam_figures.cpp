@@ -1,12 +1,12 @@
 #include <cmath>
 #include <functional>
 
-#include "render/figures/convergence.hpp"
-#include "render/figures/map_grid.hpp"
-#include "render/figures/path_map.hpp"
-#include "render/figures/refinement_starts.hpp"
-#include "render/figures/singular_values.hpp"
-#include "render/figures/window_curve.hpp"
+#include "render/figures/curves/convergence.hpp"
+#include "render/figures/curves/refinement_starts.hpp"
+#include "render/figures/curves/singular_values.hpp"
+#include "render/figures/curves/window_curve.hpp"
+#include "render/figures/maps/map_grid.hpp"
+#include "render/figures/maps/path_map.hpp"
 #include "tests/support/sample_comparisons.hpp"
 #include "tests/support/sample_figures.hpp"
 #include "tests/support/sample_slam.hpp"

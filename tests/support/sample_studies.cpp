@@ -10,7 +10,7 @@
 #include "core/simulate/robot_walk.hpp"
 #include "core/simulate/sensors.hpp"
 #include "core/simulate/world.hpp"
-#include "render/figures/measurement.hpp"
+#include "render/figures/diagrams/measurement.hpp"
 
 namespace mapproof::test {
 namespace {

@@ -3,7 +3,7 @@
 #include <vector>
 
 #include "core/model/measurement.hpp"
-#include "render/figures/error_by_parameter.hpp"
+#include "render/figures/curves/error_by_parameter.hpp"
 #include "render/plot/figure.hpp"
 
 namespace mapproof::test {

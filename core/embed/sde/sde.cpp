@@ -139,7 +139,7 @@ Embedding sde(const Eigen::MatrixXd& distances, const SdeOptions& options) {
   const unfolding::ProvedSolution answer = solve(problem, distances, options);
   result.iterations = answer.solution.iterations;
   result.certificate = answer.certificate;
-  // What is below the accuracy of the solve is no spread.
+  // What is below the accuracy of the solve is not a spread.
   put_coordinates(problem, answer.solution.Y, options.relative_gap + options.constraint_residual,
                   result);
   if (!meets(answer.certificate, options))

@@ -8,7 +8,7 @@
 
 #include "core/base/words.hpp"
 #include "reports/diff/tables/table_parts.hpp"
-#include "reports/diff/tolerances.hpp"
+#include "reports/diff/verdict/tolerances.hpp"
 
 namespace mapproof {
 namespace {

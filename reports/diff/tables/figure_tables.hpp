@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "reports/diff/figure_diff.hpp"
+#include "reports/diff/figures/figure_diff.hpp"
 #include "reports/model/report.hpp"
 
 namespace mapproof {

@@ -9,7 +9,7 @@
 namespace mapproof {
 
 /// What is to be said of one compared item beside its pictures and its cause: what moved, scores
-/// with their tests, looks, SVG elements, pixels. Long tables are cut; their notes say so.
+/// with their tests, styles, SVG elements, pixels. Long tables are cut; their notes say so.
 ///
 /// @param all     For the records that a figure is made of.
 /// @param number  Distinguishes the tables' ids from those of other items.

@@ -7,7 +7,7 @@
 
 #include <fmt/format.h>
 
-#include "reports/diff/record_words.hpp"
+#include "reports/diff/records/record_words.hpp"
 #include "reports/diff/tables/table_parts.hpp"
 
 namespace mapproof {

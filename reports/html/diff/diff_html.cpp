@@ -11,7 +11,7 @@
 #include "core/base/errors.hpp"
 #include "core/base/version.hpp"
 #include "core/base/words.hpp"
-#include "reports/diff/approvals.hpp"
+#include "reports/diff/approvals/approvals.hpp"
 #include "reports/diff/tables/item_blocks.hpp"
 #include "reports/html/block_data.hpp"
 #include "reports/html/diff/item_data.hpp"

@@ -4,7 +4,7 @@
 
 #include <kainjow/mustache.hpp>
 
-#include "reports/diff/approvals.hpp"
+#include "reports/diff/approvals/approvals.hpp"
 #include "reports/diff/diff_result.hpp"
 #include "reports/html/diff/shown_pictures.hpp"
 

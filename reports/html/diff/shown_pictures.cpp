@@ -56,7 +56,7 @@ std::uint32_t number_at(std::string_view bytes, std::size_t at) {
 PictureSize png_size(const std::string& bytes, const fs::path& path) {
   constexpr std::string_view kSignature("\x89PNG\r\n\x1a\n", 8);
   if (bytes.size() < 24 || !bytes.starts_with(kSignature))
-    throw IoError(path.string(), "is no PNG");
+    throw IoError(path.string(), "is not a PNG");
   const std::int64_t width = number_at(bytes, 16), height = number_at(bytes, 20);
   if (width < 1 || height < 1 || width > kMostPixels || height > kMostPixels / width)
     throw IoError(path.string(), fmt::format("{} x {} pixels are not shown", width, height));

@@ -15,7 +15,7 @@ namespace mapproof {
 /// not allow is left out. Ids of paper figures are the experiment's; the others are made of what
 /// they show and the sensor: "mpe-bearing-graph".
 
-/// The look of a method's line, the same in all figures (see series_look). Methods on a neighbour
+/// The style of a method's line, the same in all figures (see series_style). Methods on a neighbour
 /// graph, and those without one, differ in colour among themselves.
 std::size_t series_of_method(Method method);
 
@@ -40,7 +40,7 @@ std::vector<Figure> condition_figures(FigureSource& source);
 /// Error against seconds; varies from run to run.
 std::vector<Figure> cost_figures(FigureSource& source, std::span<const Timing> timings);
 
-/// What a look takes in, the room with the best map, its landmarks in the space of observations,
+/// What a scan takes in, the room with the best map, its landmarks in the space of observations,
 /// and each method's error over the floor, for each sensor; how the best map forms where there are
 /// maps at several steps.
 std::vector<Scene> study_scenes(FigureSource& source);

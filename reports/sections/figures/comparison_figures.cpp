@@ -6,10 +6,10 @@
 #include <fmt/format.h>
 
 #include "core/statistics/intervals.hpp"
-#include "render/figures/critical_difference.hpp"
-#include "render/figures/pareto.hpp"
-#include "render/figures/shepard.hpp"
-#include "render/figures/spectrum.hpp"
+#include "render/figures/curves/pareto.hpp"
+#include "render/figures/curves/spectrum.hpp"
+#include "render/figures/diagrams/critical_difference.hpp"
+#include "render/figures/diagrams/shepard.hpp"
 #include "reports/sections/figures/builders.hpp"
 #include "reports/sections/method_ranks.hpp"
 #include "reports/sections/run_scores.hpp"

@@ -4,10 +4,10 @@
 
 #include "core/base/not_finite.hpp"
 #include "core/base/words.hpp"
-#include "render/figures/anchor_count.hpp"
-#include "render/figures/error_lines.hpp"
-#include "render/figures/level_curve.hpp"
-#include "render/figures/occlusion.hpp"
+#include "render/figures/curves/anchor_count.hpp"
+#include "render/figures/curves/error_lines.hpp"
+#include "render/figures/curves/level_curve.hpp"
+#include "render/figures/maps/occlusion.hpp"
 #include "reports/sections/figures/builders.hpp"
 #include "reports/sections/variation_summary.hpp"
 #include "reports/sections/wording.hpp"
@@ -133,7 +133,7 @@ void add_occlusion(FigureSource& source, std::vector<Figure>& figures) {
   if (sensor == nullptr) return;
   OcclusionSpec spec;
   spec.id = "occlusion-visibility";
-  spec.title = "Visibility: looks within reach that occlusion decides";
+  spec.title = "Visibility: scans within reach that occlusion decides";
   std::vector<const Run*> runs;
   for (const Run& run : study.runs)
     if (run.occlusion && run.occlusion->within_reach > 0) {

@@ -1,12 +1,12 @@
-#include "render/figures/measurement.hpp"
+#include "render/figures/diagrams/measurement.hpp"
 
-#include "render/figures/idea.hpp"
+#include "render/figures/diagrams/idea.hpp"
 #include "reports/sections/figures/builders.hpp"
 
 namespace mapproof {
 namespace {
 
-/// The first run that has what a look needs.
+/// The first run that has what a scan needs.
 void add_measurement(FigureSource& source, const PaperFigure& wanted,
                      std::vector<Figure>& figures) {
   for (const Run& run : source.study().runs)

@@ -12,14 +12,14 @@
 namespace mapproof {
 namespace {
 
-/// The first run that has what a look needs.
-void add_look(FigureSource& source, Sensor sensor, std::vector<Scene>& scenes) {
+/// The first run that has what a scan needs.
+void add_scan(FigureSource& source, Sensor sensor, std::vector<Scene>& scenes) {
   if (sensor != Sensor::kVisibility && sensor != Sensor::kBearing) return;
   for (const Run& run : source.study().runs)
     if (const SensorDetails* details = source.details(run.id, sensor);
         details != nullptr && has_room(run.world)) {
       scenes.push_back(measurement_scene(measurement(*source.details(run.id), *details, run.world),
-                                         fmt::format("scene-look-{}", name(sensor))));
+                                         fmt::format("scene-scan-{}", name(sensor))));
       return;
     }
 }
@@ -105,7 +105,7 @@ void add_error_field(FigureSource& source, const SensorStudy& sensor, std::vecto
 std::vector<Scene> study_scenes(FigureSource& source) {
   std::vector<Scene> scenes;
   for (const SensorStudy& sensor : source.study().experiment.sensors) {
-    add_look(source, sensor.sensor.sensor, scenes);
+    add_scan(source, sensor.sensor.sensor, scenes);
     const std::vector<SettingSummary> all = source.best(sensor);
     if (const SettingSummary* best = best_of(all)) add_best(source, *best, scenes);
     if (const auto forming = forming_of(source, sensor)) scenes.push_back(forming_scene(*forming));

@@ -38,7 +38,7 @@ struct MethodComparison {
 
 /// Compares methods at the last level of each block at which two of them can be, or where levels
 /// are texts at each, by each quantity that has a direction. Pairs are of the runs that all
-/// compared methods have; a group counts by the mean of its pairs. Where runs are no repeats of
+/// compared methods have; a group counts by the mean of its pairs. Where runs are not repeats of
 /// each other nothing is compared.
 std::vector<MethodComparison> compare_methods(const ResultsView& view);
 

@@ -10,10 +10,10 @@
 
 #include "core/base/not_finite.hpp"
 #include "core/base/unit_text.hpp"
-#include "render/figures/critical_difference.hpp"
-#include "render/figures/level_curve.hpp"
-#include "render/figures/map.hpp"
-#include "render/figures/thinning.hpp"
+#include "render/figures/curves/level_curve.hpp"
+#include "render/figures/curves/thinning.hpp"
+#include "render/figures/diagrams/critical_difference.hpp"
+#include "render/figures/maps/map.hpp"
 #include "reports/sections/results/results_heat_maps.hpp"
 
 namespace mapproof {

@@ -18,7 +18,7 @@ StudyFigures results_figures(const ResultsView& view,
                              const std::vector<MethodComparison>& comparisons);
 
 /// Why results_figures() has no figure of a quantity of a block, a sentence; empty where it has
-/// one, and where runs are no repeats of each other and there is no axis for a curve.
+/// one, and where runs are not repeats of each other and there is no axis for a curve.
 std::string why_no_figure(const ResultsView& view, const ResultsBlock& block,
                           const Quantity& quantity);
 

@@ -9,7 +9,7 @@
 #include <fmt/format.h>
 
 #include "core/base/not_finite.hpp"
-#include "render/figures/heat_map.hpp"
+#include "render/figures/diagrams/heat_map.hpp"
 
 namespace mapproof {
 namespace {

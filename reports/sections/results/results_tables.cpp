@@ -172,7 +172,7 @@ Table single_table(const ResultsView& view, const ResultsBlock& block) {
   return table;
 }
 
-/// All quantities of one run that is no repeat of the others; empty if the block has none of it.
+/// All quantities of one run that is not a repeat of the others; empty if the block has none of it.
 std::optional<Table> run_table(const ResultsView& view, const ResultsBlock& block,
                                const Label& run) {
   std::vector<ResultsLine> lines = all_lines(view, block);

@@ -7,8 +7,8 @@
 #include <fmt/ranges.h>
 
 #include "core/base/words.hpp"
-#include "render/figures/measured_map.hpp"
-#include "render/figures/pair_distances.hpp"
+#include "render/figures/maps/measured_map.hpp"
+#include "render/figures/maps/pair_distances.hpp"
 #include "reports/sections/results/results_view.hpp"
 #include "reports/sections/sessions_table.hpp"
 #include "reports/sections/trials/trial_means.hpp"

@@ -6,12 +6,12 @@
 
 #include <fmt/format.h>
 
-#include "render/figures/convergence.hpp"
-#include "render/figures/map_grid.hpp"
-#include "render/figures/path_map.hpp"
-#include "render/figures/refinement_starts.hpp"
-#include "render/figures/singular_values.hpp"
-#include "render/figures/window_curve.hpp"
+#include "render/figures/curves/convergence.hpp"
+#include "render/figures/curves/refinement_starts.hpp"
+#include "render/figures/curves/singular_values.hpp"
+#include "render/figures/curves/window_curve.hpp"
+#include "render/figures/maps/map_grid.hpp"
+#include "render/figures/maps/path_map.hpp"
 #include "render/scene/quadric_scene.hpp"
 #include "render/scene/space_scene.hpp"
 #include "reports/sections/figures/builders.hpp"

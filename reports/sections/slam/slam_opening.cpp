@@ -3,8 +3,8 @@
 
 #include <fmt/format.h>
 
-#include "render/figures/log_log.hpp"
-#include "render/figures/slam_looks.hpp"
+#include "render/figures/curves/log_log.hpp"
+#include "render/figures/maps/path_styles.hpp"
 #include "render/figures/words.hpp"
 #include "reports/sections/opening.hpp"
 #include "reports/sections/slam/slam_report.hpp"

@@ -2,7 +2,7 @@
 
 #include <fmt/format.h>
 
-#include "render/figures/log_log.hpp"
+#include "render/figures/curves/log_log.hpp"
 #include "reports/sections/slam/slam_report.hpp"
 #include "reports/sections/slam/slam_tables.hpp"
 #include "reports/sections/slam/slam_words.hpp"

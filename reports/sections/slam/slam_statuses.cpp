@@ -35,7 +35,7 @@ void add_statuses(const std::string& where, const std::string& id,
 }  // namespace
 
 Section slam_statuses_section(const SlamStudy& study) {
-  Section section{"slam-statuses", "Range-only SLAM: what went other than well", {}};
+  Section section{"slam-statuses", "Range-only SLAM: warnings and failures", {}};
   StatusList list;
   for (const SlamRun& run : study.runs)
     for (const SlamRecord& record : run.records)

@@ -3,9 +3,9 @@
 #include <fmt/format.h>
 
 #include "core/base/words.hpp"
-#include "render/figures/log_log.hpp"
-#include "render/figures/refinement_starts.hpp"
-#include "render/figures/slam_looks.hpp"
+#include "render/figures/curves/log_log.hpp"
+#include "render/figures/curves/refinement_starts.hpp"
+#include "render/figures/maps/path_styles.hpp"
 #include "render/figures/words.hpp"
 #include "reports/sections/slam/slam_report.hpp"
 #include "reports/sections/slam/slam_words.hpp"
@@ -100,15 +100,15 @@ void add_convergence(const SlamStudy& study, BulletList& findings, Highlights& h
   findings.items.push_back(
       {{strong("Convergence"),
         phrase(fmt::format(": the error of the observation model changes as the readings to the "
-                          "power {} ({}); theory tells \u22121/2.{}",
-                          text, curve.title, end_words(curve)))}});
+                           "power {} ({}); theory tells \u22121/2.{}",
+                           text, curve.title, end_words(curve)))}});
 }
 
 void add_remarks_on_paper(BulletList& findings) {
   findings.items.push_back(
       {{strong("The paper\u2019s numbers"),
         phrase(": its text prints no errors; it refers to its technical report for them. So ours "
-              "stand alone. Fig. 2A is a photograph of the robot: left out.")}});
+               "stand alone. Fig. 2A is a photograph of the robot: left out.")}});
 }
 
 }  // namespace

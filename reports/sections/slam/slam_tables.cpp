@@ -6,7 +6,7 @@
 #include <fmt/format.h>
 
 #include "core/base/words.hpp"
-#include "render/figures/slam_looks.hpp"
+#include "render/figures/maps/path_styles.hpp"
 #include "reports/sections/cells.hpp"
 #include "reports/sections/slam/slam_words.hpp"
 
@@ -217,7 +217,7 @@ std::optional<Table> slam_seconds_table(const SlamStudy& study,
   table.notes = {
       "A method's own seconds, without the choice of windows and without the estimate it "
       "starts from.",
-      "Seconds vary from run to run and are no part of any comparison."};
+      "Seconds vary from run to run and are not part of any comparison."};
   return table;
 }
 

@@ -5,7 +5,7 @@
 
 #include <fmt/format.h>
 
-#include "render/figures/log_log.hpp"
+#include "render/figures/curves/log_log.hpp"
 
 namespace mapproof {
 

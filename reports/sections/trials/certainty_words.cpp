@@ -16,7 +16,7 @@ std::string certainty_question(const TrialExperiment& experiment) {
   return fmt::format(
       "In each layout {:g} walks are mapped; the mean of these maps is what a method tends to. Of "
       "{:g} of them ellipses are drawn by the bootstrap, each from its own walk alone. Of the "
-      "landmarks that are no anchors, how many have that mean in their 95 % ellipse, and how many "
+      "landmarks that are not anchors, how many have that mean in their 95 % ellipse, and how many "
       "the truth?",
       number_option(experiment, "walks"), number_option(experiment, "tried"));
 }

@@ -12,7 +12,7 @@
 namespace mapproof {
 namespace {
 
-/// Series that are no criteria.
+/// Series that are not criteria.
 constexpr const char* kRandomPick = "random";
 constexpr const char* kFixedMethod = "fixed";
 

@@ -16,11 +16,12 @@ namespace {
 
 std::string mrclam_question(const TrialExperiment&) {
   return "Robots in a hall see landmarks by their barcodes, with range and bearing. How good a map "
-         "can be made of these looks alone, without poses or odometry: from which landmarks are "
-         "seen together, from bearings, from ranges, from range and bearing together? The looks of "
-         "all robots are pooled. Errors are of the landmarks that are no anchors, after the affine "
+         "can be made of these scans alone, without poses or odometry: from which landmarks are "
+         "seen together, from bearings, from ranges, from range and bearing together? The scans of "
+         "all robots are pooled. Errors are of the landmarks that are not anchors, after the "
+         "affine "
          "map to the anchors: the four landmarks furthest out along the diagonals. And if labels "
-         "are wrong: can they be found from the looks themselves, and mended?";
+         "are wrong: can they be found from the scans themselves, and corrected?";
 }
 
 double series_value(const TrialPart& part, std::string_view series, std::string_view quantity) {
@@ -64,10 +65,12 @@ std::vector<std::string> mrclam_conclusions(const TrialStudy& study) {
                                       listed(others, others.size() + 1)));
     if (const double swapped = series_value(part, "swapped", "mpe_m"); !std::isnan(swapped))
       sentences.push_back(fmt::format(
-          "{}: with two labels swapped in half of the looks the map is {:.3f} m off, mended {:.3f} "
-          "m; with a landmark called by another's name in all looks {:.3f} m, mended {:.3f} m.",
-          part.id, swapped, series_value(part, "swapped-mended", "mpe_m"),
-          series_value(part, "misnamed", "mpe_m"), series_value(part, "misnamed-mended", "mpe_m")));
+          "{}: with two labels swapped in half of the scans the map is {:.3f} m off, corrected "
+          "{:.3f} "
+          "m; with a landmark called by another's name in all scans {:.3f} m, corrected {:.3f} m.",
+          part.id, swapped, series_value(part, "swapped-corrected", "mpe_m"),
+          series_value(part, "misnamed", "mpe_m"),
+          series_value(part, "misnamed-corrected", "mpe_m")));
   }
   return sentences;
 }

@@ -25,7 +25,7 @@ std::string submaps_question(const TrialExperiment& experiment) {
       number_option(experiment, "usual_size"));
 }
 
-/// Sub-maps held against the whole with one method: means by level, and where chance does not
+/// Sub-maps compared with the whole with one method: means by level, and where chance does not
 /// explain the difference.
 std::string submaps_comparison(const TrialStudy& study, const TrialSetup& setup,
                                const MethodSetting& setting) {

@@ -52,7 +52,7 @@ TEST(ByteSource, GivesBlocksThatAreFullUpToTheEnd) {
   }
 }
 
-TEST(ByteSource, IsReadWholeAfterItWasLookedAt) {
+TEST(ByteSource, IsReadWholeAfterItWasScanedAt) {
   for (const std::string& packed : samples()) {
     ByteSource source = source_of(packed, 333);
     EXPECT_TRUE(source.peek(10) == sample().substr(0, 10));

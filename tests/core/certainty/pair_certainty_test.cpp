@@ -7,23 +7,23 @@
 #include "core/base/errors.hpp"
 #include "core/base/random.hpp"
 #include "core/pairs/pair_map.hpp"
-#include "tests/support/looks.hpp"
+#include "tests/support/scans.hpp"
 #include "tests/support/worlds.hpp"
 
 namespace mapproof::test {
 namespace {
 
-constexpr int kLooks = 400;
+constexpr int kScans = 400;
 
 Points hall() { return 6.0 * scattered(9, 5); }
 
-/// Looks whose ranges err by 5 % each, in `together` looks that follow each other alike.
-SightingLog erring_looks(std::uint64_t seed, int together) {
-  SightingLog log = looks_at(hall(), kLooks, 4, seed);
+/// Scans whose ranges err by 5 % each, in `together` scans that follow each other alike.
+DetectionLog erring_scans(std::uint64_t seed, int together) {
+  DetectionLog log = scans_at(hall(), kScans, 4, seed);
   Random random(1000 + seed);
-  std::vector<double> errors(9 * (kLooks / static_cast<std::size_t>(together) + 1));
+  std::vector<double> errors(9 * (kScans / static_cast<std::size_t>(together) + 1));
   for (double& error : errors) error = 0.05 * random.normal();
-  for (Sighting& seen : log.sightings)
+  for (Detection& seen : log.detections)
     seen.range_m *=
         1.0 + errors[static_cast<std::size_t>(9 * (seen.step / together) + seen.landmark)];
   return log;
@@ -35,7 +35,7 @@ double spread(int together, const CertaintyFrame& frame) {
   std::vector<Points> maps;
   Points mean = Points::Zero(9, 2);
   for (int k = 0; k < kMaps; ++k) {
-    const Points own = sighted_map(erring_looks(100 + static_cast<std::uint64_t>(k), together))
+    const Points own = pair_map_of(erring_scans(100 + static_cast<std::uint64_t>(k), together))
                            .embedding.coordinates;
     maps.push_back(*in_frame(own, frame, AffineFit::kLeastDistances));
     mean += maps.back() / kMaps;
@@ -51,23 +51,23 @@ double told(int together, const CertaintyFrame& frame, const PairCertaintyOption
   double sum = 0.0;
   for (std::uint64_t k = 1; k <= kLogs; ++k)
     for (const Eigen::Matrix2d& C :
-         pair_certainty(erring_looks(k, together), frame, options).covariances)
+         pair_certainty(erring_scans(k, together), frame, options).covariances)
       sum += C.trace();
   return sum / (9.0 * kLogs);
 }
 
 class CertaintyOfPairs : public ::testing::TestWithParam<std::pair<const char*, CertaintyFrame>> {};
 
-TEST_P(CertaintyOfPairs, IsHowFarMapsOfOtherLooksLieApart) {
+TEST_P(CertaintyOfPairs, IsHowFarMapsOfOtherScansLieApart) {
   const CertaintyFrame& frame = GetParam().second;
   const double ratio = told(1, frame, {.replicates = 60}) / spread(1, frame);
   EXPECT_GT(ratio, 0.7);
   EXPECT_LT(ratio, 1.6);
 }
 
-TEST_P(CertaintyOfPairs, IsNothingWhereLooksDoNotErr) {
+TEST_P(CertaintyOfPairs, IsNothingWhereScansDoNotErr) {
   for (const Eigen::Matrix2d& C :
-       pair_certainty(looks_at(hall(), kLooks, 4, 1), GetParam().second, {.replicates = 20})
+       pair_certainty(scans_at(hall(), kScans, 4, 1), GetParam().second, {.replicates = 20})
            .covariances)
     EXPECT_LT(C.norm(), 1e-12);
 }
@@ -79,10 +79,10 @@ INSTANTIATE_TEST_SUITE_P(
                       std::pair("rigid_on_anchors", CertaintyFrame{hall(), {0, 3, 5, 8}, true})),
     [](const auto& one) { return std::string(one.param.first); });
 
-TEST(PairCertainty, TakesLooksTogetherThatErrAlike) {
+TEST(PairCertainty, TakesScansTogetherThatErrAlike) {
   const CertaintyFrame frame{hall(), {}, true};
-  EXPECT_LE(pair_block_length(erring_looks(1, 1)), 4);
-  EXPECT_GE(pair_block_length(erring_looks(1, 40)), 7);
+  EXPECT_LE(pair_block_length(erring_scans(1, 1)), 4);
+  EXPECT_GE(pair_block_length(erring_scans(1, 40)), 7);
   const double apart = spread(40, frame);
   const double by_blocks = told(40, frame, {.replicates = 60});
   EXPECT_GT(by_blocks, 1.2 * told(40, frame, {.replicates = 60, .block = 1}));
@@ -90,7 +90,7 @@ TEST(PairCertainty, TakesLooksTogetherThatErrAlike) {
 }
 
 TEST(PairCertainty, HangsOnItsSeedAlone) {
-  const SightingLog log = erring_looks(3, 1);
+  const DetectionLog log = erring_scans(3, 1);
   const CertaintyFrame frame{hall(), {}, true};
   const PairCertaintyOptions options{.replicates = 10, .block = 5, .seed = 4};
   EXPECT_EQ(pair_certainty(log, frame, options), pair_certainty(log, frame, options));
@@ -101,12 +101,12 @@ TEST(PairCertainty, HangsOnItsSeedAlone) {
 }
 
 TEST(PairCertainty, RefusesOtherFramesAndEmptyLogs) {
-  const SightingLog log = erring_looks(3, 1);
+  const DetectionLog log = erring_scans(3, 1);
   EXPECT_THROW(pair_certainty(log, {Points::Zero(3, 2), {}}), InvalidInput);
   EXPECT_THROW(
-      pair_certainty({.names = {"a"}, .sightings = {}, .times_s = {}}, {Points::Zero(1, 2), {}}),
+      pair_certainty({.names = {"a"}, .detections = {}, .times_s = {}}, {Points::Zero(1, 2), {}}),
       InvalidInput);
-  EXPECT_THROW(pair_certainty(log, {hall(), {}}, {.block = kLooks + 1}), InvalidInput);
+  EXPECT_THROW(pair_certainty(log, {hall(), {}}, {.block = kScans + 1}), InvalidInput);
   EXPECT_EQ(pair_block_length({}), 1);
 }
 

@@ -103,7 +103,7 @@ TEST(HistoryEmbedder, SaysOfEveryMethodThatRoomsWereNeverSeenTogether) {
   }
 }
 
-TEST(HistoryEmbedder, SaysThatOneLookOrTwoTellNoMap) {
+TEST(HistoryEmbedder, SaysThatOneScanOrTwoTellNoMap) {
   ObservationHistory history{.sensor = Sensor::kBearing,
                              .names = landmark_names(8),
                              .values = Eigen::MatrixXd::Zero(8, 3)};

@@ -1,5 +1,5 @@
 // Embeddings of scikit-learn, see tests/data/reference/export_sklearn.py. Another folder of them is
-// held against the library with MAPPROOF_REFERENCE=FOLDER.
+// compared with the library with MAPPROOF_REFERENCE=FOLDER.
 #include <cstdlib>
 #include <filesystem>
 #include <vector>
@@ -10,7 +10,7 @@
 
 #include "core/base/files.hpp"
 #include "core/embed/embedder.hpp"
-#include "core/records/observations.hpp"
+#include "core/records/observations/observations.hpp"
 
 namespace mapproof {
 namespace {

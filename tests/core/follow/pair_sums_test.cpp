@@ -71,22 +71,22 @@ INSTANTIATE_TEST_SUITE_P(
                       std::pair{Sensor::kBearing, 0.0}, std::pair{Sensor::kBearing, 0.4},
                       std::pair{Sensor::kRange, 0.0}, std::pair{Sensor::kRange, 0.4}));
 
-TEST(PairSums, TakeWhatIsNotListedAsNotSeenWhereSightingsAloneAreListed) {
+TEST(PairSums, TakeWhatIsNotListedAsNotSeenWhereDetectionsAloneAreListed) {
   const ObservationHistory history = random_history(Sensor::kVisibility, 0.0, 8);
-  PairSums all(Sensor::kVisibility), sightings(Sensor::kVisibility);
+  PairSums all(Sensor::kVisibility), detections(Sensor::kVisibility);
   all.grow(6);
   for (Eigen::Index t = 0; t < history.steps(); ++t) {
     std::vector<StepEntry> step = column_at(history, t);
     all.add(step);
     std::erase_if(step, [](const StepEntry& entry) { return entry.value == 0.0; });
-    if (t == 0) sightings.grow(3);
+    if (t == 0) detections.grow(3);
     if (t == 0) std::erase_if(step, [](const StepEntry& entry) { return entry.landmark >= 3; });
-    if (t == 1) sightings.grow(6);
-    sightings.add(step);
+    if (t == 1) detections.grow(6);
+    detections.add(step);
   }
-  EXPECT_EQ(sightings.seen(), all.seen());
+  EXPECT_EQ(detections.seen(), all.seen());
   const Proximities expected = all.proximities_of(all.seen());
-  const Proximities found = sightings.proximities_of(sightings.seen());
+  const Proximities found = detections.proximities_of(detections.seen());
   // But for the first step's last three landmarks, which were left out above.
   EXPECT_LT((found.squared_distances - expected.squared_distances).cwiseAbs().maxCoeff(), 0.2);
   EXPECT_NEAR(found.squared_distances(0, 1), expected.squared_distances(0, 1), 1e-12);

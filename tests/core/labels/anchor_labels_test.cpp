@@ -7,7 +7,7 @@
 #include <Eigen/Geometry>
 
 #include "core/base/errors.hpp"
-#include "noisy_looks.hpp"
+#include "noisy_scans.hpp"
 
 namespace mapproof::test {
 namespace {
@@ -30,15 +30,15 @@ const std::vector<Eigen::Index> kSix = {0, 2, 5, 9, 12, 14};
 TEST(AnchorLabels, NamesNothingWhereLabelsAreRight) {
   for (std::uint64_t seed = 1; seed <= 5; ++seed)
     for (const auto& anchors : {kCorners, kSix}) {
-      const AnchorCheck check = check_anchor_labels(noisy_looks(600, seed), known(anchors));
+      const AnchorCheck check = check_anchor_labels(noisy_scans(600, seed), known(anchors));
       EXPECT_TRUE(check.exchanges.empty()) << seed;
       EXPECT_EQ(check.places, std::ssize(anchors));
       EXPECT_LT(check.misfit_before_m, 0.3);
     }
 }
 
-TEST(AnchorLabels, FindsTwoAnchorsExchangedInAllSightings) {
-  const SightingLog clean = noisy_looks(600, 1);
+TEST(AnchorLabels, FindsTwoAnchorsExchangedInAllDetections) {
+  const DetectionLog clean = noisy_scans(600, 1);
   for (const auto& [a, b] : {std::pair(0, 2), std::pair(0, 14), std::pair(2, 12)}) {
     const AnchorCheck check = check_anchor_labels(swapped(clean, a, b, always), known(kCorners));
     ASSERT_EQ(check.exchanges.size(), 1U) << a << ' ' << b;
@@ -49,7 +49,7 @@ TEST(AnchorLabels, FindsTwoAnchorsExchangedInAllSightings) {
 }
 
 TEST(AnchorLabels, FindsAnAnchorExchangedWithAnyOtherLandmark) {
-  const SightingLog clean = noisy_looks(600, 2);
+  const DetectionLog clean = noisy_scans(600, 2);
   for (const auto& [a, b] : {std::pair(0, 8), std::pair(12, 4), std::pair(9, 3)}) {
     const AnchorCheck check = check_anchor_labels(swapped(clean, a, b, always), known(kSix));
     ASSERT_EQ(check.exchanges.size(), 1U) << a << ' ' << b;
@@ -60,15 +60,15 @@ TEST(AnchorLabels, FindsAnAnchorExchangedWithAnyOtherLandmark) {
 }
 
 TEST(AnchorLabels, FindsTwoExchangesAmongSixPlaces) {
-  const SightingLog clean = noisy_looks(600, 3);
-  const SightingLog wrong = swapped(swapped(clean, 0, 9, always), 14, 7, always);
+  const DetectionLog clean = noisy_scans(600, 3);
+  const DetectionLog wrong = swapped(swapped(clean, 0, 9, always), 14, 7, always);
   const AnchorCheck check = check_anchor_labels(wrong, known(kSix));
   EXPECT_EQ(check.exchanges.size(), 2U);
   EXPECT_EQ(wrong_labels(check.repaired, clean), 0);
 }
 
 TEST(AnchorLabels, SaysNothingOfFewerThanFourPlaces) {
-  const SightingLog wrong = swapped(noisy_looks(600, 1), 0, 2, always);
+  const DetectionLog wrong = swapped(noisy_scans(600, 1), 0, 2, always);
   const AnchorCheck check = check_anchor_labels(wrong, known({0, 2, 12}));
   EXPECT_EQ(check.places, 3);
   EXPECT_TRUE(check.exchanges.empty());
@@ -78,19 +78,19 @@ TEST(AnchorLabels, SaysNothingOfFewerThanFourPlaces) {
 TEST(AnchorLabels, DoesNotBlameLabelsForASurveyThatIsWrong) {
   Points places = known(kSix);
   places.row(5) += Eigen::RowVector2d(3.3, 0.9);
-  EXPECT_TRUE(check_anchor_labels(noisy_looks(600, 1), places).exchanges.empty());
+  EXPECT_TRUE(check_anchor_labels(noisy_scans(600, 1), places).exchanges.empty());
 }
 
 TEST(AnchorLabels, DoesNotBlameLabelsForBearingsOfTheOtherSign) {
-  SightingLog mirrored = noisy_looks(600, 1);
-  for (Sighting& sighting : mirrored.sightings) sighting.bearing_rad *= -1.0;
+  DetectionLog mirrored = noisy_scans(600, 1);
+  for (Detection& detection : mirrored.detections) detection.bearing_rad *= -1.0;
   for (const auto& anchors : {kCorners, kSix})
     EXPECT_TRUE(check_anchor_labels(mirrored, known(anchors)).exchanges.empty());
 }
 
 TEST(AnchorLabels, TakesWhatHasNoMap) {
   EXPECT_TRUE(check_anchor_labels({}, Points(0, 2)).exchanges.empty());
-  const SightingLog lonely{{"A", "B"}, {{0, 0, 1.0, 0.0}, {1, 1, 2.0, 0.0}}, 2, {}};
+  const DetectionLog lonely{{"A", "B"}, {{0, 0, 1.0, 0.0}, {1, 1, 2.0, 0.0}}, 2, {}};
   EXPECT_EQ(check_anchor_labels(lonely, Points::Zero(2, 2)).places, 0);
   EXPECT_THROW(check_anchor_labels(lonely, Points::Zero(3, 2)), InvalidInput);
 }

@@ -10,13 +10,13 @@
 
 #include "core/labels/anchor_labels.hpp"
 #include "core/labels/mislabelled.hpp"
-#include "noisy_looks.hpp"
-#include "real_looks.hpp"
+#include "noisy_scans.hpp"
+#include "real_scans.hpp"
 
 namespace mapproof::test {
 namespace {
 
-constexpr int kSeenWell = 30;  ///< Sightings of each label by that robot, together with others.
+constexpr int kSeenWell = 30;  ///< Detections of each label by that robot, together with others.
 
 bool same_labels(const LabelFinding& one, int a, int b) {
   return std::minmax(one.first, one.second) == std::minmax(a, b);
@@ -26,12 +26,12 @@ bool same_labels(const LabelFinding& one, int a, int b) {
 struct Sweep {
   int tried = 0;
   int named = 0;
-  int mended = 0;  ///< To nine tenths or more.
-  int others = 0;  ///< Logs in which labels are named that are not named in the clean one.
+  int corrected = 0;  ///< To nine tenths or more.
+  int others = 0;     ///< Logs in which labels are named that are not named in the clean one.
 
-  void add(const SightingLog& log, const LabelCheck& clean, int a, int b,
+  void add(const DetectionLog& log, const LabelCheck& clean, int a, int b,
            const std::function<bool(int)>& in_step) {
-    const SightingLog wrong = swapped(log, a, b, in_step);
+    const DetectionLog wrong = swapped(log, a, b, in_step);
     const LabelCheck check = check_labels(wrong);
     const auto is_swap = [&](const LabelFinding& one) { return same_labels(one, a, b); };
     const auto is_known = [&](const LabelFinding& one) {
@@ -41,12 +41,12 @@ struct Sweep {
     };
     const bool found = std::ranges::any_of(check.findings, is_swap);
     const int left = wrong_labels(check.repaired, clean.repaired);
-    const bool is_mended = 10 * left <= wrong_labels(wrong, log);
+    const bool is_corrected = 10 * left <= wrong_labels(wrong, log);
     ++tried;
     named += found ? 1 : 0;
-    mended += is_mended ? 1 : 0;
+    corrected += is_corrected ? 1 : 0;
     others += std::ranges::all_of(check.findings, is_known) ? 0 : 1;
-    if (found && is_mended) return;
+    if (found && is_corrected) return;
     std::cout << fmt::format("{} and {}, {} labels, {} left:\n", log.names[a], log.names[b],
                              wrong_labels(wrong, log), left);
     for (const LabelFinding& one : check.findings)
@@ -66,9 +66,9 @@ class LabelSweep : public testing::TestWithParam<std::tuple<const char*, int>> {
 
 TEST_P(LabelSweep, NamesMostPairsSwappedInOneRobotsLog) {
   const auto [set, third] = GetParam();
-  const std::optional<SightingSource> source = real_looks(set);
+  const std::optional<DetectionSource> source = real_scans(set);
   if (!source) GTEST_SKIP() << "MAPPROOF_MRCLAM does not name the folder of the sets";
-  const SightingLog& log = source->log;
+  const DetectionLog& log = source->log;
   const std::vector<int> robots = robots_of(log);
   const LabelCheck clean = check_labels(log);
   Sweep sweep;
@@ -76,25 +76,25 @@ TEST_P(LabelSweep, NamesMostPairsSwappedInOneRobotsLog) {
     for (int b = a + 1; b < 15; ++b) {
       if ((a + 14 * b) % 3 != third) continue;
       const int robot = (a + b) % (robots.back() + 1);
-      if (shared_sightings(log, robots, robot, a) < kSeenWell ||
-          shared_sightings(log, robots, robot, b) < kSeenWell)
+      if (shared_detections(log, robots, robot, a) < kSeenWell ||
+          shared_detections(log, robots, robot, b) < kSeenWell)
         continue;
       sweep.add(log, clean, a, b,
                 [&](int step) { return robots[static_cast<std::size_t>(step)] == robot; });
     }
-  std::cout << fmt::format("{}, third {}: {} pairs, {} named, {} mended, others named in {}\n", set,
-                           third, sweep.tried, sweep.named, sweep.mended, sweep.others);
+  std::cout << fmt::format("{}, third {}: {} pairs, {} named, {} corrected, others named in {}\n",
+                           set, third, sweep.tried, sweep.named, sweep.corrected, sweep.others);
   EXPECT_GE(sweep.named, 0.9 * sweep.tried);
 }
 
-/// Faults in single looks or over a part of the time, of every tenth pair of labels.
+/// Faults in single scans or over a part of the time, of every tenth pair of labels.
 class FaultSweep : public testing::TestWithParam<std::tuple<const char*, const char*>> {};
 
 TEST_P(FaultSweep, LeavesMostMapsAsGoodAsOnesWithoutFaults) {
   const auto [set, kind] = GetParam();
-  const std::optional<SightingSource> source = real_looks(set);
+  const std::optional<DetectionSource> source = real_scans(set);
   if (!source) GTEST_SKIP() << "MAPPROOF_MRCLAM does not name the folder of the sets";
-  const SightingLog& log = source->log;
+  const DetectionLog& log = source->log;
   const double sound_m = map_error_m(log, *source->truth_m);
   int tried = 0;
   int named = 0;
@@ -102,16 +102,16 @@ TEST_P(FaultSweep, LeavesMostMapsAsGoodAsOnesWithoutFaults) {
   std::vector<double> ratios;
   for (int number = 3; number < 105; number += 10) {
     const auto [a, b] = pair_of(number);
-    const SightingLog wrong = with_fault(log, kind, a, b, static_cast<std::uint64_t>(number));
+    const DetectionLog wrong = with_fault(log, kind, a, b, static_cast<std::uint64_t>(number));
     const LabelCheck check = check_labels(wrong);
     const auto is_right = [&](const LabelFinding& one) { return same_labels(one, a, b); };
     const bool found = std::ranges::any_of(check.findings, is_right);
     const bool other = !std::ranges::all_of(check.findings, is_right);
-    const SightingLog mended = check_anchor_labels(check.repaired, *source->truth_m).repaired;
+    const DetectionLog corrected = check_anchor_labels(check.repaired, *source->truth_m).repaired;
     ++tried;
     named += found ? 1 : 0;
     others += other ? 1 : 0;
-    ratios.push_back(map_error_m(mended, *source->truth_m) / sound_m);
+    ratios.push_back(map_error_m(corrected, *source->truth_m) / sound_m);
     std::cout << fmt::format("{} {}, {} and {}: {}{}, map {:.2f} -> {:.2f} times as far off\n", set,
                              kind, log.names[a], log.names[b], found ? "named" : "not named",
                              other ? ", others too" : "",

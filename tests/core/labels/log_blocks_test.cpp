@@ -3,33 +3,33 @@
 #include <gtest/gtest.h>
 
 #include "core/base/errors.hpp"
-#include "noisy_looks.hpp"
+#include "noisy_scans.hpp"
 
 namespace mapproof::test {
 namespace {
 
-TEST(LookPairs, TakeTheirDistanceFromTheLawOfCosines) {
+TEST(ScanPairs, TakeTheirDistanceFromTheLawOfCosines) {
   const double right_angle = 1.5707963267948966;
-  const SightingLog log{
+  const DetectionLog log{
       {"A", "B", "C"},
       {{0, 0, 3.0, 0.2}, {0, 1, 4.0, 0.2 + right_angle}, {0, 2}, {1, 2, 1.0, 0.0}},
       2,
       {}};
-  const std::vector<LookPair> pairs = look_pairs(log);
+  const std::vector<ScanPair> pairs = scan_pairs(log);
   ASSERT_EQ(pairs.size(), 1U);
   EXPECT_NEAR(pairs.front().distance_m, 5.0, 1e-12);
 }
 
-TEST(LookPairs, ThinOutLooksBeyondTheirLimit) {
-  const SightingLog log = noisy_looks(100, 1);
-  EXPECT_EQ(look_pairs(log).size(), 600U);
-  EXPECT_EQ(look_pairs(log, 300).size(), 300U);
+TEST(ScanPairs, ThinOutScansBeyondTheirLimit) {
+  const DetectionLog log = noisy_scans(100, 1);
+  EXPECT_EQ(scan_pairs(log).size(), 600U);
+  EXPECT_EQ(scan_pairs(log, 300).size(), 300U);
 }
 
 TEST(LogBlocks, AreCutWhereAnotherRobotBeginsAndAtCommonTimes) {
-  SightingLog log = noisy_looks(120, 1);
+  DetectionLog log = noisy_scans(120, 1);
   for (int step = 0; step < log.steps; ++step) log.times_s.push_back(step % 60);
-  const LogBlocks blocks = cut_in_blocks(log, look_pairs(log), 3);
+  const LogBlocks blocks = cut_in_blocks(log, scan_pairs(log), 3);
   EXPECT_EQ(blocks.count, 6);
   EXPECT_EQ(blocks.slice, (std::vector<int>{0, 1, 2, 0, 1, 2}));
   ASSERT_EQ(blocks.block_orders.size(), 2U);
@@ -38,17 +38,17 @@ TEST(LogBlocks, AreCutWhereAnotherRobotBeginsAndAtCommonTimes) {
 }
 
 TEST(LogBlocks, CutStepsWhereThereAreNoTimes) {
-  const SightingLog log = noisy_looks(100, 1);
-  const LogBlocks blocks = cut_in_blocks(log, look_pairs(log), 10);
+  const DetectionLog log = noisy_scans(100, 1);
+  const LogBlocks blocks = cut_in_blocks(log, scan_pairs(log), 10);
   EXPECT_EQ(blocks.count, 10);
   EXPECT_EQ(blocks.block_orders.size(), 1U);
 }
 
 TEST(LogBlocks, RefuseTimesThatAreNotOneAStep) {
-  SightingLog log = noisy_looks(10, 1);
+  DetectionLog log = noisy_scans(10, 1);
   log.times_s = {1.0};
   EXPECT_THROW(cut_in_blocks(log, {}, 2), InvalidInput);
-  EXPECT_THROW(cut_in_blocks(noisy_looks(10, 1), {}, 0), InvalidInput);
+  EXPECT_THROW(cut_in_blocks(noisy_scans(10, 1), {}, 0), InvalidInput);
 }
 
 }  // namespace

@@ -5,24 +5,24 @@
 #include <gtest/gtest.h>
 
 #include "core/base/errors.hpp"
-#include "noisy_looks.hpp"
+#include "noisy_scans.hpp"
 
 namespace mapproof::test {
 namespace {
 
-TEST(LabelCheck, NamesNothingInCleanLooks) {
+TEST(LabelCheck, NamesNothingInCleanScans) {
   for (std::uint64_t seed = 1; seed <= 5; ++seed) {
-    const LabelCheck check = check_labels(noisy_looks(600, seed));
+    const LabelCheck check = check_labels(noisy_scans(600, seed));
     EXPECT_TRUE(check.findings.empty()) << seed;
     EXPECT_FALSE(check.doubts.grave()) << seed;
   }
 }
 
 TEST(LabelCheck, FindsTwoLabelsSwappedFromSomeStepOn) {
-  const SightingLog clean = noisy_looks(600, 1);
+  const DetectionLog clean = noisy_scans(600, 1);
   for (const auto& [a, b] :
        {std::pair(0, 14), std::pair(2, 7), std::pair(6, 7), std::pair(3, 11)}) {
-    const SightingLog wrong = swapped(clean, a, b, [](int step) { return step >= 380; });
+    const DetectionLog wrong = swapped(clean, a, b, [](int step) { return step >= 380; });
     const LabelCheck check = check_labels(wrong);
     ASSERT_FALSE(check.findings.empty()) << a << ' ' << b;
     for (const LabelFinding& finding : check.findings)
@@ -34,7 +34,7 @@ TEST(LabelCheck, FindsTwoLabelsSwappedFromSomeStepOn) {
 }
 
 TEST(LabelCheck, FindsAStretchInTheMiddle) {
-  const SightingLog clean = noisy_looks(600, 2);
+  const DetectionLog clean = noisy_scans(600, 2);
   const auto middle = [](int step) { return step >= 200 && step < 330; };
   const LabelCheck check = check_labels(swapped(clean, 4, 9, middle));
   ASSERT_EQ(check.findings.size(), 1U);
@@ -44,18 +44,18 @@ TEST(LabelCheck, FindsAStretchInTheMiddle) {
 }
 
 TEST(LabelCheck, FindsSwapsOfSeveralPairs) {
-  const SightingLog clean = noisy_looks(900, 3);
-  SightingLog wrong = swapped(clean, 1, 12, [](int step) { return step >= 600; });
+  const DetectionLog clean = noisy_scans(900, 3);
+  DetectionLog wrong = swapped(clean, 1, 12, [](int step) { return step >= 600; });
   wrong = swapped(wrong, 5, 8, [](int step) { return step < 300; });
   const LabelCheck check = check_labels(wrong);
   EXPECT_EQ(check.findings.size(), 2U);
   EXPECT_LE(wrong_labels(check.repaired, clean), 8);
 }
 
-TEST(LabelCheck, FindsSightingsUnderTheLabelOfAnother) {
-  const SightingLog clean = noisy_looks(600, 4);
+TEST(LabelCheck, FindsDetectionsUnderTheLabelOfAnother) {
+  const DetectionLog clean = noisy_scans(600, 4);
   for (const auto& [landmark, other] : {std::pair(13, 7), std::pair(0, 6)}) {
-    const SightingLog wrong = called(clean, landmark, other, [](int step) { return step < 150; });
+    const DetectionLog wrong = called(clean, landmark, other, [](int step) { return step < 150; });
     ASSERT_GT(wrong_labels(wrong, clean), 15);
     const LabelCheck check = check_labels(wrong);
     ASSERT_EQ(check.findings.size(), 1U);
@@ -65,10 +65,10 @@ TEST(LabelCheck, FindsSightingsUnderTheLabelOfAnother) {
   }
 }
 
-TEST(LabelCheck, FindsLabelsSwappedInSingleLooks) {
-  const SightingLog clean = noisy_looks(900, 8);
+TEST(LabelCheck, FindsLabelsSwappedInSingleScans) {
+  const DetectionLog clean = noisy_scans(900, 8);
   for (const auto& [a, b] : {std::pair(0, 14), std::pair(3, 11)}) {
-    const SightingLog wrong = swapped(clean, a, b, [](int step) { return step % 5 < 2; });
+    const DetectionLog wrong = swapped(clean, a, b, [](int step) { return step % 5 < 2; });
     const LabelCheck check = check_labels(wrong);
     ASSERT_EQ(check.findings.size(), 1U) << a << ' ' << b;
     EXPECT_EQ(std::pair(check.findings[0].first, check.findings[0].second), std::pair(a, b));
@@ -78,9 +78,9 @@ TEST(LabelCheck, FindsLabelsSwappedInSingleLooks) {
   }
 }
 
-TEST(LabelCheck, FindsALandmarkCalledByAnothersNameInSingleLooks) {
-  const SightingLog clean = noisy_looks(900, 9);
-  const SightingLog wrong = called(clean, 13, 7, [](int step) { return step % 3 == 0; });
+TEST(LabelCheck, FindsALandmarkCalledByAnothersNameInSingleScans) {
+  const DetectionLog clean = noisy_scans(900, 9);
+  const DetectionLog wrong = called(clean, 13, 7, [](int step) { return step % 3 == 0; });
   const LabelCheck check = check_labels(wrong);
   ASSERT_EQ(check.findings.size(), 1U);
   EXPECT_EQ(check.findings[0].fault, LabelFault::kInPart);
@@ -89,10 +89,10 @@ TEST(LabelCheck, FindsALandmarkCalledByAnothersNameInSingleLooks) {
   EXPECT_LE(wrong_labels(check.repaired, clean), wrong_labels(wrong, clean) / 20);
 }
 
-TEST(LabelCheck, DoubtsLooksThatFitNoMap) {
+TEST(LabelCheck, DoubtsScansThatFitNoMap) {
   // Three landmarks take turns under each other's labels: no fault of two explains that.
-  SightingLog wrong = noisy_looks(600, 10);
-  for (Sighting& seen : wrong.sightings)
+  DetectionLog wrong = noisy_scans(600, 10);
+  for (Detection& seen : wrong.detections)
     if (seen.landmark < 9 && seen.step % 2 == 0) seen.landmark = (seen.landmark + 3) % 9;
   wrong = swapped(wrong, 0, 1, [](int) { return false; });  // in order again
   LabelCheckOptions options;
@@ -102,23 +102,23 @@ TEST(LabelCheck, DoubtsLooksThatFitNoMap) {
   EXPECT_FALSE(check.doubts.landmarks.empty());
 }
 
-TEST(LabelCheck, CannotKnowOfASwapInAllSightings) {
-  const SightingLog renamed = swapped(noisy_looks(600, 5), 3, 10, [](int) { return true; });
+TEST(LabelCheck, CannotKnowOfASwapInAllDetections) {
+  const DetectionLog renamed = swapped(noisy_scans(600, 5), 3, 10, [](int) { return true; });
   EXPECT_TRUE(check_labels(renamed).findings.empty());
 }
 
-TEST(LabelCheck, NamesTheFewerSightingsOfASwap) {
-  const SightingLog clean = noisy_looks(600, 6);
+TEST(LabelCheck, NamesTheFewerDetectionsOfASwap) {
+  const DetectionLog clean = noisy_scans(600, 6);
   const LabelCheck check = check_labels(swapped(clean, 2, 12, [](int step) { return step < 450; }));
   ASSERT_EQ(check.findings.size(), 1U);
   EXPECT_NEAR(check.findings.front().first_step, 450, 20);
   EXPECT_TRUE(check.findings.front().to_the_end);
 }
 
-TEST(LabelCheck, TellsOneRobotsLooksFromTheOthers) {
-  SightingLog log = noisy_looks(900, 7);
+TEST(LabelCheck, TellsOneRobotsScansFromTheOthers) {
+  DetectionLog log = noisy_scans(900, 7);
   for (int step = 0; step < log.steps; ++step) log.times_s.push_back(step % 300);
-  const SightingLog wrong = swapped(log, 6, 8, [](int step) { return step >= 300 && step < 600; });
+  const DetectionLog wrong = swapped(log, 6, 8, [](int step) { return step >= 300 && step < 600; });
   const LabelCheck check = check_labels(wrong);
   ASSERT_EQ(check.findings.size(), 1U);
   EXPECT_FALSE(check.findings.front().by_time);
@@ -127,9 +127,9 @@ TEST(LabelCheck, TellsOneRobotsLooksFromTheOthers) {
 
 TEST(LabelCheck, TakesALogWithoutAnyPair) {
   EXPECT_TRUE(check_labels({}).findings.empty());
-  SightingLog lonely{{"A", "B"}, {{0, 0, 1.0, 0.0}, {1, 1, 2.0, 0.0}}, 2, {}};
+  DetectionLog lonely{{"A", "B"}, {{0, 0, 1.0, 0.0}, {1, 1, 2.0, 0.0}}, 2, {}};
   EXPECT_TRUE(check_labels(lonely).findings.empty());
-  lonely.sightings[1].landmark = 2;
+  lonely.detections[1].landmark = 2;
   EXPECT_THROW(check_labels(lonely), InvalidInput);
 }
 

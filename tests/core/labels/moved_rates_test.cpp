@@ -11,33 +11,33 @@
 #include "core/base/angle.hpp"
 #include "core/base/random.hpp"
 #include "core/labels/moved.hpp"
-#include "noisy_looks.hpp"
+#include "noisy_scans.hpp"
 
 namespace mapproof::test {
 namespace {
 
-constexpr int kLooks = 3000;
+constexpr int kScans = 3000;
 constexpr int kStill = 200;  ///< Logs in which nothing moves.
 constexpr int kMoves = 50;   ///< Logs of each length of move.
 
 /// How a robot's sensor errs.
 struct SensorErrors {
   const char* name;
-  double own_share = 0.02;      ///< Of a range, each sighting anew.
-  double common_share = 0.0;    ///< Of all ranges of some 100 looks alike.
-  double bearing_rad = 0.0175;  ///< Each sighting anew.
+  double measurement_share = 0.02;  ///< Of a range, each detection anew.
+  double common_share = 0.0;        ///< Of all ranges of some 100 looks alike.
+  double bearing_rad = 0.0175;      ///< Each detection anew.
 };
 
-/// A move of one landmark from a look on; none: of no length.
+/// A move of one landmark from a scan on; none: of no length.
 struct Move {
   int landmark = 0;
   int from = 0;
   Eigen::RowVector2d by_m = Eigen::RowVector2d::Zero();
 };
 
-/// A robot that drives straight from one random place to the next, .1 m a look, and sees what is
+/// A robot that drives straight from one random place to the next, .1 m a scan, and sees what is
 /// within 5 m and 35 degrees of its heading.
-SightingLog driven_looks(const SensorErrors& errors, const Move& move, Random& random) {
+DetectionLog driven_scans(const SensorErrors& errors, const Move& move, Random& random) {
   const Points landmarks = noisy_landmarks();
   const Eigen::RowVector2d low = landmarks.colwise().minCoeff();
   const Eigen::RowVector2d extent = landmarks.colwise().maxCoeff() - low;
@@ -45,12 +45,12 @@ SightingLog driven_looks(const SensorErrors& errors, const Move& move, Random& r
     return Eigen::RowVector2d(low.x() + random.uniform() * extent.x(),
                               low.y() + random.uniform() * extent.y());
   };
-  SightingLog log;
+  DetectionLog log;
   for (int i = 0; i < landmarks.rows(); ++i) log.names.push_back(std::to_string(i));
   Eigen::RowVector2d place = somewhere();
   Eigen::RowVector2d goal = somewhere();
   double common = random.normal();
-  for (log.steps = 0; log.steps < kLooks; ++log.steps) {
+  for (log.steps = 0; log.steps < kScans; ++log.steps) {
     while ((goal - place).norm() < 0.1) goal = somewhere();
     const Eigen::RowVector2d ahead = (goal - place).normalized();
     const double heading = std::atan2(ahead.y(), ahead.x());
@@ -61,11 +61,12 @@ SightingLog driven_looks(const SensorErrors& errors, const Move& move, Random& r
       if (i == move.landmark && log.steps >= move.from) to += move.by_m;
       const double bearing = wrapped(std::atan2(to.y(), to.x()) - heading);
       if (to.norm() > 5.0 || std::abs(bearing) > 35.0 / 180.0 * std::numbers::pi) continue;
-      const double error = errors.own_share * random.normal() + errors.common_share * common;
-      log.sightings.push_back({.step = log.steps,
-                               .landmark = i,
-                               .range_m = std::abs(to.norm() * (1.0 + error)),
-                               .bearing_rad = bearing + errors.bearing_rad * random.normal()});
+      const double error =
+          errors.measurement_share * random.normal() + errors.common_share * common;
+      log.detections.push_back({.step = log.steps,
+                                .landmark = i,
+                                .range_m = std::abs(to.norm() * (1.0 + error)),
+                                .bearing_rad = bearing + errors.bearing_rad * random.normal()});
     }
   }
   return log;
@@ -78,7 +79,7 @@ TEST_P(MovedRates, FewStandStillAndAreNamed) {
   int named_at_any_length = 0;
   for (std::uint64_t k = 0; k < kStill; ++k) {
     Random random(derive_seed(1, {k}));
-    const SightingLog log = driven_looks(GetParam(), {}, random);
+    const DetectionLog log = driven_scans(GetParam(), {}, random);
     named += find_moved(log).moved.empty() ? 0 : 1;
     named_at_any_length += find_moved(log, {.least_move = 0.0}).moved.empty() ? 0 : 1;
   }
@@ -98,9 +99,9 @@ TEST_P(MovedRates, MostThatMoveFarAreNamed) {
       Random random(derive_seed(2, {k, static_cast<std::uint64_t>(1000.0 * length)}));
       const double angle = 2.0 * std::numbers::pi * random.uniform();
       const Move move{static_cast<int>(15.0 * random.uniform()),
-                      static_cast<int>(kLooks * random.uniform(0.25, 0.75)),
+                      static_cast<int>(kScans * random.uniform(0.25, 0.75)),
                       {length * std::cos(angle), length * std::sin(angle)}};
-      const MovedCheck check = find_moved(driven_looks(GetParam(), move, random));
+      const MovedCheck check = find_moved(driven_scans(GetParam(), move, random));
       bool is_named = false;
       bool is_other = false;
       for (const MovedLandmark& moved : check.moved) {
@@ -121,7 +122,7 @@ TEST_P(MovedRates, MostThatMoveFarAreNamed) {
 
 INSTANTIATE_TEST_SUITE_P(
     Moved, MovedRates,
-    testing::Values(SensorErrors{.name = "errors of each sighting alone"},
+    testing::Values(SensorErrors{.name = "errors of each detection alone"},
                     SensorErrors{.name = "errors in common", .common_share = 0.03}),
     [](const auto& one) { return one.param.common_share > 0.0 ? "common" : "alone"; });
 

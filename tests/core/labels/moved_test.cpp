@@ -7,14 +7,14 @@
 #include "core/base/errors.hpp"
 #include "core/base/random.hpp"
 #include "core/labels/place_shift.hpp"
-#include "noisy_looks.hpp"
-#include "tests/support/looks.hpp"
+#include "noisy_scans.hpp"
+#include "tests/support/scans.hpp"
 
 namespace mapproof::test {
 namespace {
 
 TEST(FindMoved, NamesTheLandmarkAndTheTime) {
-  const SightingLog log = looks_with_move(800, 7, {0.3, -0.4}, 500);
+  const DetectionLog log = scans_with_move(800, 7, {0.3, -0.4}, 500);
   const MovedCheck check = find_moved(log);
   ASSERT_EQ(check.moved.size(), 1U);
   EXPECT_EQ(check.moved.front().landmark, 7);
@@ -26,11 +26,11 @@ TEST(FindMoved, NamesTheLandmarkAndTheTime) {
 }
 
 TEST(FindMoved, SplitsTheLogAtTheMove) {
-  const MovedCheck check = find_moved(looks_with_move(800, 3, {-0.6, 0.2}, 300));
+  const MovedCheck check = find_moved(scans_with_move(800, 3, {-0.6, 0.2}, 300));
   ASSERT_EQ(check.split.names.size(), 16U);
   EXPECT_EQ(check.split.names.back(), check.split.names[3] + " (moved)");
   int early = 0;
-  for (const Sighting& one : check.split.sightings)
+  for (const Detection& one : check.split.detections)
     if (one.landmark == 15) early += one.step < 285 ? 1 : 0;
   EXPECT_EQ(early, 0);
 }
@@ -39,7 +39,7 @@ TEST(FindMoved, NamesFewerThanItsLevelWhereNothingMoves) {
   int alarms = 0;
   for (std::uint64_t seed = 1; seed <= 20; ++seed)
     alarms +=
-        find_moved(noisy_looks(300, seed), {.permutations = 399, .least_move = 0.0}).moved.empty()
+        find_moved(noisy_scans(300, seed), {.permutations = 399, .least_move = 0.0}).moved.empty()
             ? 0
             : 1;
   // 5 % of 20 is one; five or more come by chance in 3 of 1000.

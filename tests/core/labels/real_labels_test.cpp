@@ -5,8 +5,8 @@
 #include "core/labels/anchor_labels.hpp"
 #include "core/labels/mislabelled.hpp"
 #include "core/labels/shared_label.hpp"
-#include "noisy_looks.hpp"
-#include "real_looks.hpp"
+#include "noisy_scans.hpp"
+#include "real_scans.hpp"
 
 namespace mapproof::test {
 namespace {
@@ -15,22 +15,22 @@ namespace {
 class RealLabels : public testing::TestWithParam<const char*> {
  protected:
   void SetUp() override {
-    std::optional<SightingSource> source = real_looks(GetParam());
+    std::optional<DetectionSource> source = real_scans(GetParam());
     if (!source) GTEST_SKIP() << "MAPPROOF_MRCLAM does not name the folder of the sets";
     source_ = std::move(*source);
   }
-  const SightingLog& log() const { return source_.log; }
+  const DetectionLog& log() const { return source_.log; }
 
-  SightingSource source_;
+  DetectionSource source_;
 };
 
-TEST_P(RealLabels, SwappedInTheSecondHalfAreNamedAndMended) {
+TEST_P(RealLabels, SwappedInTheSecondHalfAreNamedAndCorrected) {
   const double middle = middle_time_s(log());
   const auto later = [&](int step) {
     return log().times_s[static_cast<std::size_t>(step)] >= middle;
   };
   for (const auto& [a, b] : {std::pair(1, 7), std::pair(2, 8)}) {
-    const SightingLog wrong = swapped(log(), a, b, later);
+    const DetectionLog wrong = swapped(log(), a, b, later);
     const int spoilt = wrong_labels(wrong, log());
     const LabelCheck check = check_labels(wrong);
     ASSERT_FALSE(check.findings.empty()) << a << ' ' << b;
@@ -38,8 +38,8 @@ TEST_P(RealLabels, SwappedInTheSecondHalfAreNamedAndMended) {
     EXPECT_EQ(check.findings[0].second, b);
     EXPECT_LT(check.loss_after_m, 0.75 * check.loss_before_m);
     // Which half bears the right names the survey alone can tell.
-    const SightingLog mended = check_anchor_labels(check.repaired, *source_.truth_m).repaired;
-    EXPECT_LT(wrong_labels(mended, log()), spoilt / 10);
+    const DetectionLog corrected = check_anchor_labels(check.repaired, *source_.truth_m).repaired;
+    EXPECT_LT(wrong_labels(corrected, log()), spoilt / 10);
   }
 }
 
@@ -50,46 +50,46 @@ TEST_P(RealLabels, AsTheyAreRaiseNoDoubt) {
   EXPECT_EQ(wrong_labels(check.repaired, log()), 0);
 }
 
-/// A map of a fault that was mended must be as good as without it.
-void expect_mended(const SightingSource& source, const char* kind, int a, int b) {
-  const SightingLog wrong = with_fault(source.log, kind, a, b, 7);
+/// A map of a fault that was corrected must be as good as without it.
+void expect_corrected(const DetectionSource& source, const char* kind, int a, int b) {
+  const DetectionLog wrong = with_fault(source.log, kind, a, b, 7);
   const double sound_m = map_error_m(source.log, *source.truth_m);
   const LabelCheck check = check_labels(wrong);
   ASSERT_EQ(check.findings.size(), 1U) << kind << ' ' << a << ' ' << b;
   const LabelFinding& finding = check.findings[0];
   EXPECT_EQ(std::minmax(finding.first, finding.second), std::minmax(a, b));
-  const SightingLog mended = check_anchor_labels(check.repaired, *source.truth_m).repaired;
-  EXPECT_LT(map_error_m(mended, *source.truth_m), 1.2 * sound_m) << kind << ' ' << a << ' ' << b;
+  const DetectionLog corrected = check_anchor_labels(check.repaired, *source.truth_m).repaired;
+  EXPECT_LT(map_error_m(corrected, *source.truth_m), 1.2 * sound_m) << kind << ' ' << a << ' ' << b;
 }
 
-TEST_P(RealLabels, SwappedInHalfOfTheLooksAreMended) {
-  expect_mended(source_, "half", 4, 12);
-  expect_mended(source_, "half", 1, 6);
+TEST_P(RealLabels, SwappedInHalfOfTheScansAreCorrected) {
+  expect_corrected(source_, "half", 4, 12);
+  expect_corrected(source_, "half", 1, 6);
 }
 
-TEST_P(RealLabels, OfOneLandmarkUnderTheNameOfAnotherAreMended) {
-  expect_mended(source_, "replaced30", 12, 4);
+TEST_P(RealLabels, OfOneLandmarkUnderTheNameOfAnotherAreCorrected) {
+  expect_corrected(source_, "replaced30", 12, 4);
 }
 
-TEST_P(RealLabels, SwappedForAThirdOfTheTimeAreMendedAtOnce) {
-  expect_mended(source_, "stretch", 4, 12);
+TEST_P(RealLabels, SwappedForAThirdOfTheTimeAreCorrectedAtOnce) {
+  expect_corrected(source_, "stretch", 4, 12);
 }
 
 TEST_P(RealLabels, OfALandmarkThatIsNeverCalledByItsOwnNameAreFound) {
   EXPECT_FALSE(shared_label(log()).has_value());
   std::vector<double> errors_m;
   for (const auto& [a, b] : {std::pair(10, 6), std::pair(2, 9), std::pair(13, 3)}) {
-    SightingLog wrong = called(log(), a, b, [](int) { return true; });
-    std::erase_if(wrong.sightings, [&, own = a](const Sighting& seen) {
-      return seen.landmark == own;  // In looks that show both.
+    DetectionLog wrong = called(log(), a, b, [](int) { return true; });
+    std::erase_if(wrong.detections, [&, own = a](const Detection& seen) {
+      return seen.landmark == own;  // In scans that show both.
     });
     const auto shared = shared_label(wrong);
     ASSERT_TRUE(shared.has_value()) << a << ' ' << b;
     EXPECT_EQ(shared->label, b);
-    const SightingLog split = split_label(wrong, *shared, a);
-    const SightingLog mended = check_anchor_labels(split, *source_.truth_m).repaired;
+    const DetectionLog split = split_label(wrong, *shared, a);
+    const DetectionLog corrected = check_anchor_labels(split, *source_.truth_m).repaired;
     // Without its own name a landmark is in no map: its place is gained as well.
-    const double error_m = map_error_m(mended, *source_.truth_m);
+    const double error_m = map_error_m(corrected, *source_.truth_m);
     errors_m.push_back(error_m);
   }
   std::ranges::sort(errors_m);

@@ -5,7 +5,7 @@
 #include <gtest/gtest.h>
 
 #include "core/pairs/pair_map.hpp"
-#include "noisy_looks.hpp"
+#include "noisy_scans.hpp"
 #include "tests/support/worlds.hpp"
 
 namespace mapproof::test {
@@ -15,7 +15,7 @@ bool in_every_scan(int) { return true; }
 
 TEST(SharedLabel, IsThatOfALandmarkCalledByAnothersNameThroughout) {
   for (const auto& [landmark, other] : {std::pair(0, 14), std::pair(7, 2), std::pair(12, 4)}) {
-    const SightingLog wrong = called(noisy_looks(1500, 3), landmark, other, in_every_scan);
+    const DetectionLog wrong = called(noisy_scans(1500, 3), landmark, other, in_every_scan);
     const auto shared = shared_label(wrong);
     ASSERT_TRUE(shared.has_value()) << landmark << " called " << other;
     EXPECT_EQ(shared->label, other);
@@ -26,12 +26,12 @@ TEST(SharedLabel, IsThatOfALandmarkCalledByAnothersNameThroughout) {
 }
 
 TEST(SharedLabel, SplitGivesTheMapOfBoth) {
-  const SightingLog wrong = called(noisy_looks(1500, 4), 7, 2, in_every_scan);
+  const DetectionLog wrong = called(noisy_scans(1500, 4), 7, 2, in_every_scan);
   const auto shared = shared_label(wrong);
   ASSERT_TRUE(shared.has_value());
-  const SightingLog split = split_label(wrong, *shared, 7);
-  Points map = sighted_map(split).embedding.coordinates;
-  // Which of both places is whose the looks do not say.
+  const DetectionLog split = split_label(wrong, *shared, 7);
+  Points map = pair_map_of(split).embedding.coordinates;
+  // Which of both places is whose the scans do not say.
   Points other = map;
   other.row(2).swap(other.row(7));
   EXPECT_LT(
@@ -41,13 +41,13 @@ TEST(SharedLabel, SplitGivesTheMapOfBoth) {
 
 TEST(SharedLabel, IsNoneWhereEachLabelIsOneLandmarks) {
   for (const std::uint64_t seed : {1, 2, 3, 4, 5})
-    EXPECT_FALSE(shared_label(noisy_looks(1500, seed)).has_value());
+    EXPECT_FALSE(shared_label(noisy_scans(1500, seed)).has_value());
 }
 
-TEST(SharedLabel, IsNoneOfALogWithoutLooksOfThree) {
-  SightingLog log{.names = {"a", "b", "c"}};
+TEST(SharedLabel, IsNoneOfALogWithoutScansOfThree) {
+  DetectionLog log{.names = {"a", "b", "c"}};
   EXPECT_FALSE(shared_label(log).has_value());
-  log.sightings = {{0, 0, 1.0, 0.0}, {0, 1, 2.0, 0.5}, {1, 2, 1.0, 0.0}};
+  log.detections = {{0, 0, 1.0, 0.0}, {0, 1, 2.0, 0.5}, {1, 2, 1.0, 0.0}};
   log.steps = 2;
   EXPECT_FALSE(shared_label(log).has_value());
 }

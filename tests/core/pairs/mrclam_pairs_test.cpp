@@ -9,7 +9,7 @@
 
 #include "core/align/diagonal_anchors.hpp"
 #include "core/pairs/pair_map.hpp"
-#include "core/records/mrclam.hpp"
+#include "core/records/observations/mrclam.hpp"
 #include "core/score/map_score.hpp"
 
 namespace mapproof {
@@ -18,58 +18,58 @@ namespace {
 /// A set of the real data with the most that its map may be off.
 struct RealSet {
   const char* name;
-  double most_m;  ///< Mean over the landmarks that are no anchors.
+  double most_m;  ///< Mean over the landmarks that are not anchors.
 };
 
 class MrclamPairs : public testing::TestWithParam<RealSet> {};
 
-/// MPE of the map that looks come to, in the frame of the anchors.
-double mpe_m(const SightingLog& log, const Points& truth_m) {
+/// MPE of the map that scans come to, in the frame of the anchors.
+double mpe_m(const DetectionLog& log, const Points& truth_m) {
   const std::vector<Eigen::Index> anchors = diagonal_anchors(truth_m);
   const AffineFit fit = AffineFit::kLeastDistances;
   const AlignedMap map =
-      align_to_anchors(sighted_map(log).embedding.coordinates, truth_m, anchors, fit);
+      align_to_anchors(pair_map_of(log).embedding.coordinates, truth_m, anchors, fit);
   return score_map(map.positions_m, truth_m, anchors, fit).value().mpe_m;
 }
 
-/// The log with so many sightings of one landmark, spread evenly, called by another's name.
-SightingLog misnamed(SightingLog log, const std::string& from, const std::string& to, int count) {
+/// The log with so many detections of one landmark, spread evenly, called by another's name.
+DetectionLog misnamed(DetectionLog log, const std::string& from, const std::string& to, int count) {
   const auto row = [&](const std::string& name) {
     return static_cast<int>(std::ranges::find(log.names, name) - log.names.begin());
   };
   const int a = row(from);
   const int b = row(to);
   std::vector<std::size_t> places;
-  for (std::size_t k = 0; k < log.sightings.size(); ++k) {
-    const auto is_there = [&](const Sighting& other) {
-      return other.step == log.sightings[k].step && other.landmark == b;
+  for (std::size_t k = 0; k < log.detections.size(); ++k) {
+    const auto is_there = [&](const Detection& other) {
+      return other.step == log.detections[k].step && other.landmark == b;
     };
-    if (log.sightings[k].landmark == a && std::ranges::none_of(log.sightings, is_there))
+    if (log.detections[k].landmark == a && std::ranges::none_of(log.detections, is_there))
       places.push_back(k);
   }
   for (int i = 0; i < count; ++i)
-    log.sightings[places[places.size() * static_cast<std::size_t>(i) /
-                         static_cast<std::size_t>(count)]]
+    log.detections[places[places.size() * static_cast<std::size_t>(i) /
+                          static_cast<std::size_t>(count)]]
         .landmark = b;
-  std::ranges::sort(log.sightings, {},
-                    [](const Sighting& seen) { return std::pair(seen.step, seen.landmark); });
+  std::ranges::sort(log.detections, {},
+                    [](const Detection& seen) { return std::pair(seen.step, seen.landmark); });
   return log;
 }
 
 TEST_P(MrclamPairs, LieWhereTheyWereSurveyed) {
   const char* folder = std::getenv("MAPPROOF_MRCLAM");
   if (folder == nullptr) GTEST_SKIP() << "MAPPROOF_MRCLAM does not name the folder of the sets";
-  const SightingSource source =
-      read_mrclam_sightings(std::filesystem::path(folder) / GetParam().name);
+  const DetectionSource source =
+      read_mrclam_detections(std::filesystem::path(folder) / GetParam().name);
   ASSERT_TRUE(source.truth_m.has_value());
   EXPECT_LE(mpe_m(source.log, *source.truth_m), GetParam().most_m);
 }
 
-TEST_P(MrclamPairs, StayThereIfAFewSightingsHaveAWrongName) {
+TEST_P(MrclamPairs, StayThereIfAFewDetectionsHaveAWrongName) {
   const char* folder = std::getenv("MAPPROOF_MRCLAM");
   if (folder == nullptr) GTEST_SKIP() << "MAPPROOF_MRCLAM does not name the folder of the sets";
-  const SightingSource source =
-      read_mrclam_sightings(std::filesystem::path(folder) / GetParam().name);
+  const DetectionSource source =
+      read_mrclam_detections(std::filesystem::path(folder) / GetParam().name);
   for (const auto& [from, to] : {std::pair("20", "7"), std::pair("6", "18"), std::pair("16", "9"),
                                  std::pair("8", "15"), std::pair("19", "12")})
     for (const int count : {5, 15, 25})

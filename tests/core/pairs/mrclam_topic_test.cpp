@@ -8,7 +8,7 @@
 
 #include "core/base/errors.hpp"
 #include "reports/sections/trials/topic_words.hpp"
-#include "tests/support/looks.hpp"
+#include "tests/support/scans.hpp"
 #include "tests/support/temporary_folder.hpp"
 #include "tests/support/worlds.hpp"
 
@@ -28,8 +28,8 @@ void write_set(const test::TemporaryFolder& folder, const std::string& name, boo
   if (with_truth) folder.file(name + "/Landmark_Groundtruth.dat", truth);
   for (const int robot : {1, 4}) {
     std::string rows;
-    for (const Sighting& seen :
-         test::looks_at(landmarks, 150, 4, static_cast<std::uint64_t>(robot)).sightings)
+    for (const Detection& seen :
+         test::scans_at(landmarks, 150, 4, static_cast<std::uint64_t>(robot)).detections)
       rows += fmt::format("{} {} {} {}\n", 0.5 * seen.step, 60 + seen.landmark, seen.range_m,
                           seen.bearing_rad);
     folder.file(fmt::format("{}/Robot{}_Measurement.dat", name, robot), rows);
@@ -40,7 +40,7 @@ void write_set(const test::TemporaryFolder& folder, const std::string& name, boo
 TrialExperiment experiment() {
   TrialExperiment experiment;
   experiment.name = experiment.topic = "mrclam";
-  experiment.options = {{"neighbours", {5}}, {"replicates", {12}}, {"block_looks", {10}}};
+  experiment.options = {{"neighbours", {5}}, {"replicates", {12}}, {"block_scans", {10}}};
   return experiment;
 }
 
@@ -89,11 +89,11 @@ TEST(MrclamTopic, PairsOfPerfectRobotsGiveThePerfectMap) {
   ASSERT_TRUE(part.maps.back().certainty);
   EXPECT_EQ(part.maps.back().certainty->covariances.size(), 9U);
   EXPECT_GT(trial(part, "swapped").values.at("rigid_m"), 0.1);
-  EXPECT_LT(trial(part, "swapped-mended").values.at("rigid_m"), 1e-6);
-  EXPECT_GE(trial(part, "swapped-mended").values.at("faults"), 1.0);
-  EXPECT_LT(trial(part, "misnamed-mended").values.at("rigid_m"), 1e-6);
+  EXPECT_LT(trial(part, "swapped-corrected").values.at("rigid_m"), 1e-6);
+  EXPECT_GE(trial(part, "swapped-corrected").values.at("faults"), 1.0);
+  EXPECT_LT(trial(part, "misnamed-corrected").values.at("rigid_m"), 1e-6);
   EXPECT_FALSE(part.maps.back().pairs.empty());
-  // What does not apply to a way is no result of it that was lost.
+  // What does not apply to a way is not a result of it that was lost.
   for (const Trial& one : part.trials)
     for (const auto& [quantity, value] : one.values)
       EXPECT_FALSE(std::isnan(value)) << one.series << ", " << quantity;

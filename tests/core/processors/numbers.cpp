@@ -12,7 +12,7 @@
 #include "core/embed/sde/sde.hpp"
 #include "core/experiment/run.hpp"
 #include "core/experiment/slam_run.hpp"
-#include "core/records/observations.hpp"
+#include "core/records/observations/observations.hpp"
 #include "tests/core/range_slam/slam_worlds.hpp"
 #include "tests/support/slam_checks.hpp"
 #include "tests/support/worlds.hpp"

@@ -8,7 +8,7 @@
 #include <numbers>
 
 #include "core/base/errors.hpp"
-#include "core/range_slam/squared_ranges.hpp"
+#include "core/range_slam/factors/squared_ranges.hpp"
 #include "tests/core/range_slam/range_worlds.hpp"
 #include "tests/support/slam_checks.hpp"
 

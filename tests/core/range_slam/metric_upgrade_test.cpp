@@ -1,12 +1,12 @@
-#include "core/range_slam/metric_upgrade.hpp"
+#include "core/range_slam/factors/metric_upgrade.hpp"
 
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
 
 #include <cmath>
 
-#include "core/range_slam/quadric.hpp"
-#include "core/range_slam/squared_ranges.hpp"
+#include "core/range_slam/factors/quadric.hpp"
+#include "core/range_slam/factors/squared_ranges.hpp"
 #include "tests/core/range_slam/range_worlds.hpp"
 #include "tests/support/slam_checks.hpp"
 #include "tests/support/worlds.hpp"

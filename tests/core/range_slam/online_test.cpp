@@ -1,11 +1,11 @@
-#include "core/range_slam/online.hpp"
+#include "core/range_slam/factors/online.hpp"
 
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
 
 #include "core/base/errors.hpp"
+#include "core/range_slam/factors/squared_ranges.hpp"
 #include "core/range_slam/localise.hpp"
-#include "core/range_slam/squared_ranges.hpp"
 #include "tests/core/range_slam/range_worlds.hpp"
 #include "tests/support/slam_checks.hpp"
 #include "tests/support/worlds.hpp"

@@ -2,7 +2,7 @@
 
 #include <filesystem>
 
-#include "core/records/range_log_files.hpp"
+#include "core/records/ranges/range_log_files.hpp"
 #include "tests/core/range_slam/sample_log.hpp"
 #include "tests/support/plaza.hpp"
 
@@ -44,7 +44,7 @@ TEST_F(PlazaFiles, TheTrapsOfTheSetsAreRemarked) {
   EXPECT_EQ(first.ranges.size(), 3529U);
   EXPECT_TRUE(remarks_hold(first, "increments of DR are those of the true heading"));
   EXPECT_TRUE(remarks_hold(first, "jump back 2 times, by up to 64.4 s"));
-  EXPECT_FALSE(remarks_hold(first, "no honest result"));
+  EXPECT_FALSE(remarks_hold(first, "is not honest"));
   EXPECT_FALSE(remarks_hold(first, "half a turn"));
   const RangeLog second = read_range_log(folder_ / "raw_gtsam/Plaza2_.mat");
   EXPECT_EQ(second.odometry.size(), 4090U);

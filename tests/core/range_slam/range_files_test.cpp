@@ -7,7 +7,7 @@
 
 #include "core/base/errors.hpp"
 #include "core/base/files.hpp"
-#include "core/records/range_log_files.hpp"
+#include "core/records/ranges/range_log_files.hpp"
 #include "core/topics/validate.hpp"
 #include "tests/core/range_slam/sample_log.hpp"
 #include "tests/support/packing.hpp"
@@ -115,12 +115,12 @@ TEST(RangeLogFiles, ATrueHeadingAgainstTheTravelIsTurned) {
 TEST(RangeLogFiles, OdometryWithTheTruthsTurnsIsNamed) {
   const RangeLog log = sample_log();  // Without noise the turns are the truth's.
   const test::TemporaryFolder folder;
-  EXPECT_TRUE(remarks_hold(read_range_log(csv_folder(folder, log)), "no honest result"));
+  EXPECT_TRUE(remarks_hold(read_range_log(csv_folder(folder, log)), "is not honest"));
   test::write_mat(log, folder / "a.mat", true);
   EXPECT_TRUE(remarks_hold(read_range_log(folder / "a.mat"), "increments of DR are those"));
   RangeLog noisy = log;
   for (Motion& motion : noisy.odometry) motion.turn_rad += 0.001;
-  EXPECT_FALSE(remarks_hold(read_range_log(csv_folder(folder, noisy)), "no honest result"));
+  EXPECT_FALSE(remarks_hold(read_range_log(csv_folder(folder, noisy)), "is not honest"));
 }
 
 TEST(RangeLogFiles, OdometryIsRecoveredFromTheDeadReckonedPath) {
@@ -276,7 +276,7 @@ TEST(RangeLogFiles, AreToldByTheirFirstBytes) {
   }
   EXPECT_EQ(read_range_log(folder.file("log", test::td_text_of(log))).ranges.size(),
             log.ranges.size());
-  // Four numbers a row may be sightings of a robot as well, and these columns are.
+  // Four numbers a row may be detections of a robot as well, and these columns are.
   EXPECT_FALSE(shows_ranges(folder / "log"));
   const std::string both = "time,landmark,range\n1,1,1\n";
   EXPECT_FALSE(shows_ranges(folder.file("log", both)));
@@ -306,7 +306,7 @@ TEST(RangeLogFiles, OtherPathsAreNoRangeLogs) {
   EXPECT_EQ(error_of(folder.file("ranges.csv", "t,beacon\n1,1\n")),
             "line 1: no column of ranges: expected range, range_m in the header");
   EXPECT_EQ(error_of(folder / "nothing"), "cannot be opened: No such file or directory");
-  EXPECT_EQ(error_of(folder.file("a.mat", "no")), "is no MATLAB file");
+  EXPECT_EQ(error_of(folder.file("a.mat", "no")), "is not a MATLAB file");
   EXPECT_TRUE(error_of(folder.file("a.csv", "x")).starts_with("holds no ranges"));
 }
 

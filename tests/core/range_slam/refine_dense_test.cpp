@@ -5,7 +5,7 @@
 #include <Eigen/LU>
 #include <cmath>
 
-#include "core/range_slam/refine.hpp"
+#include "core/range_slam/refinement/refine.hpp"
 #include "tests/core/range_slam/slam_worlds.hpp"
 
 namespace mapproof {

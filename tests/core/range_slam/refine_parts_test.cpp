@@ -8,12 +8,12 @@
 
 #include "core/base/errors.hpp"
 #include "core/base/random.hpp"
-#include "core/range_slam/carried_along.hpp"
-#include "core/range_slam/chain_information.hpp"
 #include "core/range_slam/dead_reckoning.hpp"
-#include "core/range_slam/key_poses.hpp"
-#include "core/range_slam/refine_residuals.hpp"
-#include "core/range_slam/refine_starts.hpp"
+#include "core/range_slam/refinement/carried_along.hpp"
+#include "core/range_slam/refinement/chain_information.hpp"
+#include "core/range_slam/refinement/key_poses.hpp"
+#include "core/range_slam/refinement/refine_residuals.hpp"
+#include "core/range_slam/refinement/refine_starts.hpp"
 #include "core/range_slam/trilateration.hpp"
 #include "tests/core/range_slam/slam_worlds.hpp"
 

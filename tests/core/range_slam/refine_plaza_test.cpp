@@ -2,8 +2,8 @@
 
 #include <string>
 
-#include "core/range_slam/refine.hpp"
-#include "core/range_slam/refine_starts.hpp"
+#include "core/range_slam/refinement/refine.hpp"
+#include "core/range_slam/refinement/refine_starts.hpp"
 #include "tests/support/plaza.hpp"
 #include "tests/support/slam_checks.hpp"
 

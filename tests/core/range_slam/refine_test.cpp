@@ -1,4 +1,4 @@
-#include "core/range_slam/refine.hpp"
+#include "core/range_slam/refinement/refine.hpp"
 
 #include <gtest/gtest.h>
 
@@ -8,7 +8,7 @@
 
 #include "core/align/rigid.hpp"
 #include "core/base/errors.hpp"
-#include "core/range_slam/refine_starts.hpp"
+#include "core/range_slam/refinement/refine_starts.hpp"
 #include "tests/core/range_slam/slam_worlds.hpp"
 #include "tests/support/slam_checks.hpp"
 

@@ -1,4 +1,4 @@
-#include "core/range_slam/space_slam.hpp"
+#include "core/range_slam/factors/space_slam.hpp"
 
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
@@ -13,8 +13,8 @@
 #include "core/align/rigid_space.hpp"
 #include "core/base/errors.hpp"
 #include "core/experiment/slam_worlds.hpp"
-#include "core/range_slam/metric_upgrade.hpp"
-#include "core/range_slam/quadric.hpp"
+#include "core/range_slam/factors/metric_upgrade.hpp"
+#include "core/range_slam/factors/quadric.hpp"
 #include "core/simulate/range_flight.hpp"
 #include "tests/support/slam_checks.hpp"
 

@@ -3,7 +3,7 @@
 #include <cmath>
 
 #include "core/range_slam/dead_reckoning.hpp"
-#include "core/range_slam/spectral_slam.hpp"
+#include "core/range_slam/factors/spectral_slam.hpp"
 #include "core/score/trajectory_error.hpp"
 #include "tests/support/plaza.hpp"
 #include "tests/support/slam_checks.hpp"

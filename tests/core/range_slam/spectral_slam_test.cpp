@@ -1,14 +1,14 @@
-#include "core/range_slam/spectral_slam.hpp"
+#include "core/range_slam/factors/spectral_slam.hpp"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 
 #include "core/base/errors.hpp"
+#include "core/range_slam/factors/squared_ranges.hpp"
 #include "core/range_slam/heading.hpp"
 #include "core/range_slam/localise.hpp"
 #include "core/range_slam/odometry_fit.hpp"
-#include "core/range_slam/squared_ranges.hpp"
 #include "tests/core/range_slam/drives.hpp"
 #include "tests/core/range_slam/range_worlds.hpp"
 #include "tests/support/slam_checks.hpp"

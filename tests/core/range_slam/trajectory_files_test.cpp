@@ -1,4 +1,4 @@
-#include "core/records/trajectory_files.hpp"
+#include "core/records/observations/trajectory_files.hpp"
 
 #include <gtest/gtest.h>
 
@@ -7,8 +7,8 @@
 #include <numbers>
 
 #include "core/base/errors.hpp"
-#include "core/records/landmarks_csv.hpp"
-#include "core/records/range_log_files.hpp"
+#include "core/records/observations/landmarks_csv.hpp"
+#include "core/records/ranges/range_log_files.hpp"
 #include "tests/core/range_slam/sample_log.hpp"
 #include "tests/support/temporary_folder.hpp"
 

@@ -1,4 +1,4 @@
-#include "core/range_slam/windowed_ranges.hpp"
+#include "core/range_slam/factors/windowed_ranges.hpp"
 
 #include <gtest/gtest.h>
 
@@ -6,9 +6,9 @@
 #include <cmath>
 
 #include "core/base/errors.hpp"
-#include "core/range_slam/spread_rows.hpp"
-#include "core/range_slam/squared_ranges.hpp"
-#include "core/range_slam/window_choice.hpp"
+#include "core/range_slam/factors/spread_rows.hpp"
+#include "core/range_slam/factors/squared_ranges.hpp"
+#include "core/range_slam/factors/window_choice.hpp"
 #include "tests/core/range_slam/drives.hpp"
 #include "tests/core/range_slam/range_worlds.hpp"
 

@@ -7,13 +7,13 @@
 
 #include "core/base/errors.hpp"
 #include "core/base/files.hpp"
-#include "core/records/experiment_json.hpp"
-#include "core/records/landmarks_csv.hpp"
-#include "core/records/map_files.hpp"
-#include "core/records/observations.hpp"
-#include "core/records/profiles.hpp"
-#include "core/records/run_json.hpp"
-#include "core/records/timings_jsonl.hpp"
+#include "core/records/experiments/experiment_json.hpp"
+#include "core/records/experiments/profiles.hpp"
+#include "core/records/maps/map_files.hpp"
+#include "core/records/observations/landmarks_csv.hpp"
+#include "core/records/observations/observations.hpp"
+#include "core/records/studies/run_json.hpp"
+#include "core/records/studies/timings_jsonl.hpp"
 #include "core/topics/validate.hpp"
 #include "tests/core/records/samples.hpp"
 
@@ -69,7 +69,7 @@ std::vector<Input> make_inputs() {
       table("observations/wide_semicolon.csv", Sensor::kBearing, Layout::kAuto),
       table("observations/wide_tabs.tsv", Sensor::kRange, Layout::kWide),
       table("observations/long.csv", Sensor::kBearing, Layout::kAuto),
-      table("observations/long_sightings.csv", Sensor::kVisibility, Layout::kLong),
+      table("observations/long_detections.csv", Sensor::kVisibility, Layout::kLong),
       {"landmarks", read_file(test::data_file("landmarks/truth.csv")),
        as_file("l.csv", [](const fs::path& path) { read_landmarks(path); }), false},
       {"measurements", read_file(test::data_file("mrclam/Robot1_Measurement.dat")),

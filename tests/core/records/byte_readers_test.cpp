@@ -8,16 +8,16 @@
 
 #include "core/base/errors.hpp"
 #include "core/base/files.hpp"
-#include "core/records/landmarks_csv.hpp"
-#include "core/records/observations.hpp"
-#include "core/records/range_log_files.hpp"
-#include "core/records/timings_jsonl.hpp"
+#include "core/records/observations/landmarks_csv.hpp"
+#include "core/records/observations/observations.hpp"
+#include "core/records/ranges/range_log_files.hpp"
+#include "core/records/studies/timings_jsonl.hpp"
 #include "core/topics/validate.hpp"
 #include "tests/core/range_slam/sample_log.hpp"
 #include "tests/core/records/samples.hpp"
 #include "tests/support/byte_sources.hpp"
-#include "tests/support/looks.hpp"
 #include "tests/support/packing.hpp"
+#include "tests/support/scans.hpp"
 
 namespace mapproof {
 namespace {
@@ -32,7 +32,9 @@ struct Reader {
   std::function<std::string(ByteSource&)> read;
 };
 
-[[maybe_unused]] std::ostream& operator<<(std::ostream& out, const Reader& reader) { return out << reader.name; }
+[[maybe_unused]] std::ostream& operator<<(std::ostream& out, const Reader& reader) {
+  return out << reader.name;
+}
 
 std::string text_of(const Eigen::MatrixXd& values) {
   return fmt::format("{}", fmt::join(values.reshaped().eval(), " "));
@@ -57,11 +59,11 @@ Reader observations(const std::string& name, std::string bytes, std::optional<Se
           }};
 }
 
-Reader sightings(const std::string& name, std::string bytes) {
+Reader detections(const std::string& name, std::string bytes) {
   return {name, std::move(bytes), [](ByteSource& source) {
-            EXPECT_TRUE(is_sightings(source));
+            EXPECT_TRUE(is_detections(source));
             EXPECT_FALSE(is_large_long_table(source));
-            return sightings_json(read_sightings(source).log);
+            return detections_json(read_detections(source).log);
           }};
 }
 
@@ -106,11 +108,11 @@ std::vector<Reader> make_readers() {
   Points places(9, 2);
   for (Eigen::Index i = 0; i < 9; ++i)
     places.row(i) << static_cast<double>(i % 3), 0.1 * static_cast<double>(i);
-  const SightingLog looks = test::looks_at(places, 4000, 4, 3);
+  const DetectionLog scans = test::scans_at(places, 4000, 4, 3);
   std::string rows = "step,landmark,range,bearing\n";
-  for (const Sighting& seen : looks.sightings)
+  for (const Detection& seen : scans.detections)
     rows += fmt::format("{},{},{},{}\n", seen.step,
-                        looks.names[static_cast<std::size_t>(seen.landmark)], seen.range_m,
+                        scans.names[static_cast<std::size_t>(seen.landmark)], seen.range_m,
                         seen.bearing_rad);
   const auto file = [](const char* name) { return read_file(data_file(name)); };
   const Reader wide =
@@ -123,8 +125,8 @@ std::vector<Reader> make_readers() {
       observations("long_bare", "0,oak,1\n0,elm,0\n1,oak,1\n", Sensor::kVisibility, Layout::kLong);
   const Reader json = observations("json", file("observations/observations.json"), std::nullopt);
   const Reader ranges_seen = observations("ranges_seen", rows, Sensor::kRange);
-  const Reader seen = sightings("sightings", rows);
-  const Reader seen_json = sightings("sightings_json", sightings_json(looks));
+  const Reader seen = detections("detections", rows);
+  const Reader seen_json = detections("detections_json", detections_json(scans));
   const Reader anchors = landmarks("anchors", file("landmarks/anchors.csv"));
   const Reader survey = landmarks("survey", file("mrclam/Landmark_Groundtruth.dat"));
   const Reader csv_log = range_log("range_csv", test::ranges_csv_of(log));
@@ -152,8 +154,8 @@ std::vector<Reader> make_readers() {
           validated(wide, "wide CSV observations"),
           validated(longs, "long CSV observations"),
           validated(json, "mapproof.observations 1"),
-          validated(seen, "sightings"),
-          validated(seen_json, "mapproof.sightings 1"),
+          validated(seen, "detections"),
+          validated(seen_json, "mapproof.detections 1"),
           validated(anchors, "landmarks with positions"),
           validated(csv_log, "range log"),
           validated(mat_log, "range log"),

@@ -1,4 +1,4 @@
-#include "core/records/experiment_json.hpp"
+#include "core/records/experiments/experiment_json.hpp"
 
 #include <algorithm>
 #include <stdexcept>
@@ -9,7 +9,7 @@
 
 #include "core/base/errors.hpp"
 #include "core/base/files.hpp"
-#include "core/records/profiles.hpp"
+#include "core/records/experiments/profiles.hpp"
 #include "tests/core/records/samples.hpp"
 
 namespace mapproof {
@@ -282,7 +282,7 @@ TEST(ExperimentJson, RefusesVariationsThatTheExperimentCannotMake) {
             "e.json: /figures/1/methods/1: is there twice: at /figures/1/methods/0 before");
   EXPECT_EQ(experiment_error("/figures/0",
                              {{"id", "fig-2"}, {"kind", "measurement"}, {"sensor", "range"}}),
-            "e.json: /figures/0/sensor: a look of ranges has no figure; expected visibility or "
+            "e.json: /figures/0/sensor: a scan of ranges has no figure; expected visibility or "
             "bearing");
 }
 

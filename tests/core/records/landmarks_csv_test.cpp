@@ -1,4 +1,4 @@
-#include "core/records/landmarks_csv.hpp"
+#include "core/records/observations/landmarks_csv.hpp"
 
 #include <gtest/gtest.h>
 
@@ -45,7 +45,8 @@ TEST(LandmarksCsv, NamesTheLineThatIsWrong) {
             "line 1: coordinates are in metres, at most 1000000000, got \"inf\"");
   EXPECT_EQ(landmarks_error("a,0,0\nb,0,zero\n"), "line 2: \"zero\" is not a number");
   EXPECT_EQ(landmarks_error("a,0,0\nb,0\n"), "line 2: has 2 cells, expected name, x, y");
-  EXPECT_EQ(landmarks_error("a,0,0\nb,1,1\na,2,2\n"), "line 3: landmark \"a\" is already on line 1");
+  EXPECT_EQ(landmarks_error("a,0,0\nb,1,1\na,2,2\n"),
+            "line 3: landmark \"a\" is already on line 1");
   EXPECT_EQ(landmarks_error(",0,0\n"), "line 1: a landmark without a name");
   EXPECT_EQ(landmarks_error("name,north,east\na,0,0\n"),
             "line 1: expected the columns name, x, y; got \"north\"");

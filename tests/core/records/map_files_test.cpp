@@ -1,4 +1,4 @@
-#include "core/records/map_files.hpp"
+#include "core/records/maps/map_files.hpp"
 
 #include <limits>
 
@@ -6,7 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "core/base/files.hpp"
-#include "core/records/landmarks_csv.hpp"
+#include "core/records/observations/landmarks_csv.hpp"
 #include "tests/core/records/samples.hpp"
 #include "tests/support/schema_problem.hpp"
 

@@ -1,4 +1,4 @@
-#include "core/records/mrclam.hpp"
+#include "core/records/observations/mrclam.hpp"
 
 #include <gtest/gtest.h>
 
@@ -24,7 +24,7 @@ std::string mrclam_error(const std::string& file, const std::string& bytes) {
   return error.starts_with(path + ": ") ? error.substr(path.size() + 2) : error;
 }
 
-TEST(Mrclam, PoolsTheLooksOfAllRobots) {
+TEST(Mrclam, PoolsTheScansOfAllRobots) {
   const ObservationSource source = read_observations(data_file("mrclam"), std::nullopt);
   EXPECT_EQ(source.history.sensor, Sensor::kVisibility);
   EXPECT_EQ(source.history.names, (std::vector<std::string>{"6", "7", "8"}));
@@ -38,8 +38,8 @@ TEST(Mrclam, SaysWhatItDropped) {
       read_mrclam(data_file("mrclam"), Sensor::kRange).remarks,
       (std::vector<std::string>{"Rows dropped with barcodes of nobody: 2 (barcodes 99)",
                                 "Rows dropped that show other robots: 2",
-                                "Rows dropped that show a landmark a second time in one look: 1",
-                                "Looks dropped that show no landmark: 2"}));
+                                "Rows dropped that show a landmark a second time in one scan: 1",
+                                "Scans dropped that show no landmark: 2"}));
 }
 
 TEST(Mrclam, TakesWhatWasNotSeenAsMissingForBearingAndRange) {
@@ -80,7 +80,8 @@ TEST(Mrclam, NamesTheLineThatIsWrong) {
   EXPECT_EQ(mrclam_error("Robot1_Measurement.dat", "# x\n1 63 2\n"),
             "line 2: has 3 numbers, expected 4");
   EXPECT_EQ(mrclam_error("Robot1_Measurement.dat", "1 63 2 x\n"), "line 1: \"x\" is not a number");
-  EXPECT_EQ(mrclam_error("Robot1_Measurement.dat", "1 63 2 nan\n"), "line 1: \"nan\" is not finite");
+  EXPECT_EQ(mrclam_error("Robot1_Measurement.dat", "1 63 2 nan\n"),
+            "line 1: \"nan\" is not finite");
   EXPECT_EQ(mrclam_error("Robot1_Measurement.dat", "1 63 -2 0\n"),
             "line 1: a range cannot be negative, got -2");
   EXPECT_EQ(mrclam_error("Robot2_Measurement.dat", "1 6.3 2 0\n"),
@@ -92,7 +93,7 @@ TEST(Mrclam, NamesTheLineThatIsWrong) {
 }
 
 /// Facts of a real set, where the variable says that it can be had.
-TEST(MrclamData, HoldsFifteenLandmarksSeenInSomeTwentyThousandLooks) {
+TEST(MrclamData, HoldsFifteenLandmarksSeenInSomeTwentyThousandScans) {
   const char* folder = std::getenv("MAPPROOF_MRCLAM");
   if (folder == nullptr) GTEST_SKIP() << "MAPPROOF_MRCLAM does not name the folder of the sets";
   const ObservationSource source =

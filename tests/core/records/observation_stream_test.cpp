@@ -1,9 +1,9 @@
-#include "core/records/observation_stream.hpp"
+#include "core/records/observations/observation_stream.hpp"
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
-#include "core/records/observations.hpp"
+#include "core/records/observations/observations.hpp"
 #include "tests/core/records/samples.hpp"
 #include "tests/support/temporary_folder.hpp"
 
@@ -111,7 +111,7 @@ TEST(ObservationStream, RemarksWhichColumnsItDoesNotRead) {
   EXPECT_EQ(stream.remarks(), (std::vector<std::string>{"Columns that are not read: \"weather\""}));
 }
 
-TEST(ObservationStream, TakesWhatItsSensorSawOfSightings) {
+TEST(ObservationStream, TakesWhatItsSensorSawOfDetections) {
   const std::string text = "time,landmark,range,bearing\n0.5,a,2,1\n0.5,b,3,\n0.75,b,4,-1\n";
   const auto all = [&](Sensor sensor) {
     ObservationStream stream("f", sensor);
@@ -137,21 +137,21 @@ TEST(ObservationStream, NamesTheLineOfWhatIsWrong) {
   EXPECT_EQ(error("step,landmark,value\n0,a,1\n0,a,0\n"),
             "f: line 3: landmark \"a\" is already listed at step 0");
   EXPECT_EQ(error("5,a,1\n4,a,0\n"),
-            "f: line 2: step 4 after step 5: a file that is followed lists its looks in ascending "
+            "f: line 2: step 4 after step 5: a file that is followed lists its scans in ascending "
             "order");
   EXPECT_EQ(error("0,a,1\n0,?,1\n"),
             "f: line 2: a reading without a label (?): whose such are is estimated of whole files");
   EXPECT_EQ(error("0,a"), "f: line 1: has 2 cells, expected 3");
   EXPECT_EQ(error("0,a\n"), "f: line 1: has 2 cells, expected 3");
   EXPECT_EQ(error("time,landmark,value\n0.5,a,1\n0.25,a,1\n"),
-            "f: line 3: time 0.25 after time 0.5: a file that is followed lists its looks in "
+            "f: line 3: time 0.25 after time 0.5: a file that is followed lists its scans in "
             "ascending order");
   EXPECT_EQ(error("step,landmark\n"), "f: line 1: no column is named range or bearing");
   EXPECT_EQ(error("step,landmark,value,robot\n"),
             "f: line 1: a file that is followed is of one robot");
   EXPECT_EQ(error("0,a,1\n0,\"b,1\n"),
             "f: line 2: its quotes are broken, or a cell goes over its end");
-  EXPECT_EQ(error("0,a\xff,1\n"), "f: line 1: is no UTF-8 text, or holds a NUL byte");
+  EXPECT_EQ(error("0,a\xff,1\n"), "f: line 1: is not UTF-8 text, or holds a NUL byte");
   EXPECT_TRUE(error("0,a,0.5\n").starts_with("f: line 1: "));
   EXPECT_EQ(error(std::string((1 << 20) + 1, 'x')), "f: line 1: is longer than 1 MiB");
 }

@@ -1,4 +1,4 @@
-#include "core/records/observations.hpp"
+#include "core/records/observations/observations.hpp"
 
 #include <gtest/gtest.h>
 
@@ -162,8 +162,8 @@ TEST(LongObservations, AreReadByTheNamesOfTheirColumns) {
   EXPECT_EQ(source.places[2], "line 5");
 }
 
-TEST(LongObservations, OfSightingsAloneTakeTheRestAsNotSeen) {
-  const ObservationSource source = read_observations(data_file("observations/long_sightings.csv"),
+TEST(LongObservations, OfDetectionsAloneTakeTheRestAsNotSeen) {
+  const ObservationSource source = read_observations(data_file("observations/long_detections.csv"),
                                                      Sensor::kVisibility, Layout::kLong);
   Eigen::MatrixXd expected(3, 3);
   expected << 1, 1, 0, 1, 0, 1, 0, 1, 0;
@@ -200,7 +200,7 @@ TEST(LongObservations, WithoutAHeaderMayNameALandmarkAsAColumnIs) {
   EXPECT_EQ(source.history.names, (std::vector<std::string>{"r", "value"}));
 }
 
-TEST(LongObservations, OfSeveralRobotsAreLooksOfTheirOwn) {
+TEST(LongObservations, OfSeveralRobotsAreScansOfTheirOwn) {
   const TemporaryFolder folder;
   const auto path = folder.file("o.csv",
                                 "robot,time,landmark,value\n"
@@ -215,8 +215,8 @@ TEST(LongObservations, AreReadAsALongStreamReadsThem) {
   const auto path = folder.file("o.csv",
                                 "stamp,tag,value,robot\n"
                                 "7.5,oak,1.5,x\n-2,ash,2.5,x\n7.5,ash,0.5,y\n8,oak,3,y\n");
-  const SightingSource stream =
-      read_sightings(path, {.unit = AngleUnit::kRadians, .value = Sensor::kBearing});
+  const DetectionSource stream =
+      read_detections(path, {.unit = AngleUnit::kRadians, .value = Sensor::kBearing});
   const ObservationSource whole = read_observations(path, Sensor::kBearing);
   EXPECT_EQ(whole.history.names, stream.log.names);
   expect_values(whole.history, history_of(stream.log, Sensor::kBearing).values);
@@ -224,7 +224,7 @@ TEST(LongObservations, AreReadAsALongStreamReadsThem) {
 
 TEST(LongObservations, RefuseOtherColumnsAndEmptyNames) {
   EXPECT_EQ(error_with("landmark,value\na,0\n", Sensor::kVisibility),
-            "line 1: no column is named step or time: which rows are one look?");
+            "line 1: no column is named step or time: which rows are one scan?");
   EXPECT_EQ(error_with("step,landmark,value\nnoon,a,0\n", Sensor::kVisibility),
             "line 2: step: \"noon\" is not a number");
   EXPECT_EQ(error_with("step,landmark,value\n1,,0\n", Sensor::kVisibility),

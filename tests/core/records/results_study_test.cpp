@@ -1,4 +1,4 @@
-#include "core/records/results_study_json.hpp"
+#include "core/records/studies/results_study_json.hpp"
 
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
@@ -95,7 +95,7 @@ TEST(ResultsStudy, WhatIsWrongIsOneLineWithFileAndPlace) {
             std::string::npos);
 }
 
-TEST(ResultsStudy, SaysWhatLooksUnusualInATable) {
+TEST(ResultsStudy, SaysWhatScansUnusualInATable) {
   const auto remarks = [](const std::string& rows) {
     const std::string own =
         R"(, "quantities": [{"id": "found", "label": "F", "unit": "%", "better": "higher"}]})";
@@ -163,10 +163,11 @@ TEST(ResultsStudy, MapsAndPathsAreGivenWhole) {
             "maps/a.csv: line 3: \"b\" has true_x_m and no true_y_m");
   EXPECT_EQ(problem_of_map("a,,2,3,4\n"), "maps/a.csv: line 2: \"a\" has y_m and no x_m");
   write_file(folder / "paths/a.tum", "0 0 0 0 0 0 0 1\n1 1 0 0 0 0 0 0\n");
-  EXPECT_EQ(test::error_of([&] { read_given_paths(folder.path()); }),
-            (folder / "paths/a.tum").string() +
-                ": line 2: the quaternion qx qy qz qw is 0 0 0 0, which is no orientation; without "
-                "one it is 0 0 0 1");
+  EXPECT_EQ(
+      test::error_of([&] { read_given_paths(folder.path()); }),
+      (folder / "paths/a.tum").string() +
+          ": line 2: the quaternion qx qy qz qw is 0 0 0 0, which is not an orientation; without "
+          "one it is 0 0 0 1");
 }
 
 TEST(ResultsStudy, ErrorsDoNotShowCarriageReturns) {

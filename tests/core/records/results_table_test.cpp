@@ -1,4 +1,4 @@
-#include "core/records/results_table.hpp"
+#include "core/records/studies/results_table.hpp"
 
 #include <cmath>
 #include <cstdlib>
@@ -12,11 +12,11 @@
 #include "core/base/csv.hpp"
 #include "core/base/files.hpp"
 #include "core/base/not_finite.hpp"
-#include "core/records/results_of.hpp"
-#include "core/records/slam_store.hpp"
-#include "core/records/study_store.hpp"
-#include "core/records/trial_experiment_json.hpp"
-#include "core/records/trial_store.hpp"
+#include "core/records/experiments/trial_experiment_json.hpp"
+#include "core/records/studies/results_of.hpp"
+#include "core/records/studies/slam_store.hpp"
+#include "core/records/studies/study_store.hpp"
+#include "core/records/studies/trial_store.hpp"
 #include "core/topics/study_kind.hpp"
 #include "core/trials/run_trials.hpp"
 #include "core/trials/topic.hpp"

@@ -6,7 +6,7 @@
 
 #include "core/base/errors.hpp"
 #include "core/base/files.hpp"
-#include "core/records/experiment_json.hpp"
+#include "core/records/experiments/experiment_json.hpp"
 
 namespace mapproof::test {
 
@@ -53,7 +53,7 @@ RunDetails made_up_details(const RunId& id) {
       .id = id, .path = {.positions_m = Points(3, 2), .headings_rad = {}}, .sensors = {}};
   details.path.positions_m << 0.5, 0.25, 0.75, 0.25, 0.75, 0.5;
   details.path.headings_rad = Eigen::Vector3d(0.0, 0.1, -3.0);
-  SensorDetails sensor{.look_step = 2,
+  SensorDetails sensor{.scan_step = 2,
                        .reach_m = 0.55,
                        .views = {View::kVisible, View::kHidden, View::kOutOfReach, View::kVisible},
                        .values = Eigen::Vector4d(1.0, 0.0, nan, 1.0),

@@ -5,7 +5,7 @@
 #include <string>
 #include <string_view>
 
-#include "core/records/study_store.hpp"
+#include "core/records/studies/study_store.hpp"
 #include "tests/support/temporary_folder.hpp"
 
 namespace mapproof::test {

@@ -6,13 +6,13 @@
 
 #include "core/base/errors.hpp"
 #include "core/base/files.hpp"
-#include "core/records/experiment_json.hpp"
-#include "core/records/map_files.hpp"
-#include "core/records/observations.hpp"
-#include "core/records/profiles.hpp"
-#include "core/records/slam_experiment_json.hpp"
-#include "core/records/slam_run_json.hpp"
-#include "core/records/timings_jsonl.hpp"
+#include "core/records/experiments/experiment_json.hpp"
+#include "core/records/experiments/profiles.hpp"
+#include "core/records/experiments/slam_experiment_json.hpp"
+#include "core/records/maps/map_files.hpp"
+#include "core/records/observations/observations.hpp"
+#include "core/records/studies/slam_run_json.hpp"
+#include "core/records/studies/timings_jsonl.hpp"
 #include "core/topics/validate.hpp"
 #include "tests/core/records/samples.hpp"
 #include "tests/core/records/slam_samples.hpp"
@@ -66,8 +66,8 @@ TEST(Schemas, HoldForMapsAndObservations) {
   const auto history =
       read_observations(test::data_file("observations/wide_named.csv"), Sensor::kVisibility);
   EXPECT_EQ(schema_problem("observations", json::parse(observations_json(history.history))), "");
-  const SightingSource seen = read_sightings(test::data_file("mrclam"));
-  EXPECT_EQ(schema_problem("sightings", json::parse(sightings_json(seen.log))), "");
+  const DetectionSource seen = read_detections(test::data_file("mrclam"));
+  EXPECT_EQ(schema_problem("detections", json::parse(detections_json(seen.log))), "");
 }
 
 TEST(Schemas, HoldForEveryExperimentInTheTemplatesAndTheirProfiles) {
@@ -203,8 +203,8 @@ INSTANTIATE_TEST_SUITE_P(
         Damage{"experiment", "/figures/0/id", nullptr},
         Damage{"experiment", "/solver/smacof_relative_fall", 2},
         Damage{"experiment", "/anchor_placement", "moon"},
-        Damage{"details", "/sensors/0/look/views/0", "lost"},
-        Damage{"details", "/sensors/0/look/step", 0}, Damage{"details", "/path/positions_m/0", {1}},
+        Damage{"details", "/sensors/0/scan/views/0", "lost"},
+        Damage{"details", "/sensors/0/scan/step", 0}, Damage{"details", "/path/positions_m/0", {1}},
         Damage{"details", "/sensors/0/distances/0", "far"},
         Damage{"details", "/sensors/0/spectra/0/method", "magic"}, Damage{"maps", "/names/0", ""},
         Damage{"maps", "/maps/0/estimate", nullptr}, Damage{"maps", "/maps/0/frame", "lies"},

@@ -1,4 +1,4 @@
-#include "core/records/slam_store.hpp"
+#include "core/records/studies/slam_store.hpp"
 
 #include <cmath>
 
@@ -6,9 +6,9 @@
 
 #include "core/base/errors.hpp"
 #include "core/base/files.hpp"
-#include "core/records/slam_experiment_json.hpp"
-#include "core/records/slam_run_json.hpp"
-#include "core/records/study_store.hpp"
+#include "core/records/experiments/slam_experiment_json.hpp"
+#include "core/records/studies/slam_run_json.hpp"
+#include "core/records/studies/study_store.hpp"
 #include "core/topics/validate.hpp"
 #include "tests/core/records/samples.hpp"
 #include "tests/core/records/slam_samples.hpp"

@@ -6,7 +6,7 @@
 
 #include "core/base/errors.hpp"
 #include "core/base/files.hpp"
-#include "core/records/study_store.hpp"
+#include "core/records/studies/study_store.hpp"
 #include "tests/core/records/samples.hpp"
 
 namespace mapproof {

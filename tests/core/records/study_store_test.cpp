@@ -1,4 +1,4 @@
-#include "core/records/study_store.hpp"
+#include "core/records/studies/study_store.hpp"
 
 #include <gtest/gtest.h>
 
@@ -8,7 +8,7 @@
 #include "core/base/errors.hpp"
 #include "core/base/files.hpp"
 #include "core/experiment/run.hpp"
-#include "core/records/experiment_json.hpp"
+#include "core/records/experiments/experiment_json.hpp"
 #include "tests/core/records/samples.hpp"
 
 namespace mapproof {

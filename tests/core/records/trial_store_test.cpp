@@ -1,4 +1,4 @@
-#include "core/records/trial_store.hpp"
+#include "core/records/studies/trial_store.hpp"
 
 #include <cmath>
 
@@ -7,9 +7,9 @@
 
 #include "core/base/files.hpp"
 #include "core/base/not_finite.hpp"
-#include "core/records/study_store.hpp"
-#include "core/records/trial_experiment_json.hpp"
-#include "core/records/trial_json.hpp"
+#include "core/records/experiments/trial_experiment_json.hpp"
+#include "core/records/studies/study_store.hpp"
+#include "core/records/studies/trial_json.hpp"
 #include "core/topics/validate.hpp"
 #include "tests/core/records/samples.hpp"
 #include "tests/support/schema_problem.hpp"
@@ -53,7 +53,7 @@ TrialPart made_up_part(const RunId& run) {
                .map = test::made_up_result({1, 1}).maps[0],
                .pairs = {},
                .certainty = {}};
-  map.pairs = {{.first = 0, .second = 1, .distance_m = 2.0, .precision = 4.0, .looks = 9}};
+  map.pairs = {{.first = 0, .second = 1, .distance_m = 2.0, .precision = 4.0, .scans = 9}};
   map.certainty = MapCertainty{
       .covariances = {}, .squared_radius = 6.5, .replicates = 9, .maps = 8, .block_steps = 3};
   map.certainty->covariances.assign(map.map.names.size(), Eigen::Matrix2d::Identity());

@@ -6,7 +6,7 @@
 
 #include "core/base/errors.hpp"
 #include "core/base/files.hpp"
-#include "core/records/map_files.hpp"
+#include "core/records/maps/map_files.hpp"
 #include "tests/core/records/samples.hpp"
 
 namespace mapproof {
@@ -30,7 +30,7 @@ TEST(Validate, KnowsEveryKindOfFileThatIsRead) {
       {"mrclam", "MRCLAM observations"},
       {"mrclam/Landmark_Groundtruth.dat", "landmarks with positions"},
       {"observations/long.csv", "long CSV observations"},
-      {"observations/long_sightings.csv", "long CSV observations"},
+      {"observations/long_detections.csv", "long CSV observations"},
       {"observations/observations.json", "mapproof.observations 1"},
       {"observations/wide_named.csv", "wide CSV observations"},
       {"observations/wide_plain.csv", "wide CSV observations"},
@@ -120,7 +120,7 @@ TEST(Validate, AsksForForeignFilesWhetherTheyAreKnown) {
 
 TEST(Validate, SaysWhatItDoesNotKnow) {
   const TemporaryFolder folder;
-  EXPECT_NE(only(folder.file("a.png", "x")).problem.find("is no file that mapproof"),
+  EXPECT_NE(only(folder.file("a.png", "x")).problem.find("is not a file that mapproof"),
             std::string::npos);
   EXPECT_NE(only(folder.file("b.json", "{}")).problem.find("says not what it is"),
             std::string::npos);

@@ -6,8 +6,8 @@
 #include "core/base/errors.hpp"
 #include "core/base/unit_text.hpp"
 #include "core/experiment/run.hpp"
-#include "core/records/trial_experiment_json.hpp"
-#include "core/records/trial_json.hpp"
+#include "core/records/experiments/trial_experiment_json.hpp"
+#include "core/records/studies/trial_json.hpp"
 #include "core/simulate/sensors.hpp"
 #include "core/trials/run_trials.hpp"
 #include "core/trials/sweep.hpp"
@@ -96,9 +96,14 @@ TEST(SweepTopic, SaysInPlainEnglishWhatCameOut) {
   for (const TrialSetup& setup : study.design.setups) {
     double mpe_m = 0.1;
     for (const Condition& at : conditions_of(setup)) {
-      part.trials.push_back({.at = at, .series = "lpca", .values = {mpe_m, 1.0}, .statuses = {}});
-      part.trials.push_back(
-          {.at = at, .series = "smacof-knn-K6", .values = {0.2, 1.0}, .statuses = {}});
+      part.trials.push_back({.at = at,
+                             .series = "lpca",
+                             .values = {{"mpe_m", mpe_m}, {"moe_percent", 1.0}},
+                             .statuses = {}});
+      part.trials.push_back({.at = at,
+                             .series = "smacof-knn-K6",
+                             .values = {{"mpe_m", 0.2}, {"moe_percent", 1.0}},
+                             .statuses = {}});
       mpe_m += 0.3;
     }
   }

@@ -9,8 +9,8 @@
 #include <fmt/format.h>
 
 #include "core/base/files.hpp"
-#include "core/records/results_table.hpp"
-#include "core/records/study_folder.hpp"
+#include "core/records/studies/results_table.hpp"
+#include "core/records/studies/study_folder.hpp"
 #include "core/topics/study_kind.hpp"
 #include "core/topics/validate.hpp"
 #include "core/trials/topic.hpp"

@@ -3,7 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "core/base/files.hpp"
-#include "core/records/results_table.hpp"
+#include "core/records/studies/results_table.hpp"
 #include "core/topics/study_kind.hpp"
 #include "core/topics/validate.hpp"
 #include "tests/core/records/samples.hpp"

@@ -132,7 +132,7 @@ def reference(path, kind):
 
 def program_map(program, path, kind, method, parameter):
     with tempfile.TemporaryDirectory() as folder:
-        command = [program, "map", path, "--kind", kind, "--method", method, "--quiet", "--out",
+        command = [program, "map", path, "--sensor", kind, "--method", method, "--quiet", "--out",
                    os.path.join(folder, "map")]
         if parameter is not None:
             command += ["--parameter", repr(parameter)]

@@ -2,7 +2,7 @@
 
 #include "core/base/errors.hpp"
 #include "core/base/files.hpp"
-#include "reports/diff/approvals.hpp"
+#include "reports/diff/approvals/approvals.hpp"
 #include "reports/diff/folder_diff.hpp"
 #include "reports/html/diff/diff_html.hpp"
 #include "tests/reports/diff/small_study.hpp"

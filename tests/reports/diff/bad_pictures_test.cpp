@@ -10,7 +10,7 @@
 #include <libdeflate.h>
 
 #include "render/image/png.hpp"
-#include "reports/diff/picture_diff.hpp"
+#include "reports/diff/images/picture_diff.hpp"
 #include "tests/support/temporary_folder.hpp"
 
 namespace mapproof::test {
@@ -67,11 +67,11 @@ std::vector<Bad> bad_pictures() {
       {"huge header", png_of(100000, 100000, deflated("")), "more than"},
       {"large header, few bytes", png_of(8000, 8000, deflated("ab")), "cannot be in"},
       {"bomb of nothing", png_of(14000, 14000, nothing), "more than"},
-      {"no pixels", png_of(0, 5, deflated("")), "no PNG header"},
+      {"no pixels", png_of(0, 5, deflated("")), "not a PNG header"},
       {"bomb behind a small header", png_of(4, 2, bomb), "more than its header says"},
       {"too few rows", png_of(4, 2, deflated(std::string(7, '\0'))), "fewer"},
       {"unknown filter", png_of(4, 2, deflated(std::string(10, '\x07'))), "filter"},
-      {"rows that are no deflate", png_of(4, 2, "abcdefgh"), "damaged"},
+      {"rows that are not deflate", png_of(4, 2, "abcdefgh"), "damaged"},
       {"nested svg", deep, "nested"},
       {"svg with a script", "<svg><script/></svg>", "script"},
       {"svg with entities", "<!DOCTYPE svg [<!ENTITY a 'b'>]><svg>&a;</svg>", "declares"},

@@ -1,4 +1,4 @@
-#include "reports/diff/excerpts.hpp"
+#include "reports/diff/documents/excerpts.hpp"
 
 #include <gtest/gtest.h>
 

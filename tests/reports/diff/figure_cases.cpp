@@ -65,7 +65,7 @@ void add_words(const Figure& figure, std::vector<ValueCase>& cases) {
   style("bare", {"frame"}, [](Figure& f) { f.panels[0].bare = true; });
 }
 
-void add_map_looks(const Figure& figure, std::vector<ValueCase>& cases) {
+void add_map_styles(const Figure& figure, std::vector<ValueCase>& cases) {
   const auto style = [&](const std::string& what, std::vector<std::string> cause,
                          const FigureChange& change) {
     cases.push_back(changed_figure(figure, what, Verdict::kStyle, std::move(cause), change));
@@ -95,7 +95,7 @@ void add_map_looks(const Figure& figure, std::vector<ValueCase>& cases) {
   });
 }
 
-void add_curve_looks(const Figure& figure, std::vector<ValueCase>& cases) {
+void add_curve_styles(const Figure& figure, std::vector<ValueCase>& cases) {
   const auto style = [&](const std::string& what, std::vector<std::string> cause,
                          const FigureChange& change) {
     cases.push_back(changed_figure(figure, what, Verdict::kStyle, std::move(cause), change));
@@ -218,9 +218,9 @@ void add_data(std::vector<ValueCase>& cases) {
 std::vector<ValueCase> figure_cases() {
   std::vector<ValueCase> cases;
   for (const Figure& figure : figures()) add_words(figure, cases);
-  add_map_looks(figures()[0], cases);
-  add_map_looks(figures()[1], cases);
-  add_curve_looks(figures()[2], cases);
+  add_map_styles(figures()[0], cases);
+  add_map_styles(figures()[1], cases);
+  add_curve_styles(figures()[2], cases);
   add_data(cases);
   add_records(cases);
   for (const char* place : {"", "/panels/0", "/panels/0/x", "/panels/0/layers/0"})

@@ -68,15 +68,15 @@ class Mutations {
     found_.push_back({std::move(name), picture_, expected,
                       [drawing = drawing_] { return drawn(*drawing); }, std::move(current)});
   }
-  void look(std::string name, const Look& look) {
+  void style(std::string name, const Style& style) {
     add(std::move(name), PictureState::kWithinTolerance,
-        [drawing = drawing_, look] { return drawn(*drawing, look); });
+        [drawing = drawing_, style] { return drawn(*drawing, style); });
   }
-  void text(std::string name, Look look) {
-    look.outlined = false;
+  void text(std::string name, Style style) {
+    style.outlined = false;
     found_.push_back({std::move(name), picture_, PictureState::kWithinTolerance,
                       [drawing = drawing_] { return drawn(*drawing, {.outlined = false}); },
-                      [drawing = drawing_, look] { return drawn(*drawing, look); }});
+                      [drawing = drawing_, style] { return drawn(*drawing, style); }});
   }
   void change(std::string name, PictureState expected, const Change& change) {
     add(std::move(name), expected, [drawing = drawing_, change] {
@@ -110,12 +110,12 @@ class Mutations {
     found_.push_back({"noise on both", picture_, PictureState::kWithinTolerance,
                       [drawing = drawing_] { return noisy(drawn(*drawing), 3); },
                       [drawing = drawing_] { return noisy(drawn(*drawing), 4); }});
-    look("moved 0.1 px right", {.right_px = 0.1});
-    look("moved 0.1 px down", {.down_px = 0.1});
-    look("moved 0.1 px up and left", {.right_px = -0.07, .down_px = -0.07});
-    if (!has_hairlines()) look("shapes not smoothed", {.shapes = CAIRO_ANTIALIAS_NONE});
-    look("shapes smoothed fast", {.shapes = CAIRO_ANTIALIAS_FAST});
-    look("shapes smoothed best", {.shapes = CAIRO_ANTIALIAS_BEST});
+    style("moved 0.1 px right", {.right_px = 0.1});
+    style("moved 0.1 px down", {.down_px = 0.1});
+    style("moved 0.1 px up and left", {.right_px = -0.07, .down_px = -0.07});
+    if (!has_hairlines()) style("shapes not smoothed", {.shapes = CAIRO_ANTIALIAS_NONE});
+    style("shapes smoothed fast", {.shapes = CAIRO_ANTIALIAS_FAST});
+    style("shapes smoothed best", {.shapes = CAIRO_ANTIALIAS_BEST});
     text("hinted slightly", {.hinting = CAIRO_HINT_STYLE_SLIGHT});
     text("hinted medium", {.hinting = CAIRO_HINT_STYLE_MEDIUM});
     text("hinted fully", {.hinting = CAIRO_HINT_STYLE_FULL});

@@ -6,8 +6,8 @@
 
 #include "render/image/image.hpp"
 #include "render/plot/drawing.hpp"
-#include "reports/diff/picture_diff.hpp"
-#include "tests/reports/diff/looks.hpp"
+#include "reports/diff/images/picture_diff.hpp"
+#include "tests/reports/diff/styles.hpp"
 
 namespace mapproof::test {
 

@@ -1,4 +1,4 @@
-#include "reports/diff/picture_diff.hpp"
+#include "reports/diff/images/picture_diff.hpp"
 
 #include <gtest/gtest.h>
 #include <png.h>
@@ -6,11 +6,11 @@
 #include "core/base/errors.hpp"
 #include "core/base/files.hpp"
 #include "render/cairo/cairo_backend.hpp"
-#include "render/figures/map.hpp"
+#include "render/figures/maps/map.hpp"
 #include "render/image/png.hpp"
 #include "render/plot/layout.hpp"
 #include "render/svg/svg.hpp"
-#include "reports/diff/image_diff.hpp"
+#include "reports/diff/images/image_diff.hpp"
 #include "tests/support/baselines.hpp"
 #include "tests/support/sample_figures.hpp"
 #include "tests/support/temporary_folder.hpp"

@@ -1,12 +1,12 @@
-#include "reports/diff/record_diff.hpp"
+#include "reports/diff/records/record_diff.hpp"
 
 #include <cmath>
 
 #include <gtest/gtest.h>
 
 #include "core/base/errors.hpp"
-#include "core/records/map_files.hpp"
-#include "reports/diff/record_points.hpp"
+#include "core/records/maps/map_files.hpp"
+#include "reports/diff/records/record_points.hpp"
 #include "tests/support/temporary_folder.hpp"
 
 namespace mapproof {

@@ -1,6 +1,6 @@
 #include <gtest/gtest.h>
 
-#include "reports/diff/figure_log.hpp"
+#include "reports/diff/figures/figure_log.hpp"
 #include "reports/diff/item_diff.hpp"
 
 namespace mapproof {
@@ -54,7 +54,7 @@ TEST(RecordTie, SaysThatRecordsDidNotChangeOnlyWhereNoneDid) {
   EXPECT_NE(seeds.find("other worlds"), std::string::npos) << seeds;
   EXPECT_EQ(seeds.find("records"), std::string::npos) << seeds;
 
-  // That it shows others is no reason to speak of those that it showed.
+  // That it shows others is not a reason to speak of those that it showed.
   const std::string others = cause_of(same, figure_diff_of(true), lpca);
   EXPECT_NE(others.find("it shows other records, a \u2192 b"), std::string::npos) << others;
   EXPECT_EQ(others.find(kUnchanged), std::string::npos) << others;

@@ -1,4 +1,4 @@
-#include "reports/diff/scene_diff.hpp"
+#include "reports/diff/figures/scene_diff.hpp"
 
 #include <functional>
 
@@ -47,7 +47,7 @@ TEST(SceneDiff, TellsDataFromStyleAndWords) {
             }),
             ChangeKind::kData);
   EXPECT_EQ(kind_after([](Scene& s) {
-              std::visit([](auto& part) { part.look.opacity *= 0.5; }, s.parts[0]);
+              std::visit([](auto& part) { part.style.opacity *= 0.5; }, s.parts[0]);
             }),
             ChangeKind::kStyle);
 }

@@ -1,4 +1,4 @@
-#include "core/records/slam_store.hpp"
+#include "core/records/studies/slam_store.hpp"
 #include "tests/core/records/slam_samples.hpp"
 #include "tests/reports/diff/value_cases.hpp"
 

@@ -7,10 +7,10 @@
 
 #include "core/base/files.hpp"
 #include "core/base/random.hpp"
-#include "core/records/study_store.hpp"
+#include "core/records/studies/study_store.hpp"
 #include "core/statistics/intervals.hpp"
-#include "render/figures/error_curve.hpp"
-#include "render/figures/map.hpp"
+#include "render/figures/curves/error_curve.hpp"
+#include "render/figures/maps/map.hpp"
 #include "render/output/write_figure.hpp"
 #include "render/plot/figure_json.hpp"
 

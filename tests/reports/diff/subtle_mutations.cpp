@@ -136,15 +136,15 @@ class SubtleMutations {
 
  private:
   void add(std::string name, PictureState expected, const Change& before, const Change& after,
-           const Look& look_before = {}, const Look& look = {}) {
-    const auto made = [drawing = drawing_](const Change& change, const Look& as) {
+           const Style& style_before = {}, const Style& style = {}) {
+    const auto made = [drawing = drawing_](const Change& change, const Style& as) {
       Drawing other = drawing;
       change(other);
       return drawn(other, as);
     };
     found_.push_back({std::move(name), picture_, expected,
-                      [=] { return made(before, look_before); },
-                      [=] { return made(after, look); }});
+                      [=] { return made(before, style_before); },
+                      [=] { return made(after, style); }});
   }
 
   /// The middle one of the items of a role.
@@ -190,9 +190,9 @@ class SubtleMutations {
   /// As matplotlib's text.hinting: none, the font's own, the rasterizer's.
   void hints() {
     const Change none = [](Drawing&) {};
-    const Look plain{.outlined = false};
-    const Look automatic{.hinting = CAIRO_HINT_STYLE_FULL, .outlined = false, .own_hints = false};
-    const Look own{.hinting = CAIRO_HINT_STYLE_FULL, .outlined = false};
+    const Style plain{.outlined = false};
+    const Style automatic{.hinting = CAIRO_HINT_STYLE_FULL, .outlined = false, .font_hints = false};
+    const Style own{.hinting = CAIRO_HINT_STYLE_FULL, .outlined = false};
     add("hinted by the rasterizer", PictureState::kWithinTolerance, none, none, plain, automatic);
     add("hinted by the font for the rasterizer", PictureState::kWithinTolerance, none, none,
         automatic, own);

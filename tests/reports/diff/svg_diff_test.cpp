@@ -1,4 +1,4 @@
-#include "reports/diff/svg_diff.hpp"
+#include "reports/diff/svg/svg_diff.hpp"
 
 #include <algorithm>
 #include <string>
@@ -8,10 +8,10 @@
 #include <rapidcheck/gtest.h>
 
 #include "core/base/errors.hpp"
-#include "render/figures/map.hpp"
+#include "render/figures/maps/map.hpp"
 #include "render/plot/layout.hpp"
 #include "render/svg/svg.hpp"
-#include "reports/diff/svg_values.hpp"
+#include "reports/diff/svg/svg_values.hpp"
 #include "tests/support/sample_figures.hpp"
 
 namespace mapproof::test {

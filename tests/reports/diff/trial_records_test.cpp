@@ -1,10 +1,10 @@
 #include <gtest/gtest.h>
 
 #include "core/base/errors.hpp"
-#include "core/records/trial_store.hpp"
+#include "core/records/studies/trial_store.hpp"
 #include "reports/diff/folder_diff.hpp"
-#include "reports/diff/record_diff.hpp"
-#include "reports/diff/record_set.hpp"
+#include "reports/diff/records/record_diff.hpp"
+#include "reports/diff/records/record_set.hpp"
 #include "tests/support/temporary_folder.hpp"
 
 namespace mapproof {

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "reports/diff/verdict.hpp"
+#include "reports/diff/verdict/verdict.hpp"
 
 namespace mapproof::test {
 

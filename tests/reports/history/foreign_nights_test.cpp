@@ -5,7 +5,7 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
-#include "core/records/results_study_json.hpp"
+#include "core/records/studies/results_study_json.hpp"
 #include "reports/history/history_tables.hpp"
 #include "reports/history/judge_night.hpp"
 #include "reports/history/night_scores.hpp"

@@ -13,7 +13,7 @@
 #include "core/base/errors.hpp"
 #include "core/base/files.hpp"
 #include "core/base/random.hpp"
-#include "core/records/folder_lock.hpp"
+#include "core/records/studies/folder_lock.hpp"
 #include "reports/history/history_export.hpp"
 #include "reports/history/history_store.hpp"
 #include "tests/reports/history/sample_nights.hpp"

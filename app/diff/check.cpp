@@ -1,0 +1,100 @@
+#include <array>
+#include <memory>
+#include <system_error>
+
+#include <fmt/format.h>
+
+#include "app/commands.hpp"
+#include "app/diff/diff_options.hpp"
+#include "app/output_places.hpp"
+#include "app/study/folder_report.hpp"
+#include "app/study/study_order.hpp"
+#include "app/study/study_run.hpp"
+#include "core/base/errors.hpp"
+#include "core/base/paths.hpp"
+#include "reports/diff/folder_diff.hpp"
+
+namespace mapproof {
+namespace {
+
+namespace fs = std::filesystem;
+
+struct CheckArguments {
+  std::string experiment;
+  std::string baseline;
+  std::string out = "out/check";
+  int jobs = 1;
+  OrderOptions order;
+  DiffOptions options;
+};
+
+/// Makes the records of the experiment, its figures and its report.
+void make_candidate(const CheckArguments& arguments, const Invocation& invocation) {
+  const StudyOrder order = read_study_order(experiment_of(arguments.experiment), arguments.order);
+  check_data_used({&order, 1}, arguments.order);
+  make_study(order, arguments.out, arguments.jobs, invocation.command, invocation.console);
+  write_report(read_folder_report(arguments.out, invocation.command, ""),
+               load_templates(arguments.options.templates), arguments.jobs);
+}
+
+/// The candidate never writes over the baseline, nor an output over either.
+void check_places(const CheckArguments& arguments) {
+  if (overlap(arguments.baseline, arguments.out))
+    throw InvalidInput(fmt::format("--baseline {} and --out {}: one is the other or lies in it",
+                                   printable(arguments.baseline), printable(arguments.out)));
+  const std::array<fs::path, 4> inputs = {arguments.baseline, arguments.out,
+                                          arguments.options.settings, arguments.experiment};
+  check_output_places(arguments.options, inputs);
+}
+
+int check(const CheckArguments& arguments, const Invocation& invocation) {
+  check_places(arguments);
+  const DiffSettings settings = diff_settings(arguments.options, arguments.baseline);
+  make_candidate(arguments, invocation);
+  check_places(arguments);  // Now that the candidate's files are there.
+  std::error_code error;
+  // An empty folder stands for a baseline that is not there yet: everything in the candidate is
+  // new.
+  if (!fs::exists(arguments.baseline, error)) {
+    invocation.console.warning(fmt::format(
+        "{}: there is no baseline. The candidate is kept in {}; look at it, and if it is right: "
+        "{}",
+        arguments.baseline, arguments.out,
+        quoted_command({"mapproof", "approve", arguments.baseline, arguments.out, "--all"})));
+    return hand_out(no_baseline(arguments.baseline, arguments.out, settings), settings,
+                    arguments.options, invocation.console);
+  }
+  return hand_out(folder_diff(arguments.baseline, arguments.out, settings), settings,
+                  arguments.options, invocation.console);
+}
+
+}  // namespace
+
+Action check_command(CLI::App& app) {
+  auto arguments = std::make_shared<CheckArguments>();
+  app.description("Run an experiment and compare it with a baseline in one go");
+  app.footer(
+      "Examples:\n"
+      "  mapproof check yairi2007 --profile quick --baseline baseline --out out/check\n"
+      "  mapproof check experiment.json --baseline baseline --junit diff.junit.xml\n\n"
+      "Exit codes as of \"mapproof diff\". Without a baseline it is 1, and what was made is "
+      "kept.\n");
+  app.add_option("EXPERIMENT", arguments->experiment,
+                 "The experiment's JSON file, or a name that reproduce takes")
+      ->required();
+  app.add_option("--baseline", arguments->baseline, "The study to compare with")
+      ->required()
+      ->check(names_folder());
+  add_out_option(app, arguments->out, "Folder for records, figures and report")
+      ->capture_default_str();
+  app.add_option("--profile", arguments->order.profile, "One of the profiles in the experiment");
+  add_jobs_option(app, arguments->jobs);
+  add_experiment_options(app, arguments->order.changes);
+  add_data_options(app, arguments->order);
+  app.add_option("--page", arguments->options.page,
+                 "Write a page that shows what differs, diff.html for instance");
+  add_diff_options(app, arguments->options);
+  return [arguments](const Invocation& invocation) { return check(*arguments, invocation); };
+}
+
+}  // namespace mapproof

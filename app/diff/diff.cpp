@@ -1,0 +1,57 @@
+#include <array>
+#include <filesystem>
+#include <memory>
+
+#include "app/commands.hpp"
+#include "app/diff/diff_options.hpp"
+#include "app/input_streams.hpp"
+#include "app/output_places.hpp"
+#include "reports/diff/folder_diff.hpp"
+
+namespace mapproof {
+namespace {
+
+struct DiffArguments {
+  std::string baseline;
+  std::string current;
+  DiffOptions options;
+};
+
+int diff(DiffArguments arguments, const Invocation& invocation) {
+  refuse_shared_streams(
+      std::array{arguments.baseline, arguments.current, arguments.options.settings});
+  // Files are read more than once: for the verdict, for the page.
+  for (std::string* path : {&arguments.baseline, &arguments.current}) *path = made_file(*path);
+  const std::array<std::filesystem::path, 3> inputs = {arguments.baseline, arguments.current,
+                                                       arguments.options.settings};
+  check_output_places(arguments.options, inputs);
+  const DiffSettings settings = diff_settings(arguments.options, arguments.baseline);
+  const DiffResult result = folder_diff(arguments.baseline, arguments.current, settings);
+  return hand_out(result, settings, arguments.options, invocation.console);
+}
+
+}  // namespace
+
+Action diff_command(CLI::App& app) {
+  auto arguments = std::make_shared<DiffArguments>();
+  app.description("Compare two studies, folders of pictures or files, and say why they differ");
+  app.footer(
+      "Examples:\n"
+      "  mapproof diff baseline out\n"
+      "  mapproof diff baseline out --out diff.html\n"
+      "  mapproof diff baseline out --junit diff.junit.xml --markdown diff.md\n"
+      "  mapproof diff old.png new.png\n"
+      "  mapproof diff <(git show HEAD:map.png) map.png\n\n"
+      "Exit code 0 if all is identical, within tolerance, or drawn otherwise without being seen;\n"
+      "1 for any other verdict that --allow does not name; 2 if nothing could be compared.\n"
+      "docs/diff.md says what the verdicts mean.\n");
+  app.add_option("BASELINE", arguments->baseline, "The study, folder or file to compare with")
+      ->required();
+  app.add_option("CURRENT", arguments->current, "The one that is compared")->required();
+  app.add_option("--out", arguments->options.page,
+                 "Write a page that shows what differs, diff.html for instance");
+  add_diff_options(app, arguments->options);
+  return [arguments](const Invocation& invocation) { return diff(*arguments, invocation); };
+}
+
+}  // namespace mapproof

@@ -1,0 +1,121 @@
+#include "app/diff/diff_options.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cstdlib>
+#include <system_error>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include "core/base/errors.hpp"
+#include "core/base/files.hpp"
+#include "core/base/spelling.hpp"
+#include "core/json/json_text.hpp"
+#include "reports/diff/diff_outputs.hpp"
+#include "reports/html/diff/diff_html.hpp"
+
+namespace mapproof {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr const char* kStandardOutput = "-";
+constexpr std::size_t kLargestSettings = std::size_t{1} << 24;  // Bytes.
+
+std::vector<Verdict> verdicts_in(const std::string& list) {
+  std::vector<std::string_view> names;
+  for (const Verdict verdict : kVerdicts) names.push_back(name(verdict));
+  std::vector<Verdict> verdicts;
+  for (std::size_t at = 0; at <= list.size();) {
+    const std::size_t end = std::min(list.find(',', at), list.size());
+    const std::string word = list.substr(at, end - at);
+    const auto verdict = verdict_named(word);
+    if (!verdict) {
+      const std::string_view meant = likely_word(word, names);
+      throw InvalidInput(
+          fmt::format("--allow: no verdict \"{}\"{}. There are {}", printable(word),
+                      meant.empty() ? "" : fmt::format("; did you mean \"{}\"?", meant),
+                      fmt::join(names, ", ")));
+    }
+    verdicts.push_back(*verdict);
+    at = end + 1;
+  }
+  return verdicts;
+}
+
+/// mapproof-diff.json of the baseline: in the folder, or beside the file.
+fs::path settings_beside(const std::string& baseline) {
+  std::error_code error;
+  const fs::path folder =
+      fs::is_directory(baseline, error) ? fs::path(baseline) : fs::path(baseline).parent_path();
+  const fs::path file = folder / "mapproof-diff.json";
+  return fs::is_regular_file(file, error) ? file : fs::path();
+}
+
+/// How many of the outputs take the place of the text.
+std::ptrdiff_t to_standard_output(const DiffOptions& options) {
+  const std::array places = {&options.page, &options.json, &options.junit, &options.markdown};
+  return std::ranges::count_if(places,
+                               [](const std::string* place) { return *place == kStandardOutput; });
+}
+
+bool is_run_by_ctest() {
+  return std::getenv("DASHBOARD_TEST_FROM_CTEST") != nullptr ||
+         std::getenv("CTEST_INTERACTIVE_DEBUG_MODE") != nullptr;
+}
+
+}  // namespace
+
+void add_diff_options(CLI::App& app, DiffOptions& options) {
+  app.remove_option(app.get_option("--json"));
+  app.add_option("--json", options.json,
+                 "Write all that was found as JSON, a file of its own form; - to standard output");
+  app.add_option("--templates", options.templates,
+                 "Folder whose templates replace those of the page")
+      ->check(names_folder());
+  app.add_option("--junit", options.junit, "Write the verdicts as JUnit XML; - to standard output");
+  app.add_option("--markdown", options.markdown,
+                 "Write a summary for a comment on a change; - to standard output");
+  app.add_option("--allow", options.allow, "Verdicts that pass as well: better,style,new");
+  app.add_option("--settings", options.settings,
+                 "Tolerances and ignored regions (default: mapproof-diff.json of the baseline)");
+}
+
+DiffSettings diff_settings(const DiffOptions& options, const std::string& baseline) {
+  const fs::path file =
+      options.settings.empty() ? settings_beside(baseline) : fs::path(options.settings);
+  if (to_standard_output(options) > 1)
+    throw InvalidInput("only one of --out, --json, --junit and --markdown can be \"-\"");
+  DiffSettings settings;
+  if (!file.empty())
+    settings = parse_diff_settings(read_file(file, kLargestSettings), file.string());
+  if (!options.allow.empty())
+    for (const Verdict verdict : verdicts_in(options.allow)) settings.allowed.push_back(verdict);
+  return settings;
+}
+
+int hand_out(const DiffResult& result, const DiffSettings& settings, const DiffOptions& options,
+             const Console& console) {
+  const nlohmann::ordered_json object = diff_json(result);
+  std::string text;
+  const auto hand = [&](const std::string& place, const auto& make) {
+    if (place == kStandardOutput)
+      text = make();
+    else if (!place.empty())
+      write_file(place, make());
+  };
+  hand(options.page,
+       [&] { return diff_html(result, settings, load_templates(options.templates)); });
+  hand(options.json, [&] { return json_text(object); });
+  hand(options.junit, [&] { return diff_junit(result); });
+  hand(options.markdown, [&] { return diff_markdown(result); });
+  if (to_standard_output(options) == 0) {
+    text = diff_text(result, console.is_quiet() ? DiffWords::kFailures : DiffWords::kAll);
+    if (is_run_by_ctest()) text += ctest_lines(result);
+  }
+  console.result(text, {});  // --json is an output like the others.
+  return result.passes ? kDone : kNo;
+}
+
+}  // namespace mapproof

@@ -1,0 +1,171 @@
+#include "app/map/data_association.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include "core/base/csv.hpp"
+#include "core/base/errors.hpp"
+#include "core/base/words.hpp"
+#include "core/labels/correspondence.hpp"
+
+namespace mapproof {
+namespace {
+
+using Mask = Eigen::Array<bool, Eigen::Dynamic, Eigen::Dynamic>;
+using Lines = Eigen::Array<Eigen::Index, Eigen::Dynamic, Eigen::Dynamic>;
+
+constexpr double kManyUnclear = 0.1;  ///< Share of readings that is worth a warning.
+
+/// A history without gaps, whose doubtful entries hold readings in any order.
+struct Dealt {
+  Mask doubtful;  ///< M x N.
+  Lines reading;  ///< M x N: which of the unlabelled readings stands there; -1: none of them.
+};
+
+/// Puts each step's unlabelled readings where the step has no labelled one.
+Dealt deal(ObservationSource& source) {
+  Eigen::MatrixXd& values = source.history.values;
+  Dealt dealt{Mask::Constant(values.rows(), values.cols(), false),
+              Lines::Constant(values.rows(), values.cols(), -1)};
+  // Of visibility, detections alone may be listed: what is not seen is 0, and as free as a gap.
+  const bool is_seen =
+      source.history.sensor == Sensor::kVisibility && !values.array().isNaN().any();
+  for (std::size_t k = 0; k < source.unlabelled.size(); ++k) {
+    const UnlabelledReading& reading = source.unlabelled[k];
+    Eigen::Index row = 0;
+    while (row < values.rows() &&
+           !(dealt.reading(row, reading.step) < 0 && (std::isnan(values(row, reading.step)) ||
+                                                      (is_seen && values(row, reading.step) == 0))))
+      ++row;
+    if (row == values.rows())
+      throw IoError(source.path, fmt::format("line {}", reading.line),
+                    fmt::format("step {:.0f} has more readings without a label than landmarks "
+                                "without a reading",
+                                reading.number));
+    values(row, reading.step) = reading.value;
+    dealt.reading(row, reading.step) = static_cast<Eigen::Index>(k);
+    dealt.doubtful(row, reading.step) = true;
+  }
+  if (is_seen)
+    for (const UnlabelledReading& reading : source.unlabelled)
+      for (Eigen::Index row = 0; row < values.rows(); ++row)
+        if (values(row, reading.step) == 0.0) dealt.doubtful(row, reading.step) = true;
+  return dealt;
+}
+
+void require_complete(const ObservationSource& source) {
+  const ObservationHistory& history = source.history;
+  for (Eigen::Index step = 0; step < history.steps(); ++step)
+    for (Eigen::Index row = 0; row < history.landmarks(); ++row)
+      if (std::isnan(history.values(row, step)))
+        throw IoError(
+            source.path,
+            fmt::format("labels are estimated where every landmark has a reading at every step, "
+                        "labelled or not; step {} (of {}) has none left for \"{}\"",
+                        step + 1, history.steps(),
+                        printable(history.names[static_cast<std::size_t>(row)])));
+}
+
+void mark_unsure(const ObservationSource& source, const std::vector<std::string>& unsure,
+                 Mask& doubtful) {
+  if (unsure.size() == 1)
+    throw IoError(source.path, "one unsure label has none to be confused with; name two or more");
+  for (const std::string& label : unsure) {
+    const auto row = std::ranges::find(source.history.names, label);
+    if (row == source.history.names.end())
+      throw IoError(source.path, fmt::format("no landmark is named \"{}\"", printable(label)));
+    doubtful.row(row - source.history.names.begin()).setConstant(true);
+  }
+}
+
+/// The readings that went to another landmark than the file says, or had none.
+std::vector<AssignedReading> assigned(const ObservationSource& source, const Dealt& dealt,
+                                      const Correspondence& found) {
+  std::vector<AssignedReading> readings;
+  for (Eigen::Index step = 0; step < source.history.steps(); ++step)
+    for (Eigen::Index row = 0; row < source.history.landmarks(); ++row) {
+      const Eigen::Index from = found.reading_of(row, step);
+      const Eigen::Index unlabelled = dealt.reading(from, step);
+      const double value = found.history.values(row, step);
+      // Where nothing was seen there is no reading that could be another's.
+      const bool is_reading = source.history.sensor != Sensor::kVisibility || value != 0.0;
+      if (unlabelled < 0 && (from == row || !is_reading)) continue;
+      AssignedReading one{.step = static_cast<double>(step),
+                          .line = 0,
+                          .given = source.history.names[static_cast<std::size_t>(from)],
+                          .found = source.history.names[static_cast<std::size_t>(row)],
+                          .value = value,
+                          .clear = found.clear(row, step)};
+      if (unlabelled >= 0) {
+        const UnlabelledReading& reading = source.unlabelled[static_cast<std::size_t>(unlabelled)];
+        one.step = reading.number, one.line = reading.line, one.given = kUnlabelledMark;
+      }
+      readings.push_back(std::move(one));
+    }
+  return readings;
+}
+
+/// Landmarks that are doubtful at every step: nothing tells them apart to begin with.
+std::vector<std::string> never_certain(const ObservationSource& source, const Mask& doubtful) {
+  std::vector<std::string> names;
+  for (Eigen::Index row = 0; row < doubtful.rows(); ++row)
+    if (doubtful.row(row).all())
+      names.push_back(printable(source.history.names[static_cast<std::size_t>(row)]));
+  return names;
+}
+
+void report(const ObservationSource& source, const Mask& doubtful, const Correspondence& found,
+            EstimatedLabels& labels) {
+  const auto all = doubtful.count();
+  const auto clear = (found.clear && doubtful).count();
+  const double unclear = 1.0 - static_cast<double>(clear) / static_cast<double>(all);
+  labels.remarks.push_back(fmt::format(
+      "Labels estimated together with the map: {} doubtful, {:.1f} % of them clear; {} went to "
+      "another landmark than given or had no label (labels.csv). What LPCA leaves unexplained fell "
+      "from {:.4f} to {:.4f} of the spread.",
+      counted(all, "reading"), 100.0 * (1.0 - unclear),
+      counted(std::ssize(labels.readings), "reading"), found.loss_before, found.loss_after));
+  if (!found.settled)
+    labels.warnings.push_back(
+        fmt::format("Labels still changed after {} rounds: they are not settled.", found.rounds));
+  if (unclear > kManyUnclear)
+    labels.warnings.push_back(
+        fmt::format("{:.0f} % of the doubtful readings would fit another landmark nearly as well.",
+                    100.0 * unclear));
+  if (const std::vector<std::string> names = never_certain(source, doubtful); names.size() > 1)
+    labels.warnings.push_back(fmt::format(
+        "{} are never told apart for certain: which is which follows the labels as given, and is "
+        "undetermined where those are wrong about as often as right.",
+        listed(names, 10)));
+}
+
+}  // namespace
+
+EstimatedLabels estimate_labels(ObservationSource& source, const std::vector<std::string>& unsure) {
+  EstimatedLabels labels;
+  if (source.unlabelled.empty() && unsure.empty()) return labels;
+  Dealt dealt = deal(source);
+  require_complete(source);
+  if (source.history.landmarks() < 3)
+    throw IoError(source.path, "labels need three landmarks that some readings are labelled with");
+  mark_unsure(source, unsure, dealt.doubtful);
+  const Correspondence found = estimated_correspondence(source.history, dealt.doubtful);
+  labels.readings = assigned(source, dealt, found);
+  report(source, dealt.doubtful, found, labels);
+  source.history = found.history;
+  source.unlabelled.clear();
+  return labels;
+}
+
+std::string labels_csv(const EstimatedLabels& labels) {
+  std::string csv = "step,line,given,landmark,value,clear\r\n";
+  for (const AssignedReading& one : labels.readings)
+    csv += fmt::format("{:.0f},{},{},{},{},{}\r\n", one.step,
+                       one.line > 0 ? std::to_string(one.line) : "", csv_field(one.given),
+                       csv_field(one.found), csv_number(one.value), one.clear ? 1 : 0);
+  return csv;
+}
+
+}  // namespace mapproof

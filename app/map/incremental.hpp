@@ -1,0 +1,51 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "app/map/one_sensor.hpp"
+#include "core/follow/incremental_map.hpp"
+#include "core/model/sensor.hpp"
+#include "core/records/observations/detections.hpp"
+
+namespace mapproof {
+
+/// How a growing table is mapped.
+struct FollowedTable {
+  std::string source = {};                      ///< What to call it in errors.
+  Sensor sensor = Sensor::kRange;               ///< Of values alone.
+  AngleUnit unit = AngleUnit::kRadians;         ///< Of bearings.
+  FollowOptions options = {};                   ///< Of one sensor.
+  std::optional<NamedPointsFile> anchors = {};  ///< Fitted to once three of them are on the map.
+  std::optional<NamedPointsFile> truth = {};    ///< For scores, of what is known of it so far.
+  AffineFit fit = AffineFit::kLeastDistances;
+  bool rigid = false;       ///< Range and bearing: turn and shift alone.
+  bool find_moved = false;  ///< Range and bearing: notice landmarks that moved.
+};
+
+/// A growing table as a map. Without anchors or truth each map is aligned to the one before, so
+/// that it does not jump.
+class Follower {
+ public:
+  virtual ~Follower() = default;
+
+  /// @throws IoError for what cannot be read.
+  virtual void take(std::string_view bytes) = 0;
+  /// Forgets a line whose end has not come.
+  virtual void drop_half_line() = 0;
+  /// There will be no more. @throws IoError as take().
+  virtual void end() = 0;
+
+  /// Takes in the steps that are complete. @return How many. @throws IoError as take().
+  virtual long take_steps() = 0;
+  virtual long steps() const = 0;
+
+  /// The map so far; of what was noticed meanwhile, it says in its remarks.
+  virtual MapResult update() = 0;
+  /// The map of all there was, with all that is to be said of it.
+  virtual MapResult last_update() = 0;
+};
+
+}  // namespace mapproof

@@ -1,0 +1,40 @@
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <string>
+
+#include "app/console.hpp"
+#include "app/map/incremental.hpp"
+
+namespace mapproof {
+
+/// How often a followed map is made again.
+struct FollowInterval {
+  long steps = 0;        ///< After so many; 0: by time.
+  double seconds = 1.0;  ///< After so long, if there is a step more.
+};
+
+/// "100": steps; "2s", "0.5s": seconds. @throws InvalidInput, naming the option.
+FollowInterval follow_interval(const std::string& text);
+
+/// What is followed, and how it is mapped.
+struct FollowOrder {
+  std::string path;     ///< "-": standard input. Packed or not.
+  FollowedTable table;  ///< Its source is set from the path.
+  std::unique_ptr<Follower> (*follower)(const FollowedTable& table) = nullptr;
+  FollowInterval every;
+};
+
+/// What is written after an update; `last`: no other comes.
+using WriteFollowed = std::function<void(const MapResult& map, bool last)>;
+
+/// Follows a growing file to its end, or to SIGINT or SIGTERM, and writes its map again and again.
+/// A file that is cut short or replaced ends it, too, with a remark. Without anchors each map is
+/// aligned to the one before, so that it does not jump. What is noticed meanwhile goes to the
+/// console.
+/// @return The last map.
+/// @throws IoError for what cannot be read.
+MapResult follow_map(const FollowOrder& order, const Console& console, const WriteFollowed& write);
+
+}  // namespace mapproof

@@ -1,0 +1,83 @@
+#include "app/map/method_choice.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include "app/result_json.hpp"
+#include "core/base/words.hpp"
+
+namespace mapproof {
+namespace {
+
+bool told(const MethodChoice& choice, Criterion criterion) {
+  return std::ranges::any_of(choice.maps, [&](const JudgedMap& map) {
+    return !std::isnan(value_of(map.values, criterion));
+  });
+}
+
+Table ranking_table(const MethodChoice& choice) {
+  Table table{
+      "ranking", "Candidates, best first", {{"Rank", "", "", ""}, {"Method", "", "", ""}}, {}, {}};
+  std::vector<Criterion> shown;
+  for (const CriterionInfo& criterion : all_criteria())
+    if (told(choice, criterion.criterion)) {
+      shown.push_back(criterion.criterion);
+      table.columns.push_back({std::string(criterion.label), "", "",
+                               fmt::format("{}; {} is better.", criterion.meaning,
+                                           criterion.lower_is_better ? "less" : "more")});
+    }
+  for (std::size_t rank = 0; rank < choice.order.size(); ++rank) {
+    const JudgedMap& map = choice.maps[choice.order[rank]];
+    Row row;
+    row.cells = {NumberCell{static_cast<double>(rank + 1), 0}, TextCell{label(map.setting)}};
+    for (const Criterion criterion : shown)
+      row.cells.emplace_back(NumberCell{value_of(map.values, criterion), 3});
+    table.rows.push_back(std::move(row));
+  }
+  const auto without = choice.maps.size() - choice.order.size();
+  if (without > 0)
+    table.notes.push_back(counted(static_cast<long long>(without), "candidate") + " gave no map.");
+  return table;
+}
+
+}  // namespace
+
+MethodChoice choose_method(const ObservationHistory& history, Eigen::Index steps,
+                           const CertaintyFrame& frame, ChoiceOptions options) {
+  const HistoryEmbedder usual(history, steps, options.embedder, options.rule);
+  options.settings = usual_candidates(usual, history.landmarks());
+  const MapJudge judge(history, steps, options);
+  MethodChoice choice{
+      .maps = judge.in(frame), .criterion = usual_criterion(!frame.anchors.empty()), .order = {}};
+  choice.order = ranked(choice.maps, choice.criterion);
+  return choice;
+}
+
+Section choice_section(const MethodChoice& choice) {
+  const CriterionInfo& criterion = info(choice.criterion);
+  Section section{"choice", "Why this method", {}};
+  section.blocks.emplace_back(Paragraph{{{fmt::format(
+      "No method was given: {} were tried, and the best by \"{}\" was taken ({}). None of these "
+      "criteria knows the truth; in simulated worlds this one picked best.",
+      counted(std::ssize(choice.maps), "candidate"), criterion.label, criterion.meaning)}}});
+  section.blocks.emplace_back(ranking_table(choice));
+  return section;
+}
+
+nlohmann::ordered_json choice_json(const MethodChoice& choice) {
+  nlohmann::ordered_json candidates = nlohmann::ordered_json::array();
+  for (const std::size_t m : choice.order) {
+    const JudgedMap& map = choice.maps[m];
+    nlohmann::ordered_json candidate{{"method", info(map.setting.method).name},
+                                     {"parameter", parameter_json(map.setting)}};
+    for (const CriterionInfo& criterion : all_criteria())
+      candidate[std::string(criterion.name)] =
+          number_or_null(value_of(map.values, criterion.criterion));
+    candidates.push_back(std::move(candidate));
+  }
+  return {{"criterion", info(choice.criterion).name}, {"candidates", std::move(candidates)}};
+}
+
+}  // namespace mapproof

@@ -1,0 +1,152 @@
+#include "app/map/missing_data.hpp"
+
+#include <algorithm>
+
+#include <fmt/format.h>
+
+#include "core/base/errors.hpp"
+#include "core/base/words.hpp"
+#include "core/missing/covisible.hpp"
+#include "core/missing/filled.hpp"
+#include "core/missing/gap_pattern.hpp"
+
+namespace mapproof {
+namespace {
+
+constexpr const char* kCovisible = "covisible";
+constexpr const char* kAuto = "auto";
+constexpr double kMostWork = 5e10;  ///< Products of entries that judging gaps may take.
+constexpr double kFewPairs = 0.1;   ///< Share of pairs without ground that is worth a warning.
+
+Eigen::Index infinite_pairs(const Proximities& proximities) {
+  return (!proximities.squared_distances.array().isFinite()).count() / 2;
+}
+
+ProximityRule covisible_rule(MissingOutcome& outcome) {
+  return [&outcome](const ObservationHistory& history, Eigen::Index steps) {
+    const CovisibleOptions options;
+    if (!outcome.told)
+      outcome.remarks.push_back(
+          fmt::format("Distances are those of landmarks often observed together: the {} of each "
+                      "that share most "
+                      "of its steps, {} or more of them; others take the shortest path.",
+                      options.neighbours, options.least_common));
+    outcome.told = true;
+    Proximities result = covisible_proximities(history, steps, options);
+    const Eigen::Index left_out = infinite_pairs(result);
+    if (left_out > 0)
+      outcome.completed = status_of<StatusReason::kNotCovisible>(
+          left_out, infinite_pairs(proximities(history, steps)));
+    return result;
+  };
+}
+
+/// Whether another way than the advised one makes much worse maps: gaps at random spoil covisible
+/// pairs, patterns spoil the others; common steps at random are but a little worse.
+bool worth_a_warning(const GapPattern& pattern, const std::string& way) {
+  constexpr double kPatterned = 2.0;
+  return way == kCovisible || pattern.dispersion > kPatterned;
+}
+
+/// "entries are missing by distance (40 % missing, ...)": why a way is advised.
+std::string advice_words(GapReason why, const GapPattern& pattern) {
+  const std::string numbers = fmt::format(
+      "{:.0f} % missing, pairs' common steps {:.1f} standard deviations from chance, rank "
+      "correlation with their distances {:.2f}, {:.1f} % of the pairs with fewer than five",
+      100.0 * pattern.missing_share, pattern.dispersion, pattern.nearness,
+      100.0 * pattern.few_share);
+  switch (why) {
+    case GapReason::kNoGaps:
+      return "nothing is missing";
+    case GapReason::kOfVisibility:
+      return "entries of visibility are not filled in";
+    case GapReason::kHardlyEver:
+      return "many pairs are hardly ever observed together, near ones are (" + numbers + ")";
+    case GapReason::kByDistance:
+      return "entries are missing by distance (" + numbers + ")";
+    case GapReason::kByAPattern:
+      return "entries are missing by a pattern that can be filled in (" + numbers + ")";
+    case GapReason::kAtRandom:
+      return "entries are missing as if at random (" + numbers + ")";
+  }
+  return "";
+}
+
+ProximityRule filling_rule(Filling filling, int dimensions, MissingOutcome& outcome) {
+  return [=, &outcome](const ObservationHistory& history, Eigen::Index steps) {
+    FillingOptions options;
+    options.filling = filling;
+    options.ppca.dimensions = options.pca.dimensions = dimensions;
+    FilledProximities filled = filled_proximities(history, steps, options);
+    for (const Status& status : filled.statuses)
+      if (std::ranges::find(outcome.statuses, status) == outcome.statuses.end())
+        outcome.statuses.push_back(status);
+    const auto missing = history.values.leftCols(steps).array().isNaN().count();
+    if (filled.model.loadings.size() > 0 && !outcome.told) {
+      outcome.told = true;
+      outcome.remarks.push_back(fmt::format(
+          "Entries filled in by {2} of {1}: {0}. Distances over them differ from those over common "
+          "steps, where pairs have some, by {3:.1f} % in the median.",
+          missing, counted(filled.model.loadings.cols(), "dimension"),
+          filling == Filling::kPpca ? "PPCA" : "PCA",
+          100.0 * median_disagreement(filled.proximities, proximities(history, steps))));
+    }
+    return std::move(filled.proximities);
+  };
+}
+
+}  // namespace
+
+std::vector<std::string> missing_ways() {
+  return {std::string(name(Filling::kCommonSteps)), std::string(name(Filling::kPpca)),
+          std::string(name(Filling::kPca)), kCovisible, kAuto};
+}
+
+MissingChoice judged_choice(MissingChoice choice, const ObservationHistory& history,
+                            Eigen::Index steps, MissingOutcome& outcome) {
+  const std::vector<Eigen::Index> unseen = unseen_landmarks(history, steps);
+  std::vector<Eigen::Index> rows;
+  for (Eigen::Index i = 0; i < history.landmarks(); ++i)
+    if (!std::ranges::binary_search(unseen, i)) rows.push_back(i);
+  const double work = static_cast<double>(rows.size()) * static_cast<double>(rows.size()) *
+                      static_cast<double>(steps);
+  const bool is_auto = choice.way == kAuto;
+  if (is_auto) choice.way = name(GapWay::kCommonSteps);
+  if (rows.size() < 2 || (!is_auto && work > kMostWork)) return choice;
+  const GapPattern pattern = gap_pattern(with_rows(history, rows), steps);
+  const GapAdvice advice = advised_way(pattern, history.sensor);
+  if (is_auto) {
+    choice.way = name(advice.way);
+    if (choice.dimensions && advice.way != GapWay::kPpca) choice.dimensions.reset();
+    outcome.remarks.push_back(fmt::format("Missing entries: {} was taken, as {}.", choice.way,
+                                          advice_words(advice.why, pattern)));
+  } else if (const bool both_fill = advice.way == GapWay::kPpca && choice.way == "pca";
+             choice.way != name(advice.way) && !both_fill && pattern.dispersion > 0.0 &&
+             history.sensor != Sensor::kVisibility && worth_a_warning(pattern, choice.way)) {
+    outcome.warnings.push_back(
+        fmt::format("--missing {} is not what serves these gaps best: {}. --missing {} is likely "
+                    "to give a better map.",
+                    choice.way, advice_words(advice.why, pattern), name(advice.way)));
+  }
+  if (pattern.few_share > kFewPairs)
+    outcome.warnings.push_back(fmt::format(
+        "{:.0f} % of the pairs of landmarks have fewer than five steps in common, {:.0f} % none: "
+        "their distances have little ground.",
+        100.0 * pattern.few_share, 100.0 * pattern.apart_share));
+  return choice;
+}
+
+ProximityRule proximity_rule(const MissingChoice& choice, Sensor sensor, MissingOutcome& outcome) {
+  const std::optional<Filling> filling = filling_named(choice.way);
+  const bool fills = filling == Filling::kPpca || filling == Filling::kPca;
+  if (choice.dimensions && !fills)
+    throw InvalidInput(fmt::format("--dimensions: --missing {} has none", choice.way));
+  if (fills) return filling_rule(*filling, choice.dimensions.value_or(10), outcome);
+  if (choice.way != kCovisible) return {};
+  if (sensor == Sensor::kVisibility)
+    throw InvalidInput(
+        "--missing covisible: it is for bearings and ranges; visibility itself says what was seen");
+  return covisible_rule(outcome);
+}
+
+}  // namespace mapproof

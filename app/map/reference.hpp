@@ -1,0 +1,60 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "core/model/experiment.hpp"
+#include "core/model/map_record.hpp"
+#include "core/records/observations/landmarks_csv.hpp"
+
+namespace mapproof {
+
+/// A name from a file, between quotation marks.
+std::string quoted_name(const std::string& name);
+
+/// Positions read from a file, with its name for messages.
+struct NamedPointsFile {
+  std::string path;
+  NamedPoints points;
+};
+
+/// Reads the file; empty for an empty path. @throws IoError.
+std::optional<NamedPointsFile> read_points(const std::string& path);
+
+/// The landmarks that a person's observations are of.
+struct MappedLandmarks {
+  std::string path;  ///< Of the observations, for errors.
+  std::vector<std::string> names;
+  std::vector<Eigen::Index> unseen;  ///< Ascending; they cannot be anchors.
+  std::optional<Points> truth_m;     ///< If the observations bring it; NaN rows: unknown.
+
+  Eigen::Index landmarks() const { return std::ssize(names); }
+};
+
+/// What is known of the landmarks' true positions.
+struct Reference {
+  Points positions_m;                 ///< M x 2; NaN rows: unknown.
+  bool has_truth = false;             ///< More than the anchors is known: errors can be told.
+  std::vector<Eigen::Index> anchors;  ///< Ascending; empty: the map stays a shape.
+};
+
+/// Matches anchors and truth to the landmarks. Observations that bring their own truth are aligned,
+/// without `anchors`, to the four landmarks furthest out along the diagonals.
+/// @throws IoError naming file and line for anchors that cannot serve (fewer than three, on one
+///         line, unknown, unobserved), or a truth about other landmarks.
+Reference reference_of(const MappedLandmarks& source, const std::optional<NamedPointsFile>& anchors,
+                       const std::optional<NamedPointsFile>& truth,
+                       std::vector<std::string>& remarks);
+
+/// Brings the coordinates into the frame of the anchors, if there are any that serve, and judges
+/// them by the truth, if there is one.
+void align_and_score(MapRecord& record, const Points& coordinates, const Reference& reference,
+                     AffineFit fit);
+
+/// What a person should know of a map in the frame of its anchors that is worth little: errors as
+/// large as if all landmarks were put at the anchors' mean, or, without a truth, landmarks far
+/// outside of what the anchors span. A sentence each.
+std::vector<std::string> frame_warnings(const MapRecord& record);
+
+}  // namespace mapproof

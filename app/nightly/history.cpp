@@ -1,0 +1,127 @@
+#include <iostream>
+#include <memory>
+
+#include <fmt/format.h>
+
+#include "app/commands.hpp"
+#include "app/nightly/history_report.hpp"
+#include "core/base/errors.hpp"
+#include "core/base/words.hpp"
+#include "core/json/json_text.hpp"
+#include "core/records/studies/folder_lock.hpp"
+#include "reports/history/history_export.hpp"
+#include "reports/history/history_prune.hpp"
+#include "reports/history/object_folder.hpp"
+
+namespace mapproof {
+namespace {
+
+namespace fs = std::filesystem;
+
+struct HistoryArguments {
+  std::string store;
+  std::optional<std::string> prune;
+  std::optional<std::string> format;
+  std::optional<int> pin;
+  bool verify = false;
+};
+
+int list(HistoryStore& history, const Console& console) {
+  std::string text;
+  for (const NightFacts& night : history.nights()) {
+    text += fmt::format("{:>5}  {}  {:<12}{}", night.number, night.started_utc, verdict_word(night),
+                        night.pinned ? "  pinned" : "");
+    for (const StudyNight& study : history.studies(night.number))
+      text += fmt::format("  {} ({})", study.name, counted(study.runs, "run"));
+    text += "\n";
+    for (const NightFinding& finding : history.findings(night.number))
+      text += fmt::format("         {}: {}\n", finding.study, finding.sentence);
+  }
+  if (text.empty()) text = "no night yet\n";
+  // The result of a command; the exported file names its own schema.
+  nlohmann::ordered_json object = history_json(history, false);
+  object.erase("schema");
+  console.result(text, object);
+  return kDone;
+}
+
+int verify(HistoryStore& history, const fs::path& store, const Console& console) {
+  const std::vector<std::string> digests = history.digests();
+  const std::vector<std::string> problems = ObjectFolder(store / "objects").problems(digests);
+  std::string text;
+  for (const std::string& problem : problems) text += printable(problem, 4000) + "\n";
+  if (problems.empty())
+    text = fmt::format("{} and {} are whole\n",
+                       counted(static_cast<long long>(history.nights().size()), "night"),
+                       counted(static_cast<long long>(digests.size()), "figure file"));
+  console.result(text, {{"whole", problems.empty()}, {"problems", problems}});
+  return problems.empty() ? kDone : kNo;
+}
+
+int prune_by(HistoryStore& history, const HistoryArguments& arguments, const Console& console) {
+  const FolderLock lock(arguments.store, [&] {
+    console.warning(arguments.store + ": a night is being made in it; waiting for its end");
+  });
+  const Pruned pruned = prune(history, arguments.store, parse_prune_rule(*arguments.prune));
+  std::error_code error;
+  if (fs::exists(fs::path(arguments.store) / "index.html", error))  // Its links are to be true.
+    write_history_pages(history, arguments.store, arguments.store, {}, load_templates(), 1);
+  console.result(fmt::format("{} and {} removed\n",
+                             counted(static_cast<long long>(pruned.nights.size()), "night"),
+                             counted(pruned.files, "figure file")),
+                 {{"removed_nights", pruned.nights}, {"removed_files", pruned.files}});
+  return kDone;
+}
+
+int history_of(const HistoryArguments& arguments, const Invocation& invocation) {
+  const Console& console = invocation.console;
+  if (arguments.prune) parse_prune_rule(*arguments.prune);
+  std::error_code error;
+  if (!fs::exists(history_file(arguments.store), error))
+    throw IoError(arguments.store, "holds no history.sqlite; mapproof nightly makes one");
+  HistoryStore history = HistoryStore::open_existing(arguments.store);
+  if (arguments.prune) return prune_by(history, arguments, console);
+  if (arguments.verify) return verify(history, arguments.store, console);
+  if (arguments.pin) {
+    history.pin(*arguments.pin);
+    console.result(fmt::format("night {} is pinned\n", *arguments.pin),
+                   {{"pinned", *arguments.pin}});
+    return kDone;
+  }
+  if (!arguments.format) return list(history, console);
+  std::cout << (*arguments.format == "csv" ? history_csv(history)
+                                           : json_text(history_json(history, true)));
+  std::cout.flush();
+  if (!std::cout) throw IoError("standard output", "cannot be written");
+  return kDone;
+}
+
+}  // namespace
+
+Action history_command(CLI::App& app) {
+  auto arguments = std::make_shared<HistoryArguments>();
+  app.description("List, check, export or prune the nights of a history");
+  app.footer(
+      "Examples:\n"
+      "  mapproof history history\n"
+      "  mapproof history history --prune last=30,every=7\n"
+      "  mapproof history history --export csv > nights.csv\n\n"
+      "A pinned night is what later ones are compared with: pin one to accept what it changed.\n"
+      "--verify ends with 1 if the history or a figure in it is not whole.\n");
+  app.add_option("DIR", arguments->store, "Folder of the history")
+      ->required()
+      ->check(names_folder());
+  auto* what = app.add_option_group("what");
+  what->add_option("--prune", arguments->prune,
+                   "Remove all nights but the last N, those whose number K divides, the pinned and "
+                   "what these were compared with: last=N,every=K");
+  what->add_option("--export", arguments->format, "Every value of every night, to standard output")
+      ->check(CLI::IsMember({"csv", "json"}));
+  what->add_option("--pin", arguments->pin, "Compare with this night from now on")
+      ->check(CLI::PositiveNumber);
+  what->add_flag("--verify", arguments->verify, "Check the history and every figure's bytes");
+  what->require_option(0, 1);
+  return [arguments](const Invocation& invocation) { return history_of(*arguments, invocation); };
+}
+
+}  // namespace mapproof

@@ -1,0 +1,84 @@
+#include "app/nightly/history_report.hpp"
+
+#include <algorithm>
+
+#include "app/nightly/nightly_folders.hpp"
+#include "app/study/folder_report.hpp"
+#include "core/base/files.hpp"
+#include "render/output/write_figure.hpp"
+#include "reports/history/judge_night.hpp"
+#include "reports/html/report_html.hpp"
+
+namespace mapproof {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+/// Writes trends/STUDY/report.html of a study of the last night. @return The trend.
+StudyTrend write_trend(HistoryStore& history, const fs::path& store, const fs::path& out,
+                       const StudyNight& study, const IndexFacts& facts, const Templates& page,
+                       int jobs) {
+  const NightFacts& tonight = facts.nights.back();
+  StudyTrend trend = history.trend(study.name, study.order_digest, kTrendNights, tonight.number);
+  const bool is_compared = tonight.reference && has_study(history, *tonight.reference, study);
+  const fs::path folder = out / "trends" / study.name;
+  HistoryPage shown =
+      trend_page(trend, facts.findings, is_compared, places_from(folder, out, store));
+  const FolderReport report{.folder = folder,
+                            .report = std::move(shown.report),
+                            .in_company = {},
+                            .figures = std::move(shown.figures),
+                            .scenes = {},
+                            .films = {},
+                            .runs = 0,
+                            .missing = {},
+                            .link_words = std::move(shown.link_words)};
+  write_report(report, page, jobs);
+  return trend;
+}
+
+IndexFacts read_facts(HistoryStore& history, const fs::path& store,
+                      std::span<const std::string> remarks) {
+  IndexFacts facts{.nights = history.nights(), .remarks = {remarks.begin(), remarks.end()}};
+  for (const NightFacts& night : facts.nights) {
+    facts.findings[night.number] = history.findings(night.number);
+    for (const StudyNight& study : history.studies(night.number))
+      facts.studies[night.number].push_back(study.name);
+  }
+  facts.lost = lost_nights(store, facts.nights);
+  return facts;
+}
+
+}  // namespace
+
+HistoryPlaces places_from(const fs::path& folder, const fs::path& out, const fs::path& store) {
+  const auto to = [&](const fs::path& target) {
+    // Neither need be there yet.
+    const std::string path =
+        fs::relative(fs::absolute(target), fs::absolute(folder)).generic_string();
+    return path == "." ? "" : path + "/";
+  };
+  return {.pages = to(out), .nights = to(store)};
+}
+
+fs::path write_history_pages(HistoryStore& history, const fs::path& store, const fs::path& out,
+                             std::span<const std::string> remarks, const Templates& page,
+                             int jobs) {
+  IndexFacts facts = read_facts(history, store, remarks);
+  if (!facts.nights.empty())
+    for (const StudyNight& study : history.studies(facts.nights.back().number))
+      facts.trends.push_back(write_trend(history, store, out, study, facts, page, jobs));
+  const HistoryPage shown = index_page(facts, places_from(out, out, store));
+  HtmlOptions options{.figure_folder = "", .table_folder = ""};
+  options.link_words = shown.link_words;
+  const auto drawing = [&](const std::string& id) {
+    const auto figure = std::ranges::find(shown.figures, id, &Figure::id);
+    return figure == shown.figures.end() ? std::string() : figure_svg(*figure, report_theme());
+  };
+  const fs::path index = out / "index.html";
+  write_file(index, report_html(shown.report, page, drawing, options));
+  return index;
+}
+
+}  // namespace mapproof

@@ -1,0 +1,242 @@
+#include <sys/utsname.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <charconv>
+#include <ctime>
+#include <memory>
+#include <thread>
+
+#include <fmt/chrono.h>
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include "app/build_facts.hpp"
+#include "app/commands.hpp"
+#include "app/nightly/history_report.hpp"
+#include "app/nightly/nightly_folders.hpp"
+#include "app/nightly/nightly_study.hpp"
+#include "app/study/embedded_experiments.hpp"
+#include "app/study/folder_report.hpp"
+#include "core/base/errors.hpp"
+#include "core/base/files.hpp"
+#include "core/json/record_json.hpp"
+#include "core/records/studies/folder_lock.hpp"
+#include "core/records/value_fields.hpp"
+#include "reports/history/history_export.hpp"
+#include "reports/history/history_prune.hpp"
+#include "reports/history/judge_night.hpp"
+#include "reports/history/night_scores.hpp"
+#include "reports/history/night_standing.hpp"
+#include "reports/history/object_folder.hpp"
+
+namespace mapproof {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr const char* kLastGood = "last-good";
+
+struct NightlyArguments {
+  std::vector<std::string> experiments;
+  std::string store;
+  std::string out;
+  std::string reference = kLastGood;
+  int jobs = 1;
+  std::optional<std::string> templates;
+  OrderOptions order;
+};
+
+std::string now_utc() {
+  return fmt::format("{:%Y-%m-%dT%H:%M:%SZ}", fmt::gmtime(std::time(nullptr)));
+}
+
+std::optional<int> asked_reference(const std::string& text) {
+  if (text == kLastGood) return std::nullopt;
+  int number = 0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
+  if (error != std::errc() || end != text.data() + text.size() || number < 1)
+    throw InvalidInput("--reference: \"" + printable(text) + "\" is not a night's number and not " +
+                       kLastGood);
+  return number;
+}
+
+NightFacts begun(int number, int jobs, const std::string& command) {
+  char host[256] = "";
+  utsname system{};
+  return {.number = number,
+          .started_utc = now_utc(),
+          .ended_utc = "",
+          .command = command,
+          .provenance = json_line(to_json_value(build_provenance())),
+          .host = ::gethostname(host, sizeof host - 1) == 0 ? host : "",
+          .processor = ::uname(&system) == 0 ? system.machine : "",
+          .cores = static_cast<int>(std::thread::hardware_concurrency()),
+          .jobs = jobs};
+}
+
+/// Makes the records of every study. @return The worst exit code.
+int make_all(const std::vector<StudyOrder>& orders, const fs::path& folder, int jobs,
+             const std::string& command, const Console& console) {
+  int worst = kDone;
+  for (const StudyOrder& order : orders)
+    worst = std::max(worst, make_apart(order, folder / order.name, jobs, command, console));
+  return worst;
+}
+
+/// What each study is, from its records.
+std::vector<StudyNight> read_all(const std::vector<StudyOrder>& orders, const fs::path& folder) {
+  std::vector<StudyNight> studies;
+  for (const StudyOrder& order : orders)
+    studies.push_back(read_study_night(folder / order.name, order.name));
+  return studies;
+}
+
+/// Draws a study's report. @return Whether all of its scenes could be drawn; said if not.
+bool draw(const FolderReport& report, const Templates& page, int jobs, const Console& console) {
+  try {
+    write_report(report, page, jobs);
+    return true;
+  } catch (const SceneError& error) {
+    console.warning(error.what());
+    return false;
+  }
+}
+
+/// Where index and trends go.
+fs::path out_of(const NightlyArguments& arguments) {
+  return arguments.out.empty() ? arguments.store : arguments.out;
+}
+
+/// Draws the report of each study of a night that has been judged, and keeps its figures.
+/// @return Whether all scenes could be drawn.
+bool write_all(Night& night, HistoryStore& history, const fs::path& folder, const Templates& page,
+               const NightlyArguments& arguments, const Invocation& invocation) {
+  const ObjectFolder objects(fs::path(arguments.store) / "objects");
+  const bool begins = history.nights().empty();
+  const LostNights lost = begins ? lost_nights(arguments.store, {}) : LostNights{};
+  bool scenes_drawn = true;
+  for (StudyNight& study : night.studies) {
+    FolderReport report =
+        read_folder_report(folder / study.name, invocation.command, invocation.command);
+    const bool is_compared =
+        night.facts.reference && has_study(history, *night.facts.reference, study);
+    NightLinks links(places_from(folder / study.name, out_of(arguments), arguments.store));
+    add_night(report.report, night, study.name, is_compared, lost, links);
+    report.link_words = links.words();
+    scenes_drawn &= draw(report, page, arguments.jobs, invocation.console);
+    study.figures = objects.keep(folder / study.name / "figures");
+  }
+  return scenes_drawn;
+}
+
+int exit_code(NightVerdict verdict) {
+  switch (verdict) {
+    case NightVerdict::kGood:
+      return kDone;
+    case NightVerdict::kCost:
+      return kCostGrew;
+    default:
+      return kNo;
+  }
+}
+
+/// The first findings of each study, and where all of them stand.
+std::string night_text(const Night& night, const std::vector<std::string>& remarks,
+                       const fs::path& pages) {
+  std::string text = fmt::format("night {}: {}\n", night.facts.number,
+                                 verdict_sentence(night.facts, night.findings.size()));
+  for (const StudyNight& study : night.studies) {
+    std::size_t count = 0;
+    for (const NightFinding& finding : night.findings)
+      if (finding.study == study.name && ++count <= kMostTold)
+        text += fmt::format("  {}: {}\n", finding.study, finding.sentence);
+    if (count > kMostTold)
+      text += fmt::format("  {}: and {} more: {}#section-findings\n", study.name, count - kMostTold,
+                          (pages / "trends" / study.name / "report.html").string());
+  }
+  for (const std::string& remark : remarks) text += fmt::format("  ({})\n", remark);
+  return text;
+}
+
+int nightly(const NightlyArguments& arguments, const Invocation& invocation) {
+  const Console& console = invocation.console;
+  const Templates page = load_templates(arguments.templates);
+  const std::optional<int> asked = asked_reference(arguments.reference);
+  const std::vector<StudyOrder> orders =
+      read_nightly_orders(arguments.experiments, arguments.order);
+  const fs::path store = arguments.store;
+  make_folder(store);
+  const FolderLock lock(store, [&] {
+    console.warning(store.string() +
+                    ": another mapproof is at work in it; waiting, since two at once would spoil "
+                    "each other's seconds");
+  });
+  HistoryStore history = HistoryStore::open(store);
+  for (const std::string& remark : history.remarks()) console.warning(remark);
+
+  Night night{.facts = begun(next_night(history, store), arguments.jobs, invocation.command)};
+  if (asked) {  // Refused before hours of work.
+    night.studies = planned_studies(orders);
+    reference_night(history, night, asked);
+  }
+  const fs::path folder = night_folder(store, night.facts.number);
+  begin_night(folder, orders, console);
+  const int made = make_all(orders, folder, arguments.jobs, invocation.command, console);
+  if (made != kDone) {
+    console.warning(
+        fmt::format("night {}: not recorded, since a study was not finished", night.facts.number));
+    return made;
+  }
+  night.studies = read_all(orders, folder);
+  const std::vector<std::string> remarks = judge_night(history, night, asked);
+  const bool scenes_drawn = write_all(night, history, folder, page, arguments, invocation);
+  night.facts.ended_utc = now_utc();
+  history.append(night);
+  end_night(folder, night);
+  const fs::path index =
+      write_history_pages(history, store, out_of(arguments), remarks, page, arguments.jobs);
+
+  nlohmann::ordered_json object = night_value(night.facts, night.findings);
+  object["remarks"] = remarks;
+  object["index"] = index.string();
+  console.result(night_text(night, remarks, out_of(arguments)) + index.string() + "\n", object);
+  return scenes_drawn ? exit_code(night.facts.verdict) : kInternal;
+}
+
+}  // namespace
+
+Action nightly_command(CLI::App& app) {
+  auto arguments = std::make_shared<NightlyArguments>();
+  app.description("Run experiments, add them to a history, and say what got worse");
+  app.footer(
+      "Examples:\n"
+      "  mapproof nightly yairi2007 --store history\n"
+      "  mapproof nightly mine.json boots2013 --profile quick --store history --reference 12\n\n"
+      "Exit code 0: nothing got worse, or there was nothing to compare with, which is said;\n"
+      "1: accuracy did, or results are lost; 4: seconds or memory alone grew.\n"
+      "docs/nightly.md says by which rules, and how to run it by a timer.\n");
+  app.add_option(
+         "EXPERIMENT", arguments->experiments,
+         fmt::format("Experiments' JSON files, folders with a results.csv of your own, or {}",
+                     fmt::join(experiment_names(), ", ")))
+      ->required();
+  app.add_option("--store", arguments->store, "Folder of the history; made if it is not there")
+      ->required()
+      ->check(names_folder());
+  add_out_option(app, arguments->out, "Folder for index and trend pages, instead of the store");
+  app.add_option("--reference", arguments->reference,
+                 "Night to compare with: its number, refused if it had other settings or another "
+                 "seed, or last-good (the pinned one if there is one)")
+      ->capture_default_str();
+  app.add_option("--profile", arguments->order.profile,
+                 "Profile of those experiments that have it");
+  add_jobs_option(app, arguments->jobs);
+  app.add_option("--templates", arguments->templates,
+                 "Folder whose templates replace the embedded ones")
+      ->check(names_folder());
+  add_data_options(app, arguments->order);
+  return [arguments](const Invocation& invocation) { return nightly(*arguments, invocation); };
+}
+
+}  // namespace mapproof

@@ -1,0 +1,104 @@
+#include "app/nightly/nightly_folders.hpp"
+
+#include <algorithm>
+#include <charconv>
+#include <system_error>
+
+#include <fmt/format.h>
+
+#include "core/base/errors.hpp"
+#include "core/base/files.hpp"
+#include "core/records/studies/folder_lock.hpp"
+#include "reports/history/history_export.hpp"
+
+namespace mapproof {
+namespace {
+
+namespace fs = std::filesystem;
+
+fs::path order_file(const fs::path& folder) { return folder / "order.txt"; }
+fs::path end_file(const fs::path& folder) { return folder / "night.json"; }
+
+std::string order_text(const std::vector<StudyOrder>& orders) {
+  std::string text;
+  for (const StudyOrder& order : orders) text += order.digest + "  " + order.name + "\n";
+  return text;
+}
+
+/// The number of a finished night's folder; 0 for any other.
+int finished_number(const fs::path& folder) {
+  const std::string name = folder.filename().string();
+  int number = 0;
+  const auto [end, error] = std::from_chars(name.data(), name.data() + name.size(), number);
+  std::error_code ignored;
+  const bool is_number = error == std::errc() && end == name.data() + name.size();
+  return is_number && fs::exists(end_file(folder), ignored) ? number : 0;
+}
+
+/// The names of what a folder holds, ascending; none if it is not there.
+std::vector<std::string> names_in(const fs::path& folder) {
+  std::vector<std::string> names;
+  std::error_code error;
+  for (fs::directory_iterator entry(folder, error), end; !error && entry != end;
+       entry.increment(error))
+    names.push_back(entry->path().filename().string());
+  std::ranges::sort(names);
+  return names;
+}
+
+}  // namespace
+
+int next_night(HistoryStore& history, const fs::path& store) {
+  int last = history.last_number();
+  std::error_code error;
+  for (fs::directory_iterator entry(store / "nights", error), end; !error && entry != end;
+       entry.increment(error))
+    last = std::max(last, finished_number(entry->path()));
+  return last + 1;
+}
+
+void begin_night(const fs::path& folder, const std::vector<StudyOrder>& orders,
+                 const Console& console) {
+  const std::string text = order_text(orders);
+  std::error_code error;
+  if (fs::exists(folder, error)) {
+    std::string left;
+    if (fs::exists(order_file(folder), error)) left = read_file(order_file(folder));
+    if (left == text) {
+      console.warning(folder.string() + ": goes on where a night that was stopped left it");
+      remove_leftovers(folder);
+      return;
+    }
+    console.warning(folder.string() +
+                    ": what a stopped night of other experiments left is removed");
+    fs::remove_all(folder, error);
+    if (error) throw IoError(folder.string(), "cannot be removed: " + error.message());
+  }
+  make_folder(folder);
+  write_file(order_file(folder), text);
+}
+
+void end_night(const fs::path& folder, const Night& night) {
+  write_file(end_file(folder), night_json(night));
+}
+
+LostNights lost_nights(const fs::path& store, std::span<const NightFacts> known) {
+  LostNights lost;
+  for (const std::string& name : names_in(store))
+    if (name.starts_with("history.sqlite.damaged-") && !name.ends_with("-journal") &&
+        !name.ends_with("-wal") && !name.ends_with("-shm"))
+      lost.kept_as.push_back(name);
+  if (lost.kept_as.empty()) return lost;
+  for (const std::string& name : names_in(store / "nights")) {
+    const fs::path night = store / "nights" / name;
+    const int number = finished_number(night);
+    if (number == 0 || std::ranges::find(known, number, &NightFacts::number) != known.end())
+      continue;
+    std::error_code error;
+    for (const std::string& study : names_in(night))
+      if (fs::exists(night / study / "report.html", error)) lost.reports[number].push_back(study);
+  }
+  return lost;
+}
+
+}  // namespace mapproof

@@ -1,0 +1,100 @@
+#include "app/nightly/nightly_study.hpp"
+
+#include <sys/prctl.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <csignal>
+#include <cstdio>
+#include <cstring>
+#include <map>
+#include <system_error>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "app/failures.hpp"
+#include "app/study/study_run.hpp"
+#include "core/base/errors.hpp"
+#include "core/records/studies/results_study_json.hpp"
+#include "core/records/studies/study_folder.hpp"
+#include "reports/history/night_scores.hpp"
+
+namespace mapproof {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+/// Two studies of a night that share their name would share their folder and their history.
+/// @throws InvalidInput.
+[[noreturn]] void refuse_same_name(const StudyOrder& order, const std::string& first,
+                                   const std::string& second) {
+  if (first == second) throw InvalidInput(printable(first) + ": is given twice");
+  const bool may_be_left_out = !order.given.empty() && order.name == kNamelessResults;
+  throw InvalidInput(fmt::format(
+      "{} and {}: both studies have the name \"{}\"{}; add a \"name\" of its own to one of them",
+      printable(first), printable(second), printable(order.name),
+      may_be_left_out ? ", which is that of a study.json without one" : ""));
+}
+
+}  // namespace
+
+std::vector<StudyOrder> read_nightly_orders(const std::vector<std::string>& experiments,
+                                            OrderOptions options) {
+  options.profile_if_there = options.one_of_several = true;
+  std::vector<StudyOrder> orders;
+  std::map<std::string, std::string> files;  // By the study's name.
+  for (const std::string& experiment : experiments) {
+    StudyOrder order;
+    std::string file = (fs::path(experiment) / kStudyFile).string();
+    if (is_results_study(experiment)) {
+      order = given_study_order(experiment);
+    } else {
+      const ExperimentText text = experiment_of(experiment);
+      file = text.source;
+      order = read_study_order(text, options);
+    }
+    const auto [other, is_new] = files.try_emplace(order.name, file);
+    if (!is_new) refuse_same_name(order, other->second, file);
+    orders.push_back(std::move(order));
+  }
+  check_data_used(orders, options);
+  return orders;
+}
+
+std::vector<StudyNight> planned_studies(const std::vector<StudyOrder>& orders) {
+  std::vector<StudyNight> studies;
+  for (const StudyOrder& order : orders)
+    studies.push_back(
+        {.name = order.name, .order_digest = order_digest(study_json(order), order.name)});
+  return studies;
+}
+
+int make_apart(const StudyOrder& order, const fs::path& folder, int jobs,
+               const std::string& command, const Console& console) {
+  // Nothing buffered is to be written twice, and no thread runs yet that the copy would lack.
+  std::fflush(nullptr);
+  const pid_t parent = ::getpid();
+  const pid_t child = ::fork();
+  if (child < 0) throw IoError(folder.string(), std::string("no process: ") + std::strerror(errno));
+  if (child == 0) {
+    // A night that is killed takes its study with it: its locks are free at once.
+    ::prctl(PR_SET_PDEATHSIG, SIGKILL);
+    if (::getppid() != parent) ::_exit(kInternal);
+    const auto make = [&] { return make_study(order, folder, jobs, command, console), kDone; };
+    const int code = exit_code_of(make, order.name + ": ");
+    std::fflush(nullptr);
+    ::_exit(code);
+  }
+  int status = 0;
+  while (::waitpid(child, &status, 0) < 0)
+    if (errno != EINTR) throw IoError(folder.string(), std::strerror(errno));
+  if (WIFEXITED(status)) return WEXITSTATUS(status);
+  console.warning(fmt::format("{}: ended by signal {}", order.name, WTERMSIG(status)));
+  return kInternal;
+}
+
+}  // namespace mapproof

@@ -1,0 +1,29 @@
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "app/console.hpp"
+#include "app/study/study_order.hpp"
+#include "reports/history/night.hpp"
+
+namespace mapproof {
+
+/// Reads what is asked for, all of it before anything is made.
+/// @param experiments  Names of embedded ones, or files.
+/// @param options      Its profile is taken of the experiments that have it.
+/// @throws IoError, InvalidInput: among others if two have one name.
+std::vector<StudyOrder> read_nightly_orders(const std::vector<std::string>& experiments,
+                                            OrderOptions options);
+
+/// What the studies of a night will be, before they are made: names and what they are compared by.
+std::vector<StudyNight> planned_studies(const std::vector<StudyOrder>& orders);
+
+/// Makes the records of a study in a process of its own, so that the peak of its memory is its own
+/// and its crash is its own.
+/// @return The ExitCode of that process, kInternal if a signal ended it. @throws IoError.
+int make_apart(const StudyOrder& order, const std::filesystem::path& folder, int jobs,
+               const std::string& command, const Console& console);
+
+}  // namespace mapproof

@@ -1,0 +1,141 @@
+#include "app/slam/range_map.hpp"
+
+#include <algorithm>
+#include <limits>
+#include <system_error>
+
+#include <fmt/format.h>
+
+#include "app/map/map_folder.hpp"
+#include "core/base/errors.hpp"
+#include "core/base/files.hpp"
+#include "core/base/input_file.hpp"
+#include "core/base/words.hpp"
+#include "core/records/studies/slam_run_json.hpp"
+
+namespace mapproof {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr std::size_t kEnoughKnown = 4;
+
+std::vector<SlamMethod> methods_for(const RangeLog& log, bool knows) {
+  std::vector<SlamMethod> methods;
+  const bool moves = !log.odometry.empty();
+  if (moves) methods = {SlamMethod::kDeadReckoning, SlamMethod::kEkf};
+  if (knows) methods.push_back(SlamMethod::kSpectralKnown);
+  if (knows && moves) methods.push_back(SlamMethod::kSpectralKnown7);
+  methods.push_back(SlamMethod::kSpectral);
+  if (moves)
+    methods.insert(methods.end(), {SlamMethod::kSpectral7, SlamMethod::kBatchFixedScale,
+                                   SlamMethod::kRefined, SlamMethod::kRefinedFromOdometry});
+  return methods;
+}
+
+void remark_on_limits(const std::optional<KnownLandmarks>& known, RangeLog& log) {
+  if (log.odometry.empty())
+    log.remarks.push_back(
+        "Without odometry single readings cannot be brought to common times: only times at which "
+        "every landmark was ranged to are used, nothing is refined, and unless four landmarks are "
+        "known the mirror image of the map fits as well as the map.");
+  if (log.landmarks.size() < kEnoughKnown)
+    log.remarks.push_back(fmt::format(
+        "The spectral methods need {} landmarks; there {}.", kEnoughKnown,
+        log.landmarks.size() == 1 ? "is 1" : fmt::format("are {}", log.landmarks.size())));
+  if (known && known->rows.size() < kEnoughKnown)
+    log.remarks.push_back(
+        fmt::format("A map by known landmarks alone needs {}; {} known.", kEnoughKnown,
+                    known->rows.size() == 1 ? "1 is" : fmt::format("{} are", known->rows.size())));
+}
+
+bool has_map(const SlamRecord& record) {
+  return record.estimate.path.size() > 0 &&
+         (record.estimate.landmarks_m.array().isFinite().rowwise().all()).any();
+}
+
+const SlamRecord* of_method(const SlamRun& run, SlamMethod method) {
+  for (const SlamRecord& record : run.records)
+    if (record.method == method && has_map(record)) return &record;
+  return nullptr;
+}
+
+/// What tells two results apart that are not the same one made twice; empty if nothing does.
+std::string difference(const SlamRun& there, const SlamRun& here) {
+  const auto input = [](const SlamRun& run) {
+    SlamRun bare;
+    bare.id = run.id;
+    bare.log = run.log;
+    return slam_run_json(bare);
+  };
+  if (there.log.landmarks != here.log.landmarks) return "of other landmarks";
+  if (there.known != here.known) return "with other known landmarks";
+  if (input(there) != input(here)) return "of another log";
+  return "";
+}
+
+const fs::path& made_slam_folder(const fs::path& folder) {
+  check_result_folder(folder, kSlamFile, "range-only map");
+  make_folder(folder);
+  return folder;
+}
+
+}  // namespace
+
+KnownLandmarks known_landmarks_of(const RangeLog& log, const std::string& path) {
+  const NamedPoints points = read_landmarks(path);
+  KnownLandmarks known;
+  for (std::size_t i = 0; i < points.names.size(); ++i) {
+    const auto found = std::ranges::find(log.landmarks, points.names[i]);
+    if (found == log.landmarks.end())
+      throw IoError(input_name(path), points.places[i],
+                    fmt::format("landmark \"{}\" is not among the {} that were ranged to ({})",
+                                printable(points.names[i]), log.landmarks.size(),
+                                printable(listed(log.landmarks, 6), 200)));
+    known.rows.push_back(found - log.landmarks.begin());
+  }
+  known.positions_m = points.positions_m;
+  return known;
+}
+
+SlamRunResult range_map(RangeLog log, const std::optional<KnownLandmarks>& known) {
+  remark_on_limits(known, log);
+  const bool knows = known && known->rows.size() >= kEnoughKnown;
+  const std::vector<SlamMethod> methods = methods_for(log, knows);
+  return make_slam_run(
+      "own", std::move(log),
+      {.methods = methods, .known = known, .ties_refinement = known && known->rows.size() >= 2});
+}
+
+const SlamRecord* best_record(const SlamRun& run) {
+  const SlamRecord* best = nullptr;
+  double least = std::numeric_limits<double>::infinity();
+  for (const SlamMethod method : {SlamMethod::kRefined, SlamMethod::kRefinedFromOdometry}) {
+    const SlamRecord* record = of_method(run, method);
+    if (record == nullptr || !record->estimate.cost || !(*record->estimate.cost < least)) continue;
+    best = record;
+    least = *record->estimate.cost;
+  }
+  if (best != nullptr) return best;
+  for (const SlamMethod method : {SlamMethod::kSpectralKnown, SlamMethod::kSpectral,
+                                  SlamMethod::kEkf, SlamMethod::kDeadReckoning})
+    if (const SlamRecord* record = of_method(run, method)) return record;
+  return nullptr;
+}
+
+SlamFolder::SlamFolder(const fs::path& folder, const SlamRun& run)
+    : path_(folder), lock_(made_slam_folder(folder)) {
+  const fs::path file = folder / kSlamFile;
+  std::error_code error;
+  if (fs::exists(file, error)) {
+    const std::string what = difference(parse_slam_run(read_file(file), file.string()), run);
+    if (!what.empty())
+      throw IoError(folder.string(),
+                    fmt::format("holds another range-only map ({}); choose another --out or remove "
+                                "it",
+                                what));
+  }
+  remove_leftovers(folder);
+}
+
+}  // namespace mapproof

@@ -1,0 +1,45 @@
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+
+#include "core/experiment/slam_run.hpp"
+#include "core/records/observations/landmarks_csv.hpp"
+#include "core/records/studies/folder_lock.hpp"
+
+namespace mapproof {
+
+/// The file that marks a folder as that of a range-only map.
+inline constexpr const char* kSlamFile = "slam.json";
+
+/// Positions of landmarks from a file, as a log's.
+/// @throws IoError naming file and line of a landmark that the log has no range to.
+KnownLandmarks known_landmarks_of(const RangeLog& log, const std::string& path);
+
+/// Runs on a person's own log whatever the log allows, and says in its remarks what it does not:
+/// without odometry no windows, no mirror, no refinement; with fewer than four known landmarks no
+/// map by them.
+SlamRunResult range_map(RangeLog log, const std::optional<KnownLandmarks>& known);
+
+/// The record whose path and landmarks are handed out: of the refinements the one that fits best,
+/// else the first of the spectral ones that came out, known landmarks first, else what there is.
+/// Null if no method gave a path with a landmark.
+const SlamRecord* best_record(const SlamRun& run);
+
+/// The folder of a range-only map while it is written: made, checked, locked, and rid of what a
+/// killed process left behind.
+class SlamFolder {
+ public:
+  /// @throws IoError if the folder holds anything else, or what was made of another log or with
+  ///         other known landmarks, or if another process writes there.
+  SlamFolder(const std::filesystem::path& folder, const SlamRun& run);
+
+  const std::filesystem::path& path() const { return path_; }
+
+ private:
+  std::filesystem::path path_;
+  FolderLock lock_;
+};
+
+}  // namespace mapproof

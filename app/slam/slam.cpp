@@ -1,0 +1,212 @@
+#include <array>
+#include <memory>
+
+#include <fmt/format.h>
+
+#include "app/build_facts.hpp"
+#include "app/commands.hpp"
+#include "app/input_streams.hpp"
+#include "app/map/incremental_map.hpp"
+#include "app/map/incremental_outputs.hpp"
+#include "app/map/map_folder.hpp"
+#include "app/result_json.hpp"
+#include "app/slam/incremental_ranges.hpp"
+#include "app/slam/range_map.hpp"
+#include "app/slam/slam_json.hpp"
+#include "app/study/slam_outputs.hpp"
+#include "core/base/errors.hpp"
+#include "core/base/files.hpp"
+#include "core/records/observations/trajectory_files.hpp"
+#include "core/records/ranges/range_log_files.hpp"
+#include "core/records/studies/slam_run_json.hpp"
+#include "core/records/studies/slam_store.hpp"
+#include "render/figures/status_words.hpp"
+
+namespace mapproof {
+namespace {
+
+namespace fs = std::filesystem;
+
+struct SlamArguments {
+  std::string data;
+  std::string out;
+  std::string known;
+  std::optional<std::string> templates;
+  RangeLogOptions log;
+  std::string truth;
+  std::string true_landmarks;
+  std::string odometry;
+  bool follow = false;
+  std::string every = "1s";
+  int jobs = 1;
+};
+
+/// A study of this one log.
+SlamStudy study_of(const SlamRun& run) {
+  SlamStudy study;
+  study.name = "own";
+  study.title = "Range-only map of " + run.log.name;
+  study.provenance = build_provenance();
+  study.runs = {run};
+  study.runs[0].upgrade.reset();  // Its scene would make a person wait for VTK.
+  return study;
+}
+
+void write_outputs(const SlamArguments& arguments, const SlamRunResult& result,
+                   const Templates& page, const std::string& command) {
+  const SlamRun& run = result.run;
+  const SlamFolder folder(arguments.out, run);
+  const fs::path& out = folder.path();
+  // The file that marks the folder comes first: a killed command can then be repeated.
+  write_file(out / kSlamFile, slam_run_json(run));
+  write_paths(run, out / "paths");
+  if (const SlamRecord* best = best_record(run)) {
+    write_file(out / "landmarks.csv", landmarks_csv(run.log.landmarks, best->estimate.landmarks_m));
+    write_file(out / "path.csv", trajectory_csv(best->estimate.path));
+    write_file(out / "path.tum", trajectory_tum(best->estimate.path));
+  }
+  write_report(slam_folder_report(out, study_of(run),
+                                  {.methods = result.timings, .factorization = {}}, {}, command),
+               page, arguments.jobs);
+}
+
+nlohmann::ordered_json slam_result(const SlamRun& run, const fs::path& out) {
+  const SlamRecord* best = best_record(run);
+  nlohmann::ordered_json object{
+      {"name", run.log.name},
+      {"method", best == nullptr ? nlohmann::ordered_json(nullptr)
+                                 : nlohmann::ordered_json(info(best->method).name)},
+      {"window_s",
+       run.windows ? number_or_null(run.windows->chosen_s) : nlohmann::ordered_json(nullptr)},
+      {"landmarks", nlohmann::ordered_json::array()},
+      {"methods", nlohmann::ordered_json::array()},
+      {"remarks", run.log.remarks},
+      {"slam", (out / kSlamFile).string()},
+      {"report", (out / "report.html").string()}};
+  for (Eigen::Index n = 0; best != nullptr && n < best->estimate.landmarks_m.rows(); ++n)
+    object["landmarks"].push_back({{"name", run.log.landmarks[static_cast<std::size_t>(n)]},
+                                   {"x_m", number_or_null(best->estimate.landmarks_m(n, 0))},
+                                   {"y_m", number_or_null(best->estimate.landmarks_m(n, 1))}});
+  for (const SlamRecord& record : run.records) {
+    nlohmann::ordered_json method{{"method", info(record.method).name},
+                                  {"poses", record.estimate.path.size()}};
+    put_slam_errors(method, record);
+    object["methods"].push_back(std::move(method));
+  }
+  return object;
+}
+
+std::string slam_text(const SlamRun& run, const fs::path& out) {
+  std::string text;
+  for (const SlamRecord& record : run.records) text += slam_record_text(record) + "\n";
+  const SlamRecord* best = best_record(run);
+  text += best == nullptr
+              ? std::string("No method gave a map.\n")
+              : fmt::format("Path and landmarks handed out: {}.\n", info(best->method).label);
+  return text + (out / "report.html").string() + "\n";
+}
+
+/// Refuses what is of a log that is there as a whole.
+void require_followable(const SlamArguments& arguments) {
+  for (const auto& [value, option] : {std::pair(&arguments.odometry, "--odometry"),
+                                      {&arguments.truth, "--ground-truth"},
+                                      {&arguments.log.name, "--name"}})
+    if (!value->empty())
+      throw InvalidInput(fmt::format(
+          "{}: not with --follow, which maps landmarks from ranges alone; map the log as a whole",
+          option));
+}
+
+int follow_ranges(const SlamArguments& arguments, const Templates& page,
+                  const Invocation& invocation) {
+  require_followable(arguments);
+  const MapResult map = follow_map({.path = arguments.data,
+                                    .table = {.anchors = read_points(arguments.known),
+                                              .truth = read_points(arguments.true_landmarks)},
+                                    .follower = range_follower,
+                                    .every = follow_interval(arguments.every)},
+                                   invocation.console,
+                                   followed_outputs({.out = arguments.out,
+                                                     .observations = arguments.data,
+                                                     .command = invocation.command,
+                                                     .page = page}));
+  return report_followed(map, arguments.out, invocation);
+}
+
+int map_ranges(SlamArguments arguments, const Invocation& invocation) {
+  const Templates page = load_templates(arguments.templates);
+  if (arguments.follow) {
+    refuse_shared_streams(std::array{arguments.data, arguments.known, arguments.true_landmarks});
+    return follow_ranges(arguments, page, invocation);
+  }
+  check_result_folder(arguments.out, kSlamFile, "range-only map");
+  refuse_shared_streams(std::array{arguments.data, arguments.known, arguments.truth,
+                                   arguments.true_landmarks, arguments.odometry});
+  arguments.log.odometry_file = arguments.odometry;
+  arguments.log.truth_file = arguments.truth;
+  arguments.log.landmarks_file = arguments.true_landmarks;
+  RangeLog log = read_range_log(arguments.data, arguments.log);
+  std::optional<KnownLandmarks> known;
+  if (!arguments.known.empty()) known = known_landmarks_of(log, arguments.known);
+  invocation.console.detail(fmt::format("{}: {} landmarks, {} ranges, {} motions", log.name,
+                                        log.landmarks.size(), log.ranges.size(),
+                                        log.odometry.size()));
+  const SlamRunResult result = range_map(std::move(log), known);
+  for (const std::string& remark : result.run.log.remarks) invocation.console.info(remark);
+  for (const SlamRecord& record : result.run.records)
+    for (const Status& status : record.estimate.statuses)
+      invocation.console.warning(fmt::format("{}: {}: {}", info(record.method).name,
+                                             name(status.code), status_words(status)));
+  write_outputs(arguments, result, page, invocation.command);
+  invocation.console.result(slam_text(result.run, arguments.out),
+                            slam_result(result.run, arguments.out));
+  return best_record(result.run) == nullptr ? kNo : kDone;
+}
+
+}  // namespace
+
+Action slam_command(CLI::App& app) {
+  auto arguments = std::make_shared<SlamArguments>();
+  app.description("Map landmarks and path from your own log of ranges and odometry");
+  app.footer(
+      "Examples:\n"
+      "  mapproof slam plaza/plaza1 --out out/plaza1\n"
+      "  mapproof slam Plaza1_.mat --name \"Plaza 1\" --out out/plaza1\n"
+      "  range_sensor | mapproof slam - --follow --every 5s --out out/live\n"
+      "  mapproof slam run7_TD.txt --known-landmarks beacons.csv --ground-truth gps.csv --out "
+      "out/run7\n\n"
+      "DATA: a folder with ranges.csv (and odometry.csv, groundtruth.csv, landmarks.csv), "
+      "NAME.mat\n"
+      "of the Plaza sets, NAME_DR.txt with NAME_TD.txt, or NAME.pyfg. Files may be packed by gzip\n"
+      "or xz; here as in the options a pipe does, too, or standard input (-): the ranges are then\n"
+      "all there is of the log, odometry comes by --odometry. Ranges are single distances\n"
+      "to named landmarks, at any times; how they are brought together is chosen by what it\n"
+      "predicts. Without a truth no error is told; without odometry the map may be mirrored.\n"
+      "Exit code 1 if no map came out; the report then says why.\n");
+  app.add_option("DATA", arguments->data, "File or folder")->required();
+  add_out_option(app, arguments->out, "Folder for map, paths, figures and report")->required();
+  app.add_option("--known-landmarks", arguments->known,
+                 "Places of landmarks that are given to the methods: CSV of name, x [m], y [m]");
+  app.add_option("--ground-truth,--truth", arguments->truth,
+                 "True path, for the errors: CSV of t, x, y, heading");
+  app.add_option("--ground-truth-landmarks", arguments->true_landmarks,
+                 "True places of landmarks, for the errors alone: CSV of name, x [m], y [m]");
+  app.add_option("--odometry", arguments->odometry,
+                 "Odometry in place of that in DATA: CSV of t, ddist, dheading");
+  app.add_flag(
+      "--follow", arguments->follow,
+      "Follow long CSV of ranges that are taken together (step, landmark, range [m]) as it "
+      "grows (-: standard input; packed or not) and write map and figure again and again, "
+      "to its end, SIGINT or SIGTERM; landmarks alone, in constant memory");
+  app.add_option("--every", arguments->every,
+                 "With --follow: after so many steps (100) or seconds (2s)")
+      ->capture_default_str();
+  app.add_option("--name", arguments->log.name, "Of the log, for titles");
+  app.add_option("--templates", arguments->templates,
+                 "Folder whose templates replace the embedded ones")
+      ->check(names_folder());
+  add_jobs_option(app, arguments->jobs);
+  return [arguments](const Invocation& invocation) { return map_ranges(*arguments, invocation); };
+}
+
+}  // namespace mapproof

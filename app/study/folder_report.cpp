@@ -1,0 +1,174 @@
+#include "app/study/folder_report.hpp"
+
+#include <algorithm>
+#include <iterator>
+#include <system_error>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "app/command_line.hpp"
+#include "app/study/embedded_experiments.hpp"
+#include "app/study/study_outputs.hpp"
+#include "core/base/errors.hpp"
+#include "core/base/files.hpp"
+#include "core/base/parallel.hpp"
+#include "core/records/studies/study_store.hpp"
+#include "render/output/write_figure.hpp"
+#include "render/output/write_scene.hpp"
+#include "reports/html/report_html.hpp"
+#include "reports/sections/wording.hpp"
+#include "reports/tables/write_tables.hpp"
+
+namespace mapproof {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// What the reader of several papers' results sees first.
+Section contents_section(const std::vector<FolderReport>& parts) {
+  const bool papers_alone = std::ranges::all_of(parts, &FolderReport::of_paper);
+  Section section{"papers", papers_alone ? "Papers" : "Studies", {}};
+  BulletList papers;
+  for (const FolderReport& part : parts) {
+    for (const std::string& missing : part.missing)
+      section.blocks.emplace_back(
+          Callout{Callout::Tone::kWarning, "Data are missing", {{{missing, Emphasis::kPlain}}}});
+    papers.items.push_back({{{part.report.title, Emphasis::kStrong},
+                             {". " + part.report.subtitle + ".", Emphasis::kPlain}}});
+  }
+  section.blocks.emplace_back(std::move(papers));
+  return section;
+}
+
+std::string figure_command(const fs::path& folder) {
+  return quoted_command({"mapproof", "render", folder.string(), "--figure"});
+}
+
+/// As many of each part's findings, under its title, and of its figures as leave room for the
+/// others'; of findings one at least.
+void add_opening(const Report& part, std::size_t parts, Opening& all) {
+  constexpr std::size_t kMostThumbnails = 6, kMostFindings = 6;
+  std::size_t left = std::max<std::size_t>(1, kMostFindings / parts);
+  for (Paragraph finding : part.opening.findings) {
+    if (left-- == 0) break;
+    finding.phrases.insert(finding.phrases.begin(), {part.title + ". ", Emphasis::kStrong});
+    all.findings.push_back(std::move(finding));
+  }
+  const std::vector<std::string>& ids = part.opening.figure_ids;
+  const std::size_t count = std::min(ids.size(), kMostThumbnails / parts);
+  all.figure_ids.insert(all.figure_ids.end(), ids.begin(),
+                        ids.begin() + static_cast<std::ptrdiff_t>(count));
+}
+
+}  // namespace
+
+std::vector<fs::path> study_folders(const fs::path& folder) {
+  std::vector<fs::path> found;
+  for (const std::string& name : experiment_names())
+    if (is_study(folder / name)) found.push_back(folder / name);
+  return found;
+}
+
+FolderReport read_folder_report(const fs::path& folder, const std::optional<std::string>& command,
+                                const std::string& fallback) {
+  if (!is_study(folder)) {
+    const std::vector<fs::path> studies = study_folders(folder);
+    if (!studies.empty()) {
+      std::vector<FolderReport> parts;
+      for (const fs::path& study : studies)
+        parts.push_back(read_folder_report(study, command, fallback));
+      return joined(folder, std::move(parts));
+    }
+  }
+  std::string made_by = command.value_or("");
+  if (made_by.empty()) {
+    const std::vector<Session> sessions = read_sessions(folder);
+    made_by = sessions.empty() ? fallback : sessions.back().command;
+  }
+  FolderReport report = outputs_of_study(folder).report(folder, made_by);
+  report.report.figure_command = figure_command(folder);
+  return report;
+}
+
+FolderReport joined(const fs::path& folder, std::vector<FolderReport> parts) {
+  FolderReport all{.folder = folder};
+  all.report.title = "Maps from what a robot observed";
+  all.report.subtitle = std::ranges::all_of(parts, &FolderReport::of_paper)
+                            ? "Two papers, made again"
+                            : fmt::format("{} studies", parts.size());
+  if (parts.size() == 2)  // More would fill the head of the page; they are listed below it.
+    all.report.subtitle += ": " + parts[0].report.subtitle + "; " + parts[1].report.subtitle;
+  all.report.sections.push_back(contents_section(parts));
+  all.report.figure_command = figure_command(folder);
+  for (FolderReport& part : parts) {
+    add_opening(part.report, parts.size(), all.report.opening);
+    all.runs += part.runs;
+    std::ranges::move(part.figures, std::back_inserter(all.figures));
+    std::ranges::move(part.scenes, std::back_inserter(all.scenes));
+    std::ranges::move(part.films, std::back_inserter(all.films));
+    std::ranges::move(part.missing, std::back_inserter(all.missing));
+    std::ranges::move(part.in_company, std::back_inserter(all.report.sections));
+    all.report.footer = part.report.footer;
+  }
+  check(all.report);
+  return all;
+}
+
+void add_pictures(const StudyFigures& figures, FolderReport& report) {
+  for (const Figure* figure : all_figures(figures)) report.figures.push_back(*figure);
+  for (const Scene* scene : all_scenes(figures)) report.scenes.push_back(*scene);
+  for (const Film* film : all_films(figures)) report.films.push_back(*film);
+}
+
+Pictures pictures_of(const FolderReport& report) {
+  Pictures pictures;
+  for (const Figure& figure : report.figures) pictures.figures.push_back(&figure);
+  for (const Scene& scene : report.scenes) pictures.scenes.push_back(&scene);
+  return pictures;
+}
+
+Drawn write_pictures(const Pictures& pictures, const Theme& theme, const fs::path& folder, int jobs,
+                     SceneClient& client) {
+  Drawn drawn;
+  for (const Figure* figure : pictures.figures) drawn.svg[figure->id];  // None in parallel.
+  for (const Scene* scene : pictures.scenes) drawn.svg[scene->id];
+  const auto draw_figures = [&] {
+    parallel_for(pictures.figures.size(), [&](std::size_t i) {
+      const Figure& figure = *pictures.figures[i];
+      drawn.svg.at(figure.id) = write_figure(figure, theme, folder);
+    });
+  };
+  const auto draw_scenes = [&] {
+    try {
+      for (const Scene* scene : pictures.scenes)
+        drawn.svg.at(scene->id) = write_scene(*scene, theme, folder, client);
+    } catch (const SceneError& error) {
+      drawn.scene_error = error.what();
+    }
+    drawn.renderer = client.renderer();
+  };
+  parallel_for(jobs, 2, [&](std::size_t i) { i == 0 ? draw_scenes() : draw_figures(); });
+  return drawn;
+}
+
+fs::path write_report(const FolderReport& report, const Templates& page, int jobs) {
+  SceneClient client;
+  const Drawn drawn =
+      write_pictures(pictures_of(report), report_theme(), report.folder / "figures", jobs, client);
+  Report shown = report.report;
+  if (!drawn.renderer.empty()) add_renderer(shown, drawn.renderer);
+  write_tables(shown, report.folder / "tables");
+  const auto drawing = [&](const std::string& id) {
+    const auto found = drawn.svg.find(id);
+    return found == drawn.svg.end() ? std::string() : found->second;
+  };
+  const fs::path path = report.folder / "report.html";
+  HtmlOptions options;
+  options.link_words = report.link_words;
+  write_file(path, report_html(shown, page, drawing, options));
+  if (!drawn.scene_error.empty()) throw SceneError(drawn.scene_error);
+  return path;
+}
+
+}  // namespace mapproof

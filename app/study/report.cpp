@@ -1,0 +1,49 @@
+#include <memory>
+
+#include <fmt/format.h>
+
+#include "app/commands.hpp"
+#include "app/study/folder_report.hpp"
+
+namespace mapproof {
+namespace {
+
+struct ReportArguments {
+  std::string study;
+  std::optional<std::string> templates;
+  int jobs = 1;
+};
+
+int report(const ReportArguments& arguments, const Invocation& invocation) {
+  const Templates page = load_templates(arguments.templates);
+  const FolderReport view = read_folder_report(arguments.study, std::nullopt, invocation.command);
+  const std::filesystem::path path = write_report(view, page, arguments.jobs);
+  invocation.console.detail(fmt::format("{}: {} runs, {} figures, {} scenes", arguments.study,
+                                        view.runs, view.figures.size(), view.scenes.size()));
+  invocation.console.result(path.string() + "\n", {{"study", arguments.study},
+                                                   {"report", path.string()},
+                                                   {"figures", view.figures.size()},
+                                                   {"scenes", view.scenes.size()}});
+  return kDone;
+}
+
+}  // namespace
+
+Action report_command(CLI::App& app) {
+  auto arguments = std::make_shared<ReportArguments>();
+  app.description("Write a study's report again from its records: figures, tables, report.html");
+  app.footer(
+      "Examples:\n"
+      "  mapproof report out\n"
+      "  mapproof report out --templates my-templates\n");
+  app.add_option("DIR", arguments->study, "The study's folder, or that of several studies")
+      ->required()
+      ->check(names_folder());
+  app.add_option("--templates", arguments->templates,
+                 "Folder whose templates replace the embedded ones")
+      ->check(names_folder());
+  add_jobs_option(app, arguments->jobs);
+  return [arguments](const Invocation& invocation) { return report(*arguments, invocation); };
+}
+
+}  // namespace mapproof

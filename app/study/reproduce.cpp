@@ -1,0 +1,151 @@
+#include <algorithm>
+#include <memory>
+#include <system_error>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include "app/commands.hpp"
+#include "app/study/embedded_experiments.hpp"
+#include "app/study/folder_report.hpp"
+#include "app/study/study_order.hpp"
+#include "app/study/study_outputs.hpp"
+#include "app/study/study_run.hpp"
+#include "core/base/errors.hpp"
+#include "core/records/studies/study_store.hpp"
+
+namespace mapproof {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr const char* kAll = "all";                ///< Both papers.
+constexpr const char* kExtensions = "extensions";  ///< The studies beyond them.
+
+struct ReproduceArguments {
+  std::string name;
+  std::string out = "out";
+  int jobs = 1;
+  OrderOptions options{.profile = "full"};
+  std::optional<std::string> templates;
+};
+
+/// The experiments that a name stands for.
+std::vector<std::string> names_of(const ReproduceArguments& arguments) {
+  if (arguments.name == kAll) return paper_names();
+  if (arguments.name != kExtensions) return {arguments.name};
+  const std::vector<std::string> papers = paper_names();
+  std::vector<std::string> names;
+  for (const std::string& name : experiment_names()) {
+    if (std::ranges::find(papers, name) != papers.end()) continue;
+    const bool of_data = needs_data(experiment_text(name, arguments.templates));
+    if (!of_data || arguments.options.data) names.push_back(name);
+  }
+  return names;
+}
+
+/// All that is ordered, read and checked before anything is made.
+std::vector<StudyOrder> read_orders(const ReproduceArguments& arguments) {
+  const std::vector<std::string> names = names_of(arguments);
+  OrderOptions options = arguments.options;
+  options.one_of_several = options.profile_if_there = names.size() > 1;
+  std::vector<StudyOrder> orders;
+  for (const std::string& name : names)
+    orders.push_back(read_study_order(experiment_text(name, arguments.templates), options));
+  check_data_used(orders, options);
+  return orders;
+}
+
+/// Throws if a folder for several studies holds anything else. @throws IoError.
+void check_folder_of_all(const fs::path& folder) {
+  std::error_code error;
+  if (is_study(folder))
+    throw IoError(folder.string(), "holds a study; choose another folder for all of them");
+  std::vector<std::string> ours = experiment_names();
+  ours.insert(ours.end(), {"figures", "figures-paper", "tables", "report.html"});
+  for (fs::directory_iterator entry(folder, error), end; !error && entry != end;
+       entry.increment(error)) {
+    const std::string name = entry->path().filename().string();
+    const bool is_ours = std::ranges::any_of(
+        ours, [&](const std::string& known) { return name.starts_with(known); });
+    if (!is_ours)
+      throw IoError(folder.string(), "is not empty and holds no studies; choose another folder");
+  }
+}
+
+/// The command that makes the same studies and report again, wherever it was typed.
+std::string command_again(const ReproduceArguments& arguments,
+                          const std::vector<StudyOrder>& orders) {
+  std::vector<std::string> words = {"mapproof", "reproduce", arguments.name};
+  const std::vector<std::string> more = words_of(orders, arguments.options);
+  words.insert(words.end(), more.begin(), more.end());
+  words.insert(words.end(), {"--out", arguments.out});
+  return quoted_command(words);
+}
+
+int reproduce(const ReproduceArguments& arguments, const Invocation& invocation) {
+  // First of all, so that a template or data that cannot be used cost no study.
+  const Templates page = load_templates(arguments.templates);
+  const std::vector<StudyOrder> orders = read_orders(arguments);
+  const bool is_alone = orders.size() == 1;
+  if (!is_alone) check_folder_of_all(arguments.out);
+  const std::string command = command_again(arguments, orders);
+  std::string text;
+  nlohmann::ordered_json object;
+  for (const StudyOrder& order : orders) {
+    const fs::path folder =
+        is_alone ? fs::path(arguments.out) : arguments.out / fs::path(order.name);
+    make_study(order, folder, arguments.jobs, command, invocation.console);
+    StudyNumbers numbers = outputs_of_study(folder).numbers(folder);
+    for (const std::string& missing : numbers.missing) invocation.console.warning(missing);
+    text += numbers.text;
+    if (is_alone)
+      object = std::move(numbers.object);
+    else
+      object["studies"].push_back(std::move(numbers.object));
+  }
+  const FolderReport report = read_folder_report(arguments.out, command, "");
+  const fs::path path = write_report(report, page, arguments.jobs);
+  object["figures"] = report.figures.size();
+  object["scenes"] = report.scenes.size();
+  object["report"] = path.string();
+  invocation.console.result(text + path.string() + "\n", object);
+  return kDone;
+}
+
+}  // namespace
+
+Action reproduce_command(CLI::App& app) {
+  auto arguments = std::make_shared<ReproduceArguments>();
+  app.description("Run a known experiment and write its figures and report");
+  app.footer(
+      "Examples:\n"
+      "  mapproof reproduce yairi2007\n"
+      "  mapproof reproduce yairi2007 --profile quick --out out/quick --jobs 2\n"
+      "  mapproof reproduce boots2013 --plaza plaza --out out/boots2013\n"
+      "  mapproof reproduce all --plaza plaza --out out\n"
+      "  mapproof reproduce mrclam --data MRCLAM --out out/mrclam\n\n"
+      "\"all\" makes each study in a folder of its own below DIR and puts them into one report.\n"
+      "\"extensions\" does so with the studies beyond the papers.\n"
+      "The Plaza data are not part of the program: without --plaza the simulated part of "
+      "boots2013\n"
+      "is made, and the report says how to get them.\n"
+      "A study that was stopped goes on where it was; a folder that holds another experiment is "
+      "refused.\n");
+  app.add_option("NAME", arguments->name,
+                 fmt::format("Experiment: {}, all (both papers), or extensions",
+                             fmt::join(experiment_names(), ", ")))
+      ->required();
+  add_out_option(app, arguments->out, "Folder for records, figures and report")
+      ->capture_default_str();
+  app.add_option("--profile", arguments->options.profile, "quick or full")->capture_default_str();
+  add_jobs_option(app, arguments->jobs);
+  add_experiment_options(app, arguments->options.changes);
+  app.add_option("--templates", arguments->templates,
+                 "Folder whose templates and experiments replace the embedded ones")
+      ->check(names_folder());
+  add_data_options(app, arguments->options);
+  return [arguments](const Invocation& invocation) { return reproduce(*arguments, invocation); };
+}
+
+}  // namespace mapproof

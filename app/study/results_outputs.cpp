@@ -1,0 +1,62 @@
+#include <utility>
+
+#include "app/study/study_outputs.hpp"
+#include "core/records/studies/results_study_json.hpp"
+#include "core/score/trajectory_error.hpp"
+#include "reports/sections/results/results_report.hpp"
+
+namespace mapproof {
+namespace {
+
+/// The folder's paths, aligned to their ground truths as study.json asks.
+std::vector<GivenPath> aligned_paths(const std::filesystem::path& folder) {
+  std::vector<GivenPath> paths = read_given_paths(folder);
+  for (GivenPath& path : paths) {
+    if (path.alignment == Alignment::kNone) continue;
+    SlamEstimate estimate;
+    estimate.path = path.path;
+    const auto map = path_alignment(path.path, *path.truth, path.alignment);
+    if (const auto error = trajectory_error(estimate, *path.truth, std::nullopt, path.alignment))
+      path.rms_m = error->rmse_m;
+    if (map) path.path.positions_m = (*map)(path.path.positions_m);
+  }
+  return paths;
+}
+
+/// About study.json, maps/ and paths/.
+std::vector<std::string> file_remarks(const ResultsStudy& study,
+                                      const std::filesystem::path& folder) {
+  std::vector<std::string> remarks;
+  for (const std::string& remark : label_remarks_of(study))
+    remarks.push_back("In study.json, " + remark + ".");
+  for (const std::string& remark : passed_over_files(folder)) remarks.push_back(remark + ".");
+  return remarks;
+}
+
+FolderReport table_report(const std::filesystem::path& folder, const std::string& command) {
+  const ResultsStudy study = read_results_study(folder);
+  const ResultsView view(study);
+  const std::vector<MethodComparison> comparisons = compare_methods(view);
+  StudyFigures figures = results_figures(view, comparisons);
+  FigureGroup given = given_figures(study, read_given_maps(folder), aligned_paths(folder));
+  if (!given.empty()) figures.groups.push_back(std::move(given));
+  const ResultsReportInput input{.view = view,
+                                 .comparisons = comparisons,
+                                 .figures = figures,
+                                 .provenance = given_provenance(view, command),
+                                 .remarks = file_remarks(study, folder)};
+  FolderReport result{.folder = folder,
+                      .of_paper = false,
+                      .report = results_report(input),
+                      .in_company = results_sections(input),
+                      .runs = view.runs()};
+  add_pictures(figures, result);
+  return result;
+}
+
+}  // namespace
+
+const StudyOutputs kTableOutputs = {
+    .study = kResultsStudy, .report = table_report, .numbers = nullptr};
+
+}  // namespace mapproof

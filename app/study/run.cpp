@@ -1,0 +1,59 @@
+#include <memory>
+
+#include "app/commands.hpp"
+#include "app/study/study_order.hpp"
+#include "app/study/study_outputs.hpp"
+#include "app/study/study_run.hpp"
+
+namespace mapproof {
+namespace {
+
+struct RunArguments {
+  std::string experiment;
+  std::string out;
+  int jobs = 1;
+  OrderOptions options;
+};
+
+/// The two commands that make the same study and a report of it, wherever they are typed.
+std::string command_again(const RunArguments& arguments, const StudyOrder& order) {
+  std::vector<std::string> words = {"mapproof", "run", arguments.experiment};
+  const std::vector<std::string> more = words_of({&order, 1}, arguments.options);
+  words.insert(words.end(), more.begin(), more.end());
+  words.insert(words.end(), {"--out", arguments.out});
+  return quoted_command(words) + " && " + quoted_command({"mapproof", "report", arguments.out});
+}
+
+int run(const RunArguments& arguments, const Invocation& invocation) {
+  const StudyOrder order = read_study_order(experiment_of(arguments.experiment), arguments.options);
+  check_data_used({&order, 1}, arguments.options);
+  make_study(order, arguments.out, arguments.jobs, command_again(arguments, order),
+             invocation.console);
+  StudyNumbers numbers = outputs_of_study(arguments.out).numbers(arguments.out);
+  numbers.object["study"] = arguments.out;
+  invocation.console.result(numbers.text + arguments.out + "\n", numbers.object);
+  return kDone;
+}
+
+}  // namespace
+
+Action run_command(CLI::App& app) {
+  auto arguments = std::make_shared<RunArguments>();
+  app.description("Run an experiment and write its records, nothing else");
+  app.footer(
+      "Examples:\n"
+      "  mapproof run templates/experiments/yairi2007.json --profile quick --out out/study\n"
+      "  mapproof run templates/experiments/boots2013.json --plaza plaza --out out/range\n\n"
+      "docs/file-formats.md says what an experiment's file holds.\n");
+  app.add_option("EXPERIMENT", arguments->experiment,
+                 "The experiment's JSON file, or a name that reproduce takes")
+      ->required();
+  add_out_option(app, arguments->out, "Folder for the records")->required();
+  app.add_option("--profile", arguments->options.profile, "One of the profiles in the file");
+  add_jobs_option(app, arguments->jobs);
+  add_experiment_options(app, arguments->options.changes);
+  add_data_options(app, arguments->options);
+  return [arguments](const Invocation& invocation) { return run(*arguments, invocation); };
+}
+
+}  // namespace mapproof

@@ -1,0 +1,102 @@
+#include "app/study/study_order.hpp"
+
+#include <algorithm>
+
+#include <fmt/format.h>
+
+#include "app/build_facts.hpp"
+#include "core/base/errors.hpp"
+#include "core/base/files.hpp"
+#include "core/base/sha256.hpp"
+#include "core/records/experiments/profiles.hpp"
+#include "core/records/studies/results_study_json.hpp"
+#include "core/records/studies/study_folder.hpp"
+#include "core/topics/study_kind.hpp"
+
+namespace mapproof {
+namespace {
+
+constexpr std::string_view kFull = "full";
+
+/// The profile asked for; "" where it may be missing and is.
+std::string profile_of(const OrderOptions& options, const std::vector<std::string>& known) {
+  const bool is_there = std::ranges::find(known, options.profile) != known.end();
+  const bool may_be_missing = options.profile_if_there || options.profile == kFull;
+  return is_there || !may_be_missing ? options.profile : "";
+}
+
+}  // namespace
+
+void add_data_options(CLI::App& app, OrderOptions& options) {
+  app.add_option("--plaza", options.plaza, "Folder of the Plaza data, for experiments on them")
+      ->check(CLI::ExistingDirectory);
+  app.add_option("--data", options.data,
+                 "Folder of data sets, or of one, for experiments made of them (mrclam)")
+      ->check(CLI::ExistingDirectory);
+}
+
+StudyOrder read_study_order(const ExperimentText& file, const OrderOptions& options) {
+  const StudyKind& kind = kind_of_experiment(file.text, file.source);
+  PlanOptions how{
+      .profile = profile_of(options, profile_names(file.text, file.source, kind.experiment)),
+      .changes = options.changes,
+      .one_of_several = options.one_of_several,
+      .plaza = options.plaza,
+      .data = options.data};
+  StudyOrder order{.digest = sha256_hex(options.profile + "\n" + file.text),
+                   .plan = kind.plan(file.text, file.source, how)};
+  order.name = order.plan.name;
+  return order;
+}
+
+StudyOrder given_study_order(const std::filesystem::path& folder) {
+  StudyOrder order{.name = read_results_study(folder).name, .given = folder};
+  std::string texts;
+  for (const std::filesystem::path& file : results_study_files(folder))
+    texts += file.string() + "\n" + read_file(folder / file);
+  order.digest = sha256_hex(texts);
+  return order;
+}
+
+bool needs_data(const ExperimentText& file) {
+  const StudyKind& kind = kind_of_experiment(file.text, file.source);
+  return kind.needs_data != nullptr && kind.needs_data(file.text, file.source);
+}
+
+void check_data_used(std::span<const StudyOrder> orders, const OrderOptions& options) {
+  const auto refuse = [&](std::string_view option) {
+    throw InvalidInput(fmt::format(
+        "{}: {} uses no such data", option,
+        orders.size() == 1 ? "the experiment " + orders.front().name : "none of the experiments"));
+  };
+  const auto uses = [&](bool StudyPlan::*data) {
+    return std::ranges::any_of(orders, [&](const StudyOrder& order) { return order.plan.*data; });
+  };
+  if (options.plaza && !uses(&StudyPlan::uses_plaza)) refuse("--plaza");
+  if (options.data && !uses(&StudyPlan::uses_data)) refuse("--data");
+}
+
+std::vector<std::string> words_of(std::span<const StudyOrder> orders, const OrderOptions& options) {
+  std::vector<std::string> words;
+  if (!options.profile.empty()) words.insert(words.end(), {"--profile", options.profile});
+  // Studies of several experiments have a seed each.
+  if (orders.size() == 1 || options.changes.seed)
+    words.insert(words.end(), {"--seed", std::to_string(orders.front().plan.seed)});
+  const auto has_runs = [](const StudyOrder& order) { return order.plan.layouts.has_value(); };
+  if (const auto order = std::ranges::find_if(orders, has_runs); order != orders.end()) {
+    const StudyPlan& plan = order->plan;
+    if (options.changes.layouts)
+      words.insert(words.end(), {"--layouts", std::to_string(*plan.layouts)});
+    if (options.changes.poses) words.insert(words.end(), {"--poses", std::to_string(*plan.poses)});
+  }
+  if (options.plaza) words.insert(words.end(), {"--plaza", *options.plaza});
+  if (options.data) words.insert(words.end(), {"--data", *options.data});
+  return words;
+}
+
+std::string study_json(const StudyOrder& order) {
+  return order.given.empty() ? order.plan.start(build_provenance()).text
+                             : read_file(order.given / kStudyFile);
+}
+
+}  // namespace mapproof

@@ -1,0 +1,84 @@
+#include "app/study/study_run.hpp"
+
+#include <chrono>
+#include <ctime>
+#include <optional>
+
+#include <fmt/chrono.h>
+#include <fmt/format.h>
+#include <sys/resource.h>
+#include <unistd.h>
+
+#include "app/build_facts.hpp"
+#include "app/progress_line.hpp"
+#include "core/base/files.hpp"
+#include "core/base/version.hpp"
+#include "core/records/studies/results_study_json.hpp"
+#include "core/topics/study_kind.hpp"
+
+namespace mapproof {
+namespace {
+
+namespace fs = std::filesystem;
+
+std::string host_name() {
+  char name[256] = "";
+  return ::gethostname(name, sizeof name - 1) == 0 ? name : "";
+}
+
+std::optional<double> peak_memory_mib() {
+  rusage usage{};
+  if (::getrusage(RUSAGE_SELF, &usage) != 0) return std::nullopt;
+  return static_cast<double>(usage.ru_maxrss) / 1024.0;  // Linux counts in KiB.
+}
+
+/// When a session began.
+struct Stopwatch {
+  using Clock = std::chrono::steady_clock;
+  Clock::time_point start = Clock::now();
+  std::string started_utc = fmt::format("{:%Y-%m-%dT%H:%M:%SZ}", fmt::gmtime(std::time(nullptr)));
+
+  double seconds() const { return std::chrono::duration<double>(Clock::now() - start).count(); }
+};
+
+void copy_study(const fs::path& from, const fs::path& to) {
+  for (const fs::path& file : results_study_files(from))
+    write_file(to / file, read_file(from / file));
+}
+
+}  // namespace
+
+void make_study(const StudyOrder& order, const fs::path& folder, int jobs,
+                const std::string& command, const Console& console) {
+  if (!order.given.empty()) {
+    copy_study(order.given, folder);
+    return;
+  }
+  const Stopwatch watch;
+  for (const std::string& remark : order.plan.remarks) console.detail(remark);
+  StudyWriter writer(folder, order.plan.start(build_provenance()));
+  if (writer.redone())
+    console.warning(fmt::format("{}: its records were made by another solver; they are made again",
+                                folder.string()));
+  ProgressLine line(!console.is_quiet());
+  Progress last;
+  run_study(order.plan, writer, jobs, [&](const Progress& progress) {
+    last = progress;
+    line(progress);
+  });
+  if (last.reused < last.total)
+    writer.write_session({.command = command,
+                          .started_utc = watch.started_utc,
+                          .host = host_name(),
+                          .jobs = jobs,
+                          .seconds = watch.seconds(),
+                          .peak_memory_mib = peak_memory_mib()});
+  write_results_table(folder);
+  console.detail(fmt::format("{}: solver {}, commit {}, {} jobs, {:.2f} s", folder.string(),
+                             solver_digest().substr(0, 12), source_commit(), jobs,
+                             watch.seconds()));
+  console.info(fmt::format("{}: {} {}, {} of them reused", folder.string(), last.total, last.noun,
+                           last.reused));
+}
+
+}  // namespace mapproof

@@ -1,0 +1,22 @@
+#pragma once
+
+#include <optional>
+
+#include "core/model/points.hpp"
+
+namespace mapproof {
+
+/// `points` moved, turned, mirrored and scaled to lie on `onto` best in least squares, over the
+/// rows that both have; empty if those are fewer than three.
+/// @param points, onto  M x 2; NaN rows are left out, and stay NaN.
+/// @throws InvalidInput if they differ in number.
+std::optional<Points> aligned_to(const Points& points, const Points& onto);
+
+/// The same of metric points: moved, turned and mirrored alone.
+std::optional<Points> laid_rigidly_on(const Points& points, const Points& onto);
+
+/// How far `points`, aligned to `onto`, lie from it: root mean square over the rows that both have,
+/// in units of that of `onto` about its centre. In [0, 1]; 1 if they cannot be aligned to it.
+double relative_gap(const Points& points, const Points& onto);
+
+}  // namespace mapproof

@@ -1,0 +1,35 @@
+#include "core/model/detection_log.hpp"
+
+#include <algorithm>
+#include <utility>
+
+namespace mapproof {
+
+std::vector<Eigen::Index> unseen_in(const DetectionLog& log) {
+  std::vector<bool> is_seen(log.names.size(), false);
+  for (const Detection& one : log.detections)
+    is_seen[static_cast<std::size_t>(one.landmark)] = true;
+  std::vector<Eigen::Index> rows;
+  for (std::size_t i = 0; i < is_seen.size(); ++i)
+    if (!is_seen[i]) rows.push_back(static_cast<Eigen::Index>(i));
+  return rows;
+}
+
+void sort_detections(std::vector<Detection>& detections) {
+  std::ranges::stable_sort(detections, {},
+                           [](const Detection& one) { return std::pair(one.step, one.landmark); });
+}
+
+ObservationHistory history_of(const DetectionLog& log, Sensor sensor) {
+  const bool is_visibility = sensor == Sensor::kVisibility;
+  ObservationHistory history{.sensor = sensor, .names = log.names, .values = {}};
+  history.values.setConstant(static_cast<Eigen::Index>(log.names.size()), log.steps,
+                             is_visibility ? 0.0 : std::numeric_limits<double>::quiet_NaN());
+  for (const Detection& seen : log.detections)
+    history.values(seen.landmark, seen.step) = is_visibility              ? 1.0
+                                               : sensor == Sensor::kRange ? seen.range_m
+                                                                          : seen.bearing_rad;
+  return history;
+}
+
+}  // namespace mapproof

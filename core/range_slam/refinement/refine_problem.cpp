@@ -1,0 +1,237 @@
+#include "core/range_slam/refinement/refine_problem.hpp"
+
+#include <cmath>
+#include <limits>
+#include <mutex>
+
+#include <ceres/loss_function.h>
+#include <ceres/problem.h>
+#include <ceres/solver.h>
+#include <glog/logging.h>
+
+#include "core/linalg/decompositions.hpp"
+
+namespace mapproof {
+namespace {
+
+using RowMajor = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
+
+/// What Ceres logs goes to stderr however quiet its options are. Once: threads of a sweep solve
+/// side by side, and the level is one plain number for all.
+void silence_log() {
+  static std::once_flag once;
+  std::call_once(once, [] { FLAGS_minloglevel = google::GLOG_FATAL; });
+}
+
+ceres::Solver::Options solver_options(int most_iterations) {
+  ceres::Solver::Options options;
+  options.linear_solver_type = ceres::SPARSE_NORMAL_CHOLESKY;
+  // Eigen's own factor: the others go through a BLAS whose kernels change with the machine.
+  options.sparse_linear_algebra_library_type = ceres::EIGEN_SPARSE;
+  options.num_threads = 1;
+  options.max_num_iterations = most_iterations;
+  options.function_tolerance = 1e-9;
+  options.parameter_tolerance = 1e-10;
+  options.logging_type = ceres::SILENT;
+  options.minimizer_progress_to_stdout = false;
+  return options;
+}
+
+}  // namespace
+
+RefineProblem::RefineProblem(const RangeLog& log, const KeyPoses& keys,
+                             const std::vector<bool>& is_placed, const RefineOptions& options)
+    : options_(options), is_placed_(is_placed), is_known_(is_placed.size(), false) {
+  if (options.known)
+    for (const Eigen::Index row : options.known->rows)
+      is_known_[static_cast<std::size_t>(row)] = true;
+  for (const KeyMotion& motion : keys.motions())
+    motions_.push_back(std::make_unique<MotionResidual>(motion));
+  const Eigen::VectorXd& times = keys.path().time_s;
+  for (const RangeReading& reading : log.ranges) {
+    const auto landmark = static_cast<std::size_t>(reading.landmark);
+    if (!is_placed_[landmark] || reading.time_s < times(0) ||
+        reading.time_s > times(times.size() - 1))
+      continue;
+    const BetweenPoses place = keys.at(reading.time_s);
+    ranges_.push_back(
+        {.residual = std::make_unique<RangeResidual>(place, reading.range_m, options.range_sigma_m),
+         .before = place.before,
+         .landmark = landmark});
+  }
+}
+
+RefineProblem::Outcome RefineProblem::solve(RefineState& state) const {
+  silence_log();
+  ceres::Problem::Options ownership;
+  ownership.cost_function_ownership = ceres::DO_NOT_TAKE_OWNERSHIP;
+  ownership.loss_function_ownership = ceres::DO_NOT_TAKE_OWNERSHIP;
+  ownership.disable_all_safety_checks = true;
+  ceres::Problem problem(ownership);
+  ceres::HuberLoss huber(options_.huber);
+  for (std::size_t i = 0; i < motions_.size(); ++i)
+    problem.AddResidualBlock(motions_[i].get(), nullptr, state.poses[i].data(),
+                             state.poses[i + 1].data());
+  for (const Range& range : ranges_) {
+    const auto before = static_cast<std::size_t>(range.before);
+    problem.AddResidualBlock(range.residual.get(), &huber, state.poses[before].data(),
+                             state.poses[before + 1].data(), state.landmarks[range.landmark].data(),
+                             &state.scale, &state.offsets_m[range.landmark]);
+  }
+  if (holds_first_pose()) problem.SetParameterBlockConstant(state.poses[0].data());
+  if (!options_.estimate_scale && !ranges_.empty()) problem.SetParameterBlockConstant(&state.scale);
+  std::vector<std::unique_ptr<OffsetPrior>> priors;
+  for (std::size_t n = 0; n < is_placed_.size(); ++n) {
+    if (!problem.HasParameterBlock(state.landmarks[n].data())) continue;
+    if (is_held(n)) problem.SetParameterBlockConstant(state.landmarks[n].data());
+    if (options_.offset_sigma_m > 0.0) {
+      priors.push_back(std::make_unique<OffsetPrior>(options_.offset_sigma_m));
+      problem.AddResidualBlock(priors.back().get(), nullptr, &state.offsets_m[n]);
+    } else {
+      problem.SetParameterBlockConstant(&state.offsets_m[n]);
+    }
+  }
+  ceres::Solver::Summary summary;
+  ceres::Solve(solver_options(options_.most_iterations), &problem, &summary);
+  return {.is_usable = summary.IsSolutionUsable() && std::isfinite(summary.final_cost),
+          .has_converged = summary.termination_type == ceres::CONVERGENCE,
+          .cost = summary.final_cost,
+          .iterations = summary.num_successful_steps + summary.num_unsuccessful_steps};
+}
+
+RefineProblem::Shared RefineProblem::shared() const {
+  Shared shared;
+  std::vector<bool> has_range(is_placed_.size(), false);
+  for (const Range& range : ranges_) has_range[range.landmark] = true;
+  for (std::size_t n = 0; n < is_placed_.size(); ++n) {
+    shared.landmarks.push_back(is_held(n) ? -1 : shared.count);
+    if (!is_held(n)) shared.count += 2;
+  }
+  if (options_.estimate_scale) shared.scale = shared.count++;
+  for (std::size_t n = 0; n < is_placed_.size(); ++n) {
+    const bool is_free = options_.offset_sigma_m > 0.0 && has_range[n];
+    shared.offsets.push_back(is_free ? shared.count++ : -1);
+  }
+  return shared;
+}
+
+void RefineProblem::add_motions(const RefineState& state, ChainInformation& information) const {
+  const Eigen::Index held = holds_first_pose() ? 1 : 0;
+  for (std::size_t i = 0; i < motions_.size(); ++i) {
+    const double* parameters[] = {state.poses[i].data(), state.poses[i + 1].data()};
+    Eigen::Vector3d residual;
+    RowMajor first(3, 3);
+    RowMajor second(3, 3);
+    double* jacobians[] = {first.data(), second.data()};
+    motions_[i]->Evaluate(parameters, residual.data(), jacobians);
+    information.add(static_cast<Eigen::Index>(i) - held, first, second, {}, {});
+  }
+}
+
+void RefineProblem::add_ranges(const RefineState& state, const Shared& shared,
+                               ChainInformation& information) const {
+  const Eigen::Index held = holds_first_pose() ? 1 : 0;
+  for (const Range& range : ranges_) {
+    const auto before = static_cast<std::size_t>(range.before);
+    const double* parameters[] = {state.poses[before].data(), state.poses[before + 1].data(),
+                                  state.landmarks[range.landmark].data(), &state.scale,
+                                  &state.offsets_m[range.landmark]};
+    double residual = 0.0;
+    RowMajor first(1, 3);
+    RowMajor second(1, 3);
+    Eigen::Vector4d rest;  // landmark, scale, offset
+    double* jacobians[] = {first.data(), second.data(), rest.data(), rest.data() + 2,
+                           rest.data() + 3};
+    range.residual->Evaluate(parameters, &residual, jacobians);
+    // Huber's weight is the slope of the loss in the squared residual.
+    const double root =
+        std::sqrt(std::abs(residual) > options_.huber ? options_.huber / std::abs(residual) : 1.0);
+    std::vector<Eigen::Index> columns;
+    std::vector<double> values;
+    const auto take = [&](Eigen::Index column, double value) {
+      columns.push_back(column);
+      values.push_back(root * value);
+    };
+    if (const Eigen::Index column = shared.landmarks[range.landmark]; column >= 0) {
+      take(column, rest(0));
+      take(column + 1, rest(1));
+    }
+    if (shared.scale >= 0) take(shared.scale, rest(2));
+    if (const Eigen::Index column = shared.offsets[range.landmark]; column >= 0)
+      take(column, rest(3));
+    information.add(
+        range.before - held, root * first, root * second, columns,
+        Eigen::Map<Eigen::RowVectorXd>(values.data(), static_cast<Eigen::Index>(values.size())));
+  }
+}
+
+std::optional<RefineProblem::Covariances> RefineProblem::covariances(
+    const RefineState& state) const {
+  const Shared places = shared();
+  const Eigen::Index held = holds_first_pose() ? 1 : 0;
+  ChainInformation information(static_cast<Eigen::Index>(state.poses.size()) - held, places.count);
+  add_motions(state, information);
+  add_ranges(state, places, information);
+  for (const Eigen::Index column : places.offsets)
+    if (column >= 0)
+      information.add(-1, {}, {}, {column},
+                      Eigen::MatrixXd::Constant(1, 1, 1.0 / options_.offset_sigma_m));
+  auto inverse = information.inverse();
+  if (!inverse) return std::nullopt;
+  if (held == 1) {
+    inverse->poses.insert(inverse->poses.begin(), Eigen::Matrix3d::Zero());
+    inverse->shared_pose.insert(inverse->shared_pose.begin(),
+                                Eigen::MatrixXd::Zero(places.count, 3));
+  }
+  Covariances covariances;
+  covariances.are_of_first_pose = held == 1 && !free_of_frame(state, places, *inverse);
+  for (std::size_t n = 0; n < is_placed_.size(); ++n) {
+    const Eigen::Index column = places.landmarks[n];
+    covariances.landmarks.emplace_back(
+        Eigen::Matrix2d::Constant(is_placed_[n] ? 0.0 : std::numeric_limits<double>::quiet_NaN()));
+    if (column >= 0) covariances.landmarks.back() = inverse->shared.block<2, 2>(column, column);
+  }
+  for (const Eigen::Matrix3d& pose : inverse->poses)
+    covariances.positions.emplace_back(pose.topLeftCorner<2, 2>());
+  return covariances;
+}
+
+bool RefineProblem::free_of_frame(const RefineState& state, const Shared& shared,
+                                  ChainInformation::Covariance& covariance) const {
+  // How a landmark moves with the three rigid motions, about the middle of all of them.
+  Eigen::Vector2d middle = Eigen::Vector2d::Zero();
+  double count = 0.0;
+  for (std::size_t n = 0; n < state.landmarks.size(); ++n) {
+    if (shared.landmarks[n] < 0) continue;
+    middle += state.landmarks[n];
+    count += 1.0;
+  }
+  if (count < 2.0) return false;
+  middle /= count;
+  const auto motions_at = [&](const Eigen::Vector2d& place) {
+    Eigen::Matrix<double, 2, 3> moves;
+    moves << 1.0, 0.0, -(place(1) - middle(1)), 0.0, 1.0, place(0) - middle(0);
+    return moves;
+  };
+  Eigen::MatrixXd G = Eigen::MatrixXd::Zero(shared.count, 3);
+  for (std::size_t n = 0; n < state.landmarks.size(); ++n)
+    if (const Eigen::Index column = shared.landmarks[n]; column >= 0)
+      G.middleRows<2>(column) = motions_at(state.landmarks[n]);
+  const Eigen::Matrix3d M = G.transpose() * G;
+  const Eigen::LDLT<Eigen::Matrix3d> factor(M);
+  if (!(M(2, 2) > 0.0)) return false;
+  // The motion that a rigid fit of the landmarks takes back: F times their errors.
+  const Eigen::MatrixXd F = factor.solve(G.transpose());
+  const Eigen::Matrix3d motion = F * covariance.shared * F.transpose();
+  for (std::size_t i = 0; i < covariance.poses.size(); ++i) {
+    const Eigen::Matrix<double, 2, 3> moves = motions_at(state.poses[i].head<2>());
+    const Eigen::Matrix2d cross = moves * (F * covariance.shared_pose[i].leftCols<2>());
+    covariance.poses[i].topLeftCorner<2, 2>() +=
+        moves * motion * moves.transpose() - cross - cross.transpose();
+  }
+  const Eigen::MatrixXd P = Eigen::MatrixXd::Identity(shared.count, shared.count) - G * F;
+  covariance.shared = (P * covariance.shared * P.transpose()).eval();
+  return true;
+}
+
+}  // namespace mapproof

@@ -1,0 +1,17 @@
+#pragma once
+
+#include <string>
+
+#include "core/base/byte_source.hpp"
+
+namespace mapproof {
+
+/// Whether an input is JSON, by its first character; by its name too, so that one that is broken
+/// there is called what it is. It stays unread.
+bool is_json(ByteSource& source);
+
+/// The name of a JSON input's schema, empty if it says none. It stays unread.
+/// @note Scans no further than the name, which mostly comes first.
+std::string json_schema(ByteSource& source);
+
+}  // namespace mapproof

@@ -1,0 +1,34 @@
+#pragma once
+
+#include <filesystem>
+
+#include "core/records/observations/detections.hpp"
+#include "core/records/observations/landmarks_csv.hpp"
+#include "core/records/observations/observations.hpp"
+
+namespace mapproof {
+
+/// A data set of the UTIAS MRCLAM collection [leung2011]: Barcodes.dat, RobotN_Measurement.dat and,
+/// if it is there, Landmark_Groundtruth.dat, each of them packed (NAME.gz, NAME.xz) or not.
+///
+/// The scans of all robots are pooled, robot by robot and in order of time: rows of one robot with
+/// one time stamp are one step. Landmarks are the subjects above 5, named by their number. Dropped
+/// and remarked: rows with barcodes of nobody, rows of robots (subjects 1 to 5), a landmark's
+/// second row in one scan, and scans that then show no landmark, since a step at which nothing
+/// is seen tells nothing about any two landmarks. A robot's file that is empty is remarked, a truth
+/// that is not there as well.
+/// @throws IoError naming file and line.
+DetectionSource read_mrclam_detections(const std::filesystem::path& folder);
+
+/// What one kind of sensor of the set saw.
+/// @return Visibility: 0 where a landmark was not seen. Bearing and range: NaN there.
+/// @throws IoError as above.
+ObservationSource read_mrclam(const std::filesystem::path& folder, Sensor sensor);
+
+/// Whether the folder holds a RobotN_Measurement.dat.
+bool is_mrclam(const std::filesystem::path& folder);
+
+/// Landmark_Groundtruth.dat: subject, x, y, and their standard deviations, which are left out.
+NamedPoints parse_groundtruth(std::string_view text, const std::string& source);
+
+}  // namespace mapproof

@@ -1,0 +1,46 @@
+#pragma once
+
+#include <functional>
+#include <map>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include <Eigen/Core>
+
+#include "core/records/observations/landmarks_csv.hpp"
+
+namespace mapproof {
+
+/// Whether a header's cell names the column of names: name, landmark, object or id, in any case.
+bool is_word_for_names(std::string_view cell);
+
+/// The names of landmarks as a table is read: not empty, at most kLongestName bytes, at most
+/// kMostLandmarks of them (see limits.hpp).
+class NameList {
+ public:
+  explicit NameList(const std::string& source) : source_(source) {}
+
+  /// Adds a name that must be new. @throws IoError at `line`, naming the other line too.
+  Eigen::Index add(std::string_view name, std::size_t line);
+
+  /// The place of a name, added if it is new. @throws IoError as add().
+  Eigen::Index find_or_add(std::string_view name, std::size_t line);
+
+  const std::vector<std::string>& names() const { return names_; }
+  /// "line 7", of each name.
+  const std::vector<std::string>& places() const { return places_; }
+
+ private:
+  const std::string& source_;
+  std::vector<std::string> names_;
+  std::vector<std::string> places_;
+  std::map<std::string, Eigen::Index, std::less<>> index_;
+};
+
+/// The landmarks of a whole table. @param coordinates  x and y of each name in turn.
+/// @throws IoError if there are none.
+NamedPoints named_points(const NameList& names, const std::vector<double>& coordinates,
+                         const std::string& source);
+
+}  // namespace mapproof

@@ -1,0 +1,90 @@
+#include "core/records/observations/observation_stream.hpp"
+
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include "core/json/text_input.hpp"
+#include "core/records/limits.hpp"
+#include "core/records/observations/detection_columns.hpp"
+
+namespace mapproof {
+
+ObservationStream::ObservationStream(std::string source, Sensor sensor, AngleUnit unit)
+    : table_(std::move(source)),
+      sensor_(sensor),
+      unit_(unit),
+      values_(table_.source(), sensor, unit) {}
+
+void ObservationStream::end() {
+  table_.end([this](const TableRow& row) { read_row(row); });
+  if (detections_) detections_->end();
+  if (open_) complete_.push_back(*std::exchange(open_, std::nullopt));
+}
+
+std::vector<StreamedStep> ObservationStream::steps() {
+  if (!detections_) return std::exchange(complete_, {});
+  std::vector<StreamedStep> steps;
+  for (const StreamedScan& scan : detections_->scans()) {
+    steps.push_back({scan.scan.key, {}});
+    for (const Detection& seen : scan.detections) {
+      const double value = sensor_ == Sensor::kVisibility ? 1.0
+                           : sensor_ == Sensor::kRange    ? seen.range_m
+                                                          : seen.bearing_rad;
+      if (!std::isnan(value)) steps.back().values.emplace_back(seen.landmark, value);
+    }
+  }
+  return steps;
+}
+
+std::vector<std::string> ObservationStream::remarks() const {
+  std::vector<std::string> remarks =
+      (detections_ ? detections_->rows().scans() : values_.scans()).remarks();
+  if (table_.cut_remark() != nullptr) remarks.emplace_back(table_.cut_remark());
+  return remarks;
+}
+
+void ObservationStream::read_row(const TableRow& row) {
+  const bool first = !std::exchange(begun_, true);
+  if (first && names_detection_columns(row))
+    detections_.emplace(table_.source(), DetectionFormat{.unit = unit_, .value = std::nullopt});
+  if (detections_) return detections_->take(row);
+  if (first && values_.begin(row)) {
+    if (values_.scans().columns()[DetectionColumn::kRobot])
+      values_.scans().fail(row.line, "a file that is followed is of one robot");
+    return;
+  }
+  add(values_.reading(row));
+}
+
+void ObservationStream::begin_step(const ValueRows::Reading& reading) {
+  const ScanRows& scans = values_.scans();
+  const double step = reading.scan.key;
+  if (open_ && step < open_->step)
+    scans.fail(reading.line, fmt::format("{} after {}: a file that is followed lists its scans in "
+                                         "ascending order",
+                                         scans.words(step), scans.words(open_->step)));
+  if (open_ && step == open_->step) return;
+  if (open_) complete_.push_back(*std::exchange(open_, std::nullopt));
+  if (++steps_ > static_cast<std::size_t>(kMostSteps))
+    scans.fail(reading.line, fmt::format("more than {} steps", kMostSteps));
+  open_ = StreamedStep{.step = step, .values = {}};
+  listed_.assign(listed_.size(), false);
+}
+
+void ObservationStream::add(const ValueRows::Reading& reading) {
+  const ScanRows& scans = values_.scans();
+  if (reading.landmark < 0)
+    scans.fail(reading.line,
+               "a reading without a label (?): whose such are is estimated of whole files");
+  begin_step(reading);
+  const auto row = static_cast<std::size_t>(reading.landmark);
+  if (row >= listed_.size()) listed_.resize(row + 1, false);
+  if (listed_[row])
+    scans.fail(reading.line, fmt::format("landmark {} is already listed at {}",
+                                         in_quotes(names()[row]), scans.words(reading.scan.key)));
+  listed_[row] = true;
+  if (!std::isnan(reading.value)) open_->values.emplace_back(reading.landmark, reading.value);
+}
+
+}  // namespace mapproof

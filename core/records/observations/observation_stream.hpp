@@ -1,0 +1,80 @@
+#pragma once
+
+#include <cstddef>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include <Eigen/Core>
+
+#include "core/model/sensor.hpp"
+#include "core/records/observations/detection_stream.hpp"
+#include "core/records/observations/detections.hpp"
+#include "core/records/observations/growing_table.hpp"
+#include "core/records/observations/table_reader.hpp"
+#include "core/records/observations/value_rows.hpp"
+
+namespace mapproof {
+
+/// All that one step of a growing file listed.
+struct StreamedStep {
+  double step = 0.0;                                    ///< Or time.
+  std::vector<std::pair<Eigen::Index, double>> values;  ///< Landmark and value; missing ones not.
+};
+
+/// Reads one sensor's values from long CSV (step or time, landmark, value) as it grows. A line
+/// counts once its end is there (see GrowingTable), and a step once a row of a later one is. Steps
+/// come in ascending order. A header of detections (see read_detections) does as well: of each scan
+/// what the sensor saw.
+class ObservationStream {
+ public:
+  /// @param source  What to call the file in errors.
+  /// @param unit    Of bearings.
+  ObservationStream(std::string source, Sensor sensor, AngleUnit unit = AngleUnit::kRadians);
+  ObservationStream(const ObservationStream&) = delete;
+  ObservationStream& operator=(const ObservationStream&) = delete;
+
+  /// @throws IoError with the line, as read_observations and GrowingTable; or for a step that is
+  ///         not ascending.
+  void take(std::string_view bytes) {
+    table_.take(bytes, [this](const TableRow& row) { read_row(row); });
+  }
+
+  /// Forgets a line whose end has not come, as of a file that is still written to.
+  void drop_half_line() { table_.drop_half_line(); }
+
+  /// There will be no more: the last line needs no end, and the last step is complete.
+  /// @throws IoError as take().
+  void end();
+
+  /// The steps that became complete since the last call, ascending.
+  std::vector<StreamedStep> steps();
+
+  /// What has to be said after end(), a sentence each.
+  std::vector<std::string> remarks() const;
+
+  /// Of all landmarks so far, in the order in which they came.
+  const std::vector<std::string>& names() const {
+    return detections_ ? detections_->rows().names().names() : values_.names().names();
+  }
+
+ private:
+  void read_row(const TableRow& row);
+  void add(const ValueRows::Reading& reading);
+  void begin_step(const ValueRows::Reading& reading);
+
+  GrowingTable table_;
+  Sensor sensor_;
+  AngleUnit unit_;
+  ValueRows values_;
+  std::optional<ScanGatherer> detections_;  ///< If that is what the header names.
+  bool begun_ = false;                      ///< A row was read: no header comes any more.
+  std::optional<StreamedStep> open_;
+  std::vector<bool> listed_;  ///< Landmarks in the open step.
+  std::vector<StreamedStep> complete_;
+  std::size_t steps_ = 0;
+};
+
+}  // namespace mapproof

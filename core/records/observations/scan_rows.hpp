@@ -1,0 +1,57 @@
+#pragma once
+
+#include <cstddef>
+#include <string>
+#include <vector>
+
+#include "core/model/detection_log.hpp"
+#include "core/records/observations/detection_columns.hpp"
+#include "core/records/observations/detections.hpp"
+#include "core/records/observations/name_list.hpp"
+#include "core/records/observations/table_reader.hpp"
+
+namespace mapproof {
+
+/// What the rows of every long table have in common: each is one landmark in one scan, and the
+/// columns say which scan that is.
+class ScanRows {
+ public:
+  /// @param source  What to call the table in errors; must outlive the object.
+  explicit ScanRows(const std::string& source) : source_(source), robots_(source) {}
+
+  const std::string& source() const { return source_; }
+
+  void set_columns(DetectionColumns columns) { columns_ = std::move(columns); }
+  const DetectionColumns& columns() const { return columns_; }
+
+  /// @throws IoError with the line for a row of another width, or whose scan is not a number.
+  ScanKey scan_of(const TableRow& row);
+
+  /// What a cell holds in metres or radians, or 0 and 1; NaN if it is missing.
+  /// @throws IoError with the line for anything else.
+  double value(const TableRow& row, DetectionColumn column, Sensor sensor, AngleUnit unit) const;
+
+  /// The landmark's label. @pre After scan_of() of the row.
+  std::string_view label(const TableRow& row) const {
+    return row.cells[*columns_[DetectionColumn::kLandmark]];
+  }
+
+  bool is_timed() const { return !columns_[DetectionColumn::kStep]; }
+  /// Names of the robots, by ScanKey::robot; none if no column tells them apart.
+  const std::vector<std::string>& robots() const { return robots_.names(); }
+
+  /// "step 3" or "time 3.5", as errors name a scan.
+  std::string words(double key) const;
+
+  /// What has to be said of the columns, a sentence each.
+  std::vector<std::string> remarks() const;
+
+  [[noreturn]] void fail(std::size_t line, const std::string& what) const;
+
+ private:
+  const std::string& source_;
+  DetectionColumns columns_;
+  NameList robots_;
+};
+
+}  // namespace mapproof

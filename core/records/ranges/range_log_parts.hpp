@@ -1,0 +1,40 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "core/model/range_log.hpp"
+#include "core/records/ranges/range_log_files.hpp"
+#include "core/records/ranges/range_tables.hpp"
+
+namespace mapproof {
+
+/// What the readers of the several formats gather before a log is made of it.
+struct RangeLogParts {
+  std::string source;  ///< File or folder, for errors.
+  std::string name;
+  std::vector<NamedReading> readings = {};  ///< In the order of the file.
+  std::vector<Motion> odometry = {};
+  std::optional<StartPose> start = {};
+  std::optional<Trajectory> truth = {};
+  NamedPoints true_landmarks = {};
+  std::vector<std::string> remarks = {};
+};
+
+/// Puts the landmarks in order (of the letters of their names and then of the number behind them if
+/// all names end in a number, else as they first come), sorts the readings by time, turns true
+/// headings that are off by half a turn, and remarks on all of it and on what is missing or not to
+/// be trusted.
+/// @param options  Whose files stand in for what was gathered.
+/// @throws IoError if there is no reading, there are more than 5000 landmarks with readings or with
+///         true places, or the start is not before the first motion.
+RangeLog assemble(RangeLogParts parts, const RangeLogOptions& options);
+
+/// Reads the files that the options name in place of what was gathered. @throws IoError.
+void take_named_files(const RangeLogOptions& options, RangeLogParts& parts);
+
+/// Whether the turns are the increments of the true heading to the last digit, and turn at all.
+bool turns_are_the_truths(const std::vector<Motion>& motions, const Trajectory& truth);
+
+}  // namespace mapproof

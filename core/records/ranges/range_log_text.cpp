@@ -1,0 +1,62 @@
+#include <system_error>
+
+#include "core/base/input_file.hpp"
+#include "core/json/text_input.hpp"
+#include "core/records/observations/number_rows.hpp"
+#include "core/records/ranges/range_log_parts.hpp"
+#include "core/records/ranges/range_log_readers.hpp"
+
+namespace mapproof {
+namespace {
+
+namespace fs = std::filesystem;
+
+NumberTable read_numbers(ByteSource& source, std::size_t width) {
+  NumberTable table{.source = source.name()};
+  const std::string bytes = source.rest();
+  NumberRows rows(checked_text(bytes, table.source), table.source, width);
+  std::vector<double> values;
+  while (rows.next()) {
+    table.rows.push_back(rows.line());
+    values.insert(values.end(), rows.values().begin(), rows.values().end());
+  }
+  table.set_values(values, static_cast<Eigen::Index>(width));
+  return table;
+}
+
+/// NAME_TD.txt or NAME_DR.txt, packed or not.
+fs::path file_of(const fs::path& stem, const char* end) {
+  return plain_or_packed(stem.string() + end);
+}
+
+bool is_odometry(const fs::path& path) {
+  return unpacked_name(path).filename().string().ends_with("_DR.txt");
+}
+
+NumberTable read_ranges(ByteSource& source) {
+  if (!is_odometry(source.path())) return read_numbers(source, 4);
+  ByteSource ranges(file_of(text_stem(source.path()), "_TD.txt"));
+  return read_numbers(ranges, 4);
+}
+
+}  // namespace
+
+RangeLog read_range_log_text(ByteSource& source, const RangeLogOptions& options) {
+  const fs::path stem = text_stem(source.path());
+  const NumberTable ranges = read_ranges(source);
+  RangeLogParts parts{.source = ranges.source, .name = options.name};
+  check_one_sender(ranges, 1);
+  parts.readings = readings_in(selected(ranges, {0, 3}, 2));
+  const fs::path odometry_path = stem.empty() ? fs::path() : file_of(stem, "_DR.txt");
+  std::error_code error;
+  if (fs::exists(odometry_path, error)) {
+    ByteSource odometry(odometry_path);
+    parts.odometry = motions_in(read_numbers(odometry, 3));
+    parts.remarks.push_back(
+        "The odometry is DR as it stands; whether its turns are the robot's own cannot be told "
+        "without the truth.");
+  }
+  return assemble(std::move(parts), options);
+}
+
+}  // namespace mapproof

@@ -1,0 +1,56 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include <Eigen/Core>
+
+#include "core/model/range_log.hpp"
+#include "core/records/observations/landmarks_csv.hpp"
+
+namespace mapproof {
+
+/// A table of numbers out of some file, with what is needed to say where a wrong one stands.
+struct NumberTable {
+  std::string source;                   ///< The file.
+  std::string row_word = "line";        ///< What `rows` counts: "line", "variable GT, row".
+  std::vector<std::size_t> rows = {};   ///< n, from 1.
+  std::vector<std::string> names = {};  ///< n, of landmarks; or empty.
+  Eigen::MatrixXd values = {};          ///< n x k, finite.
+
+  /// Takes `values` row by row, as many rows as `rows`.
+  void set_values(const std::vector<double>& by_row, Eigen::Index columns);
+
+  std::string place(Eigen::Index row) const;
+  /// @throws IoError at that row.
+  [[noreturn]] void fail(Eigen::Index row, const std::string& what) const;
+};
+
+/// A reading whose landmark has no row yet.
+struct NamedReading {
+  double time_s;
+  std::string landmark;
+  double range_m;
+};
+
+/// The columns of a table as values. All throw IoError at the row that breaks a bound: times within
+/// 1e12 s and, but for readings, ascending; coordinates within 1e9 m; ranges from 0 to 1e6 m.
+///
+/// @param table  Columns time, x, y and perhaps heading.
+Trajectory trajectory_in(const NumberTable& table);
+/// @param table  Columns time, distance, turn and perhaps the way sideways.
+std::vector<Motion> motions_in(const NumberTable& table);
+/// @param table  Columns time, range; with names.
+std::vector<NamedReading> readings_in(const NumberTable& table);
+/// @param table  Columns x, y; with names, all different.
+NamedPoints landmarks_in(const NumberTable& table);
+
+/// Those columns of a table, and the integers in column `names` as the names of landmarks.
+/// @throws IoError at a row whose landmark is not an integer within 1e9.
+NumberTable selected(const NumberTable& table, const std::vector<Eigen::Index>& columns,
+                     Eigen::Index names);
+
+/// @throws IoError if that column holds two different numbers: one robot alone can be mapped.
+void check_one_sender(const NumberTable& table, Eigen::Index column);
+
+}  // namespace mapproof

@@ -1,0 +1,44 @@
+#pragma once
+
+#include <filesystem>
+#include <span>
+#include <string>
+
+#include "core/model/slam_experiment.hpp"
+#include "core/model/slam_study.hpp"
+#include "core/records/studies/study_writer.hpp"
+
+namespace mapproof {
+
+/// What the folder of a range-only study begins with.
+StudyStart study_start(const SlamExperiment& experiment, const Provenance& provenance);
+
+/// Parts as they are written; a run's paths, as TUM and CSV, come before its record.
+StudyPart part_of(const SlamRun& run, std::span<const SlamTiming> timings);
+StudyPart part_of(const ConvergenceCurve& curve);
+StudyPart part_of(const RangeHistoryStudy& histories);
+StudyPart part_of(const SpaceRun& space);
+StudyPart part_of(std::span<const FactorizationCost> costs);
+
+/// Whether the folder holds a part, whole. A run with a log counts if it was made of that log.
+bool holds_run(const std::filesystem::path& folder, const std::string& id, const RangeLog& log);
+bool holds_run(const std::filesystem::path& folder, const std::string& id);
+bool holds_convergence(const std::filesystem::path& folder, const std::string& id);
+bool holds_histories(const std::filesystem::path& folder);
+bool holds_space(const std::filesystem::path& folder);
+
+/// Writes each path of a run, the true one among them, as NAME.tum and NAME.csv into a folder of
+/// its own, whose earlier files are removed.
+/// @throws IoError.
+void write_paths(const SlamRun& run, const std::filesystem::path& folder);
+
+/// The study in a folder, as far as it was made: the simulated run first, the data sets in the
+/// experiment's order, those without a run in `missing`.
+/// @throws IoError if there is no such study or a file of it is damaged.
+SlamStudy read_slam_study(const std::filesystem::path& folder);
+
+/// Of a piece timed twice the later one, in order of run and method, of landmarks and steps.
+/// @throws IoError.
+SlamTimings read_slam_timings(const std::filesystem::path& folder);
+
+}  // namespace mapproof

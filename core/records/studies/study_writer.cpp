@@ -1,0 +1,117 @@
+#include "core/records/studies/study_writer.hpp"
+
+#include <mutex>
+#include <system_error>
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include "core/base/errors.hpp"
+#include "core/base/files.hpp"
+#include "core/records/studies/folder_lock.hpp"
+#include "core/records/studies/study_folder.hpp"
+#include "core/records/studies/timings_jsonl.hpp"
+
+namespace mapproof {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// "/seed is 2007 there and 2008 here": the first of the differences.
+std::string difference(const std::string& experiment_there, const std::string& experiment_here) {
+  const auto there = nlohmann::json::parse(experiment_there);
+  const auto here = nlohmann::json::parse(experiment_here);
+  const nlohmann::json patch = nlohmann::json::diff(there, here);
+  const nlohmann::json::json_pointer place(patch.at(0).at("path").get<std::string>());
+  const auto shown = [&](const nlohmann::json& value) {
+    return value.contains(place) ? printable(value[place].dump(), 60) : "missing";
+  };
+  return fmt::format("{} is {} there and {} here", place.to_string(), shown(there), shown(here));
+}
+
+void check_is_new(const fs::path& folder) {
+  std::error_code error;
+  for (fs::directory_iterator entry(folder, error), end; !error && entry != end;
+       entry.increment(error))
+    if (!is_leftover(entry->path()))
+      throw IoError(folder.string(), "is not empty and holds no study; choose another folder");
+  if (error) throw IoError(folder.string(), "cannot be listed: " + error.message());
+}
+
+/// Brings a locked folder to where a study goes on.
+/// @return Whether records of another solver were removed.
+bool take_up_study(const fs::path& folder, const StudyStart& start) {
+  const fs::path study = folder / kStudyFile, timings = folder / kTimingsFile;
+  if (!is_study(folder)) {
+    check_is_new(folder);
+    remove_leftovers(folder);
+    write_file(study, start.text);
+    start_lines(timings);
+    return false;
+  }
+  remove_leftovers(folder);
+  const std::string old_text = read_file(study);
+  const StudyHead there = start.read_head(old_text, study.string());
+  const StudyHead here = start.read_head(start.text, study.string());
+  if (there.experiment != here.experiment)
+    throw IoError(folder.string(),
+                  fmt::format("holds another experiment ({}); choose another folder or remove it",
+                              difference(there.experiment, here.experiment)));
+  const bool is_redone = there.solver_digest != here.solver_digest;
+  // The records first: until study.json is replaced, a kill in between leaves the old study's
+  // start.
+  if (is_redone) {
+    for (const fs::path& record : start.records) remove_tree(folder / record);
+    for (const char* file : {kTimingsFile, kResultsFile}) remove_tree(folder / file);
+  }
+  if (old_text != start.text) write_file(study, start.text);
+  mend_lines(timings);
+  start_lines(timings);
+  return is_redone;
+}
+
+}  // namespace
+
+struct StudyWriter::State {
+  explicit State(const fs::path& study) : folder(study), lock(study) {}
+
+  void append(const std::string& lines) {
+    const std::lock_guard guard(mutex);
+    append_file(folder / kTimingsFile, lines);
+  }
+
+  fs::path folder;
+  FolderLock lock;
+  bool is_redone = false;
+  std::mutex mutex;
+};
+
+StudyWriter::StudyWriter(const fs::path& folder, const StudyStart& start) {
+  make_folder(folder);
+  state_ = std::make_unique<State>(folder);
+  state_->is_redone = take_up_study(folder, start);
+}
+
+StudyWriter::StudyWriter(StudyWriter&&) noexcept = default;
+StudyWriter& StudyWriter::operator=(StudyWriter&&) noexcept = default;
+StudyWriter::~StudyWriter() = default;
+
+const fs::path& StudyWriter::folder() const { return state_->folder; }
+
+bool StudyWriter::redone() const { return state_->is_redone; }
+
+void StudyWriter::write(const StudyPart& part) {
+  if (!part.emptied.empty()) remove_tree(state_->folder / part.emptied);
+  for (const PartFile& file : part.files) write_file(state_->folder / file.file, file.text);
+  if (!part.timings.empty()) state_->append(part.timings);
+}
+
+void StudyWriter::write_session(const Session& session) { state_->append(session_line(session)); }
+
+void remove_tree(const fs::path& path) {
+  std::error_code error;
+  fs::remove_all(path, error);
+  if (error) throw IoError(path.string(), "cannot be removed: " + error.message());
+}
+
+}  // namespace mapproof

@@ -1,0 +1,80 @@
+#include "core/records/studies/timings_jsonl.hpp"
+
+#include <system_error>
+#include <type_traits>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "core/base/errors.hpp"
+#include "core/base/files.hpp"
+#include "core/json/json_text.hpp"
+#include "core/json/record_json.hpp"
+#include "core/records/studies/timing_fields.hpp"
+
+namespace mapproof {
+namespace {
+
+constexpr std::string_view kTimingsSchema = "mapproof.timings";
+
+void read_line(std::string_view line, const std::string& source, Timings& timings) {
+  const JsonDocument document = parse_json(line, source);
+  const JsonCursor root = document.cursor();
+  if (root.is_object() && root.find("schema")) {
+    root.allow_only({"schema"});
+    return expect_schema(root, kTimingsSchema);
+  }
+  const auto sort = [&]<typename T>(T& one) {
+    if constexpr (std::is_same_v<T, Timing>)
+      timings.maps.push_back(std::move(one));
+    else if constexpr (std::is_same_v<T, SlamTiming>)
+      timings.slam.methods.push_back(std::move(one));
+    else if constexpr (std::is_same_v<T, FactorizationCost>)
+      timings.slam.factorization.push_back(std::move(one));
+    else if constexpr (std::is_same_v<T, TrialSeconds>)
+      timings.trials.push_back(std::move(one));
+    else
+      timings.sessions.push_back(std::move(one));
+  };
+  auto read = from_json_value<TimingLine>(root);
+  std::visit(sort, read);
+}
+
+}  // namespace
+
+std::string timings_header() { return json_line({{"schema", schema_value(kTimingsSchema)}}); }
+
+std::string timing_line(const Timing& timing) { return json_line(to_json_value(timing)); }
+std::string timing_line(const SlamTiming& timing) { return json_line(to_json_value(timing)); }
+std::string timing_line(const FactorizationCost& cost) { return json_line(to_json_value(cost)); }
+std::string timing_line(const TrialSeconds& timing) { return json_line(to_json_value(timing)); }
+std::string session_line(const Session& session) { return json_line(to_json_value(session)); }
+
+Timings parse_timings(std::string_view text, const std::string& source) {
+  Timings timings;
+  std::size_t number = 1;
+  for (std::size_t end; (end = text.find('\n')) != std::string_view::npos; ++number) {
+    const std::string_view line = text.substr(0, end);
+    text.remove_prefix(end + 1);
+    read_line(line, fmt::format("{}: line {}", source, number), timings);
+  }
+  return timings;
+}
+
+void mend_lines(const std::filesystem::path& path) {
+  std::error_code error;
+  if (!std::filesystem::exists(path, error)) return;
+  const std::string text = read_file(path);
+  if (text.empty() || text.back() == '\n') return;
+  const std::size_t last = text.rfind('\n');
+  write_file(path, last == std::string::npos ? std::string_view()
+                                             : std::string_view(text).substr(0, last + 1));
+}
+
+void start_lines(const std::filesystem::path& path) {
+  std::error_code error;
+  if (std::filesystem::exists(path, error) && std::filesystem::file_size(path, error) > 0) return;
+  write_file(path, timings_header());
+}
+
+}  // namespace mapproof

@@ -1,0 +1,64 @@
+#include "core/records/studies/trial_json.hpp"
+
+#include <algorithm>
+
+#include <fmt/format.h>
+
+#include "core/json/record_json.hpp"
+#include "core/json/text_input.hpp"
+#include "core/records/studies/trial_fields.hpp"
+
+namespace mapproof {
+
+namespace {
+
+std::optional<RecordFault> fault_of(const Condition& at, const std::string& series,
+                                    const TrialDesign& design) {
+  const auto setup = std::ranges::find(design.setups, at.setup, &TrialSetup::id);
+  if (setup == design.setups.end()) return {{"setup", "the study has no such setup"}};
+  for (const TrialFactor& factor : setup->factors) {
+    const auto found = std::ranges::find(at.levels, factor.id, &Level::factor);
+    if (found == at.levels.end()) return {{"levels", "lacks the factor " + in_quotes(factor.id)}};
+    if (std::ranges::find(factor.levels, std::get<double>(found->value)) == factor.levels.end())
+      return {{"levels/" + factor.id, "the setup has no such level"}};
+  }
+  if (at.levels.size() > setup->factors.size())
+    return {{"levels", "has a factor that the setup does not have"}};
+  if (std::ranges::find(design.series, series, &TrialSeries::id) == design.series.end())
+    return {{"series", "the study has no such series"}};
+  return std::nullopt;
+}
+
+}  // namespace
+
+std::optional<RecordFault> fault_of(const TrialMap& map, const TrialDesign& design) {
+  return fault_of(map.at, map.series, design);
+}
+
+std::optional<RecordFault> fault_of(const Trial& trial, const TrialDesign& design) {
+  if (auto fault = fault_of(trial.at, trial.series, design)) return fault;
+  for (const auto& [quantity, value] : trial.values)
+    if (std::ranges::find(design.quantities, quantity, &Quantity::id) == design.quantities.end())
+      return {{"values/" + quantity, "the study has no such quantity"}};
+  return std::nullopt;
+}
+
+std::string trial_study_json(const TrialStudy& study) { return to_json_text(study); }
+
+TrialStudy parse_trial_study(std::string_view text, const std::string& source) {
+  return from_json_text<TrialStudy>(text, source);
+}
+
+std::string trial_part_json(const TrialPart& part, const std::string& digest) {
+  return to_json_text(TrialPartFile{.part = part, .digest = digest});
+}
+
+ReadTrialPart parse_trial_part(std::string_view text, const std::string& source,
+                               const TrialDesign* design) {
+  TrialPartFile file{.part = {}, .digest = {}, .design = design};
+  const JsonDocument document = parse_json(text, source);
+  record_json::read_record(document.cursor(), file);
+  return {.part = std::move(file.part), .digest = std::move(file.digest)};
+}
+
+}  // namespace mapproof

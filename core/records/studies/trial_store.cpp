@@ -1,0 +1,115 @@
+#include "core/records/studies/trial_store.hpp"
+
+#include <algorithm>
+#include <system_error>
+
+#include "core/base/errors.hpp"
+#include "core/base/files.hpp"
+#include "core/json/record_json.hpp"
+#include "core/records/studies/study_folder.hpp"
+#include "core/records/studies/timings_jsonl.hpp"
+#include "core/records/studies/trial_fields.hpp"
+#include "core/records/studies/trial_json.hpp"
+
+namespace mapproof {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+/// Where things stand in the folder of a study of trials.
+struct TrialFiles {
+  fs::path folder;  ///< Empty: paths are below the folder.
+
+  fs::path study() const { return folder / kStudyFile; }
+  fs::path timings() const { return folder / kTimingsFile; }
+  fs::path parts() const { return folder / "parts"; }
+  fs::path part(const std::string& id) const { return parts() / (id + ".json"); }
+};
+
+StudyHead read_trial_head(const std::string& text, const std::string& source) {
+  const TrialStudy study = parse_trial_study(text, source);
+  return {.experiment = to_json_value(study.experiment).dump(),
+          .solver_digest = study.provenance.solver_digest};
+}
+
+/// The parts that there can be, in their order.
+std::vector<std::string> part_ids(const TrialExperiment& experiment) {
+  std::vector<std::string> ids;
+  if (!experiment.data.empty()) {
+    for (const TrialDataSet& set : experiment.data) ids.push_back(set.id);
+    return ids;
+  }
+  for (int layout = 1; layout <= experiment.layouts; ++layout)
+    for (int pose = 1; pose <= experiment.poses; ++pose)
+      ids.push_back(slug(RunId{.layout = layout, .pose = pose}));
+  return ids;
+}
+
+/// Of a series timed twice on a part the later one.
+void add_seconds(const fs::path& path, TrialStudy& study) {
+  std::error_code error;
+  if (!fs::exists(path, error)) return;
+  for (const TrialSeconds& timing : parse_timings(read_file(path), path.string()).trials) {
+    const auto part = std::ranges::find(study.parts, timing.part, &TrialPart::id);
+    if (part == study.parts.end()) continue;
+    const auto known = std::ranges::find(part->seconds, timing.series, &TrialSeconds::series);
+    if (known == part->seconds.end())
+      part->seconds.push_back(timing);
+    else
+      *known = timing;
+  }
+}
+
+}  // namespace
+
+StudyStart study_start(const TrialStudy& study) {
+  return {.text = trial_study_json(study),
+          .read_head = read_trial_head,
+          .records = {TrialFiles{}.parts()}};
+}
+
+StudyPart part_of(const TrialPart& part, const std::string& digest) {
+  StudyPart written{.files = {{TrialFiles{}.part(part.id), trial_part_json(part, digest)}}};
+  for (const TrialSeconds& timing : part.seconds) written.timings += timing_line(timing);
+  return written;
+}
+
+bool holds_part(const fs::path& folder, const TrialDesign& design, const std::string& part,
+                const std::string& digest) {
+  const fs::path path = TrialFiles{folder}.part(part);
+  try {
+    const ReadTrialPart read = parse_trial_part(read_file(path), path.string(), &design);
+    return read.part.id == part && read.digest == digest;
+  } catch (const IoError&) {
+    return false;
+  }
+}
+
+std::vector<fs::path> part_files(const fs::path& folder) {
+  std::vector<fs::path> files;
+  std::error_code error;
+  for (fs::directory_iterator entry(TrialFiles{folder}.parts(), error), end; !error && entry != end;
+       entry.increment(error))
+    if (entry->path().extension() == ".json") files.push_back(entry->path());
+  std::ranges::sort(files);
+  return files;
+}
+
+TrialStudy read_trial_study(const fs::path& folder) {
+  const TrialFiles files{folder};
+  require_study(folder);
+  TrialStudy study = parse_trial_study(read_file(files.study()), files.study().string());
+  for (const std::string& id : part_ids(study.experiment)) {
+    const fs::path path = files.part(id);
+    std::error_code error;
+    if (!fs::exists(path, error)) continue;
+    study.parts.push_back(parse_trial_part(read_file(path), path.string(), &study.design).part);
+    if (study.parts.back().id != id)
+      throw IoError(path.string(), "/id", "says that it is " + study.parts.back().id);
+  }
+  add_seconds(files.timings(), study);
+  return study;
+}
+
+}  // namespace mapproof

@@ -1,0 +1,179 @@
+#include "render/figures/curves/convergence.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <set>
+
+#include <fmt/format.h>
+
+#include "core/base/words.hpp"
+#include "render/figures/curves/log_log.hpp"
+
+namespace mapproof {
+namespace {
+
+constexpr const char* kReadings = "range readings";
+constexpr const char* kObservation = "error of \u0108";
+const SlopeGuide kRootLaw{"slope \u22121/2", -0.5};
+
+/// A mean of each point over the number of readings.
+ErrorLine line_of(const ConvergenceCurve& curve, MeanEstimate ConvergencePoint::*what,
+                  const std::string& label, const std::string& key) {
+  ErrorLine line{.label = label, .key = key};
+  for (const ConvergencePoint& point : curve.points) {
+    const MeanEstimate& estimate = point.*what;
+    const double mean = estimate.values > 0 ? estimate.mean : NAN;
+    const double half = estimate.half_width.value_or(0.0);
+    line.x.push_back(static_cast<double>(point.steps) * std::max(curve.landmarks, 1));
+    line.mean.push_back(mean);
+    line.low.push_back(mean - half);
+    line.high.push_back(mean + half);
+  }
+  return line;
+}
+
+int pairs_of(const ConvergenceCurve& curve) {
+  int pairs = 0;
+  for (const ConvergencePoint& point : curve.points)
+    pairs = std::max(pairs, point.observation.values);
+  return pairs;
+}
+
+std::string means_of(const ConvergenceCurve& curve) {
+  return fmt::format("Means over {} of path and environment, {}, {}; bars: 95 % intervals.",
+                     counted(pairs_of(curve), "random pair"), counted(curve.landmarks, "landmark"),
+                     curve.title);
+}
+
+std::string slope_of(const ErrorLine& line) {
+  return slope_words(log_log_slope(line.x, line.mean));
+}
+
+LogLogSpec spec_of(const std::string& id, const char* title, const ConvergenceCurve& curve) {
+  LogLogSpec spec;
+  spec.id = id;
+  spec.title = title;
+  spec.record_ids = {"convergence/" + curve.id};
+  return spec;
+}
+
+/// Costs with the same N or the same T as a line; alone they make none.
+std::vector<ErrorLine> cost_lines(std::span<const FactorizationCost> costs, bool over_steps) {
+  const auto fixed = [&](const FactorizationCost& cost) {
+    return over_steps ? static_cast<long>(cost.landmarks) : cost.steps;
+  };
+  const auto varied = [&](const FactorizationCost& cost) {
+    return over_steps ? cost.steps : static_cast<long>(cost.landmarks);
+  };
+  std::set<long> groups;
+  for (const FactorizationCost& cost : costs) groups.insert(fixed(cost));
+  std::vector<ErrorLine> lines;
+  for (const long group : groups) {
+    const char* symbol = over_steps ? "N" : "T";
+    ErrorLine line{.label = fmt::format("{} = {}", symbol, group),
+                   .key = fmt::format("{}-{}", over_steps ? "landmarks" : "steps", group)};
+    std::vector<FactorizationCost> members;
+    for (const FactorizationCost& cost : costs)
+      if (fixed(cost) == group) members.push_back(cost);
+    std::ranges::sort(members, {}, varied);
+    for (const FactorizationCost& cost : members) {
+      line.x.push_back(static_cast<double>(varied(cost)));
+      line.mean.push_back(cost.seconds);
+    }
+    if (line.x.size() > 1 && line.x.front() < line.x.back()) lines.push_back(std::move(line));
+  }
+  return lines;
+}
+
+}  // namespace
+
+Figure convergence_figure(const std::string& id, const ConvergenceCurve& curve) {
+  LogLogSpec spec = spec_of(id, "Convergence of the map with the number of readings", curve);
+  const ErrorLine observation =
+      line_of(curve, &ConvergencePoint::observation, "measured", "observation");
+  const ErrorLine landmarks =
+      line_of(curve, &ConvergencePoint::landmarks_m, "measured", "landmarks");
+  spec.caption = fmt::format(
+      "{} Error of \u0108: Frobenius norm. Slopes by least squares: {} and {}; "
+      "theory: \u22121/2.",
+      means_of(curve), slope_of(observation), slope_of(landmarks));
+  spec.panels = {{"Observation model", kReadings, kObservation, {observation}, kRootLaw, {}},
+                 {"Landmarks", kReadings, "error [m]", {landmarks}, kRootLaw, {}}};
+  return log_log_figure(spec);
+}
+
+Figure subspace_angle_figure(const std::string& id, const ConvergenceCurve& curve) {
+  LogLogSpec spec = spec_of(id, "Angle of the learned subspace and its bound", curve);
+  const ErrorLine sine = line_of(curve, &ConvergencePoint::sine, "measured", "sine");
+  ErrorLine bound{.label = "bound, eq. 5", .key = "bound"};
+  for (const ConvergencePoint& point : curve.points) bound.mean.push_back(point.bound);
+  bound.x = sine.x;
+  spec.caption = fmt::format(
+      "{} Dashed: N c \u221A(2 log T / T) / \u03B3, its constant fitted at the first point. Slope "
+      "of "
+      "the measured sine: {}.",
+      means_of(curve), slope_of(sine));
+  spec.panels = {
+      {"", kReadings, "sine of the largest canonical angle", {sine}, std::nullopt, {bound}}};
+  return log_log_figure(spec);
+}
+
+Figure positions_figure(const std::string& id, const ConvergenceCurve& curve) {
+  LogLogSpec spec = spec_of(id, "The map converges, single positions do not", curve);
+  const ErrorLine landmarks =
+      line_of(curve, &ConvergencePoint::landmarks_m, "landmarks", "landmarks");
+  ErrorLine positions =
+      line_of(curve, &ConvergencePoint::positions_m, "robot\u2019s positions", "positions");
+  spec.caption = fmt::format(
+      "{} A landmark is seen again and again, a position by {} alone: its error ends at what these "
+      "allow. Slopes: {} and {}.",
+      means_of(curve), counted(curve.landmarks, "reading"), slope_of(landmarks),
+      slope_of(positions));
+  spec.panels = {{"", kReadings, "error [m]", {landmarks, positions}, kRootLaw, {}}};
+  return log_log_figure(spec);
+}
+
+Figure noise_models_figure(const std::string& id, std::span<const ConvergenceCurve> curves) {
+  LogLogSpec spec;
+  spec.id = id;
+  spec.title = "Convergence under other noise";
+  spec.columns = 1;  // The noise is described in the legend.
+  LogLogPanel observation{"Observation model", kReadings, kObservation, {}, kRootLaw, {}};
+  LogLogPanel landmarks{"Landmarks", kReadings, "error [m]", {}, kRootLaw, {}};
+  std::string slopes;
+  for (const ConvergenceCurve& curve : curves) {
+    observation.lines.push_back(
+        line_of(curve, &ConvergencePoint::observation, curve.title, "observation-" + curve.id));
+    landmarks.lines.push_back(
+        line_of(curve, &ConvergencePoint::landmarks_m, curve.title, "landmarks-" + curve.id));
+    slopes += fmt::format("{}{} {}", slopes.empty() ? "" : "; ", curve.title,
+                          slope_of(observation.lines.back()));
+    spec.record_ids.push_back("convergence/" + curve.id);
+  }
+  spec.caption = fmt::format("Means and 95 % intervals. Slopes of the observation model: {}.",
+                             slopes.empty() ? "none" : slopes);
+  spec.panels = {std::move(observation), std::move(landmarks)};
+  return log_log_figure(spec);
+}
+
+Figure factorization_cost_figure(const std::string& id, std::span<const FactorizationCost> costs) {
+  LogLogSpec spec;
+  spec.id = id;
+  spec.title = "Seconds of the factorisation";
+  spec.varies = true;
+  spec.caption =
+      "Seconds of singular values and upgrade over the number of steps T and of landmarks N, "
+      "beside "
+      "the slopes of O((2N)\u00B2 T). They vary from run to run.";
+  spec.panels = {
+      {"Over steps", "steps T", "seconds", cost_lines(costs, true), SlopeGuide{"slope 1", 1.0}, {}},
+      {"Over landmarks",
+       "landmarks N",
+       "seconds",
+       cost_lines(costs, false),
+       SlopeGuide{"slope 2", 2.0},
+       {}}};
+  return log_log_figure(spec);
+}
+
+}  // namespace mapproof

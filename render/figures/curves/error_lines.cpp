@@ -1,0 +1,238 @@
+#include "render/figures/curves/error_lines.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <set>
+
+#include <fmt/format.h>
+
+#include "core/base/errors.hpp"
+#include "core/base/words.hpp"
+#include "render/base/span.hpp"
+#include "render/figures/words.hpp"
+
+namespace mapproof {
+namespace {
+
+constexpr std::array kMarkers = {Marker::kCircle,  Marker::kSquare,       Marker::kTriangle,
+                                 Marker::kDiamond, Marker::kTriangleDown, Marker::kPlus,
+                                 Marker::kCross};
+constexpr std::array kDashes = {Dash::kSolid, Dash::kDashed, Dash::kDashDot, Dash::kDotted,
+                                Dash::kLongDash};
+
+void require_consistent(const ErrorLinesSpec& spec) {
+  for (const ErrorPanel& panel : spec.panels)
+    for (const ErrorLine& line : panel.lines) {
+      const std::size_t size = line.x.size();
+      const bool banded = !line.low.empty() || !line.high.empty();
+      if (line.mean.size() != size ||
+          (banded && (line.low.size() != size || line.high.size() != size)))
+        throw InvalidInput("figure " + printable(spec.id) + ": line " + printable(line.label) +
+                           ": x, mean, low and high differ in length");
+    }
+}
+
+void append(std::vector<double>& all, const std::vector<double>& some) {
+  all.insert(all.end(), some.begin(), some.end());
+}
+
+ErrorAxis axis_of(const ErrorLinesSpec& spec) {
+  std::vector<double> means, intervals;
+  for (const ErrorPanel& panel : spec.panels) {
+    for (const ErrorLine& line : panel.lines) {
+      append(means, line.mean);
+      append(intervals, line.low);
+      append(intervals, line.high);
+    }
+    for (const ErrorPoint& point : panel.points) means.push_back(point.y);
+  }
+  const auto beyond = [&](double value) { return value > spec.ceiling; };
+  std::erase_if(means, beyond);
+  std::ranges::replace_if(intervals, beyond, spec.ceiling);
+  return error_axis(means, intervals, spec.log_from);
+}
+
+/// Labels in the order of their first appearance, and the style of each.
+struct Labels {
+  std::vector<std::string> labels;
+  std::vector<std::size_t> series;
+};
+
+Labels labels_of(const ErrorLinesSpec& spec) {
+  Labels all;
+  std::vector<std::optional<std::size_t>> asked;
+  for (const ErrorPanel& panel : spec.panels)
+    for (const ErrorLine& line : panel.lines) {
+      if (std::ranges::find(all.labels, line.label) != all.labels.end()) continue;
+      all.labels.push_back(line.label);
+      asked.push_back(line.series);
+    }
+  all.series = series_of(asked);
+  return all;
+}
+
+/// Says how many means and points lie above the frame.
+void note_ceiling(const ErrorLinesSpec& spec, const ErrorAxis& axis, Figure& figure) {
+  const auto is_above = [&](double value) { return value > axis.limits.high; };
+  long long above = 0;
+  for (const ErrorPanel& panel : spec.panels) {
+    for (const ErrorLine& line : panel.lines) above += std::ranges::count_if(line.mean, is_above);
+    above += std::ranges::count_if(panel.points, is_above, &ErrorPoint::y);
+  }
+  if (above > 0)
+    figure.notes.push_back({fmt::format("{} {} above the frame.", counted(above, "value"),
+                                        above == 1 ? "lies" : "lie"),
+                            Ink::kMuted});
+}
+
+std::string words_of(const ErrorLine& line) {
+  std::size_t best = line.mean.size(), last = line.mean.size();
+  for (std::size_t i = 0; i < line.mean.size(); ++i) {
+    if (!std::isfinite(line.mean[i])) continue;
+    if (best == line.mean.size() || line.mean[i] < line.mean[best]) best = i;
+    last = i;
+  }
+  if (last == line.mean.size()) return fmt::format(" {}: nothing known.", line.label);
+  std::string text = fmt::format(" {}: least {} at {}", line.label, significant(line.mean[best]),
+                                 data_number(line.x[best]));
+  if (last != best)
+    text += fmt::format(", {} at {}", significant(line.mean[last]), data_number(line.x[last]));
+  return text + ".";
+}
+
+std::string alt_of(const ErrorLinesSpec& spec, const ErrorAxis& axis) {
+  std::string text = fmt::format("{}: {}, {} axis.", spec.y_label, spec.quantity,
+                                 axis.scale == Scale::kLog ? "logarithmic" : "linear");
+  for (const ErrorPanel& panel : spec.panels) {
+    text += fmt::format(" Over {}{}:", panel.x.label,
+                        panel.title.empty() ? "" : " (" + panel.title + ")");
+    for (const ErrorLine& line : panel.lines) text += words_of(line);
+    if (panel.lines.empty()) text += " nothing.";
+  }
+  return text;
+}
+
+class Builder {
+ public:
+  Builder(const ErrorLinesSpec& spec, const ErrorAxis& axis)
+      : spec_(spec), axis_(axis), labels_(labels_of(spec)) {}
+
+  Panel panel(std::size_t index) const {
+    const ErrorPanel& from = spec_.panels[index];
+    const std::string prefix = spec_.panels.size() == 1 ? "" : fmt::format("panel-{}-", index + 1);
+    Panel panel;
+    panel.title = from.title;
+    panel.x = from.x;
+    panel.y = {.label = spec_.y_label, .scale = axis_.scale, .limits = axis_.limits};
+    for (const ErrorLine& line : from.lines)
+      if (!line.low.empty())
+        panel.layers.push_back(Band{line.label, line.x, axis_.raised(line.low),
+                                    axis_.raised(line.high), style(line.label).ink,
+                                    Mark{prefix + line.key + "-band", {{"curve", line.label}}}});
+    // Below the lines, which then show through.
+    for (const ErrorPoint& point : from.points) {
+      Scatter one{.label = point.label,
+                  .x = {point.x},
+                  .y = axis_.raised({point.y}),
+                  .ink = style(point.line).ink,
+                  .marker = point.marker,
+                  .filled = false,
+                  .size = 2.0};
+      one.marks.push_back({"",
+                           {{"curve", point.line},
+                            {"kind", point.label},
+                            {"x", data_number(point.x)},
+                            {"y", data_number(point.y)}}});
+      panel.layers.push_back(std::move(one));
+    }
+    for (const ErrorLine& line : from.lines) {
+      const SeriesStyle style = this->style(line.label);
+      panel.layers.push_back(Polyline{line.label, line.x, axis_.raised(line.mean), style.ink,
+                                      style.dash, 1.0, style.marker,
+                                      Mark{prefix + line.key + "-mean", {{"curve", line.label}}}});
+    }
+    return panel;
+  }
+
+ private:
+  SeriesStyle style(const std::string& label) const {
+    return series_style(labels_.series[static_cast<std::size_t>(
+        std::ranges::find(labels_.labels, label) - labels_.labels.begin())]);
+  }
+
+  const ErrorLinesSpec& spec_;
+  const ErrorAxis& axis_;
+  Labels labels_;
+};
+
+}  // namespace
+
+SeriesStyle series_style(std::size_t i) {
+  // After seven the colours come again, with other markers and dashes.
+  return {series_ink(i), kDashes[i % kDashes.size()],
+          kMarkers[(i + 3 * (i / kMarkers.size())) % kMarkers.size()]};
+}
+
+std::vector<std::size_t> series_of(const std::vector<std::optional<std::size_t>>& asked) {
+  std::vector<std::size_t> series(asked.size());
+  const std::set<std::optional<std::size_t>> different(asked.begin(), asked.end());
+  const bool usable = different.size() == asked.size() && !different.contains(std::nullopt);
+  for (std::size_t i = 0; i < asked.size(); ++i) series[i] = usable ? *asked[i] : i;
+  return series;
+}
+
+ErrorAxis error_axis(const std::vector<double>& means, const std::vector<double>& intervals,
+                     double log_from) {
+  Span of_means, all;
+  of_means.see(means);
+  all.see(means);
+  all.see(intervals);
+  if (!of_means.known()) return {Scale::kLinear, {0.0, 1.0}};
+  if (of_means.low > 0.0 && of_means.high / of_means.low > log_from) {
+    const double low = std::max(all.low, of_means.low / 3.0);
+    const double high = std::min(all.high, of_means.high * 10.0);
+    const double margin = std::pow(high / low, 0.05);
+    return {Scale::kLog, {low / margin, high * margin}};
+  }
+  const double low = std::min(all.low, 0.0);
+  const double high = all.high > low ? all.high : low + 1.0;
+  return {Scale::kLinear, {low, high + 0.06 * (high - low)}};
+}
+
+std::vector<double> ErrorAxis::raised(std::vector<double> values) const {
+  if (scale == Scale::kLog)
+    for (double& value : values)
+      if (!std::isnan(value)) value = std::max(value, 0.5 * limits.low);
+  return values;
+}
+
+Figure error_lines_figure(const ErrorLinesSpec& spec) {
+  require_consistent(spec);
+  const ErrorAxis axis = axis_of(spec);
+  Figure figure;
+  figure.id = spec.id;
+  figure.title = spec.title;
+  figure.record_ids = spec.record_ids;
+  figure.caption = spec.caption.empty() ? fmt::format(
+                                              "Lines: {}, mean over runs; bands: its 95 % "
+                                              "interval.",
+                                              spec.quantity)
+                                        : spec.caption;
+  figure.alt = spec.alt.empty() ? alt_of(spec, axis) : spec.alt;
+  figure.notes = spec.notes;
+  note_ceiling(spec, axis, figure);
+  const Builder builder(spec, axis);
+  for (std::size_t i = 0; i < spec.panels.size(); ++i) figure.panels.push_back(builder.panel(i));
+  if (labels_of(spec).labels.empty())
+    figure.notes.push_back({"There are no curves.", Ink::kWarning});
+  if (figure.panels.empty()) {
+    figure.panels.resize(1);
+    figure.panels[0].y.label = spec.y_label;
+  }
+  figure.shared_y = figure.panels.size() > 1;
+  require_valid(figure);
+  return figure;
+}
+
+}  // namespace mapproof

@@ -1,0 +1,86 @@
+#pragma once
+
+#include <limits>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "render/plot/figure.hpp"
+
+namespace mapproof {
+
+/// How the i-th curve of a figure looks: ink, dash and marker; no two of the first 21 are alike.
+struct SeriesStyle {
+  Ink ink = Ink::kSeries1;
+  Dash dash = Dash::kSolid;
+  Marker marker = Marker::kCircle;
+};
+SeriesStyle series_style(std::size_t i);
+
+/// An error over something. All vectors are as long as `x`; NaN: nothing known.
+struct ErrorLine {
+  std::string label;              ///< In the legend; lines of one label look alike in all panels.
+  std::string key;                ///< [a-z0-9-]+, unique in its panel; ids of marks are made of it.
+  std::vector<double> x = {};     ///< Ascending.
+  std::vector<double> mean = {};  ///< Over runs.
+  std::vector<double> low = {};   ///< Of the 95 % interval; empty, with `high`: no band.
+  std::vector<double> high = {};
+  /// Which look it takes (see series_style), so that a method looks alike in all figures; empty, or
+  /// two labels of one figure with the same: by first appearance.
+  std::optional<std::size_t> series = std::nullopt;
+};
+
+/// A point to be told apart from the lines, such as a published value.
+struct ErrorPoint {
+  std::string label;  ///< In the legend, shared by all points of one kind.
+  std::string line;   ///< The label of the line whose colour it takes.
+  double x = 0.0;
+  double y = 0.0;
+  Marker marker = Marker::kDiamond;
+};
+
+struct ErrorPanel {
+  std::string title;
+  Axis x;
+  std::vector<ErrorLine> lines;
+  std::vector<ErrorPoint> points;
+};
+
+struct ErrorLinesSpec {
+  std::string id;  ///< [a-z][a-z0-9-]*.
+  std::string title;
+  std::string y_label = "MPE [m]";
+  std::string quantity = "mean position error";  ///< In words, for caption and alt text.
+  std::vector<ErrorPanel> panels;                ///< Side by side on one y axis.
+  std::string caption;
+  std::string alt;  ///< Empty: one is made of the panels' numbers.
+  std::vector<std::string> record_ids;
+  std::vector<Note> notes;
+  double ceiling = std::numeric_limits<double>::infinity();  ///< Means above do not widen the
+                                                             ///< frame; a note counts them.
+  double log_from = 20.0;  ///< Greatest over least mean from which the y axis is logarithmic.
+};
+
+/// The style of each label, in the order of their first appearance, by what its line asks for.
+std::vector<std::size_t> series_of(const std::vector<std::optional<std::size_t>>& asked);
+
+/// Lines with bands in panels that share the y axis, which is logarithmic if the means span more
+/// than `log_from`; else from 0, or from the lowest band where an interval reaches below.
+/// @throws InvalidInput if a line's vectors disagree in length, or a key is not an id or there
+/// twice.
+Figure error_lines_figure(const ErrorLinesSpec& spec);
+
+/// The y axis for means and their intervals as error_lines_figure takes it.
+struct ErrorAxis {
+  Scale scale = Scale::kLinear;
+  Range limits;
+
+  /// Values that a log axis cannot show, raised to just below its lower end.
+  std::vector<double> raised(std::vector<double> values) const;
+};
+
+/// @param intervals  Both ends of the intervals; may be empty.
+ErrorAxis error_axis(const std::vector<double>& means, const std::vector<double>& intervals,
+                     double log_from = 20.0);
+
+}  // namespace mapproof

@@ -1,0 +1,135 @@
+#include "render/figures/diagrams/heat_map.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "core/base/errors.hpp"
+#include "core/base/unit_text.hpp"
+#include "render/figures/parts.hpp"
+#include "render/figures/words.hpp"
+
+namespace mapproof {
+namespace {
+
+constexpr double kWideRange = 10.0;  ///< Of greatest to least, from which colours are logarithmic.
+constexpr int kCellDigits = 2;       ///< Of numbers that decimals do not show: cells are narrow.
+constexpr int kHatchLines = 5;       ///< Across a missing cell, each way of its diagonal.
+
+std::string with_unit_of(const HeatMapSpec& spec, double value) {
+  return with_plain_spaces(with_unit(rounded_text(value, spec.decimals), spec.unit));
+}
+
+std::string place_of(const HeatMapSpec& spec, std::size_t cell) {
+  return fmt::format("{} {}, {} {}", spec.x_label, spec.x_names[cell % spec.x_names.size()],
+                     spec.y_label, spec.y_names[cell / spec.x_names.size()]);
+}
+
+void check_heat_map(const HeatMapSpec& spec) {
+  if (spec.x_names.empty() || spec.values.size() != spec.x_names.size() * spec.y_names.size())
+    throw InvalidInput("a heat map whose values are not as many as its cells");
+  if (std::ranges::none_of(spec.values, [](double value) { return std::isfinite(value); }))
+    throw InvalidInput("a heat map without a value");
+}
+
+/// Parallels to the diagonal of the unit square about (x, y).
+void hatch(double x, double y, Segments& lines) {
+  for (int k = 1 - kHatchLines; k < kHatchLines; ++k) {
+    const double shift = static_cast<double>(k) / kHatchLines;
+    add_line(lines, {x - 0.5 + std::max(0.0, shift), y - 0.5 + std::max(0.0, -shift)},
+             {x + 0.5 + std::min(0.0, shift), y + 0.5 - std::max(0.0, shift)});
+  }
+}
+
+/// The values from the least to the greatest; a little more where all are the same.
+Range span_of(const HeatMapSpec& spec) {
+  Range range{HUGE_VAL, -HUGE_VAL};
+  for (const double value : spec.values) {
+    if (!std::isfinite(value)) continue;
+    range.low = std::min(range.low, value);
+    range.high = std::max(range.high, value);
+  }
+  if (range.low < range.high) return range;
+  const double around = range.low == 0.0 ? 1.0 : 0.1 * std::abs(range.low);
+  return {range.low - around, range.high + around};
+}
+
+Cells cells_of(const HeatMapSpec& spec) {
+  Cells cells;
+  const std::size_t columns = spec.x_names.size(), rows = spec.y_names.size();
+  cells.x = {-0.5, static_cast<double>(columns) - 0.5};
+  cells.y = {-0.5, static_cast<double>(rows) - 0.5};
+  cells.columns = columns;
+  cells.ramp = Ramp::kViridis;
+  cells.limits = span_of(spec);
+  if (spec.unit != "%" && cells.limits.low > 0.0 &&
+      cells.limits.high > kWideRange * cells.limits.low)
+    cells.scale = Scale::kLog;
+  cells.bar_label = spec.unit.empty() ? spec.quantity : spec.quantity + " [" + spec.unit + "]";
+  for (std::size_t row = rows; row-- > 0;)  // The uppermost first.
+    for (std::size_t column = 0; column < columns; ++column) {
+      const double value = spec.values[row * columns + column];
+      const bool is_there = std::isfinite(value);
+      cells.values.push_back(is_there ? value : std::nan(""));
+      cells.text.push_back(is_there ? rounded_text(value, spec.decimals, kCellDigits) : "");
+    }
+  return cells;
+}
+
+std::string description_of(const HeatMapSpec& spec) {
+  std::size_t least = 0, most = 0;
+  const auto beats = [&](std::size_t i, std::size_t so_far, double sign) {
+    const double value = spec.values[i], best = spec.values[so_far];
+    return std::isfinite(value) && (!std::isfinite(best) || sign * value > sign * best);
+  };
+  for (std::size_t i = 0; i < spec.values.size(); ++i) {
+    if (beats(i, least, -1.0)) least = i;
+    if (beats(i, most, 1.0)) most = i;
+  }
+  return fmt::format("Least: {} at {}; greatest: {} at {}.", with_unit_of(spec, spec.values[least]),
+                     place_of(spec, least), with_unit_of(spec, spec.values[most]),
+                     place_of(spec, most));
+}
+
+}  // namespace
+
+Figure heat_map_figure(const HeatMapSpec& spec) {
+  check_heat_map(spec);
+  Figure figure;
+  figure.id = spec.id;
+  figure.title = spec.title;
+  figure.record_ids = spec.record_ids;
+  Panel& panel = figure.panels.emplace_back();
+  Cells cells = cells_of(spec);
+  panel.x = {.label = spec.x_label, .limits = cells.x, .names = spec.x_names};
+  panel.y = {.label = spec.y_label, .limits = cells.y, .names = spec.y_names};
+
+  Area missing{.ink = Ink::kMuted, .fill = Fill::kTint};
+  Segments hatching{.ink = Ink::kMuted};
+  int count = 0;
+  for (std::size_t i = 0; i < spec.values.size(); ++i) {
+    if (std::isfinite(spec.values[i])) continue;
+    const auto x = static_cast<double>(i % spec.x_names.size());
+    const auto y = static_cast<double>(i / spec.x_names.size());
+    add_box(missing, {x - 0.5, x + 0.5}, {y - 0.5, y + 0.5});
+    hatch(x, y, hatching);
+    ++count;
+  }
+  figure.caption =
+      fmt::format("Colours: {} over {} and {}, mean over runs{}.", spec.quantity, spec.x_label,
+                  spec.y_label, cells.scale == Scale::kLog ? ", on a logarithmic scale" : "");
+  if (count > 0) {
+    figure.notes.push_back({"Hatched: " + spec.missing + ".", Ink::kText});
+    figure.caption += fmt::format(" Hatched, {}: {}.", counted(count, "cell"), spec.missing);
+    panel.layers.emplace_back(std::move(missing));
+    panel.layers.emplace_back(std::move(hatching));
+  }
+  panel.layers.emplace_back(std::move(cells));
+  figure.alt = figure.caption + " " + description_of(spec);
+  require_valid(figure);
+  return figure;
+}
+
+}  // namespace mapproof

@@ -1,0 +1,32 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "render/plot/figure.hpp"
+
+namespace mapproof {
+
+/// A quantity over two factors.
+struct HeatMapSpec {
+  std::string id;  ///< [a-z][a-z0-9-]*.
+  std::string title;
+  std::string x_label, y_label;               ///< Of the factors, with their units.
+  std::vector<std::string> x_names, y_names;  ///< Of their levels, ascending.
+  /// One per combination: row by row, the rows in the order of `y_names`; NaN: missing.
+  std::vector<double> values;
+  int decimals = 3;                  ///< Of the numbers in the cells: rounded_text().
+  std::string quantity;              ///< "MPE".
+  std::string unit;                  ///< "m"; may be empty.
+  std::string missing = "no value";  ///< What a hatched cell means.
+  std::vector<std::string> record_ids;
+};
+
+/// Coloured cells of one size with their numbers and a colour bar, the first levels at the lower
+/// left; missing ones are hatched, and a note says so. The colours are viridis, whose lightness
+/// rises evenly: along the logarithm where the values, all positive, span more than a factor of 10
+/// and are not percentages.
+/// @throws InvalidInput if values and levels differ in number or no value is there.
+Figure heat_map_figure(const HeatMapSpec& spec);
+
+}  // namespace mapproof

@@ -1,0 +1,208 @@
+#include "render/figures/diagrams/measurement.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include "core/base/words.hpp"
+#include "render/figures/diagrams/measurement_geometry.hpp"
+#include "render/figures/parts.hpp"
+#include "render/figures/words.hpp"
+
+namespace mapproof {
+namespace {
+
+constexpr double kViewOfReach = 1.3;  // Half the side of the picture of a disc.
+constexpr Eigen::Index kTrail = 40;   // Steps of the path that are drawn.
+
+class MeasurementFigure {
+ public:
+  MeasurementFigure(const Measurement& m, const std::string& id)
+      : m_(m), robot_(point_of(m.robot_m)), radius_(m.world.landmark_diameter_m / 2.0) {
+    figure_.id = id;
+    panel_.equal_aspect = true;
+    panel_.x.label = "x [m]";
+    panel_.y.label = "y [m]";
+  }
+
+  Figure make() {
+    m_.sensor == Sensor::kVisibility ? show_visibility() : show_bearings();
+    std::erase_if(panel_.layers, is_empty);
+    figure_.panels.push_back(std::move(panel_));
+    return std::move(figure_);
+  }
+
+ private:
+  void show_visibility() {
+    const double half = kViewOfReach * m_.reach_m;
+    panel_.x.limits = Range{robot_.x - half, robot_.x + half};
+    panel_.y.limits = Range{robot_.y - half, robot_.y + half};
+    Ellipses reach{.label = fmt::format("reach, {} mm", std::lround(1000.0 * m_.reach_m)),
+                   .ink = Ink::kText,
+                   .dash = Dash::kDashed,
+                   .width = 0.8};
+    add_disc(reach, robot_, m_.reach_m);
+    panel_.layers = {walls(),
+                     shadows(),
+                     reach,
+                     trail(),
+                     landmarks(View::kOutOfReach),
+                     landmarks(View::kHidden),
+                     landmarks(View::kVisible),
+                     heading(0.22 * m_.reach_m),
+                     robot()};
+    const std::size_t seen = count(View::kVisible), hidden = count(View::kHidden);
+    figure_.title = "Visibility-only measurement";
+    figure_.caption = fmt::format(
+        "Visibility at step {} of layout {}, pose {}: of {} the robot sees {}; {} within {} mm "
+        "hidden behind another. Filled: visible; heavy rings: hidden; pale: out of reach; grey: "
+        "shadows.",
+        m_.step, m_.run.layout, m_.run.pose, counted(m_.views.size(), "landmark"), seen,
+        hidden == 1 ? "1 is" : fmt::format("{} are", hidden), std::lround(1000.0 * m_.reach_m));
+    figure_.alt = fmt::format(
+        "Plan of the room around the robot at ({}, {}) m. Within {} m {} visible and {} hidden; {} "
+        "out of reach.",
+        significant(robot_.x), significant(robot_.y), significant(m_.reach_m),
+        counted(seen, "landmark"), hidden, count(View::kOutOfReach));
+  }
+
+  void show_bearings() {
+    const double margin = 0.04 * m_.world.side_m;
+    panel_.x.limits = panel_.y.limits = Range{-margin, m_.world.side_m + margin};
+    const std::vector<Eigen::Index> named = named_bearings(m_);
+    panel_.layers = {walls(), trail(), rays(named), landmarks(std::nullopt)};
+    PointLabels labels;
+    std::vector<std::string> words;
+    for (std::size_t i = 0; i < named.size(); ++i) {
+      add_angle(named[i], i);
+      words.push_back(fmt::format("L{}: {}", named[i] + 1, degrees(m_.bearings_rad(named[i]))));
+      add_label(labels, place(named[i]), words.back());
+    }
+    panel_.layers.push_back(heading(0.16 * m_.world.side_m));
+    panel_.layers.push_back(robot());
+    panel_.layers.push_back(labels);
+    const auto known = static_cast<std::size_t>((m_.bearings_rad.array().isFinite()).count());
+    figure_.title = "Bearing-only measurement";
+    figure_.caption = fmt::format(
+        "Bearings at step {} of layout {}, pose {}: the angle from the heading (arrow) to each of "
+        "{}.",
+        m_.step, m_.run.layout, m_.run.pose, counted(known, "landmark"));
+    figure_.alt =
+        fmt::format("Plan of the room with the robot at ({}, {}) m and a ray to each of {}.",
+                    significant(robot_.x), significant(robot_.y), counted(known, "landmark"));
+    if (words.empty()) return;
+    figure_.caption += " Named: " + listed(words, 3) + ".";
+    figure_.alt += " Angles to the heading: " + listed(words, 3) + ".";
+  }
+
+  Area walls() const {
+    Area room{.label = "", .ink = Ink::kText, .fill = Fill::kNone, .outlined = true, .width = 1.6};
+    add_box(room, {0.0, m_.world.side_m}, {0.0, m_.world.side_m});
+    return room;
+  }
+
+  Area shadows() const {
+    Area area{.label = "shadow", .ink = Ink::kText, .fill = Fill::kTint};
+    for (const std::vector<Point>& shadow : shadow_outlines(m_)) {
+      for (const Point corner : shadow) add_corner(area, corner);
+      end_outline(area);
+    }
+    return area;
+  }
+
+  /// Those of one view; all of them without one.
+  Ellipses landmarks(std::optional<View> view) const {
+    Ellipses discs{.label = "landmark", .ink = Ink::kText, .fill = Fill::kPaper, .width = 0.8};
+    if (view == View::kVisible) discs.label = "visible", discs.fill = Fill::kSolid;
+    if (view == View::kVisible) discs.ink = Ink::kSeries1;
+    if (view == View::kHidden) discs.label = "hidden", discs.width = 1.3, discs.ink = Ink::kSeries2;
+    if (view == View::kOutOfReach) discs.label = "out of reach", discs.fill = Fill::kTint;
+    if (view == View::kOutOfReach) discs.ink = Ink::kMuted, discs.width = 0.6;
+    for (Eigen::Index i = 0; i < rows(); ++i) {
+      if (view && m_.views[i] != *view) continue;
+      if (!is_shown(place(i))) continue;
+      add_disc(discs, place(i), radius_);
+      Mark mark{fmt::format("landmark-{}", i + 1), {{"landmark", fmt::format("L{}", i + 1)}}};
+      if (view) mark.data.emplace_back("view", discs.label);
+      if (!view) mark.data.emplace_back("bearing-rad", data_number(m_.bearings_rad(i)));
+      discs.marks.push_back(std::move(mark));
+    }
+    return discs;
+  }
+
+  bool is_shown(Point p) const {
+    const Range &x = *panel_.x.limits, &y = *panel_.y.limits;
+    return x.low - radius_ < p.x && p.x < x.high + radius_ && y.low - radius_ < p.y &&
+           p.y < y.high + radius_;
+  }
+
+  Segments rays(const std::vector<Eigen::Index>& named) const {
+    Segments lines{.label = "ray", .ink = Ink::kMuted, .width = 0.4};
+    for (Eigen::Index i = 0; i < rows(); ++i)
+      if (std::isfinite(m_.bearings_rad(i)) && std::ranges::find(named, i) == named.end())
+        add_line(lines, robot_, place(i));
+    return lines;
+  }
+
+  /// The ray to a landmark and the arc from the heading to it, the n-th farther out.
+  void add_angle(Eigen::Index row, std::size_t n) {
+    const Ink ink = series_ink(n);
+    const Dash dash = std::array{Dash::kSolid, Dash::kDashed, Dash::kDashDot}[n % 3];
+    Polyline ray{.ink = ink, .dash = dash};
+    add_point(ray, robot_);
+    add_point(ray, place(row));
+    Polyline arc{.ink = ink, .dash = dash};
+    const double radius = (0.05 + 0.03 * static_cast<double>(n)) * m_.world.side_m;
+    for (const Point p :
+         arc_points(robot_, radius, m_.heading_rad, m_.heading_rad + m_.bearings_rad(row)))
+      add_point(arc, p);
+    panel_.layers.push_back(ray);
+    panel_.layers.push_back(arc);
+  }
+
+  Polyline trail() const {
+    Polyline line{.label = "path so far", .ink = Ink::kMuted, .dash = Dash::kDotted, .width = 0.7};
+    const Eigen::Index first = std::max<Eigen::Index>(0, m_.path_m.rows() - kTrail);
+    for (Eigen::Index i = first; i < m_.path_m.rows(); ++i)
+      add_point(line, point_of(m_.path_m.row(i)));
+    return line;
+  }
+
+  Segments heading(double length) const {
+    Segments arrow{.label = "heading", .ink = Ink::kText, .arrow = true};
+    add_line(arrow, robot_, beside(robot_, length, m_.heading_rad));
+    return arrow;
+  }
+
+  Scatter robot() const {
+    Scatter at{.label = "robot", .ink = Ink::kText, .marker = Marker::kDiamond, .size = 1.4};
+    add_point(at, robot_);
+    at.marks.push_back({"robot", {{"kind", "robot"}}});
+    return at;
+  }
+
+  std::size_t count(View view) const {
+    return static_cast<std::size_t>(std::ranges::count(m_.views, view));
+  }
+  Eigen::Index rows() const { return m_.world.landmarks_m.rows(); }
+  Point place(Eigen::Index row) const { return point_of(m_.world.landmarks_m.row(row)); }
+
+  const Measurement& m_;
+  Point robot_;
+  double radius_;
+  Panel panel_;
+  Figure figure_;
+};
+
+}  // namespace
+
+Figure measurement_figure(const Measurement& measurement, const std::string& id) {
+  require_consistent(measurement);
+  Figure figure = MeasurementFigure(measurement, id).make();
+  require_valid(figure);
+  return figure;
+}
+
+}  // namespace mapproof

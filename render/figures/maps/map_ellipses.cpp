@@ -1,0 +1,85 @@
+#include "render/figures/maps/map_ellipses.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include "core/base/errors.hpp"
+#include "core/base/words.hpp"
+#include "render/base/span.hpp"
+#include "render/figures/words.hpp"
+
+namespace mapproof {
+namespace {
+
+constexpr double kLongest = 0.25;  // An axis longer than this share of the map is cut.
+
+bool shown(const Panel& panel, double x, double y) {
+  const auto within = [](const std::optional<Range>& limits, double at) {
+    return !limits || (limits->low <= at && at <= limits->high);
+  };
+  return within(panel.x.limits, x) && within(panel.y.limits, y);
+}
+
+Ellipses ellipses_of(const MapRecord& record, const MapCertainty& certainty, const Panel& panel) {
+  Ellipses shapes{.label = "95 % ellipse", .ink = Ink::kSeries1, .fill = Fill::kTint, .width = 0.6};
+  for (Eigen::Index i = 0; i < record.estimate.rows(); ++i) {
+    const double x = record.estimate(i, 0), y = record.estimate(i, 1);
+    const auto ellipse = confidence_ellipse(certainty, i);
+    if (!ellipse || !std::isfinite(x + y) || !shown(panel, x, y)) continue;
+    shapes.x.push_back(x), shapes.y.push_back(y);
+    shapes.a.push_back(ellipse->a), shapes.b.push_back(ellipse->b);
+    shapes.turn_rad.push_back(ellipse->turn_rad);
+    shapes.marks.push_back({fmt::format("ellipse-{}", i + 1),
+                            {{"landmark", record.names[static_cast<std::size_t>(i)]},
+                             {"kind", "ellipse"},
+                             {"a", data_number(ellipse->a)},
+                             {"b", data_number(ellipse->b)}}});
+  }
+  return shapes;
+}
+
+/// An ellipse as large as the map must not make all the rest small.
+void limit(const MapRecord& record, const Ellipses& shapes, Panel& panel) {
+  if (panel.x.limits || shapes.a.empty()) return;
+  Span x, y;
+  const auto see = [&](const Points& points) {
+    for (Eigen::Index i = 0; i < points.rows(); ++i)
+      if (points.row(i).allFinite()) x.see(points(i, 0)), y.see(points(i, 1));
+  };
+  see(record.estimate);
+  if (record.truth_m && record.frame == Frame::kTruth) see(*record.truth_m);
+  const double side = std::max(x.high - x.low, y.high - y.low);
+  if (!(side > 0.0) || std::ranges::max(shapes.a) <= kLongest * side) return;
+  const double by = kLongest * side;
+  panel.x.limits = Range{x.low - by, x.high + by};
+  panel.y.limits = Range{y.low - by, y.high + by};
+}
+
+}  // namespace
+
+void add_ellipses(const MapRecord& record, const MapCertainty& certainty, Figure& figure) {
+  if (std::ssize(certainty.covariances) != record.estimate.rows())
+    throw InvalidInput("a map's ellipses need a covariance a landmark");
+  Panel& panel = figure.panels.at(0);
+  Ellipses shapes = ellipses_of(record, certainty, panel);
+  if (shapes.x.empty()) return;
+  limit(record, shapes, panel);
+  panel.layers.insert(panel.layers.begin(), std::move(shapes));
+  figure.caption += " " + ellipse_words(certainty);
+}
+
+std::string ellipse_words(const MapCertainty& certainty) {
+  std::string words = fmt::format(
+      "Ellipses ({:g} %): where the mean of the maps of other such walks would lie, by {} of "
+      "blocks of {} drawn anew; what every such map has wrong is not in them.",
+      100.0 * certainty.confidence, counted(certainty.maps, "map"),
+      counted(certainty.block_steps, "step"));
+  if (certainty.maps < certainty.replicates)
+    words += fmt::format(" {} of {} draws gave no map.", certainty.replicates - certainty.maps,
+                         certainty.replicates);
+  return words;
+}
+
+}  // namespace mapproof

@@ -1,0 +1,118 @@
+#include "render/figures/maps/map_grid.hpp"
+
+#include <algorithm>
+
+#include <fmt/format.h>
+
+#include "core/base/errors.hpp"
+#include "core/base/words.hpp"
+#include "render/figures/maps/map.hpp"
+#include "render/figures/score_words.hpp"
+#include "render/figures/words.hpp"
+
+namespace mapproof {
+namespace {
+
+constexpr std::size_t kMostFrames = 10;
+constexpr double kSmall = 0.65;  // Size of marks in a strip.
+
+void require_consistent(const MapGridSpec& spec) {
+  const auto refuse = [&spec](const std::string& what) {
+    throw InvalidInput("figure " + printable(spec.id) + ": " + what);
+  };
+  if (spec.maps.empty()) refuse("no map");
+  for (const TitledMap& one : spec.maps)
+    if (one.map.frame != spec.maps.front().map.frame) refuse("maps in different frames");
+}
+
+/// The first and the last, and others evenly between them.
+std::vector<const TitledMap*> thinned(const std::vector<TitledMap>& maps) {
+  std::vector<const TitledMap*> chosen;
+  const std::size_t count = std::min(maps.size(), kMostFrames);
+  for (std::size_t i = 0; i < count; ++i)
+    chosen.push_back(&maps[count == 1 ? 0 : i * (maps.size() - 1) / (count - 1)]);
+  return chosen;
+}
+
+std::vector<const TitledMap*> all_of(const std::vector<TitledMap>& maps) {
+  std::vector<const TitledMap*> all;
+  for (const TitledMap& one : maps) all.push_back(&one);
+  return all;
+}
+
+/// The score, or the first error alone.
+std::string scored(const TitledMap& one, bool whole) {
+  const std::string words = one.map.score ? score_words(*one.map.score) : "";
+  if (words.empty()) return "no score";
+  return whole ? words : words.substr(0, words.find(','));
+}
+
+/// The same, an error a line.
+std::string in_lines(std::string words) {
+  for (std::size_t at = 0; (at = words.find(", ", at)) != std::string::npos;)
+    words.replace(at, 2, "\n");
+  return words;
+}
+
+/// For a panel of a strip: no names, small marks.
+void make_small(Panel& panel) {
+  std::erase_if(panel.layers,
+                [](const Layer& layer) { return std::holds_alternative<PointLabels>(layer); });
+  for (Layer& layer : panel.layers)
+    if (auto* points = std::get_if<Scatter>(&layer)) points->size *= kSmall;
+}
+
+Figure grid_of(const MapGridSpec& spec, const std::vector<const TitledMap*>& maps, bool named) {
+  Figure figure;
+  figure.id = spec.id;
+  figure.title = spec.title;
+  figure.shared_x = figure.shared_y = true;
+  std::vector<std::string> without_place;
+  for (std::size_t i = 0; i < maps.size(); ++i) {
+    const MapRecord& record = maps[i]->map;
+    Panel panel = map_panel(record, fmt::format("map-{}-", i + 1));
+    panel.title = maps[i]->title + "\n" + in_lines(scored(*maps[i], named));
+    if (!named) make_small(panel);
+    figure.panels.push_back(std::move(panel));
+    figure.record_ids.push_back(record.id);
+    figure.alt += (i == 0 ? "" : "; ") + maps[i]->title + " " + scored(*maps[i], true);
+    if (record.estimate.array().isNaN().any()) without_place.push_back(maps[i]->title);
+  }
+  figure.alt = fmt::format("{}: {}.", counted(maps.size(), "map"), figure.alt);
+  figure.caption = spec.title + ". ";
+  figure.caption += maps.front()->map.frame == Frame::kTruth
+                        ? "Open circles: true positions; dots: estimates, joined by their errors; "
+                          "squares: anchors."
+                        : "Place, turn, scale and mirror are arbitrary.";
+  if (!without_place.empty()) {
+    const std::string text =
+        "Landmarks without a place are left out of: " + listed(without_place, 4) + ".";
+    figure.caption += " " + text;
+    figure.notes.push_back({text, Ink::kWarning});
+  }
+  require_valid(figure);
+  return figure;
+}
+
+}  // namespace
+
+Figure film_strip_figure(const MapGridSpec& spec) {
+  require_consistent(spec);
+  Figure figure = grid_of(spec, thinned(spec.maps), false);
+  figure.columns = 5;
+  return figure;
+}
+
+Figure map_pair_figure(const MapGridSpec& spec) {
+  require_consistent(spec);
+  return grid_of(spec, all_of(spec.maps), true);
+}
+
+Figure map_wall_figure(const MapGridSpec& spec) {
+  require_consistent(spec);
+  Figure figure = grid_of(spec, all_of(spec.maps), false);
+  figure.columns = 4;
+  return figure;
+}
+
+}  // namespace mapproof

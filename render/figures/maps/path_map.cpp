@@ -1,0 +1,248 @@
+#include "render/figures/maps/path_map.hpp"
+
+#include <algorithm>
+
+#include <fmt/format.h>
+
+#include "core/base/words.hpp"
+#include "render/figures/curves/path_errors.hpp"
+#include "render/figures/curves/thinning.hpp"
+#include "render/figures/maps/covariance_ellipse.hpp"
+#include "render/figures/maps/path_styles.hpp"
+#include "render/figures/maps/path_view.hpp"
+#include "render/figures/parts.hpp"
+#include "render/figures/status_words.hpp"
+#include "render/figures/words.hpp"
+
+namespace mapproof {
+namespace {
+
+using Eigen::Index;
+
+constexpr std::size_t kMostNamedLandmarks = 12;  // Landmarks with a name beside them.
+
+std::string label_of(const SlamRecord& record) { return std::string(info(record.method).label); }
+
+class PathMap {
+ public:
+  explicit PathMap(const PathMapSpec& spec) : spec_(spec), view_(path_view(spec)) {}
+
+  Figure make() const {
+    Figure figure;
+    figure.id = spec_.id;
+    figure.title = spec_.title;
+    figure.record_ids = {spec_.run.id};
+    figure.columns = 1;
+    figure.panels.push_back(map_panel());
+    if (auto errors = path_error_panel(view_.shown)) figure.panels.push_back(*std::move(errors));
+    figure.notes = notes();
+    figure.caption = caption(figure.panels.size() > 1);
+    figure.alt = alt();
+    require_valid(figure);
+    return figure;
+  }
+
+ private:
+  Panel map_panel() const {
+    Panel panel;
+    panel.equal_aspect = true;
+    panel.x = {.label = "x [m]", .limits = view_.limits.x};
+    panel.y = {.label = "y [m]", .limits = view_.limits.y};
+    if (spec_.run.log.truth)
+      panel.layers.push_back(path(*spec_.run.log.truth, "true path", "truth", kTrueInk, 2.4));
+    for (const SlamRecord* record : view_.shown) {
+      const PathStyle style = path_style(record->method);
+      panel.layers.push_back(
+          path(record->estimate.path, label_of(*record), key(*record), style.ink, style.width));
+    }
+    panel.layers.push_back(true_landmarks(false));
+    panel.layers.push_back(true_landmarks(true));
+    for (const SlamRecord* record : view_.shown) {
+      panel.layers.push_back(ellipses(*record));
+      panel.layers.push_back(landmarks(*record));
+    }
+    panel.layers.push_back(names());
+    std::erase_if(panel.layers, is_empty);
+    return panel;
+  }
+
+  static std::string key(const SlamRecord& record) { return std::string(info(record.method).name); }
+
+  Polyline path(const Trajectory& path, const std::string& label, const std::string& key, Ink ink,
+                double width) const {
+    ThinLine thin = thin_path(path, view_.tolerance_m);
+    const Marker marker = thin.x.size() == 1 ? Marker::kCircle : Marker::kNone;
+    return {.label = label,
+            .x = std::move(thin.x),
+            .y = std::move(thin.y),
+            .ink = ink,
+            .width = width,
+            .marker = marker,
+            .mark = {"path-" + key, {{"path", label}}}};
+  }
+
+  bool in_picture(const Eigen::RowVector2d& at) const {
+    const auto& [x, y] = view_.limits;
+    return x.low <= at.x() && at.x() <= x.high && y.low <= at.y() && at.y() <= y.high;
+  }
+
+  bool is_known(Index row) const {
+    return std::ranges::find(spec_.run.known, row) != spec_.run.known.end();
+  }
+
+  /// Whether a method that is shown was given the known landmarks.
+  bool uses_known() const {
+    return std::ranges::any_of(
+        view_.shown, [](const SlamRecord* record) { return info(record->method).knows_landmarks; });
+  }
+
+  Mark mark(const std::string& kind, Index row, const Eigen::RowVector2d& at) const {
+    return {fmt::format("{}-{}", kind, row + 1),
+            {{"landmark", spec_.run.log.landmarks[row]},
+             {"kind", kind},
+             {"x", data_number(at.x())},
+             {"y", data_number(at.y())}}};
+  }
+
+  Scatter true_landmarks(bool known) const {
+    Scatter points{.label = known ? "landmark, known" : "landmark, true",
+                   .ink = Ink::kText,
+                   .marker = known ? Marker::kSquare : Marker::kCircle,
+                   .filled = false,
+                   .size = 1.5};
+    if (!spec_.run.log.true_landmarks) return points;
+    const Points& places = *spec_.run.log.true_landmarks;
+    for (Index i = 0; i < places.rows(); ++i) {
+      if ((is_known(i) && uses_known()) != known || !in_picture(places.row(i))) continue;
+      add_point(points, point_of(places.row(i)));
+      points.marks.push_back(mark(known ? "known" : "true", i, places.row(i)));
+    }
+    return points;
+  }
+
+  Scatter landmarks(const SlamRecord& record) const {
+    const PathStyle style = path_style(record.method);
+    Scatter points{
+        .label = label_of(record), .ink = style.ink, .marker = style.marker, .size = 1.2};
+    const Points& places = record.estimate.landmarks_m;
+    for (Index i = 0; i < places.rows(); ++i) {
+      if (!in_picture(places.row(i))) continue;
+      add_point(points, point_of(places.row(i)));
+      points.marks.push_back(mark(key(record), i, places.row(i)));
+    }
+    return points;
+  }
+
+  Ellipses ellipses(const SlamRecord& record) const {
+    const PathStyle style = path_style(record.method);
+    Ellipses ellipses{.label = label_of(record), .ink = style.ink, .width = 0.8};
+    const auto& covariances = record.estimate.landmark_cov_m2;
+    for (Index i = 0; i < std::ssize(covariances); ++i) {
+      const Eigen::RowVector2d at = record.estimate.landmarks_m.row(i);
+      if (!in_picture(at) || !covariances[i].allFinite()) continue;
+      const Ellipse ellipse = covariance_ellipse(covariances[i]);
+      ellipses.x.push_back(at.x()), ellipses.y.push_back(at.y());
+      ellipses.a.push_back(view_.enlarged * ellipse.a);
+      ellipses.b.push_back(view_.enlarged * ellipse.b);
+      ellipses.turn_rad.push_back(ellipse.turn_rad);
+      ellipses.marks.push_back({fmt::format("ellipse-{}-{}", key(record), i + 1),
+                                {{"landmark", spec_.run.log.landmarks[i]},
+                                 {"a", data_number(ellipse.a)},
+                                 {"b", data_number(ellipse.b)}}});
+    }
+    return ellipses;
+  }
+
+  PointLabels names() const {
+    PointLabels labels;
+    const auto& all = spec_.run.log.landmarks;
+    if (all.size() > kMostNamedLandmarks) return labels;
+    for (Index i = 0; i < std::ssize(all); ++i)
+      if (const auto at = place_of(i)) add_label(labels, *at, all[i]);
+    return labels;
+  }
+
+  /// Where a landmark is, or else where the first method has it.
+  std::optional<Point> place_of(Index row) const {
+    const auto& truth = spec_.run.log.true_landmarks;
+    if (truth && in_picture(truth->row(row))) return point_of(truth->row(row));
+    for (const SlamRecord* record : view_.shown) {
+      const Points& places = record->estimate.landmarks_m;
+      if (places.rows() > 0 && in_picture(places.row(row))) return point_of(places.row(row));
+    }
+    return std::nullopt;
+  }
+
+  bool any_ellipse() const {
+    return std::ranges::any_of(
+        view_.shown, [this](const SlamRecord* record) { return !ellipses(*record).x.empty(); });
+  }
+
+  std::string ellipse_words() const {
+    if (view_.enlarged == 1.0) return "ellipses: 95 % of each landmark";
+    return fmt::format("ellipses: 95 % of each landmark, enlarged {:g} times", view_.enlarged);
+  }
+
+  std::vector<Note> notes() const {
+    std::vector<Note> notes;
+    if (view_.shown.empty()) notes.push_back({"No method gave a path.", Ink::kWarning});
+    if (any_ellipse() && view_.enlarged != 1.0)
+      notes.push_back(
+          {fmt::format("Ellipses hold 95 % and are enlarged {:g} times.", view_.enlarged)});
+    if (!view_.leaving.empty())
+      notes.push_back({"Beyond the picture: " + listed(view_.leaving, 4) + ".", Ink::kWarning});
+    std::vector<std::string> others;
+    for (const SlamRecord* record : view_.failed) {
+      const auto& statuses = record->estimate.statuses;
+      others.push_back(fmt::format("{}: {}", label_of(*record),
+                                   statuses.empty() ? "no path." : status_words(statuses.front())));
+    }
+    for (const SlamRecord* record : view_.shown)
+      for (const Status& status : record->estimate.statuses)
+        others.push_back(fmt::format("{}: {}", label_of(*record), status_words(status)));
+    add_status_notes(others, notes);
+    return notes;
+  }
+
+  std::string caption(bool with_errors) const {
+    std::string text = fmt::format("{}: ", spec_.run.log.name);
+    std::vector<std::string> parts;
+    if (spec_.run.log.truth) parts.emplace_back("the true path (wide, grey)");
+    for (const SlamRecord* record : view_.shown) parts.push_back(label_of(*record));
+    text += listed(parts, 12) + ".";
+    if (spec_.run.log.true_landmarks) text += " Open marks: true landmarks; crosses: recovered.";
+    if (any_ellipse()) text += fmt::format(" {}.", capitalised(ellipse_words()));
+    if (with_errors)
+      text += " Below: distance to the true position over time, mean and alignment in the legend.";
+    text += fmt::format(" Paths are thinned for drawing, by {} m at most.",
+                        significant(view_.tolerance_m, 1));
+    return text;
+  }
+
+  static std::string capitalised(std::string text) {
+    text[0] = static_cast<char>(text[0] - 'a' + 'A');
+    return text;
+  }
+
+  std::string alt() const {
+    std::string text =
+        fmt::format("Map of {} and {} of {}.", counted(std::ssize(view_.shown), "path"),
+                    counted(std::ssize(spec_.run.log.landmarks), "landmark"), spec_.run.log.name);
+    for (const SlamRecord* record : view_.shown) {
+      if (record->errors.empty()) continue;
+      const TrajectoryError& error = record->errors.front();
+      text += fmt::format(" {}: mean error {} m ({}).", label_of(*record),
+                          significant(error.mean_m), alignment_words(error.alignment));
+    }
+    return text;
+  }
+
+  const PathMapSpec& spec_;
+  PathView view_;
+};
+
+}  // namespace
+
+Figure path_map_figure(const PathMapSpec& spec) { return PathMap(spec).make(); }
+
+}  // namespace mapproof

@@ -1,0 +1,26 @@
+#pragma once
+
+#include <string>
+
+#include "core/model/slam_study.hpp"
+#include "render/plot/figure.hpp"
+
+namespace mapproof {
+
+/// How a method's path, errors and landmarks look, the same in all figures.
+struct PathStyle {
+  Ink ink = Ink::kSeries1;
+  Dash dash = Dash::kSolid;  ///< Of errors over time; paths are solid, being dense.
+  double width = 1.0;        ///< Of paths.
+  Marker marker = Marker::kPlus;
+};
+PathStyle path_style(SlamMethod method);
+
+/// The truth's ink: wide and grey, so that what lies on it is seen.
+inline constexpr Ink kTrueInk = Ink::kMuted;
+
+/// "unaligned", "rigid", "rigid with reflection", "similarity": how an error was taken, in
+/// words.
+std::string alignment_words(Alignment alignment);
+
+}  // namespace mapproof

@@ -1,0 +1,296 @@
+#include "reports/diff/approvals/approvals.hpp"
+
+#include <algorithm>
+#include <iterator>
+#include <map>
+#include <set>
+#include <system_error>
+
+#include <fmt/format.h>
+
+#include "core/base/errors.hpp"
+#include "core/base/files.hpp"
+#include "core/base/paths.hpp"
+#include "core/base/spelling.hpp"
+#include "core/json/record_json.hpp"
+#include "core/records/studies/folder_replacement.hpp"
+#include "core/records/studies/study_folder.hpp"
+#include "core/topics/study_kind.hpp"
+#include "render/plot/figure_json.hpp"
+#include "reports/diff/approvals/approval_files.hpp"
+#include "reports/diff/approvals/approval_sides.hpp"
+#include "reports/diff/item_files.hpp"
+#include "reports/diff/records/record_files.hpp"
+#include "reports/diff/records/record_set.hpp"
+#include "reports/diff/settings_fields.hpp"
+
+namespace mapproof {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr std::size_t kLongestName = 4096;  // Characters, as printed.
+
+std::vector<std::string> chosen_ids(const ApprovalOrder& order, const ApprovalFiles& before,
+                                    const ApprovalFiles& after) {
+  std::set<std::string> known;
+  for (const ApprovalFiles* side : {&before, &after})
+    for (const auto& [id, paths] : *side) known.insert(id);
+  if (order.all) {
+    // Further baselines ID@KEY are replaced or kept with their item ID.
+    std::erase_if(known, [&](const std::string& id) {
+      return !after.contains(id) && after.contains(id.substr(0, id.rfind('@')));
+    });
+    return {known.begin(), known.end()};
+  }
+  const std::vector<std::string_view> names(known.begin(), known.end());
+  std::vector<std::string> ids;
+  for (const std::string& id : order.ids) {
+    // The id itself, or as a diff prints it if a terminal cannot show it.
+    const auto own = known.contains(id) ? known.find(id)
+                                        : std::ranges::find_if(known, [&](const std::string& one) {
+                                            return printable(one, kLongestName) == id;
+                                          });
+    if (own == known.end()) {
+      const std::string_view meant = likely_word(id, names);
+      throw InvalidInput("neither BASELINE nor CURRENT has \"" + printable(id) + "\"" +
+                         (meant.empty() ? "" : "; did you mean \"" + std::string(meant) + "\"?"));
+    }
+    ids.push_back(*own);
+  }
+  return ids;
+}
+
+/// The files of records that a figure was made from, below the study's folder.
+std::set<fs::path> records_of(const Figure& figure, const fs::path& study) {
+  std::set<fs::path> files;
+  for (const std::string& record : figure.record_ids)
+    for (const fs::path& file : files_of_run(study, record.substr(0, record.find('/'))))
+      files.insert(file);
+  return files;
+}
+
+class Planner {
+ public:
+  Planner(const fs::path& baseline, const fs::path& current)
+      : baseline_(baseline),
+        current_(current),
+        before_(approval_files(baseline)),
+        after_(approval_files(current)) {}
+
+  ApprovalPlan plan(const ApprovalOrder& order) {
+    require_comparable({baseline_, before_}, {current_, after_});
+    std::vector<std::string> ids = chosen_ids(order, before_, after_);
+    const auto is_records = [](const std::string& id) {
+      return id == kRecordsItem || id.starts_with("records/");
+    };
+    std::ranges::stable_partition(ids, is_records);
+    const bool whole = !ids.empty() && is_records(ids.front());
+    ApprovalPlan plan;
+    for (const std::string& id : ids) {
+      const std::size_t before = steps_.size();
+      try {
+        add_id(id, order.key, whole);
+      } catch (const InvalidInput& error) {
+        if (!order.all) throw;
+        steps_.resize(before);
+        plan.refused.push_back(id + ": " + error.what());
+      }
+    }
+    plan.steps = std::move(steps_);
+    if (order.all && !order.force) require_most_stays(plan.steps);
+    return plan;
+  }
+
+  /// Why the item cannot be taken; empty if it can.
+  /// @param whole  All records are taken with it.
+  std::string refusal(const std::string& id, bool whole) {
+    planned_.clear();
+    steps_.clear();
+    try {
+      if (!before_.contains(id) && !after_.contains(id)) throw InvalidInput("has no files to take");
+      require_comparable({baseline_, before_}, {current_, after_});
+      add_id(id, "", whole);
+      return "";
+    } catch (const InvalidInput& error) {
+      return error.what();
+    }
+  }
+
+  bool has_records() const { return after_.contains(kRecordsItem); }
+
+ private:
+  /// @param whole  All records are taken too.
+  void add_id(const std::string& id, const std::string& key, bool whole) {
+    if (!key.empty()) return add_keyed(id, key);
+    if (!whole) add_records_of(id);
+    add_item(id);
+  }
+
+  /// Many removed files are the sign of a mistaken CURRENT.
+  void require_most_stays(const std::vector<ApprovalStep>& steps) const {
+    std::set<fs::path> files;
+    for (const auto& [id, paths] : before_) files.insert(paths.begin(), paths.end());
+    const auto removed =
+        std::ranges::count_if(steps, [](const ApprovalStep& step) { return step.from.empty(); });
+    if (2 * removed > std::ssize(files))
+      throw InvalidInput(
+          fmt::format("--all would remove {} of {} files of {}, which CURRENT {} does "
+                      "not have; --force does so",
+                      removed, files.size(), baseline_.string(), current_.string()));
+  }
+
+  /// Adds a step for a file that differs and has none yet. @return Whether it did.
+  bool add(const fs::path& relative) {
+    const fs::path from = current_ / relative, to = baseline_ / relative;
+    if (!planned_.insert(relative).second || same_bytes(from, to)) return false;
+    require_readable(from);
+    require_no_folder(to);
+    steps_.push_back({from, relative});
+    return true;
+  }
+
+  void remove(const fs::path& relative) {
+    if (planned_.insert(relative).second) steps_.push_back({{}, relative});
+  }
+
+  /// Removes the further baselines ID@KEY of an image that is replaced: they show the old one.
+  void remove_keyed(const std::string& id, const fs::path& extension) {
+    for (const auto& [other, paths] : before_)
+      if (other.starts_with(id + "@") && !after_.contains(other))
+        for (const fs::path& path : paths)
+          if (path.extension() == extension) remove(path);
+  }
+
+  void add_item(const std::string& id) {
+    const auto before = before_.find(id), after = after_.find(id);
+    if (after != after_.end())
+      for (const fs::path& path : after->second)
+        if (add(path)) remove_keyed(id, path.extension());
+    if (before == before_.end()) return;
+    for (const fs::path& path : before->second)
+      if (after == after_.end() || !after->second.contains(path)) {
+        require_gone(current_ / path);
+        remove(path);
+      }
+  }
+
+  /// Adds the images of an item as ID@KEY.
+  void add_keyed(const std::string& id, const std::string& key) {
+    const auto after = after_.find(id);
+    if (after == after_.end()) return;
+    for (const fs::path& path : after->second) {
+      const std::string extension = path.extension().string();
+      if (extension != ".png" && extension != ".svg") continue;
+      require_readable(current_ / path);
+      const fs::path name = path.stem().string() + "@" + key + extension;
+      steps_.push_back({current_ / path, path.parent_path() / name});
+    }
+  }
+
+  /// Adds the records that a figure names, if both sides are studies.
+  void add_records_of(const std::string& id) {
+    const auto after = after_.find(id);
+    if (after == after_.end() || !is_study(current_) || !is_study(baseline_)) return;
+    for (const fs::path& path : after->second) {
+      if (!path.filename().string().ends_with(".figure.json")) continue;
+      const fs::path file = current_ / path;
+      require_readable(file);
+      const Figure figure = figure_from_json(read_file(file), file.string());
+      for (const fs::path& record : records_of(figure, current_)) add_record(id, record);
+    }
+  }
+
+  void add_record(const std::string& id, const fs::path& relative) {
+    std::error_code error;
+    if (!fs::is_regular_file(current_ / relative, error)) return;
+    if (same_bytes(current_ / relative, baseline_ / relative)) return;
+    if (!same_bytes(current_ / kStudyFile, baseline_ / kStudyFile))
+      throw InvalidInput(id + ": its records are of another experiment or solver than the " +
+                         "baseline's; approve records with it, or --all");
+    add(relative);
+  }
+
+  fs::path baseline_, current_;
+  ApprovalFiles before_, after_;
+  std::set<fs::path> planned_;
+  std::vector<ApprovalStep> steps_;
+};
+
+bool is_key(const std::string& key) {
+  return std::ranges::all_of(key, [](char c) {
+    return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '.' ||
+           c == '_' || c == '-';
+  });
+}
+
+}  // namespace
+
+ApprovalPlan approval_plan(const fs::path& baseline, const fs::path& current,
+                           const ApprovalOrder& order) {
+  if (!is_key(order.key))
+    throw InvalidInput("the key \"" + printable(order.key) +
+                       "\" may hold letters, digits, '.', '_' and '-' alone");
+  std::error_code error;
+  if (!fs::exists(current, error)) throw IoError(current.string(), "is not there");
+  return Planner(baseline, current).plan(order);
+}
+
+std::map<std::string, ApprovalRefusal> approval_refusals(const fs::path& baseline,
+                                                         const fs::path& current,
+                                                         const std::vector<std::string>& ids) {
+  std::map<std::string, ApprovalRefusal> refusals;
+  std::error_code error;
+  if (!fs::is_directory(current, error)) return refusals;
+  Planner planner(baseline, current);
+  for (const std::string& id : ids)
+    if (const std::string why = planner.refusal(id, false); !why.empty())
+      refusals[id] = {why, planner.has_records() && planner.refusal(id, true).empty()};
+  return refusals;
+}
+
+namespace {
+
+/// Makes the results.csv of a study again if records were taken without it.
+/// @return Whether it did.
+bool renew_results_table(const ApprovalPlan& plan, FolderReplacement& next) {
+  std::error_code error;
+  if (!fs::is_regular_file(next.copy() / kStudyFile, error) ||
+      !fs::is_regular_file(next.copy() / kResultsFile, error))
+    return false;
+  const StudyKind* kind = kind_of_study(next.copy());
+  if (kind == nullptr || kind->experiment.empty()) return false;  // The table itself is the record.
+  const auto is_record = [&](const ApprovalStep& step) {
+    return std::ranges::any_of(kind->records, [&](const fs::path& record) {
+      return std::ranges::mismatch(record, step.file).in1 == record.end();
+    });
+  };
+  const bool is_taken = std::ranges::find(plan.steps, fs::path(kResultsFile),
+                                          &ApprovalStep::file) != plan.steps.end();
+  if (is_taken || std::ranges::none_of(plan.steps, is_record)) return false;
+  next.write(kResultsFile, results_table_of(next.copy()));
+  return true;
+}
+
+}  // namespace
+
+void apply(ApprovalPlan& plan, const fs::path& baseline) {
+  if (plan.steps.empty()) return;
+  FolderReplacement next(real_path(baseline));
+  for (const ApprovalStep& step : plan.steps)
+    step.from.empty() ? next.remove(step.file) : next.write(step.file, read_file(step.from));
+  if (renew_results_table(plan, next)) plan.made.emplace_back(kResultsFile);
+  next.commit();
+}
+
+void approve_file(const fs::path& baseline, const fs::path& current) {
+  require_comparable_files(baseline, current);
+  require_readable(current);
+  write_file(baseline, read_file(current));
+}
+
+std::vector<std::string> parse_approvals(std::string_view text, const std::string& source) {
+  return from_json_text<ApprovalsFile>(text, source).ids;
+}
+
+}  // namespace mapproof

@@ -1,0 +1,227 @@
+#include "reports/diff/documents/document_diff.hpp"
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <map>
+#include <optional>
+#include <set>
+#include <tuple>
+
+#include <fmt/format.h>
+
+#include "core/base/byte_source.hpp"
+#include "core/base/errors.hpp"
+#include "core/base/words.hpp"
+#include "reports/diff/documents/excerpts.hpp"
+#include "reports/diff/documents/page_text.hpp"
+#include "reports/diff/documents/table_diff.hpp"
+#include "reports/diff/records/number_words.hpp"
+#include "reports/diff/records/record_files.hpp"
+
+namespace mapproof {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr std::size_t kLargestPage = std::size_t{1} << 28;  // Bytes.
+constexpr std::size_t kMostTextLength = 80;
+
+bool is_page(const ItemFiles& files) { return files.documents.contains("html"); }
+
+Tolerance tolerance_of_numbers(const DiffSettings& settings) {
+  return tolerance_of_others(settings.records.tolerances);
+}
+
+const DiffItem* heaviest_records(const std::vector<DiffItem>& told) {
+  const DiffItem* heaviest = nullptr;
+  for (const DiffItem& item : told)
+    if (item.kind == ItemKind::kRecords &&
+        (heaviest == nullptr || item.judgement.verdict > heaviest->judgement.verdict))
+      heaviest = &item;
+  return heaviest;
+}
+
+/// What data that changed are worth, by the records that they follow from.
+Judgement by_records(const std::string& what, const std::vector<DiffItem>& told) {
+  const DiffItem* records = heaviest_records(told);
+  if (records == nullptr) return {Verdict::kChanged, true, what};
+  const Verdict verdict = records->judgement.verdict;
+  if (verdict <= Verdict::kWithinTolerance)
+    return {Verdict::kChanged, true, what + "; its records did not change"};
+  const bool has_direction = verdict == Verdict::kBetter || verdict == Verdict::kWorse;
+  // The records' own item has the rest.
+  const std::string& cause = records->judgement.cause;
+  return {has_direction ? verdict : Verdict::kChanged, true,
+          fmt::format("{}; it follows from {}: {}", what, records->id,
+                      cause.substr(0, cause.find("; ")))};
+}
+
+/// All that the text is, as a number.
+std::optional<double> number(const std::string& text) {
+  double value = 0.0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+  if (error != std::errc() || end != text.data() + text.size() || !std::isfinite(value)) return {};
+  return value;
+}
+
+std::string first_text(const OtherDiff& cells) {
+  constexpr std::size_t kReadable = 8;  // Characters: longer numbers are in full precision.
+  const std::optional<double> before = number(cells.baseline), after = number(cells.current);
+  if (before && after && std::max(cells.baseline.size(), cells.current.size()) > kReadable)
+    return fmt::format("{}: {}", cells.first, change_text(*before, *after, ""));
+  return fmt::format("{}: {} \u2192 {}", cells.first, cells.baseline, cells.current);
+}
+
+Judgement judge_table(const DiffItem& item, const std::vector<TableDiff>& tables,
+                      const std::vector<DiffItem>& told) {
+  const TableDiff* style = nullptr;
+  long within = 0;
+  for (const TableDiff& table : tables) {
+    within += table.cells.within;
+    if (table.cells.beyond > 0 || (table.cells.shape && !table.is_style))
+      return by_records(fmt::format("{}, {}", table.cells.file, first_text(table.cells)), told);
+    if (table.is_style && style == nullptr) style = &table;
+  }
+  if (style != nullptr)
+    return {Verdict::kStyle, true, style->cells.file + ", " + first_text(style->cells)};
+  if (within > 0)
+    return {Verdict::kWithinTolerance, false,
+            counted(within, "cell") + (within == 1 ? " differs" : " differ") + " within tolerance"};
+  return item.documents.empty() ? Judgement{}
+                                : Judgement{Verdict::kWithinTolerance, false,
+                                            "its cells are equal, its bytes are not"};
+}
+
+/// Of each format that both sides have and whose bytes differ.
+void compare_tables(DiffItem& item, const ItemFiles& a, const ItemFiles& b,
+                    const std::vector<DiffItem>& told, const DiffSettings& settings) {
+  std::vector<TableDiff> tables;
+  Tolerance tolerance = tolerance_of_numbers(settings);
+  const bool is_varying = varies(fs::path(item.id).filename().string());
+  for (const auto& [format, baseline] : a.documents) {
+    const auto current = b.documents.find(format);
+    if (current == b.documents.end() || same_bytes(baseline, current->second)) continue;
+    if (is_varying && same_headings(format, baseline, current->second)) {
+      item.documents.push_back({.file = baseline.filename().string()});
+      item.judgement = {Verdict::kWithinTolerance, false,
+                        "seconds, dates and hosts vary from run to run"};
+      continue;
+    }
+    tables.push_back(table_diff(format, baseline, current->second, tolerance));
+    item.documents.push_back(tables.back().cells);
+    // Printed numbers are rounded ones of the CSV, the first of the formats: the last digit may
+    // turn where those differ within tolerance.
+    if (format == "csv" && tables.back().cells.within > 0) tolerance.absolute = 1e300;
+  }
+  if (!tables.empty()) item.judgement = judge_table(item, tables, told);
+}
+
+/// The first line that differs, with the numbers of both.
+OtherDiff words_diff(const std::string& a, const std::string& b) {
+  OtherDiff diff;
+  std::size_t at = 0, line = 1;
+  const std::size_t least = std::min(a.size(), b.size());
+  for (std::size_t i = 0; i < least && a[i] == b[i]; ++i)
+    if (a[i] == '\n') {
+      at = i + 1;
+      ++line;
+    }
+  const auto line_at = [&](const std::string& text) {
+    return at < text.size() ? text.substr(at, text.find('\n', at) - at) : "nothing";
+  };
+  diff.first = fmt::format("line {} of its text", line);
+  std::tie(diff.baseline, diff.current) = excerpts(line_at(a), line_at(b), kMostTextLength);
+  diff.shape = true;
+  return diff;
+}
+
+void compare_pages(DiffItem& item, const fs::path& baseline, const fs::path& current,
+                   const std::vector<DiffItem>& told, const DiffSettings& settings) {
+  const std::string before = read_input(baseline, kLargestPage);
+  const std::string after = read_input(current, kLargestPage);
+  if (before == after) return;
+  for (const auto& [text, path] : {std::pair(&before, &baseline), std::pair(&after, &current)})
+    if (text->find("</html>") == std::string::npos)
+      throw IoError(path->string(), "is not a page, or is truncated");
+  std::set<std::string> others;
+  for (const DiffItem& other : told)
+    if (other.judgement.verdict != Verdict::kIdentical) others.insert(other.id);
+  const auto is_told = [&](const std::string& id) { return others.contains(id); };
+  const std::string a = masked_page(before, is_told), b = masked_page(after, is_told);
+  item.documents.push_back({.file = baseline.filename().string()});
+  if (a == b) {
+    item.judgement = {Verdict::kWithinTolerance, false,
+                      "the same, but for what is told of its parts, and its provenance"};
+    return;
+  }
+  const std::string words = page_words(a), other_words = page_words(b);
+  if (words == other_words) {
+    item.judgement = {Verdict::kStyle, true, "its words are equal, its styles or markup are not"};
+    return;
+  }
+  OtherDiff& first = item.documents.back() = words_diff(words, other_words);
+  first.file = baseline.filename().string();
+  const TextChange change = text_change(words, other_words, tolerance_of_numbers(settings));
+  const DiffItem* records = heaviest_records(told);
+  const bool follows = records != nullptr && records->judgement.verdict > Verdict::kWithinTolerance;
+  if (change == TextChange::kWithin)
+    item.judgement = {Verdict::kWithinTolerance, false, "its numbers differ within tolerance"};
+  else if (change == TextChange::kWords && !follows)
+    item.judgement = {Verdict::kStyle, true, "other words, " + first_text(first)};
+  else
+    item.judgement = by_records(first_text(first), told);
+}
+
+void judge_presence(DiffItem& item, const ItemFiles& a, const ItemFiles& b) {
+  for (const auto& [format, path] : a.documents)
+    if (!b.documents.contains(format))
+      item.judgement = {Verdict::kMissing, true, "its " + format + " is missing"};
+  if (item.judgement.verdict == Verdict::kMissing) return;
+  for (const auto& [format, path] : b.documents)
+    if (!a.documents.contains(format) && item.judgement.verdict < Verdict::kNew)
+      item.judgement = {Verdict::kNew, true, "its " + format + " is not in the baseline"};
+}
+
+}  // namespace
+
+DiffItem document_item(const std::string& id, const ItemFiles* baseline, const ItemFiles* current,
+                       const std::vector<DiffItem>& told, const DiffSettings& settings) {
+  DiffItem item;
+  item.id = id;
+  item.kind = ItemKind::kDocument;
+  if (baseline == nullptr) {
+    item.judgement = {Verdict::kNew, true, "is not in the baseline"};
+  } else if (current == nullptr) {
+    item.judgement = {Verdict::kMissing, true, "is not in the current"};
+  } else {
+    try {
+      if (is_page(*baseline))
+        compare_pages(item, baseline->documents.begin()->second, current->documents.begin()->second,
+                      told, settings);
+      else
+        compare_tables(item, *baseline, *current, told, settings);
+      judge_presence(item, *baseline, *current);
+    } catch (const IoError& error) {
+      item.judgement = {Verdict::kUnreadable, true, error.what()};
+    }
+  }
+  item.passes = passes(item.judgement, settings.allowed);
+  return item;
+}
+
+void add_documents(std::vector<DiffItem>& items, const ItemList& baseline, const ItemList& current,
+                   const std::string& sole, const DiffSettings& settings) {
+  std::map<std::string, std::pair<const ItemFiles*, const ItemFiles*>> all;
+  for (const auto& [id, files] : baseline)
+    if (!files.documents.empty()) all[id].first = &files;
+  for (const auto& [id, files] : current)
+    if (!files.documents.empty()) all[id].second = &files;
+  for (const bool pages : {false, true})
+    for (const auto& [id, sides] : all)
+      if (is_page(*(sides.first ? sides.first : sides.second)) == pages)
+        items.push_back(
+            document_item(id.empty() ? sole : id, sides.first, sides.second, items, settings));
+}
+
+}  // namespace mapproof

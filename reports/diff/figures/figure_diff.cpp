@@ -1,0 +1,176 @@
+#include "reports/diff/figures/figure_diff.hpp"
+
+#include <algorithm>
+
+#include <fmt/format.h>
+
+#include "core/base/words.hpp"
+#include "render/plot/figure_fields.hpp"
+#include "reports/diff/figures/figure_layers.hpp"
+#include "reports/diff/figures/figure_log.hpp"
+#include "reports/diff/figures/figure_match.hpp"
+#include "reports/diff/figures/figure_places.hpp"
+#include "reports/diff/figures/layer_diff.hpp"
+#include "reports/diff/records/number_words.hpp"
+
+namespace mapproof {
+namespace {
+
+constexpr std::size_t kMostRecordIds = 3;
+
+std::string text_of(const std::optional<Range>& limits) {
+  return limits ? fmt::format("{} to {}", limits->low, limits->high)
+                : std::string("what the data need");
+}
+
+/// Words are not data, the numbers in them are, but of a figure that varies.
+ChangeKind kind_of(const std::string& a, const std::string& b, bool varies, ChangeKind of_words) {
+  return varies || same_numbers(a, b) ? of_words : ChangeKind::kData;
+}
+
+void compare_words(const Figure& a, const Figure& b, FigureLog& log) {
+  const bool varies = a.varies && b.varies;
+  const auto words = [&](std::string_view what, const std::string& before,
+                         const std::string& after) {
+    log.change(kind_of(before, after, varies, ChangeKind::kMetadata), "figure", what, before,
+               after);
+  };
+  log.change(ChangeKind::kMetadata, "figure", "id", a.id, b.id);
+  words("title", a.title, b.title);
+  words("caption", a.caption, b.caption);
+  // Of a figure that varies it tells the values, and may name them in another order.
+  if (a.alt != b.alt && varies)
+    log.mask();
+  else
+    words("alternative text", a.alt, b.alt);
+  // No word alone: of a figure that varies nothing more is judged next time.
+  log.change(ChangeKind::kData, "figure", "varies from run to run", a.varies ? "yes" : "no",
+             b.varies ? "yes" : "no");
+  if (a.record_ids != b.record_ids) {
+    const std::string before = listed(a.record_ids, kMostRecordIds);
+    const std::string after = listed(b.record_ids, kMostRecordIds);
+    log.change(ChangeKind::kData, "figure", kRecordsWord, before,
+               before == after ? "others" : after);
+  }
+  for (std::size_t i = 0; i < std::max(a.notes.size(), b.notes.size()); ++i) {
+    const bool before = i < a.notes.size(), after = i < b.notes.size();
+    const std::string first = before ? a.notes[i].text : "", second = after ? b.notes[i].text : "";
+    log.change(kind_of(first, second, varies, ChangeKind::kStyle), "figure", "note", first, second);
+    if (before && after)
+      log.change(ChangeKind::kStyle, "figure", "colour of a note",
+                 std::string(name_in_files(a.notes[i].ink)),
+                 std::string(name_in_files(b.notes[i].ink)));
+  }
+}
+
+std::string arrows_text(const Figure& figure) {
+  std::string text;
+  for (const PanelArrow& arrow : figure.arrows)
+    text += fmt::format("after panel {}: {}; ", arrow.from + 1, arrow.label);
+  return text;
+}
+
+void compare_frame(const Figure& a, const Figure& b, FigureLog& log) {
+  const auto add = [&](std::string_view what, const std::string& before, const std::string& after) {
+    log.change(ChangeKind::kStyle, "figure", what, before, after);
+  };
+  const auto panels = [](const Figure& figure) {
+    return counted(static_cast<long long>(figure.panels.size()), "panel");
+  };
+  add("panels", panels(a), panels(b));
+  add("columns", std::to_string(a.columns), std::to_string(b.columns));
+  add("x axis", a.shared_x ? "shared" : "own", b.shared_x ? "shared" : "own");
+  add("y axis", a.shared_y ? "shared" : "own", b.shared_y ? "shared" : "own");
+  add("arrows", arrows_text(a), arrows_text(b));
+}
+
+void compare_axis(const std::string& place, const char* which, const Axis& a, const Axis& b,
+                  bool varies, FigureLog& log) {
+  const auto add = [&](const char* what, const std::string& before, const std::string& after) {
+    log.change(ChangeKind::kStyle, place, fmt::format("{} of {}", what, which), before, after);
+  };
+  add("label", a.label, b.label);
+  add("scale", a.scale == Scale::kLog ? "log" : "linear",
+      b.scale == Scale::kLog ? "log" : "linear");
+  if (varies && a.limits != b.limits)
+    log.mask();
+  else
+    add("limits", text_of(a.limits), text_of(b.limits));
+  add("ticks", a.whole ? "whole numbers" : "any", b.whole ? "whole numbers" : "any");
+  add("names", listed(a.names, a.names.size() + 1), listed(b.names, b.names.size() + 1));
+}
+
+void compare_axes(const std::string& place, const Panel& a, const Panel& b, bool varies,
+                  FigureLog& log) {
+  log.change(ChangeKind::kStyle, place, "title", a.title, b.title);
+  compare_axis(place, "x", a.x, b.x, varies, log);
+  compare_axis(place, "y", a.y, b.y, varies, log);
+  log.change(ChangeKind::kStyle, place, "aspect", a.equal_aspect ? "equal" : "free",
+             b.equal_aspect ? "equal" : "free");
+  log.change(ChangeKind::kStyle, place, "frame", a.bare ? "bare" : "with axes",
+             b.bare ? "bare" : "with axes");
+}
+
+void compare_layers(const Panel& a, const Panel& b, LayerDiff& layers, FigureLog& log) {
+  std::size_t last = 0;
+  for (const Match& match : match_layers(a.layers, b.layers)) {
+    if (!match.baseline || !match.current) {
+      layers.lone(match.baseline ? a.layers[*match.baseline] : b.layers[*match.current],
+                  match.baseline.has_value());
+      continue;
+    }
+    const LayerView before = view_of(a.layers[*match.baseline]);
+    if (*match.current < last)
+      log.change(ChangeKind::kStyle, layers.place(before), "order of layers",
+                 fmt::format("after layer {}", last + 1),
+                 fmt::format("layer {}", *match.current + 1));
+    last = std::max(last, *match.current);
+    if (a.layers[*match.baseline] == b.layers[*match.current])
+      layers.add_errors(before, before);
+    else
+      layers.compare(before, view_of(b.layers[*match.current]));
+  }
+}
+
+}  // namespace
+
+std::string_view name(ChangeKind kind) {
+  switch (kind) {
+    case ChangeKind::kMetadata:
+      return "metadata";
+    case ChangeKind::kStyle:
+      return "style";
+    case ChangeKind::kData:
+      return "data";
+  }
+  return "";
+}
+
+bool FigureDiff::has(ChangeKind kind) const {
+  if (kind == ChangeKind::kData && moved > 0) return true;
+  return std::ranges::any_of(changes, [&](const FigureChange& c) { return c.kind == kind; });
+}
+
+FigureDiff figure_diff(const Figure& a, const Figure& b, const FigureOptions& options) {
+  const bool varies = a.varies && b.varies;
+  FigureLog log(varies);
+  if (a == b) return log.take();
+  const FigurePlaces places(a, b);
+  compare_words(a, b, log);
+  compare_frame(a, b, log);
+  for (std::size_t p = 0; p < std::max(a.panels.size(), b.panels.size()); ++p) {
+    if (p >= a.panels.size() || p >= b.panels.size()) {
+      const bool removed = p < a.panels.size();
+      LayerDiff layers(p, a, places, options, log);
+      for (const Layer& layer : (removed ? a : b).panels[p].layers) layers.lone(layer, removed);
+      continue;
+    }
+    compare_axes(fmt::format("panel {}", p + 1), a.panels[p], b.panels[p], varies, log);
+    const auto shared = varies ? shared_names(a.panels[p], b.panels[p]) : std::set<std::string>();
+    LayerDiff layers(p, a, places, options, log, varies ? &shared : nullptr);
+    compare_layers(a.panels[p], b.panels[p], layers, log);
+  }
+  return log.take();
+}
+
+}  // namespace mapproof

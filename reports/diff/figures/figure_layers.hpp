@@ -1,0 +1,57 @@
+#pragma once
+
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "render/plot/figure.hpp"
+
+namespace mapproof {
+
+/// One attribute of a layer as text.
+struct LayerStyle {
+  std::string_view what;  ///< "colour".
+  std::string value;      ///< "series2".
+};
+
+/// Numbers of a layer, one a point.
+struct Coordinates {
+  std::string_view name;  ///< "x0".
+  std::span<const double> values;
+};
+
+/// A number that is the whole layer's.
+struct LayerExtent {
+  std::string_view what;  ///< "left edge".
+  double value = 0.0;
+};
+
+/// A place of each point: which coordinates make it.
+struct Places {
+  std::size_t x = 0;  ///< Index into LayerView::coordinates.
+  std::size_t y = 0;
+};
+
+/// Any layer, seen alike. Refers to the layer.
+struct LayerView {
+  std::string_view kind;  ///< As in files: "polyline".
+  std::string label;
+  std::vector<LayerStyle> styles;
+  std::vector<Coordinates> coordinates;
+  std::vector<Places> places;
+  std::vector<LayerExtent> extents;
+  std::span<const std::string> texts;  ///< One a point, or none.
+  std::span<const Mark> marks;         ///< One a point, one for all, or none.
+  bool is_whole = false;               ///< The mark is that of the whole layer.
+
+  std::size_t points() const { return coordinates.empty() ? 0 : coordinates[0].values.size(); }
+  bool has_mark_a_point() const { return !is_whole && marks.size() == points(); }
+};
+
+LayerView view_of(const Layer& layer);
+
+/// What an attribute of a mark says; empty if it has none of that name.
+std::string_view data_of(const Mark& mark, std::string_view key);
+
+}  // namespace mapproof

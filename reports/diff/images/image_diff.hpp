@@ -1,0 +1,19 @@
+#pragma once
+
+#include "reports/diff/images/change_map.hpp"
+#include "reports/diff/images/picture_diff.hpp"
+
+namespace mapproof {
+
+struct ImageDiff {
+  PixelDiff pixels;
+  ChangeMap marks;  ///< Empty if the sizes differ.
+};
+
+/// Compares two pictures. What is told apart and how: docs/diff-pictures.md.
+/// @param current  Taken over; its ignored pixels are overwritten.
+/// @throws InvalidInput if the options cannot be used.
+/// @note Linear; equal tiles cost a comparison of their bytes. In parallel over tiles.
+ImageDiff image_diff(const Image& baseline, Image current, const PictureOptions& options = {});
+
+}  // namespace mapproof

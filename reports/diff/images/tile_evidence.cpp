@@ -1,0 +1,252 @@
+#include "reports/diff/images/tile_evidence.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+
+#include "reports/diff/images/recolouring.hpp"
+#include "reports/diff/images/window_structure.hpp"
+
+namespace mapproof {
+namespace {
+
+// A pixel is lost if the other picture lacks this share of the contrast around it.
+constexpr double kLostTileShare = 0.8;
+
+// Fewer pixels beyond noise show no shape.
+constexpr int kFewestShapePixels = 8;
+
+// Of how many deviations of noise a mean may be off: a picture has a million of them.
+constexpr double kDeviations = 6.0;
+
+/// By how much a cell's smoothed colour lies outside of those around it in the other picture.
+int gap_at(const PatchPair& pair, int c, int i) {
+  const Patch &a = pair.before, &b = pair.after;
+  return std::max({b.smooth[c][i] - a.high[c][i], a.low[c][i] - b.smooth[c][i],
+                   a.smooth[c][i] - b.high[c][i], b.low[c][i] - a.smooth[c][i], 0});
+}
+
+/// The most that smoothed colours span within two cells of a cell, in the picture that has more.
+int contrast_at(const PatchPair& pair, int c, int i) {
+  int contrast = 1;
+  for (const Patch* patch : {&pair.before, &pair.after}) {
+    const Plane &low = patch->low[c], &high = patch->high[c];
+    int least = low[i], most = high[i];
+    for (const int j :
+         {i - kPatchSide - 1, i - kPatchSide + 1, i + kPatchSide - 1, i + kPatchSide + 1}) {
+      least = std::min<int>(least, low[j]);
+      most = std::max<int>(most, high[j]);
+    }
+    contrast = std::max(contrast, most - least);
+  }
+  return contrast;
+}
+
+bool is_lost(const PatchPair& pair, int i, double noise) {
+  for (int c = 0; c < 3; ++c)
+    if (const int gap = gap_at(pair, c, i);
+        gap > 1.25 * noise * kSmoothScale && gap > kLostTileShare * contrast_at(pair, c, i))
+      return true;
+  return false;
+}
+
+/// Whether the smoothed colour changes by more than a fifth of what it spans around the cell, in
+/// the picture where it spans less.
+bool is_bold(const PatchPair& pair, int i) {
+  for (int c = 0; c < 3; ++c) {
+    const Patch &a = pair.before, &b = pair.after;
+    const int span = std::min(a.high[c][i] - a.low[c][i], b.high[c][i] - b.low[c][i]);
+    if (5 * std::abs(b.smooth[c][i] - a.smooth[c][i]) > span + kSmoothScale) return true;
+  }
+  return false;
+}
+
+/// Counts from where the cell's new colour may have come, if all moved by a pixel.
+void count_copies(const PatchPair& pair, int i, double noise, std::array<int, 8>& copied) {
+  for (std::size_t step = 0; step < kSteps.size(); ++step) {
+    const int j = i + kSteps[step][1] * kPatchSide + kSteps[step][0];
+    int largest = 0;
+    for (int c = 0; c < 3; ++c)
+      largest = std::max(largest, std::abs(pair.after.raw[c][i] - pair.before.raw[c][j]));
+    copied[step] += largest <= noise;
+  }
+}
+
+/// What is left of the difference if the baseline is moved by whole pixels and then by less.
+double left_by_whole(const PatchPair& pair, double noise, double right_px, double down_px) {
+  const auto whole = [](double px) {
+    return static_cast<int>(std::lround(std::clamp(px, -2.0, 2.0)));
+  };
+  const int right = whole(right_px), down = whole(down_px);
+  if (right == 0 && down == 0) return 1.0;
+  const double before = movement_fit(pair, noise, 0, 0).energy;
+  const MovementFit after = movement_fit(pair, noise, down * kPatchSide + right, 0);
+  const auto [x, y] = after.movement();
+  return before > 0.0 ? after.left(x, y) / before : 1.0;
+}
+
+void find_displacement(const PatchPair& pair, const EvidenceBounds& bounds, TileEvidence& found) {
+  const double noise = bounds.is_noisy ? bounds.noise : 0.25;
+  found.fit = movement_fit(pair, noise, 0, kPatchMargin - 4);
+  const double energy = found.fit.energy;
+  if (energy == 0.0) return;
+  const auto [right, down] = found.fit.movement();
+  found.right_px = right, found.down_px = down;
+  found.moved_share = 1.0 - found.fit.left(right, down) / energy;
+  const double part =
+      std::min(1.0, bounds.displacement_px / std::max(found.displacement_px(), 1e-9));
+  found.left_share = found.fit.left(part * right, part * down) / energy;
+  found.left_by_whole = left_by_whole(pair, noise, right, down);
+  if (found.beyond_noise >= kFewestShapePixels) found.kept = kept_shape(pair, right, down);
+}
+
+/// Sums of the differences of flat pixels: those around which neither picture has an edge.
+struct FlatSums {
+  std::array<std::array<int, 3>, 2 * kTile> sums{};  ///< Rows, then columns.
+  std::array<int, 2 * kTile> counts{};
+
+  void add(const PatchPair& pair, int x, int y) {
+    ++counts[y], ++counts[kTile + x];
+    const int i = cell_at(x, y);
+    for (int c = 0; c < 3; ++c) {
+      const int difference = pair.after.raw[c][i] - pair.before.raw[c][i];
+      sums[y][c] += difference, sums[kTile + x][c] += difference;
+    }
+  }
+
+  /// How far the mean over `number` rows or columns from `first` moves beyond what noise explains.
+  double shift(int first, int number, const EvidenceBounds& bounds, bool is_noisy) const {
+    int count = 0;
+    std::array<int, 3> sum{};
+    int thin_runs = 0;
+    for (int run = first; run < first + number; ++run) {
+      thin_runs += counts[run] < kTile / 2;
+      count += counts[run];
+      for (int c = 0; c < 3; ++c) sum[c] += sums[run][c];
+    }
+    // Where only a row or two are flat, they may be the smoothed edge of something pale.
+    if (count < 2 * kTile || thin_runs > number - 3) return -1.0;
+    const double deviation = is_noisy ? 0.6 * bounds.noise / std::sqrt(count) : 0.0;
+    const int most = std::max({std::abs(sum[0]), std::abs(sum[1]), std::abs(sum[2])});
+    return static_cast<double>(most) / count - bounds.mean_noise - kDeviations * deviation;
+  }
+};
+
+FlatSums flat_sums(const PatchPair& pair, double noise, int width, int height) {
+  const int flat = static_cast<int>(kSmoothScale * (1.0 + noise));
+  FlatSums sums;
+  for (int y = 0; y < height; ++y)
+    for (int x = 0; x < width; ++x) {
+      const int i = cell_at(x, y);
+      bool is_flat = true;
+      for (int c = 0; c < 3; ++c)
+        for (const Patch* patch : {&pair.before, &pair.after})
+          is_flat = is_flat && patch->high[c][i] - patch->low[c][i] <= flat;
+      if (is_flat) sums.add(pair, x, y);
+    }
+  return sums;
+}
+
+/// Three rows together, as a pale line that smoothing moves by a pixel keeps its sum in them.
+double flat_shift(const FlatSums& sums, const EvidenceBounds& bounds, bool is_noisy) {
+  double shift = sums.shift(0, kTile, bounds, is_noisy);
+  for (int run = 0; run + 3 <= kTile; ++run)
+    for (const int first : {run, kTile + run})
+      shift = std::max(shift, sums.shift(first, 3, bounds, is_noisy));
+  return shift;
+}
+
+/// The mean shift of pixels that go as far as all their neighbours, as under a film and not at
+/// edges, if there are some; less the bound.
+double film_shift(const PatchPair& pair, const EvidenceBounds& bounds, int width, int height) {
+  std::array<Plane, 3> difference, least, most;
+  for (int c = 0; c < 3; ++c) {
+    for (int i = 0; i < kPatchCells; ++i)
+      difference[c][i] = static_cast<std::int16_t>(pair.after.raw[c][i] - pair.before.raw[c][i]);
+    neighbour_bounds(difference[c], least[c], most[c]);
+  }
+  int count = 0, sum = 0;
+  for (int y = 0; y < height; ++y)
+    for (int x = 0; x < width; ++x) {
+      const int i = cell_at(x, y);
+      bool is_even = true, is_one_way = false;
+      int shift = 0;
+      for (int c = 0; c < 3; ++c) {
+        is_even = is_even && most[c][i] - least[c][i] <= bounds.noise;
+        is_one_way = is_one_way || least[c][i] > 0 || most[c][i] < 0;
+        shift = std::max(shift, std::abs(difference[c][i]));
+      }
+      if (is_even && is_one_way) ++count, sum += shift;
+    }
+  return count < kTile ? -1.0 : static_cast<double>(sum) / count - bounds.mean_noise;
+}
+
+/// Of two pixels, 0 to 1 [kotsarenko2010]: the distance in YIQ, weighted as it is seen.
+double colour_difference(const PatchPair& pair, int i) {
+  std::array<double, 3> d;
+  for (int c = 0; c < 3; ++c) d[c] = pair.after.raw[c][i] - pair.before.raw[c][i];
+  const double y = 0.29889531 * d[0] + 0.58662247 * d[1] + 0.11448223 * d[2];
+  const double in_phase = 0.59597799 * d[0] - 0.27417610 * d[1] - 0.32180189 * d[2];
+  const double quadrature = 0.21147017 * d[0] - 0.52261711 * d[1] + 0.31114694 * d[2];
+  constexpr double kBlackToWhite = 0.5053 * 255 * 255;
+  return std::sqrt(std::min(
+      1.0, (0.5053 * y * y + 0.299 * in_phase * in_phase + 0.1957 * quadrature * quadrature) /
+               kBlackToWhite));
+}
+
+}  // namespace
+
+bool TileEvidence::is_one_sided() const {
+  const auto most = std::ranges::max_element(absolute_sum) - absolute_sum.begin();
+  return std::abs(sum[most]) > 0.9 * absolute_sum[most];
+}
+
+TileEvidence tile_evidence(const Image& baseline, const Image& current, int x0, int y0,
+                           const EvidenceBounds& bounds, TileMarks& marks) {
+  TileEvidence found;
+  PatchPair pair;
+  load_patch(baseline, x0, y0, pair.before);
+  load_patch(current, x0, y0, pair.after);
+  const int width = std::min(kTile, baseline.width - x0);
+  const int height = std::min(kTile, baseline.height - y0);
+  for (int y = 0; y < height; ++y)
+    for (int x = 0; x < width; ++x) {
+      const int i = cell_at(x, y);
+      if (!pair.is_beyond(i, 0)) continue;
+      ++found.differing;
+      PixelMark& mark = marks[y * kTile + x];
+      mark = PixelMark::kNoise;
+      if (!pair.is_beyond(i, bounds.noise)) continue;
+      mark = PixelMark::kSmoothed;
+      ++found.beyond_noise;
+      found.bold += is_bold(pair, i);
+      found.lost += is_lost(pair, i, bounds.noise);
+      count_copies(pair, i, bounds.noise, found.copied);
+      for (int c = 0; c < 3; ++c) {
+        const int difference = pair.after.raw[c][i] - pair.before.raw[c][i];
+        found.sum[c] += difference, found.absolute_sum[c] += std::abs(difference);
+      }
+      found.largest_colour_difference =
+          std::max(found.largest_colour_difference, colour_difference(pair, i));
+    }
+  const FlatSums flat = flat_sums(pair, bounds.noise, width, height);
+  found.flat_shift = flat_shift(flat, bounds, bounds.is_noisy);
+  found.flat_shift_in_noise = flat_shift(flat, bounds, true);
+  if (!bounds.is_noisy) {
+    const double film = film_shift(pair, bounds, width, height);
+    found.flat_shift = std::max(found.flat_shift, film);
+    found.flat_shift_in_noise = std::max(found.flat_shift_in_noise, film);
+  }
+  if (found.beyond_noise == 0) return found;
+  find_displacement(pair, bounds, found);
+  const Recolouring recolouring = find_recolouring(pair, bounds.noise);
+  found.recoloured_share = recolouring.share;
+  found.recolouring = recolouring.off_line;
+  found.edge_pixels = recolouring.pixels;
+  const WindowStructure window = least_window_structure(pair, width, height);
+  found.least_structure = window.structure;
+  found.least_structure_at = {x0 + window.x, y0 + window.y, window.width, window.height};
+  return found;
+}
+
+}  // namespace mapproof

@@ -1,0 +1,278 @@
+#include "reports/diff/records/record_series.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <set>
+
+#include "core/base/not_finite.hpp"
+#include "reports/diff/records/record_points.hpp"
+
+namespace mapproof {
+namespace {
+
+constexpr std::size_t kMostPairs = 20;
+constexpr int kLeastTested = 6;  // Below it, no p can be less than 0.05.
+
+using Values = std::map<std::string, double>;
+
+std::set<std::string> subjects_of(const RecordSet& set) {
+  std::set<std::string> subjects;
+  for (const auto& [key, values] : set.values) subjects.insert(key.subject);
+  return subjects;
+}
+
+/// Subjects of `some` that are not in `others`, by family.
+std::map<std::string, std::vector<std::string>> lone_subjects(const RecordSet& some,
+                                                              const RecordSet& others) {
+  const std::set<std::string> there = subjects_of(others);
+  std::map<std::string, std::vector<std::string>> lone;
+  for (const std::string& subject : subjects_of(some)) {
+    if (there.contains(subject)) continue;
+    const auto family = some.families.find(subject);
+    if (family != some.families.end()) lone[family->second.name].push_back(subject);
+  }
+  return lone;
+}
+
+double mean(const std::vector<double>& values) {
+  double sum = 0.0;
+  for (const double value : values) sum += value;
+  return values.empty() ? kNaN : sum / static_cast<double>(values.size());
+}
+
+double mean_of(const Values& values) {
+  std::vector<double> known;
+  for (const auto& [run, value] : values)
+    if (std::isfinite(value)) known.push_back(value);
+  return mean(known);
+}
+
+/// Differences of pairs, by group and by run.
+struct Differences {
+  std::map<std::string, std::vector<double>> by_group;
+  std::vector<double> by_run;
+};
+
+void compare_pair(const std::string& run, const std::string& group, double a, double b,
+                  const Tolerance& tolerance, Comparison& out, Differences& differences) {
+  if (std::isnan(a) && std::isnan(b)) return;
+  if (std::isnan(a) || std::isnan(b)) {
+    ++(std::isnan(a) ? out.gained : out.lost);
+    out.largest.push_back({run, a, b});
+    return;
+  }
+  ++out.pairs;
+  if (std::isinf(a) || std::isinf(b)) {  // An unproved gap: no difference, but better or worse.
+    if (a == b) {
+      ++out.equal;
+      return;
+    }
+  } else {
+    differences.by_run.push_back(b - a);
+    differences.by_group[group].push_back(b - a);
+    if (a == b) {
+      ++out.equal;
+      return;
+    }
+    if (tolerance.holds(a, b)) {
+      ++out.within;
+      return;
+    }
+  }
+  ++out.beyond;
+  ++(b > a ? out.worse : out.better);
+  out.largest.push_back({run, a, b});
+}
+
+/// @param draws_groups  As RecordSet: fewer groups than a test needs give none.
+std::optional<PairedTest> paired_test(const Differences& differences, bool draws_groups) {
+  PairedTest test;
+  std::vector<double> means;
+  for (const auto& [group, values] : differences.by_group) means.push_back(mean(values));
+  const bool are_runs = means.size() == differences.by_run.size();
+  const bool by_group = draws_groups || static_cast<int>(means.size()) >= kLeastTested;
+  test.unit = !by_group || (draws_groups && are_runs) ? "run" : draws_groups ? "group" : "layout";
+  const std::vector<double>& units = by_group ? means : differences.by_run;
+  if (static_cast<int>(units.size()) < kLeastTested) return std::nullopt;
+  test.test = signed_rank_test(units);
+  test.p = test.test.p;
+  return test;
+}
+
+void keep_largest(std::vector<PairedValue>& pairs) {
+  const auto size = [](const PairedValue& pair) {
+    const double difference = std::abs(pair.current - pair.baseline);
+    return std::isnan(difference) ? std::numeric_limits<double>::infinity() : difference;
+  };
+  std::ranges::stable_sort(pairs, std::ranges::greater(), size);
+  if (pairs.size() > kMostPairs) pairs.resize(kMostPairs);
+}
+
+/// A comparison with what decides its outcome.
+struct Open {
+  Comparison comparison;
+  Differences differences;
+};
+
+/// The value of a run; NaN where the side has the run but not the value, nothing where it lacks
+/// both.
+std::optional<double> value_of(const RecordSet& set, const Values& values, const std::string& run) {
+  const auto found = values.find(run);
+  if (found != values.end()) return found->second;
+  return run.empty() || set.runs.contains(run) ? std::optional(kNaN) : std::nullopt;
+}
+
+Open compare(const RecordSet& a, const RecordSet& b, const Values& before, const Values& after,
+             bool same_seeds, const Tolerance& tolerance) {
+  Open open;
+  Comparison& out = open.comparison;
+  std::set<std::string> runs;
+  for (const Values* side : {&before, &after})
+    for (const auto& [run, value] : *side) runs.insert(run);
+  std::vector<double> firsts, seconds;
+  for (const std::string& run : runs) {
+    const std::optional<double> first = value_of(a, before, run), second = value_of(b, after, run);
+    if (!first || !second) continue;
+    const auto group = a.runs.find(run);
+    compare_pair(run, group == a.runs.end() ? run : group->second, *first, *second, tolerance, out,
+                 open.differences);
+    if (!std::isfinite(*first) || !std::isfinite(*second)) continue;
+    firsts.push_back(*first);
+    seconds.push_back(*second);
+  }
+  out.baseline_mean = same_seeds && !firsts.empty() ? mean(firsts) : mean_of(before);
+  out.current_mean = same_seeds && !seconds.empty() ? mean(seconds) : mean_of(after);
+  keep_largest(out.largest);
+  if (same_seeds && a.repeats && out.beyond > 0)
+    out.test = paired_test(open.differences, a.draws_groups || b.draws_groups);
+  return open;
+}
+
+/// Whether all errors that differ, of whatever quantity and subject, got worse, or all better.
+bool point_one_way(const std::vector<Open>& all) {
+  bool worse = false, better = false;
+  for (const Open& open : all) {
+    const Comparison& c = open.comparison;
+    if (c.quantity.of_solver) continue;
+    worse = worse || c.worse + c.lost > 0;
+    better = better || c.better + c.gained > 0;
+  }
+  return !worse || !better;
+}
+
+/// The dictionary's, and those that either side declares: none that the sides declare in two units,
+/// and without a direction what they declare with two.
+std::vector<Quantity> compared_quantities(const RecordSet& a, const RecordSet& b) {
+  std::vector<Quantity> all = b.quantities.all();
+  for (const Quantity& before : a.quantities.declared()) {
+    const auto after = std::ranges::find(all, before.id, &Quantity::id);
+    if (after == all.end())
+      all.push_back(before);
+    else if (after->unit != before.unit)
+      all.erase(after);
+    else if (after->better != before.better)
+      after->better = Better::kNeither;
+  }
+  return all;
+}
+
+/// @param one_way  As point_one_way says of all.
+Outcome outcome_of(const Comparison& c, bool same_seeds, bool one_way,
+                   const RecordOptions& options) {
+  const Quantity& quantity = c.quantity;
+  if (c.beyond + c.lost + c.gained == 0)
+    return c.within > 0 ? Outcome::kWithinTolerance : Outcome::kEqual;
+  if (quantity.better == Better::kNeither || !same_seeds) return Outcome::kChanged;
+  const bool up_is_worse = quantity.better == Better::kLower;
+  if (c.test && c.test->powerless_of == 0 && c.lost + c.gained == 0) {
+    const bool decides =
+        c.test->p < options.significance && std::abs(c.test->test.effect) >= options.least_effect;
+    if (!decides) return Outcome::kChanged;
+    return (c.test->test.effect > 0.0) == up_is_worse ? Outcome::kWorse : Outcome::kBetter;
+  }
+  const int worse = c.worse + c.lost, better = c.better + c.gained;
+  if (quantity.of_solver || (worse > 0 && better > 0)) return Outcome::kChanged;
+  // That there is no score any more needs no others beside it.
+  if (!one_way && c.lost + c.gained == 0) return Outcome::kChanged;
+  return worse > 0 ? Outcome::kWorse : Outcome::kBetter;
+}
+
+void correct(std::vector<Open>& all, double significance) {
+  std::vector<double> p;
+  double least_p = 1.0;
+  for (const Open& open : all)
+    if (open.comparison.test) {
+      p.push_back(open.comparison.test->p);
+      least_p = std::min(least_p, least_signed_rank_p(open.comparison.test->test.pairs));
+    }
+  // Holm multiplies the least of all by their number, and gives none of the others less.
+  const bool is_powerless = least_p * static_cast<double>(p.size()) >= significance;
+  const std::vector<double> corrected = holm(p);
+  std::size_t next = 0;
+  for (Open& open : all)
+    if (open.comparison.test) {
+      open.comparison.test->p = corrected[next++];
+      open.comparison.test->powerless_of = is_powerless ? static_cast<int>(p.size()) : 0;
+    }
+}
+
+}  // namespace
+
+bool have_same_seeds(const RecordSet& a, const RecordSet& b, const Tolerances& tolerances) {
+  if (a.seed != b.seed) return false;
+  return std::ranges::all_of(a.worlds, [&](const auto& world) {
+    const auto other = b.worlds.find(world.first);
+    return other == b.worlds.end() || same_places(world.second, other->second, tolerances);
+  });
+}
+
+std::map<std::string, std::string> matched_subjects(const RecordSet& a, const RecordSet& b) {
+  std::map<std::string, std::string> matched;
+  for (const std::string& subject : subjects_of(a)) matched[subject] = subject;
+  const auto after = lone_subjects(b, a);
+  for (const auto& [family, before] : lone_subjects(a, b)) {
+    const auto other = after.find(family);
+    if (other != after.end() && before.size() == 1 && other->second.size() == 1)
+      matched[before[0]] = other->second[0];
+  }
+  return matched;
+}
+
+std::vector<Comparison> compare_series(const RecordSet& a, const RecordSet& b, bool same_seeds,
+                                       const RecordOptions& options, long& values) {
+  const std::set<std::string> there = subjects_of(b);
+  static const Values kNone;
+  const std::vector<Quantity> quantities = compared_quantities(a, b);
+  std::vector<Open> all;
+  values = 0;
+  for (const auto& [subject, other] : matched_subjects(a, b)) {
+    if (!there.contains(other)) continue;
+    for (const Quantity& quantity : quantities) {
+      const auto before = a.values.find({subject, quantity.id});
+      const auto after = b.values.find({other, quantity.id});
+      if (before == a.values.end() && after == b.values.end()) continue;
+      Open open = compare(a, b, before == a.values.end() ? kNone : before->second,
+                          after == b.values.end() ? kNone : after->second, same_seeds,
+                          tolerance_of(quantity, options.tolerances));
+      Comparison& c = open.comparison;
+      values += c.pairs + c.lost + c.gained;
+      c.subject = subject;
+      c.current_subject = other;
+      c.quantity = quantity;
+      if (quantity.better == Better::kHigher) std::swap(c.worse, c.better);
+      if (quantity.better == Better::kNeither || !same_seeds) c.worse = c.better = 0;
+      if (c.within + c.beyond + c.lost + c.gained > 0) all.push_back(std::move(open));
+    }
+  }
+  correct(all, options.significance);
+  const bool one_way = point_one_way(all);
+  std::vector<Comparison> compared;
+  for (Open& open : all) {
+    open.comparison.outcome = outcome_of(open.comparison, same_seeds, one_way, options);
+    compared.push_back(std::move(open.comparison));
+  }
+  return compared;
+}
+
+}  // namespace mapproof

@@ -1,0 +1,156 @@
+#include "reports/diff/records/record_set.hpp"
+
+#include <algorithm>
+#include <system_error>
+#include <utility>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include "core/base/byte_source.hpp"
+#include "core/base/errors.hpp"
+#include "core/base/files.hpp"
+#include "core/json/json_cursor.hpp"
+#include "core/json/record_json.hpp"
+#include "core/records/maps/map_files.hpp"
+#include "core/records/observations/input_kind.hpp"
+#include "core/records/studies/results_study_json.hpp"
+#include "core/records/studies/slam_run_json.hpp"
+#include "core/topics/study_kind.hpp"
+#include "reports/diff/records/record_files.hpp"
+
+namespace mapproof {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// Whether a study.json is there, be it readable or not.
+bool has_study(const fs::path& folder) {
+  std::error_code error;
+  return fs::exists(fs::symlink_status(folder / "study.json", error));
+}
+
+/// The JSON file of a map or of one log's result: the path itself, or the file in its folder.
+fs::path single_file(const fs::path& path) {
+  std::error_code error;
+  if (!fs::is_directory(path, error)) return path;
+  for (const char* name : {"map.json", "slam.json"})
+    if (fs::is_regular_file(path / name, error)) return path / name;
+  return {};
+}
+
+/// Whether a file is the JSON of a map or of one log's result, by what it says it is.
+bool is_single(const fs::path& file) {
+  try {
+    ByteSource source(file);
+    const std::string schema = is_json(source) ? json_schema(source) : "";
+    return schema == "mapproof.map" || schema == "mapproof.slam_run";
+  } catch (const IoError&) {
+    return false;
+  }
+}
+
+/// All of a JSON value as text by its pointers; arrays of plain values are one value.
+void add_settings(RecordSet& set, const fs::path& study) {
+  const nlohmann::json root = parse_json(read_file(study), study.string()).root;
+  for (auto& [pointer, text] : flattened(root.contains("experiment") ? root["experiment"] : root))
+    set.settings[pointer] = std::move(text);
+  const auto seed = set.settings.find("/seed");
+  if (seed != set.settings.end()) set.seed = seed->second;
+}
+
+void add_family(RecordSet& set, const Results& results, const Result& row) {
+  const auto family = results.families.find(row.method);
+  if (family != results.families.end())
+    set.families[series_name(row.at, row.method, row.subject)] = {
+        series_name(row.at, family->second.name, row.subject), family->second.parameter};
+}
+
+RecordSet set_of(StudyContents contents) {
+  RecordSet set;
+  for (const Result& row : contents.results.rows) {
+    set.values[{series_name(row.at, row.method, row.subject), row.quantity}]
+              [run_in_name(row.at, row.run)] = row.value;
+    add_family(set, contents.results, row);
+  }
+  for (const RunOutcome& outcome : contents.results.outcomes)
+    set.statuses[record_name(outcome.at, outcome.method, outcome.run)] =
+        fmt::format("{}", fmt::join(outcome.codes, ", "));
+  set.kind = std::move(contents.kind);
+  set.provenance = std::move(contents.provenance);
+  set.quantities = std::move(contents.results.quantities);
+  set.repeats = contents.results.are_repeats;
+  set.draws_groups = set.kind == kResultsStudy;
+  set.runs = std::move(contents.runs);
+  set.worlds = std::move(contents.worlds);
+  set.anchors = std::move(contents.anchors);
+  set.points = std::move(contents.points);
+  set.problems = std::move(contents.problems);
+  return set;
+}
+
+RecordSet read_study_set(const fs::path& folder, const fs::path& beside) {
+  const auto differs = [&](const fs::path& file) {
+    return !same_bytes(file, beside / file.lexically_relative(folder));
+  };
+  RecordSet set = set_of(read_study_contents(folder, {.maps = differs, .keeps_on = true}));
+  add_settings(set, folder / "study.json");
+  return set;
+}
+
+RecordSet read_single(const fs::path& file) {
+  const std::string text = read_input(file);
+  const std::string source = file.string();
+  const std::string schema = schema_of(parse_json(text, source).cursor()).name;
+  if (schema == "mapproof.slam_run") return set_of(contents_of(parse_slam_run(text, source)));
+  if (schema != "mapproof.map") throw IoError(source, "holds no records but " + schema);
+  const MapRecord map = parse_map(text, source);
+  StudyContents contents = contents_of(map);
+  // There is one map, whatever it was made of: the number of steps is a setting of it.
+  for (Result& row : contents.results.rows) row.at.levels.clear();
+  for (RunOutcome& outcome : contents.results.outcomes) outcome.at.levels.clear();
+  RecordSet set = set_of(std::move(contents));
+  set.settings["/steps"] = std::to_string(map.step);
+  set.called[map.id] = set.values.begin()->first.subject;
+  set.settings["/method"] = method_label(map);
+  return set;
+}
+
+/// Whether all that a file holds is compared as settings, results and points.
+bool is_compared(const fs::path& file) {
+  return file == "study.json" || file == "results.csv" || file.parent_path() == "parts";
+}
+
+/// Lists the files that are others than those of the other side.
+void add_others(RecordSet& set, const fs::path& folder, const fs::path& beside) {
+  for (const fs::path& file : record_files(folder))
+    if (!is_compared(file) && !same_bytes(folder / file, beside / file))
+      set.others[file.generic_string()] = folder / file;
+}
+
+}  // namespace
+
+bool holds_records(const fs::path& path) {
+  std::error_code error;
+  if (fs::is_directory(path, error)) return has_study(path) || !single_file(path).empty();
+  return is_single(path);
+}
+
+RecordSet read_records(const fs::path& path, const fs::path& beside) {
+  std::error_code error;
+  RecordSet set;
+  if (has_study(path)) {
+    set = read_study_set(path, beside);
+  } else {
+    const fs::path file = single_file(path);
+    if (file.empty()) throw IoError(path.string(), "holds no records");
+    set = read_single(file);
+  }
+  if (fs::is_directory(path, error))
+    add_others(set, path, beside);
+  else if (!same_bytes(path, beside))
+    set.others[""] = path;
+  return set;
+}
+
+}  // namespace mapproof
