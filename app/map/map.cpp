@@ -85,25 +85,27 @@ Action map_command(CLI::App& app) {
       "  mapproof map MRCLAM_Dataset2 --sensor range-bearing --out out/pairs\n"
       "  mapproof map seen.csv --sensor visibility --with bearings.csv --with-sensor bearing --out "
       "out/joint\n\n"
-      "OBSERVATIONS: wide CSV (a row a landmark, a column a step; empty or nan: missing), long "
-      "CSV\n"
-      "(step, landmark, value), detections (step or time, landmark, range, bearing), JSON of\n"
-      "mapproof.observations or mapproof.detections, or a folder of MRCLAM files. Files may be\n"
-      "packed by gzip or xz; here as in the options a pipe of the shell does, too, or standard "
-      "input (-).\n"
+      "OBSERVATIONS is one of\n"
+      "  wide CSV: one row per landmark, one column per step; an empty cell or nan is missing\n"
+      "  long CSV: the columns step, landmark, value\n"
+      "  detections: the columns step or time, landmark, range, bearing\n"
+      "  JSON: mapproof.observations or mapproof.detections\n"
+      "  a folder of MRCLAM files\n"
+      "It may be compressed by gzip or xz. A pipe or standard input (-) serves wherever a file "
+      "does.\n"
       "Bearings are relative to the robot's heading, counter-clockwise, in radians.\n"
-      "Range and bearing seen together measure distances: their map is in metres without anchors.\n"
-      "Exit code 1 if no map came out; the report then says why.\n");
+      "Range and bearing of one scan measure distances: their map is in metres without anchors.\n"
+      "The exit code is 1 if there is no map; the report says why.\n");
   app.add_option("OBSERVATIONS", arguments->input.path, "File or folder")->required();
   add_out_option(app, arguments->out, "Folder for map, figure and report")->required();
   app.add_option(
       "--method", arguments->method,
-      "See \"mapproof methods\" (default: isomap), or auto: the best by what can be told "
-      "without the truth; of range-bearing: pairs");
+      "The embedding method, see \"mapproof methods\" (default: isomap; pairs for range-bearing). "
+      "auto: the best one, judged without ground truth");
   CLI::Option_group* parameter =
       app.add_option_group("Parameter of the method", "One of these, see \"mapproof methods\"");
   parameter->require_option(0, 1);
-  parameter->add_option("--parameter", arguments->parameter, "Of whatever method");
+  parameter->add_option("--parameter", arguments->parameter, "The parameter, whatever the method");
   parameter->add_option("-K,--neighbours", arguments->neighbours,
                         "Number of nearest neighbours (default: 6, or what there can be)");
   parameter->add_option("--sigma2", arguments->variance,
@@ -115,71 +117,76 @@ Action map_command(CLI::App& app) {
          "What the values are: visibility (0/1), bearing [rad], range [m], or range-bearing; "
          "needed for CSV but detections")
       ->check(CLI::IsMember({"visibility", "bearing", "range", "range-bearing"}));
-  app.add_option("--with", arguments->with,
-                 "Observations of the same landmarks by another kind of sensor, for one map of "
-                 "both: landmarks are matched by name, steps need not be the same")
+  app.add_option(
+         "--with", arguments->with,
+         "Observations of the same landmarks by another sensor, for one joint map. Landmarks "
+         "are matched by name; the steps may differ")
       ->take_all();
-  app.add_option("--with-sensor", arguments->with_kind, "What they are, for each --with")
+  app.add_option("--with-sensor", arguments->with_kind, "The sensor of each --with")
       ->check(CLI::IsMember({"visibility", "bearing", "range"}))
       ->take_all();
-  app.add_flag("--degrees", arguments->degrees, "Bearings in a CSV file are in degrees");
-  app.add_option("--layout", arguments->layout, "Of a CSV file")
+  app.add_flag("--degrees", arguments->degrees, "Bearings in CSV files are in degrees");
+  app.add_option("--layout", arguments->layout, "Layout of a CSV file")
       ->check(CLI::IsMember({"auto", "wide", "long"}))
       ->capture_default_str();
   app.add_option("--anchors", arguments->anchors,
-                 "Known positions of 3 landmarks or more: CSV of name, x [m], y [m]");
+                 "Known positions of three or more landmarks: CSV with name, x [m], y [m]");
   app.add_option("--ground-truth,--truth", arguments->truth,
-                 "True positions, for the errors: as --anchors");
-  app.add_option("--steps", arguments->options.steps, "Use the first so many observations alone")
+                 "True positions, to compute errors: CSV as for --anchors");
+  app.add_option("--steps", arguments->options.steps, "Use only the first N steps")
       ->check(CLI::Range(1, 1000000));
-  app.add_option("--fit", arguments->fit,
-                 "How the affine map to the anchors is fitted; rigid: a map of range-bearing is "
-                 "turned and shifted alone")
+  app.add_option(
+         "--fit", arguments->fit,
+         "How to fit the map to the anchors by an affine map. rigid: a map of range-bearing "
+         "keeps its scale and shape")
       ->check(CLI::IsMember({"least-distances", "least-squares", "rigid"}))
       ->capture_default_str();
   app.add_flag("--drop-unseen", arguments->options.drop_unseen,
-               "Leave landmarks out that were never observed");
+               "Leave out landmarks that were never observed");
   app.add_flag("--only-seen-together", arguments->options.only_seen_together,
-               "Visibility: no graph edge between landmarks never seen together");
-  app.add_option("--missing", arguments->options.missing.way,
-                 "Missing entries: distances over common steps, filled in by PPCA or PCA, or of "
-                 "covisible landmarks alone; auto: as the pattern of the gaps advises")
+               "Visibility: no edge of the graph joins landmarks that were never seen together");
+  app.add_option(
+         "--missing", arguments->options.missing.way,
+         "Strategy for missing data: distances over common steps, entries filled in by PPCA "
+         "or PCA, or distances of covisible landmarks alone. auto: by the pattern of what "
+         "is missing")
       ->check(CLI::IsMember(missing_ways()))
       ->capture_default_str();
   app.add_option("--dimensions", arguments->options.missing.dimensions,
-                 "Of PPCA and PCA (default: 10, or one fewer than landmarks)")
+                 "Dimensions of PPCA and PCA (default: 10, or one fewer than landmarks)")
       ->check(CLI::Range(1, 1000));
   app.add_option("--submaps", arguments->options.submaps,
-                 "Map overlapping groups of at most so many landmarks apart, and join them")
+                 "Map overlapping groups of at most N landmarks separately, and join them")
       ->check(CLI::Range(6, 5000));
   app.add_option("--overlap", arguments->options.overlap,
-                 "Share of each sub-map that it borrows from its neighbours (default: 0.5)")
+                 "Share of each sub-map that it has from its neighbours (default: 0.5)")
       ->check(CLI::Range(0.0, 0.8));
   app.add_option("--ellipses", arguments->options.ellipse_replicates,
-                 "Draw each landmark's 95 % ellipse, from so many maps of steps drawn anew "
-                 "(default: 200)")
+                 "Draw the 95 % confidence ellipse of each landmark, from N bootstrap resamples of "
+                 "the steps (default: 200)")
       ->expected(0, 1)
       ->default_str("200")
       ->check(CLI::Range(10, 10000));
-  app.add_flag("--follow", arguments->follow,
-               "Follow long CSV or detections as they grow (-: standard input; packed or not) and "
-               "write map and figure again and again, to their end, SIGINT or SIGTERM; not with "
-               "--method auto, --ellipses, --missing, --submaps, --steps, --drop-unseen, "
-               "--check-ids or --repair-ids");
+  app.add_flag(
+      "--follow", arguments->follow,
+      "Read long CSV or detections while the file grows (-: standard input), and update map "
+      "and figure until it ends, or until SIGINT or SIGTERM. Not with --method auto, "
+      "--ellipses, --missing, --submaps, --steps, --drop-unseen, --check-ids or "
+      "--repair-ids");
   app.add_option("--every", arguments->every,
-                 "With --follow: after so many steps (100) or seconds (2s)")
+                 "With --follow: update after so many steps (100) or seconds (2s)")
       ->capture_default_str();
   app.add_flag(
       "--check-ids", arguments->input.labels.check,
-      "Detections of range and bearing: name labels that contradict the others, or the places "
-      "that anchors, truth or survey tell");
-  app.add_flag("--repair-ids", arguments->input.labels.repair, "And correct them before mapping");
+      "Range and bearing: report landmark IDs that contradict the others, or the known positions");
+  app.add_flag("--repair-ids", arguments->input.labels.repair, "Correct these IDs before mapping");
   app.add_flag("--find-moved", arguments->input.labels.find_moved,
-               "Detections of range and bearing: name landmarks that moved, map both places; with "
-               "--follow, as soon as it shows");
-  app.add_option("--uncertain-ids", arguments->input.unsure,
-                 "Labels that are confused with one another, a,b,...: whose their readings are is "
-                 "estimated together with the map (as of readings under the label ? in long CSV)")
+               "Range and bearing: report landmarks that moved, and map both positions. With "
+               "--follow, as soon as a move is significant");
+  app.add_option(
+         "--uncertain-ids", arguments->input.unsure,
+         "Landmark IDs that may be confused with one another, a,b,...: their data association "
+         "is estimated together with the map, as that of the landmark ? in long CSV")
       ->delimiter(',');
   app.add_option("--templates", arguments->templates,
                  "Folder whose templates replace the embedded ones")

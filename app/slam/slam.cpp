@@ -175,33 +175,36 @@ Action slam_command(CLI::App& app) {
       "  range_sensor | mapproof slam - --follow --every 5s --out out/live\n"
       "  mapproof slam run7_TD.txt --known-landmarks beacons.csv --ground-truth gps.csv --out "
       "out/run7\n\n"
-      "DATA: a folder with ranges.csv (and odometry.csv, groundtruth.csv, landmarks.csv), "
-      "NAME.mat\n"
-      "of the Plaza sets, NAME_DR.txt with NAME_TD.txt, or NAME.pyfg. Files may be packed by gzip\n"
-      "or xz; here as in the options a pipe does, too, or standard input (-): the ranges are then\n"
-      "all there is of the log, odometry comes by --odometry. Ranges are single distances\n"
-      "to named landmarks, at any times; how they are brought together is chosen by what it\n"
-      "predicts. Without a truth no error is told; without odometry the map may be mirrored.\n"
-      "Exit code 1 if no map came out; the report then says why.\n");
+      "DATA is one of\n"
+      "  a folder with ranges.csv, and perhaps odometry.csv, groundtruth.csv, landmarks.csv\n"
+      "  NAME.mat of the Plaza sets; NAME_DR.txt with NAME_TD.txt; NAME.pyfg\n"
+      "  a CSV file of ranges, a pipe or standard input (-); odometry comes by --odometry\n"
+      "It may be compressed by gzip or xz. Ranges are single distances to named landmarks, at any\n"
+      "times. The window that brings them to common times is chosen by prediction error. Errors "
+      "are\n"
+      "reported only with ground truth. Without odometry the map may be mirrored.\n"
+      "The exit code is 1 if there is no map; the report says why.\n");
   app.add_option("DATA", arguments->data, "File or folder")->required();
   add_out_option(app, arguments->out, "Folder for map, paths, figures and report")->required();
-  app.add_option("--known-landmarks", arguments->known,
-                 "Places of landmarks that are given to the methods: CSV of name, x [m], y [m]");
+  app.add_option(
+      "--known-landmarks", arguments->known,
+      "Known positions of landmarks, which the methods use: CSV with name, x [m], y [m]");
   app.add_option("--ground-truth,--truth", arguments->truth,
-                 "True path, for the errors: CSV of t, x, y, heading");
-  app.add_option("--ground-truth-landmarks", arguments->true_landmarks,
-                 "True places of landmarks, for the errors alone: CSV of name, x [m], y [m]");
+                 "True path, to compute errors: CSV with t, x, y, heading");
+  app.add_option(
+      "--ground-truth-landmarks", arguments->true_landmarks,
+      "True positions of landmarks, to compute errors only: CSV with name, x [m], y [m]");
   app.add_option("--odometry", arguments->odometry,
-                 "Odometry in place of that in DATA: CSV of t, ddist, dheading");
+                 "Odometry, instead of that in DATA: CSV with t, ddist, dheading");
   app.add_flag(
       "--follow", arguments->follow,
-      "Follow long CSV of ranges that are taken together (step, landmark, range [m]) as it "
-      "grows (-: standard input; packed or not) and write map and figure again and again, "
-      "to its end, SIGINT or SIGTERM; landmarks alone, in constant memory");
+      "Read long CSV of ranges that are taken together (step, landmark, range [m]) while the file "
+      "grows (-: standard input), and update map and figure until it ends, or until SIGINT or "
+      "SIGTERM. Maps landmarks only, in constant memory");
   app.add_option("--every", arguments->every,
-                 "With --follow: after so many steps (100) or seconds (2s)")
+                 "With --follow: update after so many steps (100) or seconds (2s)")
       ->capture_default_str();
-  app.add_option("--name", arguments->log.name, "Of the log, for titles");
+  app.add_option("--name", arguments->log.name, "Name of the log, for titles");
   app.add_option("--templates", arguments->templates,
                  "Folder whose templates replace the embedded ones")
       ->check(names_folder());

@@ -6,7 +6,7 @@
 namespace mapproof {
 namespace {
 
-/// The drawn columns of a matrix that holds a column a step, or two: cosines, then sines.
+/// The drawn columns of a matrix that holds one column per step, or two: cosines, then sines.
 void draw_columns(const Eigen::MatrixXd& from, Eigen::Index steps,
                   const std::vector<Eigen::Index>& drawn, Eigen::MatrixXd& to) {
   const Eigen::Index parts = from.cols() / steps;

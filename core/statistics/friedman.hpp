@@ -26,7 +26,7 @@ Eigen::RowVectorXd ranks(const Eigen::RowVectorXd& values);
 /// limiting distributions, chi-square with k - 1 and F with k - 1 and (k - 1)(n - 1) degrees of
 /// freedom.
 ///
-/// @param values  n x k, finite: a row a unit, a column a method. Rows must be independent.
+/// @param values  n x k, finite: one row per unit, one column per method. Rows must be independent.
 /// @throws InvalidInput unless n >= 2, k >= 2 and all is finite.
 /// @note O(n k log k).
 FriedmanTest friedman(const Eigen::MatrixXd& values);

@@ -16,7 +16,7 @@ enum class DiffWords {
   kFailures,  ///< Of those that do not pass; nothing at all if the whole passes.
 };
 
-/// A line an item, "worse  fig-7  cause", and one on the whole.
+/// One line per item, "worse  fig-7  cause", and one on the whole.
 std::string diff_text(const DiffResult& result, DiffWords words = DiffWords::kAll);
 
 /// docs/schemas/diff.schema.json.

@@ -17,7 +17,8 @@ struct MethodRanks {
   std::vector<MethodSetting> methods;  ///< Those compared, in the order of the experiment.
   std::vector<Method> left_out;        ///< Without a score in some layout.
   std::vector<int> layouts;
-  Eigen::MatrixXd mpe_m;  ///< A row a layout, a column a method; mean over poses that all have.
+  Eigen::MatrixXd
+      mpe_m;  ///< One row per layout, one column per method; mean over poses that all have.
 
   std::optional<FriedmanTest> test;  ///< Empty with fewer than two layouts or methods.
   double alpha = 0.05;

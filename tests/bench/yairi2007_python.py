@@ -8,7 +8,7 @@ mapproof_yairi2007_histories wrote, so that both map the same observations. Of e
 checkpoints are mapped with every method and parameter; semidefinite programs on the first run
 alone, three parameters a checkpoint.
 
-Prints a line an item: "map LAYOUT POSE SENSOR STEP METHOD PARAMETER SECONDS MPE MOE" (PARAMETER is
+Prints one line per item: "map LAYOUT POSE SENSOR STEP METHOD PARAMETER SECONDS MPE MOE" (PARAMETER is
 - for methods without), "part NAME SECONDS COUNT", and "note TEXT".
 """
 import json

@@ -69,8 +69,8 @@ void check_size(const std::string& source, const std::string& place, std::size_t
   if (landmarks > kMostLandmarks)
     throw IoError(
         source, place,
-        fmt::format("more than {} landmarks: a row is a landmark, a column a step; should "
-                    "the table be turned?",
+        fmt::format("more than {} landmarks: each row is a landmark and each column a step; "
+                    "should the table be transposed?",
                     kMostLandmarks));
   if (static_cast<double>(landmarks) * static_cast<double>(steps) > kMostEntries)
     throw IoError(source, place,

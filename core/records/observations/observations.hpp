@@ -18,8 +18,8 @@ namespace mapproof {
 enum class Layout {
   kAuto,  ///< kLong if the header names a landmark and a value, or what detections hold; else
           ///< kWide.
-  kWide,  ///< A row a landmark, a column a step.
-  kLong,  ///< A row an observation: step or time, landmark, value; a robot too, whose steps are
+  kWide,  ///< One row per landmark, one column per step.
+  kLong,  ///< One row per observation: step or time, landmark, value; a robot too, whose steps are
           ///< then its own.
 };
 

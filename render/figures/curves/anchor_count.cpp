@@ -12,7 +12,8 @@ Figure anchor_count_figure(const AnchorCountSpec& spec) {
   lines.quantity = spec.quantity;
   lines.record_ids = spec.record_ids;
   lines.caption = fmt::format(
-      "Lines: {} over the number of anchors, mean over runs, a line a way to place them; bands: "
+      "Lines: {} over the number of anchors, mean over runs, one line per way to place them; "
+      "bands: "
       "its 95 % interval.",
       spec.quantity);
   for (const AnchorPanel& from : spec.panels) {

@@ -8,7 +8,7 @@
 
 namespace mapproof {
 
-/// One sensor's or method's part: a line a way to place the anchors, `x` their number.
+/// One sensor's or method's part: one line per way to place the anchors, `x` their number.
 struct AnchorPanel {
   std::string title;
   std::vector<ErrorLine> placements;
