@@ -53,7 +53,7 @@ std::string title_of(const TrialStudy& study, const TrialPart& part, const Trial
   if (setup != study.design.setups.end() && !setup->factors.empty())
     title += ", " + level_words(*setup, map.at);
   title += ": " + series_label(study.design, map.series);
-  if (map.certainty) title += ", with 95 % ellipses by the bootstrap";
+  if (map.certainty) title += ", 95\u00a0% ellipses by the bootstrap";
   return title;
 }
 
