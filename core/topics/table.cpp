@@ -18,6 +18,7 @@ void read_table(const fs::path& folder, const std::string&, const ContentsAsked&
   for (const Label& method : study.methods) contents.labels.methods[method.id] = method.label;
   for (const Result& row : study.results.rows) contents.runs[row.run] = row.group;
   contents.results = std::move(study.results);
+  contents.draws_groups = true;
   if (!asked.maps) return;
   try_file(contents, folder, folder / "maps", asked, [&] {
     for (const MapRecord& map : read_given_maps(folder))

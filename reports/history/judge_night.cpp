@@ -7,7 +7,6 @@
 
 #include "core/base/errors.hpp"
 #include "core/base/not_finite.hpp"
-#include "core/records/studies/results_study_json.hpp"
 
 namespace mapproof {
 namespace {
@@ -38,7 +37,7 @@ StudyEvidence evidence_of(HistoryStore& store, const Night& tonight, const Study
   StudyEvidence evidence{
       .trend = store.trend(study.name, study.order_digest, kTrendNights, tonight.facts.number - 1),
       .tonight = study.scores,
-      .draws_groups = study.kind == kResultsStudy};
+      .draws_groups = study.draws_groups};
   drop_before(evidence.trend, pinned);
   add_tonight(evidence.trend, tonight.facts, study);
   if (!tonight.facts.reference) return evidence;

@@ -54,6 +54,7 @@ struct StudyNight {
   std::string kind = {};          ///< "mapproof.study", "mapproof.slam_study".
   std::string order_digest = {};  ///< SHA-256 of the experiment as it was ordered: nights are
                                   ///< compared where it is the same.
+  bool draws_groups = false;      ///< StudyContents::draws_groups.
   int runs = 0;
   std::optional<double> seconds = {};  ///< Of all sessions that made it.
   std::optional<double> peak_memory_mib = {};

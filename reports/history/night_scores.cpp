@@ -67,6 +67,7 @@ StudyNight read_study_night(const std::filesystem::path& folder, const std::stri
   StudyNight night{.name = name, .order_digest = order_digest(read_file(head), head.string())};
   StudyContents contents = read_study_contents(folder, {.seconds = true});
   night.kind = contents.kind;
+  night.draws_groups = contents.draws_groups;
   night.labels = std::move(contents.labels);
   night.runs = static_cast<int>(contents.runs.size());
   night.scores = scores_of(contents.results, contents.seconds);

@@ -40,6 +40,8 @@ struct StudyContents {
   Provenance provenance;
   StudyLabels labels;  ///< Of studies that declare them; mapproof's own methods are known.
   Results results;
+  /// Whoever made it chose its groups: they are the units of every test, however few.
+  bool draws_groups = false;
   std::vector<Result> seconds;                 ///< Of its parts: they vary from run to run.
   std::map<std::string, std::string> runs;     ///< Id of each, and its group; of one that cannot be
                                                ///< read nothing is known.

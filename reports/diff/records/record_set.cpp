@@ -14,7 +14,6 @@
 #include "core/json/record_json.hpp"
 #include "core/records/maps/map_files.hpp"
 #include "core/records/observations/input_kind.hpp"
-#include "core/records/studies/results_study_json.hpp"
 #include "core/records/studies/slam_run_json.hpp"
 #include "core/topics/study_kind.hpp"
 #include "reports/diff/records/record_files.hpp"
@@ -80,7 +79,7 @@ RecordSet set_of(StudyContents contents) {
   set.provenance = std::move(contents.provenance);
   set.quantities = std::move(contents.results.quantities);
   set.repeats = contents.results.are_repeats;
-  set.draws_groups = set.kind == kResultsStudy;
+  set.draws_groups = contents.draws_groups;
   set.runs = std::move(contents.runs);
   set.worlds = std::move(contents.worlds);
   set.anchors = std::move(contents.anchors);

@@ -33,8 +33,11 @@ Night night_of(int number, const ForeignNight& plan = {}) {
                         .command = "mapproof nightly mine",
                         .provenance = "{}",
                         .host = "host"}};
-  StudyNight study{
-      .name = "mine", .kind = std::string(kResultsStudy), .order_digest = "d", .runs = 18};
+  StudyNight study{.name = "mine",
+                   .kind = std::string(kResultsStudy),
+                   .order_digest = "d",
+                   .draws_groups = true,
+                   .runs = 18};
   study.labels = plan.labels;
   study.quantities.declare(study_quantity("ate_m", "ATE", "m", Better::kLower));
   study.quantities.declare(study_quantity("found", "found", "%", Better::kHigher));
