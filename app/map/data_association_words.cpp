@@ -16,7 +16,7 @@ std::string scan_words(const DetectionLog& log, int step) {
   return fmt::format("step {}", step + 1);
 }
 
-/// Whose look it was, " of robot 3"; empty for the log of one robot.
+/// Whose scan it was, " of robot 3"; empty for the log of one robot.
 std::string robot_words(const DetectionLog& log, int step) {
   const auto scan = static_cast<std::size_t>(step);
   if (log.robots.size() < 2 || scan >= log.scans.size()) return "";
@@ -26,7 +26,7 @@ std::string robot_words(const DetectionLog& log, int step) {
 /// "from step 12 to step 90 of robot 3", "throughout", "in all scans of robot 3".
 std::string when_words(const LabelFinding& finding, const DetectionLog& log) {
   if (finding.to_the_end && finding.from_the_start) return "throughout";
-  // Times of all robots' scans are of one clock: whose look it was says nothing.
+  // Times of all robots' scans are of one clock: whose scan it was says nothing.
   const auto robot = [&](int step) { return finding.by_time ? "" : robot_words(log, step); };
   const std::string of_first = robot(finding.first_step);
   const std::string of_last = robot(finding.last_step);

@@ -133,7 +133,7 @@ class Splitter {
   const DetectionLog& log_;
 };
 
-/// The split that explains the scans best, and between which looks it lies.
+/// The split that explains the scans best, and between which scans it lies.
 struct Change {
   std::size_t place = 0;
   std::size_t earliest = 0;

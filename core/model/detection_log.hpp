@@ -18,7 +18,7 @@ struct Detection {
                                                                   ///< counter-clockwise; NaN: not.
 };
 
-/// Which look it was of the scans of several robots: one robot's at one step or time.
+/// Which scan it was among the scans of several robots: one robot's at one step or time.
 struct ScanKey {
   int robot = 0;     ///< In the order in which they come; 0 where robots are not told apart.
   double key = 0.0;  ///< Step or time, finite.

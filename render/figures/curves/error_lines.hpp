@@ -25,8 +25,8 @@ struct ErrorLine {
   std::vector<double> mean = {};  ///< Over runs.
   std::vector<double> low = {};   ///< Of the 95 % interval; empty, with `high`: no band.
   std::vector<double> high = {};
-  /// Which look it takes (see series_style), so that a method looks alike in all figures; empty, or
-  /// two labels of one figure with the same: by first appearance.
+  /// Which style it takes (see series_style), so that a method looks alike in all figures; empty,
+  /// or two labels of one figure with the same: by first appearance.
   std::optional<std::size_t> series = std::nullopt;
 };
 
