@@ -15,7 +15,7 @@
 #include "core/records/studies/folder_lock.hpp"
 #include "core/records/studies/folder_replacement.hpp"
 #include "reports/diff/approvals/approvals.hpp"
-#include "reports/diff/records/record_files.hpp"
+#include "reports/diff/records/record_set.hpp"
 
 namespace mapproof {
 namespace {

@@ -5,8 +5,8 @@
 #include <vector>
 
 #include "app/map/reference.hpp"
-#include "core/model/map_sensors.hpp"
 #include "core/model/method.hpp"
+#include "core/model/sensor.hpp"
 #include "core/records/observations/observations.hpp"
 
 namespace mapproof {

@@ -8,7 +8,7 @@
 #include "app/commands.hpp"
 #include "app/study/folder_report.hpp"
 #include "core/base/errors.hpp"
-#include "render/output/write_animation.hpp"
+#include "render/output/write_scene.hpp"
 
 namespace mapproof {
 namespace {

@@ -6,14 +6,13 @@
 #include <utility>
 
 #include "core/base/errors.hpp"
+#include "core/embed/bottom_eigenmap.hpp"
 #include "core/embed/connected_graph.hpp"
-#include "core/embed/hessian_lle.hpp"
 #include "core/embed/isomap.hpp"
 #include "core/embed/kernel_pca.hpp"
-#include "core/embed/laplacian_eigenmap.hpp"
+#include "core/embed/lle.hpp"
 #include "core/embed/lpca.hpp"
 #include "core/embed/sde/sde.hpp"
-#include "core/embed/seen_together.hpp"
 #include "core/graph/shortest_paths.hpp"
 
 namespace mapproof {

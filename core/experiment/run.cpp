@@ -2,20 +2,249 @@
 
 #include <algorithm>
 #include <chrono>
+#include <cmath>
+#include <limits>
+#include <optional>
 #include <utility>
+#include <vector>
+
+#include <Eigen/Core>
 
 #include "core/base/errors.hpp"
+#include "core/base/not_finite.hpp"
+#include "core/base/random.hpp"
 #include "core/embed/embedder.hpp"
-#include "core/experiment/run_details.hpp"
 #include "core/experiment/scored_map.hpp"
 #include "core/experiment/seeds.hpp"
-#include "core/experiment/variations.hpp"
+#include "core/graph/neighbours.hpp"
+#include "core/linalg/centering.hpp"
+#include "core/linalg/symmetric_eigen.hpp"
+#include "core/model/experiment.hpp"
+#include "core/model/observation_history.hpp"
+#include "core/model/study.hpp"
+#include "core/model/world.hpp"
+#include "core/observe/proximities.hpp"
 #include "core/simulate/robot_walk.hpp"
 #include "core/simulate/sensors.hpp"
 #include "core/simulate/world.hpp"
 
 namespace mapproof {
+
 namespace {
+
+constexpr Eigen::Index kDimensions = 3;
+constexpr Eigen::Index kFewest = 4;
+
+/// Rows left once those with the most unknown distances, one by one, are taken away.
+std::vector<Eigen::Index> known_rows(const Eigen::MatrixXd& squared) {
+  std::vector<Eigen::Index> rows;
+  for (Eigen::Index i = 0; i < squared.rows(); ++i) rows.push_back(i);
+  while (!rows.empty()) {
+    const auto unknown = [&](Eigen::Index i) {
+      return std::ranges::count_if(rows,
+                                   [&](Eigen::Index j) { return !std::isfinite(squared(i, j)); });
+    };
+    const auto worst = std::ranges::max_element(rows, {}, unknown);
+    if (unknown(*worst) == 0) break;
+    rows.erase(worst);
+  }
+  return rows;
+}
+
+/// The first three principal coordinates of observation histories [torgerson1952] and their
+/// neighbour graph (see neighbour_graph), of the landmarks whose distances to all others of them
+/// are known.
+///
+/// @param squared_distances  M x M, symmetric, zero diagonal, entries >= 0; those of a pair without
+///                           common step, or of a landmark that was never seen, are not finite.
+/// @param neighbours         K >= 1; fewer where there are fewer landmarks.
+/// @return Empty if fewer than four landmarks are left.
+/// @note O(M^3) time up to M = 40, above that O(M^2) an iteration.
+std::optional<ObservationManifold> observation_manifold(const Eigen::MatrixXd& squared_distances,
+                                                        int neighbours) {
+  const std::vector<Eigen::Index> rows = known_rows(squared_distances);
+  const auto count = std::ssize(rows);
+  if (count < kFewest) return std::nullopt;
+  const Eigen::MatrixXd squared = squared_distances(rows, rows);
+  const Eigen::MatrixXd B = double_centered(squared);
+  const EigenPairs pairs = largest_eigenpairs(B, kDimensions);
+
+  ObservationManifold found;
+  found.coordinates.setConstant(squared_distances.rows(), kDimensions,
+                                std::numeric_limits<double>::quiet_NaN());
+  const double spread = B.trace();
+  for (Eigen::Index k = 0; k < kDimensions; ++k) {
+    const double value = std::max(pairs.values(k), 0.0);
+    found.shares[static_cast<std::size_t>(k)] = spread > 0.0 ? value / spread : 0.0;
+    for (Eigen::Index i = 0; i < count; ++i)
+      found.coordinates(rows[static_cast<std::size_t>(i)], k) =
+          std::sqrt(value) * pairs.vectors(i, k);
+  }
+
+  found.neighbours = static_cast<int>(std::min<Eigen::Index>(neighbours, count - 1));
+  const Graph graph = neighbour_graph(squared.cwiseSqrt(), {.neighbours = found.neighbours});
+  for (std::size_t i = 0; i < graph.size(); ++i)
+    for (const Edge& edge : graph[i])
+      if (static_cast<std::size_t>(edge.to) > i)
+        found.edges.emplace_back(static_cast<int>(rows[i]),
+                                 static_cast<int>(rows[static_cast<std::size_t>(edge.to)]));
+  return found;
+}
+
+/// One variation in one run; keeps what its levels share.
+class Varying {
+ public:
+  Varying(const Experiment& experiment, const Variation& variation, const Run& run,
+          const Path& path)
+      : experiment_(experiment), variation_(variation), run_(run), path_(path) {
+    if (variation.step < 1 || variation.step > path.positions_m.rows())
+      throw InvalidInput("a variation at a step that the path does not have");
+  }
+
+  void add_level(double level, std::vector<VariationRecord>& records) {
+    Experiment varied = experiment_;
+    set_level(varied, variation_.sensor, variation_.factor, level);
+    const std::vector<Eigen::Index> anchors = anchors_of(varied);
+    prepare(varied);
+    for (std::size_t i = 0; i < variation_.settings.size(); ++i) {
+      ScoredMap map =
+          scored_map(embeddings_[i], run_.world.landmarks_m, anchors, experiment_.affine_fit);
+      records.push_back({.variation = variation_.id,
+                         .level = level,
+                         .setting = variation_.settings[i],
+                         .statuses = std::move(map.statuses),
+                         .score = map.score});
+    }
+  }
+
+ private:
+  std::vector<Eigen::Index> anchors_of(const Experiment& varied) const {
+    if (variation_.factor != Factor::kAnchors && !variation_.placement) return run_.anchors;
+    // A larger number of random anchors holds the smaller one.
+    Random random(
+        derive_seed(experiment_.seed, {kPlacement, static_cast<std::uint64_t>(run_.id.layout)}));
+    return place_anchors(run_.world, varied.anchors,
+                         variation_.placement.value_or(experiment_.anchor_placement), random);
+  }
+
+  /// Observes and embeds anew where the level asks for it.
+  void prepare(const Experiment& varied) {
+    const bool same_history = history_ && variation_.factor != Factor::kNoise &&
+                              variation_.factor != Factor::kDropoutShare;
+    if (!same_history) history_ = observed(find_sensor(varied, variation_.sensor)->sensor);
+    if (same_history && variation_.factor == Factor::kAnchors) return;
+    HistoryEmbedder embedder(*history_, variation_.step, embedder_options(varied.solver));
+    embeddings_.clear();
+    for (const MethodSetting& setting : variation_.settings)
+      embeddings_.push_back(embedder.embed(setting));
+  }
+
+  ObservationHistory observed(const SensorOptions& sensor) const {
+    Random noise(derive_seed(
+        experiment_.seed,
+        {kVariationNoise, static_cast<std::uint64_t>(run_.id.layout),
+         static_cast<std::uint64_t>(run_.id.pose), static_cast<std::uint64_t>(variation_.sensor)}));
+    return observe(run_.world, path_, sensor, noise);
+  }
+
+  const Experiment& experiment_;
+  const Variation& variation_;
+  const Run& run_;
+  const Path& path_;
+  std::optional<ObservationHistory> history_;
+  std::vector<Embedding> embeddings_;
+};
+
+/// Makes the maps of every variation of the experiment for one run and scores them.
+///
+/// The levels of a variation share their random numbers: a higher noise level is the same noise,
+/// larger. Variations of the anchors and of the solver share one history over all levels.
+/// @param run   Its world and anchors are read.
+/// @param path  As long as the latest step of any variation, or longer.
+/// @return In order of variation, level, setting.
+std::vector<VariationRecord> vary(const Experiment& experiment, const Run& run, const Path& path) {
+  std::vector<VariationRecord> records;
+  for (const Variation& variation : experiment.variations) {
+    Varying varying(experiment, variation, run, path);
+    for (const double level : variation.levels) varying.add_level(level, records);
+  }
+  return records;
+}
+
+constexpr Eigen::Index kFirstSteps = 60;
+constexpr int kManifoldNeighbours = 5;
+
+/// Counted from 0.
+Eigen::Index telling_scan(const SensorStudy& study, const World& world, const Path& path,
+                          Eigen::Index steps) {
+  Eigen::Index best = 0;
+  if (study.sensor.sensor != Sensor::kVisibility) {
+    const Eigen::RowVector2d center(world.side_m / 2.0, world.side_m / 2.0);
+    (path.positions_m.topRows(steps).rowwise() - center).rowwise().squaredNorm().minCoeff(&best);
+    return best;
+  }
+  std::pair<std::ptrdiff_t, std::ptrdiff_t> most{-1, -1};
+  for (Eigen::Index t = 0; t < steps; ++t) {
+    const std::vector<View> views = views_from(world, path.positions_m.row(t), study.sensor);
+    const std::pair found{std::ranges::count(views, View::kHidden),
+                          std::ranges::count(views, View::kVisible)};
+    if (found > most) {
+      most = found;
+      best = t;
+    }
+  }
+  return best;
+}
+
+/// The entries above the diagonal, row by row.
+Eigen::VectorXd upper_triangle(const Eigen::MatrixXd& squared) {
+  const Eigen::Index n = squared.rows();
+  Eigen::VectorXd distances(n * (n - 1) / 2);
+  Eigen::Index k = 0;
+  for (Eigen::Index i = 0; i < n; ++i)
+    for (Eigen::Index j = i + 1; j < n; ++j) {
+      const double distance = std::sqrt(squared(i, j));
+      distances(k++) = std::isfinite(distance) ? distance : kNaN;
+    }
+  return distances;
+}
+
+Eigen::MatrixXd observed_squares(const ObservationHistory& history, Eigen::Index steps) {
+  Eigen::MatrixXd squared = proximities(history, steps).squared_distances;
+  for (const Eigen::Index i : unseen_landmarks(history, steps)) {
+    squared.row(i).setConstant(kNaN);
+    squared.col(i).setConstant(kNaN);
+  }
+  return squared;
+}
+
+/// What figures show of one sensor's history, spectra apart.
+///
+/// The scan is the one that shows most: for visibility the step with the most hidden landmarks (of
+/// those the one with the most visible), for other sensors the step nearest the room's centre; of
+/// equals the first.
+/// @param history  Of that sensor, along `path`, as long as the last checkpoint or longer.
+SensorDetails sensor_details(const SensorStudy& study, const World& world, const Path& path,
+                             const ObservationHistory& history) {
+  const int step = study.checkpoints.back();
+  const Eigen::MatrixXd squared = observed_squares(history, step);
+  const Eigen::Index scan = telling_scan(study, world, path, step);
+  SensorDetails details{
+      .sensor = study.sensor.sensor,
+      .scan_step = static_cast<int>(scan) + 1,
+      .views = {},
+      .values = history.values.col(scan),
+      .first_steps = history.values.leftCols(std::min<Eigen::Index>(kFirstSteps, step)),
+      .step = step,
+      .distances = upper_triangle(squared),
+      .manifold = observation_manifold(squared, kManifoldNeighbours),
+      .spectra = {}};
+  if (study.sensor.sensor == Sensor::kVisibility) {
+    details.reach_m = visibility_reach(world, study.sensor);
+    details.views = views_from(world, path.positions_m.row(scan), study.sensor);
+  }
+  return details;
+}
 
 using Clock = std::chrono::steady_clock;
 

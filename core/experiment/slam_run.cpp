@@ -2,14 +2,97 @@
 
 #include <algorithm>
 #include <chrono>
+#include <cmath>
 #include <limits>
+#include <string>
 
+#include "core/align/path_at.hpp"
+#include "core/align/rigid.hpp"
 #include "core/base/errors.hpp"
-#include "core/experiment/slam_estimates.hpp"
-#include "core/experiment/slam_scores.hpp"
+#include "core/base/random.hpp"
+#include "core/experiment/seeds.hpp"
+#include "core/range_slam/dead_reckoning.hpp"
+#include "core/range_slam/ekf.hpp"
+#include "core/range_slam/factors/spectral_slam.hpp"
+#include "core/range_slam/factors/spread_rows.hpp"
+#include "core/range_slam/factors/synchronous_slam.hpp"
+#include "core/range_slam/refinement/bootstrap.hpp"
+#include "core/range_slam/refinement/refine.hpp"
+#include "core/range_slam/refinement/refine_starts.hpp"
+#include "core/score/trajectory_error.hpp"
 
 namespace mapproof {
+
 namespace {
+
+void turn(std::vector<Eigen::Matrix2d>& covariances, const Similarity& motion) {
+  for (Eigen::Matrix2d& cov : covariances) {
+    const Eigen::Matrix2d turned =
+        motion.scale * motion.scale * motion.rotation * cov * motion.rotation.transpose();
+    cov = turned;
+  }
+}
+
+void move(SlamEstimate& estimate, const Similarity& motion) {
+  estimate.path.positions_m = Points(motion(estimate.path.positions_m));
+  estimate.landmarks_m = Points(motion(estimate.landmarks_m));
+  for (double& heading : estimate.path.heading_rad) {
+    const Eigen::Vector2d way =
+        motion.rotation * Eigen::Vector2d(std::cos(heading), std::sin(heading));
+    heading = std::atan2(way.y(), way.x());
+  }
+  turn(estimate.landmark_cov_m2, motion);
+  turn(estimate.position_cov_m2, motion);
+}
+
+/// The first, and those that take more freedom than it.
+std::vector<Alignment> alignments_from(Alignment first) {
+  switch (first) {
+    case Alignment::kNone:
+      return {Alignment::kNone, Alignment::kRigid, Alignment::kSimilarity};
+    case Alignment::kRigid:
+      return {Alignment::kRigid, Alignment::kSimilarity};
+    default:
+      return {first};
+  }
+}
+
+std::vector<double> pose_errors(const Trajectory& path, const Trajectory& truth) {
+  const Eigen::VectorXd errors =
+      (positions_at(truth, path.time_s) - path.positions_m).rowwise().norm();
+  return {errors.begin(), errors.end()};
+}
+
+constexpr Eigen::Index kPosesWithCovariance = 60;  ///< As many ellipses as a figure can show.
+constexpr Eigen::Index kStatesShown = 300;         ///< Of a metric upgrade.
+
+SlamEstimate failed(const RangeLog& log, Status why) {
+  SlamEstimate estimate;
+  estimate.path.positions_m.resize(0, 2);
+  estimate.landmarks_m = Points::Constant(static_cast<Eigen::Index>(log.landmarks.size()), 2,
+                                          std::numeric_limits<double>::quiet_NaN());
+  estimate.statuses.push_back(std::move(why));
+  return estimate;
+}
+
+QuadricPoints shown_of(const QuadricCloud& cloud, const std::vector<Eigen::Index>& rows) {
+  const Eigen::MatrixXd symmetric = 0.5 * (cloud.Q + cloud.Q.transpose());
+  return {.points = cloud.points(rows, Eigen::all), .Q = symmetric};
+}
+
+std::optional<UpgradeClouds> clouds_of(const MetricUpgrade& upgrade) {
+  if (upgrade.map.empty()) return std::nullopt;
+  UpgradeClouds clouds;
+  clouds.steps = spread_rows(upgrade.before.points.rows(), kStatesShown);
+  clouds.before = shown_of(upgrade.before, clouds.steps);
+  clouds.after = shown_of(upgrade.after, clouds.steps);
+  return clouds;
+}
+
+bool is_spectral(SlamMethod method) {
+  return method == SlamMethod::kSpectral || method == SlamMethod::kSpectral7 ||
+         method == SlamMethod::kSpectralKnown || method == SlamMethod::kSpectralKnown7;
+}
 
 using Clock = std::chrono::steady_clock;
 
@@ -110,6 +193,163 @@ SlamRunResult make_slam_run(const std::string& id, RangeLog log, const SlamRunOp
     run.upgrade = estimates.upgrade();
   if (!run.log.truth) lay_on_first(run, options);
   return result;
+}
+
+void score_against_truth(SlamRecord& record, const RangeLog& log, Alignment first) {
+  SlamEstimate& estimate = record.estimate;
+  if (!log.truth || estimate.path.size() == 0) return;
+  const std::optional<Similarity> motion = path_alignment(estimate.path, *log.truth, first);
+  if (!motion) return;
+  for (const Alignment alignment : alignments_from(first))
+    if (const auto error = trajectory_error(estimate, *log.truth, log.true_landmarks, alignment))
+      record.errors.push_back(*error);
+  if (first != Alignment::kNone) move(estimate, *motion);
+  record.error_m = pose_errors(estimate.path, *log.truth);
+}
+
+void lay_on(SlamEstimate& estimate, const Trajectory& path, bool may_mirror) {
+  if (estimate.path.size() == 0) return;
+  const auto motion = path_alignment(
+      estimate.path, path, may_mirror ? Alignment::kRigidWithReflection : Alignment::kRigid);
+  if (motion) move(estimate, *motion);
+}
+
+SlamEstimates::SlamEstimates(const RangeLog& log, const SlamRunOptions& options)
+    : log_(log), options_(options) {}
+
+SlamEstimate SlamEstimates::estimate(SlamMethod method) {
+  try {
+    return solve(method);
+  } catch (const InvalidInput& error) {
+    // Only the data of a log can break what its reader does not check.
+    return failed(log_, status_with_message(StatusCode::kFailed, error.what()));
+  }
+}
+
+SlamEstimate SlamEstimates::refined_from_random(int number) {
+  const std::uint64_t seed =
+      derive_seed(options_.seed, {kSlamStart, static_cast<std::uint64_t>(number)});
+  return refined(random_start(log_, seed), true);
+}
+
+std::vector<Eigen::Matrix2d> SlamEstimates::landmark_covariances(
+    SlamMethod method, const SlamEstimate& estimate) const {
+  const bool is_flat = method == SlamMethod::kSpectral || method == SlamMethod::kSpectralKnown;
+  const Trajectory& path = estimate.path;
+  if (!is_flat || !window_ || path.size() < 2 || Y_.cols() != path.size()) return {};
+  const double step_s = (path.time_s(path.size() - 1) - path.time_s(0)) / double(path.size() - 1);
+  BootstrapOptions options;
+  options.block = std::clamp<Eigen::Index>(std::lround(window_->length_s / step_s), 1, path.size());
+  options.seed = derive_seed(options_.seed, {kSlamBootstrap});
+  return bootstrap_landmarks(Y_, estimate.landmarks_m,
+                             method == SlamMethod::kSpectralKnown ? options_.known : std::nullopt,
+                             options)
+      .covariances_m2;
+}
+
+void SlamEstimates::prepare(SlamMethod method) {
+  if (log_.odometry.empty()) return;
+  try {
+    if (is_spectral(method)) window();
+    if (method == SlamMethod::kRefined || method == SlamMethod::kBatchFixedScale) spectral_start();
+    if (method == SlamMethod::kRefinedFromOdometry) odometry_start();
+  } catch (const InvalidInput&) {
+    // Comes again, and is told, when the method itself runs.
+  }
+}
+
+std::optional<WindowCurve> SlamEstimates::windows() const {
+  return window_ ? std::optional(curve_) : std::nullopt;
+}
+
+SlamEstimate SlamEstimates::solve(SlamMethod method) {
+  if (info(method).knows_landmarks && !options_.known)
+    return failed(log_, status_of<StatusReason::kNoKnownLandmark>());
+  if (log_.odometry.empty() && !is_spectral(method))
+    return failed(log_, status_of<StatusReason::kNoOdometry>());
+  switch (method) {
+    case SlamMethod::kDeadReckoning:
+      return odometry_start();
+    case SlamMethod::kEkf:
+      return filtered();
+    case SlamMethod::kSpectralKnown:
+    case SlamMethod::kSpectralKnown7:
+      return spectral(true, method == SlamMethod::kSpectralKnown7);
+    case SlamMethod::kSpectral:
+    case SlamMethod::kSpectral7:
+      return spectral(false, method == SlamMethod::kSpectral7);
+    case SlamMethod::kBatchFixedScale: {
+      SlamEstimate start = spectral_start();
+      if (start.path.size() == 0) start = odometry_start();
+      start.range_scale = 1.0;
+      return refined(start, false);
+    }
+    case SlamMethod::kRefined:
+      if (spectral_start().path.size() == 0)
+        return failed(log_, status_of<StatusReason::kNoStart>());
+      return refined(spectral_start(), true);
+    case SlamMethod::kRefinedFromOdometry:
+      return refined(odometry_start(), true);
+    case SlamMethod::kRefinedFromRandom:
+      return refined_from_random(1);
+  }
+  throw InvalidInput("unknown method");
+}
+
+SlamEstimate SlamEstimates::spectral(bool with_known, bool with_heading) {
+  const std::optional<KnownLandmarks> known = with_known ? options_.known : std::nullopt;
+  if (!log_.odometry.empty()) {
+    SpectralSlam found = spectral_slam(
+        log_, reckoned(), {.known = known, .with_heading = with_heading, .window = window()});
+    Y_ = std::move(found.Y);
+    if (!with_known && !with_heading) upgrade_ = clouds_of(found.upgrade);
+    return std::move(found.estimate);
+  }
+  if (with_heading) return failed(log_, status_of<StatusReason::kNoOdometryForHeadings>());
+  const auto landmarks = static_cast<Eigen::Index>(log_.landmarks.size());
+  SynchronousSlam found =
+      synchronous_slam(synchronous_ranges(log_.ranges, landmarks), known, options_.noise);
+  if (!with_known) upgrade_ = clouds_of(found.upgrade);
+  return std::move(found.estimate);
+}
+
+SlamEstimate SlamEstimates::filtered() const {
+  EkfOptions options;
+  options.covariances = kPosesWithCovariance;
+  return ekf_slam(log_, options);
+}
+
+SlamEstimate SlamEstimates::refined(const SlamEstimate& start, bool estimate_scale) const {
+  RefineOptions options;
+  options.estimate_scale = estimate_scale;
+  options.covariances = kPosesWithCovariance;
+  if (options_.ties_refinement) options.known = options_.known;
+  return refine(log_, start, options);
+}
+
+const Trajectory& SlamEstimates::reckoned() {
+  if (!reckoned_) reckoned_ = dead_reckoned(log_);
+  return *reckoned_;
+}
+
+const WindowOptions& SlamEstimates::window() {
+  if (window_) return *window_;
+  const auto landmarks = static_cast<Eigen::Index>(log_.landmarks.size());
+  const WindowSearch search = choose_window(
+      readings_by_landmark(log_.ranges, landmarks, reckoned()), reckoned(), reckoned().time_s);
+  curve_ = summary(search);
+  window_ = search.options;
+  return *window_;
+}
+
+const SlamEstimate& SlamEstimates::spectral_start() {
+  if (!spectral_start_) spectral_start_ = spectral(false, false);
+  return *spectral_start_;
+}
+
+const SlamEstimate& SlamEstimates::odometry_start() {
+  if (!odometry_start_) odometry_start_ = dead_reckoning_start(log_);
+  return *odometry_start_;
 }
 
 }  // namespace mapproof

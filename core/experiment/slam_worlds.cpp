@@ -1,14 +1,27 @@
 #include "core/experiment/slam_worlds.hpp"
 
 #include <chrono>
+#include <cmath>
+#include <numeric>
 
+#include "core/align/affine.hpp"
+#include "core/align/rigid.hpp"
 #include "core/base/errors.hpp"
+#include "core/base/not_finite.hpp"
+#include "core/base/parallel.hpp"
 #include "core/base/random.hpp"
+#include "core/embed/embedder.hpp"
 #include "core/experiment/seeds.hpp"
 #include "core/experiment/slam_run.hpp"
+#include "core/observe/features.hpp"
+#include "core/observe/proximities.hpp"
 #include "core/range_slam/factors/metric_upgrade.hpp"
+#include "core/range_slam/factors/synchronous_slam.hpp"
+#include "core/score/map_score.hpp"
+#include "core/simulate/range_world.hpp"
 
 namespace mapproof {
+
 namespace {
 
 RangeLog log_of(const RangeWorld& world) {
@@ -26,6 +39,138 @@ RangeLog log_of(const RangeWorld& world) {
                          .heading_rad = world.heading_rad};
   log.true_landmarks = world.landmarks_m;
   return log;
+}
+
+/// Rows less their means over time, as features() has them.
+Eigen::MatrixXd centred(const Eigen::MatrixXd& rows) {
+  return rows.colwise() - Eigen::VectorXd(rows.rowwise().mean());
+}
+
+/// Lays a map on the truth by all landmarks, and scores it.
+void fit_and_score(RangeHistoryMap& map, const Points& coordinates, const Points& truth_m) {
+  std::vector<Eigen::Index> all(static_cast<std::size_t>(truth_m.rows()));
+  std::iota(all.begin(), all.end(), Eigen::Index{0});
+  AlignedMap aligned = align_to_anchors(coordinates, truth_m, all, AffineFit::kLeastSquares);
+  map.statuses.insert(map.statuses.end(), aligned.statuses.begin(), aligned.statuses.end());
+  map.positions_m = std::move(aligned.positions_m);
+  if (aligned.aligned)
+    map.score = score_map(map.positions_m, truth_m, {}, AffineFit::kLeastSquares);
+}
+
+MethodSetting setting_of(const Embedder& embedder, Method method, int neighbours) {
+  if (on_graph(method)) return {method, static_cast<double>(neighbours)};
+  return embedder.usual_setting(method);
+}
+
+void add_embeddings(const RangeHistoryOptions& options, const Eigen::MatrixXd& rows, bool squared,
+                    RangeHistoryStudy& study) {
+  Embedder embedder(proximities({.values = centred(rows), .observed = {}}, Sensor::kRange));
+  for (const Method method : options.methods) {
+    const MethodSetting setting = setting_of(embedder, method, options.neighbours);
+    const Embedding embedding = embedder.embed(setting);
+    RangeHistoryMap map{.setting = setting,
+                        .squared = squared,
+                        .positions_m = {},
+                        .statuses = embedding.statuses,
+                        .score = std::nullopt};
+    fit_and_score(map, embedding.coordinates, study.landmarks_m);
+    study.maps.push_back(std::move(map));
+  }
+}
+
+void add_spectral(const Eigen::MatrixXd& Y, RangeHistoryStudy& study) {
+  const Factorization factors = factorize(Y, 4);
+  const SpectralMap found = metric_upgrade(factors).map;
+  RangeHistoryMap map{.setting = std::nullopt,
+                      .squared = true,
+                      .positions_m = Points::Constant(study.landmarks_m.rows(), 2, NAN),
+                      .statuses = factors.statuses,
+                      .score = std::nullopt};
+  map.statuses.insert(map.statuses.end(), found.statuses.begin(), found.statuses.end());
+  if (!found.empty()) fit_and_score(map, landmarks_of(found.C), study.landmarks_m);
+  study.maps.push_back(std::move(map));
+}
+
+/// Mean over independent values; NaN if there is none.
+MeanEstimate mean_of(const std::vector<double>& values) {
+  if (values.empty()) return {.mean = kNaN, .values = 0, .clusters = 0, .half_width = {}};
+  std::vector<int> own(values.size());
+  std::iota(own.begin(), own.end(), 0);
+  return clustered_mean(values, own);
+}
+
+/// The mean of one field at one number of steps, pair by pair.
+MeanEstimate mean_of(const std::vector<std::vector<ModelError>>& pairs, int steps,
+                     double ModelError::*field) {
+  std::vector<double> values;
+  for (const std::vector<ModelError>& errors : pairs)
+    for (const ModelError& error : errors)
+      if (error.steps == steps && std::isfinite(error.*field)) values.push_back(error.*field);
+  return mean_of(values);
+}
+
+/// How eq. 5 falls with the steps [boots2013].
+double fall(int steps) { return std::sqrt(std::log(steps) / steps); }
+
+double slope_of(const std::vector<ConvergencePoint>& points) {
+  double n = 0.0, sum_x = 0.0, sum_y = 0.0, sum_xx = 0.0, sum_xy = 0.0;
+  for (const ConvergencePoint& point : points) {
+    const double x = std::log(point.steps);
+    const double y = std::log(point.observation.mean);
+    if (!std::isfinite(y)) continue;
+    n += 1.0;
+    sum_x += x;
+    sum_y += y;
+    sum_xx += x * x;
+    sum_xy += x * y;
+  }
+  return n < 2.0 ? kNaN : (n * sum_xy - sum_x * sum_y) / (n * sum_xx - sum_x * sum_x);
+}
+
+/// Of the first world drawn for the pair whose known landmarks serve.
+std::vector<ModelError> errors_of_pair(const SlamExperiment& experiment,
+                                       const RangeNoiseModel& noise,
+                                       const RangeWorldOptions& options, std::uint64_t pair) {
+  constexpr std::uint64_t kMostDraws = 100;
+  const ConvergenceOptions& convergence = *experiment.convergence;
+  const std::vector<Eigen::Index> steps(convergence.steps.begin(), convergence.steps.end());
+  std::vector<ModelError> errors;
+  for (std::uint64_t draw = 0; draw < kMostDraws; ++draw) {
+    RangeWorld world =
+        simulate_range_world(options, derive_seed(experiment.seed, {kSlamPair, pair, draw}));
+    errors = model_errors(
+        {.landmarks_m = std::move(world.landmarks_m),
+         .positions_m = std::move(world.positions_m),
+         .ranges_m = std::move(world.ranges_m),
+         .noise = range_noise(noise)},
+        steps, {.known = experiment.world.known, .subtract_variances = !noise.plain_svd});
+    if (!errors.empty() && errors.back().condition <= convergence.most_condition) break;
+  }
+  return errors;
+}
+
+double mean_distance(const SpacePoints& a, const SpacePoints& b) {
+  return (a - b).rowwise().norm().mean();
+}
+
+/// What a flight's ranges give, aligned to the truth where no landmark tied it down.
+SpaceRecord record_of(const RangeFlight& flight, const RangeNoise& noise,
+                      const std::optional<KnownSpaceLandmarks>& known) {
+  SpaceRecord record{.knows_landmarks = known.has_value(),
+                     .estimate = space_slam(flight.ranges_m, known, noise),
+                     .alignment = known ? Alignment::kNone : Alignment::kRigidWithReflection,
+                     .landmarks_error_m = {},
+                     .positions_error_m = {}};
+  SpaceEstimate& estimate = record.estimate;
+  if (estimate.empty()) return record;
+  if (!known) {
+    const SpaceMotion motion = fit_space_motion(estimate.positions_m, flight.positions_m, true);
+    estimate.positions_m = SpacePoints(motion(estimate.positions_m));
+    estimate.landmarks_m = SpacePoints(motion(estimate.landmarks_m));
+  }
+  record.landmarks_error_m = mean_distance(estimate.landmarks_m, flight.landmarks_m);
+  record.positions_error_m = mean_distance(estimate.positions_m, flight.positions_m);
+  return record;
 }
 
 }  // namespace
@@ -82,6 +227,81 @@ std::vector<FactorizationCost> time_factorization(const SlamExperiment& experime
       costs.push_back({.landmarks = landmarks, .steps = steps, .seconds = seconds});
     }
   return costs;
+}
+
+RangeHistoryStudy make_histories(const SlamExperiment& experiment) {
+  if (!experiment.histories) throw InvalidInput("the experiment has no range histories");
+  const RangeHistoryOptions& options = *experiment.histories;
+  const RangeWorld world = simulate_range_world(
+      range_world_options(experiment.world, options.noise, options.landmarks, options.steps),
+      derive_seed(experiment.seed, {kSlamHistories}));
+  RangeHistoryStudy study{.landmarks_m = world.landmarks_m, .steps = options.steps, .maps = {}};
+  const Eigen::MatrixXd squares =
+      2.0 * half_squared_ranges(world.ranges_m, range_noise(options.noise));
+  add_embeddings(options, world.ranges_m, false, study);
+  add_embeddings(options, squares, true, study);
+  add_spectral(0.5 * squares, study);
+  return study;
+}
+
+ConvergenceCurve make_convergence(const SlamExperiment& experiment, const RangeNoiseModel& noise) {
+  if (!experiment.convergence) throw InvalidInput("the experiment has no convergence");
+  const ConvergenceOptions& convergence = *experiment.convergence;
+  const RangeWorldOptions options = range_world_options(
+      experiment.world, noise, experiment.world.landmarks, convergence.steps.back());
+
+  std::vector<std::vector<ModelError>> pairs(static_cast<std::size_t>(convergence.pairs));
+  parallel_for(pairs.size(), [&](std::size_t pair) {
+    pairs[pair] = errors_of_pair(experiment, noise, options, pair);
+  });
+
+  ConvergenceCurve curve{.id = noise.id,
+                         .title = noise.title,
+                         .landmarks = experiment.world.landmarks,
+                         .points = {},
+                         .slope = 0.0};
+  for (const int count : convergence.steps) {
+    ConvergencePoint point{.steps = count,
+                           .observation = mean_of(pairs, count, &ModelError::observation),
+                           .landmarks_m = mean_of(pairs, count, &ModelError::landmarks_m),
+                           .positions_m = mean_of(pairs, count, &ModelError::positions_m),
+                           .sine = mean_of(pairs, count, &ModelError::sine),
+                           .bound = 0.0};
+    const double first = curve.points.empty() ? point.sine.mean : curve.points.front().sine.mean;
+    point.bound = first * fall(count) / fall(convergence.steps.front());
+    curve.points.push_back(point);
+  }
+  curve.slope = slope_of(curve.points);
+  return curve;
+}
+
+SpaceRun make_space_run(const SlamExperiment& experiment) {
+  if (!experiment.space) throw InvalidInput("the experiment has no flight");
+  const SpaceFlightOptions& options = *experiment.space;
+  const RangeFlight flight =
+      simulate_range_flight({.landmarks = options.landmarks,
+                             .steps = options.steps,
+                             .half_width_m = options.half_width_m,
+                             .height_m = options.height_m,
+                             .step_m = options.step_m,
+                             .turn_sigma_rad = options.turn_sigma_rad,
+                             .noise = {.sigma_m = options.noise.noise_m,
+                                       .share = options.noise.share,
+                                       .correlation = options.noise.correlation}},
+                            derive_seed(experiment.seed, {kSlamSpace}));
+  SpaceRun run{.landmarks_m = flight.landmarks_m,
+               .positions_m = flight.positions_m,
+               .known = {},
+               .noise = options.noise.title,
+               .records = {}};
+  for (Eigen::Index n = 0; n < options.known; ++n) run.known.push_back(n);
+  const RangeNoise noise = range_noise(options.noise);
+  run.records.push_back(
+      record_of(flight, noise,
+                KnownSpaceLandmarks{.rows = run.known,
+                                    .positions_m = flight.landmarks_m.topRows(options.known)}));
+  run.records.push_back(record_of(flight, noise, std::nullopt));
+  return run;
 }
 
 }  // namespace mapproof

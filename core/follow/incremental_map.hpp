@@ -2,10 +2,67 @@
 
 #include <vector>
 
+#include <Eigen/Core>
+
 #include "core/embed/embedder.hpp"
-#include "core/follow/pair_sums.hpp"
+#include "core/model/sensor.hpp"
+#include "core/observe/proximities.hpp"
 
 namespace mapproof {
+
+/// One landmark in one step.
+struct StepEntry {
+  Eigen::Index landmark = 0;
+  double value = 0.0;  ///< 0 or 1, rad, or m; finite.
+};
+
+/// The sums over steps from which the proximities of observation histories follow, so that a step
+/// more costs what its own pairs of landmarks cost, however many there were before.
+class PairSums {
+ public:
+  explicit PairSums(Sensor sensor) : sensor_(sensor) {}
+
+  /// Landmarks from now on: so far unobserved ones come to those there are.
+  /// @throws InvalidInput for fewer than there are.
+  /// @note Memory up to 32 n^2 bytes for n landmarks, four times that while they become more.
+  void grow(Eigen::Index landmarks);
+
+  /// Adds a step; landmarks that it does not list were not observed.
+  /// @throws InvalidInput for a landmark that is none, is listed twice, or whose value is not
+  ///         finite.
+  /// @note O(k^2) for k landmarks listed.
+  void add(const std::vector<StepEntry>& step);
+
+  Eigen::Index landmarks() const { return landmarks_; }
+  Eigen::Index steps() const { return steps_; }
+
+  /// Landmarks about which something was observed, ascending: see unseen_landmarks().
+  std::vector<Eigen::Index> seen() const;
+
+  /// The proximities of some landmarks that were seen: those of proximities() of all steps, but for
+  /// rounding. Where visibility lists detections alone, what is not listed counts as not seen.
+  /// @note O(n^2) for n rows.
+  Proximities proximities_of(const std::vector<Eigen::Index>& rows) const;
+
+ private:
+  void add_bearings(const std::vector<StepEntry>& entries);
+  void add_values(const std::vector<StepEntry>& entries);
+  double count(Eigen::Index i, Eigen::Index j) const;
+  double centred_product(Eigen::Index i, Eigen::Index j) const;
+  double centred_square(Eigen::Index i, Eigen::Index j) const;
+
+  Sensor sensor_;
+  Eigen::Index landmarks_ = 0;  ///< The matrices have room for more.
+  Eigen::Index steps_ = 0;
+  bool lists_detections_ = true;  ///< Visibility: no 0 was listed so far.
+  // Entry (i, j) is over the steps that list both. Those that are the same both ways are kept below
+  // the diagonal, and what a sensor has no use for is empty.
+  Eigen::MatrixXd products_;  ///< i >= j: of i's value and j's; cosines of differences of bearings.
+  Eigen::MatrixXd counts_;    ///< i >= j: steps.
+  Eigen::MatrixXd squares_;   ///< Of i's; not of bearings.
+  Eigen::MatrixXd values_;    ///< Ranges: i's squared range, less the first.
+  Eigen::VectorXd first_;     ///< Ranges: i's first squared range, against cancellation.
+};
 
 struct FollowOptions {
   MethodSetting setting;  ///< Without a parameter: the usual one at each update.

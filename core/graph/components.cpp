@@ -6,7 +6,77 @@
 #include <tuple>
 
 namespace mapproof {
+
 namespace {
+
+/// Nodes in the order in which a depth-first search leaves them, over `next`.
+std::vector<std::size_t> finishing_order(const NeighbourLists& next) {
+  std::vector<std::size_t> order;
+  std::vector<bool> seen(next.size(), false);
+  std::vector<std::pair<std::size_t, std::size_t>> open;  // a node and its next edge
+  for (std::size_t start = 0; start < next.size(); ++start) {
+    if (seen[start]) continue;
+    seen[start] = true;
+    open.emplace_back(start, 0);
+    while (!open.empty()) {
+      auto& [node, edge] = open.back();
+      if (edge == next[node].size()) {
+        order.push_back(node);
+        open.pop_back();
+        continue;
+      }
+      const auto to = static_cast<std::size_t>(next[node][edge++].to);
+      if (seen[to]) continue;
+      seen[to] = true;
+      open.emplace_back(to, 0);
+    }
+  }
+  return order;
+}
+
+/// The strong component of each node, by Kosaraju's two searches, and how many there are.
+std::pair<std::vector<int>, int> strong_components(const NeighbourLists& lists) {
+  NeighbourLists reversed(lists.size());
+  for (std::size_t i = 0; i < lists.size(); ++i)
+    for (const Edge& edge : lists[i])
+      reversed[static_cast<std::size_t>(edge.to)].push_back({static_cast<Eigen::Index>(i), 0.0});
+  const std::vector<std::size_t> order = finishing_order(lists);
+  std::vector<int> component(lists.size(), -1);
+  int count = 0;
+  std::vector<std::size_t> open;
+  for (auto start = order.rbegin(); start != order.rend(); ++start) {
+    if (component[*start] >= 0) continue;
+    component[*start] = count;
+    open.push_back(*start);
+    while (!open.empty()) {
+      const std::size_t node = open.back();
+      open.pop_back();
+      for (const Edge& edge : reversed[node]) {
+        const auto to = static_cast<std::size_t>(edge.to);
+        if (component[to] >= 0) continue;
+        component[to] = count;
+        open.push_back(to);
+      }
+    }
+    ++count;
+  }
+  return {component, count};
+}
+
+/// Which set a node is of, merged step by step.
+class Sets {
+ public:
+  explicit Sets(std::size_t n) : parent_(n) { std::iota(parent_.begin(), parent_.end(), 0); }
+
+  std::size_t of(std::size_t node) {
+    while (parent_[node] != node) node = parent_[node] = parent_[parent_[node]];
+    return node;
+  }
+  void merge(std::size_t a, std::size_t b) { parent_[of(a)] = of(b); }
+
+ private:
+  std::vector<std::size_t> parent_;
+};
 
 /// The shortest finite edge between each two components, ascending.
 struct Bridge {
@@ -40,6 +110,59 @@ void insert_edge(Graph& graph, Eigen::Index from, Eigen::Index to, double length
 }
 
 }  // namespace
+
+std::vector<std::vector<Eigen::Index>> closed_groups(const NeighbourLists& lists) {
+  const auto [component, count] = strong_components(lists);
+  std::vector<bool> closed(static_cast<std::size_t>(count), true);
+  for (std::size_t i = 0; i < lists.size(); ++i)
+    for (const Edge& edge : lists[i])
+      if (component[static_cast<std::size_t>(edge.to)] != component[i])
+        closed[static_cast<std::size_t>(component[i])] = false;
+  std::vector<std::vector<Eigen::Index>> groups(closed.size());
+  for (std::size_t i = 0; i < lists.size(); ++i)
+    if (closed[static_cast<std::size_t>(component[i])])
+      groups[static_cast<std::size_t>(component[i])].push_back(static_cast<Eigen::Index>(i));
+  std::erase_if(groups, [](const auto& group) { return group.empty(); });
+  std::ranges::sort(groups);
+  return groups;
+}
+
+std::optional<int> open_closed_groups(NeighbourLists& lists, const Eigen::MatrixXd& distances) {
+  int added = 0;
+  // Each round opens all groups but the first, so that there are fewer every time.
+  for (auto groups = closed_groups(lists); groups.size() > 1; groups = closed_groups(lists))
+    for (std::size_t g = 1; g < groups.size(); ++g) {
+      Edge best{.to = -1, .length = HUGE_VAL};
+      Eigen::Index from = -1;
+      for (const Eigen::Index i : groups[g])
+        for (Eigen::Index j = 0; j < distances.rows(); ++j)
+          if (distances(j, i) < best.length && !std::ranges::binary_search(groups[g], j)) {
+            best = {j, distances(j, i)};
+            from = i;
+          }
+      if (best.to < 0) return std::nullopt;
+      lists[static_cast<std::size_t>(from)].push_back(best);
+      ++added;
+    }
+  return added;
+}
+
+int join_sets(NeighbourLists& lists) {
+  Sets sets(lists.size());
+  for (const std::vector<Edge>& edges : lists)
+    for (const Edge& edge : edges)
+      sets.merge(static_cast<std::size_t>(edge.to), static_cast<std::size_t>(edges.front().to));
+  int joined = 0;
+  for (std::size_t i = 0; i < lists.size(); ++i) {
+    if (lists[i].empty()) continue;
+    const auto first = static_cast<std::size_t>(lists[i].front().to);
+    if (sets.of(i) == sets.of(first)) continue;
+    sets.merge(i, first);
+    lists[i].push_back({static_cast<Eigen::Index>(i), 0.0});
+    ++joined;
+  }
+  return joined;
+}
 
 std::vector<int> components(const Graph& graph) {
   std::vector<int> piece(graph.size(), -1);

@@ -2,10 +2,23 @@
 
 #include <vector>
 
-#include "core/labels/label_doubts.hpp"
 #include "core/labels/label_search.hpp"
+#include "core/labels/mislabelled.hpp"
 
 namespace mapproof {
+
+/// How far the scans fit one map.
+struct LabelDoubts {
+  double residual_m = 0.0;  ///< Root mean square of the pairs' residuals, those beyond .25 of the
+                            ///< median distance counted as that.
+  double spread_m = 0.0;    ///< What the pairs' own spread over the log makes them expect.
+  std::vector<int> landmarks;  ///< Whose pairs fit worst, at most 4, the worst first.
+
+  /// Whether the residuals are far above what the measurements' own spread explains.
+  bool grave() const { return residual_m > kGrave * spread_m; }
+
+  static constexpr double kGrave = 1.12;
+};
 
 /// When labels are called wrong.
 struct LabelCheckOptions {

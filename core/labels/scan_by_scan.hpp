@@ -2,9 +2,19 @@
 
 #include <vector>
 
-#include "core/labels/fault_trials.hpp"
+#include "core/labels/labelled_scans.hpp"
+#include "core/labels/robust_map.hpp"
 
 namespace mapproof {
+
+/// A fault of labels that was tried, and what came of it.
+struct FaultTrial {
+  LabelHypothesis fault;
+  StepStretch stretch;
+  std::vector<int> labels;
+  RobustMap map;
+  bool scattered = false;  ///< In single scans, whenever; the stretch is then the whole log.
+};
 
 /// Two labels given anew scan by scan, each scan as it costs less in a map.
 ///

@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "core/pairs/seen_place.hpp"
+#include "core/pairs/pair_graph.hpp"
 
 namespace mapproof {
 namespace {

@@ -8,8 +8,8 @@
 #include "core/labels/labelled_scans.hpp"
 #include "core/labels/robust_map.hpp"
 #include "core/labels/scan_pose.hpp"
+#include "core/pairs/pair_graph.hpp"
 #include "core/pairs/pair_map.hpp"
-#include "core/pairs/seen_place.hpp"
 #include "core/statistics/intervals.hpp"
 
 namespace mapproof {

@@ -4,8 +4,7 @@
 #include <string_view>
 #include <vector>
 
-#include "core/missing/ppca.hpp"
-#include "core/missing/regularised_pca.hpp"
+#include "core/missing/pca.hpp"
 #include "core/observe/proximities.hpp"
 
 namespace mapproof {

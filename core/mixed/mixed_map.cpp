@@ -1,17 +1,103 @@
 #include "core/mixed/mixed_map.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <optional>
+#include <utility>
 
 #include <fmt/format.h>
 
 #include "core/base/errors.hpp"
-#include "core/mixed/joint_map.hpp"
+#include "core/embed/smacof.hpp"
+#include "core/graph/components.hpp"
 #include "core/mixed/mixed_distances.hpp"
 
 namespace mapproof {
+
 namespace {
+
+constexpr double kLeastVariance = 1e-4;  ///< In the map's mean square distance from its centre.
+
+struct Pair {
+  Eigen::Index i;
+  Eigen::Index j;
+};
+
+/// The pairs that a sensor knows, nearest first.
+std::vector<Pair> sorted_pairs(const Eigen::MatrixXd& distances) {
+  std::vector<Pair> pairs;
+  for (Eigen::Index j = 0; j < distances.cols(); ++j)
+    for (Eigen::Index i = j + 1; i < distances.rows(); ++i)
+      if (std::isfinite(distances(i, j))) pairs.push_back({i, j});
+  std::ranges::stable_sort(pairs, {}, [&](const Pair& pair) { return distances(pair.i, pair.j); });
+  return pairs;
+}
+
+/// What one sensor says of its pairs on the map's scale: expected distance and its variance.
+struct Voice {
+  std::vector<double> expected;
+  std::vector<double> variance;
+};
+
+/// @param pairs  Sorted by the sensor's distances; equal ones have their mean, so that their order
+///               does not matter.
+Voice voice_of(const std::vector<Pair>& pairs, const Eigen::MatrixXd& distances, const Points& map,
+               double least_variance) {
+  std::vector<double> here;
+  for (const Pair& pair : pairs) here.push_back((map.row(pair.i) - map.row(pair.j)).norm());
+  std::vector<double> level = here;
+  for (std::size_t first = 0; first < pairs.size();) {
+    std::size_t end = first;
+    double sum = 0.0;
+    const double delta = distances(pairs[first].i, pairs[first].j);
+    for (; end < pairs.size() && distances(pairs[end].i, pairs[end].j) == delta; ++end)
+      sum += here[end];
+    std::fill(level.begin() + static_cast<std::ptrdiff_t>(first),
+              level.begin() + static_cast<std::ptrdiff_t>(end),
+              sum / static_cast<double>(end - first));
+    first = end;
+  }
+  Voice voice{.expected = increasing_fit(level), .variance = std::vector<double>(pairs.size())};
+  // The variance of a pair is that of the tenth of the pairs about it.
+  const std::size_t half = std::max<std::size_t>(5, pairs.size() / 20);
+  std::vector<double> sums(pairs.size() + 1, 0.0);
+  for (std::size_t k = 0; k < pairs.size(); ++k)
+    sums[k + 1] = sums[k] + (here[k] - voice.expected[k]) * (here[k] - voice.expected[k]);
+  for (std::size_t k = 0; k < pairs.size(); ++k) {
+    const std::size_t low = k > half ? k - half : 0, high = std::min(pairs.size(), k + half + 1);
+    voice.variance[k] =
+        std::max((sums[high] - sums[low]) / static_cast<double>(high - low), least_variance);
+  }
+  return voice;
+}
+
+void check(const std::vector<Eigen::MatrixXd>& distances, const Points& start,
+           const JointMapOptions& options) {
+  const Eigen::Index M = start.rows();
+  if (distances.empty() || M < 3 || options.rounds < 1 || !start.allFinite())
+    throw InvalidInput("a joint map needs sensors, three landmarks, a round and a finite start");
+  for (const Eigen::MatrixXd& one : distances)
+    if (one.rows() != M || one.cols() != M || one.array().isNaN().any())
+      throw InvalidInput("a joint map needs the distances of all its landmarks");
+}
+
+/// Whether pairs that some sensor knows tie all landmarks together.
+bool connected(const std::vector<Eigen::MatrixXd>& distances) {
+  Graph graph(static_cast<std::size_t>(distances.front().rows()));
+  for (Eigen::Index j = 0; j < distances.front().cols(); ++j)
+    for (Eigen::Index i = 0; i < distances.front().rows(); ++i)
+      if (i != j && std::ranges::any_of(distances, [&](const Eigen::MatrixXd& one) {
+            return std::isfinite(one(i, j));
+          }))
+        graph[static_cast<std::size_t>(j)].push_back({i, 1.0});
+  return std::ranges::max(components(graph)) == 0;
+}
+
+/// Mean square distance from the centre.
+double size_of(const Points& map) {
+  return (map.rowwise() - map.colwise().mean()).squaredNorm() / static_cast<double>(map.rows());
+}
 
 constexpr double kInfinite = std::numeric_limits<double>::infinity();
 using Rows = std::vector<Eigen::Index>;
@@ -130,6 +216,106 @@ std::optional<JointMap> joint_from_all(const std::vector<Eigen::MatrixXd>& dista
 }
 
 }  // namespace
+
+std::vector<double> increasing_fit(const std::vector<double>& values) {
+  struct Block {
+    double sum;
+    std::size_t count;
+    double mean() const { return sum / static_cast<double>(count); }
+  };
+  std::vector<Block> blocks;
+  for (const double value : values) {
+    blocks.push_back({value, 1});
+    while (blocks.size() > 1 && blocks[blocks.size() - 2].mean() >= blocks.back().mean()) {
+      const Block last = blocks.back();
+      blocks.pop_back();
+      blocks.back().sum += last.sum;
+      blocks.back().count += last.count;
+    }
+  }
+  std::vector<double> fit;
+  for (const Block& block : blocks) fit.insert(fit.end(), block.count, block.mean());
+  return fit;
+}
+
+double order_misfit(const std::vector<Eigen::MatrixXd>& distances, const Points& map) {
+  check(distances, map, {});
+  const Points centred = map.rowwise() - map.colwise().mean();
+  const double size = size_of(centred);
+  if (!(size > 0.0)) throw InvalidInput("a map that is a point has no order of distances");
+  double sum = 0.0, count = 0.0;
+  for (const Eigen::MatrixXd& one : distances) {
+    const Voice voice = voice_of(sorted_pairs(one), one, centred, kLeastVariance * size);
+    for (const double variance : voice.variance) sum += 0.5 * std::log(variance / size);
+    count += static_cast<double>(voice.variance.size());
+  }
+  return count > 0.0 ? sum / count : 0.0;
+}
+
+JointMap joint_map(const std::vector<Eigen::MatrixXd>& distances, const Points& start,
+                   const JointMapOptions& options) {
+  check(distances, start, options);
+  const Eigen::Index M = start.rows();
+  std::vector<std::vector<Pair>> pairs;
+  for (const Eigen::MatrixXd& one : distances) pairs.push_back(sorted_pairs(one));
+  JointMap result{.embedding = {}, .shares = std::vector<double>(distances.size(), 0.0)};
+  if (!connected(distances)) {
+    result.embedding.coordinates.setConstant(M, 2, std::numeric_limits<double>::quiet_NaN());
+    result.embedding.statuses.push_back(status_of<StatusReason::kNoSensorShares>());
+    return result;
+  }
+  Points map = start.rowwise() - start.colwise().mean();
+  const double size = size_of(map);
+  if (!(size > 0.0)) throw InvalidInput("a joint map needs a start that is not a point");
+  for (int round = 0; round < options.rounds; ++round) {
+    Eigen::MatrixXd sum = Eigen::MatrixXd::Zero(M, M), weights = Eigen::MatrixXd::Zero(M, M);
+    for (std::size_t s = 0; s < distances.size(); ++s) {
+      const Voice voice = voice_of(pairs[s], distances[s], map, kLeastVariance * size);
+      result.shares[s] = 0.0;
+      for (std::size_t k = 0; k < pairs[s].size(); ++k) {
+        const auto [i, j] = pairs[s][k];
+        const double weight = size / voice.variance[k];
+        sum(i, j) += weight * voice.expected[k];
+        weights(i, j) += weight;
+        result.shares[s] += weight;
+      }
+    }
+    const Eigen::MatrixXd means =
+        (weights.array() > 0.0).select(sum.array() / weights.array(), 0.0);
+    result.embedding = smacof(means + means.transpose(), weights + weights.transpose(), map,
+                              {.relative_fall = 1e-3, .max_iterations = 10});
+    // Monotone regression lets the map shrink: its size is free and kept.
+    const double now = size_of(result.embedding.coordinates);
+    if (!(now > 0.0)) break;
+    map = std::sqrt(size / now) * result.embedding.coordinates;
+  }
+  // Stopping is by rounds: what a round's SMACOF left is no trouble.
+  std::erase_if(result.embedding.statuses,
+                [](const Status& one) { return one.code == StatusCode::kNotConverged; });
+  result.embedding.coordinates = map;
+  double total = 0.0;
+  for (const double share : result.shares) total += share;
+  for (double& share : result.shares) share /= total;
+  return result;
+}
+
+JointMap best_joint_map(const std::vector<Eigen::MatrixXd>& distances,
+                        const std::vector<Points>& starts, const JointMapOptions& options) {
+  if (starts.empty()) throw InvalidInput("a joint map needs a start");
+  JointMap best;
+  double least = std::numeric_limits<double>::infinity();
+  for (const Points& start : starts) {
+    JointMap map = joint_map(distances, start, options);
+    const Points& places = map.embedding.coordinates;
+    const bool has_order =
+        places.allFinite() && size_of(places.rowwise() - places.colwise().mean()) > 0.0;
+    const double misfit = has_order ? order_misfit(distances, places) : HUGE_VAL;
+    if (!best.shares.empty() && misfit >= least) continue;
+    least = misfit;
+    best = std::move(map);
+  }
+  return best;
+}
 
 MixedMap mixed_map(const std::vector<ObservationHistory>& histories, Eigen::Index steps,
                    const MethodSetting& setting, const EmbedderOptions& options,

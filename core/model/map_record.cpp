@@ -2,15 +2,24 @@
 
 #include <algorithm>
 #include <array>
+#include <cstddef>
 
 #include "core/base/words.hpp"
 
 namespace mapproof {
+
 namespace {
+
+constexpr std::array kPlacementNames = {std::string_view("walls"), std::string_view("random"),
+                                        std::string_view("cluster")};
 
 constexpr std::array kFrameNames = {std::string_view("truth"), std::string_view("similarity")};
 
 }  // namespace
+
+std::string_view name(AnchorPlacement placement) {
+  return kPlacementNames[static_cast<std::size_t>(placement)];
+}
 
 std::string_view name(Frame frame) { return kFrameNames[static_cast<std::size_t>(frame)]; }
 

@@ -8,14 +8,24 @@
 
 #include <Eigen/Core>
 
-#include "core/model/certificate.hpp"
 #include "core/model/method.hpp"
 #include "core/model/points.hpp"
 #include "core/model/score.hpp"
 #include "core/model/sensor.hpp"
+#include "core/model/slam.hpp"
 #include "core/model/status.hpp"
 
 namespace mapproof {
+
+/// Which landmarks are anchors.
+enum class AnchorPlacement {
+  kWalls,    ///< Those nearest the corners; beyond four, nearest points spread along the walls.
+  kRandom,   ///< Any, drawn for each layout.
+  kCluster,  ///< Those nearest one corner.
+};
+
+/// The name used in files: "walls", "random", "cluster".
+std::string_view name(AnchorPlacement placement);
 
 /// The frame that a map's coordinates are in.
 enum class Frame {

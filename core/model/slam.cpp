@@ -4,6 +4,7 @@
 #include <utility>
 
 namespace mapproof {
+
 namespace {
 
 constexpr std::array<std::pair<Alignment, std::string_view>, 4> kAlignmentNames{{
@@ -14,6 +15,29 @@ constexpr std::array<std::pair<Alignment, std::string_view>, 4> kAlignmentNames{
 }};
 
 }  // namespace
+
+std::string_view name(SdpSolver solver) {
+  switch (solver) {
+    case SdpSolver::kInteriorPoint:
+      return "interior_point";
+    case SdpSolver::kLowRank:
+      return "low_rank";
+    case SdpSolver::kCsdp:
+      return "csdp";
+  }
+  return {};
+}
+
+std::optional<SdpSolver> sdp_solver_named(std::string_view name_in_files) {
+  for (const SdpSolver solver : {SdpSolver::kInteriorPoint, SdpSolver::kLowRank, SdpSolver::kCsdp})
+    if (name(solver) == name_in_files) return solver;
+  return std::nullopt;
+}
+
+bool is_proved(const Certificate& certificate) {
+  return certificate.relative_gap <= kProvedGap &&
+         certificate.constraint_residual <= kProvedResidual;
+}
 
 std::string_view name(Alignment alignment) {
   for (const auto& [value, text] : kAlignmentNames)

@@ -13,6 +13,38 @@
 
 namespace mapproof {
 
+/// What solved a semidefinite program.
+enum class SdpSolver {
+  kInteriorPoint,  ///< Our own: a primal-dual interior point [helmberg1996].
+  kLowRank,        ///< Our own: factors of low rank [burer2003], proved by its multipliers.
+  kCsdp,           ///< CSDP, an interior-point method [borchers1999].
+};
+
+/// The name used in files ("interior_point", "low_rank", "csdp").
+std::string_view name(SdpSolver solver);
+
+/// The solver of that name; empty if there is none.
+std::optional<SdpSolver> sdp_solver_named(std::string_view name);
+
+/// Up to here a relative gap and a constraint residual count as none.
+inline constexpr double kProvedGap = 1e-6;
+inline constexpr double kProvedResidual = 1e-6;
+
+/// How near the optimum a maximisation by semidefinite programming came, proved by its dual.
+struct Certificate {
+  SdpSolver solver = SdpSolver::kInteriorPoint;
+  double primal = 0.0;        ///< The objective reached, in squared units of the data.
+  double dual = 0.0;          ///< No feasible point's objective is above this; below 0: there is no
+                              ///< feasible point; infinite: nothing was proved.
+  double relative_gap = 0.0;  ///< |dual - primal| / |dual|; infinite: nothing was proved.
+  double constraint_residual = 0.0;  ///< Largest violation over the largest right-hand side.
+
+  bool operator==(const Certificate&) const = default;
+};
+
+/// Whether the answer is feasible and optimal within the bounds above.
+bool is_proved(const Certificate& certificate);
+
 /// How an estimated path was aligned to the true one before its error was taken. An error without
 /// it means nothing.
 enum class Alignment {
@@ -52,6 +84,37 @@ struct TrajectoryError {
   double worst_tenth_m = 0.0;         ///< Greatest mean over 10 % of the time in one piece.
   std::optional<double> landmarks_m;  ///< Mean over the landmarks that have a true place.
   Eigen::Index poses = 0;             ///< True poses that were compared.
+};
+
+/// Path and landmarks in space that were estimated from ranges alone.
+struct SpaceEstimate {
+  SpacePoints landmarks_m;            ///< N x 3; NaN rows: no place came out.
+  SpacePoints positions_m;            ///< T x 3, at the times of the ranges; 0 x 3: none.
+  double range_scale = 1.0;           ///< Measured range over distance, where it can be told.
+  Eigen::VectorXd singular_values;    ///< Of the squared ranges, descending.
+  std::optional<double> noise_level;  ///< The singular value that noise alone reaches.
+  std::optional<double> condition;    ///< Of the regression or upgrade.
+  std::vector<Status> statuses;       ///< Empty if all went well.
+
+  bool empty() const { return positions_m.rows() == 0; }
+};
+
+/// What came of one flight's ranges: with some landmarks known, or with none.
+struct SpaceRecord {
+  bool knows_landmarks = false;
+  SpaceEstimate estimate;                   ///< In the frame of the truth, after the alignment.
+  Alignment alignment = Alignment::kNone;   ///< With mirror where no landmark is known.
+  std::optional<double> landmarks_error_m;  ///< Mean distances from the truth; empty: no map.
+  std::optional<double> positions_error_m;
+};
+
+/// A simulated flight over landmarks at various heights, ranged to all at every step.
+struct SpaceRun {
+  SpacePoints landmarks_m;           ///< N x 3, the truth.
+  SpacePoints positions_m;           ///< T x 3, the truth.
+  std::vector<Eigen::Index> known;   ///< Rows whose place one record was given.
+  std::string noise;                 ///< In words.
+  std::vector<SpaceRecord> records;  ///< With known landmarks first.
 };
 
 }  // namespace mapproof

@@ -7,7 +7,7 @@
 #include <span>
 #include <vector>
 
-#include "core/pairs/seen_place.hpp"
+#include "core/pairs/pair_graph.hpp"
 
 namespace mapproof {
 namespace {

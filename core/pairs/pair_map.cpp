@@ -11,7 +11,6 @@
 #include "core/graph/components.hpp"
 #include "core/pairs/handedness.hpp"
 #include "core/pairs/pair_graph.hpp"
-#include "core/pairs/pair_search.hpp"
 #include "core/pairs/pair_solution.hpp"
 
 namespace mapproof {

@@ -8,24 +8,9 @@
 #include "core/model/embedding.hpp"
 #include "core/pairs/handedness.hpp"
 #include "core/pairs/pair_distances.hpp"
+#include "core/pairs/pair_solution.hpp"
 
 namespace mapproof {
-
-/// How measured pairs become a map.
-struct PairMapOptions {
-  /// A pair seen in fewer scans is left out, unless one of its landmarks has fewer than three
-  /// better ones: a few scans may all be of wrong ids. >= 1.
-  int fewest_scans = 3;
-  /// Times that pairs are weighted anew by how well they fit the map of the others; 0: never.
-  int reweightings = 10;
-  /// A pair this many typical residuals off has a quarter of its weight left; > 0.
-  double tolerance = 2.0;
-  bool refined = true;  ///< False: the start, the map of shortest paths, is all.
-  /// M x 2, a map to begin with instead of looking for one, as for draws of the same scans. Not
-  /// taken if a landmark that pairs hold has no place in it.
-  std::optional<Points> start = {};
-  SmacofOptions smacof{.relative_fall = 1e-9, .max_iterations = 5000};
-};
 
 /// A map of measured pairs.
 struct PairMap {

@@ -1,10 +1,43 @@
 #pragma once
 
+#include <optional>
+#include <string>
 #include <vector>
 
-#include "core/pairs/pair_map.hpp"
+#include "core/embed/smacof.hpp"
+#include "core/model/embedding.hpp"
+#include "core/model/trial_study.hpp"
+#include "core/pairs/handedness.hpp"
+#include "core/pairs/pair_distances.hpp"
 
 namespace mapproof {
+
+/// How measured pairs become a map.
+struct PairMapOptions {
+  /// A pair seen in fewer scans is left out, unless one of its landmarks has fewer than three
+  /// better ones: a few scans may all be of wrong ids. >= 1.
+  int fewest_scans = 3;
+  /// Times that pairs are weighted anew by how well they fit the map of the others; 0: never.
+  int reweightings = 10;
+  /// A pair this many typical residuals off has a quarter of its weight left; > 0.
+  double tolerance = 2.0;
+  bool refined = true;  ///< False: the start, the map of shortest paths, is all.
+  /// M x 2, a map to begin with instead of looking for one, as for draws of the same scans. Not
+  /// taken if a landmark that pairs hold has no place in it.
+  std::optional<Points> start = {};
+  SmacofOptions smacof{.relative_fall = 1e-9, .max_iterations = 5000};
+};
+
+/// Which pairs most triangles speak against: with the other two sides measured, no third is
+/// longer than both together, nor shorter than their difference.
+///
+/// A triangle speaks against its sides if it fails to close by more than `slack` of the longest.
+/// A pair is named if more than half of its triangles do, and two or more.
+/// @param pairs  As pair_map takes them; `landmarks` of them.
+/// @return As many as pairs.
+/// @note O(pairs * landmarks) time.
+std::vector<bool> against_triangles(const std::vector<MeasuredPair>& pairs, Eigen::Index landmarks,
+                                    double slack = 0.25);
 
 /// Distances and weights of the group's pairs, in its own rows.
 struct PairProblem {
@@ -28,8 +61,8 @@ struct PairSolution {
   Width width = Width::kNarrow;   ///< That it was found by.
 };
 
-/// Residuals in units of what the precisions promise, and the usual one: the standard deviation of
-/// a normal of their median, never nothing.
+/// Residuals in units of what the precisions promise, and the usual one: the standard deviation
+/// of a normal of their median, never nothing.
 std::vector<double> residuals(const PairProblem& problem, const Points& map);
 double usual_residual(const std::vector<double>& residuals);
 
@@ -49,9 +82,9 @@ PairSolution polished(PairProblem& problem, const PairSolution& rough,
 /// Shares of the weights to begin with: without what triangles speak against.
 std::vector<double> shares_by_triangles(const PairProblem& problem);
 
-/// A set of them for each of several starts. The first is shares_by_triangles(); the others, one by
-/// one, also what was seen in ever more scans: pairs that none but wrong ids made agree with one
-/// another, and can only be told by being few.
+/// A set of them for each of several starts. The first is shares_by_triangles(); the others, one
+/// by one, also what was seen in ever more scans: pairs that none but wrong ids made agree with
+/// one another, and can only be told by being few.
 std::vector<std::vector<double>> first_shares(const PairProblem& problem);
 
 /// Shares of the weights without pairs that a map makes out to be wholly wrong.
@@ -62,5 +95,12 @@ std::vector<double> without_gross(const PairProblem& problem, const Points& map,
 Embedding path_map(const PairProblem& problem, const std::vector<double>& left);
 
 inline constexpr double kGross = 4.0;  ///< Tolerances from which on a pair is wholly wrong.
+
+/// The best of what several starts come to, the first of those that are about as good: the map
+/// that most scans agree with, by what they measured and by the way round that they show
+/// landmarks. Folds that distances alone leave are taken back.
+/// @param turns  In the problem's rows; may be empty.
+PairSolution searched(PairProblem& problem, const std::vector<SeenTurn>& turns,
+                      const PairMapOptions& options);
 
 }  // namespace mapproof

@@ -11,6 +11,7 @@
 #include "core/linalg/decompositions.hpp"
 #include "core/range_slam/dead_reckoning.hpp"
 #include "core/range_slam/factors/spread_rows.hpp"
+#include "core/range_slam/known_landmarks.hpp"
 #include "core/range_slam/log_checks.hpp"
 #include "core/range_slam/trilateration.hpp"
 

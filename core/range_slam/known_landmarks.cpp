@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <limits>
+#include <set>
 
 #include <fmt/format.h>
 
@@ -83,6 +84,21 @@ SpectralMap map_from_known_places(const Factorization& factors,
   const Eigen::MatrixXd S = qr.solve(factors.V.transpose()).transpose();
   map.C = factors.U * S * change.inverse();
   return map;
+}
+
+std::string known_problem(const KnownLandmarks& known, Eigen::Index n) {
+  return known_problem(known.rows, known.positions_m, n);
+}
+
+std::string known_problem(const std::vector<Eigen::Index>& rows, const Eigen::MatrixXd& positions_m,
+                          Eigen::Index n) {
+  if (positions_m.rows() != std::ssize(rows) || !positions_m.allFinite())
+    return "known landmarks need a finite place each";
+  for (const Eigen::Index row : rows)
+    if (row < 0 || row >= n) return fmt::format("no landmark is number {}", row);
+  if (std::set(rows.begin(), rows.end()).size() != rows.size())
+    return "a known landmark is there twice";
+  return "";
 }
 
 }  // namespace mapproof

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <string>
 #include <vector>
 
 #include "core/model/points.hpp"
@@ -38,5 +39,11 @@ SpectralMap map_from_known_landmarks(const Factorization& factors, const KnownLa
 SpectralMap map_from_known_places(const Factorization& factors,
                                   const std::vector<Eigen::Index>& rows,
                                   const Eigen::MatrixXd& positions_m);
+
+/// What keeps known landmarks from being used with n landmarks: a place for each of some different
+/// rows is needed; empty if nothing.
+std::string known_problem(const KnownLandmarks& known, Eigen::Index n);
+std::string known_problem(const std::vector<Eigen::Index>& rows, const Eigen::MatrixXd& positions_m,
+                          Eigen::Index n);
 
 }  // namespace mapproof

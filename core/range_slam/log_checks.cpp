@@ -37,21 +37,6 @@ void check_ranges(const std::vector<RangeReading>& ranges, Eigen::Index landmark
   }
 }
 
-std::string known_problem(const KnownLandmarks& known, Eigen::Index n) {
-  return known_problem(known.rows, known.positions_m, n);
-}
-
-std::string known_problem(const std::vector<Eigen::Index>& rows, const Eigen::MatrixXd& positions_m,
-                          Eigen::Index n) {
-  if (positions_m.rows() != std::ssize(rows) || !positions_m.allFinite())
-    return "known landmarks need a finite place each";
-  for (const Eigen::Index row : rows)
-    if (row < 0 || row >= n) return fmt::format("no landmark is number {}", row);
-  if (std::set(rows.begin(), rows.end()).size() != rows.size())
-    return "a known landmark is there twice";
-  return "";
-}
-
 std::vector<bool> heard_between(const RangeLog& log, double first_s, double last_s) {
   std::vector<bool> is_heard(log.landmarks.size(), false);
   for (const RangeReading& reading : log.ranges)

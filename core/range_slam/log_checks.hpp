@@ -4,9 +4,9 @@
 #include <string>
 #include <vector>
 
+#include "core/model/points.hpp"
 #include "core/model/range_log.hpp"
 #include "core/model/status.hpp"
-#include "core/range_slam/known_landmarks.hpp"
 
 namespace mapproof {
 
@@ -23,12 +23,6 @@ inline constexpr double kNearlyFlat = 0.03;
 /// all finite.
 std::optional<Status> landmarks_on_a_line(const Points& landmarks_m);
 std::optional<Status> path_on_a_line(const Points& positions_m);
-
-/// What keeps known landmarks from being used with n landmarks: a place for each of some different
-/// rows is needed; empty if nothing.
-std::string known_problem(const KnownLandmarks& known, Eigen::Index n);
-std::string known_problem(const std::vector<Eigen::Index>& rows, const Eigen::MatrixXd& positions_m,
-                          Eigen::Index n);
 
 /// Which landmarks have a reading from `first_s` to `last_s`: N.
 std::vector<bool> heard_between(const RangeLog& log, double first_s, double last_s);

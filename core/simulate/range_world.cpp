@@ -1,15 +1,63 @@
 #include "core/simulate/range_world.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
 #include "core/base/angle.hpp"
 #include "core/base/errors.hpp"
 #include "core/base/random.hpp"
-#include "core/simulate/range_noise.hpp"
 
 namespace mapproof {
+
 namespace {
+
+void check(const RangeFlightOptions& o) {
+  if (o.landmarks < 1 || o.steps < 1) throw InvalidInput("a world needs a landmark and a step");
+  if (!(o.half_width_m > 0.0 && std::isfinite(o.half_width_m)))
+    throw InvalidInput("a world's half width must be above 0");
+  if (!(o.height_m > 0.0 && o.height_m <= 2.0 * o.half_width_m))
+    throw InvalidInput("a world's height must be above 0 and at most its width");
+  if (!(o.step_m > 0.0 && o.step_m <= 0.5 * o.height_m))
+    throw InvalidInput("a step must be above 0 and at most half the height");
+  if (!(o.turn_sigma_rad >= 0.0)) throw InvalidInput("turns must not be negative");
+}
+
+Eigen::RowVector3d uniform_place(const RangeFlightOptions& options, Random& random) {
+  const double x = random.uniform(-options.half_width_m, options.half_width_m);
+  const double y = random.uniform(-options.half_width_m, options.half_width_m);
+  return {x, y, random.uniform(0.0, options.height_m)};
+}
+
+Eigen::RowVector3d normal_vector(Random& random) {
+  const double x = random.normal(), y = random.normal();
+  return {x, y, random.normal()};
+}
+
+bool is_inside(const Eigen::RowVector3d& place, const RangeFlightOptions& options) {
+  return place.head<2>().cwiseAbs().maxCoeff() <= options.half_width_m && place.z() >= 0.0 &&
+         place.z() <= options.height_m;
+}
+
+SpacePoints fly(const RangeFlightOptions& options, Random& random) {
+  SpacePoints positions_m(options.steps, 3);
+  Eigen::RowVector3d position = uniform_place(options, random);
+  Eigen::RowVector3d direction = normal_vector(random).normalized();
+  for (Eigen::Index t = 0; t < options.steps; ++t) {
+    positions_m.row(t) = position;
+    const Eigen::RowVector3d wavering = direction + options.turn_sigma_rad * normal_vector(random);
+    if (wavering.squaredNorm() > 0.0) direction = wavering.normalized();
+    Eigen::RowVector3d next;
+    // A step of at most half the height stays inside in an eighth of all directions or more.
+    while (true) {
+      next = position + options.step_m * direction;
+      if (is_inside(next, options)) break;
+      direction = normal_vector(random).normalized();
+    }
+    position = next;
+  }
+  return positions_m;
+}
 
 void check(const RangeWorldOptions& o) {
   if (o.landmarks < 1 || o.steps < 1) throw InvalidInput("a world needs a landmark and a step");
@@ -46,6 +94,42 @@ void walk(RangeWorld& world, const RangeWorldOptions& options, Random& random) {
 }
 
 }  // namespace
+
+Eigen::MatrixXd simulated_ranges(const Eigen::MatrixXd& landmarks_m,
+                                 const Eigen::MatrixXd& positions_m,
+                                 const SimulatedRangeNoise& noise, Random& random) {
+  if (landmarks_m.cols() != positions_m.cols())
+    throw InvalidInput("landmarks and positions must be of one dimension");
+  if (!(noise.sigma_m >= 0.0 && noise.share >= 0.0))
+    throw InvalidInput("noise must not be negative");
+  if (!(noise.correlation >= 0.0 && noise.correlation < 1.0))
+    throw InvalidInput("the correlation of noise must be at least 0 and below 1");
+  const double rho = noise.correlation;
+  const double fresh = std::sqrt(1.0 - rho * rho);
+  Eigen::MatrixXd ranges_m(landmarks_m.rows(), positions_m.rows());
+  for (Eigen::Index n = 0; n < ranges_m.rows(); ++n) {
+    double error = random.normal();
+    for (Eigen::Index t = 0; t < ranges_m.cols(); ++t) {
+      if (t > 0) error = rho * error + fresh * random.normal();
+      const double range = (landmarks_m.row(n) - positions_m.row(t)).norm();
+      const double sigma = std::hypot(noise.sigma_m, noise.share * range);
+      ranges_m(n, t) = std::max(0.0, range + sigma * error);
+    }
+  }
+  return ranges_m;
+}
+
+RangeFlight simulate_range_flight(const RangeFlightOptions& options, std::uint64_t seed) {
+  check(options);
+  Random random(seed);
+  RangeFlight flight;
+  flight.landmarks_m.resize(options.landmarks, 3);
+  for (Eigen::Index n = 0; n < options.landmarks; ++n)
+    flight.landmarks_m.row(n) = uniform_place(options, random);
+  flight.positions_m = fly(options, random);
+  flight.ranges_m = simulated_ranges(flight.landmarks_m, flight.positions_m, options.noise, random);
+  return flight;
+}
 
 RangeWorld simulate_range_world(const RangeWorldOptions& options, std::uint64_t seed) {
   check(options);

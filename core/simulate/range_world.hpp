@@ -4,9 +4,49 @@
 
 #include <Eigen/Core>
 
+#include "core/base/random.hpp"
 #include "core/model/points.hpp"
 
 namespace mapproof {
+
+/// How simulated ranges err.
+struct SimulatedRangeNoise {
+  double sigma_m = 0.0;      ///< Standard deviation of a range, m, >= 0.
+  double share = 0.0;        ///< The same as a share of the range, >= 0; both add as variances.
+  double correlation = 0.0;  ///< Of errors to one landmark one step apart, in [0, 1).
+};
+
+/// Ranges of landmarks at positions, with noise, none below 0.
+/// @param landmarks_m  N x d.
+/// @param positions_m  T x d.
+/// @return N x T.
+/// @throws InvalidInput if a bound of the noise is broken, or dimensions disagree.
+Eigen::MatrixXd simulated_ranges(const Eigen::MatrixXd& landmarks_m,
+                                 const Eigen::MatrixXd& positions_m,
+                                 const SimulatedRangeNoise& noise, Random& random);
+
+/// A random world in space for range-only SLAM, and a flight through it.
+struct RangeFlightOptions {
+  Eigen::Index landmarks = 12;  ///< >= 1.
+  Eigen::Index steps = 400;     ///< >= 1.
+  double half_width_m = 10.0;   ///< Landmarks and flight lie in [-half_width, half_width]^2; > 0.
+  double height_m = 8.0;        ///< They lie at [0, height]; > 0, at most 2 half_width.
+  double step_m = 1.0;          ///< From one position to the next, > 0, at most height_m / 2.
+  double turn_sigma_rad = 0.3;  ///< Of the direction, about each axis, a step; >= 0.
+  SimulatedRangeNoise noise = {};
+};
+
+struct RangeFlight {
+  SpacePoints landmarks_m;   ///< N x 3.
+  SpacePoints positions_m;   ///< T x 3.
+  Eigen::MatrixXd ranges_m;  ///< N x T, noisy, >= 0.
+};
+
+/// Landmarks uniform in the box, a vehicle that flies on in a wavering direction and turns to a
+/// random one at the border, and its ranges.
+/// @throws InvalidInput if a bound is broken.
+/// @note O(N T) time.
+RangeFlight simulate_range_flight(const RangeFlightOptions& options, std::uint64_t seed);
 
 /// A random world for range-only SLAM [boots2013, figure 1]. What the paper does not give is ours.
 struct RangeWorldOptions {

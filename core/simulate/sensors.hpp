@@ -5,7 +5,6 @@
 
 #include "core/base/random.hpp"
 #include "core/model/experiment.hpp"
-#include "core/model/measurement.hpp"
 #include "core/model/observation_history.hpp"
 #include "core/model/study.hpp"
 #include "core/model/world.hpp"

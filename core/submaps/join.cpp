@@ -3,16 +3,160 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numeric>
 #include <optional>
 #include <span>
+#include <utility>
+#include <vector>
 
+#include <Eigen/Core>
+
+#include "core/align/affine.hpp"
 #include "core/base/errors.hpp"
 #include "core/linalg/decompositions.hpp"
+#include "core/linalg/planarity.hpp"
+#include "core/model/submaps.hpp"
 #include "core/statistics/intervals.hpp"
-#include "core/submaps/overlaps.hpp"
 
 namespace mapproof {
+
 namespace {
+
+/// In the plane the median residual of normal errors is 1.1774 standard deviations of a coordinate;
+/// twice that.
+constexpr double kTrusted = 2.0 / 1.1774;
+
+Affine about_means(const Points& from, const Points& to, const Eigen::VectorXd& shares,
+                   const Eigen::Matrix2d& linear) {
+  const Eigen::RowVector2d source = shares.transpose() * from;
+  const Eigen::RowVector2d target = shares.transpose() * to;
+  return {.linear = linear, .offset = target - source * linear};
+}
+
+/// The map of that kind that takes `from` closest to `to` in weighted least squares.
+/// @param from, to  n x 2, finite, n >= 1.
+/// @param weights   n, >= 0, with a positive sum.
+/// @return Where the points fix it only in part, one of the best.
+Affine fit_join(const Points& from, const Points& to, const Eigen::VectorXd& weights,
+                JoinKind kind) {
+  const Eigen::VectorXd shares = weights / weights.sum();
+  const Points A = from.rowwise() - shares.transpose() * from;
+  const Points B = to.rowwise() - shares.transpose() * to;
+  const Eigen::Matrix2d cross = A.transpose() * shares.asDiagonal() * B;
+  if (kind == JoinKind::kAffine) {
+    const Eigen::Matrix2d own = A.transpose() * shares.asDiagonal() * A;
+    const Eigen::Matrix2d linear = own.completeOrthogonalDecomposition().solve(cross);
+    return about_means(from, to, shares, linear);
+  }
+  const Eigen::JacobiSVD<Eigen::Matrix2d> svd(cross, Eigen::ComputeFullU | Eigen::ComputeFullV);
+  Eigen::Matrix2d linear = svd.matrixU() * svd.matrixV().transpose();
+  const double spread = shares.dot(A.rowwise().squaredNorm());
+  if (kind == JoinKind::kSimilarity && spread > 0.0) linear *= svd.singularValues().sum() / spread;
+  return about_means(from, to, shares, linear);
+}
+
+/// Huber's weights of residuals: 1 up to some two standard deviations as their median tells them,
+/// falling as 1/r beyond.
+Eigen::VectorXd huber_weights(const Eigen::VectorXd& residuals, double median) {
+  const double trusted = std::max(kTrusted * median, 1e-12 * residuals.maxCoeff());
+  if (!(trusted > 0.0)) return Eigen::VectorXd::Ones(residuals.size());
+  return (trusted / residuals.array().max(trusted)).matrix();
+}
+
+/// The same with less trust in points that fit badly (Huber's weights about the median residual).
+/// @param residual  Set to the RMS residual over the RMS radius of `to`, at those weights.
+Affine fit_join_robustly(const Points& from, const Points& to, JoinKind kind, double& residual) {
+  constexpr int kRounds = 20;
+  Eigen::VectorXd weights = Eigen::VectorXd::Ones(from.rows());
+  Affine fit;
+  Eigen::VectorXd residuals;
+  for (int round = 0; round < kRounds; ++round) {
+    fit = fit_join(from, to, weights, kind);
+    residuals = (fit(from) - to).rowwise().norm();
+    const std::span<const double> values(residuals.data(),
+                                         static_cast<std::size_t>(residuals.size()));
+    weights = huber_weights(residuals, median(values));
+  }
+  const Points centred = to.rowwise() - to.colwise().mean();
+  const double radius = std::sqrt(centred.squaredNorm() / static_cast<double>(to.rows()));
+  residual =
+      std::sqrt(weights.dot(residuals.cwiseAbs2()) / weights.sum()) / std::max(radius, 1e-300);
+  return fit;
+}
+
+/// Two sub-maps that can be tied, and the fits of each to the other.
+struct Overlap {
+  int first = 0;
+  int second = 0;
+  std::vector<std::pair<Eigen::Index, Eigen::Index>> shared;  ///< Rows in first and second.
+  Affine to_first;                                            ///< Takes the second to the first.
+  Affine to_second;                                           ///< And back.
+  double residual = 0.0;                                      ///< Relative, the mean of both fits'.
+  double cost = 0.0;  ///< The less the better: the residual over the root of the count.
+};
+
+/// Shared landmarks flatter than this leave the mirror image to chance.
+constexpr double kFlattest = 0.05;
+
+std::vector<std::pair<Eigen::Index, Eigen::Index>> shared_rows(const Submap& first,
+                                                               const Submap& second) {
+  std::vector<std::pair<Eigen::Index, Eigen::Index>> rows;
+  std::size_t j = 0;
+  for (std::size_t i = 0; i < first.landmarks.size(); ++i) {
+    while (j < second.landmarks.size() && second.landmarks[j] < first.landmarks[i]) ++j;
+    if (j < second.landmarks.size() && second.landmarks[j] == first.landmarks[i])
+      rows.emplace_back(i, j);
+  }
+  return rows;
+}
+
+/// All pairs of sub-maps with 3 landmarks or more in common that are not on one line in either.
+std::vector<Overlap> overlaps_of(const std::vector<Submap>& maps, JoinKind kind) {
+  std::vector<Overlap> overlaps;
+  for (std::size_t g = 0; g < maps.size(); ++g)
+    for (std::size_t h = g + 1; h < maps.size(); ++h) {
+      Overlap overlap{.first = static_cast<int>(g),
+                      .second = static_cast<int>(h),
+                      .shared = shared_rows(maps[g], maps[h]),
+                      .to_first = {},
+                      .to_second = {}};
+      const auto n = static_cast<Eigen::Index>(overlap.shared.size());
+      if (n < 3) continue;
+      Points in_first(n, 2), in_second(n, 2);
+      for (Eigen::Index k = 0; k < n; ++k) {
+        const auto& [i, j] = overlap.shared[static_cast<std::size_t>(k)];
+        in_first.row(k) = maps[g].positions.row(i);
+        in_second.row(k) = maps[h].positions.row(j);
+      }
+      if (planarity(in_first) < kFlattest || planarity(in_second) < kFlattest) continue;
+      double there = 0.0, back = 0.0;
+      overlap.to_first = fit_join_robustly(in_second, in_first, kind, there);
+      overlap.to_second = fit_join_robustly(in_first, in_second, kind, back);
+      overlap.residual = (there + back) / 2.0;
+      overlap.cost = overlap.residual / std::sqrt(static_cast<double>(n));
+      overlaps.push_back(std::move(overlap));
+    }
+  return overlaps;
+}
+
+/// Overlaps of least total cost that tie together what can be tied: their indices, ascending.
+std::vector<std::size_t> spanning_tree(const std::vector<Overlap>& overlaps, std::size_t maps) {
+  std::vector<std::size_t> order(overlaps.size());
+  std::iota(order.begin(), order.end(), 0U);
+  std::ranges::stable_sort(order, {}, [&](std::size_t k) { return overlaps[k].cost; });
+  std::vector<int> piece(maps);
+  std::iota(piece.begin(), piece.end(), 0);
+  std::vector<std::size_t> tree;
+  for (const std::size_t k : order) {
+    const int kept = piece[static_cast<std::size_t>(overlaps[k].first)];
+    const int joined = piece[static_cast<std::size_t>(overlaps[k].second)];
+    if (kept == joined) continue;
+    std::ranges::replace(piece, joined, kept);
+    tree.push_back(k);
+  }
+  std::ranges::sort(tree);
+  return tree;
+}
 
 Affine after(const Affine& second, const Affine& first) {
   return {.linear = first.linear * second.linear,

@@ -4,9 +4,16 @@
 
 #include "core/model/status.hpp"
 #include "core/model/submaps.hpp"
-#include "core/submaps/join_fit.hpp"
+#include "core/submaps/join.hpp"
 
 namespace mapproof {
+
+/// What may be done to a sub-map to fit it to the others; a mirror image always may.
+enum class JoinKind {
+  kRigid,       ///< Turn and shift.
+  kSimilarity,  ///< And scale: maps whose axes have one scale.
+  kAffine,      ///< Any affine map: eigenmaps, whose axes have a scale each.
+};
 
 /// A joined map with its warnings.
 struct JoinResult {

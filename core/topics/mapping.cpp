@@ -1,5 +1,3 @@
-#include "core/topics/mapping.hpp"
-
 #include <system_error>
 
 #include <fmt/format.h>
@@ -14,6 +12,7 @@
 #include "core/records/studies/study_files.hpp"
 #include "core/records/studies/study_store.hpp"
 #include "core/topics/experiment_changes.hpp"
+#include "core/topics/study_kind.hpp"
 
 namespace mapproof {
 namespace {

@@ -9,9 +9,6 @@
 
 namespace mapproof {
 
-/// Paths and maps from ranges, of logs and of simulated worlds [boots2013].
-extern const StudyKind kRangeStudies;
-
 /// A data set of an experiment that is there.
 struct LogOfSet {
   SlamDataSet set;

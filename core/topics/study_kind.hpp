@@ -19,7 +19,7 @@ struct StudyFile {
 };
 
 /// What can be studied and how: its experiments, its folder, what results are in it. One file in
-/// this folder each; a new one is added to study_kinds.cpp.
+/// this folder each; a new one is added to study_kind.cpp.
 struct StudyKind {
   std::string_view study;        ///< Schema of its study.json: "mapproof.slam_study".
   std::string_view title;        ///< "a range-only study".
@@ -41,6 +41,19 @@ struct StudyKind {
   std::vector<std::string> (*check)(const std::filesystem::path& folder) = nullptr;
 };
 
+/// Maps of simulated worlds by the mapping methods [yairi2007].
+extern const StudyKind kMappingStudies;
+
+/// Paths and maps from ranges, of logs and of simulated worlds [boots2013].
+extern const StudyKind kRangeStudies;
+
+/// Questions put to many simulated worlds or to data: a Topic of core/trials each.
+extern const StudyKind kTrialStudies;
+
+/// Tables of results that other programs wrote.
+extern const StudyKind kTableStudies;
+
+/// These, in the order in which they are asked.
 std::span<const StudyKind* const> all_study_kinds();
 
 /// The kind of an experiment's text. @throws IoError with the place if it is none.

@@ -1,9 +1,8 @@
-#include "core/topics/table.hpp"
-
 #include <utility>
 
 #include "core/records/studies/results_study_json.hpp"
 #include "core/records/studies/study_folder.hpp"
+#include "core/topics/study_kind.hpp"
 
 namespace mapproof {
 namespace {

@@ -1,5 +1,3 @@
-#include "core/trials/choice.hpp"
-
 #include <algorithm>
 #include <chrono>
 #include <cmath>
@@ -12,6 +10,7 @@
 #include "core/choice/judged_maps.hpp"
 #include "core/score/map_score.hpp"
 #include "core/simulate/sensors.hpp"
+#include "core/trials/topics.hpp"
 
 namespace mapproof {
 namespace {

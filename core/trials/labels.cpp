@@ -1,5 +1,3 @@
-#include "core/trials/labels.hpp"
-
 #include <chrono>
 #include <cmath>
 #include <limits>
@@ -12,6 +10,7 @@
 #include "core/experiment/scored_map.hpp"
 #include "core/labels/correspondence.hpp"
 #include "core/simulate/sensors.hpp"
+#include "core/trials/topics.hpp"
 
 namespace mapproof {
 namespace {

@@ -1,5 +1,3 @@
-#include "core/trials/missing.hpp"
-
 #include <algorithm>
 #include <chrono>
 #include <cmath>
@@ -14,6 +12,7 @@
 #include "core/missing/gap_pattern.hpp"
 #include "core/simulate/gaps.hpp"
 #include "core/simulate/sensors.hpp"
+#include "core/trials/topics.hpp"
 
 namespace mapproof {
 namespace {

@@ -1,5 +1,3 @@
-#include "core/trials/mixed.hpp"
-
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -12,6 +10,7 @@
 #include "core/mixed/mixed_map.hpp"
 #include "core/score/map_score.hpp"
 #include "core/simulate/sensors.hpp"
+#include "core/trials/topics.hpp"
 
 namespace mapproof {
 namespace {

@@ -1,17 +1,57 @@
-#include "core/trials/moved.hpp"
-
 #include <chrono>
 #include <cmath>
 #include <numbers>
 
 #include <fmt/format.h>
 
+#include "core/base/angle.hpp"
 #include "core/base/random.hpp"
 #include "core/labels/moved.hpp"
-#include "core/trials/simulated_detections.hpp"
+#include "core/model/detection_log.hpp"
+#include "core/model/world.hpp"
+#include "core/simulate/sensors.hpp"
+#include "core/trials/topics.hpp"
 
 namespace mapproof {
+
 namespace {
+
+/// A sensor of range and bearing.
+struct DetectionSensor {
+  double reach_m = 0.8;         ///< Landmarks farther away are not seen; > 0.
+  double range_share = 0.02;    ///< Standard deviation of a range, as a share of it; >= 0.
+  double bearing_rad = 0.0175;  ///< Of a bearing; >= 0.
+};
+
+/// A landmark that stands elsewhere from some step on.
+struct SimulatedMove {
+  Eigen::Index landmark = 0;
+  Eigen::RowVector2d by_m = Eigen::RowVector2d::Zero();
+  Eigen::Index from_step = 0;
+};
+
+/// What the sensor sees along a path, a scan a step; nothing hides anything.
+DetectionLog simulated_detections(const World& world, const Path& path,
+                                  const DetectionSensor& sensor, const SimulatedMove& move,
+                                  Random& random) {
+  DetectionLog log;
+  log.names = landmark_names(world.landmarks_m.rows());
+  log.steps = static_cast<int>(path.positions_m.rows());
+  for (int step = 0; step < log.steps; ++step)
+    for (Eigen::Index k = 0; k < world.landmarks_m.rows(); ++k) {
+      Eigen::RowVector2d to = world.landmarks_m.row(k) - path.positions_m.row(step);
+      if (k == move.landmark && step >= move.from_step) to += move.by_m;
+      const double range = to.norm();
+      if (range > sensor.reach_m) continue;
+      const double bearing = std::atan2(to.y(), to.x()) - path.headings_rad(step);
+      log.detections.push_back(
+          {.step = step,
+           .landmark = static_cast<int>(k),
+           .range_m = std::abs(range * (1.0 + sensor.range_share * random.normal())),
+           .bearing_rad = wrapped(bearing + sensor.bearing_rad * random.normal())});
+    }
+  return log;
+}
 
 using Clock = std::chrono::steady_clock;
 

@@ -1,28 +1,194 @@
-#include "core/trials/mrclam.hpp"
-
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <cstdint>
+#include <filesystem>
+#include <numeric>
+#include <optional>
+#include <set>
+#include <string>
+#include <system_error>
+#include <utility>
+#include <vector>
 
 #include <fmt/format.h>
 
 #include "core/align/diagonal_anchors.hpp"
 #include "core/align/rigid.hpp"
+#include "core/base/byte_source.hpp"
 #include "core/base/errors.hpp"
+#include "core/base/input_file.hpp"
 #include "core/base/not_finite.hpp"
+#include "core/base/random.hpp"
+#include "core/base/sha256.hpp"
 #include "core/certainty/pair_certainty.hpp"
 #include "core/embed/embedder.hpp"
 #include "core/experiment/scored_map.hpp"
+#include "core/labels/anchor_labels.hpp"
+#include "core/labels/mislabelled.hpp"
+#include "core/labels/shared_label.hpp"
 #include "core/linalg/planarity.hpp"
+#include "core/model/detection_log.hpp"
+#include "core/model/points.hpp"
 #include "core/observe/detected_proximities.hpp"
 #include "core/pairs/pair_map.hpp"
 #include "core/records/observations/mrclam.hpp"
 #include "core/statistics/intervals.hpp"
-#include "core/trials/mrclam_labels.hpp"
-#include "core/trials/mrclam_sets.hpp"
+#include "core/trials/topic.hpp"
+#include "core/trials/topics.hpp"
 
 namespace mapproof {
+
 namespace {
+
+namespace fs = std::filesystem;
+
+/// Real scans some of whose labels were made wrong.
+struct SpoiltLabels {
+  std::string id;  ///< "swapped", "misnamed".
+  DetectionLog log;
+};
+
+/// How much was found wrong, and the log without it.
+struct CorrectedLabels {
+  int faults = 0;
+  DetectionLog log;
+};
+
+/// Landmarks, those of most detections first.
+std::vector<int> by_detections(const DetectionLog& log) {
+  std::vector<int> count(log.names.size(), 0);
+  for (const Detection& seen : log.detections) ++count[static_cast<std::size_t>(seen.landmark)];
+  std::vector<int> order(log.names.size());
+  std::iota(order.begin(), order.end(), 0);
+  std::ranges::stable_sort(order, std::ranges::greater(),
+                           [&](int k) { return count[static_cast<std::size_t>(k)]; });
+  return order;
+}
+
+DetectionLog swapped_in_half(DetectionLog log, int a, int b, std::uint64_t seed) {
+  Random random(seed);
+  std::vector<bool> is_wrong;
+  for (int scan = 0; scan < log.steps; ++scan) is_wrong.push_back(random.uniform() < 0.5);
+  for (Detection& seen : log.detections)
+    if (is_wrong[static_cast<std::size_t>(seen.step)] && (seen.landmark == a || seen.landmark == b))
+      seen.landmark = seen.landmark == a ? b : a;
+  sort_detections(log.detections);
+  return log;
+}
+
+/// @param log  Where both are in a scan, the misnamed detection is left out: a label is there once.
+DetectionLog misnamed(DetectionLog log, int a, int b) {
+  std::set<int> of_b;
+  for (const Detection& seen : log.detections)
+    if (seen.landmark == b) of_b.insert(seen.step);
+  std::erase_if(log.detections, [&](const Detection& seen) {
+    return seen.landmark == a && of_b.contains(seen.step);
+  });
+  for (Detection& seen : log.detections)
+    if (seen.landmark == a) seen.landmark = b;
+  sort_detections(log.detections);
+  return log;
+}
+
+/// Two labels swapped in half of the scans, drawn at random; and one landmark called by another's
+/// name in all of them. The landmarks are among those seen most: so the fault weighs.
+/// @return None of fewer than 6 landmarks.
+std::vector<SpoiltLabels> spoilt_labels(const DetectionLog& log, std::uint64_t seed) {
+  const std::vector<int> order = by_detections(log);
+  if (order.size() < 6) return {};
+  return {{"swapped", swapped_in_half(log, order[1], order[4], seed)},
+          {"misnamed", misnamed(log, order[5], order[2])}};
+}
+
+/// Labels that contradict one another, that two landmarks bear, or that known places contradict,
+/// corrected as `mapproof map --repair-ids` does.
+/// @param known_m  M x 2; empty: no place is known.
+CorrectedLabels corrected_log(const DetectionLog& log, const std::optional<Points>& known_m) {
+  CorrectedLabels corrected{.faults = 0, .log = log};
+  const std::vector<Eigen::Index> unseen = unseen_in(log);
+  if (unseen.size() == 1)
+    if (const auto shared = shared_label(log)) {
+      ++corrected.faults;
+      corrected.log = split_label(log, *shared, static_cast<int>(unseen.front()));
+    }
+  LabelCheck check = check_labels(corrected.log);
+  corrected.faults += static_cast<int>(check.findings.size());
+  corrected.log = std::move(check.repaired);
+  if (!known_m) return corrected;
+  AnchorCheck places = check_anchor_labels(corrected.log, *known_m);
+  corrected.faults += static_cast<int>(places.exchanges.size());
+  corrected.log = std::move(places.repaired);
+  return corrected;
+}
+
+/// Files and folders in a folder, sorted. @throws IoError.
+std::vector<fs::path> entries_of(const fs::path& folder) {
+  std::vector<fs::path> paths;
+  std::error_code error;
+  for (fs::directory_iterator entry(folder, error), end; !error && entry != end;
+       entry.increment(error))
+    paths.push_back(entry->path());
+  if (error) throw IoError(folder.string(), "cannot be listed: " + error.message());
+  std::ranges::sort(paths);
+  return paths;
+}
+
+bool is_read(const std::string& name) {
+  return name == "Barcodes.dat" || name == "Landmark_Groundtruth.dat" ||
+         (name.starts_with("Robot") && name.ends_with("_Measurement.dat"));
+}
+
+/// Of the files that are read, in the order of their names.
+std::string digest_of(const fs::path& folder) {
+  std::string digests;
+  for (const fs::path& path : entries_of(folder)) {
+    const std::string name = unpacked_name(path.filename()).string();
+    if (is_read(name)) digests += name + ' ' + sha256_hex(read_input(path)) + '\n';
+  }
+  return sha256_hex(digests);
+}
+
+/// A name as [a-z0-9-]+.
+std::string id_of(const std::string& name) {
+  std::string id;
+  for (char c : name) {
+    if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
+    const bool is_plain = (c >= 'a' && c <= 'z') || (c >= '0' && c <= '9');
+    if (is_plain)
+      id += c;
+    else if (!id.empty() && id.back() != '-')
+      id += '-';
+  }
+  while (id.ends_with('-')) id.pop_back();
+  return id.empty() ? "set" : id;
+}
+
+TrialData set_of(const fs::path& folder, const std::vector<TrialData>& others) {
+  const std::string name = fs::weakly_canonical(folder).filename().string();
+  std::string id = id_of(name);
+  for (int number = 2;
+       std::ranges::any_of(others, [&](const TrialData& other) { return other.set.id == id; });
+       ++number)
+    id = fmt::format("{}-{}", id_of(name), number);
+  read_mrclam_detections(folder);  // A set that cannot be read is told before anything is made.
+  return {.set = {.id = id, .title = printable(name), .digest = digest_of(folder)},
+          .folder = folder};
+}
+
+/// The MRCLAM sets in a folder, by id: its folders that hold a RobotN_Measurement.dat, or the
+/// folder itself; each is read whole.
+/// @throws IoError as read_mrclam_detections.
+std::vector<TrialData> mrclam_sets(const fs::path& folder) {
+  if (is_mrclam(folder)) return {set_of(folder, {})};
+  std::vector<TrialData> sets;
+  for (const fs::path& path : entries_of(folder)) {
+    std::error_code error;
+    if (fs::is_directory(path, error) && is_mrclam(path)) sets.push_back(set_of(path, sets));
+  }
+  std::ranges::sort(sets, {}, [](const TrialData& data) { return data.set.id; });
+  return sets;
+}
 
 using Clock = std::chrono::steady_clock;
 

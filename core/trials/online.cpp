@@ -1,5 +1,3 @@
-#include "core/trials/online.hpp"
-
 #include <algorithm>
 #include <chrono>
 #include <cmath>
@@ -11,6 +9,7 @@
 #include "core/base/random.hpp"
 #include "core/follow/incremental_map.hpp"
 #include "core/simulate/sensors.hpp"
+#include "core/trials/topics.hpp"
 
 namespace mapproof {
 namespace {

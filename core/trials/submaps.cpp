@@ -1,5 +1,3 @@
-#include "core/trials/submaps.hpp"
-
 #include <chrono>
 #include <cmath>
 #include <set>
@@ -12,6 +10,7 @@
 #include "core/simulate/gaps.hpp"
 #include "core/simulate/sensors.hpp"
 #include "core/submaps/submap_embedding.hpp"
+#include "core/trials/topics.hpp"
 
 namespace mapproof {
 namespace {

@@ -1,5 +1,3 @@
-#include "core/trials/sweep.hpp"
-
 #include <algorithm>
 #include <chrono>
 #include <cmath>
@@ -10,6 +8,7 @@
 #include "core/embed/embedder.hpp"
 #include "core/experiment/run.hpp"
 #include "core/experiment/scored_map.hpp"
+#include "core/trials/topics.hpp"
 
 namespace mapproof {
 namespace {

@@ -45,10 +45,4 @@ struct Topic {
   std::vector<TrialData> (*data_sets)(const std::filesystem::path& folder) = nullptr;
 };
 
-/// All topics, in the order of their studies. A new one is added to core/trials/topics.cpp.
-std::span<const Topic* const> all_topics();
-
-/// The topic of that name; null if there is none.
-const Topic* topic_named(std::string_view name);
-
 }  // namespace mapproof

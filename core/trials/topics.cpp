@@ -1,17 +1,7 @@
+#include "core/trials/topics.hpp"
+
 #include <algorithm>
 #include <vector>
-
-#include "core/trials/certainty.hpp"
-#include "core/trials/choice.hpp"
-#include "core/trials/labels.hpp"
-#include "core/trials/missing.hpp"
-#include "core/trials/mixed.hpp"
-#include "core/trials/moved.hpp"
-#include "core/trials/mrclam.hpp"
-#include "core/trials/online.hpp"
-#include "core/trials/submaps.hpp"
-#include "core/trials/sweep.hpp"
-#include "core/trials/topic.hpp"
 
 namespace mapproof {
 

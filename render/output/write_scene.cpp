@@ -4,8 +4,9 @@
 #include <cmath>
 
 #include "core/base/files.hpp"
+#include "render/animation/animation.hpp"
 #include "render/cairo/cairo_backend.hpp"
-#include "render/image/halve.hpp"
+#include "render/image/image.hpp"
 #include "render/output/write_drawn.hpp"
 #include "render/plot/layout.hpp"
 #include "render/scene/scene_figure.hpp"
@@ -13,7 +14,31 @@
 #include "render/svg/svg.hpp"
 
 namespace mapproof {
+
 namespace {
+
+/// An image of half the size, each pixel the rounded mean of four; the last row or column of an odd
+/// size is dropped.
+Image halved(const Image& image) {
+  Image half{image.width / 2, image.height / 2, {}};
+  half.pixels.reserve(static_cast<std::size_t>(half.width) * half.height);
+  for (int y = 0; y < half.height; ++y) {
+    const std::uint32_t* above = image.row(2 * y);
+    const std::uint32_t* below = image.row(2 * y + 1);
+    for (int x = 0; x < half.width; ++x) {
+      std::uint32_t pixel = 0;
+      for (const int shift : {0, 8, 16}) {
+        std::uint32_t sum = 2;
+        for (const std::uint32_t p :
+             {above[2 * x], above[2 * x + 1], below[2 * x], below[2 * x + 1]})
+          sum += p >> shift & 0xFF;
+        pixel |= sum / 4 << shift;
+      }
+      half.pixels.push_back(pixel);
+    }
+  }
+  return half;
+}
 
 constexpr int kSamples = 4;
 
@@ -30,6 +55,21 @@ int poster_scale(const Drawing& drawing) {
 }
 
 }  // namespace
+
+void write_animation(const Film& film, const Theme& theme, const std::filesystem::path& folder,
+                     SceneClient& client) {
+  std::vector<Image> frames;
+  AnimationOptions options;
+  for (const Scene& scene : film.frames) {
+    Drawing drawing = draw_scene(scene, theme, client).screen;
+    frames.push_back(to_image(drawing));
+    if (frames.size() == 1)
+      require_animation_size(frames[0].width, frames[0].height, film.frames.size());
+    drawing.id = film.id;
+    options.texts = png_words(drawing);
+  }
+  write_file(folder / (film.id + ".apng"), encode_animation(frames, options));
+}
 
 SceneDrawing draw_scene(const Scene& scene, const Theme& theme, SceneClient& client) {
   SceneDrawing drawn;

@@ -3,15 +3,220 @@
 #include <algorithm>
 #include <cmath>
 
+#include "render/plot/drawing.hpp"
+#include "render/plot/figure.hpp"
 #include "render/plot/layers.hpp"
 #include "render/plot/legend.hpp"
 #include "render/plot/mark_labels.hpp"
 #include "render/plot/markers.hpp"
 #include "render/plot/panel_layout.hpp"
-#include "render/plot/shared_axes.hpp"
+#include "render/theme/theme.hpp"
 
 namespace mapproof {
+
 namespace {
+
+/// How many panels stand in a row of that width: at most as many as the figure asks for.
+std::size_t columns_within(const Figure& figure, double width, const Theme& theme);
+
+constexpr double kHeightOfWidth = 0.85;  // Of frames whose units need not be equally long.
+constexpr double kLeastHeight = 8.5;     // Of those, in em.
+constexpr double kMostOfPage = 0.62;     // Of the theme's height, for the frames of one row.
+
+Range united(const Range& a, const Range& b) {
+  return {std::min(a.low, b.low), std::max(a.high, b.high)};
+}
+
+/// Copies of the panels with the limits that they share.
+std::vector<Panel> with_shared_limits(const Figure& figure) {
+  std::vector<Panel> panels = figure.panels;
+  PanelLimits all = panel_limits(panels.front());
+  for (const Panel& panel : panels) {
+    const PanelLimits limits = panel_limits(panel);
+    all = {united(all.x, limits.x), united(all.y, limits.y)};
+  }
+  for (Panel& panel : panels) {
+    if (figure.shared_x) panel.x.limits = all.x;
+    if (figure.shared_y) panel.y.limits = all.y;
+  }
+  return panels;
+}
+
+class SharedGrid {
+ public:
+  SharedGrid(const Figure& figure, const Box& room, const Theme& theme, Drawing& drawing)
+      : figure_(figure),
+        room_(room),
+        theme_(theme),
+        drawing_(drawing),
+        panels_(with_shared_limits(figure)),
+        columns_(columns_within(figure, room.width(), theme)) {
+    for (std::size_t p = 0; p < panels_.size(); ++p) {
+      const bool lowest = p + columns_ >= panels_.size();
+      const bool leftmost = p % columns_ == 0;
+      AxisLabels shown;
+      shown.x_ticks = !figure.shared_x || lowest;
+      shown.y_ticks = !figure.shared_y || leftmost;
+      shown.x_label = !figure.shared_x;
+      shown.y_label = !figure.shared_y;
+      layouts_.emplace_back(panels_[p], theme, shown);
+      for (const Layer& layer : panels_[p].layers) all_.layers.push_back(layer);
+    }
+  }
+
+  void lay_out() {
+    find_frame_size();
+    const double em = theme_.font_pt;
+    double top = room_.y0;
+    for (std::size_t p = 0; p < panels_.size(); p += columns_) {
+      const std::size_t end = std::min(p + columns_, panels_.size());
+      top += title_height(p, end);
+      double bottom = 0.0;
+      for (std::size_t i = p; i < end; ++i) bottom = std::max(bottom, draw(i, top));
+      top += height_ + bottom + 1.5 * theme_.space_pt;
+    }
+    top -= 1.5 * theme_.space_pt;
+    const double left = room_.x0 + outer_left_, right = left + grid_width();
+    if (figure_.shared_x && !panels_.front().x.label.empty()) {
+      const ShapedText text = shape_text_within(panels_.front().x.label, room_.width() / em);
+      const double start = std::max(room_.x0, (left + right - text.advance * em) / 2.0);
+      top += 0.5 * em;
+      add_text(drawing_, Role::kAxisLabel, 0, text, panels_.front().x.label,
+               {start, top + FontFacts::kAscent * em}, em, theme_.text);
+      top += (FontFacts::kAscent + FontFacts::kDescent) * em;
+    }
+    if (figure_.shared_y && !panels_.front().y.label.empty()) draw_y_label();
+    drawing_.height = draw_legend(left, top) + theme_.space_pt;
+  }
+
+ private:
+  /// The widths of the margins decide the frames, and their ticks the margins: thrice is enough.
+  /// What the last choice of ticks still lacks is taken from the frames.
+  void find_frame_size() {
+    width_ = 0.8 * room_.width() / static_cast<double>(columns_);
+    for (int pass = 0; pass < 4; ++pass) {
+      height_ = frame_height();
+      if (panels_.front().equal_aspect) width_ = height_ * aspect();
+      const double right = measure_margins();
+      const double gaps = static_cast<double>(columns_ - 1) * inner_left_;
+      const double widest =
+          (room_.width() - outer_left_ - right - gaps) / static_cast<double>(columns_);
+      if (pass < 3 || width_ > widest) width_ = widest;
+    }
+    height_ = frame_height();
+    if (panels_.front().equal_aspect) width_ = height_ * aspect();
+  }
+
+  /// What labels need left of the frames. @return What they need right of the last one.
+  double measure_margins() {
+    double first = 0.0, inner = 0.0, right = 0.0;
+    for (std::size_t p = 0; p < panels_.size(); ++p) {
+      const Margins m = layouts_[p].margins(layouts_[p].in({0.0, 0.0, width_, height_}));
+      double& left = p % columns_ == 0 ? first : inner;
+      left = std::max(left, m.left);
+      right = std::max(right, m.right);
+    }
+    outer_left_ = y_label_width() + first;
+    inner_left_ = inner + right + theme_.space_pt;
+    return right;
+  }
+
+  double y_label_width() const {
+    if (!figure_.shared_y || panels_.front().y.label.empty()) return 0.0;
+    const auto rows = static_cast<double>((panels_.size() + columns_ - 1) / columns_);
+    const double em = theme_.font_pt;
+    return 1.5 * em + further_lines(upward_lines(panels_.front().y.label, rows * height_, em), em);
+  }
+
+  double aspect() const {
+    const PanelLimits limits = panel_limits(panels_.front());
+    return (limits.x.high - limits.x.low) / (limits.y.high - limits.y.low);
+  }
+
+  double frame_height() const {
+    const double most = kMostOfPage * theme_.height_pt;
+    if (panels_.front().equal_aspect) return std::min(width_ / aspect(), 1.2 * most);
+    return std::min(std::max(kHeightOfWidth * width_, kLeastHeight * theme_.font_pt), most);
+  }
+
+  double grid_width() const {
+    const auto columns = static_cast<double>(columns_);
+    return columns * width_ + (columns - 1.0) * inner_left_;
+  }
+
+  double title_height(std::size_t begin, std::size_t end) const {
+    double lines = 0.0;
+    for (std::size_t p = begin; p < end; ++p)
+      if (!panels_[p].title.empty())
+        lines = std::max(lines, static_cast<double>(
+                                    title_lines(panels_[p].title, width_ / theme_.font_pt).size()));
+    return lines * FontFacts::kLine * theme_.font_pt + 0.4 * theme_.tick_font_pt;
+  }
+
+  /// @param top  Of the frame. @return What its labels need below the frame.
+  double draw(std::size_t p, double top) {
+    const double left =
+        room_.x0 + outer_left_ + static_cast<double>(p % columns_) * (width_ + inner_left_);
+    const Box frame{left, top, left + width_, top + height_};
+    const Axes axes = layouts_[p].in(frame);
+    const std::size_t first = p - p % columns_;
+    const double title_top = top - title_height(first, std::min(first + columns_, panels_.size()));
+    draw_panel_title(panels_[p], p, {left, title_top, left + width_, top}, theme_, drawing_);
+    draw_panel(panels_[p], p, axes, layouts_[p], theme_, drawing_);
+    const PanelMap map = layouts_[p].map(frame);
+    draw_mark_labels(panels_[p], p, map, frame, data_obstacles(panels_[p], map, theme_), theme_,
+                     drawing_);
+    return layouts_[p].margins(axes).bottom;
+  }
+
+  void draw_y_label() {
+    const double em = theme_.font_pt;
+    const double top = drawing_.frames.front().y0, bottom = drawing_.frames.back().y1;
+    const std::string& label = panels_.front().y.label;
+    double x = room_.x0 + FontFacts::kAscent * em;
+    for (const ShapedText& line : upward_lines(label, bottom - top, em)) {
+      add_text(drawing_, Role::kAxisLabel, 0, line, label,
+               {x, (top + bottom + line.advance * em) / 2.0}, em, theme_.text, true);
+      x += FontFacts::kLine * em;
+    }
+  }
+
+  /// In the grid's last row if that has room for it, else below. @return Where it ends.
+  double draw_legend(double left, double top) {
+    const Legend legend(all_, theme_, room_.width());
+    if (legend.empty()) return top;
+    const double space = 2.0 * theme_.space_pt;
+    const Box& last = drawing_.frames.back();
+    const Point single = legend.size(1);
+    const double free_x = last.x1 + space;
+    if (free_x + single.x <= room_.x1 && single.y <= last.height()) {
+      legend.draw({free_x, last.y0}, 1, 0, drawing_);
+      return top;
+    }
+    const std::size_t columns = legend.columns_within(room_.width());
+    const Point size = legend.size(columns);
+    const double x = std::clamp(left, room_.x0, std::max(room_.x0, room_.x1 - size.x));
+    legend.draw({x, top + 0.5 * space}, columns, 0, drawing_);
+    return top + 0.5 * space + size.y;
+  }
+
+  const Figure& figure_;
+  const Box& room_;
+  const Theme& theme_;
+  Drawing& drawing_;
+  std::vector<Panel> panels_;
+  std::size_t columns_;
+  std::vector<AxesLayout> layouts_;
+  Panel all_;                          ///< All layers, for the legend.
+  double width_ = 0.0, height_ = 0.0;  ///< Of each frame.
+  double outer_left_ = 0.0;            ///< From the room's edge to the first frame.
+  double inner_left_ = 0.0;            ///< From a frame to the next one.
+};
+
+/// As lay_out_grid, for panels that share an axis.
+void lay_out_shared(const Figure& figure, const Box& room, const Theme& theme, Drawing& drawing) {
+  SharedGrid(figure, room, theme, drawing).lay_out();
+}
 
 constexpr double kLeastWidth = 14.0;       // Of a cell, in em.
 constexpr double kLowInColumn = 0.7;       // Height of panels below each other, of the theme's.

@@ -9,6 +9,14 @@
 
 namespace mapproof {
 
+/// Draws the lines of a panel's grid; they belong below its layers.
+void draw_grid(const Axes& axes, std::size_t panel_index, const AxesLayout& layout,
+               const Theme& theme, Drawing& drawing);
+
+/// Draws frame, ticks and their labels, and the axes' own labels.
+void draw_axes(const Panel& panel, const Axes& axes, std::size_t panel_index,
+               const AxesLayout& layout, const Theme& theme, Drawing& drawing);
+
 /// Lays one panel out in `cell`: axes, legend, layers and labels.
 void lay_out_panel(const Panel& panel, std::size_t panel_index, const Box& cell, const Theme& theme,
                    Drawing& drawing);
@@ -29,9 +37,5 @@ std::vector<TitleLine> title_lines(const std::string& title, double most);
 /// Draws the panel's title. @return The room left below.
 Box draw_panel_title(const Panel& panel, std::size_t index, const Box& cell, const Theme& theme,
                      Drawing& drawing);
-
-/// Adds text whose baseline starts at `at`; `whole` is what was asked for.
-void add_text(Drawing& drawing, Role role, std::size_t panel_index, const ShapedText& shaped,
-              const std::string& whole, Point at, double size, Colour colour, bool upward = false);
 
 }  // namespace mapproof

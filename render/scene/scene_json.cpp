@@ -2,7 +2,6 @@
 
 #include "core/base/errors.hpp"
 #include "core/json/record_json.hpp"
-#include "render/scene/scene_fields.hpp"
 
 namespace mapproof {
 

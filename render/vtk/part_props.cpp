@@ -20,7 +20,7 @@
 #include <vtkTubeFilter.h>
 #include <vtkUnsignedCharArray.h>
 
-#include "render/scene/solids.hpp"
+#include "render/scene/scene.hpp"
 #include "render/theme/palette.hpp"
 
 namespace mapproof {

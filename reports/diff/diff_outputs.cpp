@@ -4,9 +4,12 @@
 
 #include "core/base/errors.hpp"
 #include "core/base/words.hpp"
+#include "core/json/record_json.hpp"
+#include "reports/diff/diff_fields.hpp"
 #include "reports/model/format.hpp"
 
 namespace mapproof {
+
 namespace {
 
 constexpr std::size_t kMostRows = 50;
@@ -162,5 +165,7 @@ std::string ctest_lines(const DiffResult& result) {
   }
   return out;
 }
+
+nlohmann::ordered_json diff_json(const DiffResult& result) { return to_json_value(result); }
 
 }  // namespace mapproof

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "reports/diff/figures/figure_diff.hpp"
-#include "reports/diff/images/picture_diff.hpp"
+#include "reports/diff/images/picture_changes.hpp"
 #include "reports/diff/records/record_diff.hpp"
 #include "reports/diff/verdict/verdict.hpp"
 

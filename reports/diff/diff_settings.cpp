@@ -7,7 +7,6 @@
 #include "core/base/errors.hpp"
 #include "core/base/spelling.hpp"
 #include "core/json/record_json.hpp"
-#include "reports/diff/settings_fields.hpp"
 
 namespace mapproof {
 
@@ -30,6 +29,15 @@ PictureOptions DiffSettings::pictures_of(const std::string& id) const {
 
 DiffSettings parse_diff_settings(std::string_view text, const std::string& source) {
   return from_json_text<DiffSettings>(text, source);
+}
+
+std::string problem_of(const PictureOptions& given) {
+  for (const PixelBox& box : given.ignored)
+    if (box.width < 1 || box.height < 1) return "ignored: a box needs a width and a height above 0";
+  BoundsVisitor bounds;
+  PictureOptions options = given;
+  picture_option_fields(bounds, options);
+  return bounds.problem;
 }
 
 }  // namespace mapproof

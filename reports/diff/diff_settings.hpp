@@ -1,12 +1,17 @@
 #pragma once
 
 #include <map>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
 
+#include <fmt/format.h>
+
+#include "core/json/fields.hpp"
+#include "reports/diff/diff_fields.hpp"
 #include "reports/diff/figures/figure_diff.hpp"
-#include "reports/diff/images/picture_diff.hpp"
+#include "reports/diff/images/picture_changes.hpp"
 #include "reports/diff/records/record_diff.hpp"
 
 namespace mapproof {
@@ -32,5 +37,129 @@ struct DiffSettings {
 /// Reads mapproof-diff.json (docs/diff.md, docs/schemas/diff_settings.schema.json).
 /// @throws IoError with file and JSON pointer, for unknown keys too.
 DiffSettings parse_diff_settings(std::string_view text, const std::string& source);
+
+// The fields of mapproof-diff.json and of a file of approvals (core/json/fields.hpp).
+
+namespace record_rules {
+
+inline constexpr double kGreatestTolerance = 1e300;
+
+/// An optional number from 0 up.
+inline FieldRule up_to(double maximum) {
+  return {.minimum = 0.0, .maximum = maximum, .key = Key::kOptional};
+}
+inline FieldRule pixels_from(double minimum) { return {.minimum = minimum, .maximum = 1 << 20}; }
+
+}  // namespace record_rules
+
+/// What is given of a tolerance.
+struct GivenTolerance {
+  std::optional<double> absolute, relative;
+
+  Tolerance in_place_of(const Tolerance& usual) const {
+    return {absolute.value_or(usual.absolute), relative.value_or(usual.relative)};
+  }
+};
+
+template <typename Visitor>
+void fields(Visitor& v, GivenTolerance& tolerance) {
+  v.type("tolerance");
+  v.field("absolute", tolerance.absolute,
+          {.minimum = 0.0, .maximum = record_rules::kGreatestTolerance, .key = Key::kIfAny});
+  v.field("relative", tolerance.relative, {.minimum = 0.0, .maximum = 1.0, .key = Key::kIfAny});
+}
+
+/// Why there cannot be a tolerance of that name; empty if there can: whether a study declares a
+/// quantity that the dictionary lacks shows when it is compared.
+std::string tolerance_problem(const std::string& name);
+
+template <typename Visitor>
+void record_option_fields(Visitor& v, RecordOptions& options) {
+  v.field("significance", options.significance, record_rules::up_to(1.0));
+  v.field("least_effect", options.least_effect, record_rules::up_to(1.0));
+  std::map<std::string, GivenTolerance> tolerances;
+  v.field("tolerances", tolerances,
+          {.description = "By the id of a quantity, or other.", .key = Key::kOptional});
+  if constexpr (Visitor::kReads)
+    for (const auto& [name, given] : tolerances) {
+      if (const std::string problem = tolerance_problem(name); !problem.empty())
+        v.refuse("tolerances", problem);
+      const Quantity* quantity = find_quantity(name);
+      options.tolerances[name] =
+          given.in_place_of(quantity == nullptr ? tolerance_of_others({}) : quantity->rounding);
+    }
+}
+
+template <typename Visitor>
+void picture_option_fields(Visitor& v, PictureOptions& options) {
+  using namespace record_rules;
+  v.field("noise", options.noise, up_to(64.0));
+  v.field("mean_noise", options.mean_noise, up_to(64.0));
+  v.field("displacement_px", options.displacement_px, up_to(4.0));
+  v.field("changed_share", options.changed_share, up_to(1.0));
+  v.field("svg_distance", options.svg_distance, up_to(kGreatestTolerance));
+  v.field("svg_colour", options.svg_colour, up_to(255.0));
+}
+
+/// Finds the first number that its rule does not allow.
+struct BoundsVisitor : FieldVisitor {
+  std::string problem;
+
+  template <typename T>
+  void field(std::string_view key, T& value, const FieldRule& rule = {}) {
+    if (problem.empty() && !(value >= rule.minimum && value <= rule.maximum))
+      problem = fmt::format("{}: must be {} to {}", key, rule.minimum, rule.maximum);
+  }
+};
+
+template <typename Visitor>
+void fields(Visitor& v, IgnoredRegion& region) {
+  using namespace record_rules;
+  v.field("id", region.id);
+  v.field("x", region.box.x, pixels_from(0));
+  v.field("y", region.box.y, pixels_from(0));
+  v.field("width", region.box.width, pixels_from(1));
+  v.field("height", region.box.height, pixels_from(1));
+}
+
+template <typename Visitor>
+void fields(Visitor& v, DiffSettings& settings) {
+  constexpr FieldRule kOptional = {.key = Key::kOptional};
+  v.file("mapproof.diff_settings", "What a comparison goes by: mapproof-diff.json.");
+  v.group(
+      "records", [&](auto& records) { record_option_fields(records, settings.records); },
+      kOptional);
+  const auto visit_figures = [&](auto& figures) {
+    GivenTolerance position;
+    figures.field("position", position, kOptional);
+    settings.figures.position = position.in_place_of(settings.figures.position);
+  };
+  v.group("figures", visit_figures, kOptional);
+  v.group(
+      "pictures", [&](auto& pictures) { picture_option_fields(pictures, settings.pictures); },
+      kOptional);
+  v.field("ignore", settings.ignored, {.max_items = 10'000, .key = Key::kOptional});
+  v.field("allow", settings.allowed, {.max_items = kVerdicts.size(), .key = Key::kOptional});
+}
+
+/// A file of approvals.
+struct ApprovalsFile {
+  std::optional<std::string> baseline, current;
+  std::vector<std::string> ids;
+};
+
+template <typename Visitor>
+void fields(Visitor& v, ApprovalsFile& file) {
+  constexpr FieldRule kSide = {.description = "As it was named when compared; for readers.",
+                               .key = Key::kIfAny};
+  v.file("mapproof.approvals",
+         "The items whose current state is taken as the baseline: for mapproof approve --from.");
+  v.field("baseline", file.baseline, kSide);
+  v.field("current", file.current, kSide);
+  v.field("ids", file.ids, {.min_items = 1, .max_items = 100'000});
+}
+
+/// Names the first field that cannot be used; empty if none.
+std::string problem_of(const PictureOptions& options);
 
 }  // namespace mapproof

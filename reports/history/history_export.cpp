@@ -8,7 +8,6 @@
 #include "core/base/csv.hpp"
 #include "core/base/errors.hpp"
 #include "core/json/record_json.hpp"
-#include "reports/history/night_fields.hpp"
 #include "reports/history/shown_names.hpp"
 
 namespace mapproof {

@@ -1,12 +1,167 @@
 #pragma once
 
+#include <map>
 #include <string>
+#include <string_view>
+#include <vector>
 
 #include <nlohmann/json.hpp>
 
+#include "core/json/fields.hpp"
+#include "core/records/studies/results_study_json.hpp"
+#include "core/records/value_fields.hpp"
 #include "reports/history/history_store.hpp"
+#include "reports/history/night.hpp"
 
 namespace mapproof {
+
+// The fields of night.json and of an exported history (core/json/fields.hpp): both are written
+// alone.
+
+/// What a night is called: verdict_word().
+enum class NightWord { kGood, kCost, kAccuracy, kNotCompared };
+
+inline std::string_view name(NightWord word) {
+  return word == NightWord::kNotCompared ? verdict_word({}) : name(static_cast<NightVerdict>(word));
+}
+
+inline EnumNames enum_names(NightWord) {
+  return names_up_to(NightWord::kNotCompared, "night_verdict");
+}
+
+inline EnumNames enum_names(NightRule) { return names_up_to(NightRule::kCostDrift, "night_rule"); }
+
+/// night.json in a night's folder.
+struct NightFile {
+  NightFacts facts = {};
+  Provenance provenance = {};  ///< In the place of the text in the facts.
+  std::vector<NightFinding> findings = {};
+};
+
+template <typename Visitor>
+void fields(Visitor& v, NightFinding& finding) {
+  v.type("finding");
+  v.field("study", finding.study);
+  v.field("rule", finding.rule);
+  v.field("subject", finding.subject,
+          {.description = "In ids: \"bearing, isomap-K6\"; of a whole study \"all methods\"."});
+  v.field("quantity", finding.quantity, {.description = "Its id, or \"memory\"."});
+  v.field("since", finding.since, {.description = "The night it began.", .minimum = 0});
+  v.field("sentence", finding.sentence, {.description = "For readers, with numbers."});
+}
+
+/// Of a night whatever file it stands in.
+template <typename Visitor>
+void night_fields(Visitor& v, NightFile& night) {
+  using namespace record_rules;
+  NightFacts& facts = night.facts;
+  v.field("night", facts.number, {.description = "Its place in the order.", .minimum = 0});
+  v.field("started_utc", facts.started_utc, {.description = "ISO 8601."});
+  v.field("ended_utc", facts.ended_utc);
+  v.field("command", facts.command, {.max_bytes = 1'000'000});
+  v.field("provenance", night.provenance);
+  v.field("host", facts.host);
+  v.field("processor", facts.processor);
+  v.field("cores", facts.cores, kCount);
+  v.field("jobs", facts.jobs, kCount);
+  v.field("reference", facts.reference,
+          {.description = "The night it was compared with.", .minimum = 0});
+  v.field("pinned", facts.pinned);
+  NightWord word = facts.verdict == NightVerdict::kGood && !facts.reference
+                       ? NightWord::kNotCompared
+                       : static_cast<NightWord>(facts.verdict);
+  v.field("verdict", word);
+  v.field("findings", night.findings);
+}
+
+template <typename Visitor>
+void fields(Visitor& v, NightFile& night) {
+  v.file("mapproof.night",
+         "night.json of mapproof nightly: where and when a night was made, and what got worse.");
+  night_fields(v, night);
+}
+
+/// The values of a series in an exported history.
+struct ExportedSeries {
+  SeriesId id = {};
+  std::map<std::string, double> runs = {};
+};
+
+/// A study of a night in an exported history.
+struct ExportedStudy {
+  StudyNight study = {};
+  std::vector<ExportedSeries> scores = {};
+  bool with_scores = true;
+};
+
+struct ExportedNight {
+  NightFile night = {};
+  std::vector<ExportedStudy> studies = {};
+};
+
+/// What `history --export json` writes.
+struct ExportedHistory {
+  std::vector<ExportedNight> nights = {};
+};
+
+template <typename Visitor>
+void fields(Visitor& v, FigureFile& file) {
+  v.field("file", file.file);
+  v.field("sha256", file.digest);
+  v.field("bytes", file.bytes, {.minimum = 0});
+}
+
+template <typename Visitor>
+void fields(Visitor& v, ExportedSeries& series) {
+  v.type("series");
+  v.field("sensor", series.id.sensor, {.description = "The setup."});
+  v.field("method", series.id.method, {.description = "With all levels but steps."});
+  v.field("step", series.id.step, {.description = "0: of the whole.", .minimum = 0});
+  v.field("quantity", series.id.quantity);
+  v.field("runs", series.runs,
+          {.description = "Its values; null where none came out.", .nullable = true});
+}
+
+template <typename Visitor>
+void fields(Visitor& v, ExportedStudy& exported) {
+  using namespace record_rules;
+  v.type("night_study");
+  StudyNight& study = exported.study;
+  v.field("name", study.name);
+  v.field("kind", study.kind, {.description = "The schema of its study.json."});
+  v.field("order_digest", study.order_digest,
+          {.description = "SHA-256 of the experiment as it was ordered."});
+  v.field("runs", study.runs, kCount);
+  v.field("seconds", study.seconds);
+  v.field("peak_memory_mib", study.peak_memory_mib);
+  std::vector<Quantity> quantities = study.quantities.declared();
+  v.field("quantities", quantities,
+          {.description = "What the study declares beside mapproof's dictionary."});
+  const auto labels = [&](std::string_view key, const std::map<std::string, std::string>& of_ids,
+                          std::string_view what) {
+    std::vector<Label> all;
+    for (const auto& [id, label] : of_ids) all.push_back({.id = id, .label = label});
+    v.field(key, all, {.description = what});
+  };
+  labels("setups", study.labels.setups, "What the study calls them.");
+  labels("methods", study.labels.methods,
+         "What the study calls them; empty: they are mapproof's own.");
+  v.field("figures", study.figures);
+  v.field("scores", exported.scores, {.key = Key::kOptional, .written = exported.with_scores});
+}
+
+template <typename Visitor>
+void fields(Visitor& v, ExportedNight& night) {
+  v.type("night");
+  night_fields(v, night.night);
+  v.field("studies", night.studies);
+}
+
+template <typename Visitor>
+void fields(Visitor& v, ExportedHistory& history) {
+  v.file("mapproof.history", "Every value of every night: mapproof history --export json.");
+  v.field("nights", history.nights);
+}
 
 /// Every value of every night as CSV [rfc4180]: night, started_utc, study, sensor, method, step,
 /// quantity, run, value, and what setup and method are called; a value that is missing is an empty

@@ -1,17 +1,62 @@
 #pragma once
 
 #include <map>
+#include <span>
 #include <string>
 #include <vector>
 
 #include "render/plot/figure.hpp"
-#include "reports/history/history_tables.hpp"
+#include "reports/history/history_pages.hpp"
 #include "reports/history/night.hpp"
-#include "reports/history/night_links.hpp"
 #include "reports/history/trend_figures.hpp"
 #include "reports/model/report.hpp"
 
 namespace mapproof {
+
+/// Where the pages of a history lie, as seen from one of them: folders that end in '/', or empty
+/// for the page's own.
+struct HistoryPlaces {
+  std::string pages = {};   ///< Of index.html and trends/.
+  std::string nights = {};  ///< Of nights/.
+};
+
+/// Links from one page of a history to the others, and what they are called.
+class NightLinks {
+ public:
+  explicit NightLinks(HistoryPlaces places) : places_(std::move(places)) {}
+
+  Phrase index();
+  Phrase trends(const std::string& study);
+  Phrase report(int night, const std::string& study);
+  /// The folder of a night of several studies.
+  Phrase folder(int night);
+
+  /// The words of every link that was asked for, by its path (see HtmlOptions::link_words).
+  const std::map<std::string, std::string>& words() const { return words_; }
+
+ private:
+  Phrase link(const std::string& path, const std::string& words);
+
+  HistoryPlaces places_;
+  std::map<std::string, std::string> words_;
+};
+
+/// Names of the studies by night.
+using NightStudies = std::map<int, std::vector<std::string>>;
+
+/// "2026-11-22 02:30" of "2026-11-22T02:30:07Z"; what is no such time as it is.
+std::string to_the_minute(const std::string& utc);
+
+/// One row a night, the last one first.
+/// @param studies  Of each night: its report is linked where there is one study, else its folder.
+Table nights_table(std::span<const NightFacts> nights, const NightFindings& findings,
+                   const NightStudies& studies, NightLinks& links);
+
+/// One row a finding of those nights, the last night first.
+Table findings_table(const NightFindings& findings, const std::string& study);
+
+/// Where each method stands tonight beside the night before and the first.
+Table accuracy_table(const StudyTrend& trend);
 
 /// A page with its figures as values.
 struct HistoryPage {

@@ -8,7 +8,6 @@
 #include "core/base/words.hpp"
 #include "reports/html/block_data.hpp"
 #include "reports/html/page_frame.hpp"
-#include "reports/html/table_data.hpp"
 #include "reports/model/format.hpp"
 
 namespace mapproof {
@@ -88,11 +87,6 @@ void set_opening(data& page, const Report& report, const std::string& linked,
 }
 
 }  // namespace
-
-const std::string& link_words(const std::string& path, const HtmlOptions& options) {
-  const auto found = options.link_words.find(path);
-  return found == options.link_words.end() ? path : found->second;
-}
 
 std::string report_html(const Report& report, const Templates& templates, const SvgLookup& svg,
                         const HtmlOptions& options) {

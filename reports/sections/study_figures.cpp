@@ -1,13 +1,19 @@
 #include "reports/sections/study_figures.hpp"
 
+#include <algorithm>
+#include <iterator>
+#include <string_view>
 #include <utility>
 
 #include <fmt/format.h>
 
+#include "core/base/words.hpp"
 #include "reports/sections/figures/builders.hpp"
+#include "reports/sections/variation_summary.hpp"
 #include "reports/sections/wording.hpp"
 
 namespace mapproof {
+
 namespace {
 
 void append(std::vector<Figure>& all, std::vector<Figure> more) {
@@ -20,6 +26,9 @@ void number(std::vector<Figure>& figures) {
     if (const std::string words = paper_number(figure.id); !words.empty())
       figure.title = fmt::format("{}. {}", words, figure.title);
 }
+
+/// How the ids of film strips begin (docs/figures.md).
+constexpr std::string_view kForming = "forming-";
 
 }  // namespace
 
@@ -98,6 +107,26 @@ std::vector<const Film*> all_films(const StudyFigures& figures) {
   for (const FigureGroup& group : figures.groups)
     for (const Film& film : group.films) all.push_back(&film);
   return all;
+}
+
+FigureBlock figure_block(const Figure& figure) {
+  FigureBlock block{figure.id, figure.title, figure.caption, figure.alt, figure.record_ids};
+  if (!figure.id.starts_with(kForming)) return block;
+  for (const Panel& panel : figure.panels) block.steps.push_back(panel.title);
+  return block;
+}
+
+FigureBlock figure_block(const Scene& scene) {
+  return {scene.id, scene.title, scene.caption, scene.alt, scene.record_ids, "scene"};
+}
+
+Gallery gallery_of(const FigureGroup& group, std::size_t first) {
+  Gallery gallery;
+  for (const Figure& figure : group.figures) gallery.figures.push_back(figure_block(figure));
+  for (const Scene& scene : group.scenes) gallery.figures.push_back(figure_block(scene));
+  gallery.figures.erase(gallery.figures.begin(),
+                        gallery.figures.begin() + static_cast<std::ptrdiff_t>(first));
+  return gallery;
 }
 
 }  // namespace mapproof

@@ -1,14 +1,26 @@
 #include "reports/sections/study_report.hpp"
 
+#include <algorithm>
 #include <iterator>
+#include <map>
+#include <tuple>
 
 #include <fmt/format.h>
 
 #include "core/base/words.hpp"
+#include "render/figures/status_words.hpp"
+#include "reports/model/format.hpp"
+#include "reports/sections/findings.hpp"
+#include "reports/sections/method_summary.hpp"
 #include "reports/sections/opening.hpp"
 #include "reports/sections/proofs.hpp"
+#include "reports/sections/study_counts.hpp"
+#include "reports/sections/study_tables.hpp"
+#include "reports/sections/variation_summary.hpp"
+#include "reports/sections/wording.hpp"
 
 namespace mapproof {
+
 namespace {
 
 std::string subtitle(const Study& study) {
@@ -16,6 +28,165 @@ std::string subtitle(const Study& study) {
   return fmt::format("Experiment {}, seed {}: {}, {}, room of {:g} m", experiment.name,
                      experiment.seed, counted(std::ssize(study.runs), "simulated run"),
                      counted(experiment.world.landmarks, "landmark"), experiment.world.side_m);
+}
+
+void add_half(const SensorStudy& sensor, const HalfChoices& choices, Section& section) {
+  if (choices.halves == Halves::kNone) {
+    section.blocks.emplace_back(
+        plain("The parameter cannot be chosen on one half of the runs and judged on the other: "
+              "there are no two halves."));
+    return;
+  }
+  if (const std::string words = optimism_words(choices); !words.empty())
+    section.blocks.emplace_back(plain(
+        "Choosing the parameter by the very runs that are then reported, as the paper does, is "
+        "optimistic: " +
+        words));
+  section.blocks.emplace_back(half_table(sensor, choices));
+}
+
+void add_ranks(const SensorStudy& sensor, const MethodRanks& ranks, Section& section) {
+  if (ranks.test)
+    section.blocks.emplace_back(rank_table(sensor, ranks));
+  else
+    section.blocks.emplace_back(
+        plain(fmt::format("Methods cannot be ranked by a test: {} scored by {} in common; two of "
+                          "each are needed.",
+                          counted(std::ssize(ranks.layouts), "layout"),
+                          counted(std::ssize(ranks.methods), "method"))));
+}
+
+constexpr std::size_t kPlacesShown = 5;
+
+/// Sensor, method, parameter: what statuses are counted by.
+using StatusKind = std::tuple<Sensor, Method, double>;
+
+StatusKind kind_of(const RunRecord& record) {
+  return {record.sensor, record.setting.method, record.setting.parameter.value_or(0.0)};
+}
+
+void add_record(StatusList::Item& item, const RunId& run, const RunRecord& record,
+                StatusCode code) {
+  ++item.count;
+  if (item.places.size() >= kPlacesShown) return;
+  for (const Status& status : record.statuses)
+    if (status.code == code)
+      item.places.push_back(
+          {record_id(run, record.sensor, record.setting, record.step), status_words(status)});
+}
+
+/// Severest first: no map, then by share.
+bool before(const StatusList::Item& a, const StatusList::Item& b) {
+  if (a.failed != b.failed) return a.failed;
+  return static_cast<double>(a.count) * b.of > static_cast<double>(b.count) * a.of;
+}
+
+StatusList status_list(const Study& study) {
+  std::map<StatusKind, int> totals;
+  std::map<std::pair<StatusKind, StatusCode>, StatusList::Item> items;
+  for (const Run& run : study.runs)
+    for (const RunRecord& record : run.records) {
+      ++totals[kind_of(record)];
+      for (std::size_t i = 0; i < record.statuses.size(); ++i) {
+        const StatusCode code = record.statuses[i].code;
+        const auto earlier = std::span(record.statuses).first(i);
+        if (std::ranges::any_of(earlier, [&](const Status& s) { return s.code == code; })) continue;
+        StatusList::Item& item = items[{kind_of(record), code}];
+        item.where = fmt::format("{}, {}", name(record.sensor), label(record.setting));
+        add_record(item, run.id, record, code);
+      }
+    }
+  StatusList list;
+  for (auto& [key, item] : items) {
+    item.code = name(key.second);
+    item.meaning = meaning(key.second);
+    item.failed = key.second == StatusCode::kFailed || key.second == StatusCode::kAnchorsMissing;
+    item.of = totals[key.first];
+    list.items.push_back(std::move(item));
+  }
+  std::ranges::stable_sort(list.items, before);
+  return list;
+}
+
+/// What [yairi2007, section 4.1] ran.
+constexpr int kPaperLayouts = 5;
+constexpr int kPaperPoses = 5;
+constexpr int kPaperSteps = 2000;
+constexpr int kPaperLandmarks = 50;
+
+void add_sensor(const Study& study, const SensorStudy& sensor, BulletList& findings,
+                Highlights& highlights) {
+  const auto methods = best_of_each_method(summarize(study, sensor, last_step(sensor)));
+  const SettingSummary* best = best_of(methods);
+  const std::string title = title_of(sensor.sensor.sensor);
+  if (best == nullptr) {
+    findings.items.push_back({{strong(title), phrase(": no map could be scored.")}});
+    highlights.items.push_back({title + ", best MPE", kMissingText, "no map could be scored"});
+    return;
+  }
+  std::ranges::move(sensor_findings(study, sensor, methods).items,
+                    std::back_inserter(findings.items));
+  std::string detail = label(best->setting);
+  if (best->published) detail += "; paper: " + metres(best->published->mpe_m);
+  highlights.items.push_back({title + ", best MPE", metres(best->mpe_m->mean), detail});
+}
+
+void add_ends(const Study& study, BulletList& findings, Highlights& highlights) {
+  const StudyCounts counts = count(study);
+  const Experiment& experiment = study.experiment;
+  const long planned = static_cast<long>(experiment.layouts) * experiment.poses;
+  highlights.items.push_back({"Runs", fmt::format("{} of {}", study.runs.size(), planned),
+                              fmt::format("{}, {} each", counted(experiment.layouts, "layout"),
+                                          counted(experiment.poses, "initial pose"))});
+  highlights.items.push_back({"Maps with a status",
+                              fmt::format("{} of {}", counts.with_status, counts.maps),
+                              fmt::format("{} without a score", counts.unscored)});
+  if (counts.maps == 0) return;
+  const std::string maps = counted(counts.maps, "map");
+  const std::string text =
+      counts.with_status + counts.unscored == 0
+          ? fmt::format(": none: every one of {} ended well.", maps)
+          : fmt::format(
+                ": of {}, {} without a score and {} with a status, all listed below with "
+                "the reason.",
+                maps, counts.unscored, counts.with_status);
+  findings.items.push_back({{strong("Failures"), phrase(text)}});
+}
+
+/// In what the study is smaller than the paper's; empty if in nothing.
+std::string smaller_than_paper(const Experiment& experiment) {
+  const bool yairi = std::ranges::any_of(experiment.sensors, [](const SensorStudy& sensor) {
+    return sensor.published.source.starts_with("Yairi 2007");
+  });
+  if (!yairi) return "";
+  std::string text;
+  if (experiment.layouts < kPaperLayouts || experiment.poses < kPaperPoses)
+    text += fmt::format("{} of {} each where the paper averaged {} of {} each. ",
+                        counted(experiment.layouts, "layout"),
+                        counted(experiment.poses, "initial pose"), counted(kPaperLayouts, "layout"),
+                        counted(kPaperPoses, "initial pose"));
+  for (const SensorStudy& sensor : experiment.sensors)
+    if (last_step(sensor) < kPaperSteps)
+      text += fmt::format("{} stops at {} observations, the paper at {}. ",
+                          title_of(sensor.sensor.sensor), last_step(sensor), kPaperSteps);
+  if (experiment.world.landmarks != kPaperLandmarks)
+    text += fmt::format("{} where the paper had {}. ",
+                        counted(experiment.world.landmarks, "landmark"), kPaperLandmarks);
+  return text;
+}
+
+std::vector<Callout> caveats(const Study& study) {
+  std::vector<Callout> found;
+  const Experiment& experiment = study.experiment;
+  const long planned = static_cast<long>(experiment.layouts) * experiment.poses;
+  if (static_cast<long>(study.runs.size()) < planned)
+    found.push_back({Callout::Tone::kWarning, "Incomplete",
+                     plain(fmt::format("{} of {} are done; every number below rests on these.",
+                                       study.runs.size(), counted(planned, "run")))});
+  if (const std::string smaller = smaller_than_paper(experiment); !smaller.empty())
+    found.push_back({Callout::Tone::kNote, "Not the paper\u2019s protocol",
+                     plain(smaller + "The printed values are shown for orientation.")});
+  return found;
 }
 
 }  // namespace
@@ -40,6 +211,86 @@ Report study_report(const StudyReportInput& input) {
   report.footer = fmt::format("Made by mapproof {} ({}).", input.study.provenance.version,
                               input.study.provenance.commit);
   return report;
+}
+
+Section accuracy_section(const Study& study, const SensorStudy& sensor) {
+  const std::vector<SettingSummary> all = summarize(study, sensor, last_step(sensor));
+  const std::vector<SettingSummary> best = best_of_each_method(all);
+  const bool grid = all.size() > best.size();
+  Section section;
+  section.id = fmt::format("methods-{}", name(sensor.sensor.sensor));
+  section.title = title_of(sensor.sensor.sensor) + ": methods";
+  section.blocks.emplace_back(plain(fmt::format(
+      "Maps after {} observations, aligned to {} by the affine map of {}. Smaller is better.",
+      last_step(sensor), counted(study.experiment.anchors, "anchor"),
+      label(study.experiment.affine_fit))));
+  section.blocks.emplace_back(accuracy_table(sensor, best, grid));
+  if (!sensor.published.values.empty())
+    section.blocks.emplace_back(paper_parameter_table(sensor, all));
+  if (!sensor.published.orderings.empty())
+    section.blocks.emplace_back(ordering_table(sensor, ordering_claims(study, sensor)));
+  if (grid) add_half(sensor, half_choices(study, sensor), section);
+  if (best.size() > 1) add_ranks(sensor, method_ranks(study, sensor), section);
+  section.blocks.emplace_back(spread_table(sensor, best));
+  if (grid) section.blocks.emplace_back(parameter_table(sensor, all));
+  return section;
+}
+
+Section statuses_section(const Study& study) {
+  const StudyCounts counts = count(study);
+  Section section;
+  section.id = "statuses";
+  section.title = "Warnings and failures";
+  StatusList list = status_list(study);
+  if (list.items.empty() && counts.unscored == 0) {
+    section.blocks.emplace_back(
+        plain(counts.maps == 0 ? "No map was made."
+                               : fmt::format("Nothing: each solve ended well, {} in all.",
+                                             counted(counts.maps, "map"))));
+    return section;
+  }
+  section.blocks.emplace_back(plain(fmt::format(
+      "Of {}, {} with a status, {} without a score, and {} of these no map at all. A status is "
+      "data: the numbers above include every map that could be scored, with or without one.",
+      counted(counts.maps, "map"), counts.with_status, counts.unscored, counts.failed)));
+  section.blocks.emplace_back(std::move(list));
+  return section;
+}
+
+Section summary_section(const Study& study) {
+  Section section{"summary", "Summary", {}};
+  section.blocks.emplace_back(plain(fmt::format(
+      "Maps of {} built from what a simulated robot observed, without ever estimating its pose. "
+      "MPE, mean position error: mean distance to the true position over the landmarks that are "
+      "no anchors. MOE, mean orientation error: share of landmark triples that turn the wrong way.",
+      counted(study.experiment.world.landmarks, "landmark"))));
+  BulletList findings;
+  Highlights highlights;
+  for (const SensorStudy& sensor : study.experiment.sensors)
+    add_sensor(study, sensor, findings, highlights);
+  add_ends(study, findings, highlights);
+  section.blocks.emplace_back(std::move(highlights));
+  for (Callout& callout : caveats(study)) section.blocks.emplace_back(std::move(callout));
+  section.blocks.emplace_back(std::move(findings));
+  return section;
+}
+
+Section figures_section(const FigureGroup& group) {
+  Section section{group.id, group.title, {}};
+  section.blocks.emplace_back(plain(group.words));
+  section.blocks.emplace_back(gallery_of(group));
+  return section;
+}
+
+std::optional<Section> variations_section(const Study& study) {
+  if (study.experiment.variations.empty()) return std::nullopt;
+  Section section{"variations", "Variations", {}};
+  section.blocks.emplace_back(
+      plain("The numbers behind the figures of anchors, noise and missing entries, one thing "
+            "changed at a time."));
+  for (const Variation& variation : study.experiment.variations)
+    section.blocks.emplace_back(variation_table(study, variation));
+  return section;
 }
 
 }  // namespace mapproof

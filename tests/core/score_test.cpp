@@ -9,7 +9,6 @@
 #include "core/base/errors.hpp"
 #include "core/base/random.hpp"
 #include "core/score/map_score.hpp"
-#include "core/score/orientation_error.hpp"
 #include "tests/support/worlds.hpp"
 
 namespace mapproof {

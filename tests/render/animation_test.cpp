@@ -9,7 +9,7 @@
 #include "core/base/errors.hpp"
 #include "core/base/files.hpp"
 #include "core/base/random.hpp"
-#include "render/output/write_animation.hpp"
+#include "render/output/write_scene.hpp"
 #include "tests/support/apng_reader.hpp"
 #include "tests/support/environment.hpp"
 #include "tests/support/faults.hpp"

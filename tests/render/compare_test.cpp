@@ -6,7 +6,6 @@
 #include "render/cairo/cairo_backend.hpp"
 #include "render/figures/curves/error_curve.hpp"
 #include "render/figures/maps/map.hpp"
-#include "render/image/palette_image.hpp"
 #include "render/image/png.hpp"
 #include "render/image/png_read.hpp"
 #include "render/plot/layout.hpp"

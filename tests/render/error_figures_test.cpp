@@ -4,7 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "core/base/errors.hpp"
-#include "render/figures/curves/error_by_parameter.hpp"
+#include "render/figures/curves/error_curve.hpp"
 #include "tests/support/figure_parts.hpp"
 #include "tests/support/sample_studies.hpp"
 

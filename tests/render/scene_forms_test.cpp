@@ -7,7 +7,6 @@
 #include "core/base/random.hpp"
 #include "render/scene/forming_scene.hpp"
 #include "render/scene/quadric_scene.hpp"
-#include "render/scene/quadric_surface.hpp"
 #include "render/scene/space_scene.hpp"
 #include "tests/support/sample_figures.hpp"
 #include "tests/support/sample_scenes.hpp"

@@ -10,7 +10,6 @@
 #include "render/scene/scene_figure.hpp"
 #include "render/scene/scene_json.hpp"
 #include "render/scene/scene_request.hpp"
-#include "render/scene/solids.hpp"
 #include "tests/support/figure_checks.hpp"
 #include "tests/support/sample_scenes.hpp"
 

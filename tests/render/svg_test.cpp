@@ -6,7 +6,6 @@
 
 #include "render/figures/maps/map.hpp"
 #include "render/output/write_figure.hpp"
-#include "render/svg/xml_text.hpp"
 #include "tests/support/sample_figures.hpp"
 #include "tests/support/xml.hpp"
 

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "core/trials/topic.hpp"
+#include "core/trials/topics.hpp"
 
 namespace mapproof {
 namespace {

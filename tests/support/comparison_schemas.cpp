@@ -1,8 +1,8 @@
 #include "tests/support/comparison_schemas.hpp"
 
 #include "core/json/json_text.hpp"
-#include "reports/diff/settings_fields.hpp"
-#include "reports/history/night_fields.hpp"
+#include "reports/diff/diff_settings.hpp"
+#include "reports/history/history_export.hpp"
 #include "tests/support/record_schema.hpp"
 
 namespace mapproof::test {

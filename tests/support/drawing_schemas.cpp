@@ -2,7 +2,7 @@
 
 #include "core/json/json_text.hpp"
 #include "render/plot/figure_fields.hpp"
-#include "render/scene/scene_fields.hpp"
+#include "render/scene/scene_json.hpp"
 #include "tests/support/record_schema.hpp"
 
 namespace mapproof::test {

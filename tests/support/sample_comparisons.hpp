@@ -2,13 +2,13 @@
 
 #include <vector>
 
-#include "render/figures/curves/anchor_count.hpp"
+#include "render/figures/curves/error_curve.hpp"
 #include "render/figures/curves/level_curve.hpp"
 #include "render/figures/curves/pareto.hpp"
 #include "render/figures/curves/spectrum.hpp"
 #include "render/figures/diagrams/critical_difference.hpp"
 #include "render/figures/diagrams/heat_map.hpp"
-#include "render/figures/diagrams/idea.hpp"
+#include "render/figures/diagrams/measurement.hpp"
 #include "render/figures/diagrams/shepard.hpp"
 #include "render/figures/maps/ellipse_map.hpp"
 #include "render/figures/maps/map_grid.hpp"

@@ -6,10 +6,8 @@
 #include <Eigen/LU>
 
 #include "core/base/random.hpp"
-#include "render/scene/error_field_scene.hpp"
 #include "render/scene/forming_scene.hpp"
-#include "render/scene/manifold_scene.hpp"
-#include "render/scene/measurement_scene.hpp"
+#include "render/scene/observation_scenes.hpp"
 #include "render/scene/projection.hpp"
 #include "render/scene/quadric_scene.hpp"
 #include "render/scene/room.hpp"

@@ -2,8 +2,8 @@
 
 #include <vector>
 
-#include "core/model/measurement.hpp"
-#include "render/figures/curves/error_by_parameter.hpp"
+#include "core/model/study.hpp"
+#include "render/figures/curves/error_curve.hpp"
 #include "render/plot/figure.hpp"
 
 namespace mapproof::test {

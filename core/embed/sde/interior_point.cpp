@@ -5,18 +5,52 @@
 #include <optional>
 #include <utility>
 
-#include "core/embed/sde/kkt_newton.hpp"
-#include "core/embed/sde/reduced.hpp"
 #include "core/linalg/cholesky.hpp"
 #include "core/linalg/decompositions.hpp"
 #include "core/linalg/gram.hpp"
 
 namespace mapproof::unfolding {
+
 namespace {
 
 using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
+
+constexpr double kLeastShift = 1e-6;
+
+/// L(w) - M, the eigenvalue of the constant vector lifted.
+Eigen::MatrixXd slack_matrix(const Problem& problem, const Eigen::VectorXd& w) {
+  Eigen::MatrixXd S = -Eigen::MatrixXd(problem.mass.asDiagonal());
+  S.noalias() += (3.0 / problem.mass.sum()) * problem.mass * problem.mass.transpose();
+  for (Eigen::Index k = 0; k < w.size(); ++k) {
+    const auto& [i, j] = problem.pairs[static_cast<std::size_t>(k)];
+    S(i, j) -= w(k);
+    S(j, i) -= w(k);
+    S(i, i) += w(k);
+    S(j, j) += w(k);
+  }
+  return S;
+}
+
+/// 2 (b_k' G b_l) (b_k' P b_l) over pairs k and l, where b_k = e_i - e_j: the lower triangle.
+Eigen::MatrixXd pairs_matrix(const Problem& problem, const Eigen::MatrixXd& G,
+                             const Eigen::MatrixXd& P) {
+  const Eigen::Index m = problem.squared.size();
+  Eigen::MatrixXd T(m, m);
+  Eigen::VectorXd g(G.rows());
+  Eigen::VectorXd p(G.rows());
+  for (Eigen::Index l = 0; l < m; ++l) {
+    const auto& [a, b] = problem.pairs[static_cast<std::size_t>(l)];
+    g.noalias() = 2.0 * (G.col(a) - G.col(b));
+    p.noalias() = P.col(a) - P.col(b);
+    for (Eigen::Index k = l; k < m; ++k) {
+      const auto& [i, j] = problem.pairs[static_cast<std::size_t>(k)];
+      T(k, l) = (g(i) - g(j)) * (p(i) - p(j));
+    }
+  }
+  return T;
+}
 
 constexpr double kOfTheWay = 0.95;  // To the boundary.
 constexpr double kGapToPolish = 1e-7;
@@ -244,6 +278,113 @@ std::optional<Solution> polished(const Problem& problem, Solution solution) {
 }
 
 }  // namespace
+
+using Eigen::Index;
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+
+Reduced::Reduced(const Problem& problem) : problem_(problem), n_(problem.points() - 1) {
+  const VectorXd mass = problem.mass.tail(n_);
+  C_ = -mass * mass.transpose() / problem.mass.sum();
+  C_.diagonal() += mass;
+}
+
+VectorXd Reduced::along_pairs(const MatrixXd& P) const {
+  VectorXd result(pairs());
+  for (Index k = 0; k < pairs(); ++k) {
+    const auto [i, j] = ends(k);
+    result(k) = P(j, j);
+    if (i >= 0) result(k) += P(i, i) - P(i, j) - P(j, i);
+  }
+  return result;
+}
+
+MatrixXd Reduced::laplacian(const VectorXd& w) const {
+  MatrixXd L = MatrixXd::Zero(n_, n_);
+  for (Index k = 0; k < pairs(); ++k) {
+    const auto [i, j] = ends(k);
+    L(j, j) += w(k);
+    if (i < 0) continue;
+    L(i, i) += w(k);
+    L(i, j) -= w(k);
+    L(j, i) -= w(k);
+  }
+  return L;
+}
+
+MatrixXd Reduced::times_laplacian(const MatrixXd& P, const VectorXd& w) const {
+  MatrixXd product = MatrixXd::Zero(P.rows(), n_);
+  VectorXd along(P.rows());
+  for (Index k = 0; k < pairs(); ++k) {
+    const auto [i, j] = ends(k);
+    along = w(k) * P.col(j);
+    if (i >= 0) {
+      along -= w(k) * P.col(i);
+      product.col(i) -= along;
+    }
+    product.col(j) += along;
+  }
+  return product;
+}
+
+void Reduced::schur(const MatrixXd& P, const MatrixXd& Q, MatrixXd& S) const {
+  S.resize(pairs(), pairs());
+  // Both products of a point in one place; the origin's are zero.
+  Eigen::Matrix2Xd pq = Eigen::Matrix2Xd::Zero(2, n_ + 1);
+  for (Index l = 0; l < pairs(); ++l) {
+    const auto [a, b] = ends(l);
+    pq.row(0).tail(n_) = P.col(b).transpose();
+    pq.row(1).tail(n_) = Q.col(b).transpose();
+    if (a >= 0) {
+      pq.row(0).tail(n_) -= P.col(a).transpose();
+      pq.row(1).tail(n_) -= Q.col(a).transpose();
+    }
+    for (Index k = l; k < pairs(); ++k) {
+      const auto& [i, j] = problem_.pairs[static_cast<std::size_t>(k)];
+      S(k, l) = (pq(0, i) - pq(0, j)) * (pq(1, i) - pq(1, j));
+    }
+  }
+}
+
+KktResiduals kkt_residuals(const Problem& problem, const Rows& Y, const Eigen::VectorXd& w) {
+  return {.pairs = residuals(problem, Y).norm(), .gradient = slack_times(problem, w, Y).norm()};
+}
+
+std::optional<KktStep> kkt_newton_step(const Problem& problem, const Rows& Y,
+                                       const Eigen::VectorXd& w) {
+  const Rows gradient = slack_times(problem, w, Y);
+  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> slack(slack_matrix(problem, w));
+  if (slack.info() != Eigen::Success) return std::nullopt;
+  const double lowest = slack.eigenvalues()(0);
+  const double shift = std::max({kLeastShift, -2.0 * lowest, 2.0 * gradient.norm() / Y.norm()});
+  const Eigen::MatrixXd& Q = slack.eigenvectors();
+  const Eigen::MatrixXd G =
+      Q * (slack.eigenvalues().array() + shift).inverse().matrix().asDiagonal() * Q.transpose();
+
+  Eigen::MatrixXd T = pairs_matrix(problem, G, Y * Y.transpose());
+  // Distances that follow from others leave w undetermined: take a small change.
+  T.diagonal().array() += 1e-12 * T.diagonal().mean();
+  const Rows pulled = G * gradient;
+  Eigen::VectorXd right = residuals(problem, Y);
+  for (Eigen::Index k = 0; k < right.size(); ++k) {
+    const auto& [i, j] = problem.pairs[static_cast<std::size_t>(k)];
+    right(k) -= 2.0 * (Y.row(i) - Y.row(j)).dot(pulled.row(i) - pulled.row(j));
+  }
+  if (!factor_cholesky(T)) return std::nullopt;
+  const Eigen::VectorXd change = solve_cholesky(T, right);
+
+  Rows force = -gradient;
+  for (Eigen::Index k = 0; k < change.size(); ++k) {
+    const auto& [i, j] = problem.pairs[static_cast<std::size_t>(k)];
+    const Eigen::RowVectorXd along = change(k) * (Y.row(i) - Y.row(j));
+    force.row(i) -= along;
+    force.row(j) += along;
+  }
+  KktStep step{.Y = G * force, .w = change};
+  if (!step.Y.allFinite() || !step.w.allFinite()) return std::nullopt;
+  centre(problem, step.Y);
+  return step;
+}
 
 ProvedSolution solve_by_interior_point(const Problem& problem, const MatrixXd& gram,
                                        const InteriorPointOptions& options) {

@@ -6,7 +6,6 @@
 #include <Eigen/Core>
 
 #include "core/model/points.hpp"
-#include "core/model/space_points.hpp"
 #include "core/model/status.hpp"
 
 namespace mapproof {

@@ -8,12 +8,11 @@
 #include "core/base/angle.hpp"
 #include "core/base/errors.hpp"
 #include "core/linalg/planarity.hpp"
-#include "core/range_slam/heading.hpp"
-#include "core/range_slam/landmarks_on_path.hpp"
+#include "core/range_slam/known_landmarks.hpp"
 #include "core/range_slam/localise.hpp"
 #include "core/range_slam/log_checks.hpp"
-#include "core/range_slam/odometry_fit.hpp"
 #include "core/range_slam/refinement/bootstrap.hpp"
+#include "core/range_slam/upgraded_path.hpp"
 
 namespace mapproof {
 namespace {

@@ -6,7 +6,7 @@
 #include "core/model/range_log.hpp"
 #include "core/model/slam.hpp"
 #include "core/range_slam/factors/metric_upgrade.hpp"
-#include "core/range_slam/factors/window_choice.hpp"
+#include "core/range_slam/factors/windowed_ranges.hpp"
 #include "core/range_slam/known_landmarks.hpp"
 
 namespace mapproof {

@@ -3,6 +3,8 @@
 #include <optional>
 #include <vector>
 
+#include <Eigen/Core>
+
 #include "core/model/range_log.hpp"
 #include "core/model/slam.hpp"
 #include "core/range_slam/factors/metric_upgrade.hpp"
@@ -10,6 +12,27 @@
 #include "core/range_slam/known_landmarks.hpp"
 
 namespace mapproof {
+
+/// Landmarks in space whose place is given.
+struct KnownSpaceLandmarks {
+  std::vector<Eigen::Index> rows;  ///< In the map, all different.
+  SpacePoints positions_m;         ///< As many as rows, finite.
+};
+
+/// Spectral SLAM in space: squared ranges have rank 5 there, [|m|^2/2, m, 1] times
+/// [1, -p, |p|^2/2]', and all else is as in the plane [boots2013, algorithm 1 and section 2].
+/// @param ranges_m  N x T, finite: all landmarks at all times.
+/// @param known     Empty: no landmark is known; the map is then free to move and mirror.
+/// @param noise     What is taken off squared ranges.
+/// @return An empty path, NaN landmarks and a status where no map came out: kTooFewObservations
+///         below 5 landmarks, 5 known ones, or 13 steps; kRankDeficient and kDegenerateGeometry
+///         where landmarks or path keep to a plane or sphere, or come nearer to one than noise
+///         tells. kUndetermined beside a map where another quadric fits nearly as well.
+/// @throws InvalidInput if a bound is broken.
+/// @note O(N^2 T) time.
+SpaceEstimate space_slam(const Eigen::MatrixXd& ranges_m,
+                         const std::optional<KnownSpaceLandmarks>& known,
+                         const RangeNoise& noise = {});
 
 /// Ranges to all landmarks at common times.
 struct SynchronousRanges {

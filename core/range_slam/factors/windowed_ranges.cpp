@@ -2,16 +2,148 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
+#include <numbers>
 #include <utility>
+#include <vector>
 
 #include <fmt/format.h>
 
 #include "core/align/path_at.hpp"
 #include "core/base/errors.hpp"
+#include "core/linalg/decompositions.hpp"
+#include "core/range_slam/factors/spread_rows.hpp"
 #include "core/range_slam/log_checks.hpp"
 
 namespace mapproof {
+
 namespace {
+
+constexpr Eigen::Index kTurns = 5;
+/// Blocks of held-out readings to a window.
+constexpr double kBlocks = 6.0;
+/// Lengths tried: down to 1/181 of all the time.
+constexpr int kLengths = 16;
+/// Coverage is judged on about this many of the times.
+constexpr Eigen::Index kCoverageTimes = 500;
+/// Held-out readings that no window tells beyond this share make a length unusable.
+constexpr double kUntold = 0.02;
+
+/// Sum of absolute errors over the readings told, and how many were and were not.
+struct HeldOut {
+  double error_m = 0.0;
+  Eigen::Index told = 0;
+  Eigen::Index untold = 0;
+};
+
+/// @param phase  Shifts the blocks, so that landmarks are not held out at the same times.
+void hold_out(const LandmarkReadings& readings, Eigen::Index turn, Eigen::Index phase,
+              const WindowOptions& options, double first_s, HeldOut& result) {
+  std::vector<Eigen::Index> kept, out;
+  for (Eigen::Index i = 0; i < readings.size(); ++i) {
+    const double block = std::floor((readings.time_s(i) - first_s) * kBlocks / options.length_s);
+    const bool is_out = std::fmod(block + static_cast<double>(phase), kTurns) == double(turn);
+    (is_out ? out : kept).push_back(i);
+  }
+  const LandmarkReadings asked = readings.at(out);
+  // Asked at all readings, so that the windows lie as they do for the whole.
+  const Eigen::VectorXd half_squares =
+      windowed_half_squares(readings.at(kept), readings.time_s, readings.positions_m, options);
+  const double scale = options.range_scale;
+  for (std::size_t i = 0; i < out.size(); ++i) {
+    const double half_square = half_squares(out[i]);
+    if (!std::isfinite(half_square)) {
+      ++result.untold;
+      continue;
+    }
+    const double range_m = scale * std::sqrt(std::max(0.0, 2.0 * half_square));
+    result.error_m += std::abs(range_m - asked.range_m(static_cast<Eigen::Index>(i)));
+    ++result.told;
+  }
+}
+
+WindowTrial tried(const std::vector<LandmarkReadings>& readings, const Trajectory& path,
+                  const Eigen::VectorXd& some_s, double length_s) {
+  const double first_s = some_s(0), last_s = some_s(some_s.size() - 1);
+  WindowOptions options{.length_s = length_s,
+                        .range_scale = range_scale_of(readings, first_s, last_s, length_s)};
+  HeldOut held_out;
+  for (Eigen::Index n = 0; n < std::ssize(readings); ++n)
+    for (Eigen::Index turn = 0; turn < kTurns; ++turn)
+      hold_out(readings[static_cast<std::size_t>(n)], turn, n, options, first_s, held_out);
+  const auto covered = windowed_ranges(readings, path, some_s, options).columns.size();
+  const bool usable =
+      held_out.told > 0 && double(held_out.untold) <= kUntold * double(held_out.told);
+  return {.length_s = length_s,
+          .range_scale = options.range_scale,
+          .error_m = usable ? held_out.error_m / double(held_out.told)
+                            : std::numeric_limits<double>::quiet_NaN(),
+          .covered = double(covered) / double(some_s.size())};
+}
+
+constexpr int kRounds = 6;
+constexpr double kHuber = 1.5;
+/// Median of absolute values of a standard normal, inverted.
+constexpr double kMedianToSigma = 1.4826;
+/// Of the trace, added to normal equations: a straight stretch has a spread in one direction alone.
+constexpr double kRidge = 1e-9;
+
+/// Share of the typical range that is added to each before it is inverted.
+constexpr double kNear = 0.05;
+/// Share of the squared distances that the others must leave unexplained if they are to tell scale.
+constexpr double kLeastBend = 1e-6;
+
+/// Weights of r^2: the inverse of its error, but not without bound where the robot passes a
+/// landmark.
+Eigen::ArrayXd range_weights(const Eigen::ArrayXd& range_m) {
+  const double typical = std::sqrt(range_m.square().mean());
+  return typical > 0.0 ? Eigen::ArrayXd((range_m + kNear * typical).inverse())
+                       : Eigen::ArrayXd::Ones(range_m.size());
+}
+
+double median_of(Eigen::ArrayXd values) {
+  const auto middle = values.begin() + values.size() / 2;
+  std::nth_element(values.begin(), middle, values.end());
+  return *middle;
+}
+
+/// Weighted normal equations and their solution, the last of kRounds.
+template <int K>
+struct RobustFit {
+  using Vector = Eigen::Matrix<double, K, 1>;
+  using Square = Eigen::Matrix<double, K, K>;
+  Vector solution = Vector::Zero();
+  Square normal = Square::Zero();
+
+  RobustFit(const Eigen::Matrix<double, Eigen::Dynamic, K>& A, const Eigen::ArrayXd& y,
+            const Eigen::ArrayXd& base) {
+    Eigen::ArrayXd weights = base.square();
+    for (int round = 0; round < kRounds; ++round) {
+      normal = A.transpose() * weights.matrix().asDiagonal() * A;
+      normal.diagonal().array() += kRidge * normal.trace();
+      const Vector right = A.transpose() * (weights * y).matrix();
+      solution = normal.ldlt().solve(right);
+      const Eigen::ArrayXd misfit = (base * (y - (A * solution).array())).abs();
+      const double limit = kHuber * kMedianToSigma * median_of(misfit);
+      if (!(limit > 0.0)) break;
+      weights = base.square() * (limit / misfit.max(limit));
+    }
+  }
+};
+
+/// Offsets from their mean, in units of their spread.
+struct CentredFrame {
+  Eigen::RowVector2d center_m;
+  double unit_m;
+  Points offsets;
+
+  explicit CentredFrame(const Points& positions) : center_m(positions.colwise().mean()) {
+    offsets = positions.rowwise() - center_m;
+    unit_m = std::sqrt(offsets.squaredNorm() / static_cast<double>(offsets.rows()));
+    if (!(unit_m > 0.0)) unit_m = 1.0;
+    offsets /= unit_m;
+  }
+};
 
 /// Windows that lie over any one time.
 constexpr double kOverlap = 4.0;
@@ -76,6 +208,63 @@ void check(const Eigen::VectorXd& time_s, const WindowOptions& options) {
 }
 
 }  // namespace
+
+LandmarkReadings LandmarkReadings::at(const std::vector<Eigen::Index>& rows) const {
+  return {.time_s = time_s(rows),
+          .positions_m = positions_m(rows, Eigen::all),
+          .range_m = range_m(rows)};
+}
+
+double LocalRange::squared_range(const Eigen::RowVector2d& position) const {
+  const Eigen::RowVector2d offset = position - center_m;
+  return squared_scale * offset.squaredNorm() + coefficients(0) +
+         offset.dot(coefficients.tail<2>()) / unit_m;
+}
+
+double LocalRange::variance(const Eigen::RowVector2d& position) const {
+  Eigen::Vector3d row;
+  row << 1.0, (position - center_m).transpose() / unit_m;
+  return row.dot(covariance * row);
+}
+
+LocalRange fit_local_range(const LandmarkReadings& readings, Eigen::Index first, Eigen::Index count,
+                           double range_scale) {
+  if (count < 4) throw InvalidInput("a regression of ranges needs 4 readings");
+  const CentredFrame frame(readings.positions_m.middleRows(first, count));
+  const Eigen::ArrayXd range_m = readings.range_m.segment(first, count).array();
+  LocalRange local{.center_m = frame.center_m,
+                   .unit_m = frame.unit_m,
+                   .squared_scale = range_scale * range_scale,
+                   .coefficients = Eigen::Vector3d::Zero(),
+                   .covariance = Eigen::Matrix3d::Zero()};
+  Eigen::MatrixX3d A(count, 3);
+  A << Eigen::VectorXd::Ones(count), frame.offsets;
+  const double quadratic = local.squared_scale * frame.unit_m * frame.unit_m;
+  const RobustFit<3> fit(
+      A, range_m.square() - quadratic * frame.offsets.rowwise().squaredNorm().array(),
+      range_weights(range_m));
+  local.coefficients = fit.solution;
+  local.covariance = fit.normal.ldlt().solve(Eigen::Matrix3d::Identity());
+  return local;
+}
+
+ScaleEvidence local_scale(const LandmarkReadings& readings, Eigen::Index first,
+                          Eigen::Index count) {
+  if (count < 6) return {};
+  const CentredFrame frame(readings.positions_m.middleRows(first, count));
+  const Eigen::ArrayXd range_m = readings.range_m.segment(first, count).array();
+  Eigen::MatrixX4d A(count, 4);
+  A << frame.offsets.rowwise().squaredNorm(), Eigen::VectorXd::Ones(count), frame.offsets;
+  const RobustFit<4> fit(A, range_m.square(), range_weights(range_m));
+  // What of the first column the others do not explain.
+  const Eigen::Matrix3d others = fit.normal.bottomRightCorner<3, 3>();
+  const Eigen::Vector3d shared = fit.normal.topRightCorner<1, 3>().transpose();
+  const double left = fit.normal(0, 0) - shared.dot(others.ldlt().solve(shared));
+  if (!(left > kLeastBend * fit.normal(0, 0))) return {};
+  const double unit_square = frame.unit_m * frame.unit_m;
+  return {.squared_scale = fit.solution(0) / unit_square,
+          .weight = left * unit_square * unit_square};
+}
 
 std::string windowed_size_problem(Eigen::Index landmarks, Eigen::Index times) {
   if (static_cast<double>(landmarks) * static_cast<double>(times) <= kMostWindowedRanges) return "";
@@ -177,6 +366,43 @@ double range_scale_of(const std::vector<LandmarkReadings>& readings, double firs
     }
   const double squared = weight > 0.0 ? sum / weight : 1.0;
   return squared > 0.0 ? std::sqrt(squared) : 1.0;
+}
+
+WindowSearch choose_window(const std::vector<LandmarkReadings>& readings, const Trajectory& path,
+                           const Eigen::VectorXd& time_s) {
+  if (time_s.size() < 2 || !(time_s(time_s.size() - 1) > time_s(0)))
+    throw InvalidInput("windows need two times or more");
+  const Eigen::VectorXd some_s = time_s(spread_rows(time_s.size(), kCoverageTimes));
+  const double all_s = some_s(some_s.size() - 1) - some_s(0);
+  WindowSearch search;
+  search.options.length_s = all_s;
+  const WindowTrial* best = nullptr;
+  for (int i = 0; i < kLengths; ++i)
+    search.trials.push_back(
+        tried(readings, path, some_s, all_s * std::pow(std::numbers::sqrt2, -i)));
+  for (const WindowTrial& trial : search.trials) {
+    if (std::isnan(trial.error_m)) continue;
+    if (best == nullptr || trial.covered > best->covered ||
+        (trial.covered == best->covered && trial.error_m < best->error_m))
+      best = &trial;
+  }
+  if (best == nullptr) {
+    search.all_covered = false;
+    return search;
+  }
+  search.options = {.length_s = best->length_s, .range_scale = best->range_scale};
+  search.all_covered = best->covered == 1.0;
+  return search;
+}
+
+WindowCurve summary(const WindowSearch& search) {
+  WindowCurve curve;
+  for (const WindowTrial& trial : search.trials) {
+    curve.lengths_s.push_back(trial.length_s);
+    curve.held_out_m.push_back(trial.error_m);
+  }
+  curve.chosen_s = search.options.length_s;
+  return curve;
 }
 
 }  // namespace mapproof

@@ -5,11 +5,56 @@
 
 #include <Eigen/Core>
 
+#include "core/model/points.hpp"
 #include "core/model/range_log.hpp"
+#include "core/model/slam_study.hpp"
 #include "core/model/status.hpp"
-#include "core/range_slam/local_regression.hpp"
 
 namespace mapproof {
+
+/// Readings of one landmark, with where dead reckoning puts the robot at them.
+struct LandmarkReadings {
+  Eigen::VectorXd time_s;   ///< R, ascending.
+  Points positions_m;       ///< R x 2.
+  Eigen::VectorXd range_m;  ///< R, >= 0.
+
+  Eigen::Index size() const { return time_s.size(); }
+  /// Those in some rows.
+  LandmarkReadings at(const std::vector<Eigen::Index>& rows) const;
+};
+
+/// Squared range to one landmark around one stretch of a path, r^2 = a^2 |p - c|^2 + an affine
+/// function of p: exact where dead reckoning is, whatever the landmark's place.
+struct LocalRange {
+  Eigen::RowVector2d center_m;   ///< c.
+  double unit_m = 1.0;           ///< Spread of the positions about it.
+  double squared_scale = 1.0;    ///< a^2.
+  Eigen::Vector3d coefficients;  ///< On [1, (p - c) / unit], m^2.
+  Eigen::Matrix3d covariance;    ///< Of the coefficients, up to the readings' variance.
+
+  /// r^2 at a position, m^2.
+  double squared_range(const Eigen::RowVector2d& position) const;
+  /// Variance of that, up to the readings' variance.
+  double variance(const Eigen::RowVector2d& position) const;
+};
+
+/// Robust fit to readings `first` to `first + count`: iterated Huber weights, 1.5 scaled medians of
+/// the residuals, over 1 / r, since the error of r^2 grows with r.
+/// @param range_scale  a: measured range over distance, > 0.
+/// @param count  4 or more.
+/// @throws InvalidInput if there are fewer.
+/// @note O(count) time a round.
+LocalRange fit_local_range(const LandmarkReadings& readings, Eigen::Index first, Eigen::Index count,
+                           double range_scale);
+
+/// What readings say about a^2 on their own: a weighted mean adds up.
+struct ScaleEvidence {
+  double squared_scale = 0.0;
+  double weight = 0.0;  ///< Inverse variance, up to the readings' variance; 0: nothing.
+};
+
+/// The same fit with a^2 free. No weight where the positions are on a line or circle.
+ScaleEvidence local_scale(const LandmarkReadings& readings, Eigen::Index first, Eigen::Index count);
 
 struct WindowOptions {
   double length_s = 0.0;     ///< Of a window, > 0.
@@ -62,5 +107,35 @@ WindowedRanges windowed_ranges(const std::vector<LandmarkReadings>& readings,
 ///         most a million.
 double range_scale_of(const std::vector<LandmarkReadings>& readings, double first_s, double last_s,
                       double length_s);
+
+/// One window length that was tried.
+struct WindowTrial {
+  double length_s = 0.0;
+  double range_scale = 1.0;  ///< Of range_scale_of().
+  double error_m = 0.0;  ///< Mean absolute error of ranges held out; NaN: too many are not told.
+  double covered = 0.0;  ///< Share of the times asked for that every landmark is told at.
+};
+
+/// A window length chosen by what it predicts, without ground truth.
+struct WindowSearch {
+  WindowOptions options;
+  std::vector<WindowTrial> trials;  ///< By descending length.
+  bool all_covered = true;          ///< False: no length tells all times; the best of those that
+                                    ///< tell the most was taken.
+};
+
+/// Tries lengths from all the time down by factors of sqrt(2), and takes the one of least error of
+/// held-out ranges among those that cover the most times. Held out, in five turns, are blocks of
+/// consecutive readings of one landmark, a sixth of a window long, so that a window has to carry a
+/// prediction over a gap as it has to in the data.
+/// @param path    Dead-reckoned.
+/// @param time_s  Ascending, at least 2: the times that are to be covered.
+/// @throws InvalidInput if a bound is broken.
+/// @note O(R + N T) time a length, some 15 of them.
+WindowSearch choose_window(const std::vector<LandmarkReadings>& readings, const Trajectory& path,
+                           const Eigen::VectorXd& time_s);
+
+/// The lengths and errors of the trials, for records.
+WindowCurve summary(const WindowSearch& search);
 
 }  // namespace mapproof

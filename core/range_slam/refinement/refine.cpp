@@ -8,15 +8,15 @@
 #include "core/base/errors.hpp"
 #include "core/range_slam/dead_reckoning.hpp"
 #include "core/range_slam/factors/spread_rows.hpp"
+#include "core/range_slam/known_landmarks.hpp"
 #include "core/range_slam/log_checks.hpp"
-#include "core/range_slam/refinement/placed_start.hpp"
 #include "core/range_slam/refinement/refine_problem.hpp"
+#include "core/range_slam/refinement/refine_starts.hpp"
 
 namespace mapproof {
 namespace {
 
-constexpr Eigen::Index kMostWithCovariances = 500;  ///< Landmarks.
-constexpr double kMostBlocks = 1e7;                 ///< Poses times landmarks.
+constexpr double kMostBlocks = 1e7;  ///< Poses times landmarks.
 
 void check(const RangeLog& log, const SlamEstimate& start, const RefineOptions& options) {
   const Eigen::Index landmarks = std::ssize(log.landmarks);
@@ -134,22 +134,6 @@ void take_solution(const Solution& solution, const RefineOptions& options, SlamE
 }
 
 }  // namespace
-
-std::string RefineOptions::problem(Eigen::Index n) const {
-  if (std::string problem = odometry.problem(); !problem.empty()) return problem;
-  if (!(range_sigma_m > 0.0)) return "the standard deviation of ranges must be positive";
-  if (!(huber > 0.0)) return "Huber's bound must be positive";
-  if (!(offset_sigma_m >= 0.0)) return "the standard deviation of offsets cannot be negative";
-  if (!(spacing_m >= 0.0 && coarse_spacing_m >= 0.0))
-    return "the spacing of poses cannot be negative";
-  if (most_iterations < 1) return "a refinement needs an iteration";
-  if (covariances < 0) return "the number of covariances cannot be negative";
-  if (covariances > 0 && n > kMostWithCovariances)
-    return fmt::format("covariances are for at most {} landmarks", kMostWithCovariances);
-  if (!known) return "";
-  if (known->rows.size() < 2) return "known landmarks are two or more, or none";
-  return known_problem(*known, n);
-}
 
 SlamEstimate refine(const RangeLog& log, const SlamEstimate& start, const RefineOptions& options) {
   check(log, start, options);

@@ -8,11 +8,47 @@
 #include <ceres/problem.h>
 #include <ceres/solver.h>
 #include <glog/logging.h>
+#include <Eigen/Geometry>
 
 #include "core/linalg/decompositions.hpp"
 
 namespace mapproof {
+
 namespace {
+
+/// A factor's pivots below this share of the matrix's diagonal are rounding.
+constexpr double kLeastPivot = 1e-13;
+
+/// L of A = L L'; empty where a pivot is no more than rounding of `diagonal`.
+template <typename Matrix>
+std::optional<Matrix> factor(const Matrix& A, const Eigen::VectorXd& diagonal) {
+  if (A.rows() == 0) return A;
+  const Eigen::LLT<Matrix> llt(A);
+  if (llt.info() != Eigen::Success) return std::nullopt;
+  const Matrix L = llt.matrixL();
+  const Eigen::ArrayXd pivots = L.diagonal().array().square();
+  if (!(pivots > kLeastPivot * diagonal.array()).all()) return std::nullopt;
+  return L;
+}
+
+template <typename Matrix>
+Matrix inverse_of(const Matrix& L) {
+  if (L.rows() == 0) return L;
+  const Matrix inverse =
+      L.template triangularView<Eigen::Lower>().solve(Matrix::Identity(L.rows(), L.cols()));
+  return inverse.transpose() * inverse;
+}
+
+using RowMajor3 = Eigen::Matrix<double, 3, 3, Eigen::RowMajor>;
+
+/// Below this distance a landmark is in no direction.
+constexpr double kNoDirection_m = 1e-9;
+
+/// d(R(angle) v) / d angle.
+Eigen::Vector2d turning(double angle, const Eigen::Vector2d& v) {
+  const Eigen::Vector2d turned = Eigen::Rotation2Dd(angle) * v;
+  return {-turned(1), turned(0)};
+}
 
 using RowMajor = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
 
@@ -38,6 +74,140 @@ ceres::Solver::Options solver_options(int most_iterations) {
 }
 
 }  // namespace
+
+ChainInformation::ChainInformation(Eigen::Index poses, Eigen::Index shared)
+    : D_(static_cast<std::size_t>(poses), Eigen::Matrix3d::Zero()),
+      O_(static_cast<std::size_t>(poses), Eigen::Matrix3d::Zero()),
+      B_(static_cast<std::size_t>(poses), Eigen::MatrixXd::Zero(shared, 3)),
+      C_(Eigen::MatrixXd::Zero(shared, shared)) {}
+
+void ChainInformation::add(Eigen::Index i, const Eigen::MatrixXd& J_first,
+                           const Eigen::MatrixXd& J_second,
+                           const std::vector<Eigen::Index>& columns,
+                           const Eigen::MatrixXd& J_shared) {
+  const auto first = static_cast<std::size_t>(i);
+  const auto second = static_cast<std::size_t>(i + 1);
+  const bool has_first = i >= 0;
+  const bool has_second = J_second.size() > 0;
+  if (has_first) D_[first] += J_first.transpose() * J_first;
+  if (has_second) D_[second] += J_second.transpose() * J_second;
+  if (has_first && has_second) O_[first] += J_second.transpose() * J_first;
+  for (std::size_t a = 0; a < columns.size(); ++a) {
+    const Eigen::RowVectorXd column = J_shared.col(static_cast<Eigen::Index>(a)).transpose();
+    if (has_first) B_[first].row(columns[a]) += column * J_first;
+    if (has_second) B_[second].row(columns[a]) += column * J_second;
+    for (std::size_t b = 0; b < columns.size(); ++b)
+      C_(columns[a], columns[b]) += column.dot(J_shared.col(static_cast<Eigen::Index>(b)));
+  }
+}
+
+std::optional<ChainInformation::Covariance> ChainInformation::inverse() const {
+  const std::size_t poses = D_.size();
+  // Elimination from the first pose on: S_i is what is left of D_i, G_i = O_i S_i^-1 carries it on,
+  // and R_i is what is left of B_i.
+  std::vector<Eigen::Matrix3d> S_inverse(poses);
+  std::vector<Eigen::MatrixXd> R = B_;
+  Eigen::MatrixXd C = C_;
+  Eigen::Matrix3d S = D_[0];
+  for (std::size_t i = 0; i < poses; ++i) {
+    const auto L = factor<Eigen::Matrix3d>(S, D_[i].diagonal());
+    if (!L) return std::nullopt;
+    S_inverse[i] = inverse_of(*L);
+    C -= R[i] * S_inverse[i] * R[i].transpose();
+    if (i + 1 == poses) break;
+    const Eigen::Matrix3d G = O_[i] * S_inverse[i];
+    S = D_[i + 1] - G * O_[i].transpose();
+    R[i + 1] -= R[i] * G.transpose();
+  }
+  const auto L = factor<Eigen::MatrixXd>(C, C_.diagonal());
+  if (!L) return std::nullopt;
+
+  // Back: of each pose the inverse's block, and that towards the shared numbers.
+  Covariance covariance{.shared = inverse_of(*L),
+                        .poses = std::vector<Eigen::Matrix3d>(poses),
+                        .shared_pose = std::vector<Eigen::MatrixXd>(poses)};
+  Eigen::Matrix3d next = Eigen::Matrix3d::Zero();
+  Eigen::MatrixXd next_shared = Eigen::MatrixXd::Zero(C.rows(), 3);
+  for (std::size_t i = poses; i-- > 0;) {
+    // x_i depends on what comes after it by x_i = -S_i^-1 (O_i' x_{i+1} + R_i' shared) + noise.
+    const Eigen::Matrix3d A = -S_inverse[i] * O_[i].transpose();
+    const Eigen::MatrixXd E = -S_inverse[i] * R[i].transpose();
+    const Eigen::Matrix3d cross = A * next_shared.transpose() * E.transpose();
+    covariance.shared_pose[i] = next_shared * A.transpose() + covariance.shared * E.transpose();
+    covariance.poses[i] = S_inverse[i] + A * next * A.transpose() +
+                          E * covariance.shared * E.transpose() + cross + cross.transpose();
+    next = covariance.poses[i];
+    next_shared = covariance.shared_pose[i];
+  }
+  return covariance;
+}
+
+bool MotionResidual::Evaluate(double const* const* parameters, double* residuals,
+                              double** jacobians) const {
+  const Eigen::Map<const Eigen::Vector3d> first(parameters[0]);
+  const Eigen::Map<const Eigen::Vector3d> second(parameters[1]);
+  const Eigen::Vector2d way = second.head<2>() - first.head<2>();
+  const Eigen::Matrix2d R = Eigen::Rotation2Dd(-first(2)).toRotationMatrix();
+  Eigen::Vector3d error;
+  error.head<2>() = R * way - motion_.step.head<2>();
+  error(2) = second(2) - first(2) - motion_.step(2);
+  Eigen::Map<Eigen::Vector3d> whitened(residuals);
+  whitened = motion_.root_information * error;
+  if (jacobians == nullptr) return true;
+
+  if (jacobians[0] != nullptr) {
+    Eigen::Matrix3d J = Eigen::Matrix3d::Zero();
+    J.topLeftCorner<2, 2>() = -R;
+    J.topRightCorner<2, 1>() = -turning(-first(2), way);
+    J(2, 2) = -1.0;
+    Eigen::Map<RowMajor3> jacobian(jacobians[0]);
+    jacobian = motion_.root_information * J;
+  }
+  if (jacobians[1] != nullptr) {
+    Eigen::Matrix3d J = Eigen::Matrix3d::Identity();
+    J.topLeftCorner<2, 2>() = R;
+    Eigen::Map<RowMajor3> jacobian(jacobians[1]);
+    jacobian = motion_.root_information * J;
+  }
+  return true;
+}
+
+bool RangeResidual::Evaluate(double const* const* parameters, double* residuals,
+                             double** jacobians) const {
+  const Eigen::Map<const Eigen::Vector3d> first(parameters[0]);
+  const Eigen::Map<const Eigen::Vector3d> second(parameters[1]);
+  const Eigen::Map<const Eigen::Vector2d> landmark(parameters[2]);
+  const double scale = parameters[3][0];
+  const double offset_m = parameters[4][0];
+  const Eigen::Vector2d gap = place_.pose(first, second).head<2>() - landmark;
+  const double distance = gap.norm();
+  residuals[0] = (scale * distance + offset_m - range_m_) / sigma_m_;
+  if (jacobians == nullptr) return true;
+
+  const Eigen::Vector2d direction =
+      distance > kNoDirection_m ? Eigen::Vector2d(gap / distance) : Eigen::Vector2d::Zero();
+  const Eigen::Vector2d slope = scale / sigma_m_ * direction;
+  const auto fill_pose = [&](double* jacobian, double weight, double heading,
+                             const Eigen::Vector3d& step) {
+    if (jacobian == nullptr) return;
+    Eigen::Map<Eigen::RowVector3d> row(jacobian);
+    row.head<2>() = weight * slope.transpose();
+    row(2) = weight * slope.dot(turning(heading, step.head<2>()));
+  };
+  fill_pose(jacobians[0], 1.0 - place_.share, first(2), place_.ahead);
+  fill_pose(jacobians[1], place_.share, second(2), place_.behind);
+  if (jacobians[2] != nullptr) Eigen::Map<Eigen::RowVector2d>{jacobians[2]} = -slope.transpose();
+  if (jacobians[3] != nullptr) jacobians[3][0] = distance / sigma_m_;
+  if (jacobians[4] != nullptr) jacobians[4][0] = 1.0 / sigma_m_;
+  return true;
+}
+
+bool OffsetPrior::Evaluate(double const* const* parameters, double* residuals,
+                           double** jacobians) const {
+  residuals[0] = parameters[0][0] / sigma_m_;
+  if (jacobians != nullptr && jacobians[0] != nullptr) jacobians[0][0] = 1.0 / sigma_m_;
+  return true;
+}
 
 RefineProblem::RefineProblem(const RangeLog& log, const KeyPoses& keys,
                              const std::vector<bool>& is_placed, const RefineOptions& options)

@@ -4,7 +4,6 @@
 
 #include "core/json/record_json.hpp"
 #include "core/records/experiments/profiles.hpp"
-#include "core/records/experiments/slam_experiment_fields.hpp"
 
 namespace mapproof {
 namespace {
@@ -45,6 +44,14 @@ SlamExperiment parse_slam_experiment(std::string_view text, const std::string& s
   const JsonDocument document =
       parse_with_profile(text, source, "mapproof.slam_experiment", profile);
   return from_json_value<SlamExperiment>(document.cursor());
+}
+
+std::string slam_study_json(const SlamExperiment& experiment, const Provenance& provenance) {
+  return to_json_text(SlamOrder{.experiment = experiment, .provenance = provenance});
+}
+
+SlamOrder parse_slam_study(std::string_view text, const std::string& source) {
+  return from_json_text<SlamOrder>(text, source);
 }
 
 }  // namespace mapproof

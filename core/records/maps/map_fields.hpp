@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "core/model/map_certainty.hpp"
-#include "core/model/map_sensors.hpp"
+#include "core/model/sensor.hpp"
 #include "core/records/value_fields.hpp"
 
 namespace mapproof {

@@ -6,7 +6,7 @@
 
 #include "core/model/map_certainty.hpp"
 #include "core/model/map_record.hpp"
-#include "core/model/map_sensors.hpp"
+#include "core/model/sensor.hpp"
 
 namespace mapproof {
 

@@ -3,7 +3,6 @@
 #include <algorithm>
 
 #include "core/json/text_input.hpp"
-#include "core/records/observations/observations.hpp"
 
 namespace mapproof {
 

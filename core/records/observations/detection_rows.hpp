@@ -4,9 +4,9 @@
 #include <string>
 
 #include "core/model/detection_log.hpp"
-#include "core/records/observations/detections.hpp"
 #include "core/records/observations/name_list.hpp"
 #include "core/records/observations/scan_rows.hpp"
+#include "core/records/observations/sources.hpp"
 
 namespace mapproof {
 

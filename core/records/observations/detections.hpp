@@ -10,27 +10,9 @@
 #include "core/model/detection_log.hpp"
 #include "core/model/points.hpp"
 #include "core/model/sensor.hpp"
+#include "core/records/observations/sources.hpp"
 
 namespace mapproof {
-
-/// Unit of the bearings of a file. They are relative to the heading, counter-clockwise.
-enum class AngleUnit { kRadians, kDegrees };
-
-/// What scans showed, with what is needed to talk about the file that it came from.
-struct DetectionSource {
-  DetectionLog log;
-  std::optional<Points> truth_m;     ///< M x 2, if the source holds it; NaN rows: unknown.
-  std::vector<std::string> remarks;  ///< What was dropped or assumed, a sentence each.
-  std::vector<std::string> places;   ///< M; where a landmark stands: "line 7".
-  std::string path;                  ///< For errors: the file or folder that was read.
-};
-
-/// How a file of detections is to be understood.
-struct DetectionFormat {
-  AngleUnit unit = AngleUnit::kRadians;  ///< Where the file does not say it.
-  /// What a column `value` holds; visibility: 1, seen.
-  std::optional<Sensor> value;
-};
 
 /// Detections from long CSV or mapproof's JSON (mapproof.detections).
 ///
@@ -56,11 +38,5 @@ bool is_detections(ByteSource& source);
 /// Whether a source, which stays unread, is a long table, of detections or of values, and its text
 /// larger than some 64 MB. @throws IoError if it cannot be read.
 bool is_large_long_table(ByteSource& source);
-
-/// mapproof.detections from the text of a file.
-DetectionSource parse_detections(std::string_view text, const std::string& source);
-
-/// mapproof's own JSON (mapproof.detections), bearings in radians, NaN as null.
-std::string detections_json(const DetectionLog& log);
 
 }  // namespace mapproof

@@ -1,3 +1,5 @@
+#include "core/records/observations/detections_long.hpp"
+
 #include <algorithm>
 #include <cstdint>
 #include <iterator>
@@ -8,8 +10,8 @@
 #include "core/base/errors.hpp"
 #include "core/json/text_input.hpp"
 #include "core/records/limits.hpp"
+#include "core/records/observations/cells.hpp"
 #include "core/records/observations/detection_rows.hpp"
-#include "core/records/observations/detection_values.hpp"
 #include "core/records/observations/table_stream.hpp"
 
 namespace mapproof {

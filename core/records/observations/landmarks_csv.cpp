@@ -11,8 +11,8 @@
 #include "core/base/errors.hpp"
 #include "core/json/text_input.hpp"
 #include "core/records/limits.hpp"
-#include "core/records/observations/mrclam.hpp"
 #include "core/records/observations/name_list.hpp"
+#include "core/records/observations/number_rows.hpp"
 #include "core/records/observations/table_reader.hpp"
 
 namespace mapproof {
@@ -125,6 +125,20 @@ bool is_landmarks_table(std::string_view text, const std::string& source) {
       return false;
   } while (reader.next(row));
   return true;
+}
+
+NamedPoints parse_groundtruth(std::string_view text, const std::string& source) {
+  NumberRows rows(text, source, 5);
+  NameList names(source);
+  std::vector<double> coordinates;
+  while (rows.next()) {
+    names.add(fmt::format("{}", rows.id(0)), rows.line());
+    for (const std::size_t i : {1U, 2U}) {
+      if (std::abs(rows[i]) > kFarthest_m) rows.fail("a position beyond any map");
+      coordinates.push_back(rows[i]);
+    }
+  }
+  return named_points(names, coordinates, source);
 }
 
 }  // namespace mapproof

@@ -7,15 +7,9 @@
 
 #include "core/base/byte_source.hpp"
 #include "core/model/points.hpp"
+#include "core/records/observations/sources.hpp"
 
 namespace mapproof {
-
-/// Landmarks with known positions: anchors, or the truth.
-struct NamedPoints {
-  std::vector<std::string> names;   ///< M, all different.
-  Points positions_m;               ///< M x 2, finite.
-  std::vector<std::string> places;  ///< M; where a landmark stands: "line 7".
-};
 
 /// Reads CSV (name, x, y; header optional) or MRCLAM's Landmark_Groundtruth.dat.
 /// @throws IoError naming file and line.
@@ -28,5 +22,8 @@ NamedPoints parse_landmarks(std::string_view text, const std::string& source);
 /// Whether a table of unknown kind is one of landmarks: MRCLAM's, or its header names x and y; or,
 /// without a header, all its rows are a name of their own and two numbers.
 bool is_landmarks_table(std::string_view text, const std::string& source);
+
+/// Landmark_Groundtruth.dat: subject, x, y, and their standard deviations, which are left out.
+NamedPoints parse_groundtruth(std::string_view text, const std::string& source);
 
 }  // namespace mapproof

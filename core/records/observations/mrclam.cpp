@@ -16,9 +16,10 @@
 #include "core/base/input_file.hpp"
 #include "core/json/text_input.hpp"
 #include "core/records/limits.hpp"
+#include "core/records/observations/cells.hpp"
+#include "core/records/observations/landmarks_csv.hpp"
 #include "core/records/observations/name_list.hpp"
 #include "core/records/observations/number_rows.hpp"
-#include "core/records/observations/observation_values.hpp"
 
 namespace mapproof {
 namespace {
@@ -217,20 +218,6 @@ std::optional<Points> read_truth(const fs::path& path, const std::vector<std::st
 }  // namespace
 
 bool is_mrclam(const fs::path& folder) { return !measurement_files(folder).empty(); }
-
-NamedPoints parse_groundtruth(std::string_view text, const std::string& source) {
-  NumberRows rows(text, source, 5);
-  NameList names(source);
-  std::vector<double> coordinates;
-  while (rows.next()) {
-    names.add(fmt::format("{}", rows.id(0)), rows.line());
-    for (const std::size_t i : {1U, 2U}) {
-      if (std::abs(rows[i]) > kFarthest_m) rows.fail("a position beyond any map");
-      coordinates.push_back(rows[i]);
-    }
-  }
-  return named_points(names, coordinates, source);
-}
 
 DetectionSource read_mrclam_detections(const fs::path& folder) {
   const std::vector<fs::path> robots = measurement_files(folder);

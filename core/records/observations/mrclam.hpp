@@ -2,9 +2,7 @@
 
 #include <filesystem>
 
-#include "core/records/observations/detections.hpp"
-#include "core/records/observations/landmarks_csv.hpp"
-#include "core/records/observations/observations.hpp"
+#include "core/records/observations/sources.hpp"
 
 namespace mapproof {
 
@@ -27,8 +25,5 @@ ObservationSource read_mrclam(const std::filesystem::path& folder, Sensor sensor
 
 /// Whether the folder holds a RobotN_Measurement.dat.
 bool is_mrclam(const std::filesystem::path& folder);
-
-/// Landmark_Groundtruth.dat: subject, x, y, and their standard deviations, which are left out.
-NamedPoints parse_groundtruth(std::string_view text, const std::string& source);
 
 }  // namespace mapproof

@@ -8,7 +8,7 @@
 
 #include <Eigen/Core>
 
-#include "core/records/observations/landmarks_csv.hpp"
+#include "core/records/observations/sources.hpp"
 
 namespace mapproof {
 

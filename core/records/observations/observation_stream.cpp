@@ -6,7 +6,7 @@
 
 #include "core/json/text_input.hpp"
 #include "core/records/limits.hpp"
-#include "core/records/observations/detection_columns.hpp"
+#include "core/records/observations/scan_rows.hpp"
 
 namespace mapproof {
 

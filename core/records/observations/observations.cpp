@@ -1,62 +1,258 @@
 #include "core/records/observations/observations.hpp"
 
+#include <algorithm>
+#include <limits>
+#include <span>
+#include <string>
+#include <string_view>
+
 #include <fmt/format.h>
 
 #include "core/base/errors.hpp"
 #include "core/base/input_file.hpp"
 #include "core/json/record_json.hpp"
 #include "core/json/text_input.hpp"
-#include "core/records/observations/detection_values.hpp"
+#include "core/records/limits.hpp"
+#include "core/records/observations/cells.hpp"
+#include "core/records/observations/detections.hpp"
 #include "core/records/observations/input_kind.hpp"
 #include "core/records/observations/mrclam.hpp"
-#include "core/records/observations/observation_fields.hpp"
-#include "core/records/observations/observation_values.hpp"
+#include "core/records/observations/name_list.hpp"
+#include "core/records/observations/observation_json.hpp"
+#include "core/records/observations/sources.hpp"
 #include "core/records/observations/table_reader.hpp"
+#include "core/records/observations/value_rows.hpp"
 
 namespace mapproof {
 
-ObservationSource parse_observations(std::string_view text, const std::string& source,
-                                     std::optional<Sensor> kind) {
-  const JsonDocument document = parse_json(text, source);
-  auto file = from_json_value<ObservationsFile>(document.cursor());
-  const Sensor sensor = file.history.sensor;
-  Eigen::MatrixXd& values = file.history.values;
-  if (kind && *kind != sensor)
-    throw IoError(source, "/sensor",
-                  fmt::format("the file holds {}, not {}", name(sensor), name(*kind)));
-  check_size(source, "/values", file.history.names.size(), static_cast<std::size_t>(values.cols()));
-  if (sensor == Sensor::kBearing && file.unit == AngleUnit::kDegrees)
-    values = values.unaryExpr([](double degrees) { return in_radians(degrees); });
-  ObservationSource result{.history = std::move(file.history),
-                           .truth_m = std::nullopt,
-                           .remarks = {},
-                           .places = {},
-                           .path = source};
-  for (Eigen::Index i = 0; i < result.history.landmarks(); ++i) {
-    for (Eigen::Index j = 0; j < result.history.steps(); ++j)
-      if (const auto problem = observation_problem(sensor, result.history.values(i, j));
-          !problem.empty())
-        throw IoError(source, fmt::format("/values/{}/{}", i, j), problem);
-    result.places.push_back(fmt::format("/values/{}", i));
+namespace {
+
+using Cells = std::span<const std::string_view>;
+
+bool is_text(std::string_view cell) { return !is_missing(cell) && !number_in(cell); }
+
+/// 0, 1, 2, ... or 1, 2, 3, ...: step numbers, at least to 2 so that they are not visibilities.
+bool counts_steps(Cells cells) {
+  const std::optional<double> first = cells.empty() ? std::nullopt : number_in(cells.front());
+  if (!first || (*first != 0.0 && *first != 1.0)) return false;
+  if (*first + static_cast<double>(cells.size()) < 3.0) return false;
+  for (std::size_t i = 0; i < cells.size(); ++i)
+    if (number_in(cells[i]) != *first + static_cast<double>(i)) return false;
+  return true;
+}
+
+bool is_header(const TableRow& row) {
+  const Cells steps = Cells(row.cells).subspan(1);
+  if (is_word_for_names(row.cells.front())) return true;
+  if (steps.empty()) return false;
+  const auto numbers = std::ranges::count_if(
+      steps, [](std::string_view cell) { return !is_missing(cell) && !is_text(cell); });
+  if (numbers == 0) return std::ranges::any_of(steps, is_text);
+  return is_missing(row.cells.front()) && counts_steps(steps);
+}
+
+/// Reads the rows one by one into a row-major array.
+class WideTable {
+ public:
+  WideTable(const std::string& source, Sensor sensor, AngleUnit unit)
+      : source_(source), sensor_(sensor), unit_(unit), names_(source) {}
+
+  void add_header(const TableRow& row) {
+    set_width(row);
+    has_header_ = true;
+    has_names_ = is_word_for_names(row.cells.front()) || row.cells.front().empty();
   }
+
+  void add(const TableRow& row) {
+    if (names_.names().empty()) {
+      if (width_ == 0) set_width(row);
+      has_names_ = has_names_ || is_text(row.cells.front());
+    }
+    const std::string place = fmt::format("line {}", row.line);
+    if (row.cells.size() != width_)
+      throw IoError(
+          source_, place,
+          fmt::format("has {} cells where line {} has {}", row.cells.size(), first_line_, width_));
+    Cells cells = row.cells;
+    if (has_names_) {
+      names_.add(cells.front(), row.line);
+      cells = cells.subspan(1);
+    } else {
+      names_.add(fmt::format("L{}", names_.names().size() + 1), row.line);
+    }
+    if (cells.empty())
+      throw IoError(source_, place,
+                    "a single cell: cells stand between commas, semicolons or tabs");
+    check_size(source_, place, names_.names().size(), cells.size());
+    add_values(cells, place);
+  }
+
+  ObservationSource result() && {
+    if (names_.names().empty())
+      throw IoError(source_, has_header_ ? "holds a header and no rows" : "holds no rows");
+    const auto landmarks = static_cast<Eigen::Index>(names_.names().size());
+    const auto steps = static_cast<Eigen::Index>(values_.size()) / landmarks;
+    using RowMajor = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
+    return {.history = {.sensor = sensor_,
+                        .names = names_.names(),
+                        .values = Eigen::Map<const RowMajor>(values_.data(), landmarks, steps)},
+            .truth_m = std::nullopt,
+            .remarks = {},
+            .places = names_.places(),
+            .path = source_};
+  }
+
+ private:
+  void set_width(const TableRow& row) {
+    width_ = row.cells.size();
+    first_line_ = row.line;
+  }
+
+  void add_values(Cells cells, const std::string& place) {
+    for (std::size_t i = 0; i < cells.size(); ++i) {
+      const std::optional<double> value = detection_value(cells[i], sensor_, unit_);
+      if (!value)
+        throw IoError(source_, fmt::format("{}, column {}", place, i + (has_names_ ? 2 : 1)),
+                      detection_problem(cells[i], sensor_, unit_));
+      values_.push_back(*value);
+    }
+  }
+
+  const std::string& source_;
+  Sensor sensor_;
+  AngleUnit unit_;
+  NameList names_;
+  std::vector<double> values_;
+  std::size_t width_ = 0;
+  std::size_t first_line_ = 0;
+  bool has_header_ = false;
+  bool has_names_ = false;
+};
+
+using Reading = ValueRows::Reading;
+
+/// Ascending. Rows mostly come step by step, so that little is left to sort.
+std::vector<ScanKey> distinct_scans(const std::vector<Reading>& readings) {
+  std::vector<ScanKey> steps;
+  for (const Reading& reading : readings)
+    if (steps.empty() || steps.back() != reading.scan) steps.push_back(reading.scan);
+  std::ranges::sort(steps);
+  const auto rest = std::ranges::unique(steps);
+  steps.erase(rest.begin(), rest.end());
+  return steps;
+}
+
+[[noreturn]] void refuse_repeat(const Reading& repeat, const std::vector<Reading>& readings,
+                                const ValueRows& rows, const std::string& source) {
+  const auto first = std::ranges::find_if(readings, [&](const Reading& reading) {
+    return reading.landmark == repeat.landmark && reading.scan == repeat.scan;
+  });
+  const std::string& name = rows.names().names()[static_cast<std::size_t>(repeat.landmark)];
+  throw IoError(source, fmt::format("line {}", repeat.line),
+                fmt::format("landmark {} at {} is already on line {}", in_quotes(name),
+                            rows.scans().words(repeat.scan.key), first->line));
+}
+
+/// @param others  What stands where nothing is listed.
+Eigen::MatrixXd arrange(const std::vector<Reading>& readings, const ValueRows& rows, double others,
+                        const std::string& source) {
+  const std::vector<ScanKey> steps = distinct_scans(readings);
+  const std::size_t count = rows.names().names().size();
+  check_size(source, "as a whole", count, steps.size());
+  const auto landmarks = static_cast<Eigen::Index>(count);
+  Eigen::MatrixXd values =
+      Eigen::MatrixXd::Constant(landmarks, static_cast<Eigen::Index>(steps.size()), others);
+  std::vector<bool> is_set(static_cast<std::size_t>(values.size()));
+  std::size_t column = 0;
+  for (const Reading& reading : readings) {
+    if (reading.landmark < 0) continue;
+    if (steps[column] != reading.scan)
+      column =
+          static_cast<std::size_t>(std::ranges::lower_bound(steps, reading.scan) - steps.begin());
+    auto is_repeated = is_set[column * count + static_cast<std::size_t>(reading.landmark)];
+    if (is_repeated) refuse_repeat(reading, readings, rows, source);
+    is_repeated = true;
+    values(reading.landmark, static_cast<Eigen::Index>(column)) = reading.value;
+  }
+  return values;
+}
+
+std::vector<UnlabelledReading> unlabelled_in(const std::vector<Reading>& readings) {
+  std::vector<UnlabelledReading> unlabelled;
+  if (std::ranges::none_of(readings, [](const Reading& reading) { return reading.landmark < 0; }))
+    return unlabelled;
+  const std::vector<ScanKey> scans = distinct_scans(readings);
+  for (const Reading& reading : readings)
+    if (reading.landmark < 0)
+      unlabelled.push_back({.step = std::ranges::lower_bound(scans, reading.scan) - scans.begin(),
+                            .number = reading.scan.key,
+                            .value = reading.value,
+                            .line = reading.line});
+  return unlabelled;
+}
+
+}  // namespace
+
+ObservationSource read_wide(std::string_view text, const std::string& source, Sensor sensor,
+                            AngleUnit unit) {
+  TableReader reader(text, source);
+  WideTable table(source, sensor, unit);
+  TableRow row;
+  bool is_first = true;
+  while (reader.next(row)) {
+    if (is_first && is_header(row))
+      table.add_header(row);
+    else
+      table.add(row);
+    is_first = false;
+  }
+  return std::move(table).result();
+}
+
+ObservationSource read_long(std::string_view text, const std::string& source, Sensor sensor,
+                            AngleUnit unit) {
+  TableReader reader(text, source);
+  TableRow row;
+  ValueRows rows(source, sensor, unit);
+  std::vector<Reading> readings;
+  for (bool is_first = true; reader.next(row); is_first = false) {
+    if (is_first && rows.begin(row)) continue;
+    readings.push_back(rows.reading(row));
+    if (static_cast<double>(readings.size()) > kMostEntries)
+      throw IoError(source, fmt::format("more than {:.0f} rows", kMostEntries));
+  }
+  if (readings.empty()) throw IoError(source, "holds no observations");
+  const bool lists_detections =
+      sensor == Sensor::kVisibility &&
+      std::ranges::all_of(readings, [](const Reading& reading) { return reading.value == 1.0; });
+  const double others = lists_detections ? 0.0 : std::numeric_limits<double>::quiet_NaN();
+  ObservationSource result{.history = {.sensor = sensor,
+                                       .names = rows.names().names(),
+                                       .values = arrange(readings, rows, others, source)},
+                           .truth_m = std::nullopt,
+                           .remarks = rows.scans().remarks(),
+                           .places = rows.names().places(),
+                           .path = source,
+                           .unlabelled = unlabelled_in(readings)};
+  if (lists_detections)
+    result.remarks.push_back(
+        "Only detections are listed: all other readings are taken as not seen");
   return result;
 }
 
-std::string observations_json(const ObservationHistory& history) {
-  return to_json_text(ObservationsFile{.history = history});
+bool has_long_header(std::string_view text, const std::string& source) {
+  TableReader reader(text, source);
+  TableRow row;
+  if (!reader.next(row)) return false;
+  return names_value_columns(row);
 }
 
-ObservationSource observations_of(DetectionSource source, Sensor sensor) {
-  check_size(source.path, "as a whole", source.log.names.size(),
-             static_cast<std::size_t>(source.log.steps));
-  ObservationHistory history = history_of(source.log, sensor);
-  if (history.values.array().isNaN().all())
-    throw IoError(source.path, fmt::format("holds no {}", name(sensor)));
-  return {.history = std::move(history),
-          .truth_m = std::move(source.truth_m),
-          .remarks = std::move(source.remarks),
-          .places = std::move(source.places),
-          .path = std::move(source.path)};
+bool starts_as_long(std::string_view text, const std::string& source) {
+  TableReader reader(text, source);
+  TableRow row;
+  if (!reader.next(row) || row.cells.size() != 3) return false;
+  const auto is_value = [](std::string_view cell) { return is_missing(cell) || number_in(cell); };
+  return number_in(row.cells[0]) && !is_value(row.cells[1]) && is_value(row.cells[2]);
 }
 
 ObservationSource read_observations(ByteSource& source, std::optional<Sensor> kind, Layout layout,

@@ -4,46 +4,14 @@
 #include <optional>
 #include <string>
 #include <string_view>
-#include <vector>
 
 #include "core/base/byte_source.hpp"
 #include "core/model/observation_history.hpp"
 #include "core/model/points.hpp"
 #include "core/model/sensor.hpp"
-#include "core/records/observations/detections.hpp"
+#include "core/records/observations/sources.hpp"
 
 namespace mapproof {
-
-/// How a CSV file holds observations.
-enum class Layout {
-  kAuto,  ///< kLong if the header names a landmark and a value, or what detections hold; else
-          ///< kWide.
-  kWide,  ///< One row per landmark, one column per step.
-  kLong,  ///< One row per observation: step or time, landmark, value; a robot too, whose steps are
-          ///< then its own.
-};
-
-/// A reading of which nobody says whose it is.
-struct UnlabelledReading {
-  Eigen::Index step = 0;  ///< Column of the history.
-  double number = 0.0;    ///< Step or time, as the file has it.
-  double value = 0.0;     ///< As the history's; NaN: missing.
-  std::size_t line = 0;
-};
-
-/// The landmark of such a reading in a long table.
-inline constexpr std::string_view kUnlabelledMark = "?";
-
-/// A person's own observations, with what is needed to talk about the file they came from.
-struct ObservationSource {
-  ObservationHistory history;
-  std::optional<Points> truth_m;     ///< M x 2, if the source holds it; NaN rows: unknown.
-  std::vector<std::string> remarks;  ///< What was dropped or assumed, a sentence each.
-  std::vector<std::string> places;   ///< M; where a landmark stands: "line 7", "/values/6".
-  std::string path;                  ///< For errors: the file or folder that was read.
-  /// Of a long table, in the order of its lines; they are not in the history.
-  std::vector<UnlabelledReading> unlabelled = {};
-};
 
 /// Observations from CSV (wide or long) or mapproof's JSON. Of detections (see detections.hpp),
 /// what one kind of sensor saw.
@@ -66,11 +34,18 @@ ObservationSource read_observations(const std::filesystem::path& path, std::opti
                                     Layout layout = Layout::kAuto,
                                     AngleUnit unit = AngleUnit::kRadians);
 
-/// What one kind of sensor saw of detections.
-/// @throws IoError if that were more than 2e8 entries, or there is nothing of that kind.
-ObservationSource observations_of(DetectionSource source, Sensor sensor);
+/// The wide and the long form of a table; `text` is from checked_text().
+ObservationSource read_wide(std::string_view text, const std::string& source, Sensor sensor,
+                            AngleUnit unit = AngleUnit::kRadians);
 
-/// mapproof's own JSON (mapproof.observations), NaN as null.
-std::string observations_json(const ObservationHistory& history);
+ObservationSource read_long(std::string_view text, const std::string& source, Sensor sensor,
+                            AngleUnit unit = AngleUnit::kRadians);
+
+/// Whether the table's first row names the columns landmark and value, as a long one does.
+bool has_long_header(std::string_view text, const std::string& source);
+
+/// Whether a table without a header starts with a step, a landmark's name that is not a number, and
+/// a value: a row that no wide table holds.
+bool starts_as_long(std::string_view text, const std::string& source);
 
 }  // namespace mapproof

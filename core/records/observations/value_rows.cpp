@@ -1,7 +1,5 @@
 #include "core/records/observations/value_rows.hpp"
 
-#include "core/records/observations/observations.hpp"
-
 namespace mapproof {
 namespace {
 

@@ -8,7 +8,7 @@
 #include "core/base/errors.hpp"
 #include "core/base/input_file.hpp"
 #include "core/json/text_input.hpp"
-#include "core/records/observations/detection_columns.hpp"
+#include "core/records/observations/scan_rows.hpp"
 #include "core/records/observations/table_stream.hpp"
 #include "core/records/ranges/range_log_readers.hpp"
 

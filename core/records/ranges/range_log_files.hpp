@@ -5,22 +5,9 @@
 
 #include "core/base/byte_source.hpp"
 #include "core/model/range_log.hpp"
+#include "core/records/ranges/range_log_options.hpp"
 
 namespace mapproof {
-
-/// Which odometry is taken where a file holds more than one.
-enum class OdometrySource {
-  kRecovered,  ///< That of the dead-reckoned path, which is the robot's own.
-  kAsGiven,    ///< The table of odometry as it stands.
-};
-
-struct RangeLogOptions {
-  std::string name;  ///< For titles; empty: made of the path.
-  OdometrySource odometry = OdometrySource::kRecovered;
-  std::filesystem::path odometry_file;   ///< Taken instead; CSV with the columns of odometry.csv.
-  std::filesystem::path truth_file;      ///< Taken instead; CSV as groundtruth.csv.
-  std::filesystem::path landmarks_file;  ///< Taken instead; CSV as landmarks.csv.
-};
 
 /// Odometry and ranges of one robot [djugash2009], with the truth if it is there, from
 ///

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "core/model/range_log.hpp"
-#include "core/records/ranges/range_log_files.hpp"
+#include "core/records/ranges/range_log_options.hpp"
 #include "core/records/ranges/range_tables.hpp"
 
 namespace mapproof {

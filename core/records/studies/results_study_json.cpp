@@ -12,7 +12,6 @@
 #include "core/json/text_input.hpp"
 #include "core/records/maps/map_csv.hpp"
 #include "core/records/observations/trajectory_files.hpp"
-#include "core/records/studies/results_study_fields.hpp"
 #include "core/records/studies/results_table.hpp"
 #include "core/records/studies/study_folder.hpp"
 #include "core/records/studies/study_store.hpp"

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <filesystem>
 #include <string>
 #include <string_view>
@@ -7,6 +8,9 @@
 
 #include "core/model/given_path.hpp"
 #include "core/model/map_record.hpp"
+#include "core/records/studies/quantity_fields.hpp"
+#include "core/records/text_forms.hpp"
+#include "core/records/value_fields.hpp"
 #include "core/results/results_study.hpp"
 
 namespace mapproof {
@@ -44,5 +48,105 @@ std::vector<std::string> passed_over_files(const std::filesystem::path& folder);
 
 /// Whether the folder's study.json is of that schema, be the rest readable or not.
 bool is_results_study(const std::filesystem::path& folder);
+
+// The fields of the study.json beside a results.csv (core/json/fields.hpp).
+
+/// How paths are aligned to their ground truths.
+enum class PathAlignment { kNone, kRigid, kSimilarity };
+
+inline Alignment alignment_of(PathAlignment alignment) {
+  constexpr std::array kAlignments = {Alignment::kNone, Alignment::kRigid, Alignment::kSimilarity};
+  return kAlignments[static_cast<std::size_t>(alignment)];
+}
+
+inline std::string_view name(PathAlignment alignment) { return name(alignment_of(alignment)); }
+
+inline EnumNames enum_names(PathAlignment) {
+  return names_up_to(PathAlignment::kSimilarity, "path_alignment");
+}
+
+namespace record_rules {
+
+inline constexpr FieldRule kLabels = {
+    .description = "In the order of tables; ids that are left out follow, under their ids.",
+    .max_items = 10'000,
+    .key = Key::kOptional};
+
+}  // namespace record_rules
+
+template <typename Visitor>
+void fields(Visitor& v, Label& label) {
+  v.field("id", label.id, {.max_bytes = 1000});
+  v.field("label", label.label, {.not_empty = true, .max_bytes = 1000});
+}
+
+struct FactorLabel : Label {};
+
+template <typename Visitor>
+void fields(Visitor& v, FactorLabel& factor) {
+  v.about("The id is NAME of the column at.NAME.");
+  fields(v, static_cast<Label&>(factor));
+  v.field("unit", factor.unit, {.max_bytes = 100, .key = Key::kOptional});
+}
+
+/// study.json.
+struct ResultsHead {
+  ResultsStudy study;
+  PathAlignment alignment = PathAlignment::kNone;
+};
+
+template <typename Visitor>
+void fields(Visitor& v, ResultsHead& head) {
+  using namespace record_rules;
+  ResultsStudy& study = head.study;
+  if constexpr (Visitor::kReads) {
+    study.name = kNamelessResults;
+    study.results.are_repeats = true;
+  }
+  v.file("mapproof.results_study",
+         "study.json beside a results.csv that any program wrote: a title and what the ids in the "
+         "table stand for.");
+  v.field(
+      "name", study.name,
+      {.description = "Ids of figures and tables begin with it; \"results\" where it is left out.",
+       .max_bytes = 100,
+       .form = &kPlainId,
+       .key = Key::kOptional});
+  v.field("title", study.title, {.not_empty = true, .max_bytes = 1000});
+  v.field("question", study.question,
+          {.description = "What was asked and how it was tried.", .key = Key::kOptional});
+  v.field("command", study.command,
+          {.description = "The command that made the results.", .key = Key::kOptional});
+  std::vector<Quantity> quantities;
+  v.field("quantities", quantities,
+          {.description = "In the order of tables. A quantity of the dictionary may be left out, "
+                          "or named by its id alone.",
+           .max_items = kLabels.max_items,
+           .key = Key::kOptional});
+  check_ids(v, "quantities", quantities);
+  v.field("setups", study.setups, kLabels);
+  v.field("methods", study.methods, kLabels);
+  std::vector<FactorLabel> factors;
+  v.field("factors", factors, kLabels);
+  check_ids(v, "setups", study.setups);
+  check_ids(v, "methods", study.methods);
+  check_ids(v, "factors", factors);
+  v.field("runs_are_repeats", study.results.are_repeats,
+          {.description = "Whether runs differ by chance alone, so that means over them and tests "
+                          "make sense; true where it is left out.",
+           .key = Key::kOptional});
+  const auto visit = [&](auto& paths) { paths.field("align", head.alignment); };
+  v.group("paths", visit,
+          {.description = "How each path in paths/ is aligned to its ground truth before it is "
+                          "drawn; not at all where this is left out.",
+           .key = Key::kOptional});
+  if constexpr (Visitor::kReads) {
+    for (const Quantity& quantity : quantities) {
+      study.quantities.push_back(quantity.id);
+      study.results.quantities.declare(quantity);
+    }
+    study.factors.assign(factors.begin(), factors.end());
+  }
+}
 
 }  // namespace mapproof

@@ -1,10 +1,8 @@
 #include "core/records/studies/run_json.hpp"
 
 #include "core/json/record_json.hpp"
-#include "core/records/experiments/experiment_fields.hpp"
+#include "core/records/experiments/experiment_json.hpp"
 #include "core/records/maps/map_fields.hpp"
-#include "core/records/studies/details_fields.hpp"
-#include "core/records/studies/run_fields.hpp"
 
 namespace mapproof {
 

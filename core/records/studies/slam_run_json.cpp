@@ -1,7 +1,7 @@
 #include "core/records/studies/slam_run_json.hpp"
 
 #include "core/json/record_json.hpp"
-#include "core/records/experiments/slam_experiment_fields.hpp"
+#include "core/records/studies/slam_fields.hpp"
 
 namespace mapproof {
 
@@ -29,14 +29,6 @@ std::string space_run_json(const SpaceRun& run) { return to_json_text(run); }
 
 SpaceRun parse_space_run(std::string_view text, const std::string& source) {
   return from_json_text<SpaceRun>(text, source);
-}
-
-std::string slam_study_json(const SlamExperiment& experiment, const Provenance& provenance) {
-  return to_json_text(SlamOrder{.experiment = experiment, .provenance = provenance});
-}
-
-SlamOrder parse_slam_study(std::string_view text, const std::string& source) {
-  return from_json_text<SlamOrder>(text, source);
 }
 
 }  // namespace mapproof

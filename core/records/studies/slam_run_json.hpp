@@ -3,9 +3,9 @@
 #include <string>
 #include <string_view>
 
+#include "core/model/slam.hpp"
 #include "core/model/slam_experiment.hpp"
 #include "core/model/slam_study.hpp"
-#include "core/model/space_slam.hpp"
 
 namespace mapproof {
 
@@ -27,15 +27,5 @@ RangeHistoryStudy parse_range_histories(std::string_view text, const std::string
 /// space.json (mapproof.space_run): a flight and what was made of its ranges.
 std::string space_run_json(const SpaceRun& run);
 SpaceRun parse_space_run(std::string_view text, const std::string& source);
-
-/// What study.json of a range-only study holds.
-struct SlamOrder {
-  SlamExperiment experiment;
-  Provenance provenance;
-};
-
-/// study.json (mapproof.slam_study).
-std::string slam_study_json(const SlamExperiment& experiment, const Provenance& provenance);
-SlamOrder parse_slam_study(std::string_view text, const std::string& source);
 
 }  // namespace mapproof

@@ -8,7 +8,7 @@
 #include "core/base/errors.hpp"
 #include "core/base/files.hpp"
 #include "core/json/record_json.hpp"
-#include "core/records/experiments/slam_experiment_fields.hpp"
+#include "core/records/experiments/slam_experiment_json.hpp"
 #include "core/records/observations/trajectory_files.hpp"
 #include "core/records/studies/slam_files.hpp"
 #include "core/records/studies/slam_run_json.hpp"

@@ -9,7 +9,7 @@
 #include "core/base/errors.hpp"
 #include "core/base/files.hpp"
 #include "core/json/record_json.hpp"
-#include "core/records/experiments/experiment_fields.hpp"
+#include "core/records/experiments/experiment_json.hpp"
 #include "core/records/studies/run_json.hpp"
 #include "core/records/studies/study_files.hpp"
 #include "core/records/studies/timings_jsonl.hpp"

@@ -6,7 +6,6 @@
 
 #include "core/model/experiment.hpp"
 #include "core/model/map_record.hpp"
-#include "core/model/run_details.hpp"
 #include "core/model/study.hpp"
 #include "core/records/studies/study_folder.hpp"
 #include "core/records/studies/study_writer.hpp"

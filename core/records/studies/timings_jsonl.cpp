@@ -10,7 +10,6 @@
 #include "core/base/files.hpp"
 #include "core/json/json_text.hpp"
 #include "core/json/record_json.hpp"
-#include "core/records/studies/timing_fields.hpp"
 
 namespace mapproof {
 namespace {

@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "core/model/trial_study.hpp"
-#include "core/records/experiments/experiment_fields.hpp"
+#include "core/records/experiments/experiment_json.hpp"
 #include "core/records/maps/map_fields.hpp"
 #include "core/records/studies/quantity_fields.hpp"
 #include "core/records/text_forms.hpp"

@@ -8,6 +8,18 @@
 
 namespace mapproof {
 
+struct WindowCurveSpec {
+  std::string id;  ///< [a-z][a-z0-9-]*.
+  std::string title;
+  const WindowCurve& windows;
+  std::string record_id;
+};
+
+/// Error of ranges held out over the window length, the chosen one ringed; lengths that predict
+/// nothing are crosses at the upper edge. No ground truth enters.
+/// @throws InvalidInput if lengths and errors differ in number, or a length is not positive.
+Figure window_curve_figure(const WindowCurveSpec& spec);
+
 /// Error of the measurement model C-hat over the number of readings, with 95 % bars and the slope
 /// −1/2 of theory, and the landmarks' error beside it [boots2013, figure 1B].
 Figure convergence_figure(const std::string& id, const ConvergenceCurve& curve);

@@ -11,7 +11,74 @@
 #include "render/figures/words.hpp"
 
 namespace mapproof {
+
 namespace {
+
+constexpr double kLeastValue = 1e-12;  // Of the greatest value; smaller ones stand at the foot.
+constexpr std::size_t kMostSingularValues = 16;
+
+void require_values(const SingularValuesSpec& spec) {
+  for (const SingularValues& one : spec.panels)
+    for (const double value : one.values)
+      if (value < 0.0 || std::isinf(value))
+        throw InvalidInput("figure " + printable(spec.id) +
+                           ": a singular value is negative or infinite");
+}
+
+/// What noise reaches: as told, or what was dropped.
+std::optional<double> floor_of(const SingularValues& one) {
+  if (one.noise_level && *one.noise_level > 0.0) return one.noise_level;
+  if (one.values.size() > one.rank && one.values[one.rank] > 0.0) return one.values[one.rank];
+  return std::nullopt;
+}
+
+/// Last kept over the floor; NaN if there is no floor or fewer values than the rank.
+double ratio_of(const SingularValues& one) {
+  const auto floor = floor_of(one);
+  if (!floor || one.rank == 0 || one.values.size() < one.rank) return NAN;
+  return one.values[one.rank - 1] / *floor;
+}
+
+/// Of the y axis: from below the least value or floor to above the greatest.
+Range limits_of(const std::vector<const SingularValues*>& shown) {
+  double most = 0.0, least = INFINITY;
+  for (const SingularValues* one : shown)
+    for (const double value : one->values) most = std::max(most, value);
+  for (const SingularValues* one : shown) {
+    for (const double value : one->values)
+      if (value > kLeastValue * most) least = std::min(least, value);
+    if (const auto floor = floor_of(*one))
+      least = std::min(least, std::max(*floor, kLeastValue * most));
+  }
+  return most > 0.0 ? Range{least / 3.0, most * 3.0} : Range{0.1, 1.0};
+}
+
+Panel panel_of(const SingularValues& one, std::size_t index, const Range& y, double last) {
+  Panel panel;
+  panel.title = one.title;
+  if (const double ratio = ratio_of(one); std::isfinite(ratio))
+    panel.title += fmt::format("\ns{} over floor: {}", one.rank, significant(ratio, 2));
+  Segments stems{.ink = Ink::kMuted, .width = 0.7};
+  Scatter kept{.label = "kept", .ink = Ink::kSeries1};
+  Scatter dropped{.label = "dropped", .ink = Ink::kText, .filled = false};
+  for (std::size_t i = 0; i < std::min(one.values.size(), kMostSingularValues); ++i) {
+    if (std::isnan(one.values[i])) continue;
+    const Point at{static_cast<double>(i + 1), std::max(one.values[i], y.low)};
+    add_line(stems, {at.x, y.low}, at);
+    Scatter& points = i < one.rank ? kept : dropped;
+    add_point(points, at);
+    points.marks.push_back({fmt::format("panel-{}-value-{}", index + 1, i + 1),
+                            {{"value", data_number(one.values[i])}}});
+  }
+  Segments floor{.label = one.noise_level ? "noise floor" : "greatest dropped",
+                 .ink = one.noise_level ? Ink::kSeries2 : Ink::kMuted,
+                 .dash = one.noise_level ? Dash::kDashed : Dash::kDotted};
+  if (const auto level = floor_of(one))
+    add_line(floor, {0.4, std::max(*level, y.low)}, {last + 0.6, std::max(*level, y.low)});
+  panel.layers = {stems, floor, kept, dropped};
+  std::erase_if(panel.layers, is_empty);
+  return panel;
+}
 
 constexpr double kFloor = 1e-4;  // Of the greatest; smaller shares stand at the foot.
 constexpr std::size_t kMostShown = 10;
@@ -43,6 +110,44 @@ Panel panel_of(const SpectrumPanel& method, std::size_t index) {
 }
 
 }  // namespace
+
+Figure singular_values_figure(const SingularValuesSpec& spec) {
+  require_values(spec);
+  std::vector<const SingularValues*> shown;
+  double last = 4.0;
+  for (const SingularValues& one : spec.panels) {
+    if (one.values.empty()) continue;
+    shown.push_back(&one);
+    last = std::max(last, static_cast<double>(std::min(one.values.size(), kMostSingularValues)));
+  }
+  Figure figure;
+  figure.id = spec.id;
+  figure.title = spec.title;
+  figure.record_ids = spec.record_ids;
+  figure.shared_x = figure.shared_y = shown.size() > 1;
+  figure.caption =
+      "Singular values of the matrix of squared ranges; filled: those of the rank that the model "
+      "tells; dashed: the level of noise, or the greatest value that is dropped.";
+  figure.alt = "Singular values, logarithmic.";
+  const Range y = limits_of(shown);
+  for (const SingularValues* one : shown) {
+    figure.panels.push_back(panel_of(*one, figure.panels.size(), y, last));
+    figure.alt += fmt::format(" {}:", one->title);
+    for (std::size_t i = 0; i < std::min(one->values.size(), kMostSingularValues); ++i)
+      figure.alt += fmt::format("{} {}", i == 0 ? "" : ",", significant(one->values[i]));
+    figure.alt += ".";
+  }
+  if (figure.panels.empty()) {
+    figure.panels.resize(1);
+    figure.notes.push_back({"There are no singular values.", Ink::kWarning});
+  }
+  for (Panel& panel : figure.panels) {
+    panel.x = {.label = "singular value", .limits = Range{0.4, last + 0.6}, .whole = true};
+    panel.y = {.label = "value [m\u00B2]", .scale = Scale::kLog, .limits = y};
+  }
+  require_valid(figure);
+  return figure;
+}
 
 double spectral_gap(const std::vector<double>& eigenvalues) {
   if (eigenvalues.size() < 3) return NAN;

@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "core/model/measurement.hpp"
+#include "core/model/study.hpp"
 #include "render/base/geometry.hpp"
 
 namespace mapproof {

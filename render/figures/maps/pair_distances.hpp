@@ -1,13 +1,28 @@
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
+#include "core/model/map_certainty.hpp"
 #include "core/model/map_record.hpp"
 #include "core/model/trial_study.hpp"
 #include "render/plot/figure.hpp"
 
 namespace mapproof {
+
+struct MeasuredMapSpec {
+  std::string id;     ///< [a-z][a-z0-9-]*.
+  std::string title;  ///< Empty: as map_figure.
+  const MapRecord& map;
+  const std::vector<MeasuredPair>& pairs;        ///< May be empty.
+  const std::optional<MapCertainty>& certainty;  ///< Of the map, in its frame.
+};
+
+/// A map as map_figure draws it, over thin lines between the landmarks whose distances were
+/// measured, and with the confidence ellipses of add_ellipses.
+/// @throws InvalidInput if parts disagree in size, or a pair's row is none.
+Figure measured_map_figure(const MeasuredMapSpec& spec);
 
 struct PairDistancesSpec {
   std::string id;  ///< [a-z][a-z0-9-]*.

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "core/model/slam_study.hpp"
+#include "render/plot/axis_map.hpp"
 #include "render/plot/figure.hpp"
 
 namespace mapproof {
@@ -22,5 +23,21 @@ struct PathMapSpec {
 /// @throws InvalidInput if parts of a record disagree in size.
 /// @note Pure. O(T log T) a method.
 Figure path_map_figure(const PathMapSpec& spec);
+
+/// What a path map shows of its run.
+struct PathView {
+  std::vector<const SlamRecord*> shown;   ///< Those asked for that have a path or a landmark.
+  std::vector<const SlamRecord*> failed;  ///< Those that have neither.
+  PanelLimits limits;                     ///< Of the map.
+  double side_m = 1.0;                    ///< The longer one of the picture's sides.
+  std::vector<std::string> leaving;       ///< Labels of methods whose path leaves the picture.
+  double tolerance_m = 0.0;               ///< Of thinning: a third of a pixel at 1200.
+  double enlarged = 1.0;                  ///< Factor of the ellipses.
+};
+
+/// The picture is where the truth is, or, without one, the bulk of the paths, and what lies within
+/// half its side about it.
+/// @throws InvalidInput if parts of a record disagree in size.
+PathView path_view(const PathMapSpec& spec);
 
 }  // namespace mapproof

@@ -9,7 +9,6 @@
 #include "render/plot/figure_json.hpp"
 #include "render/scene/scene_json.hpp"
 #include "reports/diff/item_files.hpp"
-#include "reports/diff/records/record_files.hpp"
 #include "reports/diff/records/record_set.hpp"
 #include "reports/diff/svg/svg_tree.hpp"
 

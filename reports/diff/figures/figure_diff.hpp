@@ -4,65 +4,10 @@
 #include <string>
 #include <vector>
 
-#include "render/base/geometry.hpp"
 #include "render/plot/figure.hpp"
-#include "reports/diff/verdict/tolerances.hpp"
-#include "reports/diff/verdict/verdict.hpp"
+#include "reports/diff/figures/figure_log.hpp"
 
 namespace mapproof {
-
-/// What a difference of two figures is about.
-enum class ChangeKind {
-  kMetadata,  ///< Words that explain: title, caption, alternative text; numbers in them are data.
-  kStyle,     ///< How it is shown: colour, dash, marker, label, scale, limits, legend, layout.
-  kData,      ///< What is shown.
-};
-
-/// "metadata", "style", "data".
-std::string_view name(ChangeKind kind);
-
-/// One difference that is not a movement.
-struct FigureChange {
-  ChangeKind kind = ChangeKind::kStyle;
-  std::string place;     ///< "panel 1, polyline \"ISOMAP\""; "figure".
-  std::string what;      ///< "colour", "limits of x", "layer removed", "points".
-  std::string baseline;  ///< Empty: there was none.
-  std::string current;
-};
-
-/// A mark, or a point of a curve, that moved.
-struct MarkMove {
-  std::string place;                  ///< As FigureChange::place.
-  std::string mark;                   ///< Mark::id, "" if it has none.
-  std::string landmark;               ///< Its data-landmark, "" if it has none.
-  std::string curve;                  ///< Its data-curve, "" if it has none.
-  std::size_t point = 0;              ///< Which of its layer, counted from 0.
-  Point baseline, current;            ///< In the units of the axes.
-  double distance = 0.0;              ///< In the units of the axes; NaN: a place on one side alone.
-  std::string unit;                   ///< Of the axes that it moved along; empty: none, or two.
-  std::optional<double> distance_px;  ///< On the page of the report's theme.
-};
-
-/// What two figures differ in.
-struct FigureDiff {
-  bool equal = false;                 ///< The values are the same, bit by bit.
-  std::vector<FigureChange> changes;  ///< At most 200, data first.
-  long total_changes = 0;
-  std::vector<MarkMove> moves;  ///< Beyond tolerance; at most 200, the farthest on the page first.
-  long moved = 0;               ///< Of all points, those beyond tolerance.
-  long within = 0;              ///< Of all points, those that moved less.
-  long masked = 0;              ///< Points that moved in a figure marked `varies`: not judged.
-  /// Mean of data-error over the marks of both sides, where there are some.
-  std::optional<double> baseline_error, current_error;
-
-  /// Whether anything of that kind changed beyond tolerance.
-  bool has(ChangeKind kind) const;
-};
-
-struct FigureOptions {
-  /// In units of the axes, and of the span of the panel's data.
-  Tolerance position{1e-9, 1e-6};
-};
 
 /// Compares two figures mark by mark. Layers are matched by kind and label, marks by id and else
 /// by their place in the layer. In figures marked `varies` on both sides are not judged:
@@ -71,12 +16,5 @@ struct FigureOptions {
 /// @note O(points); layers of a panel squared.
 FigureDiff figure_diff(const Figure& baseline, const Figure& current,
                        const FigureOptions& options = {});
-
-/// The heaviest verdict that the figures alone allow: identical, within tolerance, style, and of
-/// data better, worse (by the errors of their marks) or changed; with its cause.
-Judgement judge(const FigureDiff& diff);
-
-/// "landmark L17 moved 0.041 m (9.1 px)".
-std::string move_text(const MarkMove& move);
 
 }  // namespace mapproof

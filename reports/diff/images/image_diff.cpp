@@ -8,8 +8,9 @@
 
 #include "core/base/errors.hpp"
 #include "core/base/parallel.hpp"
+#include "reports/diff/diff_settings.hpp"
+#include "reports/diff/images/image_judgement.hpp"
 #include "reports/diff/images/tile_evidence.hpp"
-#include "reports/diff/verdict/judgement.hpp"
 
 namespace mapproof {
 namespace {
@@ -158,7 +159,8 @@ void find_clusters(std::span<const int> tiles, const ChangeMap& marks, PixelDiff
 }  // namespace
 
 ImageDiff image_diff(const Image& baseline, Image current, const PictureOptions& options) {
-  if (const std::string problem = options.problem(); !problem.empty()) throw InvalidInput(problem);
+  if (const std::string problem = problem_of(options); !problem.empty())
+    throw InvalidInput(problem);
   ImageDiff diff;
   diff.pixels.baseline = {baseline.width, baseline.height};
   diff.pixels.current = {current.width, current.height};

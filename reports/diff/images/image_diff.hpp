@@ -1,7 +1,7 @@
 #pragma once
 
 #include "reports/diff/images/change_map.hpp"
-#include "reports/diff/images/picture_diff.hpp"
+#include "reports/diff/images/picture_changes.hpp"
 
 namespace mapproof {
 

@@ -11,8 +11,8 @@
 #include "render/image/png_check.hpp"
 #include "render/image/png_chunks.hpp"
 #include "render/image/png_read.hpp"
+#include "reports/diff/diff_settings.hpp"
 #include "reports/diff/images/image_diff.hpp"
-#include "reports/diff/settings_fields.hpp"
 #include "reports/diff/svg/svg_diff.hpp"
 
 namespace mapproof {
@@ -197,33 +197,11 @@ void compare_svgs(std::string_view before, std::string_view after, const Picture
 
 }  // namespace
 
-std::string_view name(PictureState state) {
-  switch (state) {
-    case PictureState::kIdentical:
-      return "identical";
-    case PictureState::kWithinTolerance:
-      return "within tolerance";
-    case PictureState::kDifferent:
-      return "different";
-    case PictureState::kUnreadable:
-      break;
-  }
-  return "unreadable";
-}
-
-std::string PictureOptions::problem() const {
-  for (const PixelBox& box : ignored)
-    if (box.width < 1 || box.height < 1) return "ignored: a box needs a width and a height above 0";
-  BoundsVisitor bounds;
-  PictureOptions options = *this;
-  picture_option_fields(bounds, options);
-  return bounds.problem;
-}
-
 PictureDiff picture_diff(const std::filesystem::path& baseline,
                          const std::filesystem::path& current, const PictureOptions& options,
                          Image* heat) {
-  if (const std::string problem = options.problem(); !problem.empty()) throw InvalidInput(problem);
+  if (const std::string problem = problem_of(options); !problem.empty())
+    throw InvalidInput(problem);
   const std::string before = read_input(baseline, kMostPictureBytes);
   const std::string after = read_input(current, kMostPictureBytes);
   PictureDiff diff;

@@ -3,12 +3,134 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
+#include <vector>
 
-#include "reports/diff/images/recolouring.hpp"
-#include "reports/diff/images/window_structure.hpp"
+#include <Eigen/Cholesky>
+#include <Eigen/Core>
+
+#include "reports/diff/images/tile_patch.hpp"
 
 namespace mapproof {
+
 namespace {
+
+/// A window of a tile and its structural similarity.
+struct WindowStructure {
+  double structure = 1.0;
+  int x = 0, y = 0, width = 0, height = 0;  ///< In the tile.
+};
+
+constexpr int kWindow = 8;
+constexpr int kStride = 4;
+
+/// 0 to 255 [BT.601].
+int luma(const Patch& patch, int cell) {
+  return (77 * patch.raw[0][cell] + 150 * patch.raw[1][cell] + 29 * patch.raw[2][cell]) >> 8;
+}
+
+double structure(const PatchPair& pair, const WindowStructure& window) {
+  int sum_a = 0, sum_b = 0, sum_aa = 0, sum_bb = 0, sum_ab = 0;
+  for (int y = window.y; y < window.y + window.height; ++y)
+    for (int x = window.x; x < window.x + window.width; ++x) {
+      const int a = luma(pair.before, cell_at(x, y)), b = luma(pair.after, cell_at(x, y));
+      sum_a += a, sum_b += b;
+      sum_aa += a * a, sum_bb += b * b, sum_ab += a * b;
+    }
+  constexpr double kC1 = 0.01 * 255 * 0.01 * 255, kC2 = 0.03 * 255 * 0.03 * 255;
+  const double n = window.width * window.height;
+  const double mean_a = sum_a / n, mean_b = sum_b / n;
+  const double var_a = sum_aa / n - mean_a * mean_a, var_b = sum_bb / n - mean_b * mean_b;
+  const double covariance = sum_ab / n - mean_a * mean_b;
+  return (2 * mean_a * mean_b + kC1) * (2 * covariance + kC2) /
+         ((mean_a * mean_a + mean_b * mean_b + kC1) * (var_a + var_b + kC2));
+}
+
+/// The window of 8 x 8 pixels, every 4 of them, whose structural similarity [wang2004] is least, by
+/// luma. One number for a whole picture would hide a small damage.
+/// @param width  Of the part of the tile that lies in the picture, as height.
+WindowStructure least_window_structure(const PatchPair& pair, int width, int height) {
+  WindowStructure least{1.0, 0, 0, std::min(kWindow, width), std::min(kWindow, height)};
+  for (int y = 0; y < height; y += kStride)
+    for (int x = 0; x < width; x += kStride) {
+      WindowStructure window{1.0, x, y, std::min(kWindow, width - x),
+                             std::min(kWindow, height - y)};
+      window.structure = structure(pair, window);
+      if (window.structure < least.structure) least = window;
+    }
+  return least;
+}
+
+/// How well a tile's difference is told by other inks on the same shapes.
+struct Recolouring {
+  double share = 0.0;  ///< Of the sum of squares of the difference, what an affine map explains.
+  double off_line =
+      0.0;         ///< Of 255: the most that a pixel leaves the line from the paper to its ink.
+  int pixels = 0;  ///< That differ beyond the noise, and their neighbours.
+};
+
+struct Pixel {
+  Eigen::Vector3d before, difference;
+};
+
+Eigen::Vector3d colour_at(const Patch& patch, int cell) {
+  return {double(patch.raw[0][cell]), double(patch.raw[1][cell]), double(patch.raw[2][cell])};
+}
+
+/// Pixels of the tile that differ beyond the noise and those beside them.
+std::vector<Pixel> pixels_near_differences(const PatchPair& pair, double noise) {
+  std::array<bool, kPatchCells> near{};
+  for (int y = 0; y < kTile; ++y)
+    for (int x = 0; x < kTile; ++x)
+      if (const int cell = cell_at(x, y); pair.is_beyond(cell, noise))
+        for (const int row : {cell - kPatchSide, cell, cell + kPatchSide})
+          for (const int i : {row - 1, row, row + 1}) near[i] = true;
+  std::vector<Pixel> pixels;
+  for (int i = 0; i < kPatchCells; ++i)
+    if (near[i]) {
+      const Eigen::Vector3d before = colour_at(pair.before, i);
+      pixels.push_back({before, colour_at(pair.after, i) - before});
+    }
+  return pixels;
+}
+
+/// Fits D = M (red, green, blue, 1) to the pixels that differ and those beside them: exact if up to
+/// four inks, mixed by smoothing, have become others. Smoothing itself makes a pixel's ink more or
+/// less, and so leaves it on the line from the paper to the ink.
+Recolouring find_recolouring(const PatchPair& pair, double noise) {
+  const std::vector<Pixel> pixels = pixels_near_differences(pair, noise);
+  Recolouring found;
+  found.pixels = static_cast<int>(pixels.size());
+  const auto row_of = [](const Pixel& pixel) {
+    return Eigen::Vector4d(pixel.before.x(), pixel.before.y(), pixel.before.z(), 255.0);
+  };
+  Eigen::Matrix4d normal = Eigen::Matrix4d::Zero();
+  Eigen::Matrix<double, 4, 3> right = Eigen::Matrix<double, 4, 3>::Zero();
+  Eigen::Vector3d paper = Eigen::Vector3d::Zero();
+  double energy = 0.0, rest = 0.0;
+  int still = 0;
+  for (const Pixel& pixel : pixels) {
+    const Eigen::Vector4d row = row_of(pixel);
+    normal += row * row.transpose();
+    right += row * pixel.difference.transpose();
+    energy += pixel.difference.squaredNorm();
+    if (pixel.difference.cwiseAbs().maxCoeff() <= noise) paper += pixel.before, ++still;
+  }
+  if (pixels.size() < 12 || still == 0 || energy == 0.0) return found;
+  paper /= still;
+  normal.diagonal().array() += 1e-6 * normal.trace();
+  const Eigen::Matrix<double, 4, 3> map = normal.ldlt().solve(right);
+  for (const Pixel& pixel : pixels) {
+    const Eigen::Vector3d told = map.transpose() * row_of(pixel);
+    rest += (pixel.difference - told).squaredNorm();
+    const Eigen::Vector3d ink = pixel.before - paper;
+    const double length = ink.norm();
+    if (length >= 8.0)
+      found.off_line =
+          std::max(found.off_line, (told - told.dot(ink) / (length * length) * ink).norm());
+  }
+  found.share = 1.0 - rest / energy;
+  return found;
+}
 
 // A pixel is lost if the other picture lacks this share of the contrast around it.
 constexpr double kLostTileShare = 0.8;

@@ -1,18 +1,129 @@
 #include "reports/diff/records/number_diff.hpp"
 
+#include <algorithm>
 #include <array>
 #include <tuple>
 
 #include <fmt/format.h>
 
+#include "core/align/rigid.hpp"
 #include "core/base/byte_source.hpp"
 #include "core/base/errors.hpp"
+#include "core/base/not_finite.hpp"
 #include "core/json/json_cursor.hpp"
 #include "reports/diff/documents/excerpts.hpp"
 #include "reports/diff/records/number_words.hpp"
 
 namespace mapproof {
+
 namespace {
+
+constexpr std::size_t kMostMoves = 20;
+
+/// NaN in the same places, else equal numbers.
+bool equal(const Points& a, const Points& b) {
+  if (a.rows() != b.rows()) return false;
+  for (Eigen::Index i = 0; i < a.size(); ++i)
+    if (a.data()[i] != b.data()[i] && !(std::isnan(a.data()[i]) && std::isnan(b.data()[i])))
+      return false;
+  return true;
+}
+
+bool has_place(const Points& points, Eigen::Index row) { return points.row(row).allFinite(); }
+
+Points rows_of(const Points& points, const std::vector<Eigen::Index>& rows) {
+  Points some(static_cast<Eigen::Index>(rows.size()), 2);
+  for (std::size_t i = 0; i < rows.size(); ++i)
+    some.row(static_cast<Eigen::Index>(i)) = points.row(rows[i]);
+  return some;
+}
+
+double spread_of(const Points& points) {
+  if (points.rows() == 0) return 0.0;
+  const Eigen::RowVector2d centre = points.colwise().mean();
+  return std::sqrt((points.rowwise() - centre).rowwise().squaredNorm().mean());
+}
+
+/// `current` where it lies closest to `baseline`, both in units of the baseline's spread.
+void lay_on(const Points& baseline, Points& current, const std::vector<Eigen::Index>& rows) {
+  if (rows.empty()) return;
+  const Points to = rows_of(baseline, rows);
+  double least = kInfinity;
+  Points best = current;
+  for (const double mirror : {1.0, -1.0}) {
+    Points turned = current;
+    turned.col(1) *= mirror;
+    const Points from = rows_of(turned, rows);
+    const Similarity map = fit_similarity(from, to, Alignment::kSimilarity);
+    const double rest = (map(from) - to).squaredNorm();
+    if (rest >= least) continue;
+    least = rest;
+    best = map(turned);
+  }
+  current = best;
+}
+
+/// Means over the points that have a place on both sides and a truth.
+struct Errors {
+  double baseline = 0.0, current = 0.0;
+  int count = 0;
+};
+
+std::string name_of(const PlacedPoints& placed, Eigen::Index row) {
+  const auto i = static_cast<std::size_t>(row);
+  return i < placed.names.size() ? placed.names[i] : std::to_string(row + 1);
+}
+
+PointMove move_of(const PlacedPoints& a, const Points& before, const Points& after,
+                  Eigen::Index row) {
+  PointMove move{.name = name_of(a, row),
+                 .baseline = {before(row, 0), before(row, 1)},
+                 .current = {after(row, 0), after(row, 1)},
+                 .moved = kInfinity,
+                 .baseline_error = std::nullopt,
+                 .current_error = std::nullopt};
+  if (has_place(before, row) && has_place(after, row))
+    move.moved = (before.row(row) - after.row(row)).norm();
+  if (a.truth && a.truth->row(row).allFinite()) {
+    if (has_place(before, row)) move.baseline_error = (before.row(row) - a.truth->row(row)).norm();
+    if (has_place(after, row)) move.current_error = (after.row(row) - a.truth->row(row)).norm();
+  }
+  return move;
+}
+
+void note(PointsDiff& diff, Errors& errors, PointMove move, const Tolerance& tolerance,
+          double size) {
+  const bool before = std::isfinite(move.baseline.x), after = std::isfinite(move.current.x);
+  if (!before && !after) return;
+  if (before && after) {
+    ++diff.points;
+    if (move.baseline_error && move.current_error) {
+      errors.baseline += *move.baseline_error;
+      errors.current += *move.current_error;
+      ++errors.count;
+    }
+    if (move.moved == 0.0) return;
+    if (move.moved <= tolerance.absolute + tolerance.relative * size) {
+      ++diff.within;
+      return;
+    }
+    ++diff.beyond;
+  } else {
+    ++(before ? diff.lost : diff.gained);
+  }
+  diff.moves.push_back(std::move(move));
+}
+
+PlacedPoints places(const Points& points) {
+  PlacedPoints placed;
+  placed.points = points;
+  return placed;
+}
+
+void keep_farthest(std::vector<PointMove>& moves) {
+  std::ranges::stable_sort(moves, std::ranges::greater(), &PointMove::moved);
+  if (moves.size() > kMostMoves) moves.resize(kMostMoves);
+}
 
 using ParsedJson = nlohmann::json;
 
@@ -146,6 +257,56 @@ class NumberComparer {
 };
 
 }  // namespace
+
+bool same_places(const PlacedPoints& a, const PlacedPoints& b, const Tolerances& tolerances) {
+  if (a.points.rows() != b.points.rows()) return false;
+  const std::optional<PointsDiff> diff = points_diff("", a, b, tolerances);
+  return !diff || diff->beyond + diff->lost + diff->gained == 0;
+}
+
+std::optional<PointsDiff> points_diff(const std::string& record, const PlacedPoints& a,
+                                      const PlacedPoints& b, const Tolerances& tolerances) {
+  if (a.names == b.names && a.quantity == b.quantity && equal(a.points, b.points) &&
+      a.truth.has_value() == b.truth.has_value() && (!a.truth || equal(*a.truth, *b.truth)))
+    return std::nullopt;
+  PointsDiff diff;
+  diff.record = record;
+  diff.quantity = a.quantity;
+  const bool same_truth = a.truth.has_value() == b.truth.has_value() &&
+                          (!a.truth || same_places(places(*a.truth), places(*b.truth), tolerances));
+  if (a.names != b.names || a.quantity != b.quantity || a.points.rows() != b.points.rows() ||
+      !same_truth) {
+    diff.truth_differs = true;
+    return diff;
+  }
+  Points before = a.points, after = b.points;
+  std::vector<Eigen::Index> both;
+  for (Eigen::Index row = 0; row < before.rows(); ++row)
+    if (has_place(before, row) && has_place(after, row)) both.push_back(row);
+  const bool is_shape = a.frame == Frame::kSimilarity;
+  if (a.is_free && b.is_free && both.size() >= 3 && !equal(before, after))
+    after = fit_similarity(rows_of(after, both), rows_of(before, both),
+                           Alignment::kRigidWithReflection)(after);
+  if (is_shape && !equal(before, after)) {
+    lay_on(before, after, both);
+    const double spread = spread_of(rows_of(before, both));
+    if (spread > 0.0) {
+      before /= spread;
+      after /= spread;
+    }
+  }
+  const Tolerance tolerance = tolerance_of(known_quantity(a.quantity), tolerances);
+  const double size = both.empty() ? 0.0 : rows_of(before, both).cwiseAbs().maxCoeff();
+  Errors errors;
+  for (Eigen::Index row = 0; row < before.rows(); ++row)
+    note(diff, errors, move_of(a, before, after, row), tolerance, size);
+  if (errors.count > 0 && !is_shape) {
+    diff.baseline_error = errors.baseline / errors.count;
+    diff.current_error = errors.current / errors.count;
+  }
+  keep_farthest(diff.moves);
+  return diff;
+}
 
 OtherDiff number_diff(const std::string& name, const std::filesystem::path& baseline,
                       const std::filesystem::path& current, const Tolerances& tolerances) {

@@ -8,9 +8,8 @@
 
 #include "core/base/errors.hpp"
 #include "reports/diff/records/number_diff.hpp"
-#include "reports/diff/records/record_points.hpp"
+#include "reports/diff/records/record_comparison.hpp"
 #include "reports/diff/records/record_series.hpp"
-#include "reports/diff/records/record_words.hpp"
 
 namespace mapproof {
 namespace {
@@ -162,34 +161,6 @@ void compare_others(const RecordSet& a, const RecordSet& b, const Tolerances& to
 
 }  // namespace
 
-std::string_view name(Presence presence) {
-  switch (presence) {
-    case Presence::kBoth:
-      return "both";
-    case Presence::kBaseline:
-      return "baseline";
-    case Presence::kCurrent:
-      return "current";
-  }
-  return "";
-}
-
-std::string_view name(Outcome outcome) {
-  switch (outcome) {
-    case Outcome::kEqual:
-      return "equal";
-    case Outcome::kWithinTolerance:
-      return "within-tolerance";
-    case Outcome::kBetter:
-      return "better";
-    case Outcome::kWorse:
-      return "worse";
-    case Outcome::kChanged:
-      return "changed";
-  }
-  return "";
-}
-
 RecordDiff record_diff(const RecordSet& a, const RecordSet& b, const RecordOptions& options) {
   if (a.kind != b.kind)
     throw InvalidInput(
@@ -217,18 +188,6 @@ RecordDiff record_diff(const RecordSet& a, const RecordSet& b, const RecordOptio
   compare_others(a, b, options.tolerances, diff);
   diff.judgement = judge(diff);
   return diff;
-}
-
-RecordName subject_of(const std::string& id) {
-  RecordName name{.run = "", .subject = id.substr(0, id.find(" of "))};
-  constexpr std::string_view kPath = "/path";
-  if (name.subject.ends_with(kPath)) name.subject.resize(name.subject.size() - kPath.size());
-  const std::size_t slash = name.subject.find('/');
-  if (name.subject.starts_with("layout-") && slash != std::string::npos) {
-    name.run = name.subject.substr(0, slash);
-    name.subject.erase(0, slash + 1);
-  }
-  return name;
 }
 
 RecordTie tie(const RecordDiff& diff, const std::string& id) {

@@ -6,7 +6,7 @@
 #include <set>
 
 #include "core/base/not_finite.hpp"
-#include "reports/diff/records/record_points.hpp"
+#include "reports/diff/records/number_diff.hpp"
 
 namespace mapproof {
 namespace {

@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "reports/diff/records/record_diff.hpp"
+#include "reports/diff/records/record_comparison.hpp"
 
 namespace mapproof {
 

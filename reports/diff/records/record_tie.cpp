@@ -5,7 +5,7 @@
 #include "core/base/words.hpp"
 #include "reports/diff/figures/figure_log.hpp"
 #include "reports/diff/item_diff.hpp"
-#include "reports/diff/records/record_words.hpp"
+#include "reports/diff/records/record_comparison.hpp"
 
 namespace mapproof {
 namespace {

@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include "core/base/errors.hpp"
+#include "reports/diff/diff_settings.hpp"
 #include "reports/diff/documents/excerpts.hpp"
 #include "reports/diff/svg/svg_match.hpp"
 #include "reports/diff/svg/svg_units.hpp"
@@ -274,7 +275,8 @@ class Differ {
 }  // namespace
 
 SvgDiff svg_diff(const SvgTree& baseline, const SvgTree& current, const PictureOptions& options) {
-  if (const std::string problem = options.problem(); !problem.empty()) throw InvalidInput(problem);
+  if (const std::string problem = problem_of(options); !problem.empty())
+    throw InvalidInput(problem);
   return Differ(baseline, current, options).run();
 }
 

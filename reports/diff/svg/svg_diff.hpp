@@ -1,6 +1,6 @@
 #pragma once
 
-#include "reports/diff/images/picture_diff.hpp"
+#include "reports/diff/images/picture_changes.hpp"
 #include "reports/diff/svg/svg_tree.hpp"
 
 namespace mapproof {

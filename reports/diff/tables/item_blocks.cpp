@@ -1,8 +1,12 @@
 #include "reports/diff/tables/item_blocks.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <set>
+#include <string>
+#include <tuple>
 #include <utility>
+#include <vector>
 
 #include <fmt/format.h>
 
@@ -10,13 +14,281 @@
 #include "core/base/errors.hpp"
 #include "core/base/words.hpp"
 #include "render/plot/figure_json.hpp"
-#include "reports/diff/tables/figure_tables.hpp"
+#include "reports/diff/figures/figure_diff.hpp"
+#include "reports/diff/records/record_comparison.hpp"
+#include "reports/diff/records/record_diff.hpp"
 #include "reports/diff/tables/picture_tables.hpp"
-#include "reports/diff/tables/record_tables.hpp"
-#include "reports/diff/tables/score_table.hpp"
+#include "reports/diff/tables/table_parts.hpp"
+#include "reports/diff/verdict/tolerances.hpp"
+#include "reports/model/report.hpp"
 
 namespace mapproof {
+
 namespace {
+
+/// Worse before changed before better, and so on; then by p.
+std::tuple<int, double> weight(const Comparison& comparison) {
+  const auto place = [](Outcome outcome) {
+    switch (outcome) {
+      case Outcome::kWorse:
+        return 0;
+      case Outcome::kChanged:
+        return 1;
+      case Outcome::kBetter:
+        return 2;
+      case Outcome::kWithinTolerance:
+        return 3;
+      case Outcome::kEqual:
+        break;
+    }
+    return 4;
+  };
+  return {place(comparison.outcome), comparison.test ? comparison.test->p : 2.0};
+}
+
+std::string runs_text(const Comparison& c) {
+  std::string text = fmt::format("{} of {}", c.beyond, c.pairs);
+  if (c.lost > 0) text += fmt::format(", {} lost", c.lost);
+  if (c.gained > 0) text += fmt::format(", {} gained", c.gained);
+  return text;
+}
+
+Row row_of(const Comparison& c) {
+  const double scale = std::max(std::abs(c.baseline_mean), std::abs(c.current_mean));
+  const std::string subject = c.current_subject == c.subject || c.current_subject.empty()
+                                  ? c.subject
+                                  : c.subject + " \u2192 " + c.current_subject;
+  Row row{{user_text(subject), TextCell{label_with_unit(c.quantity)},
+           scaled_number(c.baseline_mean, scale), scaled_number(c.current_mean, scale),
+           TextCell{runs_text(c)}},
+          "",
+          false};
+  row.cells.push_back(c.test ? Cell(TextCell{fmt::format("{:.2g}", c.test->p)})
+                             : Cell(MissingCell{}));
+  row.cells.push_back(c.test ? Cell(NumberCell{c.test->test.effect, 2, true})
+                             : Cell(MissingCell{}));
+  row.cells.emplace_back(TextCell{std::string(label(verdict_of(c.outcome)))});
+  return row;
+}
+
+/// Adds a table of scores, baseline and current, with their tests: the most telling first.
+/// @param comparisons  No null.
+void add_score_table(std::vector<Block>& blocks, const std::string& id, const std::string& caption,
+                     std::vector<const Comparison*> comparisons) {
+  std::ranges::stable_sort(comparisons, {}, [](const Comparison* c) { return weight(*c); });
+  Table table{id, caption, {}, {}, {}};
+  table.columns = {{"Subject", "", "", ""},
+                   {"Score", "", "", ""},
+                   {"Baseline", "", "", "Mean over the runs that both sides have"},
+                   {"Current", "", "", "Mean over the runs that both sides have"},
+                   {"Runs beyond tolerance", "", "", ""},
+                   {"p", "", "", "Of a paired test, corrected for the number of tests"},
+                   {"Effect", "", "", "Rank-biserial correlation, -1 to 1; above 0: greater"},
+                   {"Outcome", "", "", ""}};
+  const long total = std::ssize(comparisons);
+  if (comparisons.size() > kMostTableRows) comparisons.resize(kMostTableRows);
+  bool tested = false;
+  for (const Comparison* comparison : comparisons) {
+    table.rows.push_back(row_of(*comparison));
+    tested = tested || comparison->test.has_value();
+  }
+  if (!tested)
+    table.notes.emplace_back("No p: there are too few pairs of runs or of groups to test.");
+  add_table(blocks, std::move(table), total);
+}
+
+constexpr std::size_t kMostNames = 12;
+
+/// Three columns of text: what, before, after.
+Table changes_table(const std::string& id, const std::string& caption, const std::string& what,
+                    const auto& changes, auto name_of) {
+  Table table{id, caption, {}, {}, {}};
+  table.columns = {{what, "", "", ""}, {"Baseline", "", "", ""}, {"Current", "", "", ""}};
+  for (const auto& change : changes) {
+    if (table.rows.size() == kMostTableRows) break;
+    table.rows.push_back(
+        {{user_text(name_of(change)), user_text(change.baseline.empty() ? "none" : change.baseline),
+          user_text(change.current.empty() ? "none" : change.current)},
+         "",
+         false});
+  }
+  return table;
+}
+
+/// The farthest move of each record, the farthest record first.
+void add_points_table(std::vector<Block>& blocks, const RecordDiff& diff,
+                      const std::string& suffix) {
+  std::vector<const PointsDiff*> moved;
+  for (const PointsDiff& points : diff.points)
+    if (!points.moves.empty()) moved.push_back(&points);
+  std::ranges::stable_sort(moved, std::ranges::greater{},
+                           [](const PointsDiff* points) { return points->moves[0].moved; });
+  Table table{"points-" + suffix, "Positions that moved, by record", {}, {}, {}};
+  table.columns = {{"Record", "", "", ""},
+                   {"Farthest", "", "", ""},
+                   {"Moved", "", "", "Positions beyond tolerance"},
+                   {"Baseline error", "", "", "Mean, where the truth is known"},
+                   {"Current error", "", "", "Mean, where the truth is known"}};
+  const auto error = [](const std::optional<double>& value) {
+    return value ? Cell(scaled_number(*value, std::abs(*value))) : Cell(MissingCell{});
+  };
+  for (const PointsDiff* points : moved) {
+    if (table.rows.size() == kMostTableRows) break;
+    table.rows.push_back(
+        {{user_text(points->record), user_text(move_text(points->moves[0], points->quantity)),
+          TextCell{fmt::format("{} of {}", points->beyond, points->points)},
+          error(points->baseline_error), error(points->current_error)},
+         "",
+         false});
+  }
+  add_table(blocks, std::move(table), std::ssize(moved));
+}
+
+/// Names on one side alone, and what could not be read.
+void add_presence(std::vector<Block>& blocks, const RecordDiff& diff) {
+  KeyValues facts;
+  const auto add = [&](const std::string& key, const std::vector<std::string>& names) {
+    if (!names.empty()) facts.items.push_back({key, {listed(names, kMostNames), Emphasis::kData}});
+  };
+  add("Runs missing", diff.missing_runs);
+  add("Runs new", diff.new_runs);
+  add("Subjects missing", diff.missing_subjects);
+  add("Subjects new", diff.new_subjects);
+  add("Other anchors in", diff.anchors);
+  for (const RecordProblem& problem : diff.problems)
+    if (facts.items.size() < kMostTableRows)
+      facts.items.push_back({problem.file, {problem.what, Emphasis::kData}});
+  facts.items.push_back({"Values compared", {fmt::format("{}", diff.values), Emphasis::kPlain}});
+  facts.items.push_back({"Pairs of runs",
+                         {diff.same_seeds ? "the same on both sides: compared pair by pair"
+                                          : "none: the seeds or the worlds are others",
+                          Emphasis::kPlain}});
+  blocks.emplace_back(std::move(facts));
+}
+
+/// Adds files that are compared value by value, where there are some.
+void add_others_table(std::vector<Block>& blocks, const std::vector<OtherDiff>& others,
+                      const std::string& suffix) {
+  Table table{"others-" + suffix, "Other values", {}, {}, {}};
+  table.columns = {{"File", "", "", ""},
+                   {"Numbers", "", "", ""},
+                   {"Within tolerance", "", "", ""},
+                   {"Beyond", "", "", ""},
+                   {"First at", "", "", "JSON pointer or line"},
+                   {"Baseline", "", "", ""},
+                   {"Current", "", "", ""}};
+  for (const OtherDiff& other : others) {
+    if (table.rows.size() == kMostTableRows) break;
+    const auto count = [](long value) { return NumberCell{static_cast<double>(value), 0}; };
+    const std::string place = other.presence == Presence::kBaseline  ? "missing"
+                              : other.presence == Presence::kCurrent ? "new"
+                                                                     : other.first;
+    table.rows.push_back(
+        {{user_text(other.file), count(other.numbers), count(other.within), count(other.beyond),
+          user_text(place), user_text(other.baseline), user_text(other.current)},
+         "",
+         false});
+  }
+  add_table(blocks, std::move(table), std::ssize(others));
+}
+
+/// Adds what became of the records: scores with their tests, positions, settings, statuses, runs
+/// on one side alone, versions, files that cannot be read.
+/// @param suffix  Ends the tables' ids.
+void add_record_tables(std::vector<Block>& blocks, const RecordDiff& diff,
+                       const std::string& suffix) {
+  add_presence(blocks, diff);
+  add_table(blocks,
+            changes_table("settings-" + suffix, "Settings of the experiment", "Setting",
+                          diff.settings, [](const auto& change) { return change.pointer; }),
+            std::ssize(diff.settings));
+  std::vector<const Comparison*> comparisons;
+  for (const Comparison& comparison : diff.comparisons) comparisons.push_back(&comparison);
+  add_score_table(blocks, "scores-" + suffix, "Scores", std::move(comparisons));
+  add_points_table(blocks, diff, suffix);
+  add_table(blocks,
+            changes_table("statuses-" + suffix, "Statuses", "Record", diff.statuses,
+                          [](const auto& change) { return change.record; }),
+            std::ssize(diff.statuses));
+  add_others_table(blocks, diff.others, suffix);
+  add_table(blocks,
+            changes_table("versions-" + suffix, "Versions, which are not judged", "What",
+                          diff.provenance, [](const auto& change) { return change.pointer; }),
+            std::ssize(diff.provenance));
+}
+
+std::string who(const MarkMove& move) {
+  if (!move.landmark.empty()) return "landmark " + move.landmark;
+  const std::string of = move.curve.empty() ? "" : " of " + move.curve;
+  return move.mark.empty() ? fmt::format("point {}{}", move.point + 1, of) : move.mark + of;
+}
+
+/// "(1.25, -0.5)", with as many digits as tell it from the other.
+std::string place_text(Point at, Point other) {
+  if (!std::isfinite(at.x) || !std::isfinite(at.y)) return "none";
+  const auto digits = [](double a, double b) {
+    int enough = 4;
+    while (enough < 17 && a != b &&
+           fmt::format("{:.{}g}", a, enough) == fmt::format("{:.{}g}", b, enough))
+      ++enough;
+    return enough;
+  };
+  return fmt::format("({:.{}g}, {:.{}g})", at.x, digits(at.x, other.x), at.y,
+                     digits(at.y, other.y));
+}
+
+Table moves_table(const FigureDiff& diff, const std::string& suffix) {
+  Table table{"moves-" + suffix, "What moved", {}, {}, {}};
+  table.columns = {{"What", "", "", ""},
+                   {"Where", "", "", ""},
+                   {"From", "", "", "In the units of the axes"},
+                   {"To", "", "", "In the units of the axes"},
+                   {"Distance", "", "", "In the units of the axes"},
+                   {"On the page", "px", "", "On the page of the report's theme"}};
+  double scale = 0.0;
+  for (const MarkMove& move : diff.moves)
+    if (std::isfinite(move.distance)) scale = std::max(scale, move.distance);
+  for (const MarkMove& move : diff.moves) {
+    Row row{
+        {user_text(who(move)), user_text(move.place),
+         TextCell{place_text(move.baseline, move.current)},
+         TextCell{place_text(move.current, move.baseline)}, scaled_number(move.distance, scale)},
+        "",
+        false};
+    row.cells.push_back(move.distance_px ? Cell(NumberCell{*move.distance_px, 1})
+                                         : Cell(MissingCell{}));
+    table.rows.push_back(std::move(row));
+  }
+  if (diff.within > 0)
+    table.notes.push_back(counted(diff.within, "more point") + " moved within tolerance.");
+  if (diff.baseline_error && diff.current_error)
+    table.notes.push_back("Mean error of the marks: " +
+                          change_text(*diff.baseline_error, *diff.current_error, "") + ".");
+  return table;
+}
+
+/// Adds what moved, from where to where, and what changed otherwise.
+/// @param suffix  Ends the tables' ids.
+void add_figure_tables(std::vector<Block>& blocks, const FigureDiff& diff,
+                       const std::string& suffix) {
+  add_table(blocks, moves_table(diff, suffix), diff.moved);
+  Table changes{"changes-" + suffix, "What changed in the figure's value", {}, {}, {}};
+  changes.columns = {{"Where", "", "", ""},
+                     {"What", "", "", ""},
+                     {"Kind", "", "", "Data; style; or metadata: title, caption, words"},
+                     {"Baseline", "", "", ""},
+                     {"Current", "", "", ""}};
+  for (const FigureChange& change : diff.changes)
+    changes.rows.push_back(
+        {{user_text(change.place), user_text(change.what), TextCell{std::string(name(change.kind))},
+          user_text(change.baseline), user_text(change.current)},
+         "",
+         false});
+  if (diff.masked > 0)
+    changes.notes.push_back("Varies from run to run: " + counted(diff.masked, "difference") +
+                            " not judged.");
+  add_table(blocks, std::move(changes), diff.total_changes);
+}
 
 constexpr std::size_t kLargestFigure = std::size_t{1} << 28;  // Bytes.
 constexpr std::size_t kMostItemNames = 6;

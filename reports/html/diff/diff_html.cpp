@@ -1,29 +1,285 @@
 #include "reports/html/diff/diff_html.hpp"
 
+#include <algorithm>
+#include <cstdint>
 #include <filesystem>
 #include <map>
+#include <optional>
+#include <string>
+#include <string_view>
 #include <system_error>
 #include <utility>
+#include <vector>
 
 #include <fmt/format.h>
 #include <kainjow/mustache.hpp>
 
+#include "core/base/byte_source.hpp"
 #include "core/base/errors.hpp"
+#include "core/base/parallel.hpp"
 #include "core/base/version.hpp"
 #include "core/base/words.hpp"
+#include "render/image/png.hpp"
 #include "reports/diff/approvals/approvals.hpp"
+#include "reports/diff/diff_result.hpp"
+#include "reports/diff/diff_settings.hpp"
+#include "reports/diff/images/picture_diff.hpp"
 #include "reports/diff/tables/item_blocks.hpp"
+#include "reports/diff/tables/picture_tables.hpp"
 #include "reports/html/block_data.hpp"
-#include "reports/html/diff/item_data.hpp"
-#include "reports/html/diff/url_text.hpp"
 #include "reports/html/page_frame.hpp"
-#include "reports/html/table_data.hpp"
+#include "reports/html/sha256.hpp"
 
 namespace mapproof {
+
 namespace {
 
+namespace fs = std::filesystem;
 using kainjow::mustache::data;
 using kainjow::mustache::list;
+
+constexpr std::int64_t kMostPixels = std::int64_t{1} << 28;
+
+bool has_both(const PictureFile& file) { return !file.baseline.empty() && !file.current.empty(); }
+
+/// How much a picture has to show; 0: nothing.
+int interest(const PictureFile& file) {
+  const int of_format = file.format == "png" ? 1 : 0;
+  if (file.format != "png" && file.format != "svg") return 0;
+  if (!has_both(file)) return 2 + of_format;
+  switch (file.diff.state) {
+    case PictureState::kDifferent:
+      return 6 + of_format;
+    case PictureState::kWithinTolerance:
+      return 4 + of_format;
+    default:
+      return 0;
+  }
+}
+
+const PictureFile* most_telling(const DiffItem& item) {
+  const PictureFile* best = nullptr;
+  for (const PictureFile& file : item.pictures)
+    if (interest(file) > (best == nullptr ? 0 : interest(*best))) best = &file;
+  return best;
+}
+
+std::uint32_t number_at(std::string_view bytes, std::size_t at) {
+  std::uint32_t number = 0;
+  for (std::size_t i = 0; i < 4; ++i)
+    number = number << 8 | static_cast<unsigned char>(bytes[at + i]);
+  return number;
+}
+
+/// By its header; a browser reads the rest.
+PictureSize png_size(const std::string& bytes, const fs::path& path) {
+  constexpr std::string_view kSignature("\x89PNG\r\n\x1a\n", 8);
+  if (bytes.size() < 24 || !bytes.starts_with(kSignature))
+    throw IoError(path.string(), "is not a PNG");
+  const std::int64_t width = number_at(bytes, 16), height = number_at(bytes, 20);
+  if (width < 1 || height < 1 || width > kMostPixels || height > kMostPixels / width)
+    throw IoError(path.string(), fmt::format("{} x {} pixels are not shown", width, height));
+  return {static_cast<int>(width), static_cast<int>(height)};
+}
+
+ShownPicture read_picture(const fs::path& path, const std::string& format,
+                          const std::string& renderer, std::size_t limit) {
+  const std::string bytes = read_input(path, limit);
+  ShownPicture picture;
+  picture.renderer = renderer;
+  if (format == "png") picture.size = png_size(bytes, path);
+  picture.uri =
+      (format == "png" ? "data:image/png;base64," : "data:image/svg+xml;base64,") + base64(bytes);
+  return picture;
+}
+
+/// What is to be read for one item.
+struct Plan {
+  const PictureFile* file = nullptr;
+  bool heat = false;
+  std::string absent;
+};
+
+std::string unreadable_reason(const DiffItem& item) {
+  for (const PictureFile& file : item.pictures)
+    if (has_both(file) && file.diff.state == PictureState::kUnreadable)
+      return "Not shown: " + file.format + " cannot be read.";
+  return "";
+}
+
+std::uintmax_t bytes_of(const PictureFile& file) {
+  std::uintmax_t bytes = 0;
+  for (const fs::path& path : {file.baseline, file.current}) {
+    std::error_code error;
+    const std::uintmax_t size = path.empty() ? 0 : fs::file_size(path, error);
+    if (!error) bytes += size;
+  }
+  return bytes;
+}
+
+std::vector<Plan> plans(const DiffResult& result, const PictureBudget& budget) {
+  std::vector<Plan> all;
+  std::uintmax_t used = 0;
+  std::size_t heat_maps = 0;
+  for (const DiffItem& item : result.items) {
+    Plan plan;
+    if (item.judgement.verdict != Verdict::kIdentical) {
+      plan.file = most_telling(item);
+      if (plan.file == nullptr) plan.absent = unreadable_reason(item);
+    }
+    if (plan.file != nullptr && used + bytes_of(*plan.file) > budget.all_bytes) {
+      plan.absent = fmt::format("Not shown: the pictures of this page fill {} MiB already.",
+                                budget.all_bytes >> 20);
+      plan.file = nullptr;
+    }
+    if (plan.file != nullptr) {
+      used += bytes_of(*plan.file);
+      plan.heat =
+          plan.file->format == "png" && has_both(*plan.file) && heat_maps < budget.heat_maps;
+      heat_maps += plan.heat ? 1 : 0;
+    }
+    all.push_back(std::move(plan));
+  }
+  return all;
+}
+
+/// Of two pictures that are shown without one.
+std::string no_heat_reason(const Plan& plan) {
+  if (plan.file->format != "png") return "No heat map: only PNGs have one.";
+  return plan.heat ? "No heat map: the sizes differ."
+                   : "No heat map: as many as a page holds are made of others.";
+}
+
+std::optional<ShownPicture> heat_picture(const PictureFile& file, const PictureOptions& options) {
+  const Image image = heat_map(file.baseline, file.current, options);
+  if (image.width < 1 || image.height < 1) return std::nullopt;
+  return ShownPicture{"data:image/png;base64," + base64(encode_png(image)),
+                      PictureSize{image.width, image.height}, ""};
+}
+
+ShownPictures read_all(const Plan& plan, const PictureOptions& options, std::size_t limit) {
+  ShownPictures shown;
+  shown.absent = plan.absent;
+  if (plan.file == nullptr) return shown;
+  const PictureFile& file = *plan.file;
+  try {
+    if (!file.baseline.empty())
+      shown.baseline = read_picture(file.baseline, file.format, file.diff.baseline_renderer, limit);
+    if (!file.current.empty())
+      shown.current = read_picture(file.current, file.format, file.diff.current_renderer, limit);
+    if (plan.heat) shown.heat = heat_picture(file, options);
+  } catch (const IoError& error) {
+    shown = {};
+    shown.absent = std::string("Not shown: ") + error.what();
+    return shown;
+  }
+  shown.format = file.format;
+  if (has_both(file) && !shown.heat) shown.no_heat = no_heat_reason(plan);
+  if (file.diff.pixels && file.diff.pixels->largest_cluster_pixels > 0)
+    shown.cluster = file.diff.pixels->largest_cluster;
+  return shown;
+}
+
+/// Reads what the page shows of each item, in their order, and makes the heat maps of PNGs that
+/// differ, within tolerance too. Identical and unreadable pictures are not shown. Files stay as
+/// they are on disk.
+/// @note Several items at a time, by oneTBB; the result does not depend on it. Holds all.
+std::vector<ShownPictures> shown_pictures(const DiffResult& result, const DiffSettings& settings,
+                                          const PictureBudget& budget = {}) {
+  const std::vector<Plan> all = plans(result, budget);
+  std::vector<ShownPictures> shown(all.size());
+  parallel_for(all.size(), [&](std::size_t i) {
+    shown[i] = read_all(all[i], settings.pictures_of(result.items[i].id), budget.largest_bytes);
+  });
+  return shown;
+}
+
+constexpr std::size_t kMostName = 300;    // Characters.
+constexpr std::size_t kMostCause = 2000;  // Characters.
+
+/// One picture; `side` is "baseline", "current" or "heat".
+data pane_data(const ShownPicture& picture, const std::string& side, const std::string& title,
+               const std::string& id) {
+  data out;
+  out.set("side", side);
+  out.set("title", title);
+  out.set("uri", picture.uri);
+  out.set("alt", title + " of " + id);
+  std::string note = picture.size ? size_text(*picture.size) : "";
+  if (!picture.renderer.empty())
+    note += (note.empty() ? "" : ", ") + printable(picture.renderer, kMostName);
+  out.set("note", note);
+  out.set("sized", picture.size.has_value());
+  out.set("width", fmt::format("{}", picture.size ? picture.size->width : 0));
+  out.set("height", fmt::format("{}", picture.size ? picture.size->height : 0));
+  return out;
+}
+
+data stage_data(const ShownPictures& shown, const std::string& id) {
+  if (shown.format.empty()) return data(false);
+  list panes;
+  if (shown.baseline) panes.push_back(pane_data(*shown.baseline, "baseline", "Baseline", id));
+  if (shown.current) panes.push_back(pane_data(*shown.current, "current", "Current", id));
+  data out;
+  out.set("both", shown.baseline.has_value() && shown.current.has_value());
+  out.set("has_heat", shown.heat.has_value());
+  if (shown.heat) panes.push_back(pane_data(*shown.heat, "heat", "Heat map", id));
+  out.set("panes", panes);
+  out.set("format", shown.format);
+  return out;
+}
+
+data cluster_data(const ShownPictures& shown) {
+  if (!shown.cluster) return data(false);
+  const PixelBox& box = *shown.cluster;
+  data out;
+  out.set("box", fmt::format("{} {} {} {}", box.x, box.y, box.width, box.height));
+  out.set("text", fmt::format("Largest cluster of changed pixels: {} at ({}, {})",
+                              size_text({box.width, box.height}), box.x, box.y));
+  return out;
+}
+
+/// The id of an item's element, by which links reach it: "figure-fig-7", "records-records".
+std::string anchor_of(const DiffItem& item) {
+  return (item.kind == ItemKind::kRecords ? "records-" : "figure-") + url_text(item.id);
+}
+
+/// What lists say of an item: its name, verdict and anchor.
+data entry_data(const DiffItem& item) {
+  data out;
+  out.set("anchor", anchor_of(item));
+  out.set("id", printable(item.id, kMostName));
+  out.set("verdict", std::string(name(item.judgement.verdict)));
+  out.set("label", std::string(label(item.judgement.verdict)));
+  return out;
+}
+
+/// What diff_item.mustache is told of an item.
+/// @param refusal  Why it cannot be approved by itself; null: it can.
+/// @param number   Distinguishes ids on the page.
+data item_data(const DiffItem& item, const DiffResult& all, const ShownPictures& shown,
+               const ApprovalRefusal* refusal, std::size_t number) {
+  data out = entry_data(item);
+  const std::string id = printable(item.id, kMostName);
+  out.set("number", fmt::format("{}", number));
+  out.set("code", url_text(item.id));
+  out.set("passes", item.passes);
+  out.set("cause", text_or_false(printable(item.judgement.cause, kMostCause)));
+  out.set("approvable", item.judgement.verdict != Verdict::kUnreadable);
+  out.set("refused", refusal != nullptr);
+  out.set("with_records", refusal != nullptr && refusal->goes_with_records);
+  out.set("refusal", refusal ? printable(refusal->why, kMostCause) : std::string());
+  out.set("stage", stage_data(shown, id));
+  out.set("no_heat", text_or_false(shown.no_heat));
+  out.set("cluster", cluster_data(shown));
+  out.set("absent", text_or_false(shown.absent));
+  list blocks;
+  for (const Block& block : item_blocks(item, all, number))
+    blocks.push_back(
+        block_data(block, {}, {.figure_folder = "", .table_folder = "", .copies_tables = false}));
+  out.set("blocks", blocks);
+  return out;
+}
 
 /// Verdicts that occur, the heaviest first, with how many items have each.
 list counts_data(const DiffResult& result) {
@@ -90,6 +346,19 @@ void set_items(data& page, const DiffResult& result, const std::vector<ShownPict
 }
 
 }  // namespace
+
+std::string url_text(std::string_view text) {
+  constexpr std::string_view kPlain =
+      "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789-._/";
+  std::string out;
+  for (const char c : text) {
+    if (kPlain.find(c) != std::string_view::npos)
+      out += c;
+    else
+      out += fmt::format("%{:02X}", static_cast<unsigned char>(c));
+  }
+  return out;
+}
 
 std::string diff_html(const DiffResult& result, const DiffSettings& settings,
                       const Templates& templates, const PictureBudget& budget) {

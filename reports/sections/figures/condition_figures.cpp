@@ -4,7 +4,7 @@
 
 #include "core/base/not_finite.hpp"
 #include "core/base/words.hpp"
-#include "render/figures/curves/anchor_count.hpp"
+#include "render/figures/curves/error_curve.hpp"
 #include "render/figures/curves/error_lines.hpp"
 #include "render/figures/curves/level_curve.hpp"
 #include "render/figures/maps/occlusion.hpp"

@@ -7,7 +7,6 @@
 #include <vector>
 
 #include "core/model/map_record.hpp"
-#include "core/model/run_details.hpp"
 #include "core/model/study.hpp"
 #include "reports/sections/method_summary.hpp"
 

@@ -1,6 +1,5 @@
 #include "render/figures/diagrams/measurement.hpp"
 
-#include "render/figures/diagrams/idea.hpp"
 #include "reports/sections/figures/builders.hpp"
 
 namespace mapproof {

@@ -4,7 +4,7 @@
 
 #include "core/base/not_finite.hpp"
 #include "core/base/words.hpp"
-#include "render/figures/curves/error_by_parameter.hpp"
+#include "render/figures/curves/error_curve.hpp"
 #include "reports/sections/figures/builders.hpp"
 #include "reports/sections/wording.hpp"
 

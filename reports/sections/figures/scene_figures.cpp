@@ -1,9 +1,7 @@
 #include <fmt/format.h>
 
-#include "render/scene/error_field_scene.hpp"
 #include "render/scene/forming_scene.hpp"
-#include "render/scene/manifold_scene.hpp"
-#include "render/scene/measurement_scene.hpp"
+#include "render/scene/observation_scenes.hpp"
 #include "render/scene/room.hpp"
 #include "render/scene/world_scene.hpp"
 #include "reports/sections/figures/builders.hpp"

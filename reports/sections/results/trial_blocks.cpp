@@ -7,7 +7,6 @@
 #include <fmt/ranges.h>
 
 #include "core/base/words.hpp"
-#include "render/figures/maps/measured_map.hpp"
 #include "render/figures/maps/pair_distances.hpp"
 #include "reports/sections/results/results_view.hpp"
 #include "reports/sections/sessions_table.hpp"

@@ -8,8 +8,7 @@
 
 #include "render/figures/curves/convergence.hpp"
 #include "render/figures/curves/refinement_starts.hpp"
-#include "render/figures/curves/singular_values.hpp"
-#include "render/figures/curves/window_curve.hpp"
+#include "render/figures/curves/spectrum.hpp"
 #include "render/figures/maps/map_grid.hpp"
 #include "render/figures/maps/path_map.hpp"
 #include "render/scene/quadric_scene.hpp"

@@ -1,10 +1,17 @@
 #include "reports/sections/slam/slam_report.hpp"
 
 #include <algorithm>
+#include <cmath>
+#include <utility>
 
 #include <fmt/format.h>
 
 #include "core/base/words.hpp"
+#include "render/figures/curves/log_log.hpp"
+#include "render/figures/maps/path_styles.hpp"
+#include "render/figures/status_words.hpp"
+#include "render/figures/words.hpp"
+#include "reports/sections/opening.hpp"
 #include "reports/sections/sessions_table.hpp"
 #include "reports/sections/slam/slam_tables.hpp"
 #include "reports/sections/slam/slam_words.hpp"
@@ -12,6 +19,7 @@
 #include "reports/sections/wording.hpp"
 
 namespace mapproof {
+
 namespace {
 
 const FigureGroup* group_of(const StudyFigures& figures, const std::string& id) {
@@ -75,6 +83,56 @@ std::string alone(std::string title) {
   return title;
 }
 
+void add_statuses(const std::string& where, const std::string& id,
+                  const std::vector<Status>& statuses, StatusList& list) {
+  for (const Status& status : statuses) {
+    const auto same = [&](const StatusList::Item& item) {
+      return item.code == name(status.code) && item.where == where;
+    };
+    auto item = std::ranges::find_if(list.items, same);
+    if (item == list.items.end()) {
+      list.items.push_back({std::string(name(status.code)),
+                            std::string(meaning(status.code)),
+                            where,
+                            0,
+                            1,
+                            status.code == StatusCode::kFailed,
+                            {}});
+      item = list.items.end() - 1;
+    }
+    item->count = 1;
+    item->places.push_back({id, status_words(status)});
+  }
+}
+
+constexpr std::size_t kMostRuns = 2;  ///< Told before anything else.
+constexpr std::size_t kMostThumbnails = 6;
+
+/// "Plaza 1: 0.19 m refined, 0.36 m spectral (rigid), 16 m dead reckoning (unaligned). "; an
+/// alignment is told once for methods in a row that share it. Empty if no method has an error.
+std::vector<Phrase> errors_of(const SlamRun& run) {
+  std::vector<Phrase> phrases;
+  const TrajectoryError* before = nullptr;
+  for (const auto& [method, called] :
+       {std::pair{SlamMethod::kRefined, "refined"}, std::pair{SlamMethod::kSpectral, "spectral"},
+        std::pair{SlamMethod::kDeadReckoning, "dead reckoning"}}) {
+    const TrajectoryError* error = error_of(run, method);
+    if (error == nullptr || !std::isfinite(error->mean_m)) continue;
+    std::string text;
+    if (before != nullptr && before->alignment != error->alignment)
+      text = fmt::format(" ({})", alignment_words(before->alignment));
+    if (before != nullptr) text += ", ";
+    const std::string metres = significant(error->mean_m, 2) + "\u00a0m";
+    phrases.push_back({std::move(text)});
+    phrases.push_back(before == nullptr ? strong(metres) : Phrase{metres});
+    phrases.push_back({std::string(" ") + called});
+    before = error;
+  }
+  if (before != nullptr)
+    phrases.push_back({fmt::format(" ({}). ", alignment_words(before->alignment))});
+  return phrases;
+}
+
 }  // namespace
 
 std::vector<Section> slam_sections(const SlamReportInput& input) {
@@ -122,6 +180,60 @@ Report slam_report(const SlamReportInput& input) {
   report.footer = fmt::format("Made by mapproof {} ({}).", input.study.provenance.version,
                               input.study.provenance.commit);
   return report;
+}
+
+Section slam_statuses_section(const SlamStudy& study) {
+  Section section{"slam-statuses", "Range-only SLAM: warnings and failures", {}};
+  StatusList list;
+  for (const SlamRun& run : study.runs)
+    for (const SlamRecord& record : run.records)
+      add_statuses(fmt::format("{}, {}", title_of(run), info(record.method).label),
+                   record_id(run, record), record.estimate.statuses, list);
+  if (study.histories)
+    for (const RangeHistoryMap& map : study.histories->maps)
+      add_statuses(fmt::format("{}, {}", map.squared ? "squared ranges" : "ranges",
+                               map.setting ? label(*map.setting) : "spectral"),
+                   "histories", map.statuses, list);
+  if (study.space)
+    for (const SpaceRecord& record : study.space->records)
+      add_statuses(fmt::format("in space, {}",
+                               record.knows_landmarks ? "landmarks known" : "no landmark known"),
+                   "space", record.estimate.statuses, list);
+  std::ranges::stable_partition(list.items, &StatusList::Item::failed);
+  if (list.items.empty())
+    section.blocks.emplace_back(plain("Nothing: each solve ended well."));
+  else
+    section.blocks.emplace_back(std::move(list));
+  return section;
+}
+
+Opening slam_opening(const SlamStudy& study, const StudyFigures& figures) {
+  Opening opening;
+  Paragraph text;
+  std::size_t told = 0;
+  for (const SlamRun& run : study.runs) {
+    std::vector<Phrase> errors = errors_of(run);
+    if (run.simulated || errors.empty() || told == kMostRuns) continue;
+    if (told++ == 0) text.phrases.push_back({"Mean position error on "});
+    text.phrases.push_back(strong(title_of(run)));
+    text.phrases.push_back({": "});
+    text.phrases.insert(text.phrases.end(), errors.begin(), errors.end());
+  }
+  const double slope =
+      study.convergence.empty() ? NAN : convergence_slope(study.convergence.front());
+  if (std::isfinite(slope)) {
+    text.phrases.push_back(
+        {"In simulation the error of the observation model goes as the readings "
+         "to the power "});
+    text.phrases.push_back(strong(slope_words(slope)));
+    text.phrases.push_back({"; theory: \u22121/2."});
+  }
+  if (!text.phrases.empty()) opening.findings.push_back(std::move(text));
+  std::vector<std::string> ids = {"fig-2b", "fig-2c", "fig-1b", "fig-1a"};
+  for (const FigureGroup& group : figures.groups)
+    ids.push_back(group.figures.empty() ? group.scenes.front().id : group.figures.front().id);
+  opening.figure_ids = present_ids(ids, figures, kMostThumbnails);
+  return opening;
 }
 
 }  // namespace mapproof

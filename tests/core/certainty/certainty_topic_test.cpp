@@ -4,7 +4,7 @@
 #include "core/simulate/robot_walk.hpp"
 #include "core/simulate/world.hpp"
 #include "core/trials/certainty.hpp"
-#include "core/trials/certainty_walks.hpp"
+#include "core/trials/topics.hpp"
 #include "reports/sections/trials/topic_words.hpp"
 
 namespace mapproof {

@@ -1,4 +1,4 @@
-#include "core/embed/hessian_lle.hpp"
+#include "core/embed/lle.hpp"
 
 #include <cmath>
 #include <vector>

@@ -1,4 +1,4 @@
-#include "core/embed/laplacian_eigenmap.hpp"
+#include "core/embed/bottom_eigenmap.hpp"
 
 #include <cmath>
 #include <numbers>

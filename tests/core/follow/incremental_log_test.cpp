@@ -1,4 +1,4 @@
-#include "core/follow/incremental_log.hpp"
+#include "core/follow/moved_watch.hpp"
 
 #include <gtest/gtest.h>
 

@@ -3,7 +3,7 @@
 #include "core/base/random.hpp"
 #include "core/simulate/robot_walk.hpp"
 #include "core/simulate/world.hpp"
-#include "core/trials/online.hpp"
+#include "core/trials/topics.hpp"
 #include "reports/sections/trials/topic_words.hpp"
 
 namespace mapproof {

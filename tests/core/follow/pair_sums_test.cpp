@@ -1,4 +1,4 @@
-#include "core/follow/pair_sums.hpp"
+#include "core/follow/incremental_map.hpp"
 
 #include <cmath>
 #include <limits>

@@ -1,4 +1,4 @@
-#include "core/graph/closed_groups.hpp"
+#include "core/graph/components.hpp"
 
 #include <gtest/gtest.h>
 

@@ -7,7 +7,6 @@
 
 #include "core/base/errors.hpp"
 #include "core/base/random.hpp"
-#include "core/labels/assignment.hpp"
 #include "core/model/experiment.hpp"
 #include "core/simulate/robot_walk.hpp"
 #include "core/simulate/sensors.hpp"

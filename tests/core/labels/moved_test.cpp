@@ -6,7 +6,6 @@
 
 #include "core/base/errors.hpp"
 #include "core/base/random.hpp"
-#include "core/labels/place_shift.hpp"
 #include "noisy_scans.hpp"
 #include "tests/support/scans.hpp"
 

@@ -5,7 +5,7 @@
 #include <gtest/gtest.h>
 
 #include "core/base/errors.hpp"
-#include "core/trials/missing.hpp"
+#include "core/trials/topics.hpp"
 #include "reports/sections/trials/topic_words.hpp"
 #include "tests/support/gappy.hpp"
 

@@ -1,4 +1,4 @@
-#include "core/missing/ppca.hpp"
+#include "core/missing/pca.hpp"
 
 #include <cmath>
 #include <numbers>
@@ -107,9 +107,9 @@ TEST(Ppca, FindsTheLikelihoodThatScipyFindsFromManyStarts) {
   for (int i = 0; i < 6; ++i)
     for (int c = 0; c < 40; ++c) {
       matrix.observed(i, c) = (7 * i + 3 * c) % 5 != 0 ? 1.0 : 0.0;
-      matrix.values(i, c) = matrix.observed(i, c) * (std::sin(0.7 * i + 0.3 * c) +
-                                                     0.5 * std::cos(0.11 * i * c) +
-                                                     0.1 * std::sin(1.7 * i * c + c));
+      matrix.values(i, c) =
+          matrix.observed(i, c) * (std::sin(0.7 * i + 0.3 * c) + 0.5 * std::cos(0.11 * i * c) +
+                                   0.1 * std::sin(1.7 * i * c + c));
     }
   const Ppca fitted = ppca(matrix, kExact);
   EXPECT_NEAR(fitted.log_likelihood, -155.596239, 1e-5);

@@ -1,4 +1,4 @@
-#include "core/missing/regularised_pca.hpp"
+#include "core/missing/pca.hpp"
 
 #include <cmath>
 

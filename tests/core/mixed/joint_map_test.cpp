@@ -1,4 +1,4 @@
-#include "core/mixed/joint_map.hpp"
+#include "core/mixed/mixed_map.hpp"
 
 #include <cmath>
 

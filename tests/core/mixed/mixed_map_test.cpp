@@ -7,7 +7,6 @@
 
 #include "core/base/errors.hpp"
 #include "core/choice/mixed_quality.hpp"
-#include "core/mixed/joint_map.hpp"
 #include "core/simulate/sensors.hpp"
 #include "tests/support/gappy.hpp"
 #include "tests/support/worlds.hpp"

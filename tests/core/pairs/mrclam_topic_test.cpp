@@ -1,4 +1,4 @@
-#include "core/trials/mrclam.hpp"
+#include "core/trials/topics.hpp"
 
 #include <cmath>
 #include <cstdlib>

@@ -1,4 +1,4 @@
-#include "core/range_slam/landmarks_on_path.hpp"
+#include "core/range_slam/upgraded_path.hpp"
 
 #include <cmath>
 

@@ -1,4 +1,4 @@
-#include "core/range_slam/factors/space_slam.hpp"
+#include "core/range_slam/factors/synchronous_slam.hpp"
 
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
@@ -10,12 +10,12 @@
 #include <Eigen/LU>
 #include <Eigen/SVD>
 
-#include "core/align/rigid_space.hpp"
+#include "core/align/rigid.hpp"
 #include "core/base/errors.hpp"
 #include "core/experiment/slam_worlds.hpp"
 #include "core/range_slam/factors/metric_upgrade.hpp"
 #include "core/range_slam/factors/quadric.hpp"
-#include "core/simulate/range_flight.hpp"
+#include "core/simulate/range_world.hpp"
 #include "tests/support/slam_checks.hpp"
 
 namespace mapproof {

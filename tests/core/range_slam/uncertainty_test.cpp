@@ -8,7 +8,6 @@
 #include "core/base/errors.hpp"
 #include "core/range_slam/factors/convergence.hpp"
 #include "core/range_slam/factors/metric_upgrade.hpp"
-#include "core/range_slam/factors/subspace.hpp"
 #include "core/range_slam/refinement/bootstrap.hpp"
 #include "core/simulate/range_world.hpp"
 #include "tests/core/range_slam/range_worlds.hpp"

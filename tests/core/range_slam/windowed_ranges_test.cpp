@@ -8,7 +8,6 @@
 #include "core/base/errors.hpp"
 #include "core/range_slam/factors/spread_rows.hpp"
 #include "core/range_slam/factors/squared_ranges.hpp"
-#include "core/range_slam/factors/window_choice.hpp"
 #include "tests/core/range_slam/drives.hpp"
 #include "tests/core/range_slam/range_worlds.hpp"
 

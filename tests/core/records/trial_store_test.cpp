@@ -7,7 +7,6 @@
 
 #include "core/base/files.hpp"
 #include "core/base/not_finite.hpp"
-#include "core/records/experiments/trial_experiment_json.hpp"
 #include "core/records/studies/study_store.hpp"
 #include "core/records/studies/trial_json.hpp"
 #include "core/topics/validate.hpp"

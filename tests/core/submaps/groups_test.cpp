@@ -1,4 +1,4 @@
-#include "core/submaps/groups.hpp"
+#include "core/submaps/submap_embedding.hpp"
 
 #include <algorithm>
 #include <cmath>

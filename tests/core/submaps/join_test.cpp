@@ -8,7 +8,7 @@
 
 #include "core/base/errors.hpp"
 #include "core/base/random.hpp"
-#include "core/submaps/groups.hpp"
+#include "core/submaps/submap_embedding.hpp"
 #include "tests/support/worlds.hpp"
 
 namespace mapproof {

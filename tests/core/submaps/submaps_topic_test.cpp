@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include "core/trials/submaps.hpp"
+#include "core/trials/topics.hpp"
 #include "reports/sections/trials/topic_words.hpp"
 #include "tests/support/gappy.hpp"
 

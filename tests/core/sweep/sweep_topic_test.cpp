@@ -6,11 +6,10 @@
 #include "core/base/errors.hpp"
 #include "core/base/unit_text.hpp"
 #include "core/experiment/run.hpp"
-#include "core/records/experiments/trial_experiment_json.hpp"
 #include "core/records/studies/trial_json.hpp"
 #include "core/simulate/sensors.hpp"
-#include "core/trials/run_trials.hpp"
-#include "core/trials/sweep.hpp"
+#include "core/topics/trials.hpp"
+#include "core/trials/topics.hpp"
 #include "reports/sections/trials/topic_words.hpp"
 
 namespace mapproof {

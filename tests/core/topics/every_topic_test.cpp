@@ -14,6 +14,7 @@
 #include "core/topics/study_kind.hpp"
 #include "core/topics/validate.hpp"
 #include "core/trials/topic.hpp"
+#include "core/trials/topics.hpp"
 #include "tests/core/records/samples.hpp"
 
 namespace mapproof {

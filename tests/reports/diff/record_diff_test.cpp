@@ -6,7 +6,7 @@
 
 #include "core/base/errors.hpp"
 #include "core/records/maps/map_files.hpp"
-#include "reports/diff/records/record_points.hpp"
+#include "reports/diff/records/number_diff.hpp"
 #include "tests/support/temporary_folder.hpp"
 
 namespace mapproof {

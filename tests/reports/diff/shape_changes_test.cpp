@@ -1,4 +1,4 @@
-#include "reports/diff/images/shape_changes.hpp"
+#include "reports/diff/images/image_judgement.hpp"
 
 #include <gtest/gtest.h>
 

@@ -8,8 +8,6 @@
 #include <ft2build.h>
 #include FT_FREETYPE_H
 
-#include "render/cairo/cairo_font.hpp"
-#include "render/cairo/cairo_handles.hpp"
 #include "render/cairo/cairo_painter.hpp"
 
 namespace mapproof::test {

@@ -5,7 +5,6 @@
 
 #include "core/base/files.hpp"
 #include "reports/html/diff/diff_html.hpp"
-#include "reports/html/diff/url_text.hpp"
 #include "reports/html/sha256.hpp"
 #include "tests/reports/diff_page/page_samples.hpp"
 #include "tests/support/temporary_folder.hpp"

@@ -1,0 +1,23 @@
+#include "core/records/observations/sources.hpp"
+
+#include <fmt/format.h>
+
+#include "core/base/errors.hpp"
+#include "core/records/observations/cells.hpp"
+
+namespace mapproof {
+
+ObservationSource observations_of(DetectionSource source, Sensor sensor) {
+  check_size(source.path, "as a whole", source.log.names.size(),
+             static_cast<std::size_t>(source.log.steps));
+  ObservationHistory history = history_of(source.log, sensor);
+  if (history.values.array().isNaN().all())
+    throw IoError(source.path, fmt::format("holds no {}", name(sensor)));
+  return {.history = std::move(history),
+          .truth_m = std::move(source.truth_m),
+          .remarks = std::move(source.remarks),
+          .places = std::move(source.places),
+          .path = std::move(source.path)};
+}
+
+}  // namespace mapproof

@@ -1,0 +1,73 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "core/model/detection_log.hpp"
+#include "core/model/observation_history.hpp"
+#include "core/model/points.hpp"
+#include "core/model/sensor.hpp"
+
+namespace mapproof {
+
+/// What scans showed, with what is needed to talk about the file that it came from.
+struct DetectionSource {
+  DetectionLog log;
+  std::optional<Points> truth_m;     ///< M x 2, if the source holds it; NaN rows: unknown.
+  std::vector<std::string> remarks;  ///< What was dropped or assumed, a sentence each.
+  std::vector<std::string> places;   ///< M; where a landmark stands: "line 7".
+  std::string path;                  ///< For errors: the file or folder that was read.
+};
+
+/// How a file of detections is to be understood.
+struct DetectionFormat {
+  AngleUnit unit = AngleUnit::kRadians;  ///< Where the file does not say it.
+  /// What a column `value` holds; visibility: 1, seen.
+  std::optional<Sensor> value;
+};
+
+/// How a CSV file holds observations.
+enum class Layout {
+  kAuto,  ///< kLong if the header names a landmark and a value, or what detections hold; else
+          ///< kWide.
+  kWide,  ///< One row per landmark, one column per step.
+  kLong,  ///< One row per observation: step or time, landmark, value; a robot too, whose steps are
+          ///< then its own.
+};
+
+/// A reading of which nobody says whose it is.
+struct UnlabelledReading {
+  Eigen::Index step = 0;  ///< Column of the history.
+  double number = 0.0;    ///< Step or time, as the file has it.
+  double value = 0.0;     ///< As the history's; NaN: missing.
+  std::size_t line = 0;
+};
+
+/// The landmark of such a reading in a long table.
+inline constexpr std::string_view kUnlabelledMark = "?";
+
+/// A person's own observations, with what is needed to talk about the file they came from.
+struct ObservationSource {
+  ObservationHistory history;
+  std::optional<Points> truth_m;     ///< M x 2, if the source holds it; NaN rows: unknown.
+  std::vector<std::string> remarks;  ///< What was dropped or assumed, a sentence each.
+  std::vector<std::string> places;   ///< M; where a landmark stands: "line 7", "/values/6".
+  std::string path;                  ///< For errors: the file or folder that was read.
+  /// Of a long table, in the order of its lines; they are not in the history.
+  std::vector<UnlabelledReading> unlabelled = {};
+};
+
+/// Landmarks with known positions: anchors, or the truth.
+struct NamedPoints {
+  std::vector<std::string> names;   ///< M, all different.
+  Points positions_m;               ///< M x 2, finite.
+  std::vector<std::string> places;  ///< M; where a landmark stands: "line 7".
+};
+
+/// What one kind of sensor saw of detections.
+/// @throws IoError if that were more than 2e8 entries, or there is nothing of that kind.
+ObservationSource observations_of(DetectionSource source, Sensor sensor);
+
+}  // namespace mapproof

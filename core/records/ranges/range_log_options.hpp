@@ -1,0 +1,22 @@
+#pragma once
+
+#include <filesystem>
+#include <string>
+
+namespace mapproof {
+
+/// Which odometry is taken where a file holds more than one.
+enum class OdometrySource {
+  kRecovered,  ///< That of the dead-reckoned path, which is the robot's own.
+  kAsGiven,    ///< The table of odometry as it stands.
+};
+
+struct RangeLogOptions {
+  std::string name;  ///< For titles; empty: made of the path.
+  OdometrySource odometry = OdometrySource::kRecovered;
+  std::filesystem::path odometry_file;   ///< Taken instead; CSV with the columns of odometry.csv.
+  std::filesystem::path truth_file;      ///< Taken instead; CSV as groundtruth.csv.
+  std::filesystem::path landmarks_file;  ///< Taken instead; CSV as landmarks.csv.
+};
+
+}  // namespace mapproof

@@ -1,0 +1,358 @@
+#include "reports/diff/records/record_comparison.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <set>
+
+#include <fmt/format.h>
+
+#include "core/base/errors.hpp"
+#include "core/base/words.hpp"
+
+namespace mapproof {
+namespace {
+
+constexpr std::size_t kMostRecordNames = 3;
+
+constexpr double kSignificant = 0.05;
+
+/// Of a test that says something the size of its effect, else 0.
+double told_effect(const Comparison& c) {
+  return c.test && c.test->p < kSignificant ? std::abs(c.test->test.effect) : 0.0;
+}
+
+/// Heavier first, then the order of the dictionary, then the largest significant effect, then
+/// the best method where there is no direction and no test, else the largest change.
+bool tells_more(const Comparison& a, const Comparison& b) {
+  const Verdict first = verdict_of(a.outcome), second = verdict_of(b.outcome);
+  if (first != second) return first > second;
+  const std::size_t rank = dictionary_rank(a.quantity), other = dictionary_rank(b.quantity);
+  if (rank != other) return rank < other;
+  if (told_effect(a) != told_effect(b)) return told_effect(a) > told_effect(b);
+  const double p = a.test ? a.test->p : 1.0, q = b.test ? b.test->p : 1.0;
+  if (p != q) return p < q;
+  if (first == Verdict::kChanged && !a.test && !b.test && a.quantity.better == Better::kLower &&
+      a.baseline_mean != b.baseline_mean)
+    return a.baseline_mean < b.baseline_mean || std::isnan(b.baseline_mean);
+  const auto change = [](const Comparison& c) {
+    const double ratio =
+        std::abs(c.current_mean - c.baseline_mean) / std::max(std::abs(c.baseline_mean), 1e-300);
+    return std::isnan(ratio) ? 0.0 : ratio;
+  };
+  return change(a) > change(b);
+}
+
+std::string names_text(const std::vector<std::string>& names) {
+  std::vector<std::string> shown;
+  for (const std::string& name : names) shown.push_back(printable(name));
+  return listed(shown, kMostRecordNames);
+}
+
+/// One side of the records has what the other lacks.
+void judge_presence(const RecordDiff& diff, Judgement& whole, std::vector<std::string>& causes) {
+  const auto add = [&](const std::vector<std::string>& names, Verdict verdict, const char* noun) {
+    if (names.empty()) return;
+    whole.verdict = heavier(whole.verdict, verdict);
+    causes.push_back(fmt::format("{}{}{}: {}", verdict == Verdict::kMissing ? "missing " : "new ",
+                                 noun, names.size() == 1 ? "" : "s", names_text(names)));
+  };
+  add(diff.missing_runs, Verdict::kMissing, "run");
+  add(diff.missing_subjects, Verdict::kMissing, "record");
+  add(diff.new_runs, Verdict::kNew, "run");
+  add(diff.new_subjects, Verdict::kNew, "record");
+}
+
+/// What a test has to say beside p: nothing where it decided.
+std::string test_words(const Comparison& c) {
+  if (!c.test) return "";
+  if (c.test->powerless_of == 0)
+    return c.outcome == Outcome::kChanged ? ", neither better nor worse over the runs" : "";
+  const std::string pairs =
+      c.test->unit == "run"
+          ? counted(c.test->test.pairs, "pair")
+          : fmt::format("{} pairs in {}", c.pairs, counted(c.test->test.pairs, c.test->unit));
+  return fmt::format(": {} can show nothing at {}{}", pairs,
+                     c.test->powerless_of == 1 ? std::string("1 quantity")
+                                               : fmt::format("{} quantities", c.test->powerless_of),
+                     c.outcome == Outcome::kChanged ? "" : ", all that differ point one way");
+}
+
+void judge_comparisons(const RecordDiff& diff, Judgement& whole, std::vector<std::string>& causes) {
+  std::vector<const Comparison*> all;
+  for (const Comparison& comparison : diff.comparisons) {
+    all.push_back(&comparison);
+    whole.verdict = heavier(whole.verdict, verdict_of(comparison.outcome));
+  }
+  const Comparison* first = most_telling(all);
+  if (first == nullptr || verdict_of(first->outcome) <= Verdict::kWithinTolerance) return;
+  const auto beyond = std::ranges::count_if(
+      all, [](const Comparison* c) { return verdict_of(c->outcome) > Verdict::kWithinTolerance; });
+  causes.push_back(fmt::format(
+      "{} of {}{}{}{}", comparison_text(*first), first->subject, test_words(*first),
+      beyond > 1 ? fmt::format(", and {} of other quantities or records", beyond - 1) : "",
+      directions_text(all, *first)));
+}
+
+std::string unit_words(const Quantity& quantity) {
+  return quantity.unit.empty() ? "without a unit" : "in " + printable(quantity.unit, 40);
+}
+
+/// Other units mean other numbers, whatever the numbers are.
+void judge_quantities(const RecordDiff& diff, Judgement& whole, std::vector<std::string>& causes) {
+  for (const auto& [before, after] : diff.redeclared) {
+    whole.verdict = heavier(whole.verdict, Verdict::kChanged);
+    const std::string label = printable(after.label, 100);
+    causes.push_back(
+        before.unit != after.unit
+            ? fmt::format("{} is {} in the baseline and {} in the current: not compared", label,
+                          unit_words(before), unit_words(after))
+            : fmt::format("of {} {} is better in the baseline and {} in the current", label,
+                          name(before.better), name(after.better)));
+  }
+}
+
+/// Subjects of which a quantity says already what their change is worth.
+std::set<std::string> judged_subjects(const RecordDiff& diff) {
+  std::set<std::string> subjects;
+  for (const Comparison& comparison : diff.comparisons)
+    if (verdict_of(comparison.outcome) > Verdict::kWithinTolerance)
+      subjects.insert({comparison.subject, comparison.current_subject});
+  return subjects;
+}
+
+void judge_points(const RecordDiff& diff, Judgement& whole, std::vector<std::string>& causes) {
+  const std::set<std::string> judged = judged_subjects(diff);
+  const PointsDiff* first = nullptr;
+  long records = 0, others = 0;
+  for (const PointsDiff& points : diff.points) {
+    const bool beyond = points.beyond + points.lost + points.gained > 0 || points.truth_differs;
+    if (!beyond)
+      whole.verdict = heavier(whole.verdict, Verdict::kWithinTolerance);
+    else if (!judged.contains(subject_of(points.record).subject))
+      whole.verdict = heavier(whole.verdict, Verdict::kChanged);
+    if (points.truth_differs) ++others;
+    if (!beyond || points.moves.empty()) continue;
+    ++records;
+    if (first == nullptr || points.moves[0].moved > first->moves[0].moved) first = &points;
+  }
+  if (first != nullptr)
+    causes.push_back(fmt::format(
+        "{} in record {}{}", move_text(first->moves[0], first->quantity), first->record,
+        records > 1 ? fmt::format(", points moved in {} in all", counted(records, "record")) : ""));
+  if (others > 0 && diff.same_seeds)
+    causes.push_back(fmt::format("{} of other landmarks", counted(others, "map")));
+}
+
+void judge_rest(const RecordDiff& diff, Judgement& whole, std::vector<std::string>& causes) {
+  const std::set<std::string> judged = judged_subjects(diff);
+  for (const StatusChange& change : diff.statuses)
+    if (!judged.contains(subject_of(change.record).subject))
+      whole.verdict = heavier(whole.verdict, Verdict::kChanged);
+  if (!diff.statuses.empty()) {
+    const StatusChange& first = diff.statuses[0];
+    causes.push_back(fmt::format("status of {}: {} \u2192 {}", first.record,
+                                 first.baseline.empty() ? "none" : first.baseline,
+                                 first.current.empty() ? "none" : first.current));
+  }
+  if (!diff.anchors.empty()) {
+    whole.verdict = heavier(whole.verdict, Verdict::kChanged);
+    causes.push_back("other anchors in " + names_text(diff.anchors));
+  }
+}
+
+void judge_others(const RecordDiff& diff, Judgement& whole, std::vector<std::string>& causes) {
+  for (const OtherDiff& other : diff.others) {
+    const bool lone = other.presence != Presence::kBoth;
+    const bool beyond = lone || other.beyond > 0 || other.shape;
+    if (lone)
+      whole.verdict = heavier(
+          whole.verdict, other.presence == Presence::kBaseline ? Verdict::kMissing : Verdict::kNew);
+    else if (!beyond)
+      whole.verdict = heavier(whole.verdict, Verdict::kWithinTolerance);
+    else if (whole.verdict <= Verdict::kWithinTolerance)  // Else scores say what it is worth.
+      whole.verdict = Verdict::kChanged;
+    if (beyond && (causes.empty() || (lone && causes.size() < kMostRecordNames)))
+      causes.push_back(other_text(other));
+  }
+}
+
+/// Counts of what lies within tolerance.
+std::string within_text(const RecordDiff& diff) {
+  long values = 0, points = 0, numbers = 0;
+  for (const Comparison& c : diff.comparisons) values += c.within + c.beyond;
+  for (const PointsDiff& p : diff.points) points += p.within;
+  for (const OtherDiff& o : diff.others) numbers += o.within;
+  return fmt::format("{}, {} and {} differ within tolerance", counted(values, "value"),
+                     counted(points, "position"), counted(numbers, "other number"));
+}
+
+std::string sentence(const std::vector<std::string>& causes) {
+  std::string text;
+  for (const std::string& cause : causes) text += (text.empty() ? "" : "; ") + cause;
+  return text;
+}
+
+}  // namespace
+
+Verdict verdict_of(Outcome outcome) {
+  switch (outcome) {
+    case Outcome::kEqual:
+      return Verdict::kIdentical;
+    case Outcome::kWithinTolerance:
+      return Verdict::kWithinTolerance;
+    case Outcome::kBetter:
+      return Verdict::kBetter;
+    case Outcome::kWorse:
+      return Verdict::kWorse;
+    case Outcome::kChanged:
+      return Verdict::kChanged;
+  }
+  return Verdict::kChanged;
+}
+
+const Comparison* most_telling(const std::vector<const Comparison*>& comparisons) {
+  const Comparison* first = nullptr;
+  for (const Comparison* comparison : comparisons)
+    if (first == nullptr || tells_more(*comparison, *first)) first = comparison;
+  return first;
+}
+
+std::string directions_text(const std::vector<const Comparison*>& all, const Comparison& first) {
+  if (first.outcome != Outcome::kChanged || (first.test && first.test->powerless_of == 0))
+    return "";
+  int worse = 0, better = 0, both = 0;
+  for (const Comparison* c : all) {
+    if (c->quantity.of_solver) continue;
+    const bool is_worse = c->worse + c->lost > 0, is_better = c->better + c->gained > 0;
+    both += is_worse && is_better;
+    worse += is_worse && !is_better;
+    better += is_better && !is_worse;
+  }
+  std::string text;
+  for (const auto& [count, word] :
+       {std::pair(worse, "worse"), {better, "better"}, {both, "both ways"}})
+    if (count > 0) text += fmt::format("{}{} {}", text.empty() ? "" : ", ", count, word);
+  return (worse > 0) + (better > 0) + (both > 0) > 1 ? " (errors: " + text + ")" : "";
+}
+
+std::string other_text(const OtherDiff& other) {
+  if (other.presence == Presence::kBaseline) return printable(other.file) + " is missing";
+  if (other.presence == Presence::kCurrent) return printable(other.file) + " is new";
+  const std::string file = other.file.empty() ? "the file" : printable(other.file);
+  const std::string what = other.beyond == 0
+                               ? std::string("its keys, words or lengths differ")
+                               : fmt::format("{} {}", counted(other.beyond, "number"),
+                                             other.beyond == 1 ? "differs" : "differ");
+  return fmt::format("{}: {}, the first at {} {} \u2192 {}", file, what, printable(other.first),
+                     printable(other.baseline), printable(other.current));
+}
+
+std::string settings_text(const RecordDiff& diff) {
+  std::vector<std::string> parts;
+  for (const SettingChange& change : diff.settings) {
+    const auto shown = [](const std::string& value) {
+      return value.empty() ? std::string("none") : printable(value, 40);
+    };
+    parts.push_back(fmt::format("{} {} \u2192 {}", printable(change.pointer.substr(1)),
+                                shown(change.baseline), shown(change.current)));
+  }
+  std::string text = parts.empty() ? "" : listed(parts, kMostRecordNames);
+  if (!diff.same_seeds) text += text.empty() ? "other worlds" : ": other worlds";
+  return text;
+}
+
+std::string comparison_text(const Comparison& comparison, const std::string& run) {
+  const Quantity& quantity = comparison.quantity;
+  const auto own = std::ranges::find(comparison.largest, run, &PairedValue::run);
+  const bool has_own = own != comparison.largest.end();
+  std::string text = fmt::format(
+      "{} {}", quantity.label,
+      has_own ? change_text(own->baseline, own->current, quantity.unit)
+              : change_text(comparison.baseline_mean, comparison.current_mean, quantity.unit));
+  if (!has_own && comparison.pairs > 1)
+    text += fmt::format(" over {}", counted(comparison.pairs, "run"));
+  if (comparison.test && comparison.test->powerless_of == 0)
+    text += fmt::format(", p = {:.2g}", comparison.test->p);
+  if (comparison.lost > 0) text += fmt::format(", lost in {}", counted(comparison.lost, "run"));
+  if (comparison.gained > 0)
+    text += fmt::format(", gained in {}", counted(comparison.gained, "run"));
+  return text;
+}
+
+std::string move_text(const PointMove& move, const std::string& quantity) {
+  const std::string who = (quantity == "path_m" ? "position " : "landmark ") + printable(move.name);
+  if (!std::isfinite(move.moved))
+    return who + (std::isfinite(move.current.x) ? " gained its place" : " lost its place");
+  if (quantity == "landmark_shape")
+    return fmt::format("{} moved {:.3g} of the map's spread", who, move.moved);
+  return move.moved < 0.9995 ? fmt::format("{} moved {:.3g} mm", who, 1000.0 * move.moved)
+                             : fmt::format("{} moved {:.3g} m", who, move.moved);
+}
+
+Judgement judge(const RecordDiff& diff) {
+  Judgement whole;
+  std::vector<std::string> causes;
+  const std::string settings = settings_text(diff);
+  judge_quantities(diff, whole, causes);
+  judge_presence(diff, whole, causes);
+  judge_comparisons(diff, whole, causes);
+  judge_points(diff, whole, causes);
+  judge_rest(diff, whole, causes);
+  judge_others(diff, whole, causes);
+  if (!diff.problems.empty()) {
+    // What is lost with a file that cannot be read is not a news beside that.
+    const auto more = std::ssize(diff.problems) - 1;
+    whole.verdict = Verdict::kUnreadable;
+    causes = {diff.problems[0].what +
+              (more > 0 ? fmt::format(", and {}", counted(more, "file")) + " more" : "")};
+  }
+  if (!settings.empty()) {
+    if (whole.verdict <= Verdict::kWithinTolerance) whole.verdict = Verdict::kStyle;
+    causes.insert(causes.begin() + std::ssize(diff.redeclared), settings);
+  }
+  if (whole.verdict == Verdict::kWithinTolerance) causes.push_back(within_text(diff));
+  whole.cause = sentence(causes);
+  return whole;
+}
+
+std::string_view name(Presence presence) {
+  switch (presence) {
+    case Presence::kBoth:
+      return "both";
+    case Presence::kBaseline:
+      return "baseline";
+    case Presence::kCurrent:
+      return "current";
+  }
+  return "";
+}
+
+std::string_view name(Outcome outcome) {
+  switch (outcome) {
+    case Outcome::kEqual:
+      return "equal";
+    case Outcome::kWithinTolerance:
+      return "within-tolerance";
+    case Outcome::kBetter:
+      return "better";
+    case Outcome::kWorse:
+      return "worse";
+    case Outcome::kChanged:
+      return "changed";
+  }
+  return "";
+}
+
+RecordName subject_of(const std::string& id) {
+  RecordName name{.run = "", .subject = id.substr(0, id.find(" of "))};
+  constexpr std::string_view kPath = "/path";
+  if (name.subject.ends_with(kPath)) name.subject.resize(name.subject.size() - kPath.size());
+  const std::size_t slash = name.subject.find('/');
+  if (name.subject.starts_with("layout-") && slash != std::string::npos) {
+    name.run = name.subject.substr(0, slash);
+    name.subject.erase(0, slash + 1);
+  }
+  return name;
+}
+
+}  // namespace mapproof

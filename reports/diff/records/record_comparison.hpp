@@ -1,0 +1,185 @@
+#pragma once
+
+#include <map>
+#include <optional>
+#include <set>
+#include <string>
+#include <vector>
+
+#include "core/statistics/signed_rank.hpp"
+#include "render/base/geometry.hpp"
+#include "reports/diff/records/record_set.hpp"
+#include "reports/diff/verdict/tolerances.hpp"
+#include "reports/diff/verdict/verdict.hpp"
+
+namespace mapproof {
+
+/// How records are judged.
+struct RecordOptions {
+  Tolerances tolerances;
+  double significance = 0.05;  ///< Of all paired tests of one comparison together.
+  double least_effect = 0.3;   ///< Rank-biserial correlation that counts.
+};
+
+/// What became of one quantity of one subject.
+enum class Outcome { kEqual, kWithinTolerance, kBetter, kWorse, kChanged };
+
+/// "equal", "within-tolerance", "better", "worse", "changed".
+std::string_view name(Outcome outcome);
+
+/// Which side has a file.
+enum class Presence { kBoth, kBaseline, kCurrent };
+
+/// "both", "baseline", "current".
+std::string_view name(Presence presence);
+
+/// The value of one run on both sides; NaN: none.
+struct PairedValue {
+  std::string run;
+  double baseline = 0.0;
+  double current = 0.0;
+};
+
+/// The test over pairs of equal runs.
+struct PairedTest {
+  /// "layout", "group": means over the runs of each; "run": each is its own group, or the layouts
+  /// are too few.
+  std::string unit;
+  SignedRankTest test;
+  double p = 1.0;  ///< Corrected for all tests of the comparison.
+  /// Of how many tests, where no outcome of so few units could get any of them below the level;
+  /// else 0. Such a test is silent, and decides nothing.
+  int powerless_of = 0;
+};
+
+/// One quantity of one subject over all runs.
+struct Comparison {
+  std::string subject;
+  std::string current_subject;  ///< The same, unless its parameter changed.
+  Quantity quantity;            ///< The dictionary's, or as the study declares it.
+  int pairs = 0;                ///< Runs that have it on both sides; of them …
+  int equal = 0;
+  int within = 0;
+  int beyond = 0;
+  int worse = 0;  ///< Of them, by the quantity's direction, where seeds are equal.
+  int better = 0;
+  int lost = 0;                ///< Runs with a value in the baseline alone; not in `pairs`.
+  int gained = 0;              ///< Runs with a value in the current alone.
+  double baseline_mean = 0.0;  ///< Over the pairs, or without pairs over all; NaN: none.
+  double current_mean = 0.0;
+  std::vector<PairedValue>
+      largest;                     ///< Beyond tolerance, the largest difference first; at most 20.
+  std::optional<PairedTest> test;  ///< Where six or more pairs of equal seeds are there.
+  Outcome outcome = Outcome::kEqual;
+};
+
+/// One landmark or one position of a path that moved beyond tolerance.
+struct PointMove {
+  std::string name;
+  Point baseline, current;  ///< x to the right, y up; NaN: no place.
+  double moved = 0.0;       ///< Infinite if it has a place on one side alone.
+  std::optional<double> baseline_error, current_error;  ///< Where the truth is known.
+};
+
+/// The points of one record.
+struct PointsDiff {
+  std::string record;
+  std::string quantity;  ///< "landmark_m", "landmark_shape" or "path_m".
+  int points = 0;        ///< On both sides.
+  int within = 0;
+  int beyond = 0;
+  int lost = 0;
+  int gained = 0;
+  bool truth_differs = false;                           ///< Other landmarks: nothing was compared.
+  std::vector<PointMove> moves;                         ///< The farthest first; at most 20.
+  std::optional<double> baseline_error, current_error;  ///< Means where the truth is known.
+};
+
+/// One value of the experiment; empty: not there.
+struct SettingChange {
+  std::string pointer;
+  std::string baseline, current;
+};
+
+/// A quantity that the two sides declare in another unit or direction.
+struct QuantityChange {
+  Quantity baseline, current;
+};
+
+/// The statuses of one record.
+struct StatusChange {
+  std::string record;
+  std::string baseline, current;  ///< Codes, in order.
+};
+
+/// A file of the records, compared value by value.
+struct OtherDiff {
+  std::string file;
+  Presence presence = Presence::kBoth;
+  long numbers = 0;
+  long within = 0;
+  long beyond = 0;
+  std::string first = {};  ///< JSON pointer or line of the first that is beyond tolerance.
+  std::string baseline = {}, current = {};  ///< Its values.
+  bool shape = false;                       ///< Keys, words or lengths differ as well.
+};
+
+/// What two sets of records differ in.
+struct RecordDiff {
+  bool same_seeds = false;  ///< Runs can be compared pair by pair.
+  std::vector<SettingChange> settings;
+  std::vector<SettingChange> provenance;  ///< Versions: told, never judged.
+  std::vector<std::string> missing_runs, new_runs;
+  std::vector<std::string> missing_subjects, new_subjects;
+  std::vector<Comparison> comparisons;     ///< Those that are not equal throughout.
+  std::vector<Quantity> declared;          ///< Quantities that either side declares.
+  std::vector<QuantityChange> redeclared;  ///< Those of another unit are not compared.
+  long values = 0;                         ///< Numbers compared in all.
+  std::vector<PointsDiff> points;          ///< Records with a point that is not equal.
+  std::vector<StatusChange> statuses;
+  std::vector<std::string> anchors;  ///< Runs whose anchors are others.
+  std::vector<OtherDiff> others;
+  std::vector<RecordProblem> problems;
+  /// What figures call subjects that have another name: their families, the id of a map.
+  std::map<std::string, std::set<std::string>> called;
+  Judgement judgement;
+};
+
+/// The verdict on all of it, and its cause in one sentence.
+Judgement judge(const RecordDiff& diff);
+
+/// The comparison of those that says most: the heaviest outcome, MPE before others, the least p.
+/// Null if there is none.
+const Comparison* most_telling(const std::vector<const Comparison*>& comparisons);
+
+/// " (errors: 1 worse, 3 better)" where they point both ways, and `first`, the most telling of
+/// them, has no test that tells more; else empty.
+std::string directions_text(const std::vector<const Comparison*>& all, const Comparison& first);
+
+/// "space.json is missing"; "maps/layout-1-pose-2.json: 2 numbers differ, the first at …".
+std::string other_text(const OtherDiff& other);
+
+/// What the outcome makes of a thing.
+Verdict verdict_of(Outcome outcome);
+
+/// "seed 0 → 5", "K = 6 → K = 7 of bearing/isomap/2000": what the experiments differ in; empty if
+/// nothing.
+std::string settings_text(const RecordDiff& diff);
+
+/// "MPE 0.138 → 0.152 m, p = 0.003": of one run where `run` names one that differs, else the means.
+std::string comparison_text(const Comparison& comparison, const std::string& run = "");
+
+/// "landmark L17 moved 41 mm".
+std::string move_text(const PointMove& move, const std::string& quantity);
+
+/// What a record's id names.
+struct RecordName {
+  std::string run;      ///< "layout-1-pose-2"; empty: all runs.
+  std::string subject;  ///< "bearing/lpca/2000".
+};
+
+/// @param id  "layout-1-pose-2/bearing/lpca/2000", "bearing/lpca/2000 of 5 runs",
+///            "plaza-1/spectral/path".
+RecordName subject_of(const std::string& id);
+
+}  // namespace mapproof
