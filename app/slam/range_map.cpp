@@ -1,7 +1,6 @@
 #include "app/slam/range_map.hpp"
 
 #include <algorithm>
-#include <limits>
 #include <system_error>
 
 #include <fmt/format.h>
@@ -10,6 +9,7 @@
 #include "core/base/errors.hpp"
 #include "core/base/files.hpp"
 #include "core/base/input_file.hpp"
+#include "core/base/not_finite.hpp"
 #include "core/base/words.hpp"
 #include "core/records/studies/slam_run_json.hpp"
 
@@ -109,7 +109,7 @@ SlamRunResult range_map(RangeLog log, const std::optional<KnownLandmarks>& known
 
 const SlamRecord* best_record(const SlamRun& run) {
   const SlamRecord* best = nullptr;
-  double least = std::numeric_limits<double>::infinity();
+  double least = kInfinity;
   for (const SlamMethod method : {SlamMethod::kRefined, SlamMethod::kRefinedFromOdometry}) {
     const SlamRecord* record = of_method(run, method);
     if (record == nullptr || !record->estimate.cost || !(*record->estimate.cost < least)) continue;

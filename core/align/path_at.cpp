@@ -1,9 +1,9 @@
 #include "core/align/path_at.hpp"
 
 #include <algorithm>
-#include <limits>
 
 #include "core/base/errors.hpp"
+#include "core/base/not_finite.hpp"
 
 namespace mapproof {
 
@@ -11,7 +11,7 @@ Points positions_at(const Trajectory& path, const Eigen::VectorXd& times_s) {
   const Eigen::VectorXd& own = path.time_s;
   if (const std::string problem = times_problem(path); !problem.empty())
     throw InvalidInput(problem);
-  Points positions = Points::Constant(times_s.size(), 2, std::numeric_limits<double>::quiet_NaN());
+  Points positions = Points::Constant(times_s.size(), 2, kNaN);
   for (Eigen::Index i = 0; i < times_s.size(); ++i) {
     const auto after = std::lower_bound(own.begin(), own.end(), times_s(i)) - own.begin();
     if (after == own.size()) continue;

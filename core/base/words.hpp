@@ -11,7 +11,10 @@ namespace mapproof {
 std::string counted(long long count, std::string_view noun);
 
 /// A to Z as small letters, all else as it is.
-std::string lower_case(std::string text);
+std::string lower_case(std::string_view text);
+
+/// Without spaces, tabs and carriage returns at both ends.
+std::string_view trimmed(std::string_view text);
 
 /// "a", "a and b", "a, b and c"; of more than `most` names, most - 1 and how many
 /// more: "a, b and 5 more".

@@ -1,9 +1,8 @@
 #include "core/certainty/history_certainty.hpp"
 
-#include <limits>
-
 #include "core/align/aligned_to.hpp"
 #include "core/base/errors.hpp"
+#include "core/base/not_finite.hpp"
 #include "core/certainty/block_length.hpp"
 #include "core/certainty/map_bootstrap.hpp"
 #include "core/certainty/resampled_maps.hpp"
@@ -14,8 +13,7 @@ std::optional<Points> in_frame(const Points& coordinates, const CertaintyFrame& 
                                AffineFit fit) {
   if (frame.keeps_scale) {
     if (frame.anchors.empty()) return laid_rigidly_on(coordinates, frame.positions_m);
-    Points known =
-        Points::Constant(coordinates.rows(), 2, std::numeric_limits<double>::quiet_NaN());
+    Points known = Points::Constant(coordinates.rows(), 2, kNaN);
     known(frame.anchors, Eigen::all) = frame.positions_m(frame.anchors, Eigen::all);
     return laid_rigidly_on(coordinates, known);
   }

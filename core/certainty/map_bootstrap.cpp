@@ -2,9 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "core/base/errors.hpp"
+#include "core/base/not_finite.hpp"
 
 namespace mapproof {
 namespace {
@@ -19,7 +19,7 @@ Eigen::Matrix2d covariance(const std::vector<Points>& maps, Eigen::Index landmar
       ++count;
     }
   if (count < 3 || 2 * count < static_cast<int>(maps.size()))
-    return Eigen::Matrix2d::Constant(std::numeric_limits<double>::quiet_NaN());
+    return Eigen::Matrix2d::Constant(kNaN);
   const Eigen::Vector2d mean = sum / count;
   Eigen::Matrix2d squares = Eigen::Matrix2d::Zero();
   for (const Points& map : maps) {

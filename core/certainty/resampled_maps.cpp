@@ -1,7 +1,7 @@
 #include "core/certainty/resampled_maps.hpp"
 
-#include <limits>
 #include <utility>
+#include "core/base/not_finite.hpp"
 
 namespace mapproof {
 namespace {
@@ -72,8 +72,7 @@ std::vector<Points> ResampledMaps::maps_of(const std::vector<Eigen::Index>& draw
     return found;
   }
   const std::vector<Eigen::Index> seen = draw(drawn);
-  const Points nowhere =
-      Points::Constant(rows_.values.rows(), 2, std::numeric_limits<double>::quiet_NaN());
+  const Points nowhere = Points::Constant(rows_.values.rows(), 2, kNaN);
   std::vector<Points> maps(settings.size(), nowhere);
   if (seen.empty()) return maps;
   Embedder embedder(proximities(drawn_, sensor_), options_);

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "core/align/aligned_to.hpp"
 #include "core/base/errors.hpp"
@@ -125,7 +124,7 @@ void MapJudge::observe(const ObservationHistory& history, Eigen::Index steps,
   const int neighbours = static_cast<int>(std::min<std::ptrdiff_t>(kGraphNeighbours, n - 1));
   const double apart = options.embedder.only_seen_together
                            ? std::sqrt(found.apart_squared) * (1.0 - 1e-12)
-                           : std::numeric_limits<double>::infinity();
+                           : kInfinity;
   const ConnectedGraph graph =
       connected_neighbour_graph(distances_, {.neighbours = neighbours, .cutoff = apart});
   along_the_graph_ = shortest_paths(graph.graph);

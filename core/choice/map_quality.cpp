@@ -2,11 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <numeric>
 
 #include "core/align/affine.hpp"
 #include "core/base/errors.hpp"
+#include "core/base/not_finite.hpp"
 
 namespace mapproof {
 namespace {
@@ -114,7 +114,7 @@ double anchors_left_out(const Points& map, const Points& anchors_m,
     sum += (put.row(0) - anchors_m.row(mapped[left_out])).norm();
     ++count;
   }
-  return count > 0 ? sum / count : std::numeric_limits<double>::quiet_NaN();
+  return count > 0 ? sum / count : kNaN;
 }
 
 }  // namespace mapproof

@@ -1,9 +1,9 @@
 #include "core/choice/mixed_quality.hpp"
 
 #include <algorithm>
-#include <limits>
 
 #include "core/base/errors.hpp"
+#include "core/base/not_finite.hpp"
 #include "core/choice/map_quality.hpp"
 
 namespace mapproof {
@@ -38,7 +38,7 @@ double mixed_continuity(const std::vector<Eigen::MatrixXd>& distances,
         neighbourhoods_kept(distances[s](rows, rows), map(rows, Eigen::all), neighbours).continuity;
     total += weights[s];
   }
-  return total > 0.0 ? sum / total : std::numeric_limits<double>::quiet_NaN();
+  return total > 0.0 ? sum / total : kNaN;
 }
 
 }  // namespace mapproof

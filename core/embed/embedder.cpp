@@ -2,10 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <utility>
 
 #include "core/base/errors.hpp"
+#include "core/base/median.hpp"
+#include "core/base/not_finite.hpp"
 #include "core/embed/bottom_eigenmap.hpp"
 #include "core/embed/connected_graph.hpp"
 #include "core/embed/isomap.hpp"
@@ -20,7 +21,7 @@ namespace {
 
 Embedding failed(Eigen::Index landmarks, Status why) {
   Embedding result;
-  result.coordinates.setConstant(landmarks, 2, std::numeric_limits<double>::quiet_NaN());
+  result.coordinates.setConstant(landmarks, 2, kNaN);
   result.statuses.push_back(std::move(why));
   return result;
 }
@@ -50,9 +51,7 @@ double median_beside_diagonal(const Eigen::MatrixXd& matrix) {
     for (Eigen::Index i = j + 1; i < matrix.rows(); ++i)
       if (std::isfinite(matrix(i, j)) && matrix(i, j) > 0.0) values.push_back(matrix(i, j));
   if (values.empty()) return 1.0;
-  const auto middle = values.begin() + std::ssize(values) / 2;
-  std::ranges::nth_element(values, middle);
-  return *middle;
+  return upper_median(std::move(values));
 }
 
 double two_digits(double value) {
@@ -82,7 +81,7 @@ Embedder::Embedder(Proximities proximities, EmbedderOptions options)
   }
   apart_ = std::sqrt(proximities_.apart_squared) * (1.0 - 1e-12);
   groups_ = groups_seen_together(proximities_.squared_distances, proximities_.apart_squared);
-  cutoff_ = options_.only_seen_together ? apart_ : std::numeric_limits<double>::infinity();
+  cutoff_ = options_.only_seen_together ? apart_ : kInfinity;
 }
 
 const Eigen::MatrixXd& Embedder::distances() {
@@ -290,7 +289,7 @@ Embedding HistoryEmbedder::embed(const MethodSetting& setting) {
   Embedding result = embedder_->embed(setting);
   if (statuses_.empty()) return result;
   const Points mapped = std::move(result.coordinates);
-  result.coordinates.setConstant(landmarks_, 2, std::numeric_limits<double>::quiet_NaN());
+  result.coordinates.setConstant(landmarks_, 2, kNaN);
   result.coordinates(seen_, Eigen::all) = mapped;
   result.statuses.insert(result.statuses.end(), statuses_.begin(), statuses_.end());
   return result;

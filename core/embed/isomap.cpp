@@ -1,7 +1,6 @@
 #include "core/embed/isomap.hpp"
 
-#include <limits>
-
+#include "core/base/not_finite.hpp"
 #include "core/embed/connected_graph.hpp"
 #include "core/embed/lpca.hpp"
 #include "core/graph/shortest_paths.hpp"
@@ -16,7 +15,7 @@ Embedding isomap(const Eigen::MatrixXd& distances, const NeighbourOptions& optio
   if (neighbours.connected) {
     result = isomap(neighbours.graph);
   } else {
-    result.coordinates.setConstant(distances.rows(), 2, std::numeric_limits<double>::quiet_NaN());
+    result.coordinates.setConstant(distances.rows(), 2, kNaN);
   }
   result.statuses.insert(result.statuses.begin(), neighbours.statuses.begin(),
                          neighbours.statuses.end());

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
-#include <limits>
 #include <optional>
 #include <utility>
 #include <vector>
@@ -70,8 +69,7 @@ std::optional<ObservationManifold> observation_manifold(const Eigen::MatrixXd& s
   const EigenPairs pairs = largest_eigenpairs(B, kDimensions);
 
   ObservationManifold found;
-  found.coordinates.setConstant(squared_distances.rows(), kDimensions,
-                                std::numeric_limits<double>::quiet_NaN());
+  found.coordinates.setConstant(squared_distances.rows(), kDimensions, kNaN);
   const double spread = B.trace();
   for (Eigen::Index k = 0; k < kDimensions; ++k) {
     const double value = std::max(pairs.values(k), 0.0);

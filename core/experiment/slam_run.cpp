@@ -3,12 +3,12 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
-#include <limits>
 #include <string>
 
 #include "core/align/path_at.hpp"
 #include "core/align/rigid.hpp"
 #include "core/base/errors.hpp"
+#include "core/base/not_finite.hpp"
 #include "core/base/random.hpp"
 #include "core/experiment/seeds.hpp"
 #include "core/range_slam/dead_reckoning.hpp"
@@ -69,8 +69,7 @@ constexpr Eigen::Index kStatesShown = 300;         ///< Of a metric upgrade.
 SlamEstimate failed(const RangeLog& log, Status why) {
   SlamEstimate estimate;
   estimate.path.positions_m.resize(0, 2);
-  estimate.landmarks_m = Points::Constant(static_cast<Eigen::Index>(log.landmarks.size()), 2,
-                                          std::numeric_limits<double>::quiet_NaN());
+  estimate.landmarks_m = Points::Constant(static_cast<Eigen::Index>(log.landmarks.size()), 2, kNaN);
   estimate.statuses.push_back(std::move(why));
   return estimate;
 }
@@ -125,7 +124,7 @@ RefinementStart start_of(const SlamRecord& record, int number) {
   const SlamEstimate& estimate = record.estimate;
   RefinementStart start{.method = record.method,
                         .number = number,
-                        .cost = estimate.cost.value_or(std::numeric_limits<double>::quiet_NaN()),
+                        .cost = estimate.cost.value_or(kNaN),
                         .mean_m = std::nullopt,
                         .iterations = estimate.iterations,
                         .converged = estimate.cost && !has(estimate, StatusCode::kNotConverged)};

@@ -83,7 +83,7 @@ void add_spectral(const Eigen::MatrixXd& Y, RangeHistoryStudy& study) {
   const SpectralMap found = metric_upgrade(factors).map;
   RangeHistoryMap map{.setting = std::nullopt,
                       .squared = true,
-                      .positions_m = Points::Constant(study.landmarks_m.rows(), 2, NAN),
+                      .positions_m = Points::Constant(study.landmarks_m.rows(), 2, kNaN),
                       .statuses = factors.statuses,
                       .score = std::nullopt};
   map.statuses.insert(map.statuses.end(), found.statuses.begin(), found.statuses.end());

@@ -2,10 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <vector>
 
 #include "core/base/errors.hpp"
+#include "core/base/not_finite.hpp"
 
 namespace mapproof {
 
@@ -136,8 +136,7 @@ Proximities PairSums::proximities_of(const std::vector<Eigen::Index>& rows) cons
         distance = scale * (square_i + square_j) - 2.0 * product;
       }
       result.inner_products(a, b) = product;
-      result.squared_distances(a, b) =
-          common > 0.0 ? std::max(distance, 0.0) : std::numeric_limits<double>::infinity();
+      result.squared_distances(a, b) = common > 0.0 ? std::max(distance, 0.0) : kInfinity;
     }
   result.squared_distances.diagonal().setZero();
   return result;
@@ -150,7 +149,7 @@ FollowedUpdate IncrementalMap::update() const {
   if (!result.setting.parameter) result.setting = embedder.usual_setting(options_.setting.method);
   result.embedding = embedder.embed(result.setting);
 
-  Points all = Points::Constant(landmarks(), 2, std::numeric_limits<double>::quiet_NaN());
+  Points all = Points::Constant(landmarks(), 2, kNaN);
   all(seen, Eigen::all) = result.embedding.coordinates;
   result.embedding.coordinates = std::move(all);
   if (std::ssize(seen) < landmarks())

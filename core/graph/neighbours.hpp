@@ -1,9 +1,9 @@
 #pragma once
 
-#include <limits>
 #include <vector>
 
 #include <Eigen/Core>
+#include "core/base/not_finite.hpp"
 
 namespace mapproof {
 
@@ -25,7 +25,7 @@ struct NeighbourOptions {
   int neighbours = 8;  ///< K, 1 <= K < n.
   /// Pairs at this distance or farther are never edges. For visibility, sqrt(2) leaves out pairs
   /// never seen together, whose order is arbitrary.
-  double cutoff = std::numeric_limits<double>::infinity();
+  double cutoff = kInfinity;
 };
 
 /// The K nearest others of each node, nearest first: lists[i] are those of i, fewer where fewer are

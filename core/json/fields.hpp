@@ -5,6 +5,7 @@
 #include <span>
 #include <string_view>
 #include <vector>
+#include "core/base/not_finite.hpp"
 
 namespace mapproof {
 
@@ -39,20 +40,20 @@ enum class Key {
 /// numbers of its items hold for each item.
 struct FieldRule {
   std::string_view description = {};
-  double minimum = -std::numeric_limits<double>::infinity();
-  double maximum = std::numeric_limits<double>::infinity();
-  bool above_minimum = false;     ///< The minimum itself is too little.
-  bool nullable = false;          ///< Numbers, or points, that are not finite are null.
-  bool nullable_entries = false;  ///< The numbers of a matrix that are not finite are null.
-  double null_is = std::numeric_limits<double>::quiet_NaN();  ///< What null is read as.
-  bool whole_as_integers = false;                             ///< 1e5 is written as 100000.
-  bool integer = false;                                       ///< Of a double: whole, and the same.
-  bool upper_triangle = false;  ///< All that is held of a square matrix: row by row.
-  bool as_columns = false;      ///< Of records: an object that has an array for each field.
-  bool unique = false;          ///< No two items are equal.
-  bool ascending = false;       ///< Each number is above the one before it.
-  bool or_one = false;          ///< Of numbers: a file may give a single one without the brackets.
-  std::size_t columns = 0;      ///< Of a matrix; 0: as the type has, or as many as the first row.
+  double minimum = -kInfinity;
+  double maximum = kInfinity;
+  bool above_minimum = false;      ///< The minimum itself is too little.
+  bool nullable = false;           ///< Numbers, or points, that are not finite are null.
+  bool nullable_entries = false;   ///< The numbers of a matrix that are not finite are null.
+  double null_is = kNaN;           ///< What null is read as.
+  bool whole_as_integers = false;  ///< 1e5 is written as 100000.
+  bool integer = false;            ///< Of a double: whole, and the same.
+  bool upper_triangle = false;     ///< All that is held of a square matrix: row by row.
+  bool as_columns = false;         ///< Of records: an object that has an array for each field.
+  bool unique = false;             ///< No two items are equal.
+  bool ascending = false;          ///< Each number is above the one before it.
+  bool or_one = false;      ///< Of numbers: a file may give a single one without the brackets.
+  std::size_t columns = 0;  ///< Of a matrix; 0: as the type has, or as many as the first row.
   std::size_t min_items = 0;
   std::size_t max_items = std::numeric_limits<std::size_t>::max();
   bool not_empty = false;          ///< Of a text, and the rows of a matrix.

@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include "core/base/errors.hpp"
+#include "core/base/not_finite.hpp"
 #include "core/base/spelling.hpp"
 #include "core/json/text_input.hpp"
 
@@ -32,7 +33,7 @@ std::string pointer_part(std::string_view key) {
 }
 
 std::string bounds(double least, double most) {
-  if (most == std::numeric_limits<double>::infinity()) return least == 0.0 ? ", 0 or more" : "";
+  if (most == kInfinity) return least == 0.0 ? ", 0 or more" : "";
   return fmt::format(" from {} to {}", least, most);
 }
 
@@ -302,14 +303,14 @@ std::uint64_t JsonCursor::unsigned_integer() const {
 }
 
 double JsonCursor::number(double least, double most) const {
-  const double value = value_->is_number() ? value_->get<double>() : NAN;
+  const double value = value_->is_number() ? value_->get<double>() : kNaN;
   if (!(value >= least && value <= most))
     fail("expected a number" + bounds(least, most) + ", got " + got());
   return value;
 }
 
 double JsonCursor::number_or_null(double least, double most) const {
-  return is_null() ? std::numeric_limits<double>::quiet_NaN() : number(least, most);
+  return is_null() ? kNaN : number(least, most);
 }
 
 bool JsonCursor::boolean() const {
@@ -334,7 +335,7 @@ std::vector<double> JsonCursor::numbers_or_null(double least, double most,
   std::vector<double> numbers;
   numbers.reserve(value_->size());
   for (const Json& item : *value_) {
-    double value = std::numeric_limits<double>::quiet_NaN();
+    double value = kNaN;
     if (item.is_number()) value = item.get<double>();
     if (!item.is_null() && !(value >= least && value <= most))
       element(numbers.size()).number_or_null(least, most);  // Says what is wrong with it.

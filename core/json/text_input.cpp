@@ -9,6 +9,7 @@
 
 #include "core/base/errors.hpp"
 #include "core/base/utf8.hpp"
+#include "core/base/words.hpp"
 
 namespace mapproof {
 namespace {
@@ -99,20 +100,6 @@ bool is_missing(std::string_view cell) {
 std::string in_quotes(std::string_view cell) {
   constexpr std::size_t kShown = 40;
   return '"' + printable(std::string(cell.substr(0, 4 * kShown + 4)), kShown) + '"';
-}
-
-std::string_view trimmed(std::string_view text) {
-  constexpr std::string_view kBlank = " \t\r";
-  const std::size_t first = text.find_first_not_of(kBlank);
-  if (first == std::string_view::npos) return {};
-  return text.substr(first, text.find_last_not_of(kBlank) - first + 1);
-}
-
-std::string lower_case(std::string_view text) {
-  std::string lower(text);
-  for (char& c : lower)
-    if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
-  return lower;
 }
 
 }  // namespace mapproof

@@ -4,11 +4,12 @@
 #include <cmath>
 #include <complex>
 #include <functional>
-#include <limits>
 #include <numeric>
 #include <utility>
 
 #include "core/base/errors.hpp"
+#include "core/base/median.hpp"
+#include "core/base/not_finite.hpp"
 #include "core/labels/labelled_scans.hpp"
 #include "core/labels/robust_map.hpp"
 #include "core/pairs/pair_map.hpp"
@@ -112,11 +113,8 @@ double root_mean_square(const Fit& fit) {
 
 /// The standard deviation of a place by the middle miss; a similarity hides four of 2 k misses.
 double deviation_of(const Fit& fit) {
-  std::vector<double> misses = fit.misses_m;
-  const auto middle = misses.begin() + std::ssize(misses) / 2;
-  std::ranges::nth_element(misses, middle);
-  const double places = static_cast<double>(misses.size());
-  return *middle / 1.18 * std::sqrt(places / (places - 2.0));
+  const double places = static_cast<double>(fit.misses_m.size());
+  return upper_median(fit.misses_m) / 1.18 * std::sqrt(places / (places - 2.0));
 }
 
 /// A known place first, and of two the lower.
@@ -148,8 +146,7 @@ Exchanges candidates(const KnownPlaces& places, const Fit& given) {
 double cost_with(const KnownPlaces& places, Exchanges exchanges, const Exchange& one,
                  double deviation_m) {
   for (const auto& [a, b] : exchanges)
-    if (a == one.first || a == one.second || b == one.first || b == one.second)
-      return std::numeric_limits<double>::infinity();
+    if (a == one.first || a == one.second || b == one.first || b == one.second) return kInfinity;
   exchanges.push_back(one);
   return places.fit(exchanges, deviation_m).cost;
 }
@@ -219,9 +216,7 @@ double deviation_of(const PairMap& map) {
     residuals.push_back(std::abs(distance - pair.distance_m));
     longest = std::max(longest, pair.distance_m);
   }
-  const auto middle = residuals.begin() + std::ssize(residuals) / 2;
-  std::ranges::nth_element(residuals, middle);
-  return std::max({1.48 * *middle, 1e-3 * longest, 1e-9});
+  return std::max({1.48 * upper_median(std::move(residuals)), 1e-3 * longest, 1e-9});
 }
 
 DetectionLog exchanged(const DetectionLog& log, const Exchanges& exchanges) {

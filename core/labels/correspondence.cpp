@@ -2,10 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <vector>
 
 #include "core/base/errors.hpp"
+#include "core/base/median.hpp"
+#include "core/base/not_finite.hpp"
 #include "core/linalg/decompositions.hpp"
 #include "core/linalg/symmetric_eigen.hpp"
 
@@ -26,7 +27,7 @@ class Assignment {
 
   void assign(Eigen::Index row) {
     const Eigen::Index m = costs_.cols();
-    Eigen::VectorXd reach = Eigen::VectorXd::Constant(m, std::numeric_limits<double>::infinity());
+    Eigen::VectorXd reach = Eigen::VectorXd::Constant(m, kInfinity);
     std::vector<Eigen::Index> before(static_cast<std::size_t>(m), kNone);
     std::vector<char> done(static_cast<std::size_t>(m), 0);
     Eigen::Index at = row;
@@ -206,9 +207,7 @@ double median_residual(const Labelled& labelled, Eigen::Index rank) {
         (Y - components * (components.transpose() * Y)).rowwise().squaredNorm();
     squares.insert(squares.end(), off.begin(), off.end());
   }
-  const auto middle = squares.begin() + static_cast<std::ptrdiff_t>(squares.size() / 2);
-  std::ranges::nth_element(squares, middle);
-  return *middle;
+  return upper_median(std::move(squares));
 }
 
 /// Which doubtful readings no exchange within their step would make nearly as likely.

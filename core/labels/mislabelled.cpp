@@ -7,6 +7,7 @@
 #include <optional>
 #include <vector>
 
+#include "core/base/median.hpp"
 #include "core/base/not_finite.hpp"
 #include "core/labels/fault_trials.hpp"
 #include "core/labels/labelled_scans.hpp"
@@ -24,11 +25,9 @@ constexpr std::size_t kNamed = 4;       ///< Landmarks.
 constexpr double kWorse = 2.0;          ///< Than the middle landmark, to be named.
 constexpr double kDeviations = 1.4826;  ///< Standard deviation over median of absolute values.
 
-double middle(std::vector<double> values) {
-  if (values.empty()) return 0.0;
-  const auto at = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::ranges::nth_element(values, at);
-  return *at;
+/// 0 without a value.
+double median_or_zero(const std::vector<double>& values) {
+  return values.empty() ? 0.0 : upper_median(values);
 }
 
 /// The middle pair's spread of the blocks' distances about their median.
@@ -39,11 +38,11 @@ double spread_of(const std::vector<PairItem>& items) {
   std::vector<double> spreads;
   for (auto& [pair, values] : distances) {
     if (values.size() < 3) continue;
-    const double centre = middle(values);
+    const double centre = median_or_zero(values);
     for (double& value : values) value = std::abs(value - centre);
-    spreads.push_back(kDeviations * middle(values));
+    spreads.push_back(kDeviations * median_or_zero(values));
   }
-  return middle(spreads);
+  return median_or_zero(spreads);
 }
 
 /// @param map  Of the pairs under these labels.
@@ -53,7 +52,7 @@ LabelDoubts label_doubts(const LabelledScans& scans, const std::vector<int>& lab
   const std::vector<PairItem> items = pair_items(scans.pairs, labels, scans.blocks);
   std::vector<double> distances;
   for (const PairItem& item : items) distances.push_back(item.distance_m);
-  const double far = kFar * middle(distances);
+  const double far = kFar * median_or_zero(distances);
   const Eigen::Index M = map.positions_m.rows();
   Eigen::ArrayXd squares = Eigen::ArrayXd::Zero(M);
   Eigen::ArrayXd weights = Eigen::ArrayXd::Zero(M);
@@ -70,14 +69,14 @@ LabelDoubts label_doubts(const LabelledScans& scans, const std::vector<int>& lab
   LabelDoubts doubts;
   if (weights.sum() <= 0.0) return doubts;
   doubts.residual_m = std::sqrt(squares.sum() / weights.sum());
-  doubts.spread_m = std::max(spread_of(items), 1e-3 * middle(distances));
+  doubts.spread_m = std::max(spread_of(items), 1e-3 * median_or_zero(distances));
   std::vector<double> worst;
   for (int k = 0; k < M; ++k)
     if (weights(k) > 0.0) {
       worst.push_back(squares(k) / weights(k));
       doubts.landmarks.push_back(k);
     }
-  const double usual = middle(worst);
+  const double usual = median_or_zero(worst);
   const auto badness = [&](int k) { return squares(k) / weights(k); };
   std::ranges::stable_sort(doubts.landmarks, std::greater<>(), badness);
   std::erase_if(doubts.landmarks, [&](int k) { return badness(k) < kWorse * usual; });

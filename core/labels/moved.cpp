@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "core/base/errors.hpp"
+#include "core/base/median.hpp"
 #include "core/base/random.hpp"
 #include "core/labels/place_costs.hpp"
 #include "core/statistics/intervals.hpp"

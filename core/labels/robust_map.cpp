@@ -2,10 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <tuple>
 
 #include "core/base/errors.hpp"
+#include "core/base/median.hpp"
 #include "core/base/not_finite.hpp"
 #include "core/embed/lpca.hpp"
 #include "core/embed/smacof.hpp"
@@ -18,14 +18,7 @@ namespace {
 constexpr double kWidths = 1.5;       ///< Standard deviations in RobustMap::width_m.
 constexpr double kFewestScans = 3.0;  ///< Of a pair that the start of a map is made of,
 constexpr int kPairsToPlace = 3;      ///< if each of its landmarks has so many.
-constexpr double kInfinite = std::numeric_limits<double>::infinity();
 constexpr int kMostLandmarks = 2000;
-
-double median(std::vector<double>& values) {
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::ranges::nth_element(values, middle);
-  return *middle;
-}
 
 /// The landmarks that a map can hold, and their rows in it.
 struct Mapped {
@@ -80,7 +73,7 @@ void leave_well_seen(Eigen::MatrixXd& D, const Eigen::MatrixXd& scans) {
     for (Eigen::Index j = i + 1; j < D.rows(); ++j)
       if (!well(i, j) && !is_short[static_cast<std::size_t>(i)] &&
           !is_short[static_cast<std::size_t>(j)])
-        D(i, j) = D(j, i) = kInfinite;
+        D(i, j) = D(j, i) = kInfinity;
   const std::vector<int> piece = pieces_of(D);
   for (Eigen::Index i = 0; i < D.rows(); ++i)
     for (Eigen::Index j = i + 1; j < D.rows(); ++j)
@@ -100,7 +93,7 @@ Eigen::MatrixXd median_distances(const std::vector<PairItem>& items, const Mappe
           item.distance_m, item.weight);
   }
   const auto size = static_cast<Eigen::Index>(n);
-  Eigen::MatrixXd D = Eigen::MatrixXd::Constant(size, size, kInfinite);
+  Eigen::MatrixXd D = Eigen::MatrixXd::Constant(size, size, kInfinity);
   D.diagonal().setZero();
   Eigen::MatrixXd scans = Eigen::MatrixXd::Zero(size, size);
   for (Eigen::Index i = 0; i < size; ++i)
@@ -162,8 +155,8 @@ double width_of(const std::vector<PairItem>& items, const Points& map) {
     distances.push_back(item.distance_m);
   }
   if (residuals.empty()) return 1.0;
-  const double floor = std::max(1e-3 * median(distances), 1e-9);
-  return std::max(kWidths * 1.4826 * median(residuals), floor);
+  const double floor = std::max(1e-3 * upper_median(distances), 1e-9);
+  return std::max(kWidths * 1.4826 * upper_median(residuals), floor);
 }
 
 double huber_cost(double residual, double width) {

@@ -1,7 +1,6 @@
 #include "core/labels/scan_by_scan.hpp"
 
-#include <limits>
-
+#include "core/base/not_finite.hpp"
 #include "core/labels/place_costs.hpp"
 #include "core/labels/scan_costs.hpp"
 
@@ -53,7 +52,7 @@ FaultTrial settled_trial(const LabelledScans& scans, const std::vector<int>& giv
   trial.map.positions_m = turned_as_seen(scans, labels, start);
   trial.labels = labels;
   FaultTrial best;
-  best.map.cost = std::numeric_limits<double>::infinity();
+  best.map.cost = kInfinity;
   bool unfolded = false;
   for (int round = 0; round < kMostRounds; ++round) {
     std::vector<int> next =

@@ -5,6 +5,7 @@
 #include <span>
 #include <utility>
 
+#include "core/base/median.hpp"
 #include "core/labels/labelled_scans.hpp"
 #include "core/labels/robust_map.hpp"
 #include "core/labels/scan_pose.hpp"

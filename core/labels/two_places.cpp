@@ -3,10 +3,10 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
-#include <limits>
 #include <map>
 #include <set>
 
+#include "core/base/not_finite.hpp"
 #include "core/labels/label_search.hpp"
 #include "core/labels/place_costs.hpp"
 
@@ -86,8 +86,8 @@ RobustMap core_map(const std::vector<PairItem>& items, int landmarks, int first,
       others.push_back(item);
   RobustMap anew = robust_map(others, landmarks);
   anew = unfolded_map(others, std::move(anew), blocks);
-  anew.positions_m.row(first).setConstant(std::nan(""));
-  anew.positions_m.row(second).setConstant(std::nan(""));
+  anew.positions_m.row(first).setConstant(kNaN);
+  anew.positions_m.row(second).setConstant(kNaN);
   return anew;
 }
 
@@ -120,7 +120,7 @@ struct TwoPlaces {
 
 int nearest_to(const Points& map, const Eigen::RowVector2d& place) {
   int nearest = -1;
-  double least = std::numeric_limits<double>::infinity();
+  double least = kInfinity;
   for (int k = 0; k < map.rows(); ++k)
     if (const double distance = (map.row(k) - place).norm(); distance < least) {
       least = distance;

@@ -2,10 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <utility>
 
 #include "core/base/errors.hpp"
+#include "core/base/not_finite.hpp"
 #include "core/embed/isomap.hpp"
 #include "core/graph/components.hpp"
 #include "core/graph/shortest_paths.hpp"
@@ -13,8 +13,6 @@
 
 namespace mapproof {
 namespace {
-
-constexpr double kInfinite = std::numeric_limits<double>::infinity();
 
 /// sqrt(2 - 2 cos) of the angle between two landmarks' lists of when they were observed.
 Eigen::MatrixXd visibility_distances(const Eigen::MatrixXd& common, int least_common) {
@@ -25,14 +23,14 @@ Eigen::MatrixXd visibility_distances(const Eigen::MatrixXd& common, int least_co
       if (i == j) continue;
       const double cosine = common(i, j) / std::sqrt(counts(i) * counts(j));
       distances(i, j) =
-          common(i, j) >= least_common ? std::sqrt(std::max(0.0, 2.0 - 2.0 * cosine)) : kInfinite;
+          common(i, j) >= least_common ? std::sqrt(std::max(0.0, 2.0 - 2.0 * cosine)) : kInfinity;
     }
   return distances;
 }
 
 Embedding failed(Eigen::Index landmarks, Status why) {
   Embedding result;
-  result.coordinates.setConstant(landmarks, 2, std::numeric_limits<double>::quiet_NaN());
+  result.coordinates.setConstant(landmarks, 2, kNaN);
   result.statuses.push_back(std::move(why));
   return result;
 }
@@ -71,7 +69,7 @@ Proximities covisible_proximities(const ObservationHistory& history, Eigen::Inde
   Graph graph = neighbour_graph(
       apart, {.neighbours = static_cast<int>(std::min<Eigen::Index>(options.neighbours, M - 1))});
   bridge_components(graph, apart);
-  Eigen::MatrixXd joined = Eigen::MatrixXd::Constant(M, M, kInfinite);
+  Eigen::MatrixXd joined = Eigen::MatrixXd::Constant(M, M, kInfinity);
   joined.diagonal().setZero();
   for (Eigen::Index i = 0; i < M; ++i)
     for (const Edge& edge : graph[static_cast<std::size_t>(i)])

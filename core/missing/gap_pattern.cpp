@@ -3,11 +3,12 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <limits>
 #include <numeric>
 #include <vector>
 
 #include "core/base/errors.hpp"
+#include "core/base/median.hpp"
+#include "core/base/not_finite.hpp"
 #include "core/linalg/gram.hpp"
 
 namespace mapproof {
@@ -109,10 +110,8 @@ double median_disagreement(const Proximities& filled, const Proximities& common)
     for (Eigen::Index i = j + 1; i < D.rows(); ++i)
       if (std::isfinite(D(i, j)) && D(i, j) > 0.0)
         shares.push_back(std::abs(std::sqrt(filled.squared_distances(i, j) / D(i, j)) - 1.0));
-  if (shares.empty()) return std::numeric_limits<double>::quiet_NaN();
-  const auto middle = shares.begin() + std::ssize(shares) / 2;
-  std::ranges::nth_element(shares, middle);
-  return *middle;
+  if (shares.empty()) return kNaN;
+  return upper_median(std::move(shares));
 }
 
 }  // namespace mapproof

@@ -2,9 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "core/base/errors.hpp"
+#include "core/base/not_finite.hpp"
 #include "core/linalg/centering.hpp"
 
 namespace mapproof {
@@ -17,8 +17,8 @@ Eigen::MatrixXd squared_from(const ObservationHistory& history, Eigen::Index fir
   part.values = history.values.middleCols(first, count);
   Eigen::MatrixXd D = proximities(part, count).squared_distances;
   for (const Eigen::Index row : unseen_landmarks(part, count)) {
-    D.row(row).setConstant(std::numeric_limits<double>::infinity());
-    D.col(row).setConstant(std::numeric_limits<double>::infinity());
+    D.row(row).setConstant(kInfinity);
+    D.col(row).setConstant(kInfinity);
   }
   return D;
 }
@@ -77,9 +77,7 @@ Proximities mixed_proximities(const std::vector<Eigen::MatrixXd>& squared,
   }
   if (!(total.maxCoeff() > 0.0)) throw InvalidInput("mixed distances need a weight above 0");
   Proximities result;
-  result.squared_distances =
-      (total.array() > 0.0)
-          .select(sum.array() / total.array(), std::numeric_limits<double>::infinity());
+  result.squared_distances = (total.array() > 0.0).select(sum.array() / total.array(), kInfinity);
   result.squared_distances.diagonal().setZero();
   result.inner_products = Eigen::MatrixXd::Zero(M, M);
   if (result.squared_distances.allFinite())

@@ -2,13 +2,13 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <optional>
 #include <utility>
 
 #include <fmt/format.h>
 
 #include "core/base/errors.hpp"
+#include "core/base/not_finite.hpp"
 #include "core/embed/smacof.hpp"
 #include "core/graph/components.hpp"
 #include "core/mixed/mixed_distances.hpp"
@@ -99,7 +99,6 @@ double size_of(const Points& map) {
   return (map.rowwise() - map.colwise().mean()).squaredNorm() / static_cast<double>(map.rows());
 }
 
-constexpr double kInfinite = std::numeric_limits<double>::infinity();
 using Rows = std::vector<Eigen::Index>;
 
 void check(const std::vector<ObservationHistory>& histories, Eigen::Index steps) {
@@ -117,8 +116,8 @@ void check(const std::vector<ObservationHistory>& histories, Eigen::Index steps)
 Eigen::MatrixXd squared_of(const ObservationHistory& history) {
   Eigen::MatrixXd D = proximities(history, history.steps()).squared_distances;
   for (const Eigen::Index row : unseen_landmarks(history, history.steps())) {
-    D.row(row).setConstant(kInfinite);
-    D.col(row).setConstant(kInfinite);
+    D.row(row).setConstant(kInfinity);
+    D.col(row).setConstant(kInfinity);
     D(row, row) = 0.0;
   }
   return D;
@@ -136,7 +135,7 @@ Rows known_rows(const std::vector<Eigen::MatrixXd>& squared) {
 }
 
 Points spread(const Points& some, const Rows& rows, Eigen::Index all) {
-  Points points = Points::Constant(all, 2, std::numeric_limits<double>::quiet_NaN());
+  Points points = Points::Constant(all, 2, kNaN);
   points(rows, Eigen::all) = some;
   return points;
 }
@@ -179,7 +178,7 @@ MixedSensor alone(const ObservationHistory& history, MethodSetting setting,
 
 Embedding too_few(Eigen::Index landmarks) {
   Embedding result;
-  result.coordinates.setConstant(landmarks, 2, std::numeric_limits<double>::quiet_NaN());
+  result.coordinates.setConstant(landmarks, 2, kNaN);
   result.statuses.push_back(status_of<StatusReason::kTooFewLandmarks>(landmarks));
   return result;
 }
@@ -260,7 +259,7 @@ JointMap joint_map(const std::vector<Eigen::MatrixXd>& distances, const Points& 
   for (const Eigen::MatrixXd& one : distances) pairs.push_back(sorted_pairs(one));
   JointMap result{.embedding = {}, .shares = std::vector<double>(distances.size(), 0.0)};
   if (!connected(distances)) {
-    result.embedding.coordinates.setConstant(M, 2, std::numeric_limits<double>::quiet_NaN());
+    result.embedding.coordinates.setConstant(M, 2, kNaN);
     result.embedding.statuses.push_back(status_of<StatusReason::kNoSensorShares>());
     return result;
   }
@@ -303,7 +302,7 @@ JointMap best_joint_map(const std::vector<Eigen::MatrixXd>& distances,
                         const std::vector<Points>& starts, const JointMapOptions& options) {
   if (starts.empty()) throw InvalidInput("a joint map needs a start");
   JointMap best;
-  double least = std::numeric_limits<double>::infinity();
+  double least = kInfinity;
   for (const Points& start : starts) {
     JointMap map = joint_map(distances, start, options);
     const Points& places = map.embedding.coordinates;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <utility>
+#include "core/base/not_finite.hpp"
 
 namespace mapproof {
 
@@ -24,7 +25,7 @@ ObservationHistory history_of(const DetectionLog& log, Sensor sensor) {
   const bool is_visibility = sensor == Sensor::kVisibility;
   ObservationHistory history{.sensor = sensor, .names = log.names, .values = {}};
   history.values.setConstant(static_cast<Eigen::Index>(log.names.size()), log.steps,
-                             is_visibility ? 0.0 : std::numeric_limits<double>::quiet_NaN());
+                             is_visibility ? 0.0 : kNaN);
   for (const Detection& seen : log.detections)
     history.values(seen.landmark, seen.step) = is_visibility              ? 1.0
                                                : sensor == Sensor::kRange ? seen.range_m

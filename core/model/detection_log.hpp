@@ -1,21 +1,21 @@
 #pragma once
 
 #include <compare>
-#include <limits>
 #include <string>
 #include <vector>
 
+#include "core/base/not_finite.hpp"
 #include "core/model/observation_history.hpp"
 
 namespace mapproof {
 
 /// One landmark in one scan: what was measured of it.
 struct Detection {
-  int step = 0;                                                   ///< Which scan, from 0.
-  int landmark = 0;                                               ///< Row among the log's names.
-  double range_m = std::numeric_limits<double>::quiet_NaN();      ///< NaN: not measured.
-  double bearing_rad = std::numeric_limits<double>::quiet_NaN();  ///< Relative to the heading,
-                                                                  ///< counter-clockwise; NaN: not.
+  int step = 0;               ///< Which scan, from 0.
+  int landmark = 0;           ///< Row among the log's names.
+  double range_m = kNaN;      ///< NaN: not measured.
+  double bearing_rad = kNaN;  ///< Relative to the heading,
+                              ///< counter-clockwise; NaN: not.
 };
 
 /// Which scan it was among the scans of several robots: one robot's at one step or time.

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "core/base/errors.hpp"
+#include "core/base/not_finite.hpp"
 
 namespace mapproof {
 namespace {
@@ -87,8 +88,7 @@ Proximities detected_proximities(const DetectionLog& log, Sensor sensor) {
     result.squared_distances =
         ((sums.squares + sums.squares.transpose() - 2.0 * sums.products).array() * scale).max(0.0);
     result.squared_distances =
-        (sums.counts.array() > 0.0)
-            .select(result.squared_distances, std::numeric_limits<double>::infinity());
+        (sums.counts.array() > 0.0).select(result.squared_distances, kInfinity);
   }
   result.squared_distances.diagonal().setZero();
   return result;

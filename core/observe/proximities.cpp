@@ -1,8 +1,8 @@
 #include "core/observe/proximities.hpp"
 
-#include <limits>
 #include <utility>
 
+#include "core/base/not_finite.hpp"
 #include "core/linalg/gram.hpp"
 
 namespace mapproof {
@@ -45,8 +45,7 @@ Proximities proximities(const Features& rows, Sensor sensor) {
         scale * (Q + Q.transpose() - 2.0 * result.inner_products).cwiseMax(0.0).array();
     result.inner_products.array() *= scale;
   }
-  result.squared_distances =
-      (common > 0.0).select(result.squared_distances, std::numeric_limits<double>::infinity());
+  result.squared_distances = (common > 0.0).select(result.squared_distances, kInfinity);
   result.squared_distances.diagonal().setZero();
   return result;
 }

@@ -1,10 +1,10 @@
 #pragma once
 
-#include <limits>
 #include <vector>
 
 #include <Eigen/Core>
 
+#include "core/base/not_finite.hpp"
 #include "core/model/observation_history.hpp"
 #include "core/observe/features.hpp"
 
@@ -16,7 +16,7 @@ struct Proximities {
   Eigen::MatrixXd squared_distances;  ///< M x M, zero diagonal; infinite: no common step.
   /// The squared distance of landmarks never seen together, 2 for visibility: among several of them
   /// nothing tells which is nearer. Infinite for other sensors.
-  double apart_squared = std::numeric_limits<double>::infinity();
+  double apart_squared = kInfinity;
 };
 
 /// Euclidean proximities of the observation vectors (see features.hpp). With missing entries the

@@ -5,6 +5,7 @@
 #include <span>
 
 #include "core/base/errors.hpp"
+#include "core/base/median.hpp"
 #include "core/statistics/intervals.hpp"
 #include "core/statistics/robust_noise.hpp"
 

@@ -2,12 +2,12 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <optional>
 #include <set>
 #include <utility>
 
 #include "core/base/errors.hpp"
+#include "core/base/not_finite.hpp"
 #include "core/graph/components.hpp"
 #include "core/pairs/handedness.hpp"
 #include "core/pairs/pair_graph.hpp"
@@ -144,8 +144,7 @@ PairMap pair_map(const std::vector<MeasuredPair>& pairs, const std::vector<std::
                  const PairMapOptions& options, const std::vector<SeenTurn>& turns) {
   check(pairs, names.size(), options);
   PairMap result;
-  result.embedding.coordinates.setConstant(std::ssize(names), 2,
-                                           std::numeric_limits<double>::quiet_NaN());
+  result.embedding.coordinates.setConstant(std::ssize(names), 2, kNaN);
   const std::vector<MeasuredPair> taken = trusted(pairs, names.size(), options.fewest_scans);
   const Graph graph = graph_of(taken, names.size());
   const std::vector<Eigen::Index> group = largest_group(components(graph));

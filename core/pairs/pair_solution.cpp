@@ -4,10 +4,10 @@
 #include <array>
 #include <cmath>
 #include <functional>
-#include <limits>
 #include <set>
 #include <utility>
 
+#include "core/base/median.hpp"
 #include "core/base/not_finite.hpp"
 #include "core/embed/isomap.hpp"
 #include "core/graph/components.hpp"
@@ -301,7 +301,7 @@ PairSolution searched(PairProblem& problem, const std::vector<SeenTurn>& turns,
   rough.smacof.relative_fall = std::max(rough.smacof.relative_fall, 1e-6);
   rough.smacof.max_iterations = std::min(rough.smacof.max_iterations, 300);
   std::vector<PairSolution> solutions;
-  double usual = std::numeric_limits<double>::infinity();
+  double usual = kInfinity;
   for (const Width width : {Width::kNarrow, Width::kWide})
     for (const std::vector<double>& left : starts) {
       solutions.push_back(

@@ -2,12 +2,12 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <vector>
 
 #include <fmt/format.h>
 
 #include "core/base/errors.hpp"
+#include "core/base/not_finite.hpp"
 #include "core/linalg/decompositions.hpp"
 #include "core/range_slam/dead_reckoning.hpp"
 #include "core/range_slam/factors/spread_rows.hpp"
@@ -97,7 +97,7 @@ class Filter {
     SlamEstimate estimate;
     estimate.path = path_;
     estimate.landmarks_m.resize(static_cast<Eigen::Index>(is_placed_.size()), 2);
-    const double nan = std::numeric_limits<double>::quiet_NaN();
+    const double nan = kNaN;
     for (std::size_t n = 0; n < is_placed_.size(); ++n) {
       const auto row = static_cast<Eigen::Index>(n);
       const Eigen::Index at = 4 + 2 * row;

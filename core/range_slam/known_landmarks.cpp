@@ -1,12 +1,12 @@
 #include "core/range_slam/known_landmarks.hpp"
 
 #include <cmath>
-#include <limits>
 #include <set>
 
 #include <fmt/format.h>
 
 #include "core/base/errors.hpp"
+#include "core/base/not_finite.hpp"
 #include "core/linalg/decompositions.hpp"
 #include "core/range_slam/factors/squared_ranges.hpp"
 #include "core/range_slam/log_checks.hpp"
@@ -61,7 +61,7 @@ SpectralMap map_from_known_places(const Factorization& factors,
                                               Eigen::ComputeThinU | Eigen::ComputeThinV);
   const Eigen::VectorXd& s = svd.singularValues();
   const double least = s(rank - 1);
-  map.condition = least > 0.0 ? s(0) / least : std::numeric_limits<double>::infinity();
+  map.condition = least > 0.0 ? s(0) / least : kInfinity;
   if (!(*map.condition < kDegenerateCondition)) {
     map.statuses.push_back(
         status_of<StatusReason::kKnownDegenerate>(in_plane ? 2 : 3, *map.condition));

@@ -2,9 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "core/base/errors.hpp"
+#include "core/base/not_finite.hpp"
 #include "core/linalg/decompositions.hpp"
 #include "core/range_slam/factors/windowed_ranges.hpp"
 
@@ -47,7 +47,7 @@ Eigen::RowVector2d best_of_grid(const LandmarkReadings& readings) {
   const Eigen::RowVector2d low = readings.positions_m.colwise().minCoeff().array() - reach;
   const Eigen::RowVector2d high = readings.positions_m.colwise().maxCoeff().array() + reach;
   Eigen::RowVector2d best = low;
-  double least = std::numeric_limits<double>::infinity();
+  double least = kInfinity;
   for (int i = 0; i <= kGridSide; ++i) {
     for (int j = 0; j <= kGridSide; ++j) {
       const Eigen::RowVector2d share(i / double{kGridSide}, j / double{kGridSide});
@@ -102,7 +102,7 @@ Points trilaterated(const RangeLog& log, const Trajectory& path, double range_sc
     throw InvalidInput("a range scale must be positive");
   const Eigen::Index landmarks = std::ssize(log.landmarks);
   std::vector<LandmarkReadings> all = readings_by_landmark(log.ranges, landmarks, path);
-  Points places = Points::Constant(landmarks, 2, std::numeric_limits<double>::quiet_NaN());
+  Points places = Points::Constant(landmarks, 2, kNaN);
   for (Eigen::Index n = 0; n < landmarks; ++n) {
     LandmarkReadings& readings = all[static_cast<std::size_t>(n)];
     if (readings.size() < kLeastReadings) continue;

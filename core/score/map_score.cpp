@@ -4,12 +4,12 @@
 #include <cmath>
 #include <cstdint>
 #include <iterator>
-#include <limits>
 
 #include <fmt/format.h>
 
 #include "core/align/affine.hpp"
 #include "core/base/errors.hpp"
+#include "core/base/not_finite.hpp"
 #include "core/base/vectorised.hpp"
 #include "core/linalg/planarity.hpp"
 
@@ -78,7 +78,7 @@ double orientation_error_percent(const Points& truth, const Points& estimate) {
       wrong += found.wrong;
     }
   }
-  if (judged == 0) return std::numeric_limits<double>::quiet_NaN();
+  if (judged == 0) return kNaN;
   return 100.0 * static_cast<double>(wrong) / static_cast<double>(judged);
 }
 
@@ -124,7 +124,7 @@ std::optional<Score> score_map(const Points& estimate_m, const Points& truth_m,
       sum += errors(static_cast<Eigen::Index>(row));
       ++count;
     }
-  const double nan = std::numeric_limits<double>::quiet_NaN();
+  const double nan = kNaN;
   Score score;
   score.mpe_m = count > 0 ? sum / count : nan;
   score.moe_percent = orientation_error_percent(truth, estimate);

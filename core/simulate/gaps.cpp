@@ -2,11 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <numeric>
 #include <vector>
 
 #include "core/base/errors.hpp"
+#include "core/base/not_finite.hpp"
 
 namespace mapproof {
 namespace {
@@ -34,8 +34,7 @@ Losses range_losses(const World& world, const Path& path) {
 
 Losses occlusion_losses(const World& world, const Path& path) {
   const Eigen::MatrixXd distances = range_losses(world, path);
-  Losses losses = Losses::Constant(distances.rows(), distances.cols(),
-                                   -std::numeric_limits<double>::infinity());
+  Losses losses = Losses::Constant(distances.rows(), distances.cols(), -kInfinity);
   for (Eigen::Index t = 0; t < losses.cols(); ++t) {
     const Points offsets = world.landmarks_m.rowwise() - path.positions_m.row(t);
     for (Eigen::Index i = 0; i < losses.rows(); ++i)
@@ -61,8 +60,7 @@ ObservationHistory with_gaps(ObservationHistory history, const Losses& losses, d
   };
   std::ranges::nth_element(entries, entries.begin() + lost, sooner);
   for (std::ptrdiff_t k = 0; k < lost; ++k)
-    history.values.reshaped()(entries[static_cast<std::size_t>(k)]) =
-        std::numeric_limits<double>::quiet_NaN();
+    history.values.reshaped()(entries[static_cast<std::size_t>(k)]) = kNaN;
   return history;
 }
 

@@ -2,12 +2,12 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <numbers>
 
 #include <fmt/format.h>
 
 #include "core/base/angle.hpp"
+#include "core/base/not_finite.hpp"
 
 namespace mapproof {
 namespace {
@@ -56,7 +56,7 @@ double disturbed(double value, const SensorOptions& options, Random& random) {
         break;
     }
   const bool lost = options.dropout_share > 0.0 && random.uniform() < options.dropout_share;
-  return lost ? std::numeric_limits<double>::quiet_NaN() : value;
+  return lost ? kNaN : value;
 }
 
 }  // namespace
@@ -76,7 +76,7 @@ ObservationHistory observe(const World& world, const Path& path, const SensorOpt
     const Eigen::RowVector2d position = path.positions_m.row(t);
     for (Eigen::Index i = 0; i < M; ++i)
       if ((world.landmarks_m.row(i) - position).norm() > options.reach_m)
-        history.values(i, t) = std::numeric_limits<double>::quiet_NaN();
+        history.values(i, t) = kNaN;
   }
   return history;
 }

@@ -2,10 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <vector>
 
 #include "core/base/errors.hpp"
+#include "core/base/median.hpp"
+#include "core/base/not_finite.hpp"
 #include "core/statistics/intervals.hpp"
 
 namespace mapproof {
@@ -38,7 +39,7 @@ std::vector<double> smoothed(std::span<const double> x) {
 }
 
 struct Fit {
-  double squares = std::numeric_limits<double>::infinity();
+  double squares = kInfinity;
   std::size_t first = 0;
   double slope = 0.0;
 };

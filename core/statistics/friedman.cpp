@@ -1,13 +1,13 @@
 #include "core/statistics/friedman.hpp"
 
 #include <algorithm>
-#include <limits>
 #include <numeric>
 
 #include <boost/math/distributions/chi_squared.hpp>
 #include <boost/math/distributions/fisher_f.hpp>
 
 #include "core/base/errors.hpp"
+#include "core/base/not_finite.hpp"
 
 namespace mapproof {
 namespace {
@@ -59,7 +59,7 @@ FriedmanTest friedman(const Eigen::MatrixXd& values) {
   const boost::math::chi_squared chi_squared(freedom);
   test.chi_square_p = boost::math::cdf(boost::math::complement(chi_squared, test.chi_square));
   if (most - test.chi_square <= kRounding * most) {
-    test.f = std::numeric_limits<double>::infinity();
+    test.f = kInfinity;
     test.f_p = 0.0;
     return test;
   }

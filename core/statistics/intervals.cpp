@@ -51,14 +51,6 @@ MeanEstimate clustered_mean(std::span<const double> values, std::span<const int>
   return estimate;
 }
 
-double median(std::span<const double> values) {
-  if (values.empty()) throw InvalidInput("median: no value");
-  std::vector<double> sorted(values.begin(), values.end());
-  std::ranges::sort(sorted);
-  const std::size_t half = sorted.size() / 2;
-  return sorted.size() % 2 == 1 ? sorted[half] : 0.5 * sorted[half - 1] + 0.5 * sorted[half];
-}
-
 double student_t_quantile(double probability, double freedom) {
   if (!(probability > 0.0 && probability < 1.0))
     throw InvalidInput("student_t_quantile: probability must lie between 0 and 1");

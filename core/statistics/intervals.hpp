@@ -23,9 +23,6 @@ struct MeanEstimate {
 MeanEstimate clustered_mean(std::span<const double> values, std::span<const int> clusters,
                             double confidence = 0.95);
 
-/// @throws InvalidInput if there is no value.
-double median(std::span<const double> values);
-
 /// The x below which Student's t with `freedom` degrees lies with `probability`.
 /// @throws InvalidInput unless 0 < probability < 1 and freedom > 0.
 double student_t_quantile(double probability, double freedom);

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <numeric>
 #include <vector>
 
@@ -10,6 +9,8 @@
 #include <boost/math/distributions/students_t.hpp>
 
 #include "core/base/errors.hpp"
+#include "core/base/median.hpp"
+#include "core/base/not_finite.hpp"
 #include "core/statistics/intervals.hpp"
 #include "core/statistics/signed_rank.hpp"
 
@@ -50,8 +51,8 @@ void judge_by_ranks(std::span<const double> differences, double confidence, Pair
 void judge_by_t(std::span<const double> differences, double confidence, PairedChange& change) {
   const double n = static_cast<double>(differences.size());
   for (const double difference : differences) change.shift += difference / n;
-  change.low = -std::numeric_limits<double>::infinity();
-  change.high = std::numeric_limits<double>::infinity();
+  change.low = -kInfinity;
+  change.high = kInfinity;
   if (differences.size() < 2) return;
   double squares = 0.0;
   for (const double difference : differences)

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "core/base/errors.hpp"
+#include "core/base/median.hpp"
 #include "core/statistics/intervals.hpp"
 
 namespace mapproof {

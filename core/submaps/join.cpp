@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <numeric>
 #include <optional>
 #include <span>
@@ -13,6 +12,8 @@
 
 #include "core/align/affine.hpp"
 #include "core/base/errors.hpp"
+#include "core/base/median.hpp"
+#include "core/base/not_finite.hpp"
 #include "core/linalg/decompositions.hpp"
 #include "core/linalg/planarity.hpp"
 #include "core/model/submaps.hpp"
@@ -368,7 +369,7 @@ SubmapJoin join_of(const Overlap& overlap, const std::vector<Submap>& maps) {
   SubmapJoin join{.first = overlap.first,
                   .second = overlap.second,
                   .shared = static_cast<int>(overlap.shared.size()),
-                  .residual = std::numeric_limits<double>::quiet_NaN(),
+                  .residual = kNaN,
                   .in_tree = false};
   if (!first.placed || !second.placed) return join;
   Points places(join.shared, 2);

@@ -6,6 +6,7 @@
 #include <numeric>
 
 #include "core/base/errors.hpp"
+#include "core/base/median.hpp"
 #include "core/base/not_finite.hpp"
 #include "core/graph/components.hpp"
 #include "core/graph/shortest_paths.hpp"

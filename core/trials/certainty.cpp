@@ -3,10 +3,10 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
-#include <limits>
 
 #include <fmt/format.h>
 
+#include "core/base/not_finite.hpp"
 #include "core/base/random.hpp"
 #include "core/certainty/block_length.hpp"
 #include "core/certainty/map_bootstrap.hpp"
@@ -201,8 +201,7 @@ std::vector<Points> walked_maps(const std::vector<ObservationHistory>& histories
   for (const ObservationHistory& history : histories) {
     HistoryEmbedder embedder(history, steps, options.embedder);
     const Points coordinates = embedder.embed(options.setting).coordinates;
-    const Points nowhere =
-        Points::Constant(coordinates.rows(), 2, std::numeric_limits<double>::quiet_NaN());
+    const Points nowhere = Points::Constant(coordinates.rows(), 2, kNaN);
     maps.push_back(in_frame(coordinates, frame, options.fit).value_or(nowhere));
   }
   return maps;

@@ -1,10 +1,10 @@
 #include <chrono>
 #include <cmath>
-#include <limits>
 #include <optional>
 
 #include <fmt/format.h>
 
+#include "core/base/not_finite.hpp"
 #include "core/base/random.hpp"
 #include "core/embed/embedder.hpp"
 #include "core/experiment/scored_map.hpp"
@@ -113,7 +113,7 @@ class ConfusedMaps {
     add(kGiven, confused.history, confused);
     if (known) {
       ObservationHistory left = confused.history;
-      left.values = confused.confused.select(std::numeric_limits<double>::quiet_NaN(), left.values);
+      left.values = confused.confused.select(kNaN, left.values);
       add(kLeftOut, left, confused);
     }
     const Clock::time_point start = Clock::now();
@@ -138,7 +138,7 @@ class ConfusedMaps {
                                 number_option(context_.experiment, "neighbours")};
     const ScoredMap map = scored_map(embedder.embed(setting), context_.world->landmarks_m,
                                      context_.anchors, AffineFit::kLeastSquares);
-    const double none = std::numeric_limits<double>::quiet_NaN();
+    const double none = kNaN;
     Trial trial{.at = condition_at(setup_, level_),
                 .series = series,
                 .values = {{"mpe_m", map.score ? map.score->mpe_m : none},

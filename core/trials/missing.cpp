@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 
+#include "core/base/not_finite.hpp"
 #include "core/embed/embedder.hpp"
 #include "core/experiment/scored_map.hpp"
 #include "core/missing/covisible.hpp"
@@ -83,8 +84,8 @@ std::map<std::string, double> values_of(const ScoredMap& map) {
   const auto mapped = (map.positions_m.array().col(0).isNaN() == false).count();
   const double share = 100.0 * static_cast<double>(mapped) /
                        static_cast<double>(std::max<Eigen::Index>(map.positions_m.rows(), 1));
-  return {{"mpe_m", map.score ? map.score->mpe_m : std::nan("")},
-          {"moe_unmirrored_percent", map.score ? map.score->moe_unmirrored_percent : std::nan("")},
+  return {{"mpe_m", map.score ? map.score->mpe_m : kNaN},
+          {"moe_unmirrored_percent", map.score ? map.score->moe_unmirrored_percent : kNaN},
           {"mapped_percent", share}};
 }
 
@@ -150,7 +151,7 @@ class GappedHistory {
   ScoredMap add(const std::string& series, Embedding embedding,
                 const std::vector<Status>& statuses) {
     const Points mapped = std::move(embedding.coordinates);
-    embedding.coordinates.setConstant(all_, 2, std::nan(""));
+    embedding.coordinates.setConstant(all_, 2, kNaN);
     embedding.coordinates(seen_, Eigen::all) = mapped;
     embedding.statuses.insert(embedding.statuses.begin(), statuses.begin(), statuses.end());
     ScoredMap map = scored_map(embedding, context_.world->landmarks_m, context_.anchors,

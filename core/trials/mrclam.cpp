@@ -18,6 +18,7 @@
 #include "core/base/byte_source.hpp"
 #include "core/base/errors.hpp"
 #include "core/base/input_file.hpp"
+#include "core/base/median.hpp"
 #include "core/base/not_finite.hpp"
 #include "core/base/random.hpp"
 #include "core/base/sha256.hpp"

@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 
+#include "core/base/not_finite.hpp"
 #include "core/experiment/scored_map.hpp"
 #include "core/missing/filled.hpp"
 #include "core/simulate/gaps.hpp"
@@ -96,7 +97,7 @@ class Trials {
     const ScoredMap map = scored_map(made.embedding, context_.world->landmarks_m, context_.anchors,
                                      AffineFit::kLeastSquares);
     const double mapped = 100.0 * map.positions_m.array().col(0).isFinite().cast<double>().mean();
-    const double unknown = std::nan("");
+    const double unknown = kNaN;
     Trial trial{.at = at,
                 .series = series,
                 .values = {{"mpe_m", map.score ? map.score->mpe_m : unknown},

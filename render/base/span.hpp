@@ -3,13 +3,14 @@
 #include <algorithm>
 #include <cmath>
 #include <span>
+#include "core/base/not_finite.hpp"
 
 namespace mapproof {
 
 /// The least and the greatest of the finite values that it is shown.
 struct Span {
-  double low = INFINITY;
-  double high = -INFINITY;
+  double low = kInfinity;
+  double high = -kInfinity;
 
   void see(double value) {
     if (!std::isfinite(value)) return;

@@ -1,10 +1,11 @@
 #include "render/figures/parts.hpp"
 
 #include <cmath>
+#include "core/base/not_finite.hpp"
 
 namespace mapproof {
 
-void end_outline(Area& area) { add_corner(area, {NAN, NAN}); }
+void end_outline(Area& area) { add_corner(area, {kNaN, kNaN}); }
 
 void add_box(Area& area, const Range& x, const Range& y) {
   add_corner(area, {x.low, y.low});

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/base/not_finite.hpp"
 #include "render/plot/markers.hpp"
 #include "render/plot/outlines.hpp"
 
@@ -120,7 +121,7 @@ class Painter {
     if (line.marker == Marker::kNone) return;
     const std::size_t symbol = symbol_of(line.marker, true, 1.0, line.ink);
     const double least = kMarkerSpacing * theme_.marker_pt;
-    double last = -INFINITY;
+    double last = -kInfinity;
     for (std::size_t i = 0; i < line.x.size(); ++i) {
       const Point at = map_(line.x[i], line.y[i]);
       if (!in_frame(at) || at.x - last < least) continue;

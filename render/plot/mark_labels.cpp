@@ -3,6 +3,7 @@
 #include <array>
 #include <cmath>
 #include <numbers>
+#include "core/base/not_finite.hpp"
 
 namespace mapproof {
 namespace {
@@ -58,7 +59,7 @@ std::optional<Place> find_place(Point at, Point size, const Box& frame, const Ob
                                 const std::vector<Box>& texts, const Theme& theme) {
   const double near = 0.5 * theme.marker_pt + 0.4 * theme.space_pt;
   std::optional<Place> best;
-  double best_cost = INFINITY;
+  double best_cost = kInfinity;
   for (int ring = 0; ring < kRings && ring < best_cost; ++ring) {
     const double radius = near + ring * 0.8 * theme.font_pt;
     for (int turn = 0; turn < kDirections; ++turn) {

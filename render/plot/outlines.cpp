@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 
+#include "core/base/not_finite.hpp"
 #include "render/theme/palette.hpp"
 
 namespace mapproof {
@@ -102,11 +103,11 @@ std::vector<std::vector<Point>> flattened(const Outline& path) {
 }
 
 std::vector<Box> covering_slices(const std::vector<Point>& ring) {
-  double top = INFINITY, bottom = -INFINITY;
+  double top = kInfinity, bottom = -kInfinity;
   for (const Point p : ring) top = std::min(top, p.y), bottom = std::max(bottom, p.y);
   std::vector<Box> slices;
   for (int i = 0; i < kSlices; ++i) {
-    Box slice{INFINITY, std::lerp(top, bottom, static_cast<double>(i) / kSlices), -INFINITY,
+    Box slice{kInfinity, std::lerp(top, bottom, static_cast<double>(i) / kSlices), -kInfinity,
               std::lerp(top, bottom, static_cast<double>(i + 1) / kSlices)};
     const Box strip{-1e300, slice.y0, 1e300, slice.y1};
     for (std::size_t k = 0; k < ring.size(); ++k) {

@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 
 #include "core/base/errors.hpp"
+#include "core/base/not_finite.hpp"
 #include "core/base/words.hpp"
 #include "render/figures/diagrams/measurement_geometry.hpp"
 #include "render/figures/words.hpp"
@@ -42,7 +43,7 @@ Spheres landmarks(const ManifoldSceneSpec& spec, Eigen::Index axis, double radiu
     if (!spec.manifold.coordinates.row(i).allFinite()) continue;
     spheres.at.emplace_back(spec.manifold.coordinates.row(i).transpose());
     const double value = spec.truth_m(i, axis);
-    spheres.tones.values.push_back(std::isfinite(value) ? value : NAN);
+    spheres.tones.values.push_back(std::isfinite(value) ? value : kNaN);
   }
   return spheres;
 }

@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "core/base/errors.hpp"
+#include "core/base/not_finite.hpp"
 #include "render/base/span.hpp"
 
 namespace mapproof {
@@ -55,7 +56,7 @@ Projection::Projection(const Camera& camera)
 double Projection::units_per_length(const Point3& place) const {
   if (parallel_) return 1.0 / half_;
   const double ahead = depth(place);
-  return ahead > 0.0 ? 1.0 / (half_ * ahead) : NAN;
+  return ahead > 0.0 ? 1.0 / (half_ * ahead) : kNaN;
 }
 
 Point Projection::operator()(const Point3& place) const {

@@ -8,6 +8,7 @@
 #include <Eigen/Eigenvalues>
 
 #include "core/base/errors.hpp"
+#include "core/base/not_finite.hpp"
 #include "core/base/words.hpp"
 #include "render/figures/words.hpp"
 #include "render/scene/cloud_box.hpp"
@@ -65,7 +66,7 @@ class Sheet {
     const double a = along.dot(Q_ * along), b = 2.0 * along.dot(Q_ * from), c = from.dot(Q_ * from);
     const double root = std::sqrt(b * b - 4.0 * a * c);
     const Point3 point = foot - 2.0 * c / (b + std::copysign(root, b)) * axis_;
-    return (point - center_).norm() <= kFarthestSheet * size_ ? point : Point3::Constant(NAN);
+    return (point - center_).norm() <= kFarthestSheet * size_ ? point : Point3::Constant(kNaN);
   }
 
  private:

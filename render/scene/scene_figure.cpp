@@ -4,6 +4,7 @@
 #include <cmath>
 #include <vector>
 
+#include "core/base/not_finite.hpp"
 #include "render/base/geometry.hpp"
 #include "render/plot/figure.hpp"
 #include "render/plot/layout.hpp"
@@ -63,7 +64,7 @@ Point direction(const Rule& rule, const Projection& project) {
   const double step = 1e-3 * (rule.to - rule.from).norm();
   const Point a = project(middle), b = project(middle + step * rule.away.normalized());
   const double length = std::hypot(to.x - from.x, to.y - from.y);
-  if (!(length > 1e-9)) return {NAN, NAN};
+  if (!(length > 1e-9)) return {kNaN, kNaN};
   Point across{-(to.y - from.y) / length, (to.x - from.x) / length};
   if (across.x * (b.x - a.x) + across.y * (b.y - a.y) < 0.0) across = {-across.x, -across.y};
   return across;

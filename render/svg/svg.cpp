@@ -6,9 +6,9 @@
 
 #include <fmt/format.h>
 
+#include "core/base/base64.hpp"
 #include "core/base/utf8.hpp"
 #include "render/image/png.hpp"
-#include "render/svg/base64.hpp"
 
 namespace mapproof {
 

@@ -1,7 +1,6 @@
 #include "render/theme/font.hpp"
 
 #include <array>
-#include <limits>
 #include <memory>
 #include <new>
 
@@ -9,6 +8,7 @@
 #include <hb-ot.h>
 #include <hb.h>
 
+#include "core/base/not_finite.hpp"
 #include "core/base/utf8.hpp"
 
 namespace mapproof {
@@ -39,7 +39,8 @@ hb_font_t* shared_font() {
     // What HarfBuzz finds no memory for is empty for good, in silence. These make its tables.
     hb_codepoint_t glyph = 0;
     hb_glyph_extents_t ink{};
-    const bool is_whole = hb_ot_layout_has_substitution(face) && hb_ot_layout_has_positioning(face) &&
+    const bool is_whole = hb_ot_layout_has_substitution(face) &&
+                          hb_ot_layout_has_positioning(face) &&
                           hb_font_get_nominal_glyph(made, 'A', &glyph) != 0 &&
                           hb_font_get_glyph_h_advance(made, glyph) > 0 &&
                           hb_font_get_glyph_extents(made, glyph, &ink) != 0 && ink.width > 0;
@@ -256,9 +257,7 @@ std::string visible_lines(std::string_view text) {
   return seen + visible_text(text);
 }
 
-ShapedText shape_text(std::string_view text) {
-  return shape_text_within(text, std::numeric_limits<double>::infinity());
-}
+ShapedText shape_text(std::string_view text) { return shape_text_within(text, kInfinity); }
 
 ShapedText shape_text_within(std::string_view text, double most, Elide elide) {
   // A code point is at least a byte: of a longer text the middle never shows.

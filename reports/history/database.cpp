@@ -1,13 +1,13 @@
 #include "reports/history/database.hpp"
 
 #include <cmath>
-#include <limits>
 #include <new>
 #include <system_error>
 
 #include <sqlite3.h>
 
 #include "core/base/files.hpp"
+#include "core/base/not_finite.hpp"
 
 namespace mapproof {
 namespace {
@@ -84,8 +84,7 @@ std::int64_t Statement::integer(int column) const {
 }
 
 double Statement::real(int column) const {
-  return is_null(column) ? std::numeric_limits<double>::quiet_NaN()
-                         : sqlite3_column_double(statement_.get(), column);
+  return is_null(column) ? kNaN : sqlite3_column_double(statement_.get(), column);
 }
 
 std::string Statement::text(int column) const {

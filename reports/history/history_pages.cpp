@@ -13,6 +13,7 @@
 
 #include <fmt/format.h>
 
+#include "core/base/not_finite.hpp"
 #include "core/base/words.hpp"
 #include "reports/history/night_standing.hpp"
 #include "reports/history/shown_names.hpp"
@@ -261,7 +262,7 @@ Table accuracy_table(const StudyTrend& trend) {
   for (const SeriesId& id : shown) {
     const Quantity& quantity = trend.quantities.at(id.quantity);
     const std::vector<double>& values = trend.medians.at(id);
-    const double before = values.size() > 1 ? values[values.size() - 2] : std::nan("");
+    const double before = values.size() > 1 ? values[values.size() - 2] : kNaN;
     table.rows.push_back(
         {{text(shown_subject(trend.labels, id)), text(quantity.label), text(quantity.unit),
           number(values.front(), 4), number(before, 4), number(values.back(), 4)},

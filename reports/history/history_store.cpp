@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <limits>
 #include <map>
 #include <utility>
 
@@ -240,7 +239,7 @@ StudyTrend HistoryStore::trend(const std::string& study, const std::string& orde
                             medians.text(3)};
       const auto put = [&](auto& all, double value) {
         auto& values = all[series];
-        values.resize(ids.size(), std::numeric_limits<double>::quiet_NaN());
+        values.resize(ids.size(), kNaN);
         values[i] = value;
       };
       put(trend.medians, medians.real(4));

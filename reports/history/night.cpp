@@ -3,12 +3,13 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <limits>
 #include <utility>
 
 #include <fmt/format.h>
 
 #include "core/base/errors.hpp"
+#include "core/base/median.hpp"
+#include "core/base/not_finite.hpp"
 #include "core/statistics/intervals.hpp"
 
 namespace mapproof {
@@ -100,7 +101,7 @@ double known_median(const std::vector<RunValue>& values) {
   std::vector<double> known;
   for (const RunValue& value : values)
     if (!std::isnan(value.value)) known.push_back(value.value);
-  return known.empty() ? std::numeric_limits<double>::quiet_NaN() : median(known);
+  return known.empty() ? kNaN : median(known);
 }
 
 double level_of(const Quantity& quantity, const std::vector<RunValue>& values) {
@@ -113,7 +114,7 @@ double level_of(const Quantity& quantity, const std::vector<RunValue>& values) {
     sum += ratio ? std::log(std::max(value.value, kLeastError)) : value.value;
     ++count;
   }
-  if (count == 0) return std::numeric_limits<double>::quiet_NaN();
+  if (count == 0) return kNaN;
   return (quantity.better == Better::kHigher ? -sum : sum) / count;
 }
 

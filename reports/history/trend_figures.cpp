@@ -10,6 +10,8 @@
 
 #include <fmt/format.h>
 
+#include "core/base/median.hpp"
+#include "core/base/not_finite.hpp"
 #include "core/base/words.hpp"
 #include "core/statistics/intervals.hpp"
 #include "render/figures/curves/error_lines.hpp"
@@ -39,7 +41,7 @@ double level_over_nights(const std::vector<double>& values) {
   std::vector<double> known;
   std::ranges::copy_if(values, std::back_inserter(known),
                        [](double v) { return std::isfinite(v); });
-  return known.empty() ? INFINITY : median(known);
+  return known.empty() ? kInfinity : median(known);
 }
 
 /// A trend with what was found of it.

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <numbers>
 #include <numeric>
 #include <optional>
@@ -10,6 +9,7 @@
 #include <fmt/format.h>
 
 #include "core/base/errors.hpp"
+#include "core/base/median.hpp"
 #include "core/base/not_finite.hpp"
 #include "core/base/words.hpp"
 #include "core/statistics/intervals.hpp"
@@ -35,9 +35,8 @@ Table ellipse_table(const MapRecord& record, const std::vector<std::optional<Ell
               {}};
   std::vector<std::size_t> order(ellipses.size());
   std::iota(order.begin(), order.end(), 0U);
-  std::ranges::stable_sort(order, {}, [&](std::size_t i) {
-    return ellipses[i] ? -ellipses[i]->a : std::numeric_limits<double>::infinity();
-  });
+  std::ranges::stable_sort(
+      order, {}, [&](std::size_t i) { return ellipses[i] ? -ellipses[i]->a : kInfinity; });
   for (const std::size_t i : order) {
     const std::optional<Ellipse>& ellipse = ellipses[i];
     const double turn = ellipse ? ellipse->turn_rad * 180.0 / std::numbers::pi : kNaN;

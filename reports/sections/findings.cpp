@@ -8,6 +8,7 @@
 
 #include <fmt/format.h>
 
+#include "core/base/median.hpp"
 #include "core/base/words.hpp"
 #include "reports/model/format.hpp"
 #include "reports/sections/method_ranks.hpp"
@@ -58,13 +59,13 @@ Paragraph best_finding(std::span<const SettingSummary> methods) {
   if (best.published)
     text.phrases.push_back(
         phrase(fmt::format(" The paper printed {} and {} for this method: ours differs by {}.",
-                          metres(best.published->mpe_m), percent(best.published->moe_percent),
-                          relative(best.mpe_m->mean, best.published->mpe_m))));
+                           metres(best.published->mpe_m), percent(best.published->moe_percent),
+                           relative(best.mpe_m->mean, best.published->mpe_m))));
   const SettingSummary* paper_best = best_published(methods);
   if (paper_best != nullptr && paper_best->setting.method != best.setting.method)
     text.phrases.push_back(phrase(fmt::format(" The paper\u2019s best of these methods is {}, {}.",
-                                             label(paper_best->published->setting),
-                                             metres(paper_best->published->mpe_m))));
+                                              label(paper_best->published->setting),
+                                              metres(paper_best->published->mpe_m))));
   return text;
 }
 
@@ -211,8 +212,8 @@ BulletList sensor_findings(const Study& study, const SensorStudy& sensor,
   if (const std::string optimism = optimism_words(half_choices(study, sensor)); !optimism.empty())
     findings.items.push_back({{strong(title_of(which)),
                                phrase(": the parameters are chosen by the runs that they are then "
-                                     "judged by, as in the paper; " +
-                                     optimism)}});
+                                      "judged by, as in the paper; " +
+                                      optimism)}});
   return findings;
 }
 

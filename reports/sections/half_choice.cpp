@@ -2,9 +2,9 @@
 
 #include <algorithm>
 #include <iterator>
-#include <limits>
 #include <set>
 
+#include "core/base/not_finite.hpp"
 #include "reports/sections/method_summary.hpp"
 #include "reports/sections/run_scores.hpp"
 
@@ -53,7 +53,7 @@ class Parting {
 template <typename Counts>
 const SettingScores* least(std::span<const SettingScores> settings, Counts counts) {
   const SettingScores* best = nullptr;
-  double least_mean = std::numeric_limits<double>::infinity();
+  double least_mean = kInfinity;
   for (const SettingScores& setting : settings) {
     RunValues mpe;
     for (const auto& [run, score] : setting.runs)
@@ -117,7 +117,7 @@ HalfChoices half_choices(const Study& study, const SensorStudy& sensor) {
 
 double optimism_percent(const HalfChoice& choice) {
   if (!choice.optimism_m || !choice.same_runs_mpe_m || !(choice.same_runs_mpe_m->mean > 0.0))
-    return std::numeric_limits<double>::quiet_NaN();
+    return kNaN;
   return 100.0 * choice.optimism_m->mean / choice.same_runs_mpe_m->mean;
 }
 

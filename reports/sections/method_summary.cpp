@@ -7,6 +7,7 @@
 
 #include <fmt/format.h>
 
+#include "core/base/median.hpp"
 #include "core/base/not_finite.hpp"
 #include "reports/sections/run_scores.hpp"
 

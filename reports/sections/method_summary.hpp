@@ -1,11 +1,11 @@
 #pragma once
 
-#include <limits>
 #include <optional>
 #include <span>
 #include <string>
 #include <vector>
 
+#include "core/base/not_finite.hpp"
 #include "core/model/study.hpp"
 #include "core/statistics/intervals.hpp"
 
@@ -21,9 +21,9 @@ struct SettingSummary {
   int with_status = 0;                ///< Of them with a status of any kind.
   std::optional<MeanEstimate> mpe_m;  ///< Over the scored; empty if there are none.
   std::optional<MeanEstimate> moe_percent;
-  double mpe_median_m = std::numeric_limits<double>::quiet_NaN();      ///< NaN: no score, as below.
-  double mpe_all_fitted_m = std::numeric_limits<double>::quiet_NaN();  ///< Mean.
-  double moe_unmirrored_percent = std::numeric_limits<double>::quiet_NaN();  ///< Mean.
+  double mpe_median_m = kNaN;               ///< NaN: no score, as below.
+  double mpe_all_fitted_m = kNaN;           ///< Mean.
+  double moe_unmirrored_percent = kNaN;     ///< Mean.
   std::optional<PublishedValue> published;  ///< Of the same method, whatever its parameter.
 };
 

@@ -2,10 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <numeric>
 #include <tuple>
 
+#include "core/base/not_finite.hpp"
 #include "core/linalg/decompositions.hpp"
 
 namespace mapproof::unfolding {
@@ -129,7 +129,7 @@ Certificate certify(const Problem& problem, const Solution& solution) {
   const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(T, Eigen::EigenvaluesOnly);
   const double smallest = eigen.eigenvalues()(0);
   const double bound = solution.w.dot(problem.squared);
-  result.dual = smallest > 0.0 ? bound / smallest : std::numeric_limits<double>::infinity();
+  result.dual = smallest > 0.0 ? bound / smallest : kInfinity;
   result.relative_gap = std::isfinite(result.dual)
                             ? std::abs(result.dual - result.primal) / std::abs(result.dual)
                             : result.dual;

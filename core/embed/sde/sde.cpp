@@ -2,10 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <utility>
 
 #include "core/base/errors.hpp"
+#include "core/base/not_finite.hpp"
 #include "core/embed/connected_graph.hpp"
 #include "core/embed/sde/csdp.hpp"
 #include "core/embed/sde/interior_point.hpp"
@@ -127,7 +127,7 @@ Embedding sde(const Eigen::MatrixXd& distances, const SdeOptions& options) {
   Embedding result;
   result.statuses = graph.statuses;
   if (!graph.connected) {
-    result.coordinates.setConstant(distances.rows(), 2, std::numeric_limits<double>::quiet_NaN());
+    result.coordinates.setConstant(distances.rows(), 2, kNaN);
     return result;
   }
   const unfolding::Problem problem =

@@ -1,8 +1,7 @@
 #include "core/range_slam/factors/factorization.hpp"
 
-#include <limits>
-
 #include "core/base/errors.hpp"
+#include "core/base/not_finite.hpp"
 #include "core/linalg/decompositions.hpp"
 #include "core/linalg/sign.hpp"
 #include "core/range_slam/factors/quadric.hpp"
@@ -27,7 +26,7 @@ void judge_rank(Factorization& result, Eigen::Index rank) {
   const Eigen::VectorXd& s = result.singular_values;
   const double smallest = s(rank - 1);
   result.noise_floor = s.size() > rank ? s(rank) : 0.0;
-  result.condition = smallest > 0.0 ? s(0) / smallest : std::numeric_limits<double>::infinity();
+  result.condition = smallest > 0.0 ? s(0) / smallest : kInfinity;
   const double floor = std::max(kRounding * s(0), kAboveFloor * result.noise_floor);
   if (smallest > floor) return;
   const auto signals = (s.head(rank).array() > floor).count();

@@ -2,11 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <utility>
 
 #include "core/base/angle.hpp"
 #include "core/base/errors.hpp"
+#include "core/base/not_finite.hpp"
 #include "core/linalg/planarity.hpp"
 #include "core/range_slam/known_landmarks.hpp"
 #include "core/range_slam/localise.hpp"
@@ -215,8 +215,7 @@ SpectralSlam spectral_slam(const RangeLog& log, const Trajectory& odometry,
   check(log, odometry, options);
   SpectralSlam result;
   SlamEstimate& estimate = result.estimate;
-  estimate.landmarks_m =
-      Points::Constant(std::ssize(log.landmarks), 2, std::numeric_limits<double>::quiet_NaN());
+  estimate.landmarks_m = Points::Constant(std::ssize(log.landmarks), 2, kNaN);
   estimate.path.positions_m.resize(0, 2);
   const Trajectory told = take_ranges(result, log, odometry, options);
   if (told.size() == 0) return result;

@@ -1,7 +1,6 @@
 #include "core/range_slam/factors/synchronous_slam.hpp"
 
 #include <algorithm>
-#include <limits>
 
 #include "core/base/errors.hpp"
 #include "core/base/not_finite.hpp"
@@ -51,7 +50,7 @@ SpaceEstimate space_slam(const Eigen::MatrixXd& ranges_m,
   const Eigen::MatrixXd Y = half_squared_ranges(ranges_m, noise);
   SpaceEstimate estimate;
   estimate.positions_m.resize(0, 3);
-  estimate.landmarks_m = SpacePoints::Constant(N, 3, std::numeric_limits<double>::quiet_NaN());
+  estimate.landmarks_m = SpacePoints::Constant(N, 3, kNaN);
   if (N < kRankInSpace || T < kLeastStepsInSpace) {
     estimate.statuses.push_back(
         status_of<StatusReason::kFewCommonRanges>(N, T, kRankInSpace, kLeastStepsInSpace));

@@ -3,12 +3,12 @@
 #include <algorithm>
 #include <cmath>
 #include <complex>
-#include <limits>
 #include <numbers>
 #include <optional>
 #include <vector>
 
 #include "core/base/errors.hpp"
+#include "core/base/not_finite.hpp"
 #include "core/linalg/decompositions.hpp"
 #include "core/range_slam/factors/quadric.hpp"
 
@@ -139,7 +139,7 @@ std::optional<Candidate> best_of_pencil(const Eigen::MatrixXd& V, const Eigen::V
   const Eigen::Index last = V.cols() - 1;
   const Eigen::MatrixXd A = quadric_of(V.col(last - 1)), B = quadric_of(V.col(last));
   std::optional<Candidate> best;
-  double least = std::numeric_limits<double>::infinity();
+  double least = kInfinity;
   // The dual vanishes on the plane of scale 1, which settles all but a path along a conic, and on
   // every state of the other side, which settles that too.
   for (const Eigen::VectorXd& zero : {w, Eigen::VectorXd(U.row(0).transpose())})
@@ -189,7 +189,7 @@ UpgradeTransform upgrade_transform(const Eigen::MatrixXd& U, const Eigen::Vector
 
   const bool is_pencil = s(terms - 2) <= rounding * s(0);
   const double vital = s(is_pencil ? terms - 3 : terms - 2);
-  result.condition = vital > 0.0 ? s(0) / vital : std::numeric_limits<double>::infinity();
+  result.condition = vital > 0.0 ? s(0) / vital : kInfinity;
   const std::optional<Candidate> found = best_quadric(svd, rounding * s(0), mean, U);
   if (!found) {
     result.statuses.push_back(

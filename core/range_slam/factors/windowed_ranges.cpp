@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <numbers>
 #include <utility>
 #include <vector>
@@ -11,6 +10,8 @@
 
 #include "core/align/path_at.hpp"
 #include "core/base/errors.hpp"
+#include "core/base/median.hpp"
+#include "core/base/not_finite.hpp"
 #include "core/linalg/decompositions.hpp"
 #include "core/range_slam/factors/spread_rows.hpp"
 #include "core/range_slam/log_checks.hpp"
@@ -76,8 +77,7 @@ WindowTrial tried(const std::vector<LandmarkReadings>& readings, const Trajector
       held_out.told > 0 && double(held_out.untold) <= kUntold * double(held_out.told);
   return {.length_s = length_s,
           .range_scale = options.range_scale,
-          .error_m = usable ? held_out.error_m / double(held_out.told)
-                            : std::numeric_limits<double>::quiet_NaN(),
+          .error_m = usable ? held_out.error_m / double(held_out.told) : kNaN,
           .covered = double(covered) / double(some_s.size())};
 }
 
@@ -101,12 +101,6 @@ Eigen::ArrayXd range_weights(const Eigen::ArrayXd& range_m) {
                        : Eigen::ArrayXd::Ones(range_m.size());
 }
 
-double median_of(Eigen::ArrayXd values) {
-  const auto middle = values.begin() + values.size() / 2;
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
-}
-
 /// Weighted normal equations and their solution, the last of kRounds.
 template <int K>
 struct RobustFit {
@@ -124,7 +118,7 @@ struct RobustFit {
       const Vector right = A.transpose() * (weights * y).matrix();
       solution = normal.ldlt().solve(right);
       const Eigen::ArrayXd misfit = (base * (y - (A * solution).array())).abs();
-      const double limit = kHuber * kMedianToSigma * median_of(misfit);
+      const double limit = kHuber * kMedianToSigma * upper_median({misfit.begin(), misfit.end()});
       if (!(limit > 0.0)) break;
       weights = base.square() * (limit / misfit.max(limit));
     }

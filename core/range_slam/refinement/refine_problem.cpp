@@ -1,7 +1,6 @@
 #include "core/range_slam/refinement/refine_problem.hpp"
 
 #include <cmath>
-#include <limits>
 #include <mutex>
 
 #include <ceres/loss_function.h>
@@ -10,6 +9,7 @@
 #include <glog/logging.h>
 #include <Eigen/Geometry>
 
+#include "core/base/not_finite.hpp"
 #include "core/linalg/decompositions.hpp"
 
 namespace mapproof {
@@ -357,8 +357,7 @@ std::optional<RefineProblem::Covariances> RefineProblem::covariances(
   covariances.are_of_first_pose = held == 1 && !free_of_frame(state, places, *inverse);
   for (std::size_t n = 0; n < is_placed_.size(); ++n) {
     const Eigen::Index column = places.landmarks[n];
-    covariances.landmarks.emplace_back(
-        Eigen::Matrix2d::Constant(is_placed_[n] ? 0.0 : std::numeric_limits<double>::quiet_NaN()));
+    covariances.landmarks.emplace_back(Eigen::Matrix2d::Constant(is_placed_[n] ? 0.0 : kNaN));
     if (column >= 0) covariances.landmarks.back() = inverse->shared.block<2, 2>(column, column);
   }
   for (const Eigen::Matrix3d& pose : inverse->poses)

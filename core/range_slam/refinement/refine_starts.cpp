@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <complex>
-#include <limits>
 #include <vector>
 
 #include <Eigen/Geometry>
@@ -12,6 +11,7 @@
 #include "core/align/rigid.hpp"
 #include "core/base/angle.hpp"
 #include "core/base/errors.hpp"
+#include "core/base/not_finite.hpp"
 #include "core/base/random.hpp"
 #include "core/range_slam/dead_reckoning.hpp"
 #include "core/range_slam/known_landmarks.hpp"
@@ -212,8 +212,7 @@ PlacedStart placed_start(const RangeLog& log, const Trajectory& odometry, const 
   const std::vector<bool> is_heard =
       heard_between(log, odometry.time_s(0), odometry.time_s(odometry.size() - 1));
   for (Eigen::Index n = 0; n < placed.landmarks_m.rows(); ++n)
-    if (!is_heard[static_cast<std::size_t>(n)])
-      placed.landmarks_m.row(n).setConstant(std::numeric_limits<double>::quiet_NaN());
+    if (!is_heard[static_cast<std::size_t>(n)]) placed.landmarks_m.row(n).setConstant(kNaN);
   if (!known) return placed;
   if (const Ties ties = ties_of(*known, is_heard); ties.fix_the_frame) {
     placed.known = known;

@@ -1,12 +1,12 @@
 #include "core/records/observations/cells.hpp"
 
 #include <cmath>
-#include <limits>
 #include <numbers>
 
 #include <fmt/format.h>
 
 #include "core/base/errors.hpp"
+#include "core/base/not_finite.hpp"
 #include "core/json/text_input.hpp"
 #include "core/records/limits.hpp"
 
@@ -49,7 +49,7 @@ std::string observation_problem(Sensor sensor, double value) {
 
 std::optional<double> observation_in(std::string_view cell, Sensor sensor) {
   if (cell.size() == 1 && (cell[0] == '0' || cell[0] == '1')) return cell[0] - '0';
-  if (is_missing(cell)) return std::numeric_limits<double>::quiet_NaN();
+  if (is_missing(cell)) return kNaN;
   const std::optional<double> value = number_in(cell);
   if (!value || !is_good(sensor, *value)) return std::nullopt;
   return value;

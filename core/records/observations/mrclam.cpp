@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
-#include <limits>
 #include <map>
 #include <set>
 #include <span>
@@ -14,6 +13,7 @@
 #include "core/base/byte_source.hpp"
 #include "core/base/errors.hpp"
 #include "core/base/input_file.hpp"
+#include "core/base/not_finite.hpp"
 #include "core/json/text_input.hpp"
 #include "core/records/limits.hpp"
 #include "core/records/observations/cells.hpp"
@@ -202,8 +202,7 @@ std::optional<Points> read_truth(const fs::path& path, const std::vector<std::st
   const std::string source = path.string();
   const std::string bytes = read_input(path);
   const NamedPoints truth = parse_groundtruth(checked_text(bytes, source), source);
-  Points positions = Points::Constant(static_cast<Eigen::Index>(names.size()), 2,
-                                      std::numeric_limits<double>::quiet_NaN());
+  Points positions = Points::Constant(static_cast<Eigen::Index>(names.size()), 2, kNaN);
   for (std::size_t i = 0; i < names.size(); ++i) {
     const auto found = std::ranges::find(truth.names, names[i]);
     if (found == truth.names.end())

@@ -1,7 +1,6 @@
 #include "core/records/observations/observations.hpp"
 
 #include <algorithm>
-#include <limits>
 #include <span>
 #include <string>
 #include <string_view>
@@ -10,6 +9,7 @@
 
 #include "core/base/errors.hpp"
 #include "core/base/input_file.hpp"
+#include "core/base/not_finite.hpp"
 #include "core/json/record_json.hpp"
 #include "core/json/text_input.hpp"
 #include "core/records/limits.hpp"
@@ -225,7 +225,7 @@ ObservationSource read_long(std::string_view text, const std::string& source, Se
   const bool lists_detections =
       sensor == Sensor::kVisibility &&
       std::ranges::all_of(readings, [](const Reading& reading) { return reading.value == 1.0; });
-  const double others = lists_detections ? 0.0 : std::numeric_limits<double>::quiet_NaN();
+  const double others = lists_detections ? 0.0 : kNaN;
   ObservationSource result{.history = {.sensor = sensor,
                                        .names = rows.names().names(),
                                        .values = arrange(readings, rows, others, source)},

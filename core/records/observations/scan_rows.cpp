@@ -8,6 +8,7 @@
 #include <fmt/ranges.h>
 
 #include "core/base/errors.hpp"
+#include "core/base/words.hpp"
 #include "core/json/text_input.hpp"
 #include "core/records/observations/cells.hpp"
 

@@ -11,6 +11,7 @@
 #include "core/base/byte_source.hpp"
 #include "core/base/errors.hpp"
 #include "core/base/input_file.hpp"
+#include "core/base/words.hpp"
 #include "core/json/text_input.hpp"
 #include "core/records/limits.hpp"
 #include "core/records/observations/table_reader.hpp"

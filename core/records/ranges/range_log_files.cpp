@@ -7,6 +7,7 @@
 
 #include "core/base/errors.hpp"
 #include "core/base/input_file.hpp"
+#include "core/base/words.hpp"
 #include "core/json/text_input.hpp"
 #include "core/records/observations/scan_rows.hpp"
 #include "core/records/observations/table_stream.hpp"

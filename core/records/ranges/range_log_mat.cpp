@@ -2,7 +2,6 @@
 #include <cmath>
 #include <cstdint>
 #include <cstring>
-#include <limits>
 #include <map>
 #include <memory>
 #include <numeric>
@@ -16,6 +15,7 @@
 #include "core/base/byte_source.hpp"
 #include "core/base/errors.hpp"
 #include "core/base/input_file.hpp"
+#include "core/base/not_finite.hpp"
 #include "core/model/range_log.hpp"
 #include "core/records/limits.hpp"
 #include "core/records/ranges/range_log_files.hpp"
@@ -162,7 +162,7 @@ NumberTable read_table(mat_t* file, matvar_t* variable, const std::string& sourc
   table.values.resize(static_cast<Eigen::Index>(rows), static_cast<Eigen::Index>(columns));
   if (table.values.size() == 0) return table;
   // Where a damaged file gives fewer numbers than it says, matio leaves the rest as it was.
-  table.values.setConstant(std::numeric_limits<double>::quiet_NaN());
+  table.values.setConstant(kNaN);
   std::array<int, 2> start = {0, 0};
   std::array<int, 2> stride = {1, 1};
   std::array<int, 2> count = {static_cast<int>(rows), static_cast<int>(columns)};

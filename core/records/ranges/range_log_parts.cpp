@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
-#include <limits>
 #include <map>
 #include <numbers>
 #include <set>
@@ -12,6 +11,7 @@
 
 #include "core/base/angle.hpp"
 #include "core/base/errors.hpp"
+#include "core/base/not_finite.hpp"
 #include "core/base/words.hpp"
 #include "core/records/limits.hpp"
 
@@ -81,8 +81,7 @@ void take_true_landmarks(const RangeLogParts& parts, RangeLog& log) {
     throw IoError(parts.source,
                   fmt::format("true places of more than {} landmarks", kMostLandmarks));
   const std::map<std::string_view, Eigen::Index> rows = rows_by_name(log.landmarks);
-  log.true_landmarks = Points::Constant(static_cast<Eigen::Index>(log.landmarks.size()), 2,
-                                        std::numeric_limits<double>::quiet_NaN());
+  log.true_landmarks = Points::Constant(static_cast<Eigen::Index>(log.landmarks.size()), 2, kNaN);
   std::vector<std::string> unheard;
   for (std::size_t i = 0; i < truth.names.size(); ++i) {
     const auto found = rows.find(truth.names[i]);

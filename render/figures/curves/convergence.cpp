@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include "core/base/errors.hpp"
+#include "core/base/not_finite.hpp"
 #include "core/base/words.hpp"
 #include "render/figures/curves/error_lines.hpp"
 #include "render/figures/curves/log_log.hpp"
@@ -52,7 +53,7 @@ ErrorLine line_of(const ConvergenceCurve& curve, MeanEstimate ConvergencePoint::
   ErrorLine line{.label = label, .key = key};
   for (const ConvergencePoint& point : curve.points) {
     const MeanEstimate& estimate = point.*what;
-    const double mean = estimate.values > 0 ? estimate.mean : NAN;
+    const double mean = estimate.values > 0 ? estimate.mean : kNaN;
     const double half = estimate.half_width.value_or(0.0);
     line.x.push_back(static_cast<double>(point.steps) * std::max(curve.landmarks, 1));
     line.mean.push_back(mean);

@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 
+#include "core/base/not_finite.hpp"
 #include "render/base/span.hpp"
 #include "render/figures/curves/error_lines.hpp"
 #include "render/figures/curves/thinning.hpp"
@@ -85,7 +86,7 @@ Polyline expected_line(const SlamRecord& record, const ErrorAxis& axis, double s
     const double variance_m2 = estimate.position_cov_m2[i].trace();
     line.x.push_back(estimate.path.time_s(estimate.position_cov_rows[i]) - start_s);
     line.y.push_back(variance_m2 >= 0.0 && std::isfinite(variance_m2) ? std::sqrt(variance_m2)
-                                                                      : NAN);
+                                                                      : kNaN);
   }
   line.y = axis.raised(std::move(line.y));
   return line;
@@ -96,7 +97,7 @@ double error_at(const ParameterValue& value, const ErrorLine& line) {
   if (std::isfinite(value.error)) return value.error;
   for (std::size_t i = 0; i < line.x.size() && i < line.mean.size(); ++i)
     if (line.x[i] == value.parameter) return line.mean[i];
-  return NAN;
+  return kNaN;
 }
 
 void add_optimum(ErrorPanel& panel, const ErrorLine& line,

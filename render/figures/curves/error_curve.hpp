@@ -1,11 +1,11 @@
 #pragma once
 
-#include <limits>
 #include <optional>
 #include <span>
 #include <string>
 #include <vector>
 
+#include "core/base/not_finite.hpp"
 #include "core/model/slam_study.hpp"
 #include "render/figures/curves/error_lines.hpp"
 #include "render/plot/figure.hpp"
@@ -65,7 +65,7 @@ struct ErrorByParameterSpec {
   std::string y_label = "MPE [m]";
   std::string quantity = "mean position error";
   std::vector<ParameterGroup> groups;
-  double ceiling = std::numeric_limits<double>::infinity();  ///< As of ErrorLinesSpec.
+  double ceiling = kInfinity;  ///< As of ErrorLinesSpec.
   std::vector<std::string> record_ids;
 };
 

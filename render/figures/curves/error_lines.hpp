@@ -1,10 +1,10 @@
 #pragma once
 
-#include <limits>
 #include <optional>
 #include <string>
 #include <vector>
 
+#include "core/base/not_finite.hpp"
 #include "render/plot/figure.hpp"
 
 namespace mapproof {
@@ -56,9 +56,9 @@ struct ErrorLinesSpec {
   std::string alt;  ///< Empty: one is made of the panels' numbers.
   std::vector<std::string> record_ids;
   std::vector<Note> notes;
-  double ceiling = std::numeric_limits<double>::infinity();  ///< Means above do not widen the
-                                                             ///< frame; a note counts them.
-  double log_from = 20.0;  ///< Greatest over least mean from which the y axis is logarithmic.
+  double ceiling = kInfinity;  ///< Means above do not widen the
+                               ///< frame; a note counts them.
+  double log_from = 20.0;      ///< Greatest over least mean from which the y axis is logarithmic.
 };
 
 /// The style of each label, in the order of their first appearance, by what its line asks for.

@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include "core/base/errors.hpp"
+#include "core/base/not_finite.hpp"
 #include "render/base/span.hpp"
 #include "render/figures/parts.hpp"
 #include "render/figures/words.hpp"
@@ -157,7 +158,7 @@ double log_log_slope(const std::vector<double>& x, const std::vector<double>& y)
     count += 1.0, sum_x += a, sum_y += b, sum_xx += a * a, sum_xy += a * b;
   }
   const double spread = count * sum_xx - sum_x * sum_x;
-  if (count < 2.0 || !(spread > 1e-12 * count * sum_xx)) return NAN;
+  if (count < 2.0 || !(spread > 1e-12 * count * sum_xx)) return kNaN;
   return (count * sum_xy - sum_x * sum_y) / spread;
 }
 

@@ -6,6 +6,7 @@
 
 #include <fmt/format.h>
 
+#include "core/base/not_finite.hpp"
 #include "core/base/words.hpp"
 #include "render/figures/maps/path_styles.hpp"
 #include "render/figures/parts.hpp"
@@ -29,7 +30,7 @@ std::string label_of(SlamMethod method) {
 bool is_positive(double value) { return value > 0.0 && std::isfinite(value); }
 
 double least_cost(std::span<const RefinementStart> starts) {
-  double least = INFINITY;
+  double least = kInfinity;
   for (const RefinementStart& start : starts)
     if (start.cost >= 0.0) least = std::min(least, start.cost);
   return least;
@@ -79,7 +80,7 @@ Figure refinement_starts_figure(const RefinementStartsSpec& spec) {
                    .size = kSizes[i]};
     for (const RefinementStart& start : spec.starts) {
       if (start.method != kind) continue;
-      const double y = judged ? start.mean_m.value_or(NAN) : start.iterations;
+      const double y = judged ? start.mean_m.value_or(kNaN) : start.iterations;
       if (!is_positive(start.cost) || !(judged ? is_positive(y) : y >= 0.0)) {
         ++without;
         continue;

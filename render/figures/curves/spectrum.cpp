@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include "core/base/errors.hpp"
+#include "core/base/not_finite.hpp"
 #include "core/base/words.hpp"
 #include "render/figures/parts.hpp"
 #include "render/figures/words.hpp"
@@ -35,13 +36,13 @@ std::optional<double> floor_of(const SingularValues& one) {
 /// Last kept over the floor; NaN if there is no floor or fewer values than the rank.
 double ratio_of(const SingularValues& one) {
   const auto floor = floor_of(one);
-  if (!floor || one.rank == 0 || one.values.size() < one.rank) return NAN;
+  if (!floor || one.rank == 0 || one.values.size() < one.rank) return kNaN;
   return one.values[one.rank - 1] / *floor;
 }
 
 /// Of the y axis: from below the least value or floor to above the greatest.
 Range limits_of(const std::vector<const SingularValues*>& shown) {
-  double most = 0.0, least = INFINITY;
+  double most = 0.0, least = kInfinity;
   for (const SingularValues* one : shown)
     for (const double value : one->values) most = std::max(most, value);
   for (const SingularValues* one : shown) {
@@ -150,9 +151,9 @@ Figure singular_values_figure(const SingularValuesSpec& spec) {
 }
 
 double spectral_gap(const std::vector<double>& eigenvalues) {
-  if (eigenvalues.size() < 3) return NAN;
+  if (eigenvalues.size() < 3) return kNaN;
   const double second = eigenvalues[1], third = eigenvalues[2];
-  if (!(second > 0.0) || !(third > 0.0)) return NAN;
+  if (!(second > 0.0) || !(third > 0.0)) return kNaN;
   return eigenvalues.front() >= eigenvalues.back() ? second / third : third / second;
 }
 

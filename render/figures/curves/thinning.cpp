@@ -6,6 +6,8 @@
 #include <utility>
 
 #include "core/base/errors.hpp"
+#include "core/base/median.hpp"
+#include "core/base/not_finite.hpp"
 
 namespace mapproof {
 namespace {
@@ -23,10 +25,9 @@ bool is_place(const Points& points, Index row) {
 double longest_step(const Eigen::VectorXd& time_s) {
   std::vector<double> steps;
   for (Index i = 1; i < time_s.size(); ++i) steps.push_back(time_s(i) - time_s(i - 1));
-  if (steps.empty()) return INFINITY;
-  const auto middle = steps.begin() + static_cast<std::ptrdiff_t>(steps.size() / 2);
-  std::ranges::nth_element(steps, middle);
-  return *middle > 0.0 ? kLongPause * *middle : INFINITY;
+  if (steps.empty()) return kInfinity;
+  const double middle = upper_median(std::move(steps));
+  return middle > 0.0 ? kLongPause * middle : kInfinity;
 }
 
 /// Distance of a point from the piece of line between two others.
@@ -63,7 +64,7 @@ void add(ThinLine& line, double x, double y) {
 }
 
 void add_break(ThinLine& line) {
-  if (!line.x.empty() && !std::isnan(line.x.back())) add(line, NAN, NAN);
+  if (!line.x.empty() && !std::isnan(line.x.back())) add(line, kNaN, kNaN);
 }
 
 }  // namespace

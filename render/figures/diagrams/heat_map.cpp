@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include "core/base/errors.hpp"
+#include "core/base/not_finite.hpp"
 #include "core/base/unit_text.hpp"
 #include "render/figures/parts.hpp"
 #include "render/figures/words.hpp"
@@ -72,7 +73,7 @@ Cells cells_of(const HeatMapSpec& spec) {
     for (std::size_t column = 0; column < columns; ++column) {
       const double value = spec.values[row * columns + column];
       const bool is_there = std::isfinite(value);
-      cells.values.push_back(is_there ? value : std::nan(""));
+      cells.values.push_back(is_there ? value : kNaN);
       cells.text.push_back(is_there ? rounded_text(value, spec.decimals, kCellDigits) : "");
     }
   return cells;

@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include "core/base/errors.hpp"
+#include "core/base/not_finite.hpp"
 #include "core/base/words.hpp"
 #include "render/base/span.hpp"
 #include "render/figures/parts.hpp"
@@ -61,7 +62,7 @@ Cells density(const ShepardPanel& panel, const PanelLimits& limits) {
   double most = 1.0;
   for (double& count : counts) {
     most = std::max(most, count);
-    count = count > 0.0 ? std::log1p(count) : NAN;
+    count = count > 0.0 ? std::log1p(count) : kNaN;
   }
   cells.values = std::move(counts);
   // Even a single pair is told from the paper.
@@ -95,9 +96,9 @@ ShepardFit shepard_fit(const ShepardPanel& panel) {
   const auto n = static_cast<double>(fit.pairs);
   const double vx = xx - x * x / n, vy = yy - y * y / n;
   fit.correlation =
-      vx > 1e-12 * xx && vy > 1e-12 * yy ? (xy - x * y / n) / std::sqrt(vx * vy) : NAN;
-  fit.slope = xx > 0.0 ? xy / xx : NAN;
-  fit.stress = yy > 0.0 ? std::sqrt(std::max(yy - fit.slope * xy, 0.0) / yy) : NAN;
+      vx > 1e-12 * xx && vy > 1e-12 * yy ? (xy - x * y / n) / std::sqrt(vx * vy) : kNaN;
+  fit.slope = xx > 0.0 ? xy / xx : kNaN;
+  fit.stress = yy > 0.0 ? std::sqrt(std::max(yy - fit.slope * xy, 0.0) / yy) : kNaN;
   return fit;
 }
 

@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include "core/base/errors.hpp"
+#include "core/base/not_finite.hpp"
 #include "core/base/words.hpp"
 #include "render/base/span.hpp"
 #include "render/figures/maps/covariance_ellipse.hpp"
@@ -155,7 +156,7 @@ ScatterEllipse scatter_ellipse(const std::vector<Points>& estimates_m, Eigen::In
   for (const Points& run : estimates_m)
     if (!run.row(row).hasNaN()) sum += run.row(row), ++ellipse.runs;
   ellipse.mean_m = sum / ellipse.runs;
-  ellipse.a_m = ellipse.b_m = NAN;
+  ellipse.a_m = ellipse.b_m = kNaN;
   if (ellipse.runs < 3) return ellipse;
   Eigen::Matrix2d C = Eigen::Matrix2d::Zero();
   for (const Points& run : estimates_m) {

@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include "core/base/errors.hpp"
+#include "core/base/not_finite.hpp"
 #include "render/base/geometry.hpp"
 #include "render/figures/parts.hpp"
 #include "render/figures/score_words.hpp"
@@ -49,7 +50,7 @@ class Extent {
   }
 
  private:
-  double low_x_ = INFINITY, high_x_ = -INFINITY, low_y_ = INFINITY, high_y_ = -INFINITY;
+  double low_x_ = kInfinity, high_x_ = -kInfinity, low_y_ = kInfinity, high_y_ = -kInfinity;
 };
 
 /// The middle 80 % of a column, NaN left out.
@@ -343,7 +344,7 @@ MapView view_of(const MapRecord& record) {
     view.has_estimate.push_back(mapped);
     view.has_truth.push_back(true_known && record.frame == Frame::kTruth);
     view.error_m.push_back(comparable ? (record.estimate.row(i) - record.truth_m->row(i)).norm()
-                                      : NAN);
+                                      : kNaN);
     if (!mapped) view.unmapped.push_back(i);
   }
   find_worst(view);

@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include "core/base/errors.hpp"
+#include "core/base/not_finite.hpp"
 #include "core/base/words.hpp"
 #include "render/base/span.hpp"
 #include "render/figures/curves/error_lines.hpp"
@@ -110,7 +111,7 @@ double correlation(const std::vector<double>& x, const std::vector<double>& y) {
     xx += x[i] * x[i], xy += x[i] * y[i], yy += y[i] * y[i];
   }
   const double vx = xx - sx * sx / n, vy = yy - sy * sy / n;
-  if (n < 3.0 || vx <= 1e-12 * xx || vy <= 1e-12 * yy) return NAN;
+  if (n < 3.0 || vx <= 1e-12 * xx || vy <= 1e-12 * yy) return kNaN;
   return (xy - sx * sy / n) / std::sqrt(vx * vy);
 }
 

@@ -6,6 +6,8 @@
 #include <fmt/format.h>
 
 #include "core/base/errors.hpp"
+#include "core/base/median.hpp"
+#include "core/base/not_finite.hpp"
 #include "core/base/words.hpp"
 #include "core/statistics/intervals.hpp"
 #include "render/figures/maps/map.hpp"
@@ -74,7 +76,7 @@ Distances distances_in(const Points& places_m, const PairDistancesSpec& spec, co
 double median_off(const Distances& distances) {
   std::vector<double> off;
   for (const double y : distances.off.y) off.push_back(std::abs(y));
-  return off.empty() ? NAN : median(off);
+  return off.empty() ? kNaN : median(off);
 }
 
 void require_pairs(const PairDistancesSpec& spec) {

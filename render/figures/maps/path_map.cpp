@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include "core/base/errors.hpp"
+#include "core/base/not_finite.hpp"
 #include "core/base/words.hpp"
 #include "render/base/span.hpp"
 #include "render/figures/curves/error_curve.hpp"
@@ -76,7 +77,7 @@ Range middle_range(const Points& points, Index column) {
   std::vector<double> values;
   for (Index i = 0; i < points.rows(); ++i)
     if (points.row(i).allFinite()) values.push_back(points(i, column));
-  if (values.empty()) return {NAN, NAN};
+  if (values.empty()) return {kNaN, kNaN};
   std::ranges::sort(values);
   const std::size_t cut = values.size() / 20;
   return {values[cut], values[values.size() - 1 - cut]};

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <set>
 
 #include "core/base/not_finite.hpp"
@@ -103,7 +102,7 @@ std::optional<PairedTest> paired_test(const Differences& differences, bool draws
 void keep_largest(std::vector<PairedValue>& pairs) {
   const auto size = [](const PairedValue& pair) {
     const double difference = std::abs(pair.current - pair.baseline);
-    return std::isnan(difference) ? std::numeric_limits<double>::infinity() : difference;
+    return std::isnan(difference) ? kInfinity : difference;
   };
   std::ranges::stable_sort(pairs, std::ranges::greater(), size);
   if (pairs.size() > kMostPairs) pairs.resize(kMostPairs);

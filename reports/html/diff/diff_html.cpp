@@ -14,6 +14,7 @@
 #include <fmt/format.h>
 #include <kainjow/mustache.hpp>
 
+#include "core/base/base64.hpp"
 #include "core/base/byte_source.hpp"
 #include "core/base/errors.hpp"
 #include "core/base/parallel.hpp"

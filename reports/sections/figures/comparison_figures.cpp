@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 
+#include "core/base/median.hpp"
 #include "core/statistics/intervals.hpp"
 #include "render/figures/curves/pareto.hpp"
 #include "render/figures/curves/spectrum.hpp"

@@ -8,6 +8,7 @@
 
 #include <fmt/format.h>
 
+#include "core/base/median.hpp"
 #include "core/base/unit_text.hpp"
 #include "core/base/words.hpp"
 

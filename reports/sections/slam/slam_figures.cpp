@@ -6,6 +6,7 @@
 
 #include <fmt/format.h>
 
+#include "core/base/not_finite.hpp"
 #include "render/figures/curves/convergence.hpp"
 #include "render/figures/curves/refinement_starts.hpp"
 #include "render/figures/curves/spectrum.hpp"
@@ -115,7 +116,7 @@ TitledMap titled_map(const RangeHistoryStudy& study, const RangeHistoryMap& map)
   const Eigen::Index rows = study.landmarks_m.rows();
   for (Eigen::Index i = 0; i < rows; ++i) record.names.push_back(fmt::format("{}", i + 1));
   record.estimate =
-      map.positions_m.rows() == rows ? map.positions_m : Points::Constant(rows, 2, NAN);
+      map.positions_m.rows() == rows ? map.positions_m : Points::Constant(rows, 2, kNaN);
   record.truth_m = study.landmarks_m;
   record.score = map.score;
   return titled;

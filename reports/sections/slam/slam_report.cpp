@@ -6,6 +6,7 @@
 
 #include <fmt/format.h>
 
+#include "core/base/not_finite.hpp"
 #include "core/base/words.hpp"
 #include "render/figures/curves/log_log.hpp"
 #include "render/figures/maps/path_styles.hpp"
@@ -220,7 +221,7 @@ Opening slam_opening(const SlamStudy& study, const StudyFigures& figures) {
     text.phrases.insert(text.phrases.end(), errors.begin(), errors.end());
   }
   const double slope =
-      study.convergence.empty() ? NAN : convergence_slope(study.convergence.front());
+      study.convergence.empty() ? kNaN : convergence_slope(study.convergence.front());
   if (std::isfinite(slope)) {
     text.phrases.push_back(
         {"In simulation the error of the observation model goes as the readings "

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include "core/base/not_finite.hpp"
 #include "render/figures/curves/log_log.hpp"
 #include "reports/sections/slam/slam_report.hpp"
 #include "reports/sections/slam/slam_tables.hpp"
@@ -46,7 +47,7 @@ Paragraph bound_words(const ConvergenceCurve& curve) {
   std::vector<double> steps, sines;
   for (const ConvergencePoint& point : curve.points) {
     steps.push_back(point.steps);
-    sines.push_back(point.sine.values > 0 ? point.sine.mean : NAN);
+    sines.push_back(point.sine.values > 0 ? point.sine.mean : kNaN);
   }
   return plain(fmt::format(
       "Eq. 5 bounds the sine of the largest canonical angle between the learned subspace and the "

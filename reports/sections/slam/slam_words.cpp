@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 
+#include "core/base/not_finite.hpp"
 #include "render/figures/curves/log_log.hpp"
 
 namespace mapproof {
@@ -61,7 +62,7 @@ double convergence_slope(const ConvergenceCurve& curve) {
   std::vector<double> steps, errors;
   for (const ConvergencePoint& point : curve.points) {
     steps.push_back(point.steps);
-    errors.push_back(point.observation.values > 0 ? point.observation.mean : NAN);
+    errors.push_back(point.observation.values > 0 ? point.observation.mean : kNaN);
   }
   return log_log_slope(steps, errors);
 }

@@ -6,6 +6,7 @@
 
 #include <fmt/format.h>
 
+#include "core/base/not_finite.hpp"
 #include "reports/sections/trials/topic_words.hpp"
 #include "reports/sections/trials/trial_means.hpp"
 
@@ -61,7 +62,7 @@ double regret_m(const TrialStudy& study, const std::string& series) {
       sum += trial_value(trial, "mpe_m") - best;
       count += 1.0;
     }
-  return count > 0.0 ? sum / count : std::nan("");
+  return count > 0.0 ? sum / count : kNaN;
 }
 
 std::string advice_words(const TrialStudy& study) {

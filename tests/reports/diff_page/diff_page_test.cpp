@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include "core/base/base64.hpp"
 #include "core/base/files.hpp"
 #include "reports/html/diff/diff_html.hpp"
 #include "reports/html/sha256.hpp"

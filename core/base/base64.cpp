@@ -1,4 +1,4 @@
-#include "render/svg/base64.hpp"
+#include "core/base/base64.hpp"
 
 #include <cstdint>
 
@@ -15,6 +15,12 @@ void append_base64(std::string& out, std::string_view bytes) {
     for (std::size_t k = 0; k < 4; ++k)
       out += i + k <= bytes.size() ? kDigits[group >> (18 - 6 * k) & 63U] : '=';
   }
+}
+
+std::string base64(std::string_view bytes) {
+  std::string out;
+  append_base64(out, bytes);
+  return out;
 }
 
 }  // namespace mapproof
