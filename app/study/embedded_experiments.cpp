@@ -12,7 +12,6 @@
 #include "core/base/input_file.hpp"
 
 namespace mapproof {
-
 namespace {
 
 constexpr std::size_t kYear = 4;  ///< The names of papers' experiments end in so many digits.

@@ -6,7 +6,6 @@
 #include "core/linalg/decompositions.hpp"
 
 namespace mapproof {
-
 namespace {
 
 using Complex = std::complex<double>;

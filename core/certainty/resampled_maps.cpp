@@ -1,6 +1,7 @@
 #include "core/certainty/resampled_maps.hpp"
 
 #include <utility>
+
 #include "core/base/not_finite.hpp"
 
 namespace mapproof {

@@ -15,7 +15,6 @@
 #include "core/score/map_score.hpp"
 
 namespace mapproof {
-
 namespace {
 
 constexpr int kGraphNeighbours = 8;

@@ -8,7 +8,6 @@
 #include "core/linalg/symmetric_eigen.hpp"
 
 namespace mapproof {
-
 namespace {
 
 /// Eigenvalues nearer to each other than this share of them, and of the matrix, count as one.

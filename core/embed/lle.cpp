@@ -12,7 +12,6 @@
 #include "core/linalg/decompositions.hpp"
 
 namespace mapproof {
-
 namespace {
 
 /// A second eigenvalue up to this share of the first is rounding: no tangent plane.

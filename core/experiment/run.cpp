@@ -28,7 +28,6 @@
 #include "core/simulate/world.hpp"
 
 namespace mapproof {
-
 namespace {
 
 constexpr Eigen::Index kDimensions = 3;

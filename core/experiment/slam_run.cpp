@@ -22,7 +22,6 @@
 #include "core/score/trajectory_error.hpp"
 
 namespace mapproof {
-
 namespace {
 
 void turn(std::vector<Eigen::Matrix2d>& covariances, const Similarity& motion) {

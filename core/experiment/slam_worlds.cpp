@@ -21,7 +21,6 @@
 #include "core/simulate/range_world.hpp"
 
 namespace mapproof {
-
 namespace {
 
 RangeLog log_of(const RangeWorld& world) {

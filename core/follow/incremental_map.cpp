@@ -8,7 +8,6 @@
 #include "core/base/not_finite.hpp"
 
 namespace mapproof {
-
 namespace {
 
 void grow_square(Eigen::MatrixXd& matrix, Eigen::Index size) {

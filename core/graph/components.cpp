@@ -6,7 +6,6 @@
 #include <tuple>
 
 namespace mapproof {
-
 namespace {
 
 /// Nodes in the order in which a depth-first search leaves them, over `next`.

@@ -3,6 +3,7 @@
 #include <vector>
 
 #include <Eigen/Core>
+
 #include "core/base/not_finite.hpp"
 
 namespace mapproof {

@@ -5,6 +5,7 @@
 #include <span>
 #include <string_view>
 #include <vector>
+
 #include "core/base/not_finite.hpp"
 
 namespace mapproof {

@@ -11,7 +11,6 @@
 #include "core/json/text_input.hpp"
 
 namespace mapproof {
-
 namespace {
 
 using Json = nlohmann::json;

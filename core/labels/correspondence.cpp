@@ -11,7 +11,6 @@
 #include "core/linalg/symmetric_eigen.hpp"
 
 namespace mapproof {
-
 namespace {
 
 constexpr Eigen::Index kNone = -1;

@@ -12,7 +12,6 @@
 #include "core/labels/two_places.hpp"
 
 namespace mapproof {
-
 namespace {
 
 constexpr std::size_t kSettledPairs = 4;  ///< Twos of labels that are settled.

@@ -11,7 +11,6 @@
 #include "core/pairs/pair_distances.hpp"
 
 namespace mapproof {
-
 namespace {
 
 bool located(const Detection& detection) {

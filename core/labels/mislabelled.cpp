@@ -17,7 +17,6 @@
 #include "core/pairs/pair_map.hpp"
 
 namespace mapproof {
-
 namespace {
 
 constexpr double kFar = 0.25;           ///< Of the median distance.

@@ -14,7 +14,6 @@
 #include "core/statistics/intervals.hpp"
 
 namespace mapproof {
-
 namespace {
 
 constexpr int kPlainlyLarge = 100;  ///< Permutations with as much, after which no more are drawn.

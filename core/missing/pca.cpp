@@ -13,7 +13,6 @@
 #include "core/linalg/symmetric_eigen.hpp"
 
 namespace mapproof {
-
 namespace {
 
 constexpr double kLeastNoiseShare = 1e-9;

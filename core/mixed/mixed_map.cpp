@@ -14,7 +14,6 @@
 #include "core/mixed/mixed_distances.hpp"
 
 namespace mapproof {
-
 namespace {
 
 constexpr double kLeastVariance = 1e-4;  ///< In the map's mean square distance from its centre.

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <utility>
+
 #include "core/base/not_finite.hpp"
 
 namespace mapproof {

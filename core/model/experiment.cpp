@@ -7,7 +7,6 @@
 #include "core/base/errors.hpp"
 
 namespace mapproof {
-
 namespace {
 
 constexpr std::array kFactors = {

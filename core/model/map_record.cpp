@@ -7,7 +7,6 @@
 #include "core/base/words.hpp"
 
 namespace mapproof {
-
 namespace {
 
 constexpr std::array kPlacementNames = {std::string_view("walls"), std::string_view("random"),

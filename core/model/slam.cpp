@@ -4,7 +4,6 @@
 #include <utility>
 
 namespace mapproof {
-
 namespace {
 
 constexpr std::array<std::pair<Alignment, std::string_view>, 4> kAlignmentNames{{

@@ -8,7 +8,6 @@
 #include "core/base/errors.hpp"
 
 namespace mapproof {
-
 namespace {
 
 constexpr std::array kOutcomeNames = {std::string_view("visible"), std::string_view("hidden"),

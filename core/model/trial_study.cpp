@@ -10,7 +10,6 @@
 #include "core/base/errors.hpp"
 
 namespace mapproof {
-
 namespace {
 
 constexpr double kRadOfDegree = std::numbers::pi / 180.0;

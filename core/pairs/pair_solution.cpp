@@ -15,7 +15,6 @@
 #include "core/statistics/intervals.hpp"
 
 namespace mapproof {
-
 namespace {
 
 constexpr int kMostFolds = 5;           ///< Taken back, one after the other,

@@ -11,7 +11,6 @@
 #include "core/range_slam/factors/metric_upgrade.hpp"
 
 namespace mapproof {
-
 namespace {
 
 /// A share of |p|^2/2 that is as little as this beside [1, p] does not tell the scale.

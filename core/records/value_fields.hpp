@@ -127,7 +127,7 @@ template <typename Visitor>
 void fields(Visitor& v, Status& status) {
   v.type("warning");
   v.field("code", status.code);
-  v.field("reason", status.reason, {.description = "Why: docs/methods.md has the reasons."});
+  v.field("reason", status.reason, {.description = "Why, as docs/methods/warnings.md has it."});
   v.field("values", status.values,
           {.nullable = true,
            .null_is = kInfinity,

@@ -14,7 +14,6 @@
 #include "core/linalg/planarity.hpp"
 
 namespace mapproof {
-
 namespace {
 
 /// The sine of an angle that rounding alone may have opened.

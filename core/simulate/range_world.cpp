@@ -9,7 +9,6 @@
 #include "core/base/random.hpp"
 
 namespace mapproof {
-
 namespace {
 
 void check(const RangeFlightOptions& o) {

@@ -20,7 +20,6 @@
 #include "core/statistics/intervals.hpp"
 
 namespace mapproof {
-
 namespace {
 
 /// In the plane the median residual of normal errors is 1.1774 standard deviations of a coordinate;

@@ -14,7 +14,6 @@
 #include "core/submaps/join.hpp"
 
 namespace mapproof {
-
 namespace {
 
 using Rows = std::vector<Eigen::Index>;

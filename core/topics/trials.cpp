@@ -19,7 +19,6 @@
 #include "core/trials/topics.hpp"
 
 namespace mapproof {
-
 namespace {
 
 namespace fs = std::filesystem;

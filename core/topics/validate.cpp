@@ -36,7 +36,6 @@
 #include "core/topics/study_kind.hpp"
 
 namespace mapproof {
-
 namespace {
 
 namespace fs = std::filesystem;

@@ -16,7 +16,6 @@
 #include "core/trials/topics.hpp"
 
 namespace mapproof {
-
 namespace {
 
 /// Whether a point is in the ellipse about a place.

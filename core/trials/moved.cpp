@@ -13,7 +13,6 @@
 #include "core/trials/topics.hpp"
 
 namespace mapproof {
-
 namespace {
 
 /// A sensor of range and bearing.

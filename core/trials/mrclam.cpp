@@ -39,7 +39,6 @@
 #include "core/trials/topics.hpp"
 
 namespace mapproof {
-
 namespace {
 
 namespace fs = std::filesystem;

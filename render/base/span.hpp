@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <span>
+
 #include "core/base/not_finite.hpp"
 
 namespace mapproof {

@@ -10,7 +10,6 @@
 #include "render/theme/font.hpp"
 
 namespace mapproof {
-
 namespace {
 
 /// A face with a library of its own, so that Cairo may drop both whenever it is done with them.

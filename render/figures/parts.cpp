@@ -1,6 +1,7 @@
 #include "render/figures/parts.hpp"
 
 #include <cmath>
+
 #include "core/base/not_finite.hpp"
 
 namespace mapproof {

@@ -18,7 +18,6 @@
 #include "core/base/errors.hpp"
 
 namespace mapproof {
-
 namespace {
 
 constexpr std::uint32_t kColourBits = 0xFFFFFF;

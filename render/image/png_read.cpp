@@ -21,7 +21,6 @@
 #include "render/image/png_chunks.hpp"
 
 namespace mapproof {
-
 namespace {
 
 using Bytes = std::vector<unsigned char>;

@@ -14,7 +14,6 @@
 #include "render/svg/svg.hpp"
 
 namespace mapproof {
-
 namespace {
 
 /// An image of half the size, each pixel the rounded mean of four; the last row or column of an odd

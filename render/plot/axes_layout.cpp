@@ -11,7 +11,6 @@
 #include "render/theme/ticks.hpp"
 
 namespace mapproof {
-
 namespace {
 
 constexpr double kBarWidth = 1.2;   // em of the axis labels.

@@ -13,7 +13,6 @@
 #include "render/theme/theme.hpp"
 
 namespace mapproof {
-
 namespace {
 
 /// How many panels stand in a row of that width: at most as many as the figure asks for.

@@ -3,6 +3,7 @@
 #include <array>
 #include <cmath>
 #include <numbers>
+
 #include "core/base/not_finite.hpp"
 
 namespace mapproof {

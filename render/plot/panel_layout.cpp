@@ -8,7 +8,6 @@
 #include "render/plot/mark_labels.hpp"
 
 namespace mapproof {
-
 namespace {
 
 /// Draws grid, frame, ticks and their labels.

@@ -17,7 +17,6 @@
 #include "render/scene/room.hpp"
 
 namespace mapproof {
-
 namespace {
 
 constexpr double kManifoldAspect = 1.25;  // Two views share a page.

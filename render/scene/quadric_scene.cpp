@@ -15,7 +15,6 @@
 #include "render/scene/room.hpp"
 
 namespace mapproof {
-
 namespace {
 
 constexpr int kRings = 24;

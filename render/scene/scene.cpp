@@ -10,7 +10,6 @@
 #include "core/base/errors.hpp"
 
 namespace mapproof {
-
 namespace {
 
 /// A piece of the outline that turns about the axis, and its outward normals.

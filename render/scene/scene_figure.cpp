@@ -14,7 +14,6 @@
 #include "render/theme/ticks.hpp"
 
 namespace mapproof {
-
 namespace {
 
 /// The axes of a view as they stand in its picture: lines, ticks and texts that cover each other

@@ -14,7 +14,6 @@
 #include "render/theme/ticks.hpp"
 
 namespace mapproof {
-
 namespace {
 
 constexpr double kHighest = 0.35;           // The surface at the ramp's end, of the room's side.

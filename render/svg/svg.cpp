@@ -11,7 +11,6 @@
 #include "render/image/png.hpp"
 
 namespace mapproof {
-
 namespace {
 
 bool forbidden(char32_t code) {

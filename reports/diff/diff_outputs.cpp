@@ -9,7 +9,6 @@
 #include "reports/model/format.hpp"
 
 namespace mapproof {
-
 namespace {
 
 constexpr std::size_t kMostRows = 50;

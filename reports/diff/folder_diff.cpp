@@ -21,7 +21,6 @@
 #include "reports/diff/records/record_set.hpp"
 
 namespace mapproof {
-
 namespace {
 
 namespace fs = std::filesystem;

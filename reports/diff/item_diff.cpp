@@ -16,7 +16,6 @@
 #include "reports/diff/images/picture_diff.hpp"
 
 namespace mapproof {
-
 namespace {
 
 constexpr std::size_t kMostBytes = std::size_t{1} << 28;

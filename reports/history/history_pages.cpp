@@ -20,7 +20,6 @@
 #include "reports/model/report.hpp"
 
 namespace mapproof {
-
 namespace {
 
 TextCell text(std::string words) { return {std::move(words), Emphasis::kPlain}; }

@@ -16,7 +16,6 @@
 #include "reports/history/night.hpp"
 
 namespace mapproof {
-
 namespace {
 
 namespace fs = std::filesystem;

@@ -15,7 +15,6 @@
 #include "reports/tables/write_tables.hpp"
 
 namespace mapproof {
-
 namespace {
 
 using kainjow::mustache::data;

@@ -2,6 +2,7 @@
 
 #include <cstddef>
 #include <cstdint>
+
 #include "core/base/base64.hpp"
 
 namespace mapproof {

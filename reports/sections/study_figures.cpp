@@ -13,7 +13,6 @@
 #include "reports/sections/wording.hpp"
 
 namespace mapproof {
-
 namespace {
 
 void append(std::vector<Figure>& all, std::vector<Figure> more) {

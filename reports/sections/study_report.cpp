@@ -20,7 +20,6 @@
 #include "reports/sections/wording.hpp"
 
 namespace mapproof {
-
 namespace {
 
 std::string subtitle(const Study& study) {

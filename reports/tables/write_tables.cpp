@@ -15,7 +15,6 @@
 #include "reports/model/format.hpp"
 
 namespace mapproof {
-
 namespace {
 
 bool is_interval(const Table& table, std::size_t column) {

@@ -1,4 +1,5 @@
-"""MPE and MOE as docs/methods.md has them, in numpy over all landmarks and triples at once."""
+"""MPE and MOE as docs/methods/alignment-and-scores.md has them, in numpy over all landmarks and
+triples at once."""
 import functools
 import itertools
 

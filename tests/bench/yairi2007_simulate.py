@@ -1,4 +1,4 @@
-"""The robot's walk and what it observes, in numpy: the rules of docs/methods.md."""
+"""The robot's walk and what it observes, in numpy: the rules of docs/methods/simulator.md."""
 import numpy
 
 TURNS = numpy.arange(0.0, numpy.pi, numpy.pi / 90.0)

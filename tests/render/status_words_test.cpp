@@ -31,7 +31,8 @@ TEST(StatusReasons, StandInTheOrderOfTheirEnumerators) {
 }
 
 TEST(StatusReasons, AreInTheManualWithTheirValues) {
-  const std::string manual = read_file(std::string(MAPPROOF_SOURCE_DIR) + "/docs/methods.md");
+  const std::string manual =
+      read_file(std::string(MAPPROOF_SOURCE_DIR) + "/docs/methods/warnings.md");
   for (const StatusReasonInfo& reason : kStatusReasons) {
     std::string values(reason.values);
     for (std::size_t at = 0; (at = values.find(", ", at)) != std::string::npos; at += 4)

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
+
 #include "core/base/base64.hpp"
 
 namespace mapproof {

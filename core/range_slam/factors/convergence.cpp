@@ -10,7 +10,6 @@
 #include "core/range_slam/localise.hpp"
 
 namespace mapproof {
-
 namespace {
 
 Eigen::MatrixXd orthonormal(const Eigen::MatrixXd& A) {

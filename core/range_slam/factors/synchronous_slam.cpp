@@ -11,7 +11,6 @@
 #include "core/range_slam/log_checks.hpp"
 
 namespace mapproof {
-
 namespace {
 
 constexpr Eigen::Index kRankInSpace = 5;

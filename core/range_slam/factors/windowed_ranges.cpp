@@ -17,7 +17,6 @@
 #include "core/range_slam/log_checks.hpp"
 
 namespace mapproof {
-
 namespace {
 
 constexpr Eigen::Index kTurns = 5;

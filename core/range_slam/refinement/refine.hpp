@@ -31,7 +31,8 @@ namespace mapproof {
 /// @throws InvalidInput if the log has no odometry or no ranges, or a bound is broken: for ranges
 ///         that check_ranges() refuses, for what carried_along() refuses of the start's path; or if
 ///         covariances are asked for with more than 1e7 poses times landmarks.
-/// @note One thread; the same bits every time. Time is linear in the poses; see docs/methods.md.
+/// @note One thread; the same bits every time. Time is linear in the poses; see
+///       docs/methods/measurements.md.
 ///       From the first call on, what Ceres logs below the level of fatal errors is silenced in the
 ///       whole process.
 SlamEstimate refine(const RangeLog& log, const SlamEstimate& start,

@@ -13,7 +13,6 @@
 #include "core/linalg/decompositions.hpp"
 
 namespace mapproof {
-
 namespace {
 
 /// A factor's pivots below this share of the matrix's diagonal are rounding.

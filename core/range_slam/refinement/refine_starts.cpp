@@ -19,7 +19,6 @@
 #include "core/range_slam/trilateration.hpp"
 
 namespace mapproof {
-
 namespace {
 
 /// Way on either side of a pose over which a turn is fitted.

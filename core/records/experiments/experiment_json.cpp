@@ -15,7 +15,6 @@
 #include "core/records/limits.hpp"
 
 namespace mapproof {
-
 namespace {
 
 using Fault = std::optional<RecordFault>;

@@ -24,7 +24,6 @@
 #include "core/records/observations/value_rows.hpp"
 
 namespace mapproof {
-
 namespace {
 
 using Cells = std::span<const std::string_view>;

@@ -13,7 +13,6 @@
 #include "core/records/observations/cells.hpp"
 
 namespace mapproof {
-
 namespace {
 
 struct Word {

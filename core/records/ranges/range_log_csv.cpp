@@ -20,7 +20,6 @@
 #include "core/records/ranges/range_tables.hpp"
 
 namespace mapproof {
-
 namespace {
 
 namespace fs = std::filesystem;

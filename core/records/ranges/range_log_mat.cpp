@@ -24,7 +24,6 @@
 #include "core/records/ranges/range_tables.hpp"
 
 namespace mapproof {
-
 namespace {
 
 /// A start and the motions that lead from it along a path.

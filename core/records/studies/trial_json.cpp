@@ -10,7 +10,6 @@
 #include "core/records/studies/trial_fields.hpp"
 
 namespace mapproof {
-
 namespace {
 
 std::optional<RecordFault> fault_of(const Condition& at, const std::string& series,

@@ -12,7 +12,6 @@
 #include "core/records/studies/trial_json.hpp"
 
 namespace mapproof {
-
 namespace {
 
 namespace fs = std::filesystem;

@@ -15,7 +15,6 @@
 #include "render/figures/words.hpp"
 
 namespace mapproof {
-
 namespace {
 
 void require_consistent(const WindowCurveSpec& spec) {

@@ -13,7 +13,6 @@
 #include "render/figures/words.hpp"
 
 namespace mapproof {
-
 namespace {
 
 constexpr int kBins = 300;         // Over the time: some two pixels each.

@@ -12,7 +12,6 @@
 #include "render/figures/words.hpp"
 
 namespace mapproof {
-
 namespace {
 
 constexpr double kLeastValue = 1e-12;  // Of the greatest value; smaller ones stand at the foot.

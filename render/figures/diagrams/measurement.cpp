@@ -17,7 +17,6 @@
 #include "render/figures/words.hpp"
 
 namespace mapproof {
-
 namespace {
 
 constexpr int kMostSteps = 2000;

@@ -14,7 +14,6 @@
 #include "render/figures/words.hpp"
 
 namespace mapproof {
-
 namespace {
 
 constexpr double kReach = 0.75;  // Estimates this many room sides off are still shown in place.

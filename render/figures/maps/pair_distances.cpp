@@ -16,7 +16,6 @@
 #include "render/figures/words.hpp"
 
 namespace mapproof {
-
 namespace {
 
 void require_consistent(const MeasuredMapSpec& spec) {

@@ -19,7 +19,6 @@
 #include "render/figures/words.hpp"
 
 namespace mapproof {
-
 namespace {
 
 using Eigen::Index;

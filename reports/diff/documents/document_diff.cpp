@@ -23,7 +23,6 @@
 #include "reports/diff/records/record_set.hpp"
 
 namespace mapproof {
-
 namespace {
 
 namespace fs = std::filesystem;

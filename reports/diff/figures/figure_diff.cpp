@@ -17,7 +17,6 @@
 #include "reports/diff/records/number_words.hpp"
 
 namespace mapproof {
-
 namespace {
 
 constexpr std::size_t kMostRecordIds = 3;

@@ -10,7 +10,7 @@ struct ImageDiff {
   ChangeMap marks;  ///< Empty if the sizes differ.
 };
 
-/// Compares two pictures. What is told apart and how: docs/diff-pictures.md.
+/// Compares two images, as docs/diff-images.md describes.
 /// @param current  Taken over; its ignored pixels are overwritten.
 /// @throws InvalidInput if the options cannot be used.
 /// @note Linear; equal tiles cost a comparison of their bytes. In parallel over tiles.

@@ -6,7 +6,6 @@
 #include <optional>
 
 namespace mapproof {
-
 namespace {
 
 // Found on the mutations of tests/reports/diff and on pictures by matplotlib with three hints.

@@ -11,7 +11,6 @@
 #include "reports/diff/images/tile_patch.hpp"
 
 namespace mapproof {
-
 namespace {
 
 /// A window of a tile and its structural similarity.

@@ -5,7 +5,6 @@
 #include <vector>
 
 namespace mapproof {
-
 namespace {
 
 constexpr int kFarthest = 3;            // Pixels: with slopes, what the margin of a patch allows.

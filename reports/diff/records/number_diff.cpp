@@ -15,7 +15,6 @@
 #include "reports/diff/records/number_words.hpp"
 
 namespace mapproof {
-
 namespace {
 
 constexpr std::size_t kMostMoves = 20;

@@ -22,7 +22,6 @@
 #include "core/topics/study_kind.hpp"
 
 namespace mapproof {
-
 namespace {
 
 namespace fs = std::filesystem;

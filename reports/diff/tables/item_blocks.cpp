@@ -23,7 +23,6 @@
 #include "reports/model/report.hpp"
 
 namespace mapproof {
-
 namespace {
 
 /// Worse before changed before better, and so on; then by p.

@@ -32,7 +32,6 @@
 #include "reports/html/sha256.hpp"
 
 namespace mapproof {
-
 namespace {
 
 namespace fs = std::filesystem;

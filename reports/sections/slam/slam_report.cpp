@@ -20,7 +20,6 @@
 #include "reports/sections/wording.hpp"
 
 namespace mapproof {
-
 namespace {
 
 const FigureGroup* group_of(const StudyFigures& figures, const std::string& id) {

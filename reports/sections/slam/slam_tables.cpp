@@ -11,7 +11,6 @@
 #include "reports/sections/slam/slam_words.hpp"
 
 namespace mapproof {
-
 namespace {
 
 using Eigen::Index;

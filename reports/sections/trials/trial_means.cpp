@@ -12,7 +12,6 @@
 #include "core/base/words.hpp"
 
 namespace mapproof {
-
 namespace {
 
 void check_quantity(const TrialStudy& study, std::string_view quantity) {

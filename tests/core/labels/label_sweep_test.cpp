@@ -1,5 +1,5 @@
 // Slow: labels of the real sets put wrong in several ways, pair by pair. Prints what
-// docs/methods.md says of it.
+// docs/methods/measurements.md says of it.
 #include <algorithm>
 #include <functional>
 #include <iostream>

@@ -1,5 +1,5 @@
 // Slow: how often a landmark that stands still is said to have moved, and how often one that moved
-// is named. Prints what docs/methods.md says of it.
+// is named. Prints what docs/methods/measurements.md says of it.
 #include <algorithm>
 #include <cmath>
 #include <iostream>

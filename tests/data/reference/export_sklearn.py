@@ -30,7 +30,7 @@ warnings.simplefilter("ignore")
 
 
 def vectors(path, kind):
-    """The observation vectors, one row per landmark, as docs/methods.md has them."""
+    """The observation vectors, one row per landmark: docs/methods/scans-and-distances.md."""
     with open(path, encoding="utf-8", newline="") as lines:
         rows = list(csv.reader(lines))[1:]
     values = numpy.array([[float(cell) for cell in row[1:]] for row in rows])
