@@ -9,6 +9,7 @@
 
 #include "core/base/files.hpp"
 #include "core/records/observations/detections.hpp"
+#include "core/records/observations/observation_json.hpp"
 #include "tests/core/labels/noisy_scans.hpp"
 #include "tests/core/labels/real_scans.hpp"
 #include "tests/support/detections_csv.hpp"

@@ -7,6 +7,7 @@
 
 #include "app/map/one_sensor.hpp"
 #include "core/align/diagonal_anchors.hpp"
+#include "core/records/observations/observation_json.hpp"
 #include "core/records/observations/observations.hpp"
 #include "tests/support/program.hpp"
 #include "tests/support/worlds.hpp"

@@ -8,7 +8,9 @@
 
 #include "core/base/errors.hpp"
 #include "core/base/files.hpp"
+#include "core/records/observations/detections.hpp"
 #include "core/records/observations/landmarks_csv.hpp"
+#include "core/records/observations/observation_json.hpp"
 #include "core/records/observations/observations.hpp"
 #include "core/records/ranges/range_log_files.hpp"
 #include "core/records/studies/timings_jsonl.hpp"

@@ -5,6 +5,7 @@
 
 #include <gtest/gtest.h>
 
+#include "core/records/observations/observation_json.hpp"
 #include "core/records/observations/observations.hpp"
 #include "tests/core/records/samples.hpp"
 #include "tests/support/packing.hpp"
