@@ -14,6 +14,7 @@
 #include "render/plot/figure_json.hpp"
 #include "reports/diff/figures/scene_diff.hpp"
 #include "reports/diff/images/picture_diff.hpp"
+#include "reports/diff/images/picture_verdict.hpp"
 
 namespace mapproof {
 namespace {
@@ -176,10 +177,10 @@ bool is_scene(const std::filesystem::path& file) {
 void compare_scenes(DiffItem& item, const RecordContext& context, const DiffSettings& settings) {
   SceneWords words;
   try {
-    item.figure =
-        scene_diff(read_input(item.baseline_figure, kLargestFigure), item.baseline_figure.string(),
-                   read_input(item.current_figure, kLargestFigure), item.current_figure.string(),
-                   settings.figures, words);
+    item.figure = scene_diff(
+        {read_input(item.baseline_figure, kLargestFigure), item.baseline_figure.string()},
+        {read_input(item.current_figure, kLargestFigure), item.current_figure.string()},
+        settings.figures, words);
   } catch (const IoError& error) {
     item.judgement = {Verdict::kUnreadable, true, error.what()};
     return;

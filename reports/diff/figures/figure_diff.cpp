@@ -87,10 +87,17 @@ void compare_frame(const Figure& a, const Figure& b, FigureLog& log) {
   add("arrows", arrows_text(a), arrows_text(b));
 }
 
-void compare_axis(const std::string& place, const char* which, const Axis& a, const Axis& b,
-                  bool varies, FigureLog& log) {
+/// The same axis of a panel on both sides.
+struct AxisPair {
+  const char* name;  ///< "x" or "y".
+  const Axis& baseline;
+  const Axis& current;
+};
+
+void compare_axis(const std::string& place, const AxisPair& axes, bool varies, FigureLog& log) {
+  const Axis &a = axes.baseline, &b = axes.current;
   const auto add = [&](const char* what, const std::string& before, const std::string& after) {
-    log.change(ChangeKind::kStyle, place, fmt::format("{} of {}", what, which), before, after);
+    log.change(ChangeKind::kStyle, place, fmt::format("{} of {}", what, axes.name), before, after);
   };
   add("label", a.label, b.label);
   add("scale", a.scale == Scale::kLog ? "log" : "linear",
@@ -106,8 +113,8 @@ void compare_axis(const std::string& place, const char* which, const Axis& a, co
 void compare_axes(const std::string& place, const Panel& a, const Panel& b, bool varies,
                   FigureLog& log) {
   log.change(ChangeKind::kStyle, place, "title", a.title, b.title);
-  compare_axis(place, "x", a.x, b.x, varies, log);
-  compare_axis(place, "y", a.y, b.y, varies, log);
+  compare_axis(place, {"x", a.x, b.x}, varies, log);
+  compare_axis(place, {"y", a.y, b.y}, varies, log);
   log.change(ChangeKind::kStyle, place, "aspect", a.equal_aspect ? "equal" : "free",
              b.equal_aspect ? "equal" : "free");
   log.change(ChangeKind::kStyle, place, "frame", a.bare ? "bare" : "with axes",
@@ -200,23 +207,6 @@ std::string data_cause(const FigureDiff& diff) {
 
 }  // namespace
 
-std::string_view name(ChangeKind kind) {
-  switch (kind) {
-    case ChangeKind::kMetadata:
-      return "metadata";
-    case ChangeKind::kStyle:
-      return "style";
-    case ChangeKind::kData:
-      return "data";
-  }
-  return "";
-}
-
-bool FigureDiff::has(ChangeKind kind) const {
-  if (kind == ChangeKind::kData && moved > 0) return true;
-  return std::ranges::any_of(changes, [&](const FigureChange& c) { return c.kind == kind; });
-}
-
 FigureDiff figure_diff(const Figure& a, const Figure& b, const FigureOptions& options) {
   const bool varies = a.varies && b.varies;
   FigureLog log(varies);
@@ -227,13 +217,13 @@ FigureDiff figure_diff(const Figure& a, const Figure& b, const FigureOptions& op
   for (std::size_t p = 0; p < std::max(a.panels.size(), b.panels.size()); ++p) {
     if (p >= a.panels.size() || p >= b.panels.size()) {
       const bool removed = p < a.panels.size();
-      LayerDiff layers(p, a, places, options, log);
+      LayerDiff layers({p, a, places, options}, log);
       for (const Layer& layer : (removed ? a : b).panels[p].layers) layers.lone(layer, removed);
       continue;
     }
     compare_axes(fmt::format("panel {}", p + 1), a.panels[p], b.panels[p], varies, log);
     const auto shared = varies ? shared_names(a.panels[p], b.panels[p]) : std::set<std::string>();
-    LayerDiff layers(p, a, places, options, log, varies ? &shared : nullptr);
+    LayerDiff layers({p, a, places, options, varies ? &shared : nullptr}, log);
     compare_layers(a.panels[p], b.panels[p], layers, log);
   }
   return log.take();

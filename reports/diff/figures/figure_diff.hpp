@@ -6,6 +6,7 @@
 
 #include "render/plot/figure.hpp"
 #include "reports/diff/figures/figure_log.hpp"
+#include "reports/diff/verdict/verdict.hpp"
 
 namespace mapproof {
 
@@ -16,5 +17,12 @@ namespace mapproof {
 /// @note O(points); layers of a panel squared.
 FigureDiff figure_diff(const Figure& baseline, const Figure& current,
                        const FigureOptions& options = {});
+
+/// The heaviest verdict that the figures alone allow: identical, within tolerance, style, and of
+/// data better, worse (by the errors of their marks) or changed; with its cause.
+Judgement judge(const FigureDiff& diff);
+
+/// "landmark L17 moved 0.041 m (9.1 px)".
+std::string move_text(const MarkMove& move);
 
 }  // namespace mapproof

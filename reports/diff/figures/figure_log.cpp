@@ -20,6 +20,23 @@ void keep_farthest(std::vector<MarkMove>& moves) {
 
 }  // namespace
 
+std::string_view name(ChangeKind kind) {
+  switch (kind) {
+    case ChangeKind::kMetadata:
+      return "metadata";
+    case ChangeKind::kStyle:
+      return "style";
+    case ChangeKind::kData:
+      return "data";
+  }
+  return "";
+}
+
+bool FigureDiff::has(ChangeKind kind) const {
+  if (kind == ChangeKind::kData && moved > 0) return true;
+  return std::ranges::any_of(changes, [&](const FigureChange& c) { return c.kind == kind; });
+}
+
 void FigureLog::change(ChangeKind kind, const std::string& place, std::string_view what,
                        const std::string& baseline, const std::string& current) {
   if (baseline == current) return;

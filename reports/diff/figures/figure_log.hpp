@@ -8,7 +8,6 @@
 #include "render/base/geometry.hpp"
 #include "render/plot/figure.hpp"
 #include "reports/diff/verdict/tolerances.hpp"
-#include "reports/diff/verdict/verdict.hpp"
 
 namespace mapproof {
 
@@ -97,12 +96,5 @@ class FigureLog {
   FigureDiff diff_;
   double baseline_errors_ = 0.0, current_errors_ = 0.0, errors_ = 0.0;
 };
-
-/// The heaviest verdict that the figures alone allow: identical, within tolerance, style, and of
-/// data better, worse (by the errors of their marks) or changed; with its cause.
-Judgement judge(const FigureDiff& diff);
-
-/// "landmark L17 moved 0.041 m (9.1 px)".
-std::string move_text(const MarkMove& move);
 
 }  // namespace mapproof

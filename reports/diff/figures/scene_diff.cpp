@@ -119,22 +119,21 @@ class SceneComparer {
   FigureLog& log_;
 };
 
-ParsedJson parse(std::string_view text, const std::string& name, SceneWords& words) {
-  const Scene scene = scene_from_json(text, name);
+ParsedJson parse(const SceneText& file, SceneWords& words) {
+  const Scene scene = scene_from_json(file.text, file.name);
   for (const std::string& id : scene.record_ids)
     if (std::ranges::find(words.record_ids, id) == words.record_ids.end())
       words.record_ids.push_back(id);
   words.varies = scene.varies;
-  return parse_json(scene_to_json(scene), name).root;  // Every key is there.
+  return parse_json(scene_to_json(scene), file.name).root;  // Every key is there.
 }
 
 }  // namespace
 
-FigureDiff scene_diff(std::string_view baseline, const std::string& baseline_name,
-                      std::string_view current, const std::string& current_name,
+FigureDiff scene_diff(const SceneText& baseline, const SceneText& current,
                       const FigureOptions& options, SceneWords& words) {
-  const ParsedJson a = parse(baseline, baseline_name, words);
-  const ParsedJson b = parse(current, current_name, words);
+  const ParsedJson a = parse(baseline, words);
+  const ParsedJson b = parse(current, words);
   FigureLog log(a.value("varies", false) && b.value("varies", false));
   if (a.at("records") != b.at("records"))
     log.change(

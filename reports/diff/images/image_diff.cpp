@@ -29,12 +29,8 @@ struct TileStyle {
   int within_noise = 0;      ///< Pixels that differ by no more than noise.
 };
 
-/// The upper left corner and size of a tile, cut off at the picture's edge.
-struct TileBox {
-  int x0, y0, width, height;
-};
-
-TileBox box_of(const ChangeMap& marks, const Image& image, int tile) {
+/// The pixels of a tile, cut off at the image's edge.
+PixelBox box_of(const ChangeMap& marks, const Image& image, int tile) {
   const int x0 = tile % marks.across() * kTile, y0 = tile / marks.across() * kTile;
   return {x0, y0, std::min(kTile, image.width - x0), std::min(kTile, image.height - y0)};
 }
@@ -65,11 +61,11 @@ bool is_within(std::uint32_t a, std::uint32_t b, double noise) {
   return true;
 }
 
-TileStyle look_at(const Image& a, const Image& b, const TileBox& box, double noise) {
+TileStyle look_at(const Image& a, const Image& b, const PixelBox& box, double noise) {
   TileStyle style;
-  const std::uint32_t first = a.row(box.y0)[box.x0];
-  for (int y = box.y0; y < box.y0 + box.height; ++y) {
-    const std::uint32_t *p = a.row(y) + box.x0, *q = b.row(y) + box.x0;
+  const std::uint32_t first = a.row(box.y)[box.x];
+  for (int y = box.y; y < box.y + box.height; ++y) {
+    const std::uint32_t *p = a.row(y) + box.x, *q = b.row(y) + box.x;
     style.is_textured =
         style.is_textured || std::any_of(p, p + box.width, [=](auto v) { return v != first; });
     style.has_ink =
@@ -189,9 +185,8 @@ ImageDiff image_diff(const Image& baseline, Image current, const PictureOptions&
   // What each of them shows, and what follows from all together.
   std::vector<TileEvidence> evidence(tiles.size());
   parallel_for(tiles.size(), [&](std::size_t i) {
-    const TileBox box = box_of(diff.marks, baseline, tiles[i]);
-    evidence[i] =
-        tile_evidence(baseline, current, box.x0, box.y0, bounds, *diff.marks.tile(tiles[i]));
+    const PixelBox tile = box_of(diff.marks, baseline, tiles[i]);
+    evidence[i] = tile_evidence(baseline, current, tile, bounds, *diff.marks.tile(tiles[i]));
   });
   judge(tiles, evidence, texture, options, diff.marks);
   sum_up(tiles, evidence, diff.marks, diff.pixels);

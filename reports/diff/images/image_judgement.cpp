@@ -320,6 +320,20 @@ std::vector<bool> shape_changes(std::span<const int> tiles, std::span<const Tile
   return is_changed;
 }
 
+namespace {
+
+/// The tiles that touch a tile, corners too, and the tile itself, row by row.
+std::vector<int> tiles_around(int tile, int across, int down) {
+  const int x = tile % across, y = tile / across;
+  std::vector<int> around;
+  for (int v = std::max(y - 1, 0); v <= std::min(y + 1, down - 1); ++v)
+    for (int u = std::max(x - 1, 0); u <= std::min(x + 1, across - 1); ++u)
+      around.push_back(v * across + u);
+  return around;
+}
+
+}  // namespace
+
 std::vector<std::vector<int>> tile_groups(int across, std::vector<bool> is_in) {
   std::vector<std::vector<int>> groups;
   const int down = across > 0 ? static_cast<int>(is_in.size()) / across : 0;
@@ -327,15 +341,12 @@ std::vector<std::vector<int>> tile_groups(int across, std::vector<bool> is_in) {
     if (!is_in[start]) continue;
     std::vector<int>& group = groups.emplace_back(1, start);
     is_in[start] = false;
-    for (std::size_t next = 0; next < group.size(); ++next) {
-      const int x = group[next] % across, y = group[next] / across;
-      for (int v = std::max(y - 1, 0); v <= std::min(y + 1, down - 1); ++v)
-        for (int u = std::max(x - 1, 0); u <= std::min(x + 1, across - 1); ++u)
-          if (const int tile = v * across + u; is_in[tile]) {
-            is_in[tile] = false;
-            group.push_back(tile);
-          }
-    }
+    for (std::size_t next = 0; next < group.size(); ++next)
+      for (const int tile : tiles_around(group[next], across, down))
+        if (is_in[tile]) {
+          is_in[tile] = false;
+          group.push_back(tile);
+        }
     std::ranges::sort(group);
   }
   return groups;

@@ -78,11 +78,13 @@ Eigen::Vector3d colour_at(const Patch& patch, int cell) {
 /// Pixels of the tile that differ beyond the noise and those beside them.
 std::vector<Pixel> pixels_near_differences(const PatchPair& pair, double noise) {
   std::array<bool, kPatchCells> near{};
+  const auto mark_around = [&near](int cell) {
+    for (const int row : {cell - kPatchSide, cell, cell + kPatchSide})
+      for (const int i : {row - 1, row, row + 1}) near[i] = true;
+  };
   for (int y = 0; y < kTile; ++y)
     for (int x = 0; x < kTile; ++x)
-      if (const int cell = cell_at(x, y); pair.is_beyond(cell, noise))
-        for (const int row : {cell - kPatchSide, cell, cell + kPatchSide})
-          for (const int i : {row - 1, row, row + 1}) near[i] = true;
+      if (const int cell = cell_at(x, y); pair.is_beyond(cell, noise)) mark_around(cell);
   std::vector<Pixel> pixels;
   for (int i = 0; i < kPatchCells; ++i)
     if (near[i]) {
@@ -322,14 +324,13 @@ bool TileEvidence::is_one_sided() const {
   return std::abs(sum[most]) > 0.9 * absolute_sum[most];
 }
 
-TileEvidence tile_evidence(const Image& baseline, const Image& current, int x0, int y0,
+TileEvidence tile_evidence(const Image& baseline, const Image& current, const PixelBox& tile,
                            const EvidenceBounds& bounds, TileMarks& marks) {
   TileEvidence found;
   PatchPair pair;
-  load_patch(baseline, x0, y0, pair.before);
-  load_patch(current, x0, y0, pair.after);
-  const int width = std::min(kTile, baseline.width - x0);
-  const int height = std::min(kTile, baseline.height - y0);
+  load_patch(baseline, tile.x, tile.y, pair.before);
+  load_patch(current, tile.x, tile.y, pair.after);
+  const auto [x0, y0, width, height] = tile;
   for (int y = 0; y < height; ++y)
     for (int x = 0; x < width; ++x) {
       const int i = cell_at(x, y);

@@ -55,9 +55,10 @@ struct EvidenceBounds {
   bool is_noisy = false;          ///< Whether noise is seen all over; otherwise none is assumed.
 };
 
-/// Looks at the tile with the upper left corner (x0, y0), and at 6 pixels around it, and marks its
-/// pixels as equal, noise or smoothed. @pre The sizes are equal.
-TileEvidence tile_evidence(const Image& baseline, const Image& current, int x0, int y0,
+/// Compares a tile, and the 6 pixels around it, and marks its pixels as equal, noise or smoothed.
+/// @param tile  Cut off at the image's edge.
+/// @pre The sizes of the images are equal.
+TileEvidence tile_evidence(const Image& baseline, const Image& current, const PixelBox& tile,
                            const EvidenceBounds& bounds, TileMarks& marks);
 
 }  // namespace mapproof

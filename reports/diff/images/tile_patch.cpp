@@ -17,9 +17,16 @@ double slope(const Plane& plane, int i, int step, int scale) {
          (12.0 * scale);
 }
 
-/// @param scale  What 1 of 255 is in the planes.
-MovementFit fit_of(const std::array<Plane, 3>& before, const std::array<Plane, 3>& after, int scale,
-                   double noise, int offset, int around) {
+/// The same planes of both images, red first.
+struct PlanePair {
+  const std::array<Plane, 3>& before;
+  const std::array<Plane, 3>& after;
+  int scale;  ///< The value in the planes of a difference of 1 of 255.
+};
+
+/// @param noise, offset, around  As in movement_fit().
+MovementFit fit_of(const PlanePair& planes, double noise, int offset, int around) {
+  const auto& [before, after, scale] = planes;
   MovementFit fit;
   for (int y = -around; y < kTile + around; ++y)
     for (int x = -around; x < kTile + around; ++x) {
@@ -118,7 +125,7 @@ double MovementFit::left(double x, double y) const {
 }
 
 MovementFit movement_fit(const PatchPair& pair, double noise, int offset, int around) {
-  return fit_of(pair.before.smoother, pair.after.smoother, kSmootherScale, noise, offset, around);
+  return fit_of({pair.before.smoother, pair.after.smoother, kSmootherScale}, noise, offset, around);
 }
 
 KeptShape kept_shape(const PatchPair& pair, double right_px, double down_px) {
@@ -139,7 +146,7 @@ KeptShape kept_shape(const PatchPair& pair, double right_px, double down_px) {
   double energy = 0.0;
   for (std::size_t k = 0; k < std::min(styles.size(), kMostStyles); ++k) {
     const auto [right, down] = styles[k];
-    const MovementFit fit = fit_of(pair.before.smooth, pair.after.smooth, kSmoothScale, 1.0,
+    const MovementFit fit = fit_of({pair.before.smooth, pair.after.smooth, kSmoothScale}, 1.0,
                                    down * kPatchSide + right, 0);
     if (k == 0) energy = fit.energy;
     if (energy == 0.0) return kept;

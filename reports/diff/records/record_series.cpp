@@ -53,12 +53,20 @@ struct Differences {
   std::vector<double> by_run;
 };
 
-void compare_pair(const std::string& run, const std::string& group, double a, double b,
-                  const Tolerance& tolerance, Comparison& out, Differences& differences) {
+/// A comparison with what decides its outcome.
+struct Open {
+  Comparison comparison;
+  Differences differences;
+};
+
+void compare_pair(const PairedValue& pair, const std::string& group, const Tolerance& tolerance,
+                  Open& open) {
+  const double a = pair.baseline, b = pair.current;
+  Comparison& out = open.comparison;
   if (std::isnan(a) && std::isnan(b)) return;
   if (std::isnan(a) || std::isnan(b)) {
     ++(std::isnan(a) ? out.gained : out.lost);
-    out.largest.push_back({run, a, b});
+    out.largest.push_back(pair);
     return;
   }
   ++out.pairs;
@@ -68,8 +76,8 @@ void compare_pair(const std::string& run, const std::string& group, double a, do
       return;
     }
   } else {
-    differences.by_run.push_back(b - a);
-    differences.by_group[group].push_back(b - a);
+    open.differences.by_run.push_back(b - a);
+    open.differences.by_group[group].push_back(b - a);
     if (a == b) {
       ++out.equal;
       return;
@@ -81,7 +89,7 @@ void compare_pair(const std::string& run, const std::string& group, double a, do
   }
   ++out.beyond;
   ++(b > a ? out.worse : out.better);
-  out.largest.push_back({run, a, b});
+  out.largest.push_back(pair);
 }
 
 /// @param draws_groups  As RecordSet: fewer groups than a test needs give none.
@@ -108,12 +116,6 @@ void keep_largest(std::vector<PairedValue>& pairs) {
   if (pairs.size() > kMostPairs) pairs.resize(kMostPairs);
 }
 
-/// A comparison with what decides its outcome.
-struct Open {
-  Comparison comparison;
-  Differences differences;
-};
-
 /// The value of a run; NaN where the side has the run but not the value, nothing where it lacks
 /// both.
 std::optional<double> value_of(const RecordSet& set, const Values& values, const std::string& run) {
@@ -122,8 +124,17 @@ std::optional<double> value_of(const RecordSet& set, const Values& values, const
   return run.empty() || set.runs.contains(run) ? std::optional(kNaN) : std::nullopt;
 }
 
-Open compare(const RecordSet& a, const RecordSet& b, const Values& before, const Values& after,
-             bool same_seeds, const Tolerance& tolerance) {
+/// Both sides of a comparison.
+struct RecordPair {
+  const RecordSet& baseline;
+  const RecordSet& current;
+  bool same_seeds = false;  ///< See have_same_seeds().
+};
+
+/// Compares one quantity of one subject over all runs.
+Open compare(const RecordPair& sides, const Values& before, const Values& after,
+             const Tolerance& tolerance) {
+  const auto& [a, b, same_seeds] = sides;
   Open open;
   Comparison& out = open.comparison;
   std::set<std::string> runs;
@@ -134,8 +145,8 @@ Open compare(const RecordSet& a, const RecordSet& b, const Values& before, const
     const std::optional<double> first = value_of(a, before, run), second = value_of(b, after, run);
     if (!first || !second) continue;
     const auto group = a.runs.find(run);
-    compare_pair(run, group == a.runs.end() ? run : group->second, *first, *second, tolerance, out,
-                 open.differences);
+    compare_pair({run, *first, *second}, group == a.runs.end() ? run : group->second, tolerance,
+                 open);
     if (!std::isfinite(*first) || !std::isfinite(*second)) continue;
     firsts.push_back(*first);
     seconds.push_back(*second);
@@ -251,8 +262,8 @@ std::vector<Comparison> compare_series(const RecordSet& a, const RecordSet& b, b
       const auto before = a.values.find({subject, quantity.id});
       const auto after = b.values.find({other, quantity.id});
       if (before == a.values.end() && after == b.values.end()) continue;
-      Open open = compare(a, b, before == a.values.end() ? kNone : before->second,
-                          after == b.values.end() ? kNone : after->second, same_seeds,
+      Open open = compare({a, b, same_seeds}, before == a.values.end() ? kNone : before->second,
+                          after == b.values.end() ? kNone : after->second,
                           tolerance_of(quantity, options.tolerances));
       Comparison& c = open.comparison;
       values += c.pairs + c.lost + c.gained;

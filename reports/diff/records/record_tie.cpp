@@ -1,10 +1,10 @@
+#include "reports/diff/records/record_tie.hpp"
+
 #include <algorithm>
 
 #include <fmt/format.h>
 
 #include "core/base/words.hpp"
-#include "reports/diff/figures/figure_log.hpp"
-#include "reports/diff/item_diff.hpp"
 #include "reports/diff/records/record_comparison.hpp"
 
 namespace mapproof {

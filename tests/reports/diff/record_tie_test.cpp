@@ -1,7 +1,6 @@
 #include <gtest/gtest.h>
 
-#include "reports/diff/figures/figure_log.hpp"
-#include "reports/diff/item_diff.hpp"
+#include "reports/diff/records/record_tie.hpp"
 
 namespace mapproof {
 namespace {

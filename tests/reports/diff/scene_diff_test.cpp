@@ -13,7 +13,7 @@ namespace {
 
 FigureDiff diff_of(const Scene& a, const Scene& b) {
   SceneWords words;
-  return scene_diff(scene_to_json(a), "a", scene_to_json(b), "b", {}, words);
+  return scene_diff({scene_to_json(a), "a"}, {scene_to_json(b), "b"}, {}, words);
 }
 
 TEST(SceneDiff, FindsNothingInTheSameScene) {
@@ -77,7 +77,7 @@ TEST(SceneDiff, ShowsOfTwoNumbersWhereTheyDiffer) {
 
 TEST(SceneDiff, NamesAFileThatIsNoScene) {
   SceneWords words;
-  EXPECT_THROW(scene_diff("{}", "a", "{}", "b", {}, words), IoError);
+  EXPECT_THROW(scene_diff({"{}", "a"}, {"{}", "b"}, {}, words), IoError);
 }
 
 }  // namespace

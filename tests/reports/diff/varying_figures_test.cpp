@@ -50,6 +50,11 @@ TEST(VaryingFigures, AreNotJudgedByPicturesOfAnotherSize) {
   EXPECT_EQ(result.judgement.cause.find("value is equal"), std::string::npos);
 }
 
+void set_error(Mark& mark, const char* error) {
+  for (auto& [key, value] : mark.data)
+    if (key == "error") value = error;
+}
+
 TEST(OtherRecords, MakeNoFigureBetterOrWorse) {
   Figure before = pareto_figure(costs());
   before.varies = false;
@@ -59,8 +64,7 @@ TEST(OtherRecords, MakeNoFigureBetterOrWorse) {
     if (auto* points = std::get_if<Scatter>(&layer))
       for (std::size_t i = 0; i < points->y.size(); ++i) {
         points->y[i] *= 2.0;
-        for (auto& [key, value] : points->marks[i].data)
-          if (key == "error") value = "9";
+        set_error(points->marks[i], "9");
       }
   EXPECT_EQ(diff_of(before, after).judgement.verdict, Verdict::kChanged);
   after.record_ids = before.record_ids;

@@ -1,9 +1,10 @@
+#include "reports/diff/images/picture_verdict.hpp"
+
 #include <algorithm>
 
 #include <fmt/format.h>
 
 #include "core/base/words.hpp"
-#include "reports/diff/item_diff.hpp"
 
 namespace mapproof {
 namespace {
