@@ -9,8 +9,8 @@
 
 namespace mapproof {
 
-/// Compares one figure or picture: its value, then its pictures, then why.
-/// @param baseline, current  Null: that side does not have the item.
+/// Compares one figure or image: its value, then its images; then finds the cause.
+/// @param baseline, current  Null if that side does not have the item.
 DiffItem item_diff(const std::string& id, const ItemFiles* baseline, const ItemFiles* current,
                    const RecordContext& context, const DiffSettings& settings);
 

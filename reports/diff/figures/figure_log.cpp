@@ -45,7 +45,7 @@ void FigureLog::change(ChangeKind kind, const std::string& place, std::string_vi
     return;
   }
   ++diff_.total_changes;
-  // Of each kind the first ones, so that many of one do not hide another.
+  // Keeps the first ones of each kind, so that many of one kind do not hide another.
   const auto same_kind = std::ranges::count(diff_.changes, kind, &FigureChange::kind);
   if (same_kind < static_cast<std::ptrdiff_t>(kMostEntries))
     diff_.changes.push_back({kind, place, std::string(what), baseline, current});

@@ -16,7 +16,7 @@ namespace {
 
 constexpr double kWritten = 2e-5;  // Relative: data-* hold six digits.
 
-/// Of one point: what it is called.
+/// The name of one point.
 std::string point_text(const LayerView& layer, std::size_t point) {
   if (layer.has_mark_a_point()) {
     const std::string_view landmark = data_of(layer.marks[point], "landmark");
@@ -34,7 +34,7 @@ std::string unit_of(const Axis& axis) {
   return printable(axis.label.substr(open + 1, close - open - 1));
 }
 
-/// The unit of the axis that a point moved along, or of both.
+/// The unit of the axis along which a point moved, or of both.
 std::string unit_of_move(const Panel& panel, Point before, Point after) {
   const std::string x = unit_of(panel.x), y = unit_of(panel.y);
   if (before.x == after.x) return y;
@@ -60,7 +60,7 @@ std::string LayerDiff::place(const LayerView& layer) const {
   return text;
 }
 
-/// Points without names come and go with what they show.
+/// Points without names appear and disappear with the data.
 bool LayerDiff::may_vary(const LayerView& layer, std::size_t point) const {
   if (panel_.shared == nullptr) return false;
   if (!layer.has_mark_a_point()) return true;
@@ -135,7 +135,7 @@ void LayerDiff::compare_point(const LayerView& a, std::size_t i, const LayerView
     if (!farthest || move.distance > farthest->distance) farthest = std::move(move);
   }
   if (i < a.texts.size() && j < b.texts.size() && panel_.shared == nullptr)
-    // Labels are what points are called, texts may be the values of cells.
+    // Labels are names of points; texts may be the values of cells.
     log_.change(a.kind == "labels" || !same_numbers(a.texts[i], b.texts[j]) ? ChangeKind::kData
                                                                             : ChangeKind::kStyle,
                 place_, "text", a.texts[i], b.texts[j]);
@@ -168,7 +168,7 @@ MarkMove LayerDiff::mark_move(const LayerView& layer, std::size_t point, Point b
   return move;
 }
 
-/// Coordinates that are not place: half axes, turns, cells.
+/// Compares coordinates that are not positions: half axes, angles, cells.
 void LayerDiff::compare_values(const LayerView& a, const LayerView& b,
                                const std::vector<Match>& matches) {
   for (std::size_t c = 0; c < a.coordinates.size(); ++c) {
@@ -211,7 +211,7 @@ void LayerDiff::compare_data(const Mark& a, const Mark& b) {
 }
 
 void LayerDiff::add_errors(const LayerView& a, const LayerView& b) {
-  // The segments of a map carry the errors of its points once more.
+  // The segments of a map repeat the errors of its points.
   if (!a.has_mark_a_point() || !b.has_mark_a_point() || a.kind == "segments") return;
   double first = 0.0, second = 0.0, count = 0.0;
   for (const Match& match : match_points(a, b)) {

@@ -27,11 +27,11 @@ class LayerDiff {
   /// @param log  Must outlive this.
   LayerDiff(const ComparedPanel& panel, FigureLog& log) : panel_(panel), log_(log) {}
 
-  /// Two layers of one kind.
+  /// Compares two layers of one kind.
   void compare(const LayerView& baseline, const LayerView& current);
-  /// One side alone.
+  /// Adds a layer of one side only.
   void lone(const Layer& layer, bool removed);
-  /// Counts the errors of the marks, whether they differ or not.
+  /// Adds the errors of the marks, whether they differ or not.
   void add_errors(const LayerView& baseline, const LayerView& current);
   /// "panel 2, polyline \"ISOMAP\"".
   std::string place(const LayerView& layer) const;
@@ -49,7 +49,7 @@ class LayerDiff {
   std::string place_;  ///< The location of the layer that is compared.
 };
 
-/// Names of the points that both panels have, in whatever layers.
+/// Names of the points that both panels have, in any layers.
 std::set<std::string> shared_names(const Panel& a, const Panel& b);
 
 }  // namespace mapproof

@@ -15,17 +15,17 @@
 namespace mapproof {
 namespace {
 
-// A picture of which so many pixels differ by no more than noise has noise all over.
+// An image has noise everywhere if this share of its pixels differ by no more than noise.
 constexpr double kNoisyShare = 0.2;
 
-// Of 255: what stands out of any noise that passes.
+// Of 255: a contrast above any allowed noise.
 constexpr double kInk = 16.0;
 
-/// What a first look at a tile tells.
+/// The result of the first pass over a tile.
 struct TileStyle {
   bool differs = false;
   bool is_textured = false;  ///< Not of one colour.
-  bool has_ink = false;      ///< Colours further apart than kInk.
+  bool has_ink = false;      ///< It has colours further apart than kInk.
   int within_noise = 0;      ///< Pixels that differ by no more than noise.
 };
 
@@ -35,7 +35,7 @@ PixelBox box_of(const ChangeMap& marks, const Image& image, int tile) {
   return {x0, y0, std::min(kTile, image.width - x0), std::min(kTile, image.height - y0)};
 }
 
-/// Makes `current` equal to the baseline in the boxes. @return How many pixels they hold.
+/// Makes `current` equal to the baseline in the boxes. @return The number of pixels in them.
 std::int64_t ignore(const Image& baseline, Image& current, const std::vector<PixelBox>& boxes) {
   std::vector<bool> is_ignored(boxes.empty() ? 0 : baseline.pixels.size());
   for (const PixelBox& box : boxes) {
@@ -91,7 +91,7 @@ std::vector<TileStyle> styles_at(const Image& baseline, const Image& current,
   return styles;
 }
 
-/// What the evidence of all tiles comes to.
+/// Sums the evidence of all tiles.
 void sum_up(std::span<const int> tiles, std::span<const TileEvidence> evidence,
             const ChangeMap& marks, PixelDiff& pixels) {
   for (std::size_t i = 0; i < tiles.size(); ++i) {
@@ -164,7 +164,7 @@ ImageDiff image_diff(const Image& baseline, Image current, const PictureOptions&
   diff.pixels.ignored = ignore(baseline, current, options.ignored);
   diff.marks = ChangeMap(baseline.width, baseline.height);
 
-  // Which tiles differ, and whether there is noise all over.
+  // First pass: which tiles differ, and whether there is noise everywhere.
   const std::vector<TileStyle> styles = styles_at(baseline, current, diff.marks, options.noise);
   std::vector<int> tiles;
   Texture texture;
@@ -182,7 +182,7 @@ ImageDiff image_diff(const Image& baseline, Image current, const PictureOptions&
                               within_noise > kNoisyShare * pixels};
   diff.marks.keep(tiles);
 
-  // What each of them shows, and what follows from all together.
+  // Second pass: the evidence of each differing tile, then the judgement of all together.
   std::vector<TileEvidence> evidence(tiles.size());
   parallel_for(tiles.size(), [&](std::size_t i) {
     const PixelBox tile = box_of(diff.marks, baseline, tiles[i]);

@@ -7,11 +7,11 @@
 namespace mapproof {
 namespace {
 
-constexpr int kFarthest = 3;            // Pixels: with slopes, what the margin of a patch allows.
+constexpr int kFarthest = 3;  // Pixels: with slopes, the most that the margin of a patch allows.
 constexpr double kFarthestRest = 0.75;  // Beyond whole pixels.
 constexpr std::size_t kMostStyles = 6;
 
-/// Slope of a smoothed plane, of 255 a pixel, by five cells.
+/// Slope of a smoothed plane in 1 of 255 per pixel, from five cells.
 double slope(const Plane& plane, int i, int step, int scale) {
   return (8 * (plane[i + step] - plane[i - step]) - (plane[i + 2 * step] - plane[i - 2 * step])) /
          (12.0 * scale);
@@ -56,7 +56,7 @@ void load(const Image& image, int x0, int y0, Patch& patch) {
   }
 }
 
-/// `combine` of each cell and its neighbours, first along rows, then along columns.
+/// Applies `combine` to each cell and its neighbours, first along rows, then along columns.
 template <typename Combine>
 void separable(const Plane& in, Plane& out, Combine combine) {
   Plane rows;
@@ -74,7 +74,7 @@ std::int16_t binomial(std::int16_t a, std::int16_t b, std::int16_t c) {
 std::int16_t least(std::int16_t a, std::int16_t b, std::int16_t c) { return std::min({a, b, c}); }
 std::int16_t most(std::int16_t a, std::int16_t b, std::int16_t c) { return std::max({a, b, c}); }
 
-// As types, so that each is inlined into its loops.
+// Each has its own type, so that it is inlined into its loops.
 constexpr auto kBinomial = [](auto... v) { return binomial(v...); };
 constexpr auto kLeast = [](auto... v) { return least(v...); };
 constexpr auto kMostOfNine = [](auto... v) { return most(v...); };
@@ -136,7 +136,8 @@ KeptShape kept_shape(const PatchPair& pair, double right_px, double down_px) {
     };
     return Step{one(right), one(down)};
   };
-  // Whole pixels first, then less; where that leads to other whole pixels, from there again.
+  // Whole pixels first, then fractions. If that leads to other whole pixels, start again from
+  // there.
   std::vector<Step> styles{{0, 0}};
   const auto look_at = [&](const Step& step) {
     if (std::ranges::find(styles, step) == styles.end()) styles.push_back(step);

@@ -53,7 +53,7 @@ struct Differences {
   std::vector<double> by_run;
 };
 
-/// A comparison with what decides its outcome.
+/// A comparison with the differences that decide its outcome.
 struct Open {
   Comparison comparison;
   Differences differences;
@@ -70,7 +70,8 @@ void compare_pair(const PairedValue& pair, const std::string& group, const Toler
     return;
   }
   ++out.pairs;
-  if (std::isinf(a) || std::isinf(b)) {  // An unproved gap: no difference, but better or worse.
+  if (std::isinf(a) ||
+      std::isinf(b)) {  // A gap without a certificate: no difference, but better or worse.
     if (a == b) {
       ++out.equal;
       return;
@@ -92,7 +93,7 @@ void compare_pair(const PairedValue& pair, const std::string& group, const Toler
   out.largest.push_back(pair);
 }
 
-/// @param draws_groups  As RecordSet: fewer groups than a test needs give none.
+/// @param draws_groups  As in RecordSet: with fewer groups than a test needs there is no test.
 std::optional<PairedTest> paired_test(const Differences& differences, bool draws_groups) {
   PairedTest test;
   std::vector<double> means;
@@ -116,8 +117,7 @@ void keep_largest(std::vector<PairedValue>& pairs) {
   if (pairs.size() > kMostPairs) pairs.resize(kMostPairs);
 }
 
-/// The value of a run; NaN where the side has the run but not the value, nothing where it lacks
-/// both.
+/// The value of a run; NaN if the side has the run but not the value, empty if it has neither.
 std::optional<double> value_of(const RecordSet& set, const Values& values, const std::string& run) {
   const auto found = values.find(run);
   if (found != values.end()) return found->second;
@@ -159,7 +159,7 @@ Open compare(const RecordPair& sides, const Values& before, const Values& after,
   return open;
 }
 
-/// Whether all errors that differ, of whatever quantity and subject, got worse, or all better.
+/// Whether all errors that differ, of any quantity and subject, became worse, or all became better.
 bool point_one_way(const std::vector<Open>& all) {
   bool worse = false, better = false;
   for (const Open& open : all) {
@@ -171,8 +171,9 @@ bool point_one_way(const std::vector<Open>& all) {
   return !worse || !better;
 }
 
-/// The dictionary's, and those that either side declares: none that the sides declare in two units,
-/// and without a direction what they declare with two.
+/// The quantities of the dictionary, and those that either side declares. Quantities that the sides
+/// declare in different units are left out; those that they declare with different directions have
+/// none.
 std::vector<Quantity> compared_quantities(const RecordSet& a, const RecordSet& b) {
   std::vector<Quantity> all = b.quantities.all();
   for (const Quantity& before : a.quantities.declared()) {
@@ -187,7 +188,7 @@ std::vector<Quantity> compared_quantities(const RecordSet& a, const RecordSet& b
   return all;
 }
 
-/// @param one_way  As point_one_way says of all.
+/// @param one_way  The result of point_one_way() for all.
 Outcome outcome_of(const Comparison& c, bool same_seeds, bool one_way,
                    const RecordOptions& options) {
   const Quantity& quantity = c.quantity;
@@ -203,7 +204,7 @@ Outcome outcome_of(const Comparison& c, bool same_seeds, bool one_way,
   }
   const int worse = c.worse + c.lost, better = c.better + c.gained;
   if (quantity.of_solver || (worse > 0 && better > 0)) return Outcome::kChanged;
-  // That there is no score any more needs no others beside it.
+  // A lost or gained score decides without other scores.
   if (!one_way && c.lost + c.gained == 0) return Outcome::kChanged;
   return worse > 0 ? Outcome::kWorse : Outcome::kBetter;
 }
@@ -216,7 +217,7 @@ void correct(std::vector<Open>& all, double significance) {
       p.push_back(open.comparison.test->p);
       least_p = std::min(least_p, least_signed_rank_p(open.comparison.test->test.pairs));
     }
-  // Holm multiplies the least of all by their number, and gives none of the others less.
+  // Holm multiplies the smallest p by the number of tests; all others become no smaller.
   const bool is_powerless = least_p * static_cast<double>(p.size()) >= significance;
   const std::vector<double> corrected = holm(p);
   std::size_t next = 0;

@@ -20,7 +20,7 @@ TEST(SceneDiff, FindsNothingInTheSameScene) {
   for (const Scene& scene : sample_scenes()) EXPECT_TRUE(diff_of(scene, scene).equal) << scene.id;
 }
 
-TEST(SceneDiff, TellsDataFromStyleAndWords) {
+TEST(SceneDiff, DistinguishesDataFromStyleAndTexts) {
   const auto kind_after = [](const std::function<void(Scene&)>& change) {
     Scene scene = sample_scenes()[0];
     change(scene);
@@ -75,7 +75,7 @@ TEST(SceneDiff, ShowsOfTwoNumbersWhereTheyDiffer) {
   EXPECT_EQ(diff.changes[0].current, "1.199172");
 }
 
-TEST(SceneDiff, NamesAFileThatIsNoScene) {
+TEST(SceneDiff, NamesAFileThatIsNotAScene) {
   SceneWords words;
   EXPECT_THROW(scene_diff({"{}", "a"}, {"{}", "b"}, {}, words), IoError);
 }
