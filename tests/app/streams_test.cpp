@@ -14,6 +14,7 @@
 #include "core/base/files.hpp"
 #include "core/base/random.hpp"
 #include "core/records/observations/detections.hpp"
+#include "core/records/observations/observation_json.hpp"
 #include "tests/core/range_slam/sample_log.hpp"
 #include "tests/support/detections_csv.hpp"
 #include "tests/support/packing.hpp"

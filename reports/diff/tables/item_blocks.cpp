@@ -206,7 +206,7 @@ void add_record_tables(std::vector<Block>& blocks, const RecordDiff& diff,
   add_score_table(blocks, "scores-" + suffix, "Scores", std::move(comparisons));
   add_points_table(blocks, diff, suffix);
   add_table(blocks,
-            changes_table("statuses-" + suffix, "Statuses", "Record", diff.statuses,
+            changes_table("statuses-" + suffix, "Warnings", "Record", diff.statuses,
                           [](const auto& change) { return change.record; }),
             std::ssize(diff.statuses));
   add_others_table(blocks, diff.others, suffix);

@@ -42,7 +42,9 @@ std::string url_text(std::string_view text);
 /// One self-contained page on a comparison (docs/diff.md): verdicts and causes, images of the
 /// differing items, tables of movements, checkboxes for approval. It fetches nothing, which its
 /// content security policy also forbids; it is readable without a script. Images are data of <img>,
-/// never markup. Reads the images again: they must be those that were compared.
+/// never markup.
+///
+/// Reads the images again: they must be those that were compared.
 /// @throws IoError if a template fails. Images that cannot be read are left out; the page states
 /// so.
 std::string diff_html(const DiffResult& result, const DiffSettings& settings,
