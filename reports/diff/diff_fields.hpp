@@ -10,8 +10,8 @@
 
 namespace mapproof {
 
-// The fields of what a comparison hands out as JSON (core/json/fields.hpp): it is written alone.
-// JSON has no infinity: what is lost or gained says so by its counts.
+// The fields of the JSON output of a comparison (core/json/fields.hpp), which is only written.
+// JSON has no infinity: counts show what is lost or gained.
 
 inline EnumNames enum_names(Verdict) { return names_up_to(Verdict::kUnreadable, "verdict"); }
 inline EnumNames enum_names(Outcome) { return names_up_to(Outcome::kChanged, "outcome"); }
@@ -283,7 +283,7 @@ void fields(Visitor& v, DiffItem& item) {
 template <typename Visitor>
 void fields(Visitor& v, DiffResult& result) {
   v.file("mapproof.diff",
-         "What mapproof diff found. Where a number would be infinite or is not there, it is null.");
+         "What mapproof diff found. A number that would be infinite or is missing is null.");
   v.field("baseline", result.baseline);
   v.field("current", result.current);
   v.field("verdict", result.judgement.verdict);

@@ -14,7 +14,7 @@ namespace {
 constexpr std::size_t kMostRows = 50;
 constexpr std::size_t kLongest = 2000;  // Characters of a cause.
 
-/// Fit for XML: escaped, without characters that XML does not have.
+/// Makes a text fit for XML: escaped, without characters that XML does not have.
 std::string xml(const std::string& text) {
   std::string out;
   for (const char c : displayable(text)) {
@@ -42,7 +42,7 @@ std::string xml(const std::string& text) {
   return out;
 }
 
-/// Fit for a cell of a Markdown table on a page that takes HTML.
+/// Makes a text fit for a cell of a Markdown table on a page that accepts HTML.
 std::string cell(const std::string& text) {
   std::string out;
   for (const char c : xml(printable(text, kLongest))) {
@@ -79,7 +79,7 @@ std::string diff_text(const DiffResult& result, DiffWords words) {
     const Judgement& told = item.judgement;
     if (told.verdict == Verdict::kIdentical || (words == DiffWords::kFailures && item.passes))
       continue;
-    // Causes that are tied to records begin with the id themselves.
+    // A cause that refers to records begins with the id itself.
     const std::string head = told.cause.starts_with(item.id + " ") ? "" : item.id + ": ";
     text +=
         fmt::format("{:<22}  {}\n", label(told.verdict), printable(head + told.cause, kLongest));

@@ -12,19 +12,19 @@
 
 namespace mapproof {
 
-/// A picture file of an item.
+/// An image file of an item.
 struct PictureFile {
   std::string format;        ///< "png", "svg", "pdf".
-  std::string baseline_key;  ///< Of several valid baselines, which; empty: the plain one.
-  std::filesystem::path baseline, current;  ///< Empty: not there.
-  PictureDiff diff;                         ///< If both are there.
+  std::string baseline_key;  ///< Which of several valid baselines; empty: the plain one.
+  std::filesystem::path baseline, current;  ///< Empty: missing.
+  PictureDiff diff;                         ///< Set if both files exist.
 };
 
 enum class ItemKind {
   kRecords,   ///< The records of a study, or of one map.
-  kFigure,    ///< A figure with its value, and its pictures.
-  kPicture,   ///< Pictures without a value.
-  kDocument,  ///< A table or a report's page: what follows from records and figures.
+  kFigure,    ///< A figure with its value, and its images.
+  kPicture,   ///< Images without a value.
+  kDocument,  ///< A table or a report's page, which follow from records and figures.
 };
 
 /// "records", "figure", "picture", "document".
@@ -35,27 +35,27 @@ struct DiffItem {
   std::string id;  ///< "fig-7", "records"; below folders with '/'.
   ItemKind kind = ItemKind::kPicture;
   Judgement judgement;
-  bool passes = false;  ///< What the exit code goes by.
+  bool passes = false;  ///< The exit code depends on it.
   std::optional<RecordDiff> records;
   std::optional<FigureDiff> figure;
-  /// The values that were compared, where there are some: a page redraws nothing, but its tables
-  /// name what they show.
+  /// The files of the values that were compared, if there are any. A page draws nothing again, but
+  /// its tables name what these files show.
   std::filesystem::path baseline_figure, current_figure;
   std::vector<PictureFile> pictures;
-  std::vector<OtherDiff> documents;  ///< Of a document, its files whose bytes differ.
+  std::vector<OtherDiff> documents;  ///< For a document: its files whose bytes differ.
 };
 
 /// The comparison of two studies, two folders or two files.
 struct DiffResult {
-  std::string baseline, current;  ///< As they were named.
-  Judgement judgement;            ///< Of the whole: the heaviest verdict and how often.
+  std::string baseline, current;  ///< As the user named them.
+  Judgement judgement;            ///< On the whole: the heaviest verdict and the counts.
   bool passes = false;
   std::vector<Verdict> allowed;
-  std::vector<std::string> remarks;  ///< On what was not compared; a sentence each.
+  std::vector<std::string> remarks;  ///< One sentence on each thing that was not compared.
   std::vector<DiffItem> items;       ///< By weight of verdict, then records first, then by id.
 };
 
-/// Items of each verdict, in the order of kVerdicts.
+/// The number of items of each verdict, in the order of kVerdicts.
 std::vector<int> counts_of(const DiffResult& result);
 
 }  // namespace mapproof

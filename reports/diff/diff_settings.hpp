@@ -16,13 +16,13 @@
 
 namespace mapproof {
 
-/// A region of a picture that is not looked at.
+/// A region of an image that is not compared.
 struct IgnoredRegion {
-  std::string id;  ///< Of the item; "*": all.
+  std::string id;  ///< The item's id; "*": all items.
   PixelBox box;
 };
 
-/// What a comparison goes by.
+/// The settings of a comparison.
 struct DiffSettings {
   RecordOptions records;
   FigureOptions figures;
@@ -30,7 +30,7 @@ struct DiffSettings {
   std::vector<IgnoredRegion> ignored;
   std::vector<Verdict> allowed;
 
-  /// The options for the pictures of one item, with its ignored regions.
+  /// The options for the images of one item, with its ignored regions.
   PictureOptions pictures_of(const std::string& id) const;
 };
 
@@ -52,7 +52,7 @@ inline FieldRule pixels_from(double minimum) { return {.minimum = minimum, .maxi
 
 }  // namespace record_rules
 
-/// What is given of a tolerance.
+/// The parts of a tolerance that are given.
 struct GivenTolerance {
   std::optional<double> absolute, relative;
 
@@ -69,8 +69,8 @@ void fields(Visitor& v, GivenTolerance& tolerance) {
   v.field("relative", tolerance.relative, {.minimum = 0.0, .maximum = 1.0, .key = Key::kIfAny});
 }
 
-/// Why there cannot be a tolerance of that name; empty if there can: whether a study declares a
-/// quantity that the dictionary lacks shows when it is compared.
+/// Why there cannot be a tolerance of that name; empty if there can. Whether a study declares a
+/// quantity that the dictionary lacks is known only when it is compared.
 std::string tolerance_problem(const std::string& name);
 
 template <typename Visitor>
@@ -101,7 +101,7 @@ void picture_option_fields(Visitor& v, PictureOptions& options) {
   v.field("svg_colour", options.svg_colour, up_to(255.0));
 }
 
-/// Finds the first number that its rule does not allow.
+/// Finds the first number that violates its rule.
 struct BoundsVisitor : FieldVisitor {
   std::string problem;
 
@@ -125,7 +125,7 @@ void fields(Visitor& v, IgnoredRegion& region) {
 template <typename Visitor>
 void fields(Visitor& v, DiffSettings& settings) {
   constexpr FieldRule kOptional = {.key = Key::kOptional};
-  v.file("mapproof.diff_settings", "What a comparison goes by: mapproof-diff.json.");
+  v.file("mapproof.diff_settings", "The settings of a comparison: mapproof-diff.json.");
   v.group(
       "records", [&](auto& records) { record_option_fields(records, settings.records); },
       kOptional);

@@ -30,7 +30,7 @@ struct BaselineFile {
   fs::path path;
 };
 
-/// Files by their size: only those can be equal.
+/// Files by their size: only files of one size can be equal.
 using BySize = std::multimap<std::uintmax_t, BaselineFile>;
 
 bool is_suspect(const DiffItem& item) { return item.judgement.verdict > Verdict::kWithinTolerance; }
@@ -42,8 +42,8 @@ void add(BySize& files, const DiffItem& item, const fs::path& path) {
   if (!error && size > 0) files.emplace(size, BaselineFile{&item, path});
 }
 
-/// The item whose baseline file has these bytes; null if there is none, or if the item's own has
-/// them too: a file that did not change was not swapped, whoever else has its like.
+/// The other item whose baseline file has these bytes. Null if there is none, or if the item's own
+/// baseline file has them too: a file that did not change was not swapped.
 const DiffItem* owner_of(const fs::path& own, const fs::path& current, const DiffItem& self,
                          const BySize& files) {
   std::error_code error;
@@ -57,7 +57,7 @@ const DiffItem* owner_of(const fs::path& own, const fs::path& current, const Dif
   return nullptr;
 }
 
-/// The first file of the item that belongs to another one.
+/// The first file of the item that belongs to another item.
 const DiffItem* owner_of(const DiffItem& item, const BySize& files) {
   if (const DiffItem* owner = owner_of(item.baseline_figure, item.current_figure, item, files))
     return owner;
@@ -67,8 +67,8 @@ const DiffItem* owner_of(const DiffItem& item, const BySize& files) {
   return nullptr;
 }
 
-/// Adds to the causes of items whose current file is, byte by byte, the baseline's file of another
-/// item: swapped, or renamed. What was swapped is at least changed, whatever drew it.
+/// Extends the causes of items whose current file is, byte by byte, the baseline file of another
+/// item: swapped or renamed. A swapped item is at least changed, whatever renderer drew it.
 void name_swapped(std::vector<DiffItem>& items, std::span<const Verdict> allowed) {
   BySize files;
   for (const DiffItem& item : items) {
@@ -91,7 +91,7 @@ void name_swapped(std::vector<DiffItem>& items, std::span<const Verdict> allowed
   }
   for (auto& [item, text] : words) {
     Judgement& told = item->judgement;
-    // No renderer did it, and no other styles: the picture is another one.
+    // Neither a renderer nor a style caused it: it is a different image.
     told.cause = told.verdict == Verdict::kRenderer ? text : told.cause + "; " + text;
     if (told.verdict != Verdict::kNew) told.verdict = heavier(told.verdict, Verdict::kChanged);
     told.visible = true;
@@ -103,7 +103,7 @@ void name_swapped(std::vector<DiffItem>& items, std::span<const Verdict> allowed
       item.judgement.cause += fmt::format("; the current has it as {}: renamed", to->second);
 }
 
-/// Folders of records: the path itself, or those right below it, by the id of their item.
+/// Folders of records, by the id of their item: the path itself, or those directly below it.
 std::map<std::string, fs::path> record_places(const fs::path& path) {
   std::map<std::string, fs::path> places;
   std::error_code error;
@@ -140,7 +140,8 @@ DiffItem lone_records(const std::string& id, Judgement judgement) {
   return item;
 }
 
-/// Throws if there is a tolerance of a quantity that none of the records has, and all were read.
+/// Throws if the settings have a tolerance of a quantity that none of the records has, and all
+/// records were read.
 void check_tolerances(const std::vector<DiffItem>& items, const DiffSettings& settings) {
   const auto is_read = [](const DiffItem& item) { return item.records.has_value(); };
   if (items.empty() || !std::ranges::all_of(items, is_read)) return;
@@ -150,8 +151,10 @@ void check_tolerances(const std::vector<DiffItem>& items, const DiffSettings& se
              item.records->declared.end();
     };
     if (find_quantity(id) == nullptr && id != kOtherNumbers && std::ranges::none_of(items, has_it))
-      throw InvalidInput(fmt::format(
-          "the settings have a tolerance of the quantity \"{}\", which no study here has", id));
+      throw InvalidInput(
+          fmt::format("the settings have a tolerance of the quantity \"{}\", which none of the "
+                      "compared studies has",
+                      id));
   }
 }
 
@@ -178,17 +181,17 @@ std::vector<DiffItem> record_items(const fs::path& baseline, const fs::path& cur
 void check_there(const fs::path& path) {
   std::error_code error;
   if (!fs::exists(path, error))
-    throw IoError(path.string(), error ? error.message() : "is not there");
+    throw IoError(path.string(), error ? error.message() : "does not exist");
   if (!fs::is_directory(path, error)) require_file(path);
 }
 
-/// Two files of one kind, each the item "".
+/// Requires two files of one kind, each of them the item "".
 void check_kinds(const ItemList& baseline, const ItemList& current, const fs::path& a,
                  const fs::path& b) {
   std::error_code error;
   const bool first = fs::is_directory(a, error), second = fs::is_directory(b, error);
   if (first != second)
-    throw InvalidInput(fmt::format("{} is a {}, {} a {}: not to be compared", a.string(),
+    throw InvalidInput(fmt::format("{} is a {}, {} a {}: they cannot be compared", a.string(),
                                    first ? "folder" : "file", b.string(),
                                    second ? "folder" : "file"));
   if (first || baseline.empty() || current.empty()) return;
@@ -202,7 +205,7 @@ void check_kinds(const ItemList& baseline, const ItemList& current, const fs::pa
                          &decltype(x.pictures)::value_type::first);
   if (!same_kind)
     throw InvalidInput(a.string() + " and " + b.string() +
-                       " are files of different kinds: not to be compared");
+                       " are files of different kinds: they cannot be compared");
 }
 
 /// "fig-7.png": what a single file is called.
@@ -228,8 +231,8 @@ std::vector<DiffItem> picture_items(ItemList baseline, const ItemList& current,
   return items;
 }
 
-/// Whether a side is a study that nothing was drawn of yet, as `mapproof run` leaves it.
-/// @param lacks  The verdict on records that the side lacks.
+/// Whether a side is a study without figures, as `mapproof run` leaves it.
+/// @param lacks  The verdict on records that are missing on this side.
 bool holds_records_alone(const ItemList& side, const std::vector<DiffItem>& records,
                          Verdict lacks) {
   return side.empty() && std::ranges::any_of(records, [&](const DiffItem& item) {
@@ -237,7 +240,7 @@ bool holds_records_alone(const ItemList& side, const std::vector<DiffItem>& reco
          });
 }
 
-/// One item for a report that the current lacks as a whole.
+/// One item for a report that is missing in the current as a whole.
 DiffItem missing_report(std::size_t items, const std::string& current,
                         const DiffSettings& settings) {
   DiffItem item;
@@ -269,17 +272,17 @@ Judgement judge_whole(const DiffResult& result) {
   return whole;
 }
 
-/// Names the pictures that nothing here decodes.
+/// Names the images that nothing here decodes.
 void remark_not_compared(const std::vector<DiffItem>& items, DiffResult& result) {
   std::vector<std::string> names;
   for (const DiffItem& item : items)
     for (const PictureFile& file : item.pictures)
       if (is_not_compared(file.format)) names.push_back(printable(item.id) + "." + file.format);
   if (!names.empty())
-    result.remarks.push_back("Not compared but by their bytes: " + listed(names, 12) + ".");
+    result.remarks.push_back("Compared only by their bytes:  " + listed(names, 12) + ".");
 }
 
-/// Names the ignored regions that are of nothing here: a name may be misspelt.
+/// Names the ignored regions that match no item: a name may be misspelt.
 void remark_ignored(const std::vector<DiffItem>& items, const DiffSettings& settings,
                     DiffResult& result) {
   std::set<std::string> unmatched;
@@ -287,7 +290,7 @@ void remark_ignored(const std::vector<DiffItem>& items, const DiffSettings& sett
     if (region.id != "*" && std::ranges::find(items, region.id, &DiffItem::id) == items.end())
       unmatched.insert("\"" + printable(region.id) + "\"");
   if (unmatched.empty()) return;
-  result.remarks.push_back("Ignored regions of no picture here: " +
+  result.remarks.push_back("Ignored regions that match no image:  " +
                            listed({unmatched.begin(), unmatched.end()}, 12) + ".");
 }
 
@@ -301,27 +304,6 @@ void conclude(DiffResult& result) {
 }
 
 }  // namespace
-
-std::string_view name(ItemKind kind) {
-  switch (kind) {
-    case ItemKind::kRecords:
-      return "records";
-    case ItemKind::kFigure:
-      return "figure";
-    case ItemKind::kPicture:
-      return "picture";
-    case ItemKind::kDocument:
-      return "document";
-  }
-  return "";
-}
-
-std::vector<int> counts_of(const DiffResult& result) {
-  std::vector<int> counts(kVerdicts.size(), 0);
-  for (const DiffItem& item : result.items)
-    ++counts[static_cast<std::size_t>(item.judgement.verdict)];
-  return counts;
-}
 
 DiffResult folder_diff(const fs::path& baseline, const fs::path& current,
                        const DiffSettings& settings) {
@@ -358,7 +340,7 @@ DiffResult folder_diff(const fs::path& baseline, const fs::path& current,
   add_documents(result.items, before, after, file_id(current), settings);
   if (result.items.empty())
     throw InvalidInput(baseline.string() + " and " + current.string() +
-                       " hold no records, figures or pictures to compare");
+                       "  hold no records, figures or images to compare");
   conclude(result);
   return result;
 }

@@ -14,6 +14,7 @@
 #include "render/plot/figure_json.hpp"
 #include "reports/diff/figures/scene_diff.hpp"
 #include "reports/diff/images/picture_diff.hpp"
+#include "reports/diff/images/picture_verdict.hpp"
 
 namespace mapproof {
 namespace {
@@ -28,7 +29,7 @@ std::string problem_of(std::string_view bytes) {
   return bytes.substr(0, last + 1).ends_with("%%EOF") ? "" : "is truncated";
 }
 
-/// "cairo 1.16.0 (https://cairographics.org)", as the file says; may be empty.
+/// "cairo 1.16.0 (https://cairographics.org)", as stored in the file; may be empty.
 std::string producer_of(std::string_view bytes) {
   constexpr std::string_view kKey = "/Producer (";
   const std::size_t at = bytes.find(kKey);
@@ -37,8 +38,9 @@ std::string producer_of(std::string_view bytes) {
   return printable(std::string(rest.substr(0, rest.find(" ("))), kMostPdfText);
 }
 
-/// Compares two PDFs by their bytes: what they show is told by the figure's value and by its other
-/// pictures. Files that other versions of the library wrote are within tolerance, and it is said.
+/// Compares two PDFs by their bytes: the figure's value and its other images show what they
+/// contain. Files that two versions of the library wrote are within tolerance; the reason names
+/// both versions.
 /// @throws IoError if either cannot be read.
 PictureDiff pdf_diff(const std::filesystem::path& baseline, const std::filesystem::path& current) {
   const std::string before = read_input(baseline, kMostBytes);
@@ -73,7 +75,8 @@ Figure read_figure(const std::filesystem::path& path) {
   return figure_from_json(read_input(path, kLargestFigure), path.string());
 }
 
-/// Of a kind that nothing here decodes: equal bytes are equal pictures, others cannot be told.
+/// Compares images of a format that nothing here decodes: equal bytes are equal images; other
+/// images cannot be compared.
 PictureDiff bytes_diff(const std::string& format, const std::filesystem::path& baseline,
                        const std::filesystem::path& current) {
   const std::string before = read_input(baseline, kLargestFigure);
@@ -86,11 +89,12 @@ PictureDiff bytes_diff(const std::string& format, const std::filesystem::path& b
     diff.reason = "the files are equal";
     return diff;
   }
-  diff.reason = fmt::format("pictures of kind {} are not compared, and the bytes differ", format);
+  diff.reason = fmt::format("images of format {} are not compared, and the bytes differ", format);
   return diff;
 }
 
-/// A file that cannot be read is what its picture is about; the rest goes on.
+/// Compares two files. A file that cannot be read makes its image unreadable and stops nothing
+/// else.
 PictureDiff readable_diff(const std::string& format, const std::filesystem::path& baseline,
                           const std::filesystem::path& current, const PictureOptions& options) {
   try {
@@ -104,7 +108,7 @@ PictureDiff readable_diff(const std::string& format, const std::filesystem::path
   }
 }
 
-/// The plain baseline or another valid one: that whose picture differs least.
+/// Compares with the plain baseline and the other valid ones, and keeps the one that differs least.
 PictureFile compare_picture(const std::string& format,
                             const std::map<std::string, std::filesystem::path>& baselines,
                             const std::filesystem::path& current, const PictureOptions& options) {
@@ -123,7 +127,7 @@ PictureFile compare_picture(const std::string& format,
   return best;
 }
 
-/// The pictures of both sides, format by format.
+/// Compares the images of both sides, format by format.
 std::vector<PictureFile> compare_pictures(const ItemFiles& baseline, const ItemFiles& current,
                                           const PictureOptions& options) {
   std::vector<PictureFile> files;
@@ -143,7 +147,7 @@ std::vector<PictureFile> compare_pictures(const ItemFiles& baseline, const ItemF
   return files;
 }
 
-/// One side alone.
+/// An item of one side only.
 DiffItem lone_item(DiffItem item, const ItemFiles& files, bool is_new) {
   item.kind = files.figure.empty() ? ItemKind::kPicture : ItemKind::kFigure;
   (is_new ? item.current_figure : item.baseline_figure) = files.figure;
@@ -160,7 +164,8 @@ std::vector<std::string> records_of(const Figure& a, const Figure& b) {
   return ids;
 }
 
-/// Pictures of a figure that varies follow from values that do: these are judged, not their styles.
+/// The images of a figure that varies follow from values that vary. The values are judged, not the
+/// styles of the images.
 void leave_to_value(std::vector<PictureFile>& pictures) {
   for (PictureFile& file : pictures) {
     if (file.diff.state != PictureState::kDifferent) continue;
@@ -176,10 +181,10 @@ bool is_scene(const std::filesystem::path& file) {
 void compare_scenes(DiffItem& item, const RecordContext& context, const DiffSettings& settings) {
   SceneWords words;
   try {
-    item.figure =
-        scene_diff(read_input(item.baseline_figure, kLargestFigure), item.baseline_figure.string(),
-                   read_input(item.current_figure, kLargestFigure), item.current_figure.string(),
-                   settings.figures, words);
+    item.figure = scene_diff(
+        {read_input(item.baseline_figure, kLargestFigure), item.baseline_figure.string()},
+        {read_input(item.current_figure, kLargestFigure), item.current_figure.string()},
+        settings.figures, words);
   } catch (const IoError& error) {
     item.judgement = {Verdict::kUnreadable, true, error.what()};
     return;
@@ -208,7 +213,7 @@ void compare_values(DiffItem& item, const RecordContext& context, const DiffSett
         tied_judgement(item.id, *item.figure, item.judgement, records_of(a, b), context);
 }
 
-/// A PDF's bytes follow from a value that is another one, however little.
+/// The bytes of a PDF change with its figure's value, however small that change is.
 void leave_pdf_to_value(DiffItem& item) {
   for (PictureFile& file : item.pictures)
     if (item.figure && !item.figure->equal && file.format == "pdf" &&

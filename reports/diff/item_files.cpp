@@ -16,16 +16,17 @@ namespace fs = std::filesystem;
 
 constexpr std::size_t kMostFiles = 100'000;
 enum class KindClass {
-  kFigure,    ///< What a picture was drawn of.
-  kPicture,   ///< One that is compared.
-  kOther,     ///< A picture that nothing here decodes.
-  kDocument,  ///< What tells in words what records say.
+  kFigure,    ///< The value from which an image was drawn.
+  kPicture,   ///< An image that is compared.
+  kOther,     ///< An image that nothing here decodes.
+  kDocument,  ///< A table or a page, which follows from records.
 };
 
 struct Kind {
   std::string_view ending;
   KindClass of;
-  std::string_view start = {};  ///< Of all such files, and of no others; empty: none.
+  std::string_view start =
+      {};  ///< The first bytes of all such files, and of no others; empty: none.
 };
 
 constexpr std::array kKinds = {Kind{"figure.json", KindClass::kFigure},
@@ -95,7 +96,7 @@ ItemName item_name(const fs::path& file, const fs::path& folder) {
   std::string path = file.lexically_relative(folder).generic_string();
   constexpr std::string_view kFigures = "figures/";
   if (path.starts_with(kFigures)) path.erase(0, kFigures.size());
-  std::string lower = path;  // Endings in whatever case.
+  std::string lower = path;  // Extensions in any case.
   std::ranges::transform(lower, lower.begin(), [](char c) {
     return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
   });
@@ -121,13 +122,13 @@ ItemList list_items(const fs::path& path) {
   std::size_t files = 0;
   fs::recursive_directory_iterator entry(path, error), end;
   for (; !error && entry != end; entry.increment(error)) {
-    std::error_code unknown;  // Of a link to nowhere: then reading it says so.
+    std::error_code unknown;  // A broken link: reading it reports the error.
     const ItemName name = item_name(entry->path(), path);
-    // A folder that is called like a picture stands where one may have been: reading it says so.
+    // A folder with the name of an image may have replaced one: reading it reports the error.
     const bool is_folder = entry->is_directory(unknown);
     if (name.kind.empty() || (is_folder && !is_picture(name.kind))) continue;
     if (++files > kMostFiles)
-      throw IoError(path.string(), "holds more than 100,000 pictures: compare folders below it");
+      throw IoError(path.string(), "holds more than 100,000 images: compare folders below it");
     add(items, name, entry->path());
   }
   if (error) throw IoError(path.string(), "cannot be listed: " + error.message());

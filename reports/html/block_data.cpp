@@ -22,14 +22,14 @@ using kainjow::mustache::list;
 
 constexpr std::size_t kLongCaption = 800;  ///< Longer ones scroll in a box of their own.
 
-/// Drawings stand in a <noscript> element: the script takes them from there as text when they come
-/// near, and without a script they are simply shown.
+/// Drawings are in a <noscript> element. The script inserts them from there when they come near the
+/// viewport; without a script they are simply shown.
 void check_drawing(const std::string& id, const std::string& drawing) {
   if (lower_case(drawing).find("</noscript") != std::string::npos)
     throw InvalidInput("report: the drawing of \"" + id + "\" holds </noscript");
 }
 
-/// In the order in which they get room.
+/// Figures in the order in which they are embedded.
 std::vector<const FigureBlock*> by_weight(const Report& report) {
   std::vector<const FigureBlock*> all = figures(report);
   const std::vector<std::string>& first = report.opening.figure_ids;
@@ -41,7 +41,7 @@ std::vector<const FigureBlock*> by_weight(const Report& report) {
   return all;
 }
 
-constexpr std::size_t kMostRowsOpen = 30;  ///< Longer tables are folded until asked for.
+constexpr std::size_t kMostRowsOpen = 30;  ///< Longer tables are folded at first.
 constexpr std::size_t kLongCell = 80;      ///< Longer texts scroll in a box of their own.
 
 bool any_group(const Table& table) {
@@ -95,7 +95,7 @@ void add_headings(const Table& table, data& out) {
   out.set("two_rows", two_rows);
 }
 
-/// What a column is sorted by: numbers as they are, an interval by its middle; empty goes last.
+/// The sort key of a cell: a number by its value, an interval by its middle; empty cells come last.
 struct SortKey {
   std::string operator()(const TextCell& cell) const { return cell.text; }
   std::string operator()(const NumberCell& cell) const { return number(cell.value); }
@@ -149,7 +149,7 @@ std::string without_line_end(std::string text) {
   return text;
 }
 
-/// The rows, each with the lines that stand for it where the table is copied as text.
+/// The rows, each with its lines in the copy of the table as text.
 list rows_data(const Table& table, const HtmlOptions& options) {
   const bool copies = options.copies_tables;
   TableLines csv, latex;
@@ -169,7 +169,7 @@ list rows_data(const Table& table, const HtmlOptions& options) {
   return rows;
 }
 
-/// What stands before and after the rows in a text.
+/// The lines before and after the rows in the copy as text.
 void add_frames(const Table& table, bool copies, data& out) {
   out.set("copies", data(copies));
   out.set("csv_head", copies ? without_line_end(csv_lines(table).head) : "");

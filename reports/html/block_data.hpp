@@ -10,32 +10,32 @@
 
 namespace mapproof {
 
-/// What is known of the figures of a page beyond their blocks.
+/// Facts on the figures of a page besides their blocks.
 struct FigureContext {
   SvgLookup svg = {};
-  std::set<std::string> linked = {};  ///< Have a drawing that the page only links to.
+  std::set<std::string> linked = {};  ///< Figures with a drawing to which the page only links.
 };
 
-/// Which figures of the report `drawn` has no room for, by HtmlOptions::drawing_bytes.
+/// The figures of the report whose drawings do not fit into HtmlOptions::drawing_bytes.
 std::set<std::string> linked_figures(const Report& report, const SvgLookup& svg,
                                      std::size_t drawing_bytes);
 
-/// What the figure's template is told.
+/// The data for the figure's template.
 /// @throws InvalidInput if its drawing holds the end tag of the element that holds it.
 kainjow::mustache::data figure_data(const FigureBlock& figure, const FigureContext& drawn,
                                     const HtmlOptions& options);
 
-/// The text, or false where an empty one shall leave nothing behind.
+/// The text, or false if an empty text must leave nothing behind.
 inline kainjow::mustache::data text_or_false(const std::string& text) {
   return text.empty() ? kainjow::mustache::data(false) : kainjow::mustache::data(text);
 }
 
-/// What the table's template is told: heading rows, cells with the text to show and the key to sort
-/// by, notes.
+/// The data for the table's template: heading rows, cells with the text to show and the sort key,
+/// notes.
 kainjow::mustache::data table_data(const Table& table, const HtmlOptions& options);
 
-/// What the templates are told of a block. Every key that a template may ask for is set, since
-/// Mustache would look for a missing one further out.
+/// The data for the templates of a block. Every key that a template may use is set, since Mustache
+/// would search enclosing contexts for a missing one.
 kainjow::mustache::data block_data(const Block& block, const FigureContext& drawn,
                                    const HtmlOptions& options);
 

@@ -39,7 +39,7 @@ std::string rendered(const std::string& name, const Templates& templates,
   kainjow::mustache::mustache root(assembled(file, templates.files));
   root.set_custom_escape(html_escaped);
   std::string html;
-  // Not to a stream, which ends in silence where there is no memory.
+  // Not into a stream, which stops without an error if memory runs out.
   root.render(page, [&html](const std::string& part) { html += part; });
   if (!root.is_valid()) throw IoError(templates.sources.at(file), root.error_message());
   return html;

@@ -16,8 +16,8 @@ namespace {
 using kainjow::mustache::data;
 using kainjow::mustache::list;
 
-/// Stands with the provenance, since it names a folder: reports that say the same stay the same.
-/// The script makes each figure's command of it.
+/// The command is part of the provenance, since it names a folder: equal reports stay equal
+/// otherwise. The script builds each figure's command from it.
 Block figure_command(const Report& report) {
   return KeyValues{{{"A figure alone", {report.figure_command + " ID", Emphasis::kCode}}}};
 }
@@ -46,7 +46,7 @@ data standing_data(const Standing& standing) {
   return out;
 }
 
-/// Links to figures; the script puts small drawings of those that the page holds beside the words.
+/// Links to figures; the script puts thumbnails of embedded figures next to the text.
 list thumbnails(const Report& report) {
   list shown;
   for (const std::string& id : report.opening.figure_ids)
@@ -65,7 +65,7 @@ std::string linked_words(const Report& report, std::size_t linked, const HtmlOpt
   if (linked == 0) return "";
   const std::string where = options.figure_folder.empty()
                                 ? "They are left out."
-                                : "They are linked, in " + options.figure_folder + "/ beside it.";
+                                : "They are linked, in " + options.figure_folder + "/ next to it.";
   return fmt::format("{} of {} are not in this page, which holds {} MB of drawings at most. {}",
                      linked, counted(std::ssize(figures(report)), "figure"),
                      format_number(static_cast<double>(options.drawing_bytes) / 1e6, 1), where);

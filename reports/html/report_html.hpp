@@ -11,7 +11,7 @@
 
 namespace mapproof {
 
-/// One self-contained page: nothing is fetched, and its content security policy forbids it.
+/// One self-contained page: it fetches nothing, which its content security policy also forbids.
 /// @throws IoError if a template fails; InvalidInput if the report breaks its rules (see check), or
 ///         a drawing could end the element that holds it.
 std::string report_html(const Report& report, const Templates& templates, const SvgLookup& svg,

@@ -18,7 +18,7 @@ namespace fs = std::filesystem;
 
 constexpr std::size_t kLargest = std::size_t{1} << 20;  ///< Bytes of one file.
 
-/// Replaces what the folder holds; a pipe or a device is not a template.
+/// Replaces the templates that the folder holds; a pipe or a device is not a template.
 void override_from(const fs::path& folder, Templates& templates) {
   std::error_code error;
   if (!fs::is_directory(folder, error)) throw IoError(folder.string(), "is not a folder");

@@ -7,14 +7,14 @@
 
 namespace mapproof {
 
-/// The files that make a page: "report.mustache", its parts, "report.css" and "report.js".
+/// The files of a page:  "report.mustache", its parts, "report.css" and "report.js".
 struct Templates {
   std::map<std::string, std::string> files;    ///< By name.
-  std::map<std::string, std::string> sources;  ///< Where each came from, for messages.
+  std::map<std::string, std::string> sources;  ///< The origin of each, for messages.
 };
 
-/// The embedded templates, each replaced by the file of the same name in `folder` if it is there.
-/// @throws IoError if the folder is none, or a file cannot be used (syntax, a template within
+/// The embedded templates, each replaced by the file of the same name in `folder` if it exists.
+/// @throws IoError if `folder` is not a folder, or a file cannot be used (syntax, a template within
 ///         itself, an end tag within the style sheet or the script): "<path>: line: what".
 Templates load_templates(const std::optional<std::filesystem::path>& folder = std::nullopt);
 

@@ -55,10 +55,10 @@ TEST(ApproveCommand, RefusesACurrentThatHoldsNothing) {
   write_file(strange + "/notes.txt", "Not of mapproof.");
   for (const std::string& current : {empty, strange})
     expect_refused(two.folder, {two.before, current, "--all", "--force"},
-                   "holds no records, figures, pictures or tables");
+                   "holds no records, figures, images or tables");
   const std::string file = two.folder.file("empty.pdf", "");
   expect_refused(two.folder, {two.folder.file("before.pdf", "%PDF"), file}, "is empty");
-  expect_refused(two.folder, {two.before, two.folder / "nowhere", "--all"}, "is not there");
+  expect_refused(two.folder, {two.before, two.folder / "nowhere", "--all"}, "does not exist");
 }
 
 TEST(ApproveCommand, RefusesACurrentOfAnotherKind) {
@@ -80,7 +80,7 @@ TEST(ApproveCommand, RefusesACurrentOfAnotherKind) {
       }
   expect_refused(two.folder, {two.before, two.after + "/figures", "--all"},
                  "holds a study of the mapping methods, CURRENT " + two.after +
-                     "/figures holds figures or pictures without records");
+                     "/figures holds figures or images without records");
   expect_refused(two.folder,
                  {two.before + "/figures/map-usual.png", two.folder.file("map.svg", "<svg/>")},
                  "holds png, CURRENT");

@@ -154,7 +154,7 @@ TEST(DiffCommand, EndsWithTwoWhereNothingCanBeCompared) {
   };
   expect_two({"diff", two.before, two.folder / "nowhere"}, "nowhere");
   expect_two({"diff", empty.path(), empty.path()}, "hold no records");
-  expect_two({"diff", two.before, two.after + "/study.json"}, "not to be compared");
+  expect_two({"diff", two.before, two.after + "/study.json"}, "they cannot be compared");
   expect_two({"diff", two.before}, "CURRENT");
   expect_two({"diff", two.before, two.after, "--allow", "beter"}, "did you mean \"better\"");
   const fs::path settings = two.folder.file(

@@ -347,7 +347,8 @@ TEST(Streams, AFolderIsNotReadFromStandardInput) {
     EXPECT_NE(outcome.error.find("standard input is not a folder"), std::string::npos)
         << rest << ": " << outcome.error;
   }
-  expect_refused(shell(folder.path(), "cat seen.csv | $MAPPROOF diff - ."), "not to be compared");
+  expect_refused(shell(folder.path(), "cat seen.csv | $MAPPROOF diff - ."),
+                 "they cannot be compared");
 }
 
 /// Expects that each command is refused with `words`, which name the file and what it is.

@@ -1,5 +1,3 @@
-#include "render/image/compare.hpp"
-
 #include <gtest/gtest.h>
 
 #include "core/base/errors.hpp"
@@ -10,6 +8,7 @@
 #include "render/image/png_read.hpp"
 #include "render/plot/layout.hpp"
 #include "tests/support/baselines.hpp"
+#include "tests/support/image_comparison.hpp"
 #include "tests/support/sample_figures.hpp"
 
 namespace mapproof::test {
@@ -19,7 +18,7 @@ Figure map_to_compare() { return map_figure(sample_map(20, 0.15, 2), "map"); }
 
 Image drawn(const Figure& figure) { return to_image(lay_out(figure, baseline_theme())); }
 
-/// The picture of the usual map after a change to what is drawn.
+/// The image of the usual map after a change to what is drawn.
 template <typename Change>
 Image changed_map(Change change) {
   Drawing drawing = lay_out(map_to_compare(), baseline_theme());

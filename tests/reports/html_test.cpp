@@ -90,14 +90,14 @@ TEST(ReportHtml, LetsNoTextBecomeATag) {
       EXPECT_NE(page.find(html_escaped(text)), std::string::npos) << text;
 }
 
-TEST(ReportHtml, ShowsBytesThatAreNoTextInsteadOfPassingThemOn) {
+TEST(ReportHtml, ShowsBytesThatAreNotTextInsteadOfPassingThemOn) {
   const Report report{std::string("a\0b\xff\x1b", 5), "", {}, ""};
   const std::string page = report_html(report, load_templates(), {});
   EXPECT_NE(page.find("a\u2400b\uFFFD\u241B"), std::string::npos);
   EXPECT_EQ(page.find('\0'), std::string::npos);
 }
 
-TEST(ReportHtml, StandsAloneWithoutFoldersBesideIt) {
+TEST(ReportHtml, StandsAloneWithoutOtherFolders) {
   const auto hostile = test::hostile_report();
   const std::string page = report_html(hostile.report, load_templates(), {}, {"", ""});
   EXPECT_TRUE(all_matches(page, "href=\"([^#d][^\"]*)\"").empty());
@@ -127,7 +127,7 @@ TEST(ReportHtml, HoldsDrawingsUpToItsBudgetTheOpeningsFirstThenFiguresThenScenes
   EXPECT_NE(page.find("3 of 6 figures are not in this page"), std::string::npos);
 }
 
-TEST(ReportHtml, SaysNothingOfABudgetThatSuffices) {
+TEST(ReportHtml, DoesNotMentionABudgetThatSuffices) {
   const std::string page = report_html(with_figures(6), load_templates(), ten_bytes);
   EXPECT_EQ(page.find("not in this page"), std::string::npos);
   EXPECT_EQ(all_matches(page, "(class=\"drawing\")").size(), 6u);
@@ -138,7 +138,7 @@ TEST(ReportHtml, RefusesADrawingThatCouldEndTheElementThatHoldsIt) {
   EXPECT_THROW(report_html(with_figures(5), load_templates(), svg), InvalidInput);
 }
 
-TEST(ReportHtml, RefusesAnOpeningWithAFigureThatIsNotThere) {
+TEST(ReportHtml, RefusesAnOpeningWithAMissingFigure) {
   Report report = with_figures(2);
   EXPECT_THROW(report_html(report, load_templates(), {}), InvalidInput);
 }
@@ -163,7 +163,7 @@ TEST(ReportHtml, NamesTheCommandOfAFigureWithTheProvenanceAlone) {
   EXPECT_EQ(page.find("mapproof render", at + 10), std::string::npos);
 }
 
-TEST(ReportHtml, RefusesAReportWithAnIdThatIsNone) {
+TEST(ReportHtml, RefusesAReportWithAnInvalidId) {
   Report report;
   report.sections.push_back({"no id", "", {}});
   EXPECT_THROW(report_html(report, load_templates(), {}), InvalidInput);

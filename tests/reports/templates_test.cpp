@@ -58,14 +58,14 @@ TEST(Templates, OfAFolderReplaceTheEmbeddedOnesFileByFile) {
   EXPECT_EQ(report_html({"a < b", "", {}, ""}, templates, {}), "<title>a &lt; b</title>\n\n");
 }
 
-TEST(Templates, SayWhereASectionIsLeftOpen) {
+TEST(Templates, ReportWhereASectionIsLeftOpen) {
   const std::string text = complaint("report.mustache", "one\n{{#sections}}\n{{#blocks}}\n");
   EXPECT_NE(text.find("report.mustache: line 3: the section \"blocks\" is not closed"),
             std::string::npos)
       << text;
 }
 
-TEST(Templates, SayWhereATagIsBroken) {
+TEST(Templates, ReportWhereATagIsBroken) {
   EXPECT_NE(complaint("table.mustache", "a\n{{title").find("line 2: the tag is not closed"),
             std::string::npos);
   EXPECT_NE(complaint("table.mustache", "{{/a}}").find("line 1"), std::string::npos);
@@ -98,7 +98,7 @@ TEST(Templates, CannotEndTheStyleSheetOrTheScriptWithinIt) {
   EXPECT_NE(complaint("report.js", "x = '<!--'").find("line 1"), std::string::npos);
 }
 
-TEST(Templates, RefuseWhatIsNoFolderOfTemplates) {
+TEST(Templates, RefuseAFolderWithoutTemplates) {
   const fs::path folder = fresh_folder();
   EXPECT_THROW(load_templates(folder / "missing"), IoError);
   EXPECT_THROW(load_templates(folder), IoError);  // empty: surely another folder was meant

@@ -6,9 +6,9 @@
 #include <fmt/format.h>
 
 #include "core/base/files.hpp"
-#include "render/image/compare.hpp"
 #include "render/image/png.hpp"
 #include "render/image/png_read.hpp"
+#include "tests/support/image_comparison.hpp"
 #include "tests/support/sample_figures.hpp"
 
 namespace mapproof::test {

@@ -83,7 +83,7 @@ std::string_view kind_of(const ApprovalSide& side) {
   if (several != side.files.end() && several->first.starts_with(std::string(kRecordsItem) + "/"))
     return "several folders of records";
   for (const auto& [id, paths] : side.files)
-    if (std::ranges::any_of(paths, is_drawn)) return "figures or pictures without records";
+    if (std::ranges::any_of(paths, is_drawn)) return "figures or images without records";
   return "";
 }
 
@@ -127,7 +127,7 @@ void require_records(const fs::path& folder) {
 void require_comparable(const ApprovalSide& baseline, const ApprovalSide& current) {
   require_apart(baseline.root, current.root);
   if (current.files.empty())
-    throw InvalidInput(fmt::format("CURRENT {} holds no records, figures, pictures or tables",
+    throw InvalidInput(fmt::format("CURRENT {} holds no records, figures, images or tables",
                                    current.root.string()));
   for (const auto& [id, paths] : current.files)
     if (id == kRecordsItem)
@@ -231,8 +231,8 @@ class Planner {
     return plan;
   }
 
-  /// Why the item cannot be taken; empty if it can.
-  /// @param whole  All records are taken with it.
+  /// Why the item cannot be approved; empty if it can.
+  /// @param whole  Whether all records are approved with it.
   std::string refusal(const std::string& id, bool whole) {
     planned_.clear();
     steps_.clear();
@@ -249,14 +249,14 @@ class Planner {
   bool has_records() const { return after_.contains(kRecordsItem); }
 
  private:
-  /// @param whole  All records are taken too.
+  /// @param whole  Whether all records are approved too.
   void add_id(const std::string& id, const std::string& key, bool whole) {
     if (!key.empty()) return add_keyed(id, key);
     if (!whole) add_records_of(id);
     add_item(id);
   }
 
-  /// Many removed files are the sign of a mistaken CURRENT.
+  /// Refuses to remove most files: this is the sign of a mistaken CURRENT.
   void require_most_stays(const std::vector<ApprovalStep>& steps) const {
     std::set<fs::path> files;
     for (const auto& [id, paths] : before_) files.insert(paths.begin(), paths.end());
@@ -361,7 +361,7 @@ ApprovalPlan approval_plan(const fs::path& baseline, const fs::path& current,
     throw InvalidInput("the key \"" + printable(order.key) +
                        "\" may hold letters, digits, '.', '_' and '-' alone");
   std::error_code error;
-  if (!fs::exists(current, error)) throw IoError(current.string(), "is not there");
+  if (!fs::exists(current, error)) throw IoError(current.string(), "does not exist");
   return Planner(baseline, current).plan(order);
 }
 

@@ -16,7 +16,7 @@ struct ApprovalStep {
 
 /// What is to become the new baseline.
 struct ApprovalOrder {
-  std::vector<std::string> ids;  ///< Of items.
+  std::vector<std::string> ids;  ///< The ids of items.
   bool all = false;              ///< Every item of either side.
   std::string key;               ///< Images become further baselines ID@KEY; [A-Za-z0-9._-]*.
   bool force = false;            ///< `all` may remove more than half of the baseline's files.
@@ -24,21 +24,21 @@ struct ApprovalOrder {
 
 struct ApprovalPlan {
   std::vector<ApprovalStep> steps;
-  std::vector<std::string> refused = {};  ///< With `all`: items that cannot be taken, and why.
-  /// Below the baseline: files that apply() makes from the records that it takes.
+  std::vector<std::string> refused = {};  ///< With `all`: items that cannot be approved, and why.
+  /// Relative to the baseline: files that apply() makes from the approved records.
   std::vector<std::filesystem::path> made = {};
 };
 
 /// The steps that make the items of the baseline those of the current, without the files that are
 /// equal. An item has these files: a figure its records, ID.figure.json, ID.scene.json, SVG, PNG
 /// and PDF; a table its formats; "records" the whole study with its timings. Records come before
-/// the figures made from them. An item is taken whole or not at all. A file of the baseline is
+/// the figures made from them. An item is approved whole or not at all. A file of the baseline is
 /// removed only where the current has no file and no folder of that name.
 /// @throws InvalidInput for sides that are not comparable (see require_comparable()), an id that is
 ///         on neither side, a key that cannot be part of a name, or if `all` would remove more than
 ///         half of the baseline without `force`. Without `all` also for a current file that cannot
 ///         be read, and for a figure whose records are of another experiment than the baseline's:
-///         such records are taken only as a whole.
+///         such records are approved only as a whole.
 /// @throws IoError if the current does not exist, a folder cannot be listed, or the file with the
 ///         schema of its records cannot be read.
 /// @note Reads each file of the items once or twice.

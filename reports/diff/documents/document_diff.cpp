@@ -53,7 +53,7 @@ bool is_provenance(const std::string& id) {
   return id.starts_with("section ") && id.ends_with("provenance");
 }
 
-/// Where a region to be left out ends that begins at `at`; `at` if none does.
+/// The end of the region to leave out that begins at `at`; `at` if none begins there.
 std::size_t region_end(std::string_view html, std::size_t at,
                        const std::function<bool(const std::string& id)>& is_told) {
   for (const Region& region : kRegions) {
@@ -65,7 +65,7 @@ std::size_t region_end(std::string_view html, std::size_t at,
   return at;
 }
 
-/// Where the element at `at` ends if it holds no text; else `at`.
+/// The end of the element at `at` if it holds no text; else `at`.
 std::size_t silent_end(std::string_view html, std::size_t at) {
   for (const std::string_view name : kSilent) {
     if (!html.substr(at + 1).starts_with(name)) continue;
@@ -75,10 +75,11 @@ std::size_t silent_end(std::string_view html, std::size_t at) {
   return at;
 }
 
-/// A report's page without what is told elsewhere: its scripts and styles stay, its provenance
-/// (versions, commands, dates) and the figures and tables that `is_told` names go, region by
-/// region. Ids are "figure-ID" of <figure>, "caption-ID" of <table>, "section-ID" of <section>.
-/// @param is_told  Takes "fig-7" or "tables/accuracy".
+/// A report's page without the parts that other items cover. Its scripts and styles stay; its
+/// provenance (versions, commands, dates) and the figures and tables that `is_told` accepts are
+/// removed, region by region. Ids are "figure-ID" of <figure>, "caption-ID" of <table>,
+/// "section-ID" of <section>.
+/// @param is_told  Whether another item covers "fig-7" or "tables/accuracy".
 std::string masked_page(std::string_view html,
                         const std::function<bool(const std::string& id)>& is_told) {
   std::string kept;
@@ -95,7 +96,7 @@ std::string masked_page(std::string_view html,
   return kept;
 }
 
-/// What a page says, without its markup, scripts and styles: pieces of text, a line each.
+/// The text of a page without its markup, scripts and styles: one line per piece of text.
 std::string page_words(std::string_view html) {
   std::string words;
   for (std::size_t at = 0; at < html.size();) {
@@ -135,7 +136,7 @@ const DiffItem* heaviest_records(const std::vector<DiffItem>& told) {
   return heaviest;
 }
 
-/// What data that changed are worth, by the records that they follow from.
+/// Judges changed data by the records from which they follow.
 Judgement by_records(const std::string& what, const std::vector<DiffItem>& told) {
   const DiffItem* records = heaviest_records(told);
   if (records == nullptr) return {Verdict::kChanged, true, what};
@@ -143,14 +144,14 @@ Judgement by_records(const std::string& what, const std::vector<DiffItem>& told)
   if (verdict <= Verdict::kWithinTolerance)
     return {Verdict::kChanged, true, what + "; its records did not change"};
   const bool has_direction = verdict == Verdict::kBetter || verdict == Verdict::kWorse;
-  // The records' own item has the rest.
+  // The item of the records has the details.
   const std::string& cause = records->judgement.cause;
   return {has_direction ? verdict : Verdict::kChanged, true,
           fmt::format("{}; it follows from {}: {}", what, records->id,
                       cause.substr(0, cause.find("; ")))};
 }
 
-/// All that the text is, as a number.
+/// The whole text as a number.
 std::optional<double> number(const std::string& text) {
   double value = 0.0;
   const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
@@ -203,8 +204,8 @@ void compare_tables(DiffItem& item, const ItemFiles& a, const ItemFiles& b,
     }
     tables.push_back(table_diff(format, baseline, current->second, tolerance));
     item.documents.push_back(tables.back().cells);
-    // Printed numbers are rounded ones of the CSV, the first of the formats: the last digit may
-    // turn where those differ within tolerance.
+    // Printed numbers are rounded from the CSV, the first of the formats: their last digit may
+    // change where the exact numbers differ within tolerance.
     if (format == "csv" && tables.back().cells.within > 0) tolerance.absolute = 1e300;
   }
   if (!tables.empty()) item.judgement = judge_table(item, tables, told);
@@ -245,12 +246,12 @@ void compare_pages(DiffItem& item, const fs::path& baseline, const fs::path& cur
   item.documents.push_back({.file = baseline.filename().string()});
   if (a == b) {
     item.judgement = {Verdict::kWithinTolerance, false,
-                      "the same, but for what is told of its parts, and its provenance"};
+                      "equal, except for its provenance and for parts that other items cover"};
     return;
   }
   const std::string words = page_words(a), other_words = page_words(b);
   if (words == other_words) {
-    item.judgement = {Verdict::kStyle, true, "its words are equal, its styles or markup are not"};
+    item.judgement = {Verdict::kStyle, true, "its text is equal, its styles or markup are not"};
     return;
   }
   OtherDiff& first = item.documents.back() = words_diff(words, other_words);
@@ -261,7 +262,7 @@ void compare_pages(DiffItem& item, const fs::path& baseline, const fs::path& cur
   if (change == TextChange::kWithin)
     item.judgement = {Verdict::kWithinTolerance, false, "its numbers differ within tolerance"};
   else if (change == TextChange::kWords && !follows)
-    item.judgement = {Verdict::kStyle, true, "other words, " + first_text(first)};
+    item.judgement = {Verdict::kStyle, true, "the text differs, " + first_text(first)};
   else
     item.judgement = by_records(first_text(first), told);
 }

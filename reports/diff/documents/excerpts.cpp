@@ -7,9 +7,10 @@
 namespace mapproof {
 namespace {
 
-constexpr std::size_t kBefore = 24;  // Bytes shown of what both have.
+constexpr std::size_t kBefore = 24;  // Bytes of the common beginning that are shown.
 
-/// Where to begin: at a word, at most kBefore bytes before `at`, never within a character.
+/// The start of the excerpt: at a word, at most kBefore bytes before `at`, never within a
+/// character.
 std::size_t beginning(const std::string& text, std::size_t at) {
   std::size_t from = at > kBefore ? at - kBefore : 0;
   const std::size_t blank = text.find(' ', from);

@@ -6,8 +6,8 @@
 
 namespace mapproof {
 
-/// Two texts that differ, each printable and cut to `most` characters so that what is left differs
-/// too: long ones begin, after "… ", shortly before their first difference.
+/// Two texts that differ, each printable and cut to `most` characters so that the excerpts differ
+/// too. Long texts begin, after "… ", shortly before their first difference.
 std::pair<std::string, std::string> excerpts(const std::string& a, const std::string& b,
                                              std::size_t most);
 

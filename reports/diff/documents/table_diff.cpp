@@ -20,7 +20,7 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr std::size_t kLargestTable = std::size_t{1} << 26;  // Bytes.
-constexpr std::size_t kMostCellText = 60;                    // Of a cell that is told.
+constexpr std::size_t kMostCellText = 60;                    // Of a cell in a message.
 constexpr std::array<std::string_view, 4> kVarying = {"durations", "sessions", "slam-seconds",
                                                       "slam-sessions"};
 
@@ -28,7 +28,7 @@ using Row = std::vector<std::string>;
 
 struct Rows {
   std::vector<Row> rows = {};
-  std::size_t heading = 0;  ///< Which of them names the columns.
+  std::size_t heading = 0;  ///< The index of the row with the names of the columns.
   bool has_heading = false;
 };
 
@@ -76,7 +76,7 @@ Rows read_lines(std::string_view text, const std::string& source, bool is_markdo
   const bool is_whole = is_markdown ? table.has_heading
                                     : text.find("\\toprule") != std::string_view::npos &&
                                           text.find("\\end{table}") != std::string_view::npos;
-  if (!is_whole) throw IoError(source, "is not a table of ours, or is truncated");
+  if (!is_whole) throw IoError(source, "is not a table that mapproof wrote, or is truncated");
   return table;
 }
 

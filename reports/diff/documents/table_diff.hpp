@@ -8,16 +8,17 @@
 
 namespace mapproof {
 
-/// Whether a table of that id holds what no two makings share: seconds, dates, hosts, commands.
+/// Whether the content of the table with that id differs from run to run: seconds, dates, hosts,
+/// commands.
 bool varies(std::string_view table);
 
-/// What two tables of one format ("csv", "md", "tex") differ in, cell by cell.
+/// The differences of two tables of one format ("csv", "md", "tex"), cell by cell.
 struct TableDiff {
-  OtherDiff cells;        ///< Places are "row 3 (ISOMAP), MPE [m]".
-  bool is_style = false;  ///< Headings, captions or markup alone differ.
+  OtherDiff cells;        ///< Locations are "row 3 (ISOMAP), MPE [m]".
+  bool is_style = false;  ///< Only headings, captions or markup differ.
 };
 
-/// @param tolerance  Of numbers, in words too.
+/// @param tolerance  Of numbers, also of those within texts.
 /// @throws IoError if either cannot be read as a table of that format.
 TableDiff table_diff(const std::string& format, const std::filesystem::path& baseline,
                      const std::filesystem::path& current, const Tolerance& tolerance);

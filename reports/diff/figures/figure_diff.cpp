@@ -26,7 +26,7 @@ std::string text_of(const std::optional<Range>& limits) {
                 : std::string("what the data need");
 }
 
-/// Words are not data, the numbers in them are, but of a figure that varies.
+/// Texts are not data, but the numbers in them are, except in a figure that varies.
 ChangeKind kind_of(const std::string& a, const std::string& b, bool varies, ChangeKind of_words) {
   return varies || same_numbers(a, b) ? of_words : ChangeKind::kData;
 }
@@ -41,12 +41,12 @@ void compare_words(const Figure& a, const Figure& b, FigureLog& log) {
   log.change(ChangeKind::kMetadata, "figure", "id", a.id, b.id);
   words("title", a.title, b.title);
   words("caption", a.caption, b.caption);
-  // Of a figure that varies it tells the values, and may name them in another order.
+  // In a figure that varies it contains the values, perhaps in a different order.
   if (a.alt != b.alt && varies)
     log.mask();
   else
     words("alternative text", a.alt, b.alt);
-  // No word alone: of a figure that varies nothing more is judged next time.
+  // This is data: the next comparison judges less of a figure that varies.
   log.change(ChangeKind::kData, "figure", "varies from run to run", a.varies ? "yes" : "no",
              b.varies ? "yes" : "no");
   if (a.record_ids != b.record_ids) {
@@ -87,10 +87,17 @@ void compare_frame(const Figure& a, const Figure& b, FigureLog& log) {
   add("arrows", arrows_text(a), arrows_text(b));
 }
 
-void compare_axis(const std::string& place, const char* which, const Axis& a, const Axis& b,
-                  bool varies, FigureLog& log) {
+/// The same axis of a panel on both sides.
+struct AxisPair {
+  const char* name;  ///< "x" or "y".
+  const Axis& baseline;
+  const Axis& current;
+};
+
+void compare_axis(const std::string& place, const AxisPair& axes, bool varies, FigureLog& log) {
+  const Axis &a = axes.baseline, &b = axes.current;
   const auto add = [&](const char* what, const std::string& before, const std::string& after) {
-    log.change(ChangeKind::kStyle, place, fmt::format("{} of {}", what, which), before, after);
+    log.change(ChangeKind::kStyle, place, fmt::format("{} of {}", what, axes.name), before, after);
   };
   add("label", a.label, b.label);
   add("scale", a.scale == Scale::kLog ? "log" : "linear",
@@ -106,8 +113,8 @@ void compare_axis(const std::string& place, const char* which, const Axis& a, co
 void compare_axes(const std::string& place, const Panel& a, const Panel& b, bool varies,
                   FigureLog& log) {
   log.change(ChangeKind::kStyle, place, "title", a.title, b.title);
-  compare_axis(place, "x", a.x, b.x, varies, log);
-  compare_axis(place, "y", a.y, b.y, varies, log);
+  compare_axis(place, {"x", a.x, b.x}, varies, log);
+  compare_axis(place, {"y", a.y, b.y}, varies, log);
   log.change(ChangeKind::kStyle, place, "aspect", a.equal_aspect ? "equal" : "free",
              b.equal_aspect ? "equal" : "free");
   log.change(ChangeKind::kStyle, place, "frame", a.bare ? "bare" : "with axes",
@@ -152,7 +159,8 @@ std::string change_sentence(const FigureChange& change) {
   return fmt::format("{} {} \u2192 {}", text, before, after);
 }
 
-/// The first change of that kind, and how many more there are; other records are told apart.
+/// The first change of that kind, and the number of others. A change of records has a sentence of
+/// its own.
 std::string first_of(const FigureDiff& diff, ChangeKind kind) {
   const FigureChange* first = nullptr;
   long count = 0;
@@ -163,7 +171,7 @@ std::string first_of(const FigureDiff& diff, ChangeKind kind) {
          (count > 1 ? fmt::format(", and {} more", counted(count - 1, "change")) : "");
 }
 
-/// Whether places that are given, not estimated, moved: then it is another world.
+/// Whether positions that are given, not estimated, moved: the experiments then differ.
 bool truth_moved(const FigureDiff& diff) {
   return std::ranges::any_of(diff.moves, [](const MarkMove& move) {
     return move.place.find("\"true ") != std::string::npos ||
@@ -200,23 +208,6 @@ std::string data_cause(const FigureDiff& diff) {
 
 }  // namespace
 
-std::string_view name(ChangeKind kind) {
-  switch (kind) {
-    case ChangeKind::kMetadata:
-      return "metadata";
-    case ChangeKind::kStyle:
-      return "style";
-    case ChangeKind::kData:
-      return "data";
-  }
-  return "";
-}
-
-bool FigureDiff::has(ChangeKind kind) const {
-  if (kind == ChangeKind::kData && moved > 0) return true;
-  return std::ranges::any_of(changes, [&](const FigureChange& c) { return c.kind == kind; });
-}
-
 FigureDiff figure_diff(const Figure& a, const Figure& b, const FigureOptions& options) {
   const bool varies = a.varies && b.varies;
   FigureLog log(varies);
@@ -227,13 +218,13 @@ FigureDiff figure_diff(const Figure& a, const Figure& b, const FigureOptions& op
   for (std::size_t p = 0; p < std::max(a.panels.size(), b.panels.size()); ++p) {
     if (p >= a.panels.size() || p >= b.panels.size()) {
       const bool removed = p < a.panels.size();
-      LayerDiff layers(p, a, places, options, log);
+      LayerDiff layers({p, a, places, options}, log);
       for (const Layer& layer : (removed ? a : b).panels[p].layers) layers.lone(layer, removed);
       continue;
     }
     compare_axes(fmt::format("panel {}", p + 1), a.panels[p], b.panels[p], varies, log);
     const auto shared = varies ? shared_names(a.panels[p], b.panels[p]) : std::set<std::string>();
-    LayerDiff layers(p, a, places, options, log, varies ? &shared : nullptr);
+    LayerDiff layers({p, a, places, options, varies ? &shared : nullptr}, log);
     compare_layers(a.panels[p], b.panels[p], layers, log);
   }
   return log.take();
@@ -245,9 +236,9 @@ std::string move_text(const MarkMove& move) {
                                                 : "landmark " + printable(move.landmark);
   std::string text =
       std::isnan(move.distance)
-          ? fmt::format(
-                "{} {}", who,
-                std::isnan(move.current.x + move.current.y) ? "lost its place" : "gained a place")
+          ? fmt::format("{} {}", who,
+                        std::isnan(move.current.x + move.current.y) ? "lost its position"
+                                                                    : "gained a position")
           : fmt::format("{} moved {}", who, length_text(move.distance, move.unit));
   if (move.distance_px) text += fmt::format(" ({:.1f} px)", *move.distance_px);
   return text;
@@ -259,7 +250,7 @@ Judgement judge(const FigureDiff& diff) {
   if (diff.has(ChangeKind::kStyle))
     return {Verdict::kStyle, true, first_of(diff, ChangeKind::kStyle)};
   if (diff.has(ChangeKind::kMetadata))
-    return {Verdict::kStyle, true, "words alone: " + first_of(diff, ChangeKind::kMetadata)};
+    return {Verdict::kStyle, true, "only texts: " + first_of(diff, ChangeKind::kMetadata)};
   if (diff.within > 0)
     return {Verdict::kWithinTolerance, false,
             counted(diff.within, "point") + " moved within tolerance"};

@@ -12,7 +12,7 @@
 namespace mapproof {
 namespace {
 
-/// What the comparison calls a field that has another name in files.
+/// The names in the comparison of fields that have a different name in files.
 std::string_view word_of(std::string_view key) {
   constexpr std::array<std::pair<std::string_view, std::string_view>, 8> kWords = {
       {{"ink", "colour"},
@@ -27,7 +27,7 @@ std::string_view word_of(std::string_view key) {
   return found == kWords.end() ? key : found->second;
 }
 
-/// Sorts the fields of a layer by what they are.
+/// Sorts the fields of a layer by their role.
 struct LayerViewer : FieldVisitor {
   LayerView view;
 
@@ -39,7 +39,7 @@ struct LayerViewer : FieldVisitor {
     else
       view.styles.push_back({word_of(key), text});
   }
-  /// Words beside points; what stands in cells are their values once more.
+  /// Texts at points. The texts in cells repeat the values of the cells.
   void field(std::string_view, const std::vector<std::string>& texts, const FieldRule& = {}) {
     if (view.kind != "cells") view.texts = texts;
   }

@@ -15,25 +15,25 @@ struct LayerStyle {
   std::string value;      ///< "series2".
 };
 
-/// Numbers of a layer, one a point.
+/// Numbers of a layer, one per point.
 struct Coordinates {
   std::string_view name;  ///< "x0".
   std::span<const double> values;
 };
 
-/// A number that is the whole layer's.
+/// A number of the whole layer.
 struct LayerExtent {
   std::string_view what;  ///< "left edge".
   double value = 0.0;
 };
 
-/// A place of each point: which coordinates make it.
+/// The coordinates that form a position of each point.
 struct Places {
   std::size_t x = 0;  ///< Index into LayerView::coordinates.
   std::size_t y = 0;
 };
 
-/// Any layer, seen alike. Refers to the layer.
+/// A uniform view of any layer. Refers to the layer.
 struct LayerView {
   std::string_view kind;  ///< As in files: "polyline".
   std::string label;
@@ -41,9 +41,9 @@ struct LayerView {
   std::vector<Coordinates> coordinates;
   std::vector<Places> places;
   std::vector<LayerExtent> extents;
-  std::span<const std::string> texts;  ///< One a point, or none.
-  std::span<const Mark> marks;         ///< One a point, one for all, or none.
-  bool is_whole = false;               ///< The mark is that of the whole layer.
+  std::span<const std::string> texts;  ///< One per point, or none.
+  std::span<const Mark> marks;         ///< One per point, one for all, or none.
+  bool is_whole = false;               ///< The mark belongs to the whole layer.
 
   std::size_t points() const { return coordinates.empty() ? 0 : coordinates[0].values.size(); }
   bool has_mark_a_point() const { return !is_whole && marks.size() == points(); }
@@ -51,7 +51,7 @@ struct LayerView {
 
 LayerView view_of(const Layer& layer);
 
-/// What an attribute of a mark says; empty if it has none of that name.
+/// The value of an attribute of a mark; empty if it has none of that name.
 std::string_view data_of(const Mark& mark, std::string_view key);
 
 }  // namespace mapproof

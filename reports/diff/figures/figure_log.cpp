@@ -20,6 +20,23 @@ void keep_farthest(std::vector<MarkMove>& moves) {
 
 }  // namespace
 
+std::string_view name(ChangeKind kind) {
+  switch (kind) {
+    case ChangeKind::kMetadata:
+      return "metadata";
+    case ChangeKind::kStyle:
+      return "style";
+    case ChangeKind::kData:
+      return "data";
+  }
+  return "";
+}
+
+bool FigureDiff::has(ChangeKind kind) const {
+  if (kind == ChangeKind::kData && moved > 0) return true;
+  return std::ranges::any_of(changes, [&](const FigureChange& c) { return c.kind == kind; });
+}
+
 void FigureLog::change(ChangeKind kind, const std::string& place, std::string_view what,
                        const std::string& baseline, const std::string& current) {
   if (baseline == current) return;
@@ -28,7 +45,7 @@ void FigureLog::change(ChangeKind kind, const std::string& place, std::string_vi
     return;
   }
   ++diff_.total_changes;
-  // Of each kind the first ones, so that many of one do not hide another.
+  // Keeps the first ones of each kind, so that many of one kind do not hide another.
   const auto same_kind = std::ranges::count(diff_.changes, kind, &FigureChange::kind);
   if (same_kind < static_cast<std::ptrdiff_t>(kMostEntries))
     diff_.changes.push_back({kind, place, std::string(what), baseline, current});

@@ -8,7 +8,7 @@
 namespace mapproof {
 namespace {
 
-/// Names of all points, if they are there and unique.
+/// The names of all points, if all have one and they are unique.
 std::optional<std::map<std::string_view, std::size_t>> names_of(const LayerView& layer) {
   std::map<std::string_view, std::size_t> names;
   const bool by_mark = layer.has_mark_a_point();

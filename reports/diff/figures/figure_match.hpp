@@ -8,19 +8,20 @@
 
 namespace mapproof {
 
-/// Which layer or point of the baseline is which of the current; one side empty: it has no partner.
+/// A layer or point of the baseline and its counterpart in the current; one side is empty if there
+/// is none.
 struct Match {
   std::optional<std::size_t> baseline;
   std::optional<std::size_t> current;
 };
 
-/// Layers by equal value, then by kind, label and mark, then by kind alone, in order. Those of the
-/// baseline first, in their order.
+/// Matches layers by equal value, then by kind, label and mark, then by kind alone, in order. The
+/// layers of the baseline come first, in their order.
 std::vector<Match> match_layers(const std::vector<Layer>& baseline,
                                 const std::vector<Layer>& current);
 
-/// Points by the id of their marks or by their text where these are unique; else by place in the
-/// row, what is equal at both ends first, so that one lost point is one difference.
+/// Matches points by the id of their marks or by their text where these are unique; else by index,
+/// equal points at both ends first, so that one lost point is one difference.
 std::vector<Match> match_points(const LayerView& baseline, const LayerView& current);
 
 }  // namespace mapproof

@@ -9,7 +9,7 @@
 namespace mapproof {
 namespace {
 
-/// The limits of all panels; a shared axis has those of all together.
+/// The limits of all panels; a shared axis has the common limits of all.
 std::vector<PanelLimits> limits_of(const Figure& figure) {
   std::vector<PanelLimits> limits;
   for (const Panel& panel : figure.panels) limits.push_back(panel_limits(panel));
@@ -73,7 +73,7 @@ const FigurePlaces::Pages& FigurePlaces::pages() const {
 
 std::optional<double> FigurePlaces::distance_px(std::size_t panel, Point before,
                                                 Point after) const {
-  // Both on the current page: that the axes moved is not a move of the mark.
+  // Both on the current page: a change of the axes is not a movement of the mark.
   const Pages& page = pages();
   if (panel >= page.current.size()) return std::nullopt;
   const Point from = page.current[panel](before.x, before.y);

@@ -11,22 +11,23 @@ namespace mapproof {
 
 enum class Movement { kNone, kWithin, kBeyond };
 
-/// Where the points of two figures stand, in their units and on the page.
+/// The positions of the points of two figures, in their units and on the page.
 class FigurePlaces {
  public:
   /// The figures must outlive it. A figure that cannot be drawn has no page.
   FigurePlaces(const Figure& baseline, const Figure& current);
 
-  /// Whether a point of a panel moved: along an axis by more than `tolerance`, its relative part
-  /// that of what the panel spans, or on a log axis of the value. A point on one side alone moved.
+  /// Whether a point of a panel moved along an axis by more than `tolerance`. The relative part
+  /// refers to the span of the panel, or on a log axis to the value. A point on only one side
+  /// moved.
   Movement movement(std::size_t panel, Point before, Point after, const Tolerance& tolerance) const;
 
-  /// Between the two places on the pages of the report's theme, in its pixels.
+  /// The distance of two positions on the page of the report's theme, in its pixels.
   std::optional<double> distance_px(std::size_t panel, Point before, Point after) const;
 
  private:
   struct Pages {
-    std::vector<PanelMap> current;  ///< One a panel; empty: cannot be drawn.
+    std::vector<PanelMap> current;  ///< One per panel; empty: cannot be drawn.
     double px_per_pt = 1.0;
   };
   const Pages& pages() const;
@@ -34,7 +35,7 @@ class FigurePlaces {
   const Figure& baseline_;
   const Figure& current_;
   std::vector<PanelLimits> limits_;     ///< Of the baseline's panels.
-  mutable std::optional<Pages> pages_;  ///< Laid out when first asked for.
+  mutable std::optional<Pages> pages_;  ///< Computed on first use.
 };
 
 }  // namespace mapproof

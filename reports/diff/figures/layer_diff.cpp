@@ -16,7 +16,7 @@ namespace {
 
 constexpr double kWritten = 2e-5;  // Relative: data-* hold six digits.
 
-/// Of one point: what it is called.
+/// The name of one point.
 std::string point_text(const LayerView& layer, std::size_t point) {
   if (layer.has_mark_a_point()) {
     const std::string_view landmark = data_of(layer.marks[point], "landmark");
@@ -34,7 +34,7 @@ std::string unit_of(const Axis& axis) {
   return printable(axis.label.substr(open + 1, close - open - 1));
 }
 
-/// The unit of the axis that a point moved along, or of both.
+/// The unit of the axis along which a point moved, or of both.
 std::string unit_of_move(const Panel& panel, Point before, Point after) {
   const std::string x = unit_of(panel.x), y = unit_of(panel.y);
   if (before.x == after.x) return y;
@@ -51,7 +51,8 @@ std::optional<double> number_of(const std::string& text) {
 }  // namespace
 
 std::string LayerDiff::place(const LayerView& layer) const {
-  std::string text = figure_.panels.size() > 1 ? fmt::format("panel {}, ", panel_ + 1) : "";
+  std::string text =
+      panel_.figure.panels.size() > 1 ? fmt::format("panel {}, ", panel_.panel + 1) : "";
   text += layer.kind;
   std::string name = layer.label;
   if (name.empty() && layer.is_whole) name = layer.marks[0].id;
@@ -59,17 +60,17 @@ std::string LayerDiff::place(const LayerView& layer) const {
   return text;
 }
 
-/// Points without names come and go with what they show.
+/// Points without names appear and disappear with the data.
 bool LayerDiff::may_vary(const LayerView& layer, std::size_t point) const {
-  if (shared_ == nullptr) return false;
+  if (panel_.shared == nullptr) return false;
   if (!layer.has_mark_a_point()) return true;
   const std::string& name = layer.marks[point].id;
-  return name.empty() || shared_->contains(name);
+  return name.empty() || panel_.shared->contains(name);
 }
 
 void LayerDiff::lone(const Layer& layer, bool removed) {
   const LayerView view = view_of(layer);
-  bool all_vary = shared_ != nullptr && !view.is_whole;
+  bool all_vary = panel_.shared != nullptr && !view.is_whole;
   for (std::size_t i = 0; i < view.points(); ++i) all_vary = all_vary && may_vary(view, i);
   if (all_vary) {
     log_.mask();
@@ -87,7 +88,7 @@ void LayerDiff::compare(const LayerView& a, const LayerView& b) {
   for (std::size_t i = 0; i < a.styles.size(); ++i)
     log_.change(ChangeKind::kStyle, place_, a.styles[i].what, a.styles[i].value, b.styles[i].value);
   for (std::size_t i = 0; i < a.extents.size(); ++i)
-    if (!options_.position.holds(a.extents[i].value, b.extents[i].value))
+    if (!panel_.options.position.holds(a.extents[i].value, b.extents[i].value))
       log_.change(ChangeKind::kData, place_, a.extents[i].what,
                   fmt::format("{}", a.extents[i].value), fmt::format("{}", b.extents[i].value));
   if (a.is_whole) compare_data(a.marks[0], b.marks[0]);
@@ -126,14 +127,15 @@ void LayerDiff::compare_point(const LayerView& a, std::size_t i, const LayerView
   for (const Places& at : a.places) {
     const Point before{a.coordinates[at.x].values[i], a.coordinates[at.y].values[i]};
     const Point after{b.coordinates[at.x].values[j], b.coordinates[at.y].values[j]};
-    const Movement movement = places_.movement(panel_, before, after, options_.position);
+    const Movement movement =
+        panel_.places.movement(panel_.panel, before, after, panel_.options.position);
     is_within |= movement == Movement::kWithin;
     if (movement != Movement::kBeyond) continue;
     MarkMove move = mark_move(a, i, before, after);
     if (!farthest || move.distance > farthest->distance) farthest = std::move(move);
   }
-  if (i < a.texts.size() && j < b.texts.size() && shared_ == nullptr)
-    // Labels are what points are called, texts may be the values of cells.
+  if (i < a.texts.size() && j < b.texts.size() && panel_.shared == nullptr)
+    // Labels are names of points; texts may be the values of cells.
     log_.change(a.kind == "labels" || !same_numbers(a.texts[i], b.texts[j]) ? ChangeKind::kData
                                                                             : ChangeKind::kStyle,
                 place_, "text", a.texts[i], b.texts[j]);
@@ -155,8 +157,8 @@ MarkMove LayerDiff::mark_move(const LayerView& layer, std::size_t point, Point b
                 .baseline = before,
                 .current = after,
                 .distance = std::hypot(after.x - before.x, after.y - before.y),
-                .unit = unit_of_move(figure_.panels[panel_], before, after),
-                .distance_px = places_.distance_px(panel_, before, after)};
+                .unit = unit_of_move(panel_.figure.panels[panel_.panel], before, after),
+                .distance_px = panel_.places.distance_px(panel_.panel, before, after)};
   if (layer.has_mark_a_point() || layer.is_whole) {
     const Mark& mark = layer.is_whole ? layer.marks[0] : layer.marks[point];
     move.mark = mark.id;
@@ -166,7 +168,7 @@ MarkMove LayerDiff::mark_move(const LayerView& layer, std::size_t point, Point b
   return move;
 }
 
-/// Coordinates that are not place: half axes, turns, cells.
+/// Compares coordinates that are not positions: half axes, angles, cells.
 void LayerDiff::compare_values(const LayerView& a, const LayerView& b,
                                const std::vector<Match>& matches) {
   for (std::size_t c = 0; c < a.coordinates.size(); ++c) {
@@ -178,7 +180,7 @@ void LayerDiff::compare_values(const LayerView& a, const LayerView& b,
       const double before = a.coordinates[c].values[*match.baseline];
       const double after = b.coordinates[c].values[*match.current];
       if (before == after || (std::isnan(before) && std::isnan(after))) continue;
-      if (options_.position.holds(before, after)) {
+      if (panel_.options.position.holds(before, after)) {
         log_.within();
       } else if (count++ == 0) {
         first = before;
@@ -209,7 +211,7 @@ void LayerDiff::compare_data(const Mark& a, const Mark& b) {
 }
 
 void LayerDiff::add_errors(const LayerView& a, const LayerView& b) {
-  // The segments of a map carry the errors of its points once more.
+  // The segments of a map repeat the errors of its points.
   if (!a.has_mark_a_point() || !b.has_mark_a_point() || a.kind == "segments") return;
   double first = 0.0, second = 0.0, count = 0.0;
   for (const Match& match : match_points(a, b)) {

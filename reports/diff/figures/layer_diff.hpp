@@ -10,27 +10,28 @@
 
 namespace mapproof {
 
+/// One panel of a figure that is compared. What it refers to must outlive it.
+struct ComparedPanel {
+  std::size_t panel = 0;  ///< Its index in the figure.
+  const Figure& figure;   ///< The baseline.
+  const FigurePlaces& places;
+  const FigureOptions& options;
+  /// In a figure that varies: the names of the points that are on both sides of the panel, see
+  /// shared_names(). It is not judged in which layer they are. Else null.
+  const std::set<std::string>* shared = nullptr;
+};
+
 /// Compares the layers of one panel.
 class LayerDiff {
  public:
-  /// All of them must outlive it.
-  /// @param shared  Of a figure that varies, the names of points that stand on both sides of the
-  ///                panel, see shared_names(): which layer they are of is not judged. Else null.
-  LayerDiff(std::size_t panel, const Figure& baseline, const FigurePlaces& places,
-            const FigureOptions& options, FigureLog& log,
-            const std::set<std::string>* shared = nullptr)
-      : panel_(panel),
-        figure_(baseline),
-        places_(places),
-        options_(options),
-        log_(log),
-        shared_(shared) {}
+  /// @param log  Must outlive this.
+  LayerDiff(const ComparedPanel& panel, FigureLog& log) : panel_(panel), log_(log) {}
 
-  /// Two layers of one kind.
+  /// Compares two layers of one kind.
   void compare(const LayerView& baseline, const LayerView& current);
-  /// One side alone.
+  /// Adds a layer of one side only.
   void lone(const Layer& layer, bool removed);
-  /// Counts the errors of the marks, whether they differ or not.
+  /// Adds the errors of the marks, whether they differ or not.
   void add_errors(const LayerView& baseline, const LayerView& current);
   /// "panel 2, polyline \"ISOMAP\"".
   std::string place(const LayerView& layer) const;
@@ -43,16 +44,12 @@ class LayerDiff {
   void lone_points(const char* what, long count, const std::string& first);
   MarkMove mark_move(const LayerView& layer, std::size_t point, Point before, Point after) const;
 
-  std::size_t panel_;
-  const Figure& figure_;
-  const FigurePlaces& places_;
-  const FigureOptions& options_;
+  ComparedPanel panel_;
   FigureLog& log_;
-  const std::set<std::string>* shared_;
-  std::string place_;  ///< Of the layer at hand.
+  std::string place_;  ///< The location of the layer that is compared.
 };
 
-/// Names of the points that both panels have, in whatever layers.
+/// Names of the points that both panels have, in any layers.
 std::set<std::string> shared_names(const Panel& a, const Panel& b);
 
 }  // namespace mapproof

@@ -22,7 +22,8 @@ constexpr std::array<std::string_view, 8> kData = {"points", "from",   "to",    
 constexpr std::array<std::string_view, 4> kWords = {"title", "caption", "alt", "id"};
 constexpr std::size_t kMostSceneNames = 3;
 
-/// What a key of a part or of the scene is about. Lights and rules have `from` and `to` as well.
+/// The kind of a change under a key of a part or of the scene. Lights and rules have `from` and
+/// `to` as well.
 ChangeKind kind_of(std::string_view key, std::string_view place) {
   const bool is_part = place.starts_with("part ");
   if (is_part && std::ranges::find(kData, key) != kData.end()) return ChangeKind::kData;
@@ -75,7 +76,7 @@ class SceneComparer {
     const std::string what =
         difference.count == 1 ? key : fmt::format("{}, {} values", key, difference.count);
     ChangeKind kind = kind_of(key, place);
-    // Words are not data, the numbers in them are.
+    // Texts are not data, but the numbers in them are.
     if (kind == ChangeKind::kMetadata && a.is_string() && b.is_string() &&
         !same_numbers(text_of(a), text_of(b)))
       kind = ChangeKind::kData;
@@ -85,7 +86,7 @@ class SceneComparer {
   struct Difference {
     long count = 0;
     bool within = false;
-    std::string baseline, current;  ///< Of the first.
+    std::string baseline, current;  ///< The first values that differ.
   };
 
   void walk(const ParsedJson& a, const ParsedJson& b, Difference& difference) const {
@@ -119,22 +120,21 @@ class SceneComparer {
   FigureLog& log_;
 };
 
-ParsedJson parse(std::string_view text, const std::string& name, SceneWords& words) {
-  const Scene scene = scene_from_json(text, name);
+ParsedJson parse(const SceneText& file, SceneWords& words) {
+  const Scene scene = scene_from_json(file.text, file.name);
   for (const std::string& id : scene.record_ids)
     if (std::ranges::find(words.record_ids, id) == words.record_ids.end())
       words.record_ids.push_back(id);
   words.varies = scene.varies;
-  return parse_json(scene_to_json(scene), name).root;  // Every key is there.
+  return parse_json(scene_to_json(scene), file.name).root;  // Every key is there.
 }
 
 }  // namespace
 
-FigureDiff scene_diff(std::string_view baseline, const std::string& baseline_name,
-                      std::string_view current, const std::string& current_name,
+FigureDiff scene_diff(const SceneText& baseline, const SceneText& current,
                       const FigureOptions& options, SceneWords& words) {
-  const ParsedJson a = parse(baseline, baseline_name, words);
-  const ParsedJson b = parse(current, current_name, words);
+  const ParsedJson a = parse(baseline, words);
+  const ParsedJson b = parse(current, words);
   FigureLog log(a.value("varies", false) && b.value("varies", false));
   if (a.at("records") != b.at("records"))
     log.change(

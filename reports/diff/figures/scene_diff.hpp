@@ -1,25 +1,29 @@
 #pragma once
 
 #include <string>
-#include <string_view>
 #include <vector>
 
 #include "reports/diff/figures/figure_diff.hpp"
 
 namespace mapproof {
 
-/// What of a scene's file its comparison goes by.
+/// The content of a file with a 3-D figure.
+struct SceneText {
+  std::string text;
+  std::string name;  ///< Of the file, for errors.
+};
+
+/// What the comparison of two 3-D figures needs besides their values.
 struct SceneWords {
   std::vector<std::string> record_ids;
   bool varies = false;
 };
 
-/// Compares two ID.scene.json value by value: points, values and records are data; inks, sizes,
-/// camera, lights, rules and labels are style; title, caption and alternative text metadata.
+/// Compares two ID.scene.json value by value. Points, values and records are data; colours, sizes,
+/// camera, lights, rules and labels are style; title, caption and alternative text are metadata.
 /// @param words  Set to the records of both.
-/// @throws IoError with `name` and the place if one is not a scene.
-FigureDiff scene_diff(std::string_view baseline, const std::string& baseline_name,
-                      std::string_view current, const std::string& current_name,
+/// @throws IoError with the file's name and the JSON pointer if one is not a 3-D figure.
+FigureDiff scene_diff(const SceneText& baseline, const SceneText& current,
                       const FigureOptions& options, SceneWords& words);
 
 }  // namespace mapproof

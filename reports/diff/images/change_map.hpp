@@ -8,14 +8,14 @@
 
 namespace mapproof {
 
-/// What a pixel's difference is taken for.
+/// The class of a pixel's difference.
 enum class PixelMark : std::uint8_t { kEqual, kNoise, kSmoothed, kChanged };
 
-inline constexpr int kTile = 16;  ///< Pixels a side.
+inline constexpr int kTile = 16;  ///< Pixels per side.
 
 using TileMarks = std::array<PixelMark, kTile * kTile>;  ///< Row by row.
 
-/// The marks of a picture's pixels, kept for tiles in which some pixel differs.
+/// The marks of an image's pixels, kept for tiles in which some pixel differs.
 class ChangeMap {
  public:
   ChangeMap() = default;
@@ -24,16 +24,16 @@ class ChangeMap {
         down_((height + kTile - 1) / kTile),
         place_(static_cast<std::size_t>(across_) * down_, -1) {}
 
-  int across() const { return across_; }  ///< Tiles a row.
+  int across() const { return across_; }  ///< Tiles per row.
   int down() const { return down_; }
 
-  /// The tile's marks, or null where both pictures are equal. Tiles are counted row by row.
+  /// The tile's marks, or null where both images are equal. Tiles are counted row by row.
   const TileMarks* tile(int index) const {
     return place_[index] < 0 ? nullptr : &marks_[place_[index]];
   }
   TileMarks* tile(int index) { return place_[index] < 0 ? nullptr : &marks_[place_[index]]; }
 
-  /// Makes room for the tiles that differ, all of kEqual. @param indices  Each once.
+  /// Allocates the tiles that differ, all marks kEqual. @param indices  Each once.
   void keep(const std::vector<int>& indices) {
     marks_.resize(indices.size());
     for (std::size_t i = 0; i < indices.size(); ++i)
@@ -47,8 +47,9 @@ class ChangeMap {
   std::vector<TileMarks> marks_;
 };
 
-/// The picture in pale grey, what changed in red, what noise or smoothing explains in yellow.
-/// @param baseline  Taken over.
+/// The image in pale grey, changes in red, differences explained by noise or anti-aliasing in
+/// yellow.
+/// @param baseline  Consumed.
 Image heat_map(Image baseline, const ChangeMap& marks);
 
 }  // namespace mapproof

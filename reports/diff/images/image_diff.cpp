@@ -15,31 +15,27 @@
 namespace mapproof {
 namespace {
 
-// A picture of which so many pixels differ by no more than noise has noise all over.
+// An image has noise everywhere if this share of its pixels differ by no more than noise.
 constexpr double kNoisyShare = 0.2;
 
-// Of 255: what stands out of any noise that passes.
+// Of 255: a contrast above any allowed noise.
 constexpr double kInk = 16.0;
 
-/// What a first look at a tile tells.
+/// The result of the first pass over a tile.
 struct TileStyle {
   bool differs = false;
   bool is_textured = false;  ///< Not of one colour.
-  bool has_ink = false;      ///< Colours further apart than kInk.
+  bool has_ink = false;      ///< It has colours further apart than kInk.
   int within_noise = 0;      ///< Pixels that differ by no more than noise.
 };
 
-/// The upper left corner and size of a tile, cut off at the picture's edge.
-struct TileBox {
-  int x0, y0, width, height;
-};
-
-TileBox box_of(const ChangeMap& marks, const Image& image, int tile) {
+/// The pixels of a tile, cut off at the image's edge.
+PixelBox box_of(const ChangeMap& marks, const Image& image, int tile) {
   const int x0 = tile % marks.across() * kTile, y0 = tile / marks.across() * kTile;
   return {x0, y0, std::min(kTile, image.width - x0), std::min(kTile, image.height - y0)};
 }
 
-/// Makes `current` equal to the baseline in the boxes. @return How many pixels they hold.
+/// Makes `current` equal to the baseline in the boxes. @return The number of pixels in them.
 std::int64_t ignore(const Image& baseline, Image& current, const std::vector<PixelBox>& boxes) {
   std::vector<bool> is_ignored(boxes.empty() ? 0 : baseline.pixels.size());
   for (const PixelBox& box : boxes) {
@@ -65,11 +61,11 @@ bool is_within(std::uint32_t a, std::uint32_t b, double noise) {
   return true;
 }
 
-TileStyle look_at(const Image& a, const Image& b, const TileBox& box, double noise) {
+TileStyle look_at(const Image& a, const Image& b, const PixelBox& box, double noise) {
   TileStyle style;
-  const std::uint32_t first = a.row(box.y0)[box.x0];
-  for (int y = box.y0; y < box.y0 + box.height; ++y) {
-    const std::uint32_t *p = a.row(y) + box.x0, *q = b.row(y) + box.x0;
+  const std::uint32_t first = a.row(box.y)[box.x];
+  for (int y = box.y; y < box.y + box.height; ++y) {
+    const std::uint32_t *p = a.row(y) + box.x, *q = b.row(y) + box.x;
     style.is_textured =
         style.is_textured || std::any_of(p, p + box.width, [=](auto v) { return v != first; });
     style.has_ink =
@@ -95,7 +91,7 @@ std::vector<TileStyle> styles_at(const Image& baseline, const Image& current,
   return styles;
 }
 
-/// What the evidence of all tiles comes to.
+/// Sums the evidence of all tiles.
 void sum_up(std::span<const int> tiles, std::span<const TileEvidence> evidence,
             const ChangeMap& marks, PixelDiff& pixels) {
   for (std::size_t i = 0; i < tiles.size(); ++i) {
@@ -168,7 +164,7 @@ ImageDiff image_diff(const Image& baseline, Image current, const PictureOptions&
   diff.pixels.ignored = ignore(baseline, current, options.ignored);
   diff.marks = ChangeMap(baseline.width, baseline.height);
 
-  // Which tiles differ, and whether there is noise all over.
+  // First pass: which tiles differ, and whether there is noise everywhere.
   const std::vector<TileStyle> styles = styles_at(baseline, current, diff.marks, options.noise);
   std::vector<int> tiles;
   Texture texture;
@@ -186,12 +182,11 @@ ImageDiff image_diff(const Image& baseline, Image current, const PictureOptions&
                               within_noise > kNoisyShare * pixels};
   diff.marks.keep(tiles);
 
-  // What each of them shows, and what follows from all together.
+  // Second pass: the evidence of each differing tile, then the judgement of all together.
   std::vector<TileEvidence> evidence(tiles.size());
   parallel_for(tiles.size(), [&](std::size_t i) {
-    const TileBox box = box_of(diff.marks, baseline, tiles[i]);
-    evidence[i] =
-        tile_evidence(baseline, current, box.x0, box.y0, bounds, *diff.marks.tile(tiles[i]));
+    const PixelBox tile = box_of(diff.marks, baseline, tiles[i]);
+    evidence[i] = tile_evidence(baseline, current, tile, bounds, *diff.marks.tile(tiles[i]));
   });
   judge(tiles, evidence, texture, options, diff.marks);
   sum_up(tiles, evidence, diff.marks, diff.pixels);

@@ -11,9 +11,9 @@ struct ImageDiff {
 };
 
 /// Compares two images, as docs/diff-images.md describes.
-/// @param current  Taken over; its ignored pixels are overwritten.
+/// @param current  Consumed; its ignored pixels are overwritten.
 /// @throws InvalidInput if the options cannot be used.
-/// @note Linear; equal tiles cost a comparison of their bytes. In parallel over tiles.
+/// @note Linear time; equal tiles cost a comparison of their bytes. Parallel over tiles.
 ImageDiff image_diff(const Image& baseline, Image current, const PictureOptions& options = {});
 
 }  // namespace mapproof

@@ -8,35 +8,36 @@
 namespace mapproof {
 namespace {
 
-// Found on the mutations of tests/reports/diff and on pictures by matplotlib with three hints.
-constexpr int kFewShapePixels = 4;    // That tell little of a tile;
-constexpr int kShapePixels = 8;       // of its shape.
-constexpr double kKeptLeft = 0.1;     // Of the difference, what a movement leaves of a kept shape.
-constexpr double kMoved = 0.45;       // Pixels beyond what a piece may be moved.
-constexpr double kCopiedLeft = 0.01;  // Next to nothing: what stands on whole pixels did so before.
+// Tuned on the mutations of tests/reports/diff and on images by matplotlib with three kinds of
+// hinting.
+constexpr int kFewShapePixels = 4;    // Too few to determine a tile;
+constexpr int kShapePixels = 8;       // too few to determine its shape.
+constexpr double kKeptLeft = 0.1;     // Of the difference, what remains after a movement.
+constexpr double kMoved = 0.45;       // Pixels beyond the allowed movement.
+constexpr double kCopiedLeft = 0.01;  // Almost zero: shapes on whole pixels were so before.
 constexpr double kStill = 0.15;       // The same: in place,
-constexpr double kStillLeft = 0.2;    // with so much of the difference left.
+constexpr double kStillLeft = 0.2;    // with this share of the difference remaining.
 
-// Where hints may be the cause.
-constexpr double kVeryFar = 1.35;       // Pixels beyond, which hints move
-constexpr double kVeryFarShare = 0.33;  // a quarter of all tiles by at most.
-constexpr double kInShapeShare = 0.7;   // Hints .66.
+// Bounds where hinting may be the cause.
+constexpr double kVeryFar = 1.35;       // Pixels beyond the allowed movement. Hinting moves
+constexpr double kVeryFarShare = 0.33;  // at most a quarter of all tiles so far.
+constexpr double kInShapeShare = 0.7;   // Hinting reaches .66.
 constexpr int kUnlikePixels = 16;
 constexpr double kUnlikeLeft = 0.85;
 
-// Where they are not, and smoothing is the other cause, which leaves in place.
-constexpr double kFar = 0.7;        // Pixels beyond, not by whole ones.
-constexpr double kFarShare = 0.02;  // Smoothing .004,
+// Bounds where hinting is not the cause but anti-aliasing, which keeps shapes in place.
+constexpr double kFar = 0.7;        // Pixels beyond the allowed movement, not whole ones.
+constexpr double kFarShare = 0.02;  // Anti-aliasing reaches .004,
 constexpr int kFewestFar = 3;
-constexpr double kAstray = 0.35;  // Pixels beyond, also of a marker on a line, which stays:
+constexpr double kAstray = 0.35;  // Pixels beyond, also for a marker on a line that stays:
 constexpr double kAstrayLeft = 0.3;
-constexpr double kAstrayShare = 0.1;    // of tiles went each of two opposite ways.
-constexpr double kInPlaceShare = 0.45;  // Where smoothing leaves shapes unlike, .42.
+constexpr double kAstrayShare = 0.1;    // of the tiles moved in each of two opposite directions.
+constexpr double kInPlaceShare = 0.45;  // Where anti-aliasing changes shapes: .42.
 constexpr int kOddPixels = 12;
 constexpr double kOddLeft = 0.55;
 constexpr double kOddLeftShare = 0.8;
-constexpr double kOddEnergy = 1000.0;  // Squares of 255 a pixel beyond noise.
-constexpr double kOddCopied = 0.35;    // Of the pixels beyond noise: more are of what moved by one.
+constexpr double kOddEnergy = 1000.0;  // Squares of 1 of 255 per pixel beyond noise.
+constexpr double kOddCopied = 0.35;    // Of the pixels beyond noise; more moved by one pixel.
 
 constexpr double kMostUnlikeShare = 0.2;
 
@@ -52,13 +53,13 @@ bool is_in_place(const TileEvidence& tile, double allowed_px) {
   return tile.kept.left < kStillLeft && tile.kept.displacement_px() <= allowed_px + kStill;
 }
 
-/// Whether another thing stands there than one that is hinted otherwise.
+/// Whether the tile shows a different shape, and not the same one with different hinting.
 bool is_unlike(const TileEvidence& tile) {
   return tile.beyond_noise >= kUnlikePixels && 2 * tile.bold > tile.beyond_noise &&
          tile.kept.left > kUnlikeLeft && tile.left_share > kUnlikeLeft;
 }
 
-/// The same, if hints are all equal: a digit may share much with another.
+/// The same where hinting is equal: a digit may have much in common with another.
 bool is_odd(const TileEvidence& tile) {
   const int bold_part = tile.fit.energy > kOddEnergy * tile.beyond_noise ? 4 : 2;
   return tile.beyond_noise >= kOddPixels && bold_part * tile.bold > tile.beyond_noise &&
@@ -66,8 +67,8 @@ bool is_odd(const TileEvidence& tile) {
          std::ranges::max(tile.copied) < kOddCopied * tile.beyond_noise;
 }
 
-/// Labels of axes lie outermost to the left and below, titles and legends at other sides, and other
-/// hints touch them all.
+/// Axis labels are outermost to the left and below, titles and legends at other sides; different
+/// hinting affects them all.
 bool may_be_hints(const TileBounds& differing, const TileBounds& texture) {
   const bool left = differing.left - 1 <= texture.left, top = differing.top - 1 <= texture.top;
   const bool right = differing.right + 1 >= texture.right;
@@ -79,7 +80,7 @@ struct ShapeCounts {
   double allowed_px;
   TileBounds differing;
   int tiles = 0, in_shape = 0, in_place = 0, unlike = 0, odd = 0, very_far = 0, far = 0;
-  int right = 0, left = 0, down = 0, up = 0;  ///< Tiles that moved so.
+  int right = 0, left = 0, down = 0, up = 0;  ///< Tiles that moved in this direction.
 
   void add(const TileEvidence& tile, int x, int y) {
     if (tile.beyond_noise >= kFewShapePixels) differing.add(x, y);
@@ -98,37 +99,37 @@ struct ShapeCounts {
     down += tile.kept.down_px > still, up += tile.kept.down_px < -still;
   }
 
-  /// What is put on whole pixels goes one way, whichever it is.
+  /// Shapes that are aligned to whole pixels move in one direction, whichever it is.
   bool is_astray() const {
     return std::max(std::min(right, left), std::min(down, up)) > kAstrayShare * tiles;
   }
 };
 
-// Found on the mutations of tests/reports/diff, which lie on both sides of each: some a third away,
-// but of kMovedShare .58 must pass and .64 must fail.
+// Tuned on the mutations of tests/reports/diff, which are on both sides of each bound, some a third
+// away; but for kMovedShare .58 must pass and .64 must fail.
 constexpr int kMostLocalGroups = 3;
 constexpr double kMostLocalShare = 0.12;  // Of the tiles with anything in them.
-constexpr int kMostSparseGroups = 6;      // Which are few places too,
-constexpr double kSparseShare = 0.02;     // if they are so small.
+constexpr int kMostSparseGroups = 6;      // This also counts as few regions,
+constexpr double kSparseShare = 0.02;     // if they are this small.
 constexpr double kLeftShare = 0.3;        // Of a group's difference, beyond a small movement.
 constexpr double kLostShare = 0.1;        // Of the pixels beyond noise.
-constexpr double kMovedShare = 0.61;      // Of the difference, one way.
+constexpr double kMovedShare = 0.61;      // Of the difference, in one direction.
 constexpr double kCopiedShare =
-    0.6;  // Of the pixels beyond noise: without smoothing half, layers .7.
+    0.6;  // Of the pixels beyond noise: half without anti-aliasing, .7 with layers.
 constexpr double kMovedTouched = 0.63;    // Of the tiles with anything in them.
-constexpr double kFarMoved = 1.6;         // Pixels; hints move letters by less.
+constexpr double kFarMoved = 1.6;         // Pixels; hinting moves letters by less.
 constexpr double kRecolouredShare = 0.2;  // Of the difference.
 constexpr double kOneSidedShare = 0.6;    // Of the difference and of tiles.
 constexpr double kBoldShare = 0.1;        // Of the pixels beyond noise.
 constexpr double kLeftSquare = 0.14;      // Of the squares of slopes: .37 px unexplained.
 constexpr double kInStepShare = 0.75;     // Of tiles that differ,
-constexpr double kTouchedShare = 0.4;     // which must be so many of those with anything in them;
-constexpr double kMostOutShare = 0.2;     // the others.
+constexpr double kTouchedShare = 0.4;     // which must be this share of the tiles with content;
+constexpr double kMostOutShare = 0.2;     // of the tiles that do not.
 constexpr std::size_t kMostOutOfStep = 12;
-constexpr int kFewPixels = 4;  // That tell little of a tile.
+constexpr int kFewPixels = 4;  // Too few to determine a tile.
 
 bool is_moved(const TileEvidence& tile, const PictureOptions& options) {
-  // Smoothing puts a line on whole pixels, up to half of one away.
+  // Anti-aliasing aligns a line to whole pixels, up to half a pixel away.
   return tile.moved_share > 0.7 && tile.displacement_px() > options.displacement_px + 0.45 &&
          tile.displacement_px() < 3.0 && tile.left_by_whole < 0.3;
 }
@@ -137,7 +138,7 @@ bool is_recoloured(const TileEvidence& tile) {
   return tile.recoloured_share > 0.95 && tile.recolouring > 2.5 && tile.edge_pixels >= 24;
 }
 
-/// Turns marks of the tile into kChanged where `from` says so.
+/// Sets marks of the tile to kChanged where `from` is true.
 template <typename From>
 void change(TileMarks& marks, From from) {
   for (PixelMark& mark : marks)
@@ -148,7 +149,7 @@ void change_edges(TileMarks& marks) {
   change(marks, [](PixelMark mark) { return mark == PixelMark::kSmoothed; });
 }
 
-/// All that a group of tiles shows.
+/// The evidence of a group of tiles.
 struct GroupEvidence {
   double energy = 0.0, left = 0.0, recoloured = 0.0;
   int beyond_noise = 0, bold = 0;
@@ -163,7 +164,7 @@ struct GroupEvidence {
     for (int c = 0; c < 3; ++c) sum[c] += tile.sum[c], absolute_sum[c] += tile.absolute_sum[c];
   }
 
-  /// Whether some channel goes one way nearly everywhere, which a movement does not do.
+  /// Whether a channel changes in one direction nearly everywhere, which a movement does not cause.
   bool is_one_sided() const {
     for (int c = 0; c < 3; ++c)
       if (beyond_noise >= 64 && std::abs(sum[c]) > 0.9 * absolute_sum[c] &&
@@ -172,15 +173,15 @@ struct GroupEvidence {
     return false;
   }
 
-  /// What is left of the difference without a small movement is little, or it is but edges that
-  /// become a bit stronger or weaker where one thing peeps out from under another.
+  /// Whether little of the difference remains after a small movement, or only edges became slightly
+  /// stronger or weaker where one shape is partly under another.
   bool is_a_small_movement() const {
     return left <= kLeftShare * energy ||
            (bold <= kBoldShare * beyond_noise && recoloured <= 0.4 * energy && !is_one_sided());
   }
 };
 
-/// What differs in few places.
+/// Judges differences in few regions.
 void judge_locally(const std::vector<std::vector<int>>& groups,
                    const std::vector<const TileEvidence*>& of_tile, ChangeMap& marks) {
   for (const std::vector<int>& group : groups) {
@@ -191,12 +192,13 @@ void judge_locally(const std::vector<std::vector<int>>& groups,
   }
 }
 
-/// What differs all over.
+/// Judges differences everywhere.
 struct OverallEvidence {
   double energy = 0.0, recoloured = 0.0, beyond = 0.0, lost = 0.0;
-  double sided = 0.0, one_sided = 0.0;  ///< Energies of tiles that can tell, and of those that do.
-  double right = 0.0, down = 0.0;       ///< Sums of movements' directions, by energy.
-  double far_right = 0.0, far_down = 0.0;  ///< The same of movements that are far.
+  double sided = 0.0,
+         one_sided = 0.0;          ///< Energies of tiles that can be so, and of those that are.
+  double right = 0.0, down = 0.0;  ///< Sums of the directions of movements, weighted by energy.
+  double far_right = 0.0, far_down = 0.0;  ///< The same for large movements.
   std::array<double, 8> copied{};
   int tiles = 0, one_sided_tiles = 0;
 
@@ -221,19 +223,20 @@ struct OverallEvidence {
     if (tile.displacement_px() > kFarMoved) far_right += x, far_down += y;
   }
   bool any_lost() const { return lost > kLostShare * beyond; }
-  /// Where pixels come from, as one of kSteps, if most are copies of what was a pixel away.
+  /// The origin of the pixels, as one of kSteps, if most are copies of a neighbour.
   std::optional<std::size_t> copied_from() const {
     const auto most = std::ranges::max_element(copied);
     if (*most <= kCopiedShare * beyond) return std::nullopt;
     return most - copied.begin();
   }
-  /// Other hints move letters too, and all one way, but not far, and what is not a letter stays.
+  /// Different hinting also moves letters, all in one direction, but not far, and other shapes
+  /// stay.
   bool any_moved(int textured) const {
     return std::hypot(far_right, far_down) > kMovedShare * energy ||
            (std::hypot(right, down) > kMovedShare * energy && tiles > kMovedTouched * textured);
   }
   bool any_recoloured() const { return recoloured > kRecolouredShare * energy; }
-  /// A line that is thicker, or a pale grid lost: smoothing takes as much as it gives.
+  /// Whether a line became thicker or a pale grid was lost: anti-aliasing keeps the sum.
   bool is_one_sided() const {
     return one_sided > kOneSidedShare * sided && one_sided_tiles > kOneSidedShare * tiles;
   }
@@ -253,8 +256,8 @@ void judge_overall(std::span<const int> tiles, std::span<const TileEvidence> evi
       change_edges(*marks.tile(tiles[i]));
 }
 
-/// The movement of everything, by least squares over tiles, those that it does not explain weighing
-/// less and less.
+/// The common movement, by iteratively reweighted least squares over tiles: tiles that it does not
+/// explain get less weight.
 std::array<double, 2> common_movement(std::span<const TileEvidence> evidence) {
   std::array<double, 2> movement{};
   for (int round = 0; round < 8; ++round) {
@@ -263,7 +266,8 @@ std::array<double, 2> common_movement(std::span<const TileEvidence> evidence) {
       if (tile.fit.energy == 0.0) continue;
       const double left = round == 0 ? 0.0 : tile.fit.left(movement[0], movement[1]);
       const double share = left / (kLeftShare * tile.fit.energy);
-      // Each tile alike, whatever its contrast: one thing lost outweighs a small shift of all.
+      // Every tile has the same weight, whatever its contrast: one lost shape would outweigh a
+      // small shift of all.
       all.add(tile.fit, 1.0 / (tile.fit.energy * (1.0 + share * share)));
     }
     movement = all.movement();
@@ -271,8 +275,8 @@ std::array<double, 2> common_movement(std::span<const TileEvidence> evidence) {
   return movement;
 }
 
-/// The tiles that a small movement of everything does not explain, if there are few: none if they
-/// are many, or there is no such movement.
+/// The tiles that a small common movement does not explain, if there are few; none if there are
+/// many, or no such movement.
 std::vector<bool> out_of_step(std::span<const int> tiles, std::span<const TileEvidence> evidence,
                               int textured, const PictureOptions& options, const ChangeMap& marks) {
   const auto [right, down] = common_movement(evidence);
@@ -320,6 +324,20 @@ std::vector<bool> shape_changes(std::span<const int> tiles, std::span<const Tile
   return is_changed;
 }
 
+namespace {
+
+/// The tiles that touch a tile, corners too, and the tile itself, row by row.
+std::vector<int> tiles_around(int tile, int across, int down) {
+  const int x = tile % across, y = tile / across;
+  std::vector<int> around;
+  for (int v = std::max(y - 1, 0); v <= std::min(y + 1, down - 1); ++v)
+    for (int u = std::max(x - 1, 0); u <= std::min(x + 1, across - 1); ++u)
+      around.push_back(v * across + u);
+  return around;
+}
+
+}  // namespace
+
 std::vector<std::vector<int>> tile_groups(int across, std::vector<bool> is_in) {
   std::vector<std::vector<int>> groups;
   const int down = across > 0 ? static_cast<int>(is_in.size()) / across : 0;
@@ -327,15 +345,12 @@ std::vector<std::vector<int>> tile_groups(int across, std::vector<bool> is_in) {
     if (!is_in[start]) continue;
     std::vector<int>& group = groups.emplace_back(1, start);
     is_in[start] = false;
-    for (std::size_t next = 0; next < group.size(); ++next) {
-      const int x = group[next] % across, y = group[next] / across;
-      for (int v = std::max(y - 1, 0); v <= std::min(y + 1, down - 1); ++v)
-        for (int u = std::max(x - 1, 0); u <= std::min(x + 1, across - 1); ++u)
-          if (const int tile = v * across + u; is_in[tile]) {
-            is_in[tile] = false;
-            group.push_back(tile);
-          }
-    }
+    for (std::size_t next = 0; next < group.size(); ++next)
+      for (const int tile : tiles_around(group[next], across, down))
+        if (is_in[tile]) {
+          is_in[tile] = false;
+          group.push_back(tile);
+        }
     std::ranges::sort(group);
   }
   return groups;

@@ -10,7 +10,7 @@
 
 namespace mapproof {
 
-/// The outermost of some tiles, counted from the upper left one.
+/// The bounds of a set of tiles, counted from the upper left one.
 struct TileBounds {
   int left = INT_MAX, top = INT_MAX, right = INT_MIN, bottom = INT_MIN;
 
@@ -20,36 +20,35 @@ struct TileBounds {
   }
 };
 
-/// What is drawn in a picture.
+/// The extent of the drawing in an image.
 struct Texture {
-  int tiles = 0;      ///< That are not of one colour.
-  TileBounds bounds;  ///< Of those with ink that stands out of noise.
+  int tiles = 0;      ///< Tiles with more than one colour.
+  TileBounds bounds;  ///< Of the tiles with contrast above the noise.
 };
 
-/// Of a picture that differs all over, the tiles that no other hints and no other smoothing
-/// explains: those that moved by a pixel and more and kept their shape, if many did or if what
-/// differs does not reach out as text does; and those that did not keep it, where most did.
-///
-/// @param tiles   Numbers of the tiles that differ; `evidence` is theirs.
-/// @param across  Tiles a row.
-/// @param allowed_px  How far a piece may be moved.
-/// @return One each of `tiles`.
+/// In an image that differs everywhere, finds the tiles that neither hinting nor anti-aliasing
+/// explains. These are tiles that moved by a pixel or more and kept their shape, if there are many
+/// or if the differing region does not extend as far as text does; and tiles that did not keep
+/// their shape, where most did.
+/// @param tiles  Indices of the tiles that differ, in the order of `evidence`.
+/// @param across  Tiles per row.
+/// @param allowed_px  The allowed movement of a part.
+/// @return One value per element of `tiles`.
 std::vector<bool> shape_changes(std::span<const int> tiles, std::span<const TileEvidence> evidence,
                                 const Texture& texture, int across, double allowed_px);
 
-/// Groups of tiles that touch, corners too; each group in the order of its tiles' numbers.
-/// @param is_in  One a tile, row by row.
+/// Groups of tiles that touch, corners too; each group in ascending order of its tiles' indices.
+/// @param is_in  One value per tile, row by row.
 std::vector<std::vector<int>> tile_groups(int across, std::vector<bool> is_in);
 
 /// Decides which differences are changes, and marks their pixels so.
 ///
-/// Another way of smoothing, other hints or a small shift of everything touch edges all over a
-/// picture. A few groups of tiles in one that else is equal are therefore changes unless a small
-/// movement explains them; of what differs all over, only that counts which smoothing cannot do:
-/// things lost or new, movements beyond half a pixel, other inks, other means of flat regions,
-/// and what shape_changes finds.
-///
-/// @param tiles     Numbers of the tiles that differ; `evidence` is theirs.
+/// Different anti-aliasing, different hinting or a small shift of everything affect edges
+/// everywhere in an image. A few groups of tiles in an otherwise equal image are therefore changes,
+/// unless a small movement explains them. Where an image differs everywhere, only differences that
+/// anti-aliasing cannot cause are changes: lost or new shapes, movements beyond half a pixel,
+/// different colours, different means of flat regions, and the tiles that shape_changes() finds.
+/// @param tiles  Indices of the tiles that differ, in the order of `evidence`.
 /// @param texture   Of the baseline.
 void judge(std::span<const int> tiles, std::span<const TileEvidence> evidence,
            const Texture& texture, const PictureOptions& options, ChangeMap& marks);

@@ -8,11 +8,11 @@
 
 namespace mapproof {
 
-/// Of two picture files. kIdentical is said of equal values alone: equal pixels, or for SVG equal
-/// elements.
+/// The result for two image files. kIdentical means equal values: equal pixels, or equal elements
+/// of SVGs.
 enum class PictureState { kIdentical, kWithinTolerance, kDifferent, kUnreadable };
 
-/// "within tolerance": in words.
+/// The state in words: "within tolerance".
 std::string_view name(PictureState state);
 
 /// Pixels x to x + width - 1 and y to y + height - 1, from the upper left corner.
@@ -34,21 +34,21 @@ struct PictureSize {
 
 struct PictureOptions {
   std::vector<PixelBox> ignored =
-      {};                         ///< Pixels that are not looked at; what lies outside is nothing.
-  double noise = 2.0;             ///< Of 255, 0 to 64: what one pixel in a flat region may differ.
-  double mean_noise = 0.4;        ///< Of 255, 0 to 64: what the mean of a flat region may differ.
-  double displacement_px = 0.35;  ///< 0 to 4: how far a piece of a picture may be moved.
-  double changed_share = 0.0;     ///< 0 to 1: share of changed pixels that still is tolerated.
-  double svg_distance = 0.15;     ///< Pixels as drawn, >= 0: how far SVG geometry may be moved.
-  double svg_colour = 0.0;        ///< Of 255, 0 to 255: what a channel of an SVG colour may differ.
+      {};              ///< Pixels that are not compared; parts outside the image have no effect.
+  double noise = 2.0;  ///< Of 255, 0 to 64: allowed difference of one pixel in a flat region.
+  double mean_noise = 0.4;  ///< Of 255, 0 to 64: allowed difference of the mean of a flat region.
+  double displacement_px = 0.35;  ///< 0 to 4: allowed movement of a part of an image.
+  double changed_share = 0.0;     ///< 0 to 1: allowed share of changed pixels.
+  double svg_distance = 0.15;     ///< Pixels as drawn, >= 0: allowed movement of SVG geometry.
+  double svg_colour = 0.0;  ///< Of 255, 0 to 255: allowed difference of a channel of an SVG colour.
 };
 
-/// Two pictures, pixel by pixel. If the sizes differ, nothing but them is set.
+/// The comparison of two images, pixel by pixel. If the sizes differ, only the sizes are set.
 struct PixelDiff {
   PictureSize baseline, current;
-  std::int64_t differing = 0;    ///< Pixels that differ at all, ignored ones apart.
-  std::int64_t changed = 0;      ///< Of them, those that no noise and no other smoothing explains.
-  std::int64_t antialiased = 0;  ///< Of them, those on edges that smoothing explains.
+  std::int64_t differing = 0;    ///< Pixels with any difference, without the ignored ones.
+  std::int64_t changed = 0;      ///< Of them, those that neither noise nor anti-aliasing explains.
+  std::int64_t antialiased = 0;  ///< Of them, those on edges that anti-aliasing explains.
   std::int64_t ignored = 0;      ///< Pixels in ignored boxes, different or not.
   double changed_share = 0.0;    ///< Of all pixels.
   int clusters = 0;              ///< Groups of changed pixels, 16 pixels or more apart.
@@ -63,7 +63,7 @@ struct PixelDiff {
 
 enum class SvgChangeKind { kGeometry, kStyle, kText, kStructure, kMetadata };
 
-/// One thing that differs between two SVG files.
+/// One difference of two SVG files.
 struct SvgChange {
   SvgChangeKind kind = SvgChangeKind::kStructure;
   std::string element;   ///< "svg/g#marks/circle#m17"; "[2]": the second of its name without an id.
@@ -75,20 +75,20 @@ struct SvgChange {
 };
 
 struct SvgDiff {
-  std::vector<SvgChange> changes;  ///< The first 200, those that are not tolerated first.
-  std::int64_t total = 0;          ///< Of all kinds, tolerated ones too.
+  std::vector<SvgChange> changes;  ///< The first 200, those beyond tolerance first.
+  std::int64_t total = 0;          ///< Of all kinds, with those within tolerance.
   std::int64_t tolerated = 0;
   std::int64_t geometry = 0, style = 0, text = 0, structure = 0, metadata = 0;
 };
 
 struct PictureDiff {
   PictureState state = PictureState::kUnreadable;
-  std::string reason;  ///< One line for people.
+  std::string reason;  ///< One line for readers.
   std::optional<PixelDiff> pixels;
   std::optional<SvgDiff> svg;
   std::uintmax_t baseline_bytes = 0, current_bytes = 0;
-  /// What drew them, as the files themselves say ("mapproof:renderer" or "Software" of a PNG, the
-  /// generator's comment of an SVG); empty if they do not.
+  /// The renderers, as stored in the files ("mapproof:renderer" or "Software" of a PNG, the
+  /// generator's comment of an SVG); empty if not stored.
   std::string baseline_renderer, current_renderer;
 };
 

@@ -20,7 +20,7 @@ namespace {
 
 constexpr std::size_t kMostPictureBytes = std::size_t{1} << 28;
 
-/// A PNG file, or why there is none.
+/// A PNG file, or the reason why it cannot be read.
 struct Side {
   PngFile png;
   std::string reason = {};
@@ -41,7 +41,7 @@ std::string renderer(const PngFile& png) {
   return "";
 }
 
-/// "baseline truncated", for one side or both.
+/// The reason of one side or both.
 std::string unreadable(const std::string& baseline, const std::string& current) {
   std::string reason;
   if (!baseline.empty()) reason = "the baseline: " + baseline;
@@ -61,16 +61,17 @@ std::string words(const PixelDiff& found, bool finer_differs) {
     return fmt::format("{} x {} pixels became {} x {}", found.baseline.width, found.baseline.height,
                        found.current.width, found.current.height);
   if (found.changed > 0)
-    return fmt::format("{} pixels changed ({:.3g} %), the most together at {}, {}", found.changed,
+    return fmt::format("{} pixels changed ({:.3g} %), the largest cluster at {}, {}", found.changed,
                        100.0 * found.changed_share, found.largest_cluster.x,
                        found.largest_cluster.y);
   if (found.differing > 0)
-    return fmt::format("{} pixels differ by no more than noise and smoothing do", found.differing);
+    return fmt::format("{} pixels differ by no more than noise and anti-aliasing explain",
+                       found.differing);
   if (finer_differs) return "the pixels differ only in alpha or below 8 bits";
   return "the pixels are equal";
 }
 
-/// What a PNG file is made of, texts and other remarks apart.
+/// The chunks of a PNG file without texts and other metadata.
 std::vector<std::string_view> picture_chunks(std::string_view bytes) {
   std::vector<std::string_view> chunks;
   for (const PngChunk& chunk : png_chunks(bytes))
@@ -80,7 +81,7 @@ std::vector<std::string_view> picture_chunks(std::string_view bytes) {
   return chunks;
 }
 
-/// Whether pixels need not be decoded, as both files have the same. Sets what else is to be told.
+/// Whether the pixels need no decoding, as both files have the same. If so, sets the result.
 bool are_same_pngs(std::string_view before, std::string_view after, PictureDiff& diff) {
   if (!png_problem(before).empty() || !png_problem(after).empty() ||
       picture_chunks(before) != picture_chunks(after))
@@ -96,7 +97,7 @@ bool are_same_pngs(std::string_view before, std::string_view after, PictureDiff&
   return true;
 }
 
-/// Of pictures of one size.
+/// Compares images of one size.
 bool differ(const Image& a, const Image& b) {
   return a.width == b.width && a.height == b.height && a.pixels != b.pixels;
 }
@@ -128,7 +129,7 @@ void compare_decoded(std::string_view before, std::string_view after, const Pict
 void compare_pngs(std::string_view before, std::string_view after, const PictureOptions& options,
                   Image* heat, PictureDiff& diff) {
   if (are_same_pngs(before, after, diff)) return;
-  // A thread that waits takes no other pair meanwhile: it would hold the pixels of both.
+  // A waiting thread takes no other pair meanwhile: it would hold the pixels of both.
   run_isolated([&] { compare_decoded(before, after, options, heat, diff); });
 }
 
@@ -141,7 +142,7 @@ bool is_utf16(std::string_view bytes) {
          bytes.starts_with("<\0"sv) || bytes.starts_with("\0<"sv);
 }
 
-/// By how the content begins; names of files are not asked.
+/// The kind by the first bytes of the content, whatever the name of the file.
 PictureKind kind_of(std::string_view bytes) {
   if (bytes.empty()) return PictureKind::kEmpty;
   if (bytes.starts_with("\x89PNG")) return PictureKind::kPng;
@@ -157,7 +158,7 @@ std::string kind_problem(PictureKind kind) {
   return kind == PictureKind::kOther ? "is neither PNG nor SVG" : "";
 }
 
-/// An SVG file, or why there is none.
+/// An SVG file, or the reason why it cannot be read.
 struct SvgSide {
   SvgTree tree;
   std::string reason = {};
@@ -175,7 +176,7 @@ std::string words(const SvgDiff& found) {
   if (found.total == 0) return "the elements are equal";
   const std::int64_t changed = found.total - found.tolerated;
   if (changed == 0)
-    return fmt::format("{} values differ within tolerance or are remarks", found.total);
+    return fmt::format("{} values differ within tolerance or are metadata", found.total);
   const SvgChange& first = found.changes.front();
   return fmt::format("{}, the first: {} {}", counted(changed, "change"), first.element, first.what);
 }

@@ -11,21 +11,24 @@
 
 namespace mapproof {
 
-/// Compares two PNG or two SVG files. What is wrong with their content is data: kUnreadable.
+/// Compares two PNG or two SVG files. Invalid content is not an error: the state is then
+/// kUnreadable.
 ///
 /// @param heat  If given, gets heat_map of two PNGs of one size that are not identical, else
 /// nothing.
 /// @throws IoError if a file cannot be opened or exceeds 2^28 bytes.
 /// @throws InvalidInput if the options cannot be used.
-/// @note Files of the same bytes, and PNGs that differ in their texts alone, are not decoded. Else
-///       two pictures of 4 bytes a pixel are held, and a byte a pixel where they differ. Uses
+/// @note Files with equal bytes, and PNGs that differ only in their texts, are not decoded.
+/// Otherwise memory holds two images of 4 bytes per pixel, and one byte per pixel where they
+/// differ. Uses
 ///       oneTBB's threads; the result does not depend on them.
 PictureDiff picture_diff(const std::filesystem::path& baseline,
                          const std::filesystem::path& current, const PictureOptions& options = {},
                          Image* heat = nullptr);
 
-/// The baseline in pale grey, changed pixels red, those yellow that noise or smoothing explains.
-/// Empty (0 x 0) if the files are no PNGs, cannot be read, are identical or their sizes differ.
+/// The baseline in pale grey, changed pixels in red, pixels explained by noise or anti-aliasing in
+/// yellow. Empty (0 x 0) if the files are not PNGs, cannot be read, are identical or differ in
+/// size.
 /// @throws as picture_diff.
 Image heat_map(const std::filesystem::path& baseline, const std::filesystem::path& current,
                const PictureOptions& options = {});

@@ -44,9 +44,9 @@ double structure(const PatchPair& pair, const WindowStructure& window) {
          ((mean_a * mean_a + mean_b * mean_b + kC1) * (var_a + var_b + kC2));
 }
 
-/// The window of 8 x 8 pixels, every 4 of them, whose structural similarity [wang2004] is least, by
-/// luma. One number for a whole picture would hide a small damage.
-/// @param width  Of the part of the tile that lies in the picture, as height.
+/// Finds the window with the least structural similarity [wang2004] by luma, among windows of 8 x 8
+/// pixels, one every 4 pixels. One number for the whole image would hide small damage.
+/// @param width, height  Of the part of the tile inside the image.
 WindowStructure least_window_structure(const PatchPair& pair, int width, int height) {
   WindowStructure least{1.0, 0, 0, std::min(kWindow, width), std::min(kWindow, height)};
   for (int y = 0; y < height; y += kStride)
@@ -59,12 +59,13 @@ WindowStructure least_window_structure(const PatchPair& pair, int width, int hei
   return least;
 }
 
-/// How well a tile's difference is told by other inks on the same shapes.
+/// How well different colours on the same shapes explain a tile's difference.
 struct Recolouring {
-  double share = 0.0;  ///< Of the sum of squares of the difference, what an affine map explains.
-  double off_line =
-      0.0;         ///< Of 255: the most that a pixel leaves the line from the paper to its ink.
-  int pixels = 0;  ///< That differ beyond the noise, and their neighbours.
+  double share =
+      0.0;  ///< The share of the sum of squares of the difference that an affine map explains.
+  double off_line = 0.0;  ///< Of 255: the largest distance of a pixel from the line between the
+                          ///< background and its colour.
+  int pixels = 0;         ///< Pixels that differ beyond the noise, and their neighbours.
 };
 
 struct Pixel {
@@ -75,14 +76,16 @@ Eigen::Vector3d colour_at(const Patch& patch, int cell) {
   return {double(patch.raw[0][cell]), double(patch.raw[1][cell]), double(patch.raw[2][cell])};
 }
 
-/// Pixels of the tile that differ beyond the noise and those beside them.
+/// The pixels of the tile that differ beyond the noise, and their neighbours.
 std::vector<Pixel> pixels_near_differences(const PatchPair& pair, double noise) {
   std::array<bool, kPatchCells> near{};
+  const auto mark_around = [&near](int cell) {
+    for (const int row : {cell - kPatchSide, cell, cell + kPatchSide})
+      for (const int i : {row - 1, row, row + 1}) near[i] = true;
+  };
   for (int y = 0; y < kTile; ++y)
     for (int x = 0; x < kTile; ++x)
-      if (const int cell = cell_at(x, y); pair.is_beyond(cell, noise))
-        for (const int row : {cell - kPatchSide, cell, cell + kPatchSide})
-          for (const int i : {row - 1, row, row + 1}) near[i] = true;
+      if (const int cell = cell_at(x, y); pair.is_beyond(cell, noise)) mark_around(cell);
   std::vector<Pixel> pixels;
   for (int i = 0; i < kPatchCells; ++i)
     if (near[i]) {
@@ -92,9 +95,10 @@ std::vector<Pixel> pixels_near_differences(const PatchPair& pair, double noise) 
   return pixels;
 }
 
-/// Fits D = M (red, green, blue, 1) to the pixels that differ and those beside them: exact if up to
-/// four inks, mixed by smoothing, have become others. Smoothing itself makes a pixel's ink more or
-/// less, and so leaves it on the line from the paper to the ink.
+/// Fits D = M (red, green, blue, 1) to the pixels that differ and their neighbours. The fit is
+/// exact if up to four colours, mixed by anti-aliasing, were replaced by others. Anti-aliasing
+/// alone changes how much of a colour a pixel has, and so keeps it on the line between the
+/// background and that colour.
 Recolouring find_recolouring(const PatchPair& pair, double noise) {
   const std::vector<Pixel> pixels = pixels_near_differences(pair, noise);
   Recolouring found;
@@ -131,23 +135,23 @@ Recolouring find_recolouring(const PatchPair& pair, double noise) {
   return found;
 }
 
-// A pixel is lost if the other picture lacks this share of the contrast around it.
+// A pixel is lost if the other image lacks this share of the contrast around it.
 constexpr double kLostTileShare = 0.8;
 
-// Fewer pixels beyond noise show no shape.
+// Fewer pixels beyond noise do not determine a shape.
 constexpr int kFewestShapePixels = 8;
 
-// Of how many deviations of noise a mean may be off: a picture has a million of them.
+// The number of standard deviations of noise that a mean may be off: an image has a million means.
 constexpr double kDeviations = 6.0;
 
-/// By how much a cell's smoothed colour lies outside of those around it in the other picture.
+/// The distance of a cell's smoothed colour from the range of those around it in the other image.
 int gap_at(const PatchPair& pair, int c, int i) {
   const Patch &a = pair.before, &b = pair.after;
   return std::max({b.smooth[c][i] - a.high[c][i], a.low[c][i] - b.smooth[c][i],
                    a.smooth[c][i] - b.high[c][i], b.low[c][i] - a.smooth[c][i], 0});
 }
 
-/// The most that smoothed colours span within two cells of a cell, in the picture that has more.
+/// The range of smoothed colours within two cells of a cell, in the image where it is larger.
 int contrast_at(const PatchPair& pair, int c, int i) {
   int contrast = 1;
   for (const Patch* patch : {&pair.before, &pair.after}) {
@@ -171,8 +175,8 @@ bool is_lost(const PatchPair& pair, int i, double noise) {
   return false;
 }
 
-/// Whether the smoothed colour changes by more than a fifth of what it spans around the cell, in
-/// the picture where it spans less.
+/// Whether the smoothed colour changes by more than a fifth of its range around the cell, in the
+/// image where that range is smaller.
 bool is_bold(const PatchPair& pair, int i) {
   for (int c = 0; c < 3; ++c) {
     const Patch &a = pair.before, &b = pair.after;
@@ -182,7 +186,7 @@ bool is_bold(const PatchPair& pair, int i) {
   return false;
 }
 
-/// Counts from where the cell's new colour may have come, if all moved by a pixel.
+/// Counts the neighbours from which the cell's new colour may come, if everything moved by a pixel.
 void count_copies(const PatchPair& pair, int i, double noise, std::array<int, 8>& copied) {
   for (std::size_t step = 0; step < kSteps.size(); ++step) {
     const int j = i + kSteps[step][1] * kPatchSide + kSteps[step][0];
@@ -193,7 +197,8 @@ void count_copies(const PatchPair& pair, int i, double noise, std::array<int, 8>
   }
 }
 
-/// What is left of the difference if the baseline is moved by whole pixels and then by less.
+/// The share of the difference that remains if the baseline is moved by whole pixels and then by a
+/// fraction.
 double left_by_whole(const PatchPair& pair, double noise, double right_px, double down_px) {
   const auto whole = [](double px) {
     return static_cast<int>(std::lround(std::clamp(px, -2.0, 2.0)));
@@ -221,7 +226,7 @@ void find_displacement(const PatchPair& pair, const EvidenceBounds& bounds, Tile
   if (found.beyond_noise >= kFewestShapePixels) found.kept = kept_shape(pair, right, down);
 }
 
-/// Sums of the differences of flat pixels: those around which neither picture has an edge.
+/// Sums of the differences of flat pixels: those without an edge around them in either image.
 struct FlatSums {
   std::array<std::array<int, 3>, 2 * kTile> sums{};  ///< Rows, then columns.
   std::array<int, 2 * kTile> counts{};
@@ -235,7 +240,8 @@ struct FlatSums {
     }
   }
 
-  /// How far the mean over `number` rows or columns from `first` moves beyond what noise explains.
+  /// The change of the mean over `number` rows or columns from `first` beyond that explained by
+  /// noise.
   double shift(int first, int number, const EvidenceBounds& bounds, bool is_noisy) const {
     int count = 0;
     std::array<int, 3> sum{};
@@ -245,7 +251,7 @@ struct FlatSums {
       count += counts[run];
       for (int c = 0; c < 3; ++c) sum[c] += sums[run][c];
     }
-    // Where only a row or two are flat, they may be the smoothed edge of something pale.
+    // If only one or two rows are flat, they may be the anti-aliased edge of a pale shape.
     if (count < 2 * kTile || thin_runs > number - 3) return -1.0;
     const double deviation = is_noisy ? 0.6 * bounds.noise / std::sqrt(count) : 0.0;
     const int most = std::max({std::abs(sum[0]), std::abs(sum[1]), std::abs(sum[2])});
@@ -268,7 +274,8 @@ FlatSums flat_sums(const PatchPair& pair, double noise, int width, int height) {
   return sums;
 }
 
-/// Three rows together, as a pale line that smoothing moves by a pixel keeps its sum in them.
+/// The largest shift of the tile or of three rows or columns: a pale line that anti-aliasing moves
+/// by a pixel keeps its sum in them.
 double flat_shift(const FlatSums& sums, const EvidenceBounds& bounds, bool is_noisy) {
   double shift = sums.shift(0, kTile, bounds, is_noisy);
   for (int run = 0; run + 3 <= kTile; ++run)
@@ -277,8 +284,8 @@ double flat_shift(const FlatSums& sums, const EvidenceBounds& bounds, bool is_no
   return shift;
 }
 
-/// The mean shift of pixels that go as far as all their neighbours, as under a film and not at
-/// edges, if there are some; less the bound.
+/// The mean shift, less the bound, of pixels that change as much as all their neighbours, as under
+/// a transparent layer and not at edges; negative if there are too few.
 double film_shift(const PatchPair& pair, const EvidenceBounds& bounds, int width, int height) {
   std::array<Plane, 3> difference, least, most;
   for (int c = 0; c < 3; ++c) {
@@ -302,7 +309,8 @@ double film_shift(const PatchPair& pair, const EvidenceBounds& bounds, int width
   return count < kTile ? -1.0 : static_cast<double>(sum) / count - bounds.mean_noise;
 }
 
-/// Of two pixels, 0 to 1 [kotsarenko2010]: the distance in YIQ, weighted as it is seen.
+/// The difference of two pixels, 0 to 1 [kotsarenko2010]: the distance in YIQ with perceptual
+/// weights.
 double colour_difference(const PatchPair& pair, int i) {
   std::array<double, 3> d;
   for (int c = 0; c < 3; ++c) d[c] = pair.after.raw[c][i] - pair.before.raw[c][i];
@@ -322,14 +330,13 @@ bool TileEvidence::is_one_sided() const {
   return std::abs(sum[most]) > 0.9 * absolute_sum[most];
 }
 
-TileEvidence tile_evidence(const Image& baseline, const Image& current, int x0, int y0,
+TileEvidence tile_evidence(const Image& baseline, const Image& current, const PixelBox& tile,
                            const EvidenceBounds& bounds, TileMarks& marks) {
   TileEvidence found;
   PatchPair pair;
-  load_patch(baseline, x0, y0, pair.before);
-  load_patch(current, x0, y0, pair.after);
-  const int width = std::min(kTile, baseline.width - x0);
-  const int height = std::min(kTile, baseline.height - y0);
+  load_patch(baseline, tile.x, tile.y, pair.before);
+  load_patch(current, tile.x, tile.y, pair.after);
+  const auto [x0, y0, width, height] = tile;
   for (int y = 0; y < height; ++y)
     for (int x = 0; x < width; ++x) {
       const int i = cell_at(x, y);

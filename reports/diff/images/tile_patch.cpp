@@ -7,19 +7,26 @@
 namespace mapproof {
 namespace {
 
-constexpr int kFarthest = 3;            // Pixels: with slopes, what the margin of a patch allows.
+constexpr int kFarthest = 3;  // Pixels: with slopes, the most that the margin of a patch allows.
 constexpr double kFarthestRest = 0.75;  // Beyond whole pixels.
 constexpr std::size_t kMostStyles = 6;
 
-/// Slope of a smoothed plane, of 255 a pixel, by five cells.
+/// Slope of a smoothed plane in 1 of 255 per pixel, from five cells.
 double slope(const Plane& plane, int i, int step, int scale) {
   return (8 * (plane[i + step] - plane[i - step]) - (plane[i + 2 * step] - plane[i - 2 * step])) /
          (12.0 * scale);
 }
 
-/// @param scale  What 1 of 255 is in the planes.
-MovementFit fit_of(const std::array<Plane, 3>& before, const std::array<Plane, 3>& after, int scale,
-                   double noise, int offset, int around) {
+/// The same planes of both images, red first.
+struct PlanePair {
+  const std::array<Plane, 3>& before;
+  const std::array<Plane, 3>& after;
+  int scale;  ///< The value in the planes of a difference of 1 of 255.
+};
+
+/// @param noise, offset, around  As in movement_fit().
+MovementFit fit_of(const PlanePair& planes, double noise, int offset, int around) {
+  const auto& [before, after, scale] = planes;
   MovementFit fit;
   for (int y = -around; y < kTile + around; ++y)
     for (int x = -around; x < kTile + around; ++x) {
@@ -49,7 +56,7 @@ void load(const Image& image, int x0, int y0, Patch& patch) {
   }
 }
 
-/// `combine` of each cell and its neighbours, first along rows, then along columns.
+/// Applies `combine` to each cell and its neighbours, first along rows, then along columns.
 template <typename Combine>
 void separable(const Plane& in, Plane& out, Combine combine) {
   Plane rows;
@@ -67,7 +74,7 @@ std::int16_t binomial(std::int16_t a, std::int16_t b, std::int16_t c) {
 std::int16_t least(std::int16_t a, std::int16_t b, std::int16_t c) { return std::min({a, b, c}); }
 std::int16_t most(std::int16_t a, std::int16_t b, std::int16_t c) { return std::max({a, b, c}); }
 
-// As types, so that each is inlined into its loops.
+// Each has its own type, so that it is inlined into its loops.
 constexpr auto kBinomial = [](auto... v) { return binomial(v...); };
 constexpr auto kLeast = [](auto... v) { return least(v...); };
 constexpr auto kMostOfNine = [](auto... v) { return most(v...); };
@@ -118,7 +125,7 @@ double MovementFit::left(double x, double y) const {
 }
 
 MovementFit movement_fit(const PatchPair& pair, double noise, int offset, int around) {
-  return fit_of(pair.before.smoother, pair.after.smoother, kSmootherScale, noise, offset, around);
+  return fit_of({pair.before.smoother, pair.after.smoother, kSmootherScale}, noise, offset, around);
 }
 
 KeptShape kept_shape(const PatchPair& pair, double right_px, double down_px) {
@@ -129,7 +136,8 @@ KeptShape kept_shape(const PatchPair& pair, double right_px, double down_px) {
     };
     return Step{one(right), one(down)};
   };
-  // Whole pixels first, then less; where that leads to other whole pixels, from there again.
+  // Whole pixels first, then fractions. If that leads to other whole pixels, start again from
+  // there.
   std::vector<Step> styles{{0, 0}};
   const auto look_at = [&](const Step& step) {
     if (std::ranges::find(styles, step) == styles.end()) styles.push_back(step);
@@ -139,7 +147,7 @@ KeptShape kept_shape(const PatchPair& pair, double right_px, double down_px) {
   double energy = 0.0;
   for (std::size_t k = 0; k < std::min(styles.size(), kMostStyles); ++k) {
     const auto [right, down] = styles[k];
-    const MovementFit fit = fit_of(pair.before.smooth, pair.after.smooth, kSmoothScale, 1.0,
+    const MovementFit fit = fit_of({pair.before.smooth, pair.after.smooth, kSmoothScale}, 1.0,
                                    down * kPatchSide + right, 0);
     if (k == 0) energy = fit.energy;
     if (energy == 0.0) return kept;

@@ -19,7 +19,7 @@ namespace {
 
 constexpr std::size_t kMostMoves = 20;
 
-/// NaN in the same places, else equal numbers.
+/// Whether numbers are equal, NaN at the same indices.
 bool equal(const Points& a, const Points& b) {
   if (a.rows() != b.rows()) return false;
   for (Eigen::Index i = 0; i < a.size(); ++i)
@@ -43,7 +43,7 @@ double spread_of(const Points& points) {
   return std::sqrt((points.rowwise() - centre).rowwise().squaredNorm().mean());
 }
 
-/// `current` where it lies closest to `baseline`, both in units of the baseline's spread.
+/// `current` aligned to `baseline`, both in units of the baseline's spread.
 void lay_on(const Points& baseline, Points& current, const std::vector<Eigen::Index>& rows) {
   if (rows.empty()) return;
   const Points to = rows_of(baseline, rows);
@@ -62,7 +62,7 @@ void lay_on(const Points& baseline, Points& current, const std::vector<Eigen::In
   current = best;
 }
 
-/// Means over the points that have a place on both sides and a truth.
+/// Means over the points with a position on both sides and ground truth.
 struct Errors {
   double baseline = 0.0, current = 0.0;
   int count = 0;
@@ -126,9 +126,9 @@ void keep_farthest(std::vector<PointMove>& moves) {
 
 using ParsedJson = nlohmann::json;
 
-constexpr std::size_t kMostNumberText = 60;  // Of a value that is told.
+constexpr std::size_t kMostNumberText = 60;  // Characters of a value in a message.
 
-/// What keys are of that do not have a quantity's name.
+/// The quantities of keys that do not have the name of a quantity.
 struct KeyQuantity {
   std::string_view key, quantity;
 };
@@ -227,17 +227,17 @@ class NumberComparer {
       const std::string place = pointer + "/" + key;
       const auto other = b.find(key);
       if (other == b.end())
-        beyond(value, "not there", place, true);
+        beyond(value, "missing", place, true);
       else if (!is_shape || key != "estimate")
         compare(value, *other, place, tolerance_at(key, value, tolerance));
     }
     for (const auto& [key, value] : b.items())
-      if (!a.contains(key)) beyond("not there", value, pointer + "/" + key, true);
+      if (!a.contains(key)) beyond("missing", value, pointer + "/" + key, true);
   }
 
   Tolerance tolerance_at(const std::string& key, const ParsedJson& value,
                          const Tolerance& outer) const {
-    if (value.is_structured())  // Of scores there are numbers of the same names.
+    if (value.is_structured())  // Scores have numbers with the same names.
       for (const KeyQuantity& known : kKeys)
         if (known.key == key) return tolerance_of(known_quantity(known.quantity), tolerances_);
     const Quantity* facts = find_quantity(key);

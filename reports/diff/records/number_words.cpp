@@ -11,7 +11,7 @@ bool is_digit(char c) { return c >= '0' && c <= '9'; }
 
 bool is_letter(char c) { return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z'); }
 
-/// The bytes of a sign at `at`, 0 if there is none.
+/// The number of bytes of the sign at `at`, 0 if there is none.
 std::size_t sign_at(std::string_view text, std::size_t at) {
   if (text.substr(at).starts_with(kMinus)) return kMinus.size();
   return at < text.size() && (text[at] == '-' || text[at] == '+') ? 1 : 0;
@@ -22,7 +22,7 @@ std::size_t digits_end(std::string_view text, std::size_t at) {
   return at;
 }
 
-/// Where the number that begins at `at` ends; `at` if none does.
+/// The end of the number that begins at `at`; `at` if none does.
 std::size_t number_end(std::string_view text, std::size_t at) {
   const bool inside_word = at > 0 && (is_letter(text[at - 1]) || is_digit(text[at - 1]));
   std::size_t end = at + (inside_word ? 0 : sign_at(text, at));

@@ -16,13 +16,14 @@ constexpr std::size_t kMostRecordNames = 3;
 
 constexpr double kSignificant = 0.05;
 
-/// Of a test that says something the size of its effect, else 0.
+/// The absolute effect of a significant test, else 0.
 double told_effect(const Comparison& c) {
   return c.test && c.test->p < kSignificant ? std::abs(c.test->test.effect) : 0.0;
 }
 
-/// Heavier first, then the order of the dictionary, then the largest significant effect, then
-/// the best method where there is no direction and no test, else the largest change.
+/// Orders by weight of the outcome, then by the order of the dictionary, then by the largest
+/// significant effect, then by the best method where there is no direction and no test, else by the
+/// largest change.
 bool tells_more(const Comparison& a, const Comparison& b) {
   const Verdict first = verdict_of(a.outcome), second = verdict_of(b.outcome);
   if (first != second) return first > second;
@@ -48,7 +49,7 @@ std::string names_text(const std::vector<std::string>& names) {
   return listed(shown, kMostRecordNames);
 }
 
-/// One side of the records has what the other lacks.
+/// Adds the records that only one side has.
 void judge_presence(const RecordDiff& diff, Judgement& whole, std::vector<std::string>& causes) {
   const auto add = [&](const std::vector<std::string>& names, Verdict verdict, const char* noun) {
     if (names.empty()) return;
@@ -62,7 +63,7 @@ void judge_presence(const RecordDiff& diff, Judgement& whole, std::vector<std::s
   add(diff.new_subjects, Verdict::kNew, "record");
 }
 
-/// What a test has to say beside p: nothing where it decided.
+/// The result of a test besides p: empty where the test decided.
 std::string test_words(const Comparison& c) {
   if (!c.test) return "";
   if (c.test->powerless_of == 0)
@@ -71,10 +72,10 @@ std::string test_words(const Comparison& c) {
       c.test->unit == "run"
           ? counted(c.test->test.pairs, "pair")
           : fmt::format("{} pairs in {}", c.pairs, counted(c.test->test.pairs, c.test->unit));
-  return fmt::format(": {} can show nothing at {}{}", pairs,
+  return fmt::format(": {} are too few for significance in {}{}", pairs,
                      c.test->powerless_of == 1 ? std::string("1 quantity")
                                                : fmt::format("{} quantities", c.test->powerless_of),
-                     c.outcome == Outcome::kChanged ? "" : ", all that differ point one way");
+                     c.outcome == Outcome::kChanged ? "" : ", all that differ have one direction");
 }
 
 void judge_comparisons(const RecordDiff& diff, Judgement& whole, std::vector<std::string>& causes) {
@@ -97,7 +98,7 @@ std::string unit_words(const Quantity& quantity) {
   return quantity.unit.empty() ? "without a unit" : "in " + printable(quantity.unit, 40);
 }
 
-/// Other units mean other numbers, whatever the numbers are.
+/// Quantities with different units are not compared, whatever their numbers are.
 void judge_quantities(const RecordDiff& diff, Judgement& whole, std::vector<std::string>& causes) {
   for (const auto& [before, after] : diff.redeclared) {
     whole.verdict = heavier(whole.verdict, Verdict::kChanged);
@@ -111,7 +112,7 @@ void judge_quantities(const RecordDiff& diff, Judgement& whole, std::vector<std:
   }
 }
 
-/// Subjects of which a quantity says already what their change is worth.
+/// Subjects whose change a quantity already judges.
 std::set<std::string> judged_subjects(const RecordDiff& diff) {
   std::set<std::string> subjects;
   for (const Comparison& comparison : diff.comparisons)
@@ -140,7 +141,7 @@ void judge_points(const RecordDiff& diff, Judgement& whole, std::vector<std::str
         "{} in record {}{}", move_text(first->moves[0], first->quantity), first->record,
         records > 1 ? fmt::format(", points moved in {} in all", counted(records, "record")) : ""));
   if (others > 0 && diff.same_seeds)
-    causes.push_back(fmt::format("{} of other landmarks", counted(others, "map")));
+    causes.push_back(fmt::format("{} of different landmarks", counted(others, "map")));
 }
 
 void judge_rest(const RecordDiff& diff, Judgement& whole, std::vector<std::string>& causes) {
@@ -150,13 +151,13 @@ void judge_rest(const RecordDiff& diff, Judgement& whole, std::vector<std::strin
       whole.verdict = heavier(whole.verdict, Verdict::kChanged);
   if (!diff.statuses.empty()) {
     const StatusChange& first = diff.statuses[0];
-    causes.push_back(fmt::format("status of {}: {} \u2192 {}", first.record,
+    causes.push_back(fmt::format("warnings of {}: {} \u2192 {}", first.record,
                                  first.baseline.empty() ? "none" : first.baseline,
                                  first.current.empty() ? "none" : first.current));
   }
   if (!diff.anchors.empty()) {
     whole.verdict = heavier(whole.verdict, Verdict::kChanged);
-    causes.push_back("other anchors in " + names_text(diff.anchors));
+    causes.push_back("different anchors in " + names_text(diff.anchors));
   }
 }
 
@@ -169,14 +170,14 @@ void judge_others(const RecordDiff& diff, Judgement& whole, std::vector<std::str
           whole.verdict, other.presence == Presence::kBaseline ? Verdict::kMissing : Verdict::kNew);
     else if (!beyond)
       whole.verdict = heavier(whole.verdict, Verdict::kWithinTolerance);
-    else if (whole.verdict <= Verdict::kWithinTolerance)  // Else scores say what it is worth.
+    else if (whole.verdict <= Verdict::kWithinTolerance)  // Otherwise scores judge it.
       whole.verdict = Verdict::kChanged;
     if (beyond && (causes.empty() || (lone && causes.size() < kMostRecordNames)))
       causes.push_back(other_text(other));
   }
 }
 
-/// Counts of what lies within tolerance.
+/// Counts of the differences within tolerance.
 std::string within_text(const RecordDiff& diff) {
   long values = 0, points = 0, numbers = 0;
   for (const Comparison& c : diff.comparisons) values += c.within + c.beyond;
@@ -257,7 +258,9 @@ std::string settings_text(const RecordDiff& diff) {
                                 shown(change.baseline), shown(change.current)));
   }
   std::string text = parts.empty() ? "" : listed(parts, kMostRecordNames);
-  if (!diff.same_seeds) text += text.empty() ? "other worlds" : ": other worlds";
+  if (!diff.same_seeds)
+    text +=
+        text.empty() ? "different seeds or true positions" : ": different seeds or true positions";
   return text;
 }
 
@@ -282,7 +285,7 @@ std::string comparison_text(const Comparison& comparison, const std::string& run
 std::string move_text(const PointMove& move, const std::string& quantity) {
   const std::string who = (quantity == "path_m" ? "position " : "landmark ") + printable(move.name);
   if (!std::isfinite(move.moved))
-    return who + (std::isfinite(move.current.x) ? " gained its place" : " lost its place");
+    return who + (std::isfinite(move.current.x) ? " gained a position" : " lost its position");
   if (quantity == "landmark_shape")
     return fmt::format("{} moved {:.3g} of the map's spread", who, move.moved);
   return move.moved < 0.9995 ? fmt::format("{} moved {:.3g} mm", who, 1000.0 * move.moved)
@@ -300,7 +303,7 @@ Judgement judge(const RecordDiff& diff) {
   judge_rest(diff, whole, causes);
   judge_others(diff, whole, causes);
   if (!diff.problems.empty()) {
-    // What is lost with a file that cannot be read is not a news beside that.
+    // Records that are lost with an unreadable file are not listed besides that file.
     const auto more = std::ssize(diff.problems) - 1;
     whole.verdict = Verdict::kUnreadable;
     causes = {diff.problems[0].what +

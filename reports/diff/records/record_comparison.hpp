@@ -14,20 +14,20 @@
 
 namespace mapproof {
 
-/// How records are judged.
+/// The rules by which records are judged.
 struct RecordOptions {
   Tolerances tolerances;
   double significance = 0.05;  ///< Of all paired tests of one comparison together.
-  double least_effect = 0.3;   ///< Rank-biserial correlation that counts.
+  double least_effect = 0.3;   ///< The least rank-biserial correlation that counts.
 };
 
-/// What became of one quantity of one subject.
+/// The outcome for one quantity of one subject.
 enum class Outcome { kEqual, kWithinTolerance, kBetter, kWorse, kChanged };
 
 /// "equal", "within-tolerance", "better", "worse", "changed".
 std::string_view name(Outcome outcome);
 
-/// Which side has a file.
+/// The sides that have a file.
 enum class Presence { kBoth, kBaseline, kCurrent };
 
 /// "both", "baseline", "current".
@@ -42,13 +42,13 @@ struct PairedValue {
 
 /// The test over pairs of equal runs.
 struct PairedTest {
-  /// "layout", "group": means over the runs of each; "run": each is its own group, or the layouts
-  /// are too few.
+  /// The unit of the test: "layout" or "group" for means over the runs of each; "run" if each run
+  /// is its own group, or if there are too few layouts.
   std::string unit;
   SignedRankTest test;
   double p = 1.0;  ///< Corrected for all tests of the comparison.
-  /// Of how many tests, where no outcome of so few units could get any of them below the level;
-  /// else 0. Such a test is silent, and decides nothing.
+  /// The number of tests if no outcome of so few units could make any of them significant; else 0.
+  /// Such a test has no power and decides nothing.
   int powerless_of = 0;
 };
 
@@ -56,29 +56,29 @@ struct PairedTest {
 struct Comparison {
   std::string subject;
   std::string current_subject;  ///< The same, unless its parameter changed.
-  Quantity quantity;            ///< The dictionary's, or as the study declares it.
+  Quantity quantity;            ///< From the dictionary, or as the study declares it.
   int pairs = 0;                ///< Runs that have it on both sides; of them …
   int equal = 0;
   int within = 0;
   int beyond = 0;
-  int worse = 0;  ///< Of them, by the quantity's direction, where seeds are equal.
+  int worse = 0;  ///< Of them, by the quantity's direction, if the seeds are equal.
   int better = 0;
-  int lost = 0;                ///< Runs with a value in the baseline alone; not in `pairs`.
-  int gained = 0;              ///< Runs with a value in the current alone.
+  int lost = 0;                ///< Runs with a value only in the baseline; not in `pairs`.
+  int gained = 0;              ///< Runs with a value only in the current.
   double baseline_mean = 0.0;  ///< Over the pairs, or without pairs over all; NaN: none.
   double current_mean = 0.0;
   std::vector<PairedValue>
       largest;                     ///< Beyond tolerance, the largest difference first; at most 20.
-  std::optional<PairedTest> test;  ///< Where six or more pairs of equal seeds are there.
+  std::optional<PairedTest> test;  ///< With six or more pairs of equal seeds.
   Outcome outcome = Outcome::kEqual;
 };
 
 /// One landmark or one position of a path that moved beyond tolerance.
 struct PointMove {
   std::string name;
-  Point baseline, current;  ///< x to the right, y up; NaN: no place.
-  double moved = 0.0;       ///< Infinite if it has a place on one side alone.
-  std::optional<double> baseline_error, current_error;  ///< Where the truth is known.
+  Point baseline, current;  ///< x to the right, y up; NaN: no position.
+  double moved = 0.0;       ///< Infinite if it has a position on only one side.
+  std::optional<double> baseline_error, current_error;  ///< Where the ground truth is known.
 };
 
 /// The points of one record.
@@ -90,23 +90,23 @@ struct PointsDiff {
   int beyond = 0;
   int lost = 0;
   int gained = 0;
-  bool truth_differs = false;                           ///< Other landmarks: nothing was compared.
-  std::vector<PointMove> moves;                         ///< The farthest first; at most 20.
-  std::optional<double> baseline_error, current_error;  ///< Means where the truth is known.
+  bool truth_differs = false;    ///< The landmarks differ: nothing was compared.
+  std::vector<PointMove> moves;  ///< The farthest first; at most 20.
+  std::optional<double> baseline_error, current_error;  ///< Means, where the ground truth is known.
 };
 
-/// One value of the experiment; empty: not there.
+/// One value of the experiment; empty: missing.
 struct SettingChange {
   std::string pointer;
   std::string baseline, current;
 };
 
-/// A quantity that the two sides declare in another unit or direction.
+/// A quantity that the two sides declare with different units or directions.
 struct QuantityChange {
   Quantity baseline, current;
 };
 
-/// The statuses of one record.
+/// The warnings of one record.
 struct StatusChange {
   std::string record;
   std::string baseline, current;  ///< Codes, in order.
@@ -119,51 +119,51 @@ struct OtherDiff {
   long numbers = 0;
   long within = 0;
   long beyond = 0;
-  std::string first = {};  ///< JSON pointer or line of the first that is beyond tolerance.
+  std::string first = {};  ///< JSON pointer or line of the first value beyond tolerance.
   std::string baseline = {}, current = {};  ///< Its values.
   bool shape = false;                       ///< Keys, words or lengths differ as well.
 };
 
-/// What two sets of records differ in.
+/// The differences of two sets of records.
 struct RecordDiff {
   bool same_seeds = false;  ///< Runs can be compared pair by pair.
   std::vector<SettingChange> settings;
-  std::vector<SettingChange> provenance;  ///< Versions: told, never judged.
+  std::vector<SettingChange> provenance;  ///< Versions: reported, never judged.
   std::vector<std::string> missing_runs, new_runs;
   std::vector<std::string> missing_subjects, new_subjects;
-  std::vector<Comparison> comparisons;     ///< Those that are not equal throughout.
+  std::vector<Comparison> comparisons;     ///< Those that are not equal in all runs.
   std::vector<Quantity> declared;          ///< Quantities that either side declares.
-  std::vector<QuantityChange> redeclared;  ///< Those of another unit are not compared.
+  std::vector<QuantityChange> redeclared;  ///< Those with different units are not compared.
   long values = 0;                         ///< Numbers compared in all.
   std::vector<PointsDiff> points;          ///< Records with a point that is not equal.
   std::vector<StatusChange> statuses;
-  std::vector<std::string> anchors;  ///< Runs whose anchors are others.
+  std::vector<std::string> anchors;  ///< Runs whose anchors differ.
   std::vector<OtherDiff> others;
   std::vector<RecordProblem> problems;
-  /// What figures call subjects that have another name: their families, the id of a map.
+  /// Names in figures of subjects with a different name: their families, the id of a map.
   std::map<std::string, std::set<std::string>> called;
   Judgement judgement;
 };
 
-/// The verdict on all of it, and its cause in one sentence.
+/// The verdict on the whole, and its cause in one sentence.
 Judgement judge(const RecordDiff& diff);
 
-/// The comparison of those that says most: the heaviest outcome, MPE before others, the least p.
+/// The most significant of the comparisons: the heaviest outcome, MPE before others, the least p.
 /// Null if there is none.
 const Comparison* most_telling(const std::vector<const Comparison*>& comparisons);
 
-/// " (errors: 1 worse, 3 better)" where they point both ways, and `first`, the most telling of
-/// them, has no test that tells more; else empty.
+/// " (errors: 1 worse, 3 better)" if they have both directions, and `first`, the most significant
+/// of them, has no test that decides; else empty.
 std::string directions_text(const std::vector<const Comparison*>& all, const Comparison& first);
 
 /// "space.json is missing"; "maps/layout-1-pose-2.json: 2 numbers differ, the first at …".
 std::string other_text(const OtherDiff& other);
 
-/// What the outcome makes of a thing.
+/// The verdict that follows from an outcome.
 Verdict verdict_of(Outcome outcome);
 
-/// "seed 0 → 5", "K = 6 → K = 7 of bearing/isomap/2000": what the experiments differ in; empty if
-/// nothing.
+/// "seed 0 → 5", "K = 6 → K = 7 of bearing/isomap/2000": the differences of the experiments; empty
+/// if there are none.
 std::string settings_text(const RecordDiff& diff);
 
 /// "MPE 0.138 → 0.152 m, p = 0.003": of one run where `run` names one that differs, else the means.
@@ -172,7 +172,7 @@ std::string comparison_text(const Comparison& comparison, const std::string& run
 /// "landmark L17 moved 41 mm".
 std::string move_text(const PointMove& move, const std::string& quantity);
 
-/// What a record's id names.
+/// The run and the subject of a record id.
 struct RecordName {
   std::string run;      ///< "layout-1-pose-2"; empty: all runs.
   std::string subject;  ///< "bearing/lpca/2000".

@@ -16,7 +16,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// What both have is given to `both`, the rest listed.
+/// Calls `both` for keys on both sides and lists the others.
 template <typename Map, typename Both>
 void match(const Map& a, const Map& b, std::vector<std::string>& missing,
            std::vector<std::string>& added, Both both) {
@@ -71,8 +71,8 @@ void compare_subjects(const RecordSet& a, const RecordSet& b, RecordDiff& diff) 
     if (!matched.contains(subject)) diff.new_subjects.push_back(subject);
 }
 
-/// Whether a record is one that both sides ought to have: what follows from runs, subjects or
-/// damaged files on one side alone is told there.
+/// Whether both sides should have a record. Records that are missing because of runs, subjects or
+/// damaged files on only one side are reported there.
 bool is_expected(const std::string& record, const RecordSet& a, const RecordSet& b) {
   const RecordName name = subject_of(record);
   const auto has = [&name](const RecordSet& set) {
@@ -117,7 +117,7 @@ void compare_rest(const RecordSet& a, const RecordSet& b, RecordDiff& diff) {
     diff.problems.insert(diff.problems.end(), side->problems.begin(), side->problems.end());
 }
 
-/// The run that a file is of: "layout-1-pose-2" of "maps/layout-1-pose-2.json", "plaza-1" of
+/// The run to which a file belongs:  "layout-1-pose-2" of "maps/layout-1-pose-2.json", "plaza-1" of
 /// "paths/plaza-1/ekf.tum"; empty for others.
 std::string run_of(const fs::path& file) {
   const fs::path folder = file.has_parent_path() ? *file.begin() : fs::path();
@@ -125,7 +125,7 @@ std::string run_of(const fs::path& file) {
   return folder == "runs" || folder == "maps" || folder == "details" ? file.stem().string() : "";
 }
 
-/// Files of runs that one side alone has are told as runs.
+/// Whether a file belongs to a run on only one side; it is then reported as a run.
 bool is_told_apart(const std::string& file, const RecordDiff& diff) {
   const std::string run = run_of(file);
   const auto is_run = [&](const std::vector<std::string>& runs) {
@@ -134,7 +134,7 @@ bool is_told_apart(const std::string& file, const RecordDiff& diff) {
   return !is_run(diff.missing_runs) && !is_run(diff.new_runs);
 }
 
-/// What no quantity, position or status says of the files that are not equal.
+/// Differences of files that no quantity, position or warning covers.
 void compare_others(const RecordSet& a, const RecordSet& b, const Tolerances& tolerances,
                     RecordDiff& diff) {
   std::vector<std::string> missing, added;
@@ -163,8 +163,8 @@ void compare_others(const RecordSet& a, const RecordSet& b, const Tolerances& to
 
 RecordDiff record_diff(const RecordSet& a, const RecordSet& b, const RecordOptions& options) {
   if (a.kind != b.kind)
-    throw InvalidInput(
-        fmt::format("the baseline is a {}, the current a {}: not to be compared", a.kind, b.kind));
+    throw InvalidInput(fmt::format(
+        "the baseline is a {}, the current a {}: they cannot be compared", a.kind, b.kind));
   RecordDiff diff;
   diff.same_seeds = have_same_seeds(a, b, options.tolerances);
   compare_settings(a, b, diff);

@@ -15,22 +15,21 @@
 
 namespace mapproof {
 
-/// Compares records run by run. Where six or more pairs of equal seeds are there, Wilcoxon's signed
-/// rank test, corrected by Holm over all quantities that differ beyond tolerance, and its effect
-/// size decide between better, worse and changed; with fewer pairs all errors that differ, of
-/// whatever quantity and subject, have to point one way, and what is of the solver tells none.
-///
-/// Tests are of what differs at all: under the hypothesis that is tested, signs as likely up as
-/// down, leaving out the quantities without a difference changes no chance.
+/// Compares records run by run. With six or more pairs of equal seeds, Wilcoxon's signed rank test,
+/// corrected by Holm over all quantities that differ beyond tolerance, and its effect size decide
+/// between better, worse and changed. With fewer pairs, all errors that differ, of any quantity and
+/// subject, must change in one direction; quantities of the solver decide nothing then. Only
+/// quantities with a difference are tested. Under the null hypothesis, by which both signs are
+/// equally likely, leaving out the others changes no probability.
 /// @throws InvalidInput if they are records of two kinds.
 RecordDiff record_diff(const RecordSet& baseline, const RecordSet& current,
                        const RecordOptions& options = {});
 
-/// What a figure's record id stands for: one record, or a subject over all runs.
+/// The comparisons behind a record id of a figure: of one record, or of a subject over all runs.
 struct RecordTie {
   std::vector<const Comparison*> comparisons;  ///< Of its subject; empty: all equal.
   std::vector<const PointsDiff*> points;       ///< Of that one record.
-  std::vector<const OtherDiff*> others;        ///< Files of it alone, beyond tolerance.
+  std::vector<const OtherDiff*> others;        ///< Its own files that differ beyond tolerance.
   std::string run;                             ///< Empty: over all runs.
 };
 

@@ -53,23 +53,32 @@ struct Differences {
   std::vector<double> by_run;
 };
 
-void compare_pair(const std::string& run, const std::string& group, double a, double b,
-                  const Tolerance& tolerance, Comparison& out, Differences& differences) {
+/// A comparison with the differences that decide its outcome.
+struct Open {
+  Comparison comparison;
+  Differences differences;
+};
+
+void compare_pair(const PairedValue& pair, const std::string& group, const Tolerance& tolerance,
+                  Open& open) {
+  const double a = pair.baseline, b = pair.current;
+  Comparison& out = open.comparison;
   if (std::isnan(a) && std::isnan(b)) return;
   if (std::isnan(a) || std::isnan(b)) {
     ++(std::isnan(a) ? out.gained : out.lost);
-    out.largest.push_back({run, a, b});
+    out.largest.push_back(pair);
     return;
   }
   ++out.pairs;
-  if (std::isinf(a) || std::isinf(b)) {  // An unproved gap: no difference, but better or worse.
+  if (std::isinf(a) ||
+      std::isinf(b)) {  // A gap without a certificate: no difference, but better or worse.
     if (a == b) {
       ++out.equal;
       return;
     }
   } else {
-    differences.by_run.push_back(b - a);
-    differences.by_group[group].push_back(b - a);
+    open.differences.by_run.push_back(b - a);
+    open.differences.by_group[group].push_back(b - a);
     if (a == b) {
       ++out.equal;
       return;
@@ -81,10 +90,10 @@ void compare_pair(const std::string& run, const std::string& group, double a, do
   }
   ++out.beyond;
   ++(b > a ? out.worse : out.better);
-  out.largest.push_back({run, a, b});
+  out.largest.push_back(pair);
 }
 
-/// @param draws_groups  As RecordSet: fewer groups than a test needs give none.
+/// @param draws_groups  As in RecordSet: with fewer groups than a test needs there is no test.
 std::optional<PairedTest> paired_test(const Differences& differences, bool draws_groups) {
   PairedTest test;
   std::vector<double> means;
@@ -108,22 +117,24 @@ void keep_largest(std::vector<PairedValue>& pairs) {
   if (pairs.size() > kMostPairs) pairs.resize(kMostPairs);
 }
 
-/// A comparison with what decides its outcome.
-struct Open {
-  Comparison comparison;
-  Differences differences;
-};
-
-/// The value of a run; NaN where the side has the run but not the value, nothing where it lacks
-/// both.
+/// The value of a run; NaN if the side has the run but not the value, empty if it has neither.
 std::optional<double> value_of(const RecordSet& set, const Values& values, const std::string& run) {
   const auto found = values.find(run);
   if (found != values.end()) return found->second;
   return run.empty() || set.runs.contains(run) ? std::optional(kNaN) : std::nullopt;
 }
 
-Open compare(const RecordSet& a, const RecordSet& b, const Values& before, const Values& after,
-             bool same_seeds, const Tolerance& tolerance) {
+/// Both sides of a comparison.
+struct RecordPair {
+  const RecordSet& baseline;
+  const RecordSet& current;
+  bool same_seeds = false;  ///< See have_same_seeds().
+};
+
+/// Compares one quantity of one subject over all runs.
+Open compare(const RecordPair& sides, const Values& before, const Values& after,
+             const Tolerance& tolerance) {
+  const auto& [a, b, same_seeds] = sides;
   Open open;
   Comparison& out = open.comparison;
   std::set<std::string> runs;
@@ -134,8 +145,8 @@ Open compare(const RecordSet& a, const RecordSet& b, const Values& before, const
     const std::optional<double> first = value_of(a, before, run), second = value_of(b, after, run);
     if (!first || !second) continue;
     const auto group = a.runs.find(run);
-    compare_pair(run, group == a.runs.end() ? run : group->second, *first, *second, tolerance, out,
-                 open.differences);
+    compare_pair({run, *first, *second}, group == a.runs.end() ? run : group->second, tolerance,
+                 open);
     if (!std::isfinite(*first) || !std::isfinite(*second)) continue;
     firsts.push_back(*first);
     seconds.push_back(*second);
@@ -148,7 +159,7 @@ Open compare(const RecordSet& a, const RecordSet& b, const Values& before, const
   return open;
 }
 
-/// Whether all errors that differ, of whatever quantity and subject, got worse, or all better.
+/// Whether all errors that differ, of any quantity and subject, became worse, or all became better.
 bool point_one_way(const std::vector<Open>& all) {
   bool worse = false, better = false;
   for (const Open& open : all) {
@@ -160,8 +171,9 @@ bool point_one_way(const std::vector<Open>& all) {
   return !worse || !better;
 }
 
-/// The dictionary's, and those that either side declares: none that the sides declare in two units,
-/// and without a direction what they declare with two.
+/// The quantities of the dictionary, and those that either side declares. Quantities that the sides
+/// declare in different units are left out; those that they declare with different directions have
+/// none.
 std::vector<Quantity> compared_quantities(const RecordSet& a, const RecordSet& b) {
   std::vector<Quantity> all = b.quantities.all();
   for (const Quantity& before : a.quantities.declared()) {
@@ -176,7 +188,7 @@ std::vector<Quantity> compared_quantities(const RecordSet& a, const RecordSet& b
   return all;
 }
 
-/// @param one_way  As point_one_way says of all.
+/// @param one_way  The result of point_one_way() for all.
 Outcome outcome_of(const Comparison& c, bool same_seeds, bool one_way,
                    const RecordOptions& options) {
   const Quantity& quantity = c.quantity;
@@ -192,7 +204,7 @@ Outcome outcome_of(const Comparison& c, bool same_seeds, bool one_way,
   }
   const int worse = c.worse + c.lost, better = c.better + c.gained;
   if (quantity.of_solver || (worse > 0 && better > 0)) return Outcome::kChanged;
-  // That there is no score any more needs no others beside it.
+  // A lost or gained score decides without other scores.
   if (!one_way && c.lost + c.gained == 0) return Outcome::kChanged;
   return worse > 0 ? Outcome::kWorse : Outcome::kBetter;
 }
@@ -205,7 +217,7 @@ void correct(std::vector<Open>& all, double significance) {
       p.push_back(open.comparison.test->p);
       least_p = std::min(least_p, least_signed_rank_p(open.comparison.test->test.pairs));
     }
-  // Holm multiplies the least of all by their number, and gives none of the others less.
+  // Holm multiplies the smallest p by the number of tests; all others become no smaller.
   const bool is_powerless = least_p * static_cast<double>(p.size()) >= significance;
   const std::vector<double> corrected = holm(p);
   std::size_t next = 0;
@@ -251,8 +263,8 @@ std::vector<Comparison> compare_series(const RecordSet& a, const RecordSet& b, b
       const auto before = a.values.find({subject, quantity.id});
       const auto after = b.values.find({other, quantity.id});
       if (before == a.values.end() && after == b.values.end()) continue;
-      Open open = compare(a, b, before == a.values.end() ? kNone : before->second,
-                          after == b.values.end() ? kNone : after->second, same_seeds,
+      Open open = compare({a, b, same_seeds}, before == a.values.end() ? kNone : before->second,
+                          after == b.values.end() ? kNone : after->second,
                           tolerance_of(quantity, options.tolerances));
       Comparison& c = open.comparison;
       values += c.pairs + c.lost + c.gained;

@@ -7,17 +7,17 @@
 
 namespace mapproof {
 
-/// Whether the runs on both sides are of equal seeds: the same seed and the same true places.
+/// Whether the runs on both sides have equal seeds: the same seed and the same true positions.
 bool have_same_seeds(const RecordSet& baseline, const RecordSet& current,
                      const Tolerances& tolerances);
 
-/// Every quantity that is not equal throughout, its outcome decided.
-/// @param values  Set to the number of values that were compared.
+/// Compares every quantity; returns those that are not equal in all runs, with their outcomes.
+/// @param values  Set to the number of compared values.
 std::vector<Comparison> compare_series(const RecordSet& baseline, const RecordSet& current,
                                        bool same_seeds, const RecordOptions& options, long& values);
 
-/// Which subject of the current one of the baseline is compared with: itself, or the one that
-/// differs from it in its parameter alone.
+/// The subject of the current for each subject of the baseline: the same, or the one that differs
+/// only in its parameter.
 std::map<std::string, std::string> matched_subjects(const RecordSet& baseline,
                                                     const RecordSet& current);
 

@@ -36,14 +36,14 @@ bool is_kept_in(const fs::path& file) {
   return extension == ".json" || extension == ".csv" || extension == ".tum";
 }
 
-/// Up to `to.size()` bytes, fewer at the end alone.
+/// Reads up to `to.size()` bytes, fewer only at the end.
 std::size_t read_block(const Descriptor& file, std::string& to, const std::string& name) {
   std::size_t count = 0;
   while (const std::size_t got = read_some(file, std::span(to).subspan(count), name)) count += got;
   return count;
 }
 
-/// Whether a study.json is there, be it readable or not.
+/// Whether a study.json exists, readable or not.
 bool has_study(const fs::path& folder) {
   std::error_code error;
   return fs::exists(fs::symlink_status(folder / "study.json", error));
@@ -58,7 +58,7 @@ fs::path single_file(const fs::path& path) {
   return {};
 }
 
-/// Whether a file is the JSON of a map or of one log's result, by what it says it is.
+/// Whether a file is the JSON of a map or of one log's result, by its schema.
 bool is_single(const fs::path& file) {
   try {
     ByteSource source(file);
@@ -69,7 +69,7 @@ bool is_single(const fs::path& file) {
   }
 }
 
-/// All of a JSON value as text by its pointers; arrays of plain values are one value.
+/// All values of a JSON document as text, by pointer; an array of plain values is one value.
 void add_settings(RecordSet& set, const fs::path& study) {
   const nlohmann::json root = parse_json(read_file(study), study.string()).root;
   for (auto& [pointer, text] : flattened(root.contains("experiment") ? root["experiment"] : root))
@@ -122,10 +122,11 @@ RecordSet read_single(const fs::path& file) {
   const std::string source = file.string();
   const std::string schema = schema_of(parse_json(text, source).cursor()).name;
   if (schema == "mapproof.slam_run") return set_of(contents_of(parse_slam_run(text, source)));
-  if (schema != "mapproof.map") throw IoError(source, "holds no records but " + schema);
+  if (schema != "mapproof.map")
+    throw IoError(source, "does not hold records; its schema is " + schema);
   const MapRecord map = parse_map(text, source);
   StudyContents contents = contents_of(map);
-  // There is one map, whatever it was made of: the number of steps is a setting of it.
+  // There is one map, whatever its input was: the number of steps is a setting.
   for (Result& row : contents.results.rows) row.at.levels.clear();
   for (RunOutcome& outcome : contents.results.outcomes) outcome.at.levels.clear();
   RecordSet set = set_of(std::move(contents));
@@ -135,12 +136,12 @@ RecordSet read_single(const fs::path& file) {
   return set;
 }
 
-/// Whether all that a file holds is compared as settings, results and points.
+/// Whether all content of a file is compared as settings, results and points.
 bool is_compared(const fs::path& file) {
   return file == "study.json" || file == "results.csv" || file.parent_path() == "parts";
 }
 
-/// Lists the files that are others than those of the other side.
+/// Lists the files that differ from those of the other side.
 void add_others(RecordSet& set, const fs::path& folder, const fs::path& beside) {
   for (const fs::path& file : record_files(folder))
     if (!is_compared(file) && !same_bytes(folder / file, beside / file))
@@ -193,7 +194,7 @@ bool same_bytes(const fs::path& a, const fs::path& b) {
     }
     return true;
   } catch (const IoError&) {
-    return false;  // Whoever reads it says why.
+    return false;  // Reading it reports the reason.
   }
 }
 

@@ -11,19 +11,19 @@
 
 namespace mapproof {
 
-/// The files that records are kept in, seconds apart: those of a study of either kind, of a map or
-/// of one log's result. Paths below `place`, ascending; what cannot be listed is left out.
+/// The files that hold records, without the timings: those of a study of any kind, of a map or of
+/// one log's result. Paths below `place`, ascending. Files that cannot be listed are left out.
 std::vector<std::filesystem::path> record_files(const std::filesystem::path& place);
 
 /// The folder below `root` whose record_files() include the file; empty if none does.
-/// @param file  Below `root`; it need not be there.
+/// @param file  Below `root`; it need not exist.
 std::optional<std::filesystem::path> folder_of_record(const std::filesystem::path& root,
                                                       const std::filesystem::path& file);
 
-/// Whether both files are there and hold the same bytes.
+/// Whether both files exist and have equal bytes.
 bool same_bytes(const std::filesystem::path& a, const std::filesystem::path& b);
 
-/// What a number is of: all but the run.
+/// The key of a number, without its run.
 struct SeriesKey {
   std::string subject;   ///< series_name(): "bearing/isomap-K9/2000", "plaza-1/ekf".
   std::string quantity;  ///< Quantity::id.
@@ -31,13 +31,13 @@ struct SeriesKey {
   auto operator<=>(const SeriesKey&) const = default;
 };
 
-/// A subject without its parameter, so that another value of it can be recognised.
+/// A subject without its parameter, by which a changed parameter is recognised.
 struct SubjectFamily {
   std::string name;       ///< "bearing/isomap/2000".
   std::string parameter;  ///< "K = 9"; empty: none.
 };
 
-/// The records of one side of a comparison, whatever kind they are of.
+/// The records of one side of a comparison, of any kind.
 struct RecordSet {
   std::string kind;  ///< StudyContents::kind.
   std::string seed;  ///< Of the experiment; empty: none.
@@ -46,34 +46,33 @@ struct RecordSet {
   Provenance provenance;
   Quantities quantities;
   bool repeats = false;  ///< Results::are_repeats.
-  /// Groups are what is independent, however few: whoever wrote the table said so. Else, where
-  /// groups are few, paired tests take runs, which are independent within a group that stays.
+  /// Groups are the independent units, however few, as declared in the table. Otherwise, with few
+  /// groups, paired tests take runs, which are independent for a fixed set of groups.
   bool draws_groups = false;
-  std::map<std::string, std::string> runs;        ///< Id of each, and its group.
-  std::map<std::string, PlacedPoints> worlds;     ///< By run: the true places.
+  std::map<std::string, std::string> runs;        ///< The id and the group of each run.
+  std::map<std::string, PlacedPoints> worlds;     ///< By run: the true positions.
   std::map<std::string, std::string> anchors;     ///< By run: their rows, as text.
   std::map<std::string, SubjectFamily> families;  ///< By subject, where it has a parameter.
-  /// What figures call subjects that have another name: of one map its id.
+  /// Names in figures of subjects with a different name: the id of a single map.
   std::map<std::string, std::string> called;
-  /// Numbers by run_in_name(); NaN: no map came out, or there is nothing to judge.
+  /// Numbers by run_in_name(); NaN: there is no map, or no ground truth to score it.
   std::map<SeriesKey, std::map<std::string, double>> values;
   std::map<std::string, std::string> statuses;  ///< Of a record: its codes, in order.
   std::map<std::string, PlacedPoints> points;   ///< By record_name(): maps and paths.
-  /// All files but study.json, results.csv and the parts of trials that are not the same on the
-  /// other side, below the folder: what no other member holds is compared value by value.
+  /// All files below the folder that differ from the other side, except study.json, results.csv and
+  /// the parts of experiments. Values that no other member holds are compared one by one.
   std::map<std::string, std::filesystem::path> others;
   std::vector<RecordProblem> problems;
 };
 
-/// Whether there are records that read_records() reads: the folder of a study of any kind or of
-/// a map, a map.json or a slam.json.
+/// Whether read_records() can read records here: the folder of a study of any kind or of a map, a
+/// map.json or a slam.json.
 bool holds_records(const std::filesystem::path& path);
 
-/// Reads the records of a folder or a file. A file of a study that cannot be read is a problem and
-/// the rest goes on.
-/// @param beside  The other side: maps and details whose files are equal there, byte by byte, are
-///                left out.
-/// @throws IoError if there are no records, or what says of which kind they are cannot be read.
+/// Reads the records of a folder or a file. A file of a study that cannot be read is listed as a
+/// problem; the others are read.
+/// @param beside  The other side: maps and details with equal bytes there are left out.
+/// @throws IoError if there are no records, or if the file that states their kind cannot be read.
 RecordSet read_records(const std::filesystem::path& path, const std::filesystem::path& beside);
 
 }  // namespace mapproof

@@ -1,21 +1,22 @@
+#include "reports/diff/records/record_tie.hpp"
+
 #include <algorithm>
 
 #include <fmt/format.h>
 
 #include "core/base/words.hpp"
-#include "reports/diff/figures/figure_log.hpp"
-#include "reports/diff/item_diff.hpp"
 #include "reports/diff/records/record_comparison.hpp"
 
 namespace mapproof {
 namespace {
 
-/// What the records say of all that a figure names.
+/// The comparisons of all records that a figure names.
 struct Ties {
   std::vector<const Comparison*> comparisons;  ///< Beyond tolerance.
-  std::string run;                             ///< Of the point that moved farthest.
+  std::string run;                             ///< The run of the point that moved farthest.
   const PointsDiff* farthest = nullptr;
-  const OtherDiff* other = nullptr;  ///< A file of what the figure names alone.
+  const OtherDiff* other =
+      nullptr;  ///< A file that belongs only to a record that the figure names.
 };
 
 Ties ties_of(const std::vector<std::string>& ids, const RecordContext& context) {
@@ -37,13 +38,14 @@ Ties ties_of(const std::vector<std::string>& ids, const RecordContext& context) 
   return ties;
 }
 
-/// "mpe-m" of "mpe_m", as ids of figures have it.
+/// "mpe-m" for "mpe_m", as in ids of figures.
 std::string in_figure_id(std::string quantity) {
   std::ranges::replace(quantity, '_', '-');
   return quantity;
 }
 
-/// The quantity that the figure is about, by its id; others count where that one does not differ.
+/// The comparisons of the quantity that the figure shows, by its id; if that quantity does not
+/// differ, of the others.
 std::vector<const Comparison*> primary(const std::string& id,
                                        const std::vector<const Comparison*>& all) {
   const bool shows_moe = id.find("moe") != std::string::npos;
@@ -70,7 +72,7 @@ const FigureChange* other_records(const FigureDiff& diff) {
   return found == diff.changes.end() ? nullptr : &*found;
 }
 
-/// What the records say where no score and no position of those that the figure names changed.
+/// The cause where no score and no position of the records that the figure names changed.
 std::string elsewhere_text(const Ties& ties, const RecordContext& context) {
   if (ties.other != nullptr) return other_text(*ties.other);
   Verdict heaviest = Verdict::kIdentical;
@@ -79,14 +81,15 @@ std::string elsewhere_text(const Ties& ties, const RecordContext& context) {
     heaviest = heavier(heaviest, records->judgement.verdict);
   }
   if (heaviest <= Verdict::kWithinTolerance)
-    return "its records did not change: it is made of them otherwise";
-  // Of runs and files that are on one side alone nobody knows.
+    return "its records did not change: it was made from them in a different way";
+  // The effect of runs and files on only one side is unknown.
   return heaviest < Verdict::kMissing && heaviest != Verdict::kNew
              ? "no score and no position of its records changed"
              : "";
 }
 
-/// What differs, beside scores: the experiment, the records that it shows, what moved, and why.
+/// The causes besides scores: the experiment, the records that the figure shows, the largest
+/// movement.
 std::vector<std::string> reasons(const FigureDiff& diff, const Ties& ties, const Judgement& own,
                                  bool names_records, const RecordContext& context) {
   std::vector<std::string> why;
@@ -122,7 +125,7 @@ Judgement tied_judgement(const std::string& id, const FigureDiff& diff, const Ju
 
   const std::vector<const Comparison*> shown = primary(id, ties.comparisons);
   if (const Comparison* first = most_telling(shown)) {
-    // Of other records there is no better or worse.
+    // Different records are neither better nor worse.
     if (other_records(diff) == nullptr) judgement.verdict = Verdict::kBetter;
     for (const Comparison* comparison : shown)
       if (other_records(diff) == nullptr)

@@ -25,7 +25,7 @@
 namespace mapproof {
 namespace {
 
-/// Worse before changed before better, and so on; then by p.
+/// Orders by outcome, worse before changed before better and so on, then by p.
 std::tuple<int, double> weight(const Comparison& comparison) {
   const auto place = [](Outcome outcome) {
     switch (outcome) {
@@ -70,8 +70,8 @@ Row row_of(const Comparison& c) {
   return row;
 }
 
-/// Adds a table of scores, baseline and current, with their tests: the most telling first.
-/// @param comparisons  No null.
+/// Adds a table of the scores of both sides with their tests: the most significant first.
+/// @param comparisons  None is null.
 void add_score_table(std::vector<Block>& blocks, const std::string& id, const std::string& caption,
                      std::vector<const Comparison*> comparisons) {
   std::ranges::stable_sort(comparisons, {}, [](const Comparison* c) { return weight(*c); });
@@ -114,7 +114,7 @@ Table changes_table(const std::string& id, const std::string& caption, const std
   return table;
 }
 
-/// The farthest move of each record, the farthest record first.
+/// Lists the largest movement of each record, the largest first.
 void add_points_table(std::vector<Block>& blocks, const RecordDiff& diff,
                       const std::string& suffix) {
   std::vector<const PointsDiff*> moved;
@@ -126,8 +126,8 @@ void add_points_table(std::vector<Block>& blocks, const RecordDiff& diff,
   table.columns = {{"Record", "", "", ""},
                    {"Farthest", "", "", ""},
                    {"Moved", "", "", "Positions beyond tolerance"},
-                   {"Baseline error", "", "", "Mean, where the truth is known"},
-                   {"Current error", "", "", "Mean, where the truth is known"}};
+                   {"Baseline error", "", "", "Mean, where the ground truth is known"},
+                   {"Current error", "", "", "Mean, where the ground truth is known"}};
   const auto error = [](const std::optional<double>& value) {
     return value ? Cell(scaled_number(*value, std::abs(*value))) : Cell(MissingCell{});
   };
@@ -143,7 +143,7 @@ void add_points_table(std::vector<Block>& blocks, const RecordDiff& diff,
   add_table(blocks, std::move(table), std::ssize(moved));
 }
 
-/// Names on one side alone, and what could not be read.
+/// Lists the names on only one side, and the files that cannot be read.
 void add_presence(std::vector<Block>& blocks, const RecordDiff& diff) {
   KeyValues facts;
   const auto add = [&](const std::string& key, const std::vector<std::string>& names) {
@@ -153,19 +153,19 @@ void add_presence(std::vector<Block>& blocks, const RecordDiff& diff) {
   add("Runs new", diff.new_runs);
   add("Subjects missing", diff.missing_subjects);
   add("Subjects new", diff.new_subjects);
-  add("Other anchors in", diff.anchors);
+  add("Different anchors in", diff.anchors);
   for (const RecordProblem& problem : diff.problems)
     if (facts.items.size() < kMostTableRows)
       facts.items.push_back({problem.file, {problem.what, Emphasis::kData}});
   facts.items.push_back({"Values compared", {fmt::format("{}", diff.values), Emphasis::kPlain}});
   facts.items.push_back({"Pairs of runs",
-                         {diff.same_seeds ? "the same on both sides: compared pair by pair"
-                                          : "none: the seeds or the worlds are others",
+                         {diff.same_seeds ? "the same on both sides: compared in pairs"
+                                          : "none: the seeds or the true positions differ",
                           Emphasis::kPlain}});
   blocks.emplace_back(std::move(facts));
 }
 
-/// Adds files that are compared value by value, where there are some.
+/// Adds a table of the files that are compared value by value, if there are any.
 void add_others_table(std::vector<Block>& blocks, const std::vector<OtherDiff>& others,
                       const std::string& suffix) {
   Table table{"others-" + suffix, "Other values", {}, {}, {}};
@@ -191,9 +191,9 @@ void add_others_table(std::vector<Block>& blocks, const std::vector<OtherDiff>& 
   add_table(blocks, std::move(table), std::ssize(others));
 }
 
-/// Adds what became of the records: scores with their tests, positions, settings, statuses, runs
-/// on one side alone, versions, files that cannot be read.
-/// @param suffix  Ends the tables' ids.
+/// Adds the differences of the records: scores with their tests, positions, settings, warnings,
+/// runs on only one side, versions, files that cannot be read.
+/// @param suffix  The end of the tables' ids.
 void add_record_tables(std::vector<Block>& blocks, const RecordDiff& diff,
                        const std::string& suffix) {
   add_presence(blocks, diff);
@@ -206,7 +206,7 @@ void add_record_tables(std::vector<Block>& blocks, const RecordDiff& diff,
   add_score_table(blocks, "scores-" + suffix, "Scores", std::move(comparisons));
   add_points_table(blocks, diff, suffix);
   add_table(blocks,
-            changes_table("statuses-" + suffix, "Statuses", "Record", diff.statuses,
+            changes_table("statuses-" + suffix, "Warnings", "Record", diff.statuses,
                           [](const auto& change) { return change.record; }),
             std::ssize(diff.statuses));
   add_others_table(blocks, diff.others, suffix);
@@ -222,7 +222,7 @@ std::string who(const MarkMove& move) {
   return move.mark.empty() ? fmt::format("point {}{}", move.point + 1, of) : move.mark + of;
 }
 
-/// "(1.25, -0.5)", with as many digits as tell it from the other.
+/// "(1.25, -0.5)", with as many digits as distinguish it from the other point.
 std::string place_text(Point at, Point other) {
   if (!std::isfinite(at.x) || !std::isfinite(at.y)) return "none";
   const auto digits = [](double a, double b) {
@@ -266,15 +266,15 @@ Table moves_table(const FigureDiff& diff, const std::string& suffix) {
   return table;
 }
 
-/// Adds what moved, from where to where, and what changed otherwise.
-/// @param suffix  Ends the tables' ids.
+/// Adds tables of the movements, with both positions, and of the other changes.
+/// @param suffix  The end of the tables' ids.
 void add_figure_tables(std::vector<Block>& blocks, const FigureDiff& diff,
                        const std::string& suffix) {
   add_table(blocks, moves_table(diff, suffix), diff.moved);
-  Table changes{"changes-" + suffix, "What changed in the figure's value", {}, {}, {}};
+  Table changes{"changes-" + suffix, "Changes of the figure's value", {}, {}, {}};
   changes.columns = {{"Where", "", "", ""},
                      {"What", "", "", ""},
-                     {"Kind", "", "", "Data; style; or metadata: title, caption, words"},
+                     {"Kind", "", "", "Data; style; or metadata: title, caption, alternative text"},
                      {"Baseline", "", "", ""},
                      {"Current", "", "", ""}};
   for (const FigureChange& change : diff.changes)
@@ -292,7 +292,7 @@ void add_figure_tables(std::vector<Block>& blocks, const FigureDiff& diff,
 constexpr std::size_t kLargestFigure = std::size_t{1} << 28;  // Bytes.
 constexpr std::size_t kMostItemNames = 6;
 
-/// The records that either side of the figure was made of.
+/// The ids of the records from which either side of the figure was made.
 std::set<std::string> record_ids(const DiffItem& item) {
   std::set<std::string> ids;
   for (const auto& path : {item.baseline_figure, item.current_figure}) {
@@ -300,7 +300,7 @@ std::set<std::string> record_ids(const DiffItem& item) {
     try {
       const Figure figure = figure_from_json(read_input(path, kLargestFigure), path.string());
       ids.insert(figure.record_ids.begin(), figure.record_ids.end());
-    } catch (const IoError&) {  // The verdict says so: unreadable.
+    } catch (const IoError&) {  // The verdict is then: unreadable.
     }
   }
   return ids;
@@ -335,7 +335,7 @@ std::vector<std::string> version_changes(const DiffResult& result) {
   return changes;
 }
 
-/// What drew the pictures of one side, each once.
+/// The renderers of the images of one side, each once.
 std::vector<std::string> renderers(const DiffResult& result, std::string PictureDiff::*side) {
   std::set<std::string> names;
   for (const DiffItem& item : result.items)
@@ -352,7 +352,7 @@ std::vector<Block> item_blocks(const DiffItem& item, const DiffResult& all, std:
   if (item.figure) {
     add_figure_tables(blocks, *item.figure, suffix);
     if (item.figure->has(ChangeKind::kData))
-      add_score_table(blocks, "tied-" + suffix, "Scores of the records that it shows",
+      add_score_table(blocks, "tied-" + suffix, "Scores of the records that the figure shows",
                       tied_scores(item, all));
   }
   if (item.records) add_record_tables(blocks, *item.records, suffix);
@@ -370,12 +370,12 @@ KeyValues whole_facts(const DiffResult& result) {
   add("Current", result.current, Emphasis::kData);
   std::vector<std::string> allowed;
   for (const Verdict verdict : result.allowed) allowed.emplace_back(label(verdict));
-  add("Passes as well", listed(allowed, kVerdicts.size()), Emphasis::kPlain);
+  add("Also allowed to pass", listed(allowed, kVerdicts.size()), Emphasis::kPlain);
   add("Versions that differ", listed(version_changes(result), kMostItemNames), Emphasis::kData);
   const auto before = renderers(result, &PictureDiff::baseline_renderer);
   const auto after = renderers(result, &PictureDiff::current_renderer);
   if (before == after) {
-    add("Pictures drawn by", listed(before, kMostItemNames), Emphasis::kData);
+    add("Images drawn by", listed(before, kMostItemNames), Emphasis::kData);
   } else {
     add("Baseline drawn by", listed(before, kMostItemNames), Emphasis::kData);
     add("Current drawn by", listed(after, kMostItemNames), Emphasis::kData);

@@ -18,14 +18,14 @@ std::string pixels_text(const PixelDiff& p) {
   if (p.clusters > 0)
     text += fmt::format(" in {}, the largest of {}", counted(p.clusters, "cluster"),
                         counted(p.largest_cluster_pixels, "pixel"));
-  text += fmt::format("; {} differ at all", p.differing);
-  if (p.antialiased > 0) text += fmt::format(", {} by smoothing of edges", p.antialiased);
+  text += fmt::format("; {} differ in any way", p.differing);
+  if (p.antialiased > 0) text += fmt::format(", {} by anti-aliasing", p.antialiased);
   if (p.ignored > 0) text += fmt::format("; {} ignored", p.ignored);
   return text;
 }
 
 std::string structure_text(const PixelDiff& p) {
-  return fmt::format("least {} at ({}, {}); largest difference of colour {}",
+  return fmt::format("least {} at ({}, {}); largest colour difference {}",
                      format_number(p.least_structure, 3), p.least_structure_at.x,
                      p.least_structure_at.y, format_number(p.largest_colour_difference, 3));
 }

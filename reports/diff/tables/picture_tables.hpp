@@ -11,8 +11,8 @@ namespace mapproof {
 /// "1600 × 1200".
 std::string size_text(const PictureSize& size);
 
-/// Adds what the files of the pictures say: sizes, pixels, clusters, SVG elements.
-/// @param suffix  Ends the tables' ids.
+/// Adds the comparison of the image files: sizes, pixels, clusters, SVG elements.
+/// @param suffix  The end of the tables' ids.
 void add_picture_tables(std::vector<Block>& blocks, const std::vector<PictureFile>& files,
                         const std::string& suffix);
 

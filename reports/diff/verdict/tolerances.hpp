@@ -9,21 +9,21 @@
 
 namespace mapproof {
 
-/// Tolerances by the id of a quantity, or kOtherNumbers, in place of its own.
+/// Tolerances by the id of a quantity, or kOtherNumbers. They replace the defaults.
 using Tolerances = std::map<std::string, Tolerance, std::less<>>;
 
-/// What settings call the numbers of the records that are not quantity's.
+/// The name in the settings of numbers in the records that do not belong to a quantity.
 inline constexpr std::string_view kOtherNumbers = "other";
 
 Tolerance tolerance_of(const Quantity& quantity, const Tolerances& changed);
 
-/// Of the numbers that are not quantity's.
+/// The tolerance of numbers that do not belong to a quantity.
 Tolerance tolerance_of_others(const Tolerances& changed);
 
-/// Both in as many digits as tell the two apart, at least so many; "none" for what is not a number.
+/// Both numbers with as many digits as distinguish them, at least the given count; "none" for NaN.
 std::pair<std::string, std::string> told_apart(double baseline, double current, int digits);
 
-/// "0.138 → 0.152 m": as many digits as tell the two apart, at least three.
+/// "0.138 → 0.152 m": as many digits as distinguish the two, at least three.
 std::string change_text(double baseline, double current, std::string_view unit);
 
 }  // namespace mapproof

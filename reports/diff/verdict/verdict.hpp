@@ -8,18 +8,18 @@
 
 namespace mapproof {
 
-/// What the comparison of one thing says. In order of weight: the verdict of a whole is the
-/// heaviest of its parts.
+/// The verdict on one item, in ascending order of weight. The verdict on a whole is the heaviest of
+/// its parts.
 enum class Verdict {
-  kIdentical,        ///< Equal values; nothing less is called so.
+  kIdentical,        ///< The values are equal, exactly.
   kWithinTolerance,  ///< Values or pixels differ, all within their tolerances.
   kRenderer,         ///< Pixels differ, the figure's value is equal.
   kBetter,           ///< Data differ beyond tolerance, for the better.
-  kNew,              ///< Only in the current.
-  kStyle,            ///< Styles or words differ, data do not.
-  kChanged,          ///< Differs beyond tolerance, and nothing says for better or worse.
+  kNew,              ///< It exists only in the current.
+  kStyle,            ///< Styles or texts differ, data do not.
+  kChanged,          ///< It differs beyond tolerance, neither significantly better nor worse.
   kWorse,            ///< Data differ beyond tolerance, for the worse.
-  kMissing,          ///< Only in the baseline.
+  kMissing,          ///< It exists only in the baseline.
   kUnreadable,       ///< One of the two cannot be read.
 };
 
@@ -32,7 +32,7 @@ inline constexpr std::array kVerdicts = {
 /// "style", "changed", "worse", "missing", "unreadable".
 std::string_view name(Verdict verdict);
 
-/// For readers: "data, within tolerance", "data, worse", ...
+/// The words for readers: "data, within tolerance", "data, worse", ...
 std::string_view label(Verdict verdict);
 
 /// The verdict of that name; empty if there is none.
@@ -44,13 +44,13 @@ Verdict heavier(Verdict a, Verdict b);
 /// A verdict with its reason.
 struct Judgement {
   Verdict verdict = Verdict::kIdentical;
-  /// Whether a reader of the picture sees the difference; for kRenderer it decides.
+  /// Whether the difference is visible in the image; for kRenderer it decides whether it passes.
   bool visible = true;
   std::string cause;  ///< One sentence; empty if identical.
 };
 
-/// Whether a check lets it pass: identical, within tolerance, a renderer's difference that nobody
-/// sees, and what is allowed by name.
+/// Whether a check passes: identical, within tolerance, an invisible difference of the renderer,
+/// and verdicts that are allowed by name.
 bool passes(const Judgement& judgement, std::span<const Verdict> allowed);
 
 }  // namespace mapproof

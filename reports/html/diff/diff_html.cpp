@@ -42,7 +42,7 @@ constexpr std::int64_t kMostPixels = std::int64_t{1} << 28;
 
 bool has_both(const PictureFile& file) { return !file.baseline.empty() && !file.current.empty(); }
 
-/// How much a picture has to show; 0: nothing.
+/// The priority of an image on the page; 0: nothing to show.
 int interest(const PictureFile& file) {
   const int of_format = file.format == "png" ? 1 : 0;
   if (file.format != "png" && file.format != "svg") return 0;
@@ -71,7 +71,7 @@ std::uint32_t number_at(std::string_view bytes, std::size_t at) {
   return number;
 }
 
-/// By its header; a browser reads the rest.
+/// Reads the size from the header; a browser reads the rest.
 PictureSize png_size(const std::string& bytes, const fs::path& path) {
   constexpr std::string_view kSignature("\x89PNG\r\n\x1a\n", 8);
   if (bytes.size() < 24 || !bytes.starts_with(kSignature))
@@ -93,7 +93,7 @@ ShownPicture read_picture(const fs::path& path, const std::string& format,
   return picture;
 }
 
-/// What is to be read for one item.
+/// The files to read for one item.
 struct Plan {
   const PictureFile* file = nullptr;
   bool heat = false;
@@ -128,7 +128,7 @@ std::vector<Plan> plans(const DiffResult& result, const PictureBudget& budget) {
       if (plan.file == nullptr) plan.absent = unreadable_reason(item);
     }
     if (plan.file != nullptr && used + bytes_of(*plan.file) > budget.all_bytes) {
-      plan.absent = fmt::format("Not shown: the pictures of this page fill {} MiB already.",
+      plan.absent = fmt::format("Not shown: the images of this page already fill {} MiB.",
                                 budget.all_bytes >> 20);
       plan.file = nullptr;
     }
@@ -143,11 +143,11 @@ std::vector<Plan> plans(const DiffResult& result, const PictureBudget& budget) {
   return all;
 }
 
-/// Of two pictures that are shown without one.
+/// Why two images are shown without a heat map.
 std::string no_heat_reason(const Plan& plan) {
   if (plan.file->format != "png") return "No heat map: only PNGs have one.";
   return plan.heat ? "No heat map: the sizes differ."
-                   : "No heat map: as many as a page holds are made of others.";
+                   : "No heat map: the page already holds its maximum number of heat maps.";
 }
 
 std::optional<ShownPicture> heat_picture(const PictureFile& file, const PictureOptions& options) {
@@ -180,10 +180,11 @@ ShownPictures read_all(const Plan& plan, const PictureOptions& options, std::siz
   return shown;
 }
 
-/// Reads what the page shows of each item, in their order, and makes the heat maps of PNGs that
-/// differ, within tolerance too. Identical and unreadable pictures are not shown. Files stay as
-/// they are on disk.
-/// @note Several items at a time, by oneTBB; the result does not depend on it. Holds all.
+/// Reads the images of each item, in order, and makes the heat maps of PNGs that differ, also
+/// within tolerance. Identical and unreadable images are not shown. Images are embedded as the
+/// bytes of their files.
+/// @note Reads several items at a time, by oneTBB; the result does not depend on it. Holds all
+/// images in memory.
 std::vector<ShownPictures> shown_pictures(const DiffResult& result, const DiffSettings& settings,
                                           const PictureBudget& budget = {}) {
   const std::vector<Plan> all = plans(result, budget);
@@ -197,7 +198,7 @@ std::vector<ShownPictures> shown_pictures(const DiffResult& result, const DiffSe
 constexpr std::size_t kMostName = 300;    // Characters.
 constexpr std::size_t kMostCause = 2000;  // Characters.
 
-/// One picture; `side` is "baseline", "current" or "heat".
+/// One image; `side` is "baseline", "current" or "heat".
 data pane_data(const ShownPicture& picture, const std::string& side, const std::string& title,
                const std::string& id) {
   data out;
@@ -244,7 +245,7 @@ std::string anchor_of(const DiffItem& item) {
   return (item.kind == ItemKind::kRecords ? "records-" : "figure-") + url_text(item.id);
 }
 
-/// What lists say of an item: its name, verdict and anchor.
+/// The data of an item in lists: its name, verdict and link target.
 data entry_data(const DiffItem& item) {
   data out;
   out.set("anchor", anchor_of(item));
@@ -254,8 +255,8 @@ data entry_data(const DiffItem& item) {
   return out;
 }
 
-/// What diff_item.mustache is told of an item.
-/// @param refusal  Why it cannot be approved by itself; null: it can.
+/// The data for diff_item.mustache.
+/// @param refusal  Why the item cannot be approved by itself; null: it can.
 /// @param number   Distinguishes ids on the page.
 data item_data(const DiffItem& item, const DiffResult& all, const ShownPictures& shown,
                const ApprovalRefusal* refusal, std::size_t number) {
@@ -281,7 +282,7 @@ data item_data(const DiffItem& item, const DiffResult& all, const ShownPictures&
   return out;
 }
 
-/// Verdicts that occur, the heaviest first, with how many items have each.
+/// The verdicts that occur, the heaviest first, each with its number of items.
 list counts_data(const DiffResult& result) {
   const std::vector<int> counts = counts_of(result);
   list out;
@@ -296,17 +297,18 @@ list counts_data(const DiffResult& result) {
   return out;
 }
 
-/// How many items have pictures that are not shown for want of room.
+/// The number of items whose images are not shown because the page is full.
 std::string left_out(const std::vector<ShownPictures>& shown) {
   long long count = 0;
   for (const ShownPictures& pictures : shown) count += pictures.absent.empty() ? 0 : 1;
-  return count == 0 ? ""
-                    : "Pictures of " + counted(count, "item") + " are not shown; each says why.";
+  return count == 0
+             ? ""
+             : "Images of " + counted(count, "item") + " are not shown; each item states why.";
 }
 
 constexpr std::size_t kLongestNote = 2000;
 
-/// What was not compared or is not shown.
+/// Remarks on items that were not compared or are not shown.
 list notes_data(const DiffResult& result, const std::vector<ShownPictures>& shown) {
   list out;
   for (const std::string& remark : result.remarks)
@@ -315,7 +317,7 @@ list notes_data(const DiffResult& result, const std::vector<ShownPictures>& show
   return out;
 }
 
-/// Of the items that differ: identical ones are not taken.
+/// The items that differ, without identical ones.
 std::map<std::string, ApprovalRefusal> refusals_of(const DiffResult& result) {
   std::vector<std::string> ids;
   for (const DiffItem& item : result.items)

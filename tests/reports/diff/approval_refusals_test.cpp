@@ -35,14 +35,14 @@ TEST(ApprovalRefusals, AFigureOfAnotherExperimentGoesWithTheRecordsAlone) {
   EXPECT_FALSE(refusals.contains("records"));
   ASSERT_TRUE(refusals.contains("of-neither-side"));
   EXPECT_FALSE(refusals.at("of-neither-side").goes_with_records);
-  // What is said is what happens.
+  // The plan does what the message states.
   EXPECT_THROW(approval_plan(two.before, two.after, {.ids = {"map-isomap"}, .key = ""}),
                InvalidInput);
   EXPECT_FALSE(approval_plan(two.before, two.after, {.ids = {"map-isomap", "records"}, .key = ""})
                    .steps.empty());
 }
 
-TEST(ApprovalRefusals, WhatCannotBeReadGoesInNoWayAndTheRestDoes) {
+TEST(ApprovalRefusals, UnreadableFilesAreRefusedAndTheOthersApproved) {
   const TemporaryFolder folder;
   for (const char* side : {"before", "after"}) write_base_study(folder / side);
   fs::resize_file(folder / "after/figures/map-isomap.png", 100);
@@ -54,7 +54,7 @@ TEST(ApprovalRefusals, WhatCannotBeReadGoesInNoWayAndTheRestDoes) {
   EXPECT_FALSE(refusals.contains("map-lpca"));
 }
 
-TEST(ApprovalRefusals, ThePageSaysThemBesideTheTicks) {
+TEST(ApprovalRefusals, ThePageShowsThemAtTheCheckboxes) {
   const OtherExperiment two;
   const std::string page = diff_html(folder_diff(two.before, two.after), {}, load_templates());
   const std::size_t item = page.find("data-code=\"map-isomap\"");

@@ -53,7 +53,7 @@ TEST(DiffOutputs, MarkdownHoldsNoMarkupOfNamesAndCauses) {
   EXPECT_EQ(markdown.find('\x1b'), std::string::npos);
 }
 
-TEST(DiffOutputs, MarkdownEndsAtFiftyRowsAndSaysHowManyAreLeft) {
+TEST(DiffOutputs, MarkdownEndsAtFiftyRowsAndCountsTheOthers) {
   DiffResult result;
   for (int i = 0; i < 120; ++i) {
     DiffItem& item = result.items.emplace_back();
@@ -69,7 +69,7 @@ TEST(DiffOutputs, SchemasAreThoseOfTheCode) {
         << "cmake --build build --target write_schemas";
 }
 
-TEST(DiffOutputs, JsonIsAsItsSchemaSays) {
+TEST(DiffOutputs, JsonFollowsItsSchema) {
   const TemporaryFolder folder;
   write_base_study(folder / "a");
   std::vector<ValueCase> cases = record_cases();
@@ -131,7 +131,7 @@ TEST(DiffSettings, AreRefusedWithFileAndPointer) {
   EXPECT_NE(refusal(R"(, "allow": ["best"])").find("/allow/0"), std::string::npos);
 }
 
-TEST(Verdicts, PassOnlyWhereNothingIsToBeSeenOrIsAllowed) {
+TEST(Verdicts, PassOnlyIfNothingIsVisibleOrItIsAllowed) {
   const std::vector<Verdict> none, better = {Verdict::kBetter, Verdict::kStyle};
   for (const Verdict verdict : kVerdicts) {
     const bool light = verdict == Verdict::kIdentical || verdict == Verdict::kWithinTolerance;

@@ -132,16 +132,16 @@ void add_pixels(const Drawing& drawing) {
 void add_svg(const Drawing& drawing) {
   drawing.add_text("comment in the SVG", ".svg", Verdict::kIdentical, true, {}, "<svg ",
                    "<!-- made elsewhere --><svg ");
-  drawing.add_text("a colour of the SVG", ".svg", Verdict::kStyle, false, {"its styles are not"},
+  drawing.add_text("a colour of the SVG", ".svg", Verdict::kStyle, false, {"its styles differ"},
                    "stroke=\"#", "stroke=\"#7f00ff\" data-was=\"#");
-  drawing.add_text("a text of the SVG", ".svg", Verdict::kStyle, false, {"its styles are not"},
+  drawing.add_text("a text of the SVG", ".svg", Verdict::kStyle, false, {"its styles differ"},
                    "aria-label=\"0", "aria-label=\"7");
 }
 
 /// The same figure in another theme.
 void add_themes(const Drawing& drawing, const Figure& figure) {
   const auto themed = [&](const std::string& what, const std::function<void(Theme&)>& change) {
-    drawing.add(what, Verdict::kStyle, false, {"the figure's value is equal", "its styles are not"},
+    drawing.add(what, Verdict::kStyle, false, {"the figure's value is equal", "its styles differ"},
                 [figure, change](const fs::path& folder) {
                   Theme theme = report_theme();
                   change(theme);

@@ -11,7 +11,7 @@ namespace fs = std::filesystem;
 using Json = nlohmann::ordered_json;
 using Pointer = Json::json_pointer;
 
-/// Writes one value of a JSON file anew.
+/// Overwrites one value of a JSON file.
 void put(const fs::path& file, const std::string& pointer, const Json& value) {
   Json root = Json::parse(read_file(file));
   root.at(Pointer(pointer)) = value;
@@ -29,7 +29,7 @@ ValueCase field(const std::string& file, const std::string& pointer, const Json&
           .alone = true};
 }
 
-/// A value that no other file tells: the cause names the file and the place.
+/// A value that no other file holds: the cause names the file and the location.
 ValueCase told(const std::string& file, const std::string& pointer, const Json& value) {
   return field(file, pointer, value, Verdict::kChanged, {file, pointer});
 }
@@ -72,7 +72,7 @@ std::vector<ValueCase> field_cases() {
            Json::array({{{"code", "bridged"}, {"reason", "message"}, {"names", {"Two."}}}})),
       told(maps, "/anchors", Json::array({0, 3, 8, 10})),
       field(maps, "/maps/1/score/mpe_m", 0.0, Verdict::kChanged, {"1 number differs"}),
-      field(maps, "/names/4", "Other", Verdict::kChanged, {"of other landmarks"}),
+      field(maps, "/names/4", "Other", Verdict::kChanged, {"of different landmarks"}),
       told(run, "/world/side_m", 2.75),
       told(run, "/world/landmark_diameter_m", 0.05),
       told(run, "/occlusion", {{"within_reach", 9}, {"hidden", 2}}),
@@ -103,7 +103,7 @@ std::vector<ValueCase> slam_cases() {
       field(run, record + "cost", 200.0, Verdict::kChanged, {"cost 123"}),
       field(run, record + "iterations", 70, Verdict::kWithinTolerance, {"within tolerance"}),
       field(run, record + "statuses", Json::array(), Verdict::kChanged,
-            {"status of drive/refined"}),
+            {"warnings of drive/refined"}),
       field(run, record + "range_scale", 1.0625 + 1e-9, Verdict::kWithinTolerance, {"within"}),
       told(run, record + "error_m/1", 0.25), told(run, record + "condition", 13.0),
       told(run, record + "noise_level", 0.06), told(run, record + "singular_values/2", 2.0),
@@ -113,11 +113,11 @@ std::vector<ValueCase> slam_cases() {
       told(run, "/starts/0/converged", true),
       field(run, "/starts/0/iterations", 3000, Verdict::kWithinTolerance, {"within tolerance"}),
       told(run, "/published/poses", 9659), told(run, "/log/ranges/range_m/0", 3.5),
-      field(run, "/log/true_landmarks_m/0/1", 1.25, Verdict::kChanged, {"of other landmarks"}),
+      field(run, "/log/true_landmarks_m/0/1", 1.25, Verdict::kChanged, {"of different landmarks"}),
       told(run, "/log/odometry/turn_rad/0", 0.3),
-      field(run, "/log/landmarks/0", "other", Verdict::kChanged, {"of other landmarks"}),
+      field(run, "/log/landmarks/0", "other", Verdict::kChanged, {"of different landmarks"}),
       told(run, "/upgrade/steps/1", 1),
-      field(run, "/log/truth/x_m/1", 0.7, Verdict::kChanged, {"other worlds"}),
+      field(run, "/log/truth/x_m/1", 0.7, Verdict::kChanged, {"different seeds or true positions"}),
       field(curve, "/points/0/landmarks_m/mean", 0.5, Verdict::kWorse,
             {"mean error of landmarks 0.02", "convergence/white/spectral-known/50"}),
       field(curve, "/points/1/sine/mean", 1e-4, Verdict::kBetter, {"canonical angle"}),

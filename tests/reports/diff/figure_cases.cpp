@@ -51,7 +51,7 @@ void add_words(const Figure& figure, std::vector<ValueCase>& cases) {
     cases.push_back(changed_figure(figure, what, Verdict::kStyle, std::move(cause), change));
   };
   style("title", {"title"}, [](Figure& f) { f.title += " again"; });
-  style("caption", {"words alone", "caption"}, [](Figure& f) { f.caption += " More."; });
+  style("caption", {"only texts", "caption"}, [](Figure& f) { f.caption += " More."; });
   style("alternative text", {"alternative text"}, [](Figure& f) { f.alt += " More."; });
   style("note", {"note (A note)"}, [](Figure& f) { f.notes.push_back({"A note", Ink::kText}); });
   style("panel title", {"panel 1: title"}, [](Figure& f) { f.panels[0].title = "A panel"; });
@@ -127,7 +127,7 @@ void add_curve_styles(const Figure& figure, std::vector<ValueCase>& cases) {
   });
 }
 
-/// What a figure says that it is made of, whether or not it varies, and numbers in its words.
+/// The records that a figure names, whether it varies, and numbers in its texts.
 void add_records(std::vector<ValueCase>& cases) {
   cases.push_back(changed_figure(figures()[1], "marked as one that varies", Verdict::kChanged,
                                  {"varies from run to run no \u2192 yes"},
@@ -154,7 +154,7 @@ ValueCase unknown_key(const Figure& figure, const std::string& place) {
           .alone = true};
 }
 
-/// Data that change in the figure alone: its records say that they did not.
+/// Data that change only in the figure, not in its records.
 void add_data(std::vector<ValueCase>& cases) {
   const Figure& map = figures()[1];
   const Figure& curve = figures()[2];
@@ -184,7 +184,7 @@ void add_data(std::vector<ValueCase>& cases) {
       return points != nullptr && points->label == "anchor";
     });
   });
-  // Numbers in words are data, and so is what a landmark is called.
+  // Numbers in texts are data, and so is the name of a landmark.
   const auto turn = [](std::string& text) {
     const std::size_t at = text.find_last_of("0123456789");
     if (at == std::string::npos) throw std::out_of_range("no number in: " + text);

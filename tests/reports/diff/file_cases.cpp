@@ -45,7 +45,7 @@ void add_damage(Files& files, const std::string& id) {
     files.add(name + " emptied", id, Verdict::kUnreadable, {}, true,
               [file](const fs::path& folder) { fs::resize_file(file(folder), 0); });
     files.add(name + " replaced by rubbish", id, Verdict::kUnreadable, {}, true,
-              [file](const fs::path& folder) { write_file(file(folder), "no picture at all\n"); });
+              [file](const fs::path& folder) { write_file(file(folder), "no image at all\n"); });
     files.add(name + " deleted", id, Verdict::kMissing, {"is missing"}, true,
               [file](const fs::path& folder) { fs::remove(file(folder)); });
   }

@@ -13,7 +13,7 @@ namespace fs = std::filesystem;
 
 const std::string kPictures = std::string(MAPPROOF_SOURCE_DIR) + "/tests/baselines/";
 
-/// Folders of pictures of others.
+/// Folders of images by other programs.
 struct Foreign {
   TemporaryFolder folder;
   fs::path before = folder / "before", after = folder / "after";
@@ -70,7 +70,7 @@ TEST(ForeignFiles, AreNotIdenticalWhereAnIgnoredRegionHidesWhatDiffers) {
       remarks, [](const std::string& r) { return r.find("mistyped") != std::string::npos; }));
 }
 
-TEST(ForeignFiles, AFolderInAPicturesPlaceCannotBeRead) {
+TEST(ForeignFiles, AFolderWithTheNameOfAnImageCannotBeRead) {
   const Foreign two;
   write_file(two.before / "a.png", picture("map-usual"));
   fs::create_directories(two.after / "a.png");
@@ -78,7 +78,7 @@ TEST(ForeignFiles, AFolderInAPicturesPlaceCannotBeRead) {
   EXPECT_EQ(item.judgement.verdict, Verdict::kUnreadable) << item.judgement.cause;
 }
 
-TEST(ForeignFiles, WithNumbersThatAreNoneCannotBeRead) {
+TEST(ForeignFiles, WithInvalidNumbersCannotBeRead) {
   const Foreign two;
   for (const char* bad : {"<svg><circle cx='nan'/></svg>", "<svg><path d='M0 1e999'/></svg>",
                           "<svg><g transform='translate(inf 0)'/></svg>"}) {

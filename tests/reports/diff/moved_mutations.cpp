@@ -10,7 +10,7 @@
 namespace mapproof::test {
 namespace {
 
-/// The place of a marker of data, or null.
+/// The position of a marker of data, or null.
 Point* data_marker(Item& item, const Drawing& drawing) {
   auto* stamp = std::get_if<Stamp>(&item.what);
   const Box frame = drawing.frames.front();
@@ -25,7 +25,7 @@ int data_markers(Drawing drawing) {
   return count;
 }
 
-/// Each marker of data goes its own way.
+/// Moves each marker of data in a different direction.
 Change scattered(double sigma_px) {
   return [sigma_px](Drawing& drawing) {
     Random random(9);
@@ -36,14 +36,14 @@ Change scattered(double sigma_px) {
   };
 }
 
-/// One marker of data goes a pixel right, the next one left, and so on.
+/// Moves one marker of data a pixel to the right, the next one to the left, and so on.
 void pushed_apart(Drawing& drawing) {
   double px = 72.0 / drawing.dpi;
   for (Item& item : drawing.items)
     if (Point* at = data_marker(item, drawing)) at->x += px, px = -px;
 }
 
-/// Markers of data on whole pixels, where some programs draw them.
+/// Aligns markers of data to whole pixels, as some programs do.
 void snapped(Drawing& drawing) {
   const double px = 72.0 / drawing.dpi;
   for (Item& item : drawing.items)

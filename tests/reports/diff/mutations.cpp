@@ -94,7 +94,7 @@ class Mutations {
     return {all.front(), all[all.size() / 2], all.back()};
   }
 
-  /// Whether strokes are thinner than a pixel: they come and go without smoothing.
+  /// Whether strokes are thinner than a pixel: without anti-aliasing they may vanish.
   bool has_hairlines() const {
     return std::ranges::any_of(drawing_->items, [this](const Item& item) {
       const auto* shape = std::get_if<Shape>(&item.what);
@@ -252,7 +252,7 @@ class Mutations {
   std::vector<Mutation> found_;
 };
 
-/// As programs draw that were told nothing: 72 dpi, lines of a pixel, small text.
+/// The defaults of many programs: 72 dpi, lines of one pixel, small text.
 Theme plain_theme() {
   Theme theme = report_theme();
   theme.name = "plain";

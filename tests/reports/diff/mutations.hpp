@@ -16,7 +16,7 @@ using Change = std::function<void(Drawing&)>;
 /// The last digit of an item's text becomes another.
 Change other_digit(std::size_t item, int by);
 
-/// Two pictures of which the second has one thing mutated, and what must be said of them.
+/// Two images of which the second has one thing mutated, and the expected verdict.
 struct Mutation {
   std::string name;
   std::string picture;
@@ -28,12 +28,12 @@ struct Mutation {
 std::vector<Mutation> mutations_of(const Drawing& drawing, const std::string& picture);
 
 /// Those that are hardest to see: thicker lines, grids of pale dots, curves through fewer points,
-/// one change while all is moved by a tenth of a pixel; and other hints of text, which are no
-/// change.
+/// one change while all is moved by a tenth of a pixel; and different hinting of text, which is
+/// not a change.
 std::vector<Mutation> subtle_mutations_of(const Drawing& drawing, const std::string& picture);
 
-/// Many things that moved, each its own way or all a bit further, smoothly or by whole pixels,
-/// alone and beside a digit that changed.
+/// Many shapes that moved, in different directions or together, smoothly or by whole pixels, alone
+/// and with a changed digit.
 std::vector<Mutation> moved_mutations_of(const Drawing& drawing, const std::string& picture);
 
 /// Sample figures at several sizes and themes, thick lines and thin.

@@ -23,7 +23,7 @@ Image white(int width, int height) {
           std::vector<std::uint32_t>(static_cast<std::size_t>(width) * height, 0xFFFFFF)};
 }
 
-/// A white picture with a dark square of 20 pixels at (30, 30).
+/// A white image with a dark square of 20 pixels at (30, 30).
 Image with_square(std::uint32_t colour = 0x203040) {
   Image image = white(100, 90);
   for (int y = 30; y < 50; ++y) std::fill_n(image.row(y) + 30, 20, colour);
@@ -45,7 +45,7 @@ TEST_F(PictureDiffTest, EqualBytesAreIdentical) {
   EXPECT_EQ(found.baseline_bytes, png.size());
 }
 
-/// The picture as libpng writes it, with zlib and filters and without a palette.
+/// The image as libpng writes it, with zlib and filters and without a palette.
 std::string recompressed(const Image& image) {
   std::vector<unsigned char> samples;
   for (const std::uint32_t pixel : image.pixels)
@@ -83,14 +83,14 @@ TEST_F(PictureDiffTest, OtherTextsAreIdenticalPixels) {
   EXPECT_EQ(texts.current_renderer, "two");
 }
 
-TEST_F(PictureDiffTest, TellsSizesThatDiffer) {
+TEST_F(PictureDiffTest, ReportsSizesThatDiffer) {
   const PictureDiff found = diff(encode_png(white(10, 8)), encode_png(white(8, 10)));
   EXPECT_EQ(found.state, PictureState::kDifferent);
   EXPECT_EQ(found.pixels->current, (PictureSize{8, 10}));
   EXPECT_EQ(found.reason, "10 x 8 pixels became 8 x 10");
 }
 
-TEST_F(PictureDiffTest, TellsWhereMostOfAChangeLies) {
+TEST_F(PictureDiffTest, LocatesTheLargestClusterOfAChange) {
   const PictureDiff found = diff(encode_png(white(100, 90)), encode_png(with_square()));
   EXPECT_EQ(found.state, PictureState::kDifferent);
   EXPECT_EQ(found.pixels->changed, 400);
@@ -100,7 +100,7 @@ TEST_F(PictureDiffTest, TellsWhereMostOfAChangeLies) {
   EXPECT_GT(found.pixels->largest_colour_difference, 0.5);
 }
 
-TEST_F(PictureDiffTest, IgnoresWhatLiesInABoxButDoesNotCallItIdentical) {
+TEST_F(PictureDiffTest, IgnoresPixelsInABoxButIsThenNotIdentical) {
   const PictureOptions boxed{.ignored = {{25, 25, 30, 30}}};
   const PictureDiff found = diff(encode_png(white(100, 90)), encode_png(with_square()), boxed);
   EXPECT_EQ(found.state, PictureState::kWithinTolerance);
@@ -134,7 +134,7 @@ TEST_F(PictureDiffTest, OptionsOutOfBoundsAreRefused) {
   EXPECT_THROW(diff(png, png, {.changed_share = 2}), InvalidInput);
 }
 
-TEST_F(PictureDiffTest, AFileThatIsNotThereIsAnError) {
+TEST_F(PictureDiffTest, AMissingFileIsAnError) {
   EXPECT_THROW(picture_diff(folder_ / "none.png", folder_ / "none.png"), IoError);
 }
 
@@ -159,7 +159,7 @@ TEST_F(PictureDiffTest, AHeatMapShowsWhatChanged) {
   EXPECT_EQ(heat_map(a, a).width, 0);
 }
 
-TEST(ImageDiff, TheSmallestPicturesCanBeCompared) {
+TEST(ImageDiff, TheSmallestImagesCanBeCompared) {
   EXPECT_EQ(image_diff({}, {}).pixels.differing, 0);
   EXPECT_EQ(image_diff({1, 1, {0}}, {1, 1, {0xFFFFFF}}).pixels.differing, 1);
   EXPECT_EQ(image_diff({1, 1, {0}}, {1, 1, {0xFFFFFF}}).pixels.changed, 1);

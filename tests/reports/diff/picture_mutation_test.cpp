@@ -18,7 +18,7 @@ PictureState state_of(const PixelDiff& found) {
   return found.differing > 0 ? PictureState::kWithinTolerance : PictureState::kIdentical;
 }
 
-/// Rows: what must be said; columns: what is said.
+/// Rows: expected verdicts; columns: actual verdicts.
 struct Confusion {
   std::array<std::array<int, 3>, 3> counts{};
 
@@ -43,7 +43,7 @@ TEST(PictureMutations, NoneIsMissedAndNoneFalselyAlarms) {
   Confusion confusion;
   int hidden = 0;
   for (std::size_t i = 0; i < all.size(); ++i) {
-    // What lies under other things cannot be seen.
+    // Covered shapes cannot be seen.
     if (found[i].differing == 0 && all[i].expected != PictureState::kIdentical) {
       ++hidden;
       continue;

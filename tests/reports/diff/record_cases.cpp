@@ -63,14 +63,15 @@ void add_seeds(std::vector<ValueCase>& cases) {
           {.name = fmt::format("seed {}, {}", seed, id),
            .id = id,
            .verdict = Verdict::kChanged,
-           .cause = {words, "other worlds"},
+           .cause = {words, "different seeds or true positions"},
            .passes = false,
            .change = [seed](const fs::path& folder) { write_changed(SmallStudy(seed), folder); },
            .alone = false});
   }
 }
 
-/// One landmark of one run moves outward: too little for any test over the seeds, never overlooked.
+/// One landmark of one run moves outward: too little for a test over the seeds, but always
+/// reported.
 void add_moves(std::vector<ValueCase>& cases) {
   for (const char* method : {"lpca", "isomap-K6"})
     for (const int row : {3, 5, 9})
@@ -107,7 +108,7 @@ void add_tolerated(std::vector<ValueCase>& cases) {
           }));
 }
 
-/// A method gets worse or better in every run: the paired test says so, corrected.
+/// A method gets worse or better in every run: the corrected paired test is significant.
 void add_trends(std::vector<ValueCase>& cases) {
   for (const char* method : {"lpca", "isomap-K6"})
     for (const double by : {0.5, 0.8, 0.95, 1.05, 1.2, 1.5, 2.0}) {
@@ -172,7 +173,7 @@ void add_runs(std::vector<ValueCase>& cases) {
          .change = [=](const fs::path& folder) { write_changed(SmallStudy(7, layouts), folder); },
          .alone = false});
   cases.push_back(changed_study("a status more", "records", Verdict::kChanged,
-                                {"status of layout-3-pose-1", "bridged"}, [](SmallStudy& study) {
+                                {"warnings of layout-3-pose-1", "bridged"}, [](SmallStudy& study) {
                                   study.study.runs[2].records[1].statuses.push_back(
                                       status_with_message(StatusCode::kBridged, "Two pieces."));
                                 }));

@@ -53,7 +53,7 @@ TEST(RecordDiff, GivesNoPWithFewerThanSixPairsButADirectionIfAllAgree) {
   EXPECT_EQ(record_diff(before, after).judgement.verdict, Verdict::kChanged);
 }
 
-TEST(RecordDiff, HasNoDirectionOfSoFewPairsWhereErrorsPointBothWays) {
+TEST(RecordDiff, HasNoDirectionWithFewPairsWhereErrorsHaveBothDirections) {
   RecordSet before = set_of(1);
   const auto with = [](RecordSet set, const char* quantity, double value) {
     set.values[{"bearing/lpca/100", quantity}]["layout-1-pose-1"] = value;
@@ -86,7 +86,7 @@ TEST(RecordDiff, NeverTakesTheSolversStressForAnErrorOfTheMap) {
       if (key.quantity == "stress")
         for (auto& [run, value] : runs) value += 0.01;
     EXPECT_EQ(record_diff(before, after).judgement.verdict, Verdict::kChanged) << layouts;
-    // Nor does it speak against errors that point one way.
+    // Nor does it contradict errors with one direction.
     for (auto& [run, value] : values(after)) value -= 0.01;
     const RecordDiff diff = record_diff(before, after);
     EXPECT_EQ(diff.judgement.verdict, Verdict::kChanged);
@@ -117,11 +117,12 @@ TEST(RecordDiff, CorrectsForTheNumberOfQuantitiesThatDiffer) {
   RecordSet after = before;
   for (auto& [key, runs] : after.values)
     for (auto& [run, value] : runs) value *= 1.1;
-  // 8 x 2 / 256 > 0.05: no test can say anything, as with fewer than six pairs.
+  // 8 x 2 / 256 > 0.05: no test can be significant, as with fewer than six pairs.
   const Judgement powerless = record_diff(before, after).judgement;
   EXPECT_EQ(powerless.verdict, Verdict::kWorse);
-  EXPECT_NE(powerless.cause.find("8 pairs in 8 layouts can show nothing at 8 quantities"),
-            std::string::npos)
+  EXPECT_NE(
+      powerless.cause.find("8 pairs in 8 layouts are too few for significance in 8 quantities"),
+      std::string::npos)
       << powerless.cause;
   values(after).begin()->second = values(before).begin()->second - 1.0;
   const Judgement divided = record_diff(before, after).judgement;
@@ -132,7 +133,7 @@ TEST(RecordDiff, CorrectsForTheNumberOfQuantitiesThatDiffer) {
   EXPECT_EQ(record_diff(before, after).judgement.verdict, Verdict::kWorse);
 }
 
-TEST(RecordDiff, PairsNothingOfAnotherSeedOrOtherWorlds) {
+TEST(RecordDiff, PairsNoRunsOfDifferentSeedsOrTruePositions) {
   const RecordSet before = set_of(8);
   RecordSet after = before;
   for (auto& [run, value] : values(after)) value *= 2.0;
@@ -157,7 +158,7 @@ TEST(RecordDiff, TakesALostScoreForWorseAndAGainedOneForBetter) {
   EXPECT_EQ(record_diff(after, after).judgement.verdict, Verdict::kIdentical);
 }
 
-TEST(RecordDiff, TellsAMapAndAFileThatAreKeptOnOneSideAlone) {
+TEST(RecordDiff, ReportsAMapAndAFileOnOnlyOneSide) {
   RecordSet before = set_of(3);
   const std::string record = "layout-2-pose-1/bearing/lpca/100";
   before.points[record] = {.names = {"a"}, .points = Points::Zero(1, 2), .truth = {}};
@@ -175,7 +176,7 @@ TEST(RecordDiff, TellsAMapAndAFileThatAreKeptOnOneSideAlone) {
   EXPECT_EQ(diff.judgement.verdict, Verdict::kMissing);
   EXPECT_EQ(diff.judgement.cause, "details/layout-1-pose-1.json is missing");
   EXPECT_EQ(record_diff(after, detailed).judgement.verdict, Verdict::kNew);
-  after.runs.erase("layout-1-pose-1");  // Then the missing run says it.
+  after.runs.erase("layout-1-pose-1");  // The missing run then reports it.
   EXPECT_TRUE(record_diff(detailed, after).others.empty());
 }
 
@@ -206,11 +207,11 @@ PlacedPoints shape_of(const Points& points) {
   return placed;
 }
 
-TEST(PointsDiff, LaysShapesOnEachOtherByPlaceTurnScaleAndMirror) {
+TEST(PointsDiff, AlignsShapesByTranslationRotationScaleAndReflection) {
   Points points(5, 2);
   points << 0, 0, 1, 0, 2, 1, 0.5, 3, -1, 1;
   Points moved(5, 2);
-  for (Eigen::Index i = 0; i < 5; ++i)  // Mirrored, turned by a right angle, twice as large.
+  for (Eigen::Index i = 0; i < 5; ++i)  // Reflected, rotated by 90 degrees, twice as large.
     moved.row(i) << 2.0 * points(i, 1) + 4.0, 2.0 * points(i, 0) - 7.0;
   const auto same = points_diff("m", shape_of(points), shape_of(moved), {});
   ASSERT_TRUE(same);
@@ -222,7 +223,7 @@ TEST(PointsDiff, LaysShapesOnEachOtherByPlaceTurnScaleAndMirror) {
   EXPECT_EQ(other->moves[0].name, "4");
 }
 
-TEST(PointsDiff, LaysMetricMapsWithoutAFrameOnEachOtherWithoutScale) {
+TEST(PointsDiff, AlignsMetricMapsWithoutAFrameWithoutScale) {
   Points points(4, 2), turned(4, 2);
   points << 0, 0, 1, 0, 2, 1, 0.5, 3;
   for (Eigen::Index i = 0; i < 4; ++i) turned.row(i) << points(i, 1) + 4.0, points(i, 0) - 7.0;
@@ -237,7 +238,7 @@ TEST(PointsDiff, LaysMetricMapsWithoutAFrameOnEachOtherWithoutScale) {
   EXPECT_GT(beyond(1.1 * turned, true), 0);
 }
 
-TEST(PointsDiff, TellsAPlaceThatIsLostAndOneThatIsGained) {
+TEST(PointsDiff, ReportsALostAndAGainedPosition) {
   PlacedPoints before, after;
   before.points.resize(4, 2);
   before.points << 0, 1, 2, 3, 4, 5, 6, 7;
@@ -252,7 +253,7 @@ TEST(PointsDiff, TellsAPlaceThatIsLostAndOneThatIsGained) {
   EXPECT_FALSE(points_diff("m", before, before, {}));
 }
 
-TEST(Quantities, TextsTellApartWhatIsNotEqual) {
+TEST(Quantities, TextsDistinguishUnequalNumbers) {
   EXPECT_EQ(change_text(0.138, 0.152, "m"), "0.138 \u2192 0.152 m");
   EXPECT_EQ(change_text(1.0, 1.0 + 1e-9, ""), "1 \u2192 1.000000001");
   EXPECT_EQ(change_text(std::nan(""), 2.0, "%"), "none \u2192 2 %");

@@ -1,7 +1,6 @@
 #include <gtest/gtest.h>
 
-#include "reports/diff/figures/figure_log.hpp"
-#include "reports/diff/item_diff.hpp"
+#include "reports/diff/records/record_tie.hpp"
 
 namespace mapproof {
 namespace {
@@ -34,7 +33,7 @@ std::string cause_of(const RecordDiff& records, const FigureDiff& figure, const 
   return tied_judgement("fig", figure, judge(figure), {id}, {.records = {&records}}).cause;
 }
 
-TEST(RecordTie, SaysThatRecordsDidNotChangeOnlyWhereNoneDid) {
+TEST(RecordTie, StatesThatRecordsDidNotChangeOnlyWhereNoneDid) {
   const RecordSet before = two_subjects();
   const std::string lpca = "bearing/lpca/100 of 3 runs";
   const RecordDiff same = record_diff(before, before);
@@ -51,16 +50,16 @@ TEST(RecordTie, SaysThatRecordsDidNotChangeOnlyWhereNoneDid) {
   after.seed = "8";
   after.settings["/seed"] = "8";
   const std::string seeds = cause_of(record_diff(before, after), figure_diff_of(), lpca);
-  EXPECT_NE(seeds.find("other worlds"), std::string::npos) << seeds;
+  EXPECT_NE(seeds.find("different seeds or true positions"), std::string::npos) << seeds;
   EXPECT_EQ(seeds.find("records"), std::string::npos) << seeds;
 
-  // That it shows others is not a reason to speak of those that it showed.
+  // A change of its records is not a reason to mention the former ones.
   const std::string others = cause_of(same, figure_diff_of(true), lpca);
   EXPECT_NE(others.find("it shows other records, a \u2192 b"), std::string::npos) << others;
   EXPECT_EQ(others.find(kUnchanged), std::string::npos) << others;
 }
 
-TEST(RecordTie, FindsWhatIsCalledOtherwiseThanItsSubject) {
+TEST(RecordTie, FindsRecordsWithANameOtherThanTheirSubject) {
   RecordSet before = two_subjects();
   before.families["bearing/isomap-K6/100"] = {"bearing/isomap/100", "K = 6"};
   before.called["map"] = "bearing/isomap-K6/100";

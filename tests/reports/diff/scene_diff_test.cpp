@@ -13,14 +13,14 @@ namespace {
 
 FigureDiff diff_of(const Scene& a, const Scene& b) {
   SceneWords words;
-  return scene_diff(scene_to_json(a), "a", scene_to_json(b), "b", {}, words);
+  return scene_diff({scene_to_json(a), "a"}, {scene_to_json(b), "b"}, {}, words);
 }
 
 TEST(SceneDiff, FindsNothingInTheSameScene) {
   for (const Scene& scene : sample_scenes()) EXPECT_TRUE(diff_of(scene, scene).equal) << scene.id;
 }
 
-TEST(SceneDiff, TellsDataFromStyleAndWords) {
+TEST(SceneDiff, DistinguishesDataFromStyleAndTexts) {
   const auto kind_after = [](const std::function<void(Scene&)>& change) {
     Scene scene = sample_scenes()[0];
     change(scene);
@@ -75,9 +75,9 @@ TEST(SceneDiff, ShowsOfTwoNumbersWhereTheyDiffer) {
   EXPECT_EQ(diff.changes[0].current, "1.199172");
 }
 
-TEST(SceneDiff, NamesAFileThatIsNoScene) {
+TEST(SceneDiff, NamesAFileThatIsNotAScene) {
   SceneWords words;
-  EXPECT_THROW(scene_diff("{}", "a", "{}", "b", {}, words), IoError);
+  EXPECT_THROW(scene_diff({"{}", "a"}, {"{}", "b"}, {}, words), IoError);
 }
 
 }  // namespace

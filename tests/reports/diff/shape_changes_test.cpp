@@ -16,7 +16,7 @@ TileEvidence reshaped() {
   return tile;
 }
 
-/// Ten tiles in the middle of 20 x 20 that differ; ink lies all over.
+/// Ten tiles in the middle of 20 x 20 that differ; content is everywhere.
 class ShapeChanges : public ::testing::Test {
  protected:
   ShapeChanges() {
@@ -30,7 +30,7 @@ class ShapeChanges : public ::testing::Test {
   void move(int count, double right_px, double left = 0.05) {
     for (int i = 0; i < count; ++i) evidence[i].kept = {left, right_px, 0.0};
   }
-  /// As hints of titles and labels do.
+  /// As hinting of titles and labels does.
   void reach_out() {
     for (const int tile : {5, 10 * kAcross, 19 * kAcross + 5}) {
       tiles.push_back(tile);
@@ -46,28 +46,28 @@ class ShapeChanges : public ::testing::Test {
   Texture texture;
 };
 
-TEST_F(ShapeChanges, ShapesThatMovedFarAreNoHints) {
+TEST_F(ShapeChanges, ShapesThatMovedFarAreNotHinting) {
   reach_out();
   move(6, 2.0);
   EXPECT_EQ(changed(), 6);
   EXPECT_EQ(changed(2.0), 0);
 }
 
-TEST_F(ShapeChanges, SomeThatMovedFarMayBeHintsWhereWhatDiffersReachesOutAsTextDoes) {
+TEST_F(ShapeChanges, SomeThatMovedFarMayBeHintingWhereDifferencesExtendAsFarAsText) {
   move(3, 2.0);
   EXPECT_EQ(changed(), 3);
   reach_out();
   EXPECT_EQ(changed(), 0);
 }
 
-TEST_F(ShapeChanges, WhatIsPutOnWholePixelsGoesOneWay) {
+TEST_F(ShapeChanges, AlignmentToWholePixelsMovesInOneDirection) {
   move(6, 1.0, 0.0);
   EXPECT_EQ(changed(), 0);
   move(3, -1.0, 0.0);
   EXPECT_EQ(changed(), 6);
 }
 
-TEST_F(ShapeChanges, OtherThingsAreFoundAmongThoseThatStayedInPlace) {
+TEST_F(ShapeChanges, DifferentShapesAreFoundAmongThoseInPlace) {
   move(9, 0.1);
   evidence[9].left_share = evidence[9].kept.left = 0.95;
   evidence[9].bold = 15;
@@ -76,7 +76,7 @@ TEST_F(ShapeChanges, OtherThingsAreFoundAmongThoseThatStayedInPlace) {
   EXPECT_EQ(changed(), 0);
 }
 
-TEST_F(ShapeChanges, NothingIsFoundInNothing) {
+TEST_F(ShapeChanges, NoTilesGiveNoChanges) {
   EXPECT_TRUE(shape_changes({}, {}, {}, 0, kAllowed).empty());
 }
 

@@ -13,7 +13,7 @@
 namespace mapproof::test {
 namespace {
 
-/// The embedded font with hints, for this thread; the face the back end draws with has none.
+/// The embedded font with hinting, for this thread; the face the back end draws with has none.
 cairo_font_face_t* hinted_face(bool font_hints) {
   struct Faces {
     FT_Library library = nullptr;

@@ -160,7 +160,7 @@ class SubtleMutations {
     return all.empty() ? all : std::vector{all[all.size() / 2]};
   }
 
-  /// Whether what changes does not lie under other things.
+  /// Whether the changed shape is not covered by others.
   bool is_seen(const Change& change) const {
     Drawing other = drawing_;
     change(other);
@@ -173,7 +173,7 @@ class SubtleMutations {
     return seen > 24;
   }
 
-  /// One thing changed, and everything moved.
+  /// One shape changed, and everything moved.
   void changes(double right, double down) {
     const Change none = [](Drawing&) {};
     const auto moved = [&](const std::string& name, const Change& change) {

@@ -9,10 +9,10 @@
 
 namespace mapproof::test {
 
-/// A study in which one thing was changed, and what must be said of it.
+/// A study with one change, and the expected verdict.
 struct ValueCase {
   std::string name;
-  std::string id;  ///< Of the item that is looked at.
+  std::string id;  ///< Of the item that is checked.
   Verdict verdict = Verdict::kIdentical;
   std::vector<std::string> cause;  ///< Parts of it.
   bool passes = false;
@@ -25,7 +25,7 @@ struct ValueCase {
 void write_base_study(const std::filesystem::path& folder);
 
 struct SmallStudy;
-/// Writes the records in a copy of that study anew, and draws the figures that are others.
+/// Writes the records in a copy of that study again, and draws the figures that changed.
 void write_changed(const SmallStudy& study, const std::filesystem::path& folder);
 
 /// Tables, a report's page and a PDF, to stand beside it.

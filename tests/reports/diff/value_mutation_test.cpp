@@ -14,7 +14,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// What was said where what had to be said: rows and columns by Verdict.
+/// Expected and actual verdicts: rows and columns by Verdict.
 using Confusion = std::map<Verdict, std::map<Verdict, int>>;
 
 void print(const std::string& name, const Confusion& confusion) {
@@ -76,21 +76,21 @@ class Mutations : public ::testing::Test {
 
 TemporaryFolder* Mutations::folder_ = nullptr;
 
-TEST_F(Mutations, OfRecordsAreAllToldWithTheirCause) { run("records", record_cases()); }
+TEST_F(Mutations, OfRecordsAreAllReportedWithTheirCause) { run("records", record_cases()); }
 
-TEST_F(Mutations, OfAnyFieldOfTheRecordsAreTold) { run("fields", field_cases()); }
+TEST_F(Mutations, OfAnyFieldOfTheRecordsAreReported) { run("fields", field_cases()); }
 
-TEST_F(Mutations, OfRangeOnlyStudiesAreToldWithTheirCause) {
+TEST_F(Mutations, OfRangeOnlyStudiesAreReportedWithTheirCause) {
   run("range-only", slam_cases(), "slam");
 }
 
-TEST_F(Mutations, OfTablesPagesAndPdfsAreTold) { run("documents", document_cases()); }
+TEST_F(Mutations, OfTablesPagesAndPdfsAreReported) { run("documents", document_cases()); }
 
-TEST_F(Mutations, OfFiguresAreAllToldWithTheirCause) { run("figures", figure_cases()); }
+TEST_F(Mutations, OfFiguresAreAllReportedWithTheirCause) { run("figures", figure_cases()); }
 
-TEST_F(Mutations, OfDrawingsAreToldFromThoseOfValues) { run("drawings", drawing_cases()); }
+TEST_F(Mutations, OfDrawingsAreDistinguishedFromThoseOfValues) { run("drawings", drawing_cases()); }
 
-TEST_F(Mutations, OfFilesAreToldAndTheRestGoesOn) { run("files", file_cases()); }
+TEST_F(Mutations, OfFilesAreReportedAndStopNothingElse) { run("files", file_cases()); }
 
 TEST_F(Mutations, ThatAreNoneAreIdentical) {
   const DiffResult result = folder_diff(*folder_ / "base", *folder_ / "base");

@@ -27,7 +27,7 @@ DiffResult diff_of(const Figure& before, const Figure& after) {
 
 TEST(VaryingFigures, PassWhereTheFastestIsAnother) {
   ParetoSpec later = costs();
-  later.settings[3].seconds = 0.001;  // Now MDS is on the front, and none is beaten.
+  later.settings[3].seconds = 0.001;  // Now MDS is on the front, and none is dominated.
   const Figure before = pareto_figure(costs());
   ASSERT_NE(before.panels[0].layers.size(), pareto_figure(later).panels[0].layers.size());
   const DiffResult result = diff_of(before, pareto_figure(later));
@@ -36,7 +36,7 @@ TEST(VaryingFigures, PassWhereTheFastestIsAnother) {
   EXPECT_NE(result.judgement.cause.find("varies from run to run"), std::string::npos);
 }
 
-TEST(VaryingFigures, AreNotJudgedByPicturesOfAnotherSize) {
+TEST(VaryingFigures, AreNotJudgedByImagesOfAnotherSize) {
   const Figure before = pareto_figure(costs());
   const TemporaryFolder folder;
   write_study_figure(before, report_theme(), folder / "before");
@@ -50,6 +50,11 @@ TEST(VaryingFigures, AreNotJudgedByPicturesOfAnotherSize) {
   EXPECT_EQ(result.judgement.cause.find("value is equal"), std::string::npos);
 }
 
+void set_error(Mark& mark, const char* error) {
+  for (auto& [key, value] : mark.data)
+    if (key == "error") value = error;
+}
+
 TEST(OtherRecords, MakeNoFigureBetterOrWorse) {
   Figure before = pareto_figure(costs());
   before.varies = false;
@@ -59,15 +64,14 @@ TEST(OtherRecords, MakeNoFigureBetterOrWorse) {
     if (auto* points = std::get_if<Scatter>(&layer))
       for (std::size_t i = 0; i < points->y.size(); ++i) {
         points->y[i] *= 2.0;
-        for (auto& [key, value] : points->marks[i].data)
-          if (key == "error") value = "9";
+        set_error(points->marks[i], "9");
       }
   EXPECT_EQ(diff_of(before, after).judgement.verdict, Verdict::kChanged);
   after.record_ids = before.record_ids;
   EXPECT_EQ(diff_of(before, after).judgement.verdict, Verdict::kWorse);
 }
 
-TEST(VaryingFigures, AreToldWhereSomethingLastingChanged) {
+TEST(VaryingFigures, AreReportedWhereSomethingLastingChanged) {
   const Figure before = pareto_figure(costs());
   ParetoSpec fewer = costs();
   fewer.settings.pop_back();

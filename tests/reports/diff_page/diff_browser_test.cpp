@@ -50,13 +50,13 @@ TEST_F(DiffBrowser, ShowsSideBySideSliderBlinkOverlayAndHeatMap) {
   EXPECT_EQ(found["opacity-moved"], "0.8");
   EXPECT_EQ(found["blend"], "difference");
   EXPECT_EQ(found["mode-5"], "heat");
-  EXPECT_EQ(found["heat-without"], "true");  // An SVG has none: its two pictures stay.
+  EXPECT_EQ(found["heat-without"], "true");  // An SVG has none: its two images stay.
   EXPECT_EQ(found["mode-m"], "side");
   EXPECT_EQ(found["mode-button"], "overlay");
   EXPECT_EQ(found["link-with-mode"], "true");
 }
 
-TEST_F(DiffBrowser, BlinksOnlyOnceItIsTold) {
+TEST_F(DiffBrowser, BlinksOnlyOnRequest) {
   Findings found = used();
   EXPECT_EQ(found["blink-starts-by-itself"], "false");
   EXPECT_EQ(found["blink-still"], "baseline");
@@ -65,7 +65,7 @@ TEST_F(DiffBrowser, BlinksOnlyOnceItIsTold) {
   EXPECT_EQ(found["blink-stopped"], "false");
 }
 
-TEST_F(DiffBrowser, ZoomsAllPicturesOfAFigureInStep) {
+TEST_F(DiffBrowser, ZoomsAllImagesOfAFigureInStep) {
   Findings found = used();
   EXPECT_EQ(found["zoomed"], "1.500");
   EXPECT_EQ(found["in-step"], "1");
@@ -127,7 +127,7 @@ TEST_F(DiffBrowser, IsReadableNamedAndWithinItsWidth) {
   EXPECT_EQ(found["help-closed"], "true");
 }
 
-TEST_F(DiffBrowser, ShowsPicturesAndTablesWithoutItsScript) {
+TEST_F(DiffBrowser, ShowsImagesAndTablesWithoutItsScript) {
   const test::TemporaryFolder folder;
   std::string page = page_of(test::compared_folders(folder.path()));
   page.erase(page.find("<script"), page.find("</script>") - page.find("<script"));
@@ -137,7 +137,7 @@ TEST_F(DiffBrowser, ShowsPicturesAndTablesWithoutItsScript) {
   EXPECT_EQ(found["bare-controls"], "0");
 }
 
-TEST_F(DiffBrowser, ShowsHostileTextsAsTextAndRunsNeitherThemNorPictures) {
+TEST_F(DiffBrowser, ShowsHostileTextsAsTextAndRunsNeitherThemNorImages) {
   const test::TemporaryFolder folder;
   const test::HostileDiff hostile = test::hostile_diff(folder.path());
   Findings found = look_at(page_of(hostile.result), hostile.texts);

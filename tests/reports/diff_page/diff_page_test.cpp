@@ -40,7 +40,7 @@ TEST(UrlText, TurnsNoTwoTextsIntoOneAndLeavesNothingThatHtmlReads) {
   EXPECT_EQ(url_text("a b%20:<\"'&\xff"), "a%20b%2520%3A%3C%22%27%26%FF");
 }
 
-TEST(DiffPage, HoldsEachPictureOnceAsItIsOnDisk) {
+TEST(DiffPage, HoldsEachImageOnceAsItIsOnDisk) {
   const test::TemporaryFolder folder;
   const std::string page = page_of(test::compared_folders(folder.path()));
   for (const char* name : {"a/moved.png", "b/moved.png", "a/resized.png", "b/resized.png",
@@ -48,7 +48,7 @@ TEST(DiffPage, HoldsEachPictureOnceAsItIsOnDisk) {
     EXPECT_EQ(count_of(page, uri_of(folder / name)), 1) << name;
 }
 
-TEST(DiffPage, ListsIdenticalPicturesButDoesNotHoldThem) {
+TEST(DiffPage, ListsIdenticalImagesButDoesNotHoldThem) {
   const test::TemporaryFolder folder;
   const std::string page = page_of(test::compared_folders(folder.path()));
   EXPECT_EQ(count_of(page, uri_of(folder / "a/same-2.png")), 0);
@@ -67,7 +67,7 @@ TEST(DiffPage, MakesAHeatMapOnlyOfPngsOfOneSizeThatDiffer) {
   EXPECT_EQ(count_of(page, "No heat map: the sizes differ."), 1);
 }
 
-TEST(DiffPage, MakesAHeatMapOfWhatIsWithinToleranceToo) {
+TEST(DiffPage, MakesAHeatMapWithinToleranceToo) {
   const test::TemporaryFolder folder;
   DiffResult result = test::compared_folders(folder.path());
   for (DiffItem& item : result.items)
@@ -77,27 +77,27 @@ TEST(DiffPage, MakesAHeatMapOfWhatIsWithinToleranceToo) {
   EXPECT_EQ(count_of(page_of(result), "class=\"pane heat\""), 1);
 }
 
-TEST(DiffPage, SaysThatSizesDifferAndWhyAPictureIsNotShown) {
+TEST(DiffPage, StatesThatSizesDifferAndWhyAnImageIsNotShown) {
   const test::TemporaryFolder folder;
   const std::string page = page_of(test::compared_folders(folder.path()));
   EXPECT_NE(page.find("160 \u00D7 120 \u2192 160 \u00D7 140 pixels"), std::string::npos);
   EXPECT_NE(page.find("Not shown: png cannot be read."), std::string::npos);
 }
 
-TEST(DiffPage, SaysWhatWasNotCompared) {
+TEST(DiffPage, ListsItemsThatWereNotCompared) {
   const test::TemporaryFolder folder;
   DiffResult result = test::compared_folders(folder.path());
   result.remarks = {"Not compared: <b>x</b>.jpg"};
   EXPECT_NE(page_of(result).find("Not compared: &lt;b&gt;x&lt;/b&gt;.jpg"), std::string::npos);
 }
 
-TEST(DiffPage, LeavesOutPicturesBeyondItsBudgetAndCountsThem) {
+TEST(DiffPage, LeavesOutImagesBeyondItsBudgetAndCountsThem) {
   const test::TemporaryFolder folder;
   const DiffResult result = test::compared_folders(folder.path());
   const std::string page =
       page_of(result, {.largest_bytes = 1 << 20, .all_bytes = 1, .heat_maps = 0});
   EXPECT_EQ(count_of(page, "<img "), 0);
-  EXPECT_NE(page.find("Pictures of 6 items are not shown"), std::string::npos);
+  EXPECT_NE(page.find("Images of 6 items are not shown"), std::string::npos);
   EXPECT_NE(page.find("id=\"figure-moved\""), std::string::npos);
 }
 
@@ -155,7 +155,7 @@ TEST(DiffPage, GivesEachIdOnceAndHasNoInlineStyleOrHandler) {
   }
 }
 
-TEST(DiffPage, SaysSoWhereAllIsIdentical) {
+TEST(DiffPage, StatesThatAllIsIdentical) {
   DiffItem item;
   item.id = "fig-7";
   DiffResult result;

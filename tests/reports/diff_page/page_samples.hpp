@@ -15,7 +15,7 @@ std::string square_png(int width, int height, int x, int y);
 /// cut short) and "same-1" to "same-N"; with "drawn", two SVGs.
 DiffResult compared_folders(const std::filesystem::path& folder, int same = 3);
 
-/// A result with a hostile text in every field, and those texts. Its pictures are those of
+/// A result with a hostile text in every field, and those texts. Its images are those of
 /// `folder`, an SVG with a script and a reference to a host among them.
 struct HostileDiff {
   DiffResult result;

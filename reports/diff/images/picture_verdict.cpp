@@ -1,14 +1,15 @@
+#include "reports/diff/images/picture_verdict.hpp"
+
 #include <algorithm>
 
 #include <fmt/format.h>
 
 #include "core/base/words.hpp"
-#include "reports/diff/item_diff.hpp"
 
 namespace mapproof {
 namespace {
 
-/// "VTK 9.1, llvmpipe 15.0 → 15.1": words that both begin with stand once.
+/// "VTK 9.1, llvmpipe 15.0 → 15.1": the common beginning appears once.
 std::string change_of_words(const std::string& a, const std::string& b) {
   if (a.empty() || b.empty())
     return fmt::format("{} \u2192 {}", a.empty() ? "unknown" : a, b.empty() ? "unknown" : b);
@@ -18,7 +19,7 @@ std::string change_of_words(const std::string& a, const std::string& b) {
   return fmt::format("{} \u2192 {}", a, b.substr(shared));
 }
 
-/// "Cairo 1.16.0 → 1.18.0": what drew the two, by the files or else by the studies.
+/// "Cairo 1.16.0 → 1.18.0": the renderers of both, from the files or else from the studies.
 std::string renderers_text(const PictureDiff& diff, const RecordContext& context) {
   if (diff.baseline_renderer != diff.current_renderer)
     return "drawn by " + change_of_words(diff.baseline_renderer, diff.current_renderer);
@@ -31,7 +32,7 @@ std::string renderers_text(const PictureDiff& diff, const RecordContext& context
                                        : "both drawn by " + diff.current_renderer;
 }
 
-/// Whether both were drawn by the same, as far as files and studies say.
+/// Whether one renderer drew both, as far as files and studies record it.
 bool same_renderer(const std::vector<PictureFile>& files, const RecordContext& context) {
   for (const RecordDiff* records : context.records)
     for (const SettingChange& change : records->provenance)
@@ -42,8 +43,8 @@ bool same_renderer(const std::vector<PictureFile>& files, const RecordContext& c
   });
 }
 
-/// Whether an SVG shows that styles changed: other colours, texts or elements; or other places,
-/// where the same renderer laid them out.
+/// Whether an SVG shows changed styles: colours, texts or elements; or changed positions, where the
+/// renderer is the same.
 bool changes_style(const PictureFile& file, bool same_renderer) {
   if (!file.diff.svg || file.diff.state != PictureState::kDifferent) return false;
   const SvgDiff& svg = *file.diff.svg;
@@ -57,7 +58,7 @@ const PictureFile* first_with(const std::vector<PictureFile>& files, auto holds)
   return found == files.end() ? nullptr : &*found;
 }
 
-/// Of files that are there on one side alone or cannot be read.
+/// The judgement of files that exist on only one side or cannot be read.
 std::optional<Judgement> judge_presence(const std::vector<PictureFile>& files) {
   const auto there = [](const PictureFile& f) { return !f.baseline.empty() && !f.current.empty(); };
   if (const PictureFile* bad = first_with(files, [&](const PictureFile& f) {
@@ -73,7 +74,8 @@ std::optional<Judgement> judge_presence(const std::vector<PictureFile>& files) {
   return std::nullopt;
 }
 
-/// An SVG says what changed, the other kinds how much.
+/// The reasons of the visible differences: first of SVGs, which name what changed, then of the
+/// other formats, which give the amount.
 std::string words_alone(const std::vector<PictureFile>& files) {
   std::string words;
   for (const bool is_svg : {true, false})
@@ -91,7 +93,7 @@ std::string words_alone(const std::vector<PictureFile>& files) {
   return words;
 }
 
-/// Of pictures without a value.
+/// Judges images without a value.
 Judgement judge_alone(const std::vector<PictureFile>& files) {
   if (std::ranges::any_of(files, is_visible)) return {Verdict::kChanged, true, words_alone(files)};
   if (const PictureFile* near = first_with(files, [](const PictureFile& f) {
@@ -101,7 +103,7 @@ Judgement judge_alone(const std::vector<PictureFile>& files) {
   return {};
 }
 
-/// Of pictures whose figure's value is equal, or within tolerance.
+/// Judges images whose figure's value is equal or within tolerance.
 Judgement judge_drawing(const Judgement& value, const std::vector<PictureFile>& files,
                         const RecordContext& context) {
   const char* equal = value.verdict == Verdict::kIdentical ? "equal" : "equal within tolerance";
@@ -112,7 +114,7 @@ Judgement judge_drawing(const Judgement& value, const std::vector<PictureFile>& 
         style->diff.svg->changes.empty() ? nullptr : &style->diff.svg->changes[0];
     return {
         Verdict::kStyle, true,
-        fmt::format("the figure's value is {}, its styles are not: {}{}", equal, style->diff.reason,
+        fmt::format("the figure's value is {}, its styles differ: {}{}", equal, style->diff.reason,
                     first ? fmt::format("; {}: {} {} \u2192 {}", first->element, first->what,
                                         first->baseline, first->current)
                           : "")};
@@ -124,7 +126,7 @@ Judgement judge_drawing(const Judgement& value, const std::vector<PictureFile>& 
         files, [](const PictureFile& f) { return f.diff.state == PictureState::kWithinTolerance; });
   if (file == nullptr) return {};
   return {Verdict::kRenderer, visible,
-          fmt::format("the figure's value is {}, its {} is drawn otherwise: {}; {}", equal,
+          fmt::format("the figure's value is {}, its {} is rendered differently: {}; {}", equal,
                       file->format, file->diff.reason, renderers_text(file->diff, context))};
 }
 
@@ -143,11 +145,11 @@ Judgement judge_pictures(const Judgement& value, bool has_value,
         !pictures.empty() && std::ranges::all_of(pictures, [](const PictureFile& file) {
           return file.diff.state == PictureState::kIdentical;
         });
-    if (unmoved) told.cause += "; its pictures are the same: they are not of this value";
+    if (unmoved) told.cause += "; its images are the same: they do not show this value";
     return told;
   }
   const Judgement drawing = judge_drawing(value, pictures, context);
-  // What nobody sees is not a news where the value says more.
+  // An invisible difference does not replace a difference of the value.
   const bool says_more = value.verdict == Verdict::kIdentical || drawing.visible;
   return says_more && drawing.verdict > value.verdict ? drawing : value;
 }

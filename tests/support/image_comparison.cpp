@@ -1,10 +1,10 @@
-#include "render/image/compare.hpp"
+#include "tests/support/image_comparison.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
 
-namespace mapproof {
+namespace mapproof::test {
 namespace {
 
 constexpr int kWindow = 8;
@@ -78,4 +78,4 @@ bool is_alike(const ImageDifference& difference, const ImageTolerance& tolerance
          difference.shift <= tolerance.most_shift;
 }
 
-}  // namespace mapproof
+}  // namespace mapproof::test
