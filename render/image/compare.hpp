@@ -18,7 +18,7 @@ struct ImageDifference {
 
 ImageDifference compare_images(const Image& a, const Image& b);
 
-/// What still counts as the same picture, drawn by another version of a library perhaps.
+/// What still counts as the same image, perhaps drawn by another version of a library.
 struct ImageTolerance {
   double most_changed = 0.002;
   double least_structure = 0.8;
