@@ -13,7 +13,7 @@ namespace mapproof {
 /// @throws InvalidInput if that would be more than 20000 pixels wide or high.
 Image to_image(const Drawing& drawing);
 
-/// What a PNG file says of the drawing, as keywords and words.
+/// What a PNG file holds about the drawing, as keywords and text.
 std::vector<std::pair<std::string, std::string>> png_words(const Drawing& drawing);
 
 /// to_image as a PNG file with the figure's id, title, records and description as text chunks.

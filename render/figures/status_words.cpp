@@ -35,7 +35,8 @@ std::string_view extent(double dimensions) { return dimensions == 2.0 ? "the pla
 
 std::string nearly_on_a_line(std::string_view what, std::string_view of_what, double condition) {
   return fmt::format(
-      "{} nearly on one line, condition number {:.3g}: on which side of it {} is hardly told.",
+      "{} nearly on one line, condition number {:.3g}: the side of it on which {} lies is hardly "
+      "determined.",
       what, condition, of_what);
 }
 
@@ -54,7 +55,8 @@ std::string reason_words(const Status& status) {
     case StatusReason::kTooManyNeighbours:
       return fmt::format("K = {} needs more than {} observed landmarks.", v(0), v(1));
     case StatusReason::kNoSharedObservation:
-      return "Some groups of landmarks share no observation: nothing tells where they lie to each "
+      return "Some groups of landmarks share no observation: nothing determines where they lie "
+             "relative to each "
              "other.";
     case StatusReason::kNoCommonStep:
       return fmt::format(
@@ -102,7 +104,7 @@ std::string reason_words(const Status& status) {
           "be kept are off by up to {:.1e} of the largest.",
           v(0));
     case StatusReason::kNoBound:
-      return with_residual("Nothing was proved of the greatest variance.", v(0));
+      return with_residual("The greatest variance was not certified.", v(0));
     case StatusReason::kVarianceTooGreat:
       return with_residual(
           fmt::format(
@@ -215,7 +217,7 @@ std::string reason_words(const Status& status) {
           v(0), v(1));
     case StatusReason::kFlatInSpace:
       return fmt::format(
-          "Landmarks or path lie on one plane or sphere, as far as the ranges tell: condition "
+          "Landmarks or path lie on one plane or sphere, as far as the ranges determine: condition "
           "number {:.3g}.",
           v(0));
     case StatusReason::kFewCommonRanges:
@@ -253,7 +255,7 @@ std::string reason_words(const Status& status) {
     case StatusReason::kLeastSquaresNotConverged:
       return fmt::format("The least squares had not converged after {} iterations.", v(0));
     case StatusReason::kNoStepLowered:
-      return "No step lowered the cost: this is the start, laid along the odometry.";
+      return "No step decreased the cost: this is the initial guess, aligned to the odometry.";
     case StatusReason::kFewStates:
       return fmt::format("{} states against {} on the other side; {} against {} are needed.", v(0),
                          v(1), v(2), v(3));
@@ -267,25 +269,26 @@ std::string reason_words(const Status& status) {
                          v(0) == 2.0 ? "line or circle" : "plane or sphere", v(1));
     case StatusReason::kRankOfPath:
       return fmt::format(
-          "The ranges do not tell positions from the known landmarks: their rank is lower than "
+          "The ranges do not determine positions from the known landmarks: their rank is lower "
+          "than "
           "that of a path in {}.",
           extent(v(0)));
     case StatusReason::kStepsFlat:
       return fmt::format("The steps span {} dimensions; {} are needed.", v(0), v(1));
     case StatusReason::kMirrorImage:
       return fmt::format(
-          "Odometry does not tell the map from its mirror image: it fits them alike but for "
+          "Odometry does not distinguish the map from its reflection: the fits differ only by "
           "{:.2g} %.",
           v(0));
     case StatusReason::kFewPosesWithRanges:
       return fmt::format(
-          "All of {} landmarks are told at {} of {} poses; {} at {} are needed. Landmark {} is "
-          "told at the fewest: {}.",
+          "All of {} landmarks are observed at {} of {} poses; {} at {} are needed. Landmark {} is "
+          "observed at the fewest: {}.",
           v(0), v(1), v(2), v(3), v(4), status.names.at(0), v(5));
     case StatusReason::kPosesWithoutWindow:
       return fmt::format(
-          "{} of {} poses have no window with enough readings of every landmark; the path leaves "
-          "them out. Landmark {} is told at the fewest: {}.",
+          "{} of {} poses have no window with enough measurements of every landmark; the path "
+          "leaves them out. Landmark {} is observed at the fewest: {}.",
           v(0), v(1), status.names.at(0), v(2));
     case StatusReason::kNoKnownLandmark:
       return "No landmark's place is known.";

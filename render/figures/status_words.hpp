@@ -8,7 +8,7 @@
 
 namespace mapproof {
 
-/// What the status says, in a sentence or two.
+/// The meaning of the status, in a sentence or two.
 std::string status_words(const Status& status);
 
 /// Adds a warning a line, four at most, and how many more there are.

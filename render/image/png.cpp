@@ -21,7 +21,7 @@ namespace mapproof {
 namespace {
 
 constexpr std::uint32_t kColourBits = 0xFFFFFF;
-constexpr std::size_t kMostColours = 8192;  // Beyond that it is a picture, not a drawing.
+constexpr std::size_t kMostColours = 8192;  // Beyond that it is a photograph, not a drawing.
 
 /// The colours of an image with their counts, in the order in which they are met; open addressing.
 class Histogram {

@@ -15,7 +15,7 @@ struct PngChunk {
 /// The first four bytes as a number. @pre There are four.
 std::uint32_t big_endian(std::string_view bytes);
 
-/// The chunks of a PNG file, of which png_problem says nothing.
+/// The chunks of a PNG file that png_problem() accepts.
 std::vector<PngChunk> png_chunks(std::string_view bytes);
 
 /// IHDR.

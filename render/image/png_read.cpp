@@ -135,8 +135,8 @@ bool widen(const PngHeader& header, const unsigned char* raw, std::string_view p
   return alpha >> 24 == 0xFF;
 }
 
-/// Whether quick_rows can read such a picture: 8 bits a sample, not interlaced,
-/// not grey with alpha. Whoever calls looks for tRNS.
+/// Whether quick_rows can read such an image: 8 bits a sample, not interlaced,
+/// not grey with alpha. The caller searches for tRNS.
 bool has_quick_rows(const PngHeader& header) {
   return header.depth == 8 && header.interlace == 0 && header.colour != 4;
 }
@@ -144,7 +144,7 @@ bool has_quick_rows(const PngHeader& header) {
 /// The pixels of the compressed rows, in a third of libpng's time and without a second buffer.
 /// @param palette  PLTE's bytes; colours beyond it are black.
 /// @return Empty if some pixel is not opaque.
-/// @throws InvalidInput if the rows are damaged or not as long as the header says.
+/// @throws InvalidInput if the rows are damaged or not as long as the header requires.
 /// @pre has_quick_rows(header); width and height are within bounds.
 std::optional<Image> quick_rows(const PngHeader& header, std::string_view compressed,
                                 std::string_view palette) {

@@ -47,7 +47,7 @@ Box on_pixels(const Box& place, double per_point) {
   return {whole(place.x0), whole(place.y0), whole(place.x1), whole(place.y1)};
 }
 
-/// How much finer the poster is; 1 where it would be larger than a picture can be.
+/// How much finer the poster is; 1 where it would be larger than an image can be.
 int poster_scale(const Drawing& drawing) {
   const double longest = std::max(drawing.width, drawing.height) * drawing.dpi / 72.0;
   return 2.0 * longest <= SceneClient::kLargestSide ? 2 : 1;

@@ -11,7 +11,7 @@
 
 namespace mapproof {
 
-/// Writes ID.apng at the theme's dpi, each frame drawn as the picture in a scene's SVG is,
+/// Writes ID.apng at the theme's dpi, each frame drawn as the image in a scene's SVG is,
 /// with the titles and
 /// records of the last frame as its texts.
 /// @throws InvalidInput if a frame cannot be drawn, their sizes differ or they are too many (see
@@ -20,7 +20,7 @@ namespace mapproof {
 void write_animation(const Film& film, const Theme& theme, const std::filesystem::path& folder,
                      SceneClient& client);
 
-/// A scene laid out, its pictures drawn: at the theme's dpi, and at twice that unless a side would
+/// A scene laid out, its images drawn: at the theme's dpi, and at twice that unless a side would
 /// then have more than SceneClient::kLargestSide pixels.
 struct SceneDrawing {
   Drawing screen;
@@ -30,7 +30,7 @@ struct SceneDrawing {
 /// @throws InvalidInput if the scene cannot be drawn (see `problem`); SceneError.
 SceneDrawing draw_scene(const Scene& scene, const Theme& theme, SceneClient& client);
 
-/// Writes ID.svg with pictures at the theme's dpi, ID.png and ID.pdf at twice that, and
+/// Writes ID.svg with images at the theme's dpi, ID.png and ID.pdf at twice that, and
 /// ID.scene.json, each at once or not at all.
 /// @return The text of the SVG file.
 /// @throws IoError; otherwise as draw_scene.

@@ -73,14 +73,14 @@ struct TextLine {
   Colour colour = {};
 };
 
-/// A picture of pixels; without them it is not drawn.
+/// A raster image; without pixels it is not drawn.
 struct Raster {
   Box place;
   std::size_t source = 0;  ///< See Picture.
   std::shared_ptr<const Image> image;
 };
 
-/// The part of the drawing that a line's ink takes.
+/// The part of the drawing that a line covers.
 Box ink_box(const TextLine& line);
 
 struct Item {

@@ -29,7 +29,7 @@ bool same_size(std::size_t size, std::initializer_list<std::size_t> others) {
   return true;
 }
 
-/// Looks at the parts one by one and keeps the ids it has met.
+/// Checks the parts one by one and keeps the ids found so far.
 class Inspector {
  public:
   std::string figure(const Figure& figure) {

@@ -11,7 +11,7 @@
 
 namespace mapproof {
 
-/// The ink of the i-th curve of a figure, counted from 0; repeats after seven.
+/// The colour of the i-th curve of a figure, counted from 0; repeats after seven.
 Ink series_ink(std::size_t i);
 
 enum class Dash { kSolid, kDashed, kDotted, kDashDot, kLongDash };
@@ -19,14 +19,14 @@ enum class Dash { kSolid, kDashed, kDotted, kDashDot, kLongDash };
 /// What an outline holds.
 enum class Fill {
   kNone,
-  kTint,   ///< A little of the ink; what is below shows through.
-  kSolid,  ///< The ink.
+  kTint,   ///< A little of the colour; what is below shows through.
+  kSolid,  ///< The colour.
   kPaper,  ///< The background: hides what is below.
 };
 
 /// The colours of a field, from its least to its greatest value.
 enum class Ramp {
-  kInk,      ///< From the background to the ink.
+  kInk,      ///< From the background to the colour.
   kViridis,  ///< From dark to light.
 };
 
@@ -180,11 +180,11 @@ struct Texts {
   bool operator==(const Texts&) const = default;
 };
 
-/// A place for a raster picture, and what in it labels must not cover.
+/// The position of a raster image, and what in it labels must not cover.
 struct Picture {
   Range x = {};
   Range y = {};
-  std::size_t source = 0;             ///< Which picture: for those who paint it.
+  std::size_t source = 0;             ///< Index of the image, for the painter.
   std::vector<double> clear_x = {};   ///< Middles of squares that stay free of labels.
   std::vector<double> clear_y = {};   ///< As many.
   std::vector<double> clear_by = {};  ///< As many: half their sides, >= 0.

@@ -268,7 +268,7 @@ class CellGrid {
     return std::min(width * 0.86 + 4.0 * theme_.font_pt, most * theme_.height_pt);
   }
 
-  /// The lowest ink of the panels from `first` on.
+  /// The lowest drawn point of the panels from `first` on.
   double bottom_of_row(std::size_t first) const {
     double bottom = room_.y0;
     for (const Item& item : drawing_.items) {

@@ -116,7 +116,7 @@ class Painter {
   }
 
  private:
-  /// Markers far enough apart to be told from each other, the first point always with one.
+  /// Markers far enough apart to be distinguished, the first point always with one.
   void draw_markers(const Polyline& line, std::optional<std::size_t> mark) {
     if (line.marker == Marker::kNone) return;
     const std::size_t symbol = symbol_of(line.marker, true, 1.0, line.ink);

@@ -15,7 +15,7 @@ bool has_picture(const Panel& panel);
 /// The lengths of a dash, in points; empty for a solid line.
 std::vector<double> dash_lengths(Dash dash, double width_pt);
 
-/// A line of that ink, its width in the theme's lines.
+/// A line of that colour class, its width in the theme's lines.
 Stroke stroke_of(Ink ink, Dash dash, double width, const Theme& theme);
 
 /// A shape without a path, filled so.

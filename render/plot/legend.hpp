@@ -28,7 +28,7 @@ class Legend {
   std::size_t columns_within(double width) const;
   /// A corner or edge inside `frame` where no data is covered; the corners first. Empty if all are.
   std::optional<Box> free_place(const Box& frame, const Obstacles& data) const;
-  /// Hides the grid behind a legend inside the frame, and tells it from the data by a border.
+  /// Hides the grid behind a legend inside the frame, and separates it from the data by a border.
   void draw_box(const Box& place, std::size_t panel_index, Drawing& drawing) const;
   /// @param at  The upper left corner.
   void draw(Point at, std::size_t columns, std::size_t panel_index, Drawing& drawing) const;

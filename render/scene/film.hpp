@@ -7,7 +7,7 @@
 
 namespace mapproof {
 
-/// What an animation shows: one picture after another, all of one size.
+/// What an animation shows: one image after another, all of one size.
 struct Film {
   std::string id;             ///< As a scene's.
   std::vector<Scene> frames;  ///< Of one view each.

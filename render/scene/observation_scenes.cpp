@@ -153,7 +153,7 @@ class MeasurementScene {
     scene_.views[0].labels.push_back(std::move(labels));
   }
 
-  /// Of a much larger room only what is near, since a picture holds no such depths.
+  /// Of a much larger room only what is near, since an image cannot show such depths.
   Surface floor() const {
     if (is_whole()) return floor_of(side_);
     Surface around{.style = floor_of(side_).style};
@@ -259,7 +259,7 @@ class MeasurementScene {
 
   /// Layers on the floor, one above the other.
   double lift(int layer) const { return 0.0012 * seen_m_ * layer; }
-  /// Where the robot looks from.
+  /// Where the robot observes from.
   double eye() const { return 0.5 * landmark_height(seen_m_); }
   Point3 place(Eigen::Index row, double height) const {
     return on_floor(m_.world.landmarks_m.row(row), height);

@@ -10,9 +10,9 @@ namespace mapproof {
 namespace {
 
 constexpr double kAngle_rad = 0.45;  // Of fitted perspective cameras: little distortion.
-constexpr int kRounds = 12;          // Each moves the picture's middle nearer to the points'.
+constexpr int kRounds = 12;          // Each moves the image's middle nearer to the points'.
 
-/// Middle and extent of the points in the picture.
+/// Middle and extent of the points in the image.
 struct Extent {
   Span x, y;
 };
@@ -27,7 +27,7 @@ Extent extent_of(const Projection& projection, std::span<const Point3> points) {
   return extent;
 }
 
-/// The least distance from the target at which no point is outside the share of the picture.
+/// The least distance from the target at which no point is outside the share of the image.
 double distance_for(std::span<const Point3> points, const Camera& camera, double share) {
   const Projection projection(camera);
   const Point3 back = (camera.eye - camera.target).normalized();

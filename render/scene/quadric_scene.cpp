@@ -139,7 +139,7 @@ double rise_of(const Surface& sheet) {
   return sum;
 }
 
-/// Coordinates of the plane of scale 1 have no sign of their own: the bowl is turned upright.
+/// Coordinates of the plane of scale 1 have no sign of their own: the bowl is rotated upright.
 QuadricPoints upright(const QuadricPoints& cloud) {
   if (rise_of(quadric_surface(cloud).sheet) >= 0.0) return cloud;
   return scaled(cloud, Eigen::Vector3d::Constant(-1.0));

@@ -10,7 +10,7 @@
 
 namespace mapproof {
 
-/// The share of an ink that a legend's tint has: what is not drawn in the full ink has this one.
+/// The share of a colour in a legend's tint: what is not drawn in the full colour has this one.
 inline constexpr double kTintShare = 0.2;
 
 /// The longest side of a room that is drawn.
@@ -25,7 +25,7 @@ bool has_room(const World& world);
 /// From above and from two sides, so that neighbouring faces differ.
 std::vector<Light> usual_lights();
 
-/// Two triangles a rectangle of corners a, b, c, d in turn.
+/// Two triangles per rectangle of corners a, b, c, d in turn.
 void add_rectangle(Surface& surface, const Point3& a, const Point3& b, const Point3& c,
                    const Point3& d);
 

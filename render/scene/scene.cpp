@@ -12,7 +12,7 @@
 namespace mapproof {
 namespace {
 
-/// A piece of the outline that turns about the axis, and its outward normals.
+/// A piece of the outline that rotates about the axis, and its outward normals.
 struct Rim {
   double along = 0.0;
   double radius = 0.0;

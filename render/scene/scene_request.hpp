@@ -8,7 +8,7 @@
 
 namespace mapproof {
 
-/// How a view of a scene is turned to pixels: the line that goes before the scene's own to the
+/// How a view of a scene becomes pixels: the line that goes before the scene's own to the
 /// program that draws.
 struct SceneRequest {
   std::size_t view = 0;

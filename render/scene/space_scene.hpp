@@ -20,9 +20,9 @@ struct SpaceSceneSpec {
 bool has_space_scene(const SpaceRun& run);
 
 /// Landmarks in space, a view for each record: true places over the ground, the true path as a tube
-/// coloured by time with the estimated one beside it, and a rod from each true place to its
+/// coloured by time with the estimated one beside it, and a rod from each true position to its
 /// estimate, lengthened by a round factor that is said where it would be too short to be seen. A
-/// record without a map shows the truth alone and a note says why.
+/// record without a map shows the ground truth alone and a note gives the reason.
 /// @throws InvalidInput without records, landmarks or positions, or if sizes disagree.
 Scene space_scene(const SpaceSceneSpec& spec);
 

@@ -22,7 +22,7 @@ constexpr double kLift = 0.004;             // Of the side: no error still lies 
 constexpr double kErrorPercentile = 0.95;
 constexpr int kMostLevels = 6;
 
-/// A landmark that has a truth and a place.
+/// A landmark that has a true position and an estimate.
 struct Sample {
   Eigen::RowVector2d at_m;
   double error_m = 0.0;

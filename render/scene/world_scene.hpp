@@ -12,18 +12,18 @@ namespace mapproof {
 
 struct ErrorFieldSpec {
   struct One {
-    std::string title;  ///< Above its picture.
-    MapRecord map;      ///< In the frame of the truth, with a truth.
+    std::string title;  ///< Above its image.
+    MapRecord map;      ///< In the frame of the ground truth, with ground truth.
   };
   std::string id;
   std::string title;
   double side_m = 0.0;      ///< Of the room.
-  std::vector<One> maps;    ///< At least one; a picture each.
+  std::vector<One> maps;    ///< At least one; one image per map.
   std::size_t columns = 0;  ///< As a figure's.
 };
 
-/// Whether a map's errors can be interpolated: it has a truth and is in its frame, and three of its
-/// landmarks with a truth and a place span an area.
+/// Whether a map's errors can be interpolated: it has ground truth and is in its frame, and three
+/// of its landmarks with a true position and an estimate span an area.
 bool has_error_field(const MapRecord& map, double side_m);
 
 /// Each map's position error over the floor, interpolated between the true positions of the
@@ -40,7 +40,7 @@ struct WorldSceneSpec {
   RunId run;
   World world;
   Points path_m;  ///< N x 2, in order; may be empty.
-  MapRecord map;  ///< In the frame of the truth, of the world's landmarks.
+  MapRecord map;  ///< In the frame of the ground truth, of the world's landmarks.
 };
 
 /// The room with its landmarks at their true diameter, anchors apart, the robot's path as a tube

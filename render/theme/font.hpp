@@ -50,8 +50,8 @@ struct ShapedText {
   Box ink;
 };
 
-/// What is drawn for `text`: code points that the font lacks, that are invisible or that would turn
-/// the direction are written out as "[U+1F600]", bytes that are no UTF-8 as "[xFF]".
+/// What is drawn for `text`: code points that the font lacks, that are invisible or that would
+/// reverse the direction are written out as "[U+1F600]", bytes that are no UTF-8 as "[xFF]".
 std::string visible_text(std::string_view text);
 
 /// As visible_text, line by line, the line feeds kept.

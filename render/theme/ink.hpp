@@ -2,7 +2,7 @@
 
 namespace mapproof {
 
-/// What a colour stands for; a theme says which colour that is.
+/// The meaning of a colour; a theme defines the colour itself.
 enum class Ink {
   kText,
   kMuted,    ///< Helps the eye; still at least 3:1 against the background.

@@ -6,9 +6,9 @@
 
 namespace mapproof {
 
-/// Colours that the colour-blind tell apart [okabe2008], in the order of a figure's curves, each at
-/// least 3:1 on white: its sky blue and yellow are darkened to that; its orange, which would then
-/// be near vermilion, is left out.
+/// Colours that the colour-blind can distinguish [okabe2008], in the order of a figure's curves,
+/// each at least 3:1 on white: its sky blue and yellow are darkened to that; its orange, which
+/// would then be near vermilion, is left out.
 inline constexpr std::array<Colour, 7> kSeriesColours = {
     colour(0x0072B2),  // blue
     colour(0xD55E00),  // vermilion

@@ -15,7 +15,7 @@ std::string superscript(int exponent) {
   return text;
 }
 
-/// Digits behind the point that tell multiples of `step` apart.
+/// Digits behind the point that distinguish multiples of `step`.
 int decimals_for(double step) {
   return std::clamp(static_cast<int>(std::ceil(-std::log10(step) - 1e-9)), 0, 15);
 }

@@ -50,7 +50,7 @@ struct Losses {
   int lost = 0, gained = 0, of = 0;
 };
 
-/// Series of the reference that tonight does not have at all.
+/// Series of the reference that this nightly run does not have at all.
 struct Vanished {
   std::string subject = {};
   std::string shown = {};
@@ -111,7 +111,7 @@ std::pair<std::vector<double>, const char*> unit_means(const std::map<std::strin
   return {means, !by_group ? "run" : draws_groups ? "group" : "layout"};
 }
 
-/// All that tonight and the reference have in common.
+/// All that this nightly run and the reference have in common.
 struct Work {
   std::vector<Comparison> comparisons;
   std::vector<Losses> losses;
@@ -251,31 +251,32 @@ NightFinding finding_of(const Comparison& comparison, const PairedChange& change
   const Quantity& quantity = *comparison.quantity;
   const std::string interval = range_words(quantity, change.low, change.high);
   const std::string units = counted(change.units, comparison.unit);
-  return {
-      .study = evidence.trend.name,
-      .rule = NightRule::kAccuracy,
-      .subject = comparison.subject,
-      .quantity = quantity.id,
-      .since = evidence.trend.nights.back().number,
-      .sentence = fmt::format("{}: {} {} than on night {}, 95\u00a0% interval {}; median {:.4g} → "
-                              "{}{}; {}, {} corrected for {}",
-                              comparison.shown, quantity.label, worse_words(quantity, change.shift),
-                              evidence.reference->night, interval, comparison.before,
-                              with_unit(fmt::format("{:.4g}", comparison.after), quantity.unit),
-                              comparison.has_steps ? " at the last step" : "", units, p_text(p),
-                              counted(static_cast<long long>(tests), "test"))};
+  return {.study = evidence.trend.name,
+          .rule = NightRule::kAccuracy,
+          .subject = comparison.subject,
+          .quantity = quantity.id,
+          .since = evidence.trend.nights.back().number,
+          .sentence = fmt::format(
+              "{}: {} {} than in nightly run {}, 95\u00a0% interval {}; median {:.4g} → "
+              "{}{}; {}, {} corrected for {}",
+              comparison.shown, quantity.label, worse_words(quantity, change.shift),
+              evidence.reference->night, interval, comparison.before,
+              with_unit(fmt::format("{:.4g}", comparison.after), quantity.unit),
+              comparison.has_steps ? " at the last step" : "", units, p_text(p),
+              counted(static_cast<long long>(tests), "test"))};
 }
 
 NightFinding finding_of(const Losses& losses, double p, const StudyEvidence& evidence) {
-  return {.study = evidence.trend.name,
-          .rule = NightRule::kLostResults,
-          .subject = losses.subject,
-          .quantity = losses.quantity->id,
-          .since = evidence.trend.nights.back().number,
-          .sentence = fmt::format(
-              "{}: {} of the {} results of night {} no longer come out, {} do that did not; {}",
-              losses.shown, losses.lost, losses.of, evidence.reference->night, losses.gained,
-              p_text(p))};
+  return {
+      .study = evidence.trend.name,
+      .rule = NightRule::kLostResults,
+      .subject = losses.subject,
+      .quantity = losses.quantity->id,
+      .since = evidence.trend.nights.back().number,
+      .sentence = fmt::format(
+          "{}: {} of the {} results of nightly run {} no longer come out, {} do that did not; {}",
+          losses.shown, losses.lost, losses.of, evidence.reference->night, losses.gained,
+          p_text(p))};
 }
 
 NightFinding finding_of(const Vanished& vanished, const StudyEvidence& evidence) {
@@ -285,7 +286,7 @@ NightFinding finding_of(const Vanished& vanished, const StudyEvidence& evidence)
           .quantity = vanished.quantity,
           .since = evidence.trend.nights.back().number,
           .sentence = fmt::format(
-              "{}: no result any more, where night {} had {} ({})", vanished.shown,
+              "{}: no result any more, where nightly run {} had {} ({})", vanished.shown,
               evidence.reference->night,
               vanished.series == 1 ? "one series" : fmt::format("{} series", vanished.series),
               listed({vanished.quantities.begin(), vanished.quantities.end()}, 4))};
@@ -322,14 +323,14 @@ void judge_losses(const Work& work, std::span<const double> p, const StudyEviden
     }
   }
   if (lost > 0)
-    outcome.remarks.push_back(
-        fmt::format("{}: {} of night {} no longer come out, of {}; too few of each to be judged",
-                    evidence.trend.name, counted(lost, "result"), evidence.reference->night,
-                    first_of(methods)));
+    outcome.remarks.push_back(fmt::format(
+        "{}: {} of nightly run {} no longer come out, of {}; too few of each to be judged",
+        evidence.trend.name, counted(lost, "result"), evidence.reference->night,
+        first_of(methods)));
   if (!work.other_runs.empty())
-    outcome.remarks.push_back(fmt::format("{}: no run in common with night {} for {}; not compared",
-                                          evidence.trend.name, evidence.reference->night,
-                                          first_of(work.other_runs)));
+    outcome.remarks.push_back(
+        fmt::format("{}: no run in common with nightly run {} for {}; not compared",
+                    evidence.trend.name, evidence.reference->night, first_of(work.other_runs)));
 }
 
 }  // namespace
@@ -349,14 +350,14 @@ RuleOutcome judge_accuracy(const StudyEvidence& evidence, const RegressionRules&
   RuleOutcome outcome;
   if (!evidence.reference) {
     outcome.remarks.push_back(evidence.trend.name +
-                              ": no night to compare with has the same settings");
+                              ": no nightly run to compare with has the same settings");
     return outcome;
   }
   const Work work = compare_all(evidence, rules);
   const std::size_t tests = work.comparisons.size() + work.losses.size();
   if (!work.too_few.empty())
     outcome.remarks.push_back(
-        fmt::format("{}: too few {} to pair for {}; judged over nights", evidence.trend.name,
+        fmt::format("{}: too few {} to pair for {}; judged over nightly runs", evidence.trend.name,
                     evidence.draws_groups ? "groups" : "runs", first_of(work.too_few)));
   // Ranks only where they can pass the correction with room to spare.
   const PairedChangeOptions options{

@@ -35,8 +35,8 @@ struct MethodSeconds {
   std::vector<double> logs = {};
 };
 
-/// The mean over steps of the logarithms of a method's median seconds, night by night; a night that
-/// lacks a step has none, and neither has a method whose pieces are too short.
+/// The mean over steps of the logarithms of a method's median seconds, one value per nightly run;
+/// one that lacks a step has none, and neither has a method whose pieces are too short.
 std::map<std::string, MethodSeconds> log_seconds(const StudyTrend& trend, double shortest) {
   std::map<std::string, MethodSeconds> methods;
   std::map<std::string, std::vector<std::vector<double>>> steps;
@@ -59,7 +59,7 @@ std::map<std::string, MethodSeconds> log_seconds(const StudyTrend& trend, double
   return methods;
 }
 
-/// A limit that tonight is compared with.
+/// A limit that this nightly run is compared with.
 struct Limit {
   double usual = 0.0;
   double most = 0.0;
@@ -72,7 +72,7 @@ struct SharedNoise {
   int values = 0;
 };
 
-/// Of what each night lies off its own series' median.
+/// Of what each nightly run lies off its own series' median.
 SharedNoise shared_noise(const std::vector<NightSeries>& all, NightRule rule,
                          const std::vector<std::size_t>& usual) {
   std::vector<double> off;
@@ -86,8 +86,8 @@ SharedNoise shared_noise(const std::vector<NightSeries>& all, NightRule rule,
   return {noise.sigma, noise.values};
 }
 
-/// @param shared  A few nights say little of one method's noise, all methods together more: the
-///                greater of its own and theirs is believed, and is as sure as theirs.
+/// @param shared  A few nightly runs determine one method's noise poorly, all methods together
+/// better: the greater of the two is used, with the degrees of freedom of all.
 Limit limit_of(const NightSeries& series, const std::vector<std::size_t>& usual, double p,
                const SharedNoise& shared = {}) {
   const std::vector<double> values = picked(series.values, usual);
@@ -102,19 +102,21 @@ NightFinding finding_of(const NightSeries& series, const Limit& limit, const Stu
                         int since, const std::string& word) {
   const std::string label =
       series.quantity == "memory" ? "peak memory" : trend.quantities.at(series.quantity).label;
-  return {.study = trend.name,
-          .rule = series.rule,
-          .subject = series.subject,
-          .quantity = series.quantity,
-          .since = since,
-          .sentence = fmt::format(
-              "{}: {} {} than usual in {} good nights, where the limit is {}{}", series.shown,
-              label, change_words(series.values.back() - limit.usual, series.ratio, word),
-              limit.nights, change_words(limit.most - limit.usual, series.ratio, word),
-              since == trend.nights.back().number ? "" : fmt::format("; since night {}", since))};
+  return {
+      .study = trend.name,
+      .rule = series.rule,
+      .subject = series.subject,
+      .quantity = series.quantity,
+      .since = since,
+      .sentence = fmt::format(
+          "{}: {} {} than usual in {} passing nightly runs, where the limit is {}{}", series.shown,
+          label, change_words(series.values.back() - limit.usual, series.ratio, word), limit.nights,
+          change_words(limit.most - limit.usual, series.ratio, word),
+          since == trend.nights.back().number ? "" : fmt::format("; since nightly run {}", since))};
 }
 
-/// The place of the last night before tonight that has a value and was made on the same machine.
+/// The index of the last nightly run before this one that has a value and was made on the same
+/// machine.
 std::optional<std::size_t> night_before(const StudyTrend& trend, const NightSeries& series) {
   for (std::size_t i = trend.nights.size() - 1; i-- > 0;)
     if (!std::isnan(series.values[i]) && same_machine(trend.nights[i], trend.nights.back()))
@@ -127,10 +129,10 @@ void judge_sustained(const NightSeries& series, const StudyTrend& trend,
                      RuleOutcome& outcome) {
   const auto before = night_before(trend, series);
   if (std::isnan(series.values.back()) || !before) return;
-  // The night before is judged as well: it cannot say what is usual.
+  // The nightly run before is judged as well: it cannot define what is usual.
   std::vector<std::size_t> others = usual;
   std::erase(others, *before);
-  // Both nights have to be beyond it, each by a chance of its own.
+  // Both nightly runs have to be beyond it, each by a chance of its own.
   const Limit limit = limit_of(series, others, std::sqrt(p));
   if (limit.nights < least_nights || series.values.back() <= limit.most) return;
   const std::string word = series.rule == NightRule::kAllSeconds ? "slower" : "higher";
@@ -141,7 +143,7 @@ void judge_sustained(const NightSeries& series, const StudyTrend& trend,
   }
   outcome.remarks.push_back(
       finding_of(series, limit, trend, trend.nights.back().number, word).sentence +
-      "; flagged if the next night is too");
+      "; flagged if the next nightly run is too");
 }
 
 /// How many units a series has that pairs can be tested by.
@@ -151,7 +153,8 @@ int units_of(const std::vector<RunValue>& values, bool draws_groups) {
   return static_cast<int>(units.size());
 }
 
-/// Accuracy of single logs, and of few groups: little or nothing to pair, so judged over nights.
+/// Accuracy of single logs, and of few groups: little or nothing to pair, so judged over nightly
+/// runs.
 std::vector<NightSeries> unpaired_series(const StudyEvidence& evidence,
                                          const RegressionRules& rules) {
   const int least = evidence.draws_groups ? rules.least_layouts : rules.least_units;
@@ -172,7 +175,7 @@ std::vector<NightSeries> unpaired_series(const StudyEvidence& evidence,
 std::vector<std::size_t> usual_nights(const StudyTrend& trend, const RegressionRules& rules) {
   std::vector<std::size_t> usual;
   for (std::size_t i = 0; i + 1 < trend.nights.size(); ++i)
-    // Who pins a night takes it as good.
+    // A user who pins a nightly run accepts it as passing.
     if ((trend.nights[i].verdict == NightVerdict::kGood || trend.nights[i].pinned) &&
         same_machine(trend.nights[i], trend.nights.back()))
       usual.push_back(i);
@@ -259,9 +262,10 @@ RuleOutcome judge_costs(const StudyEvidence& evidence, const RegressionRules& ru
   const StudyTrend& trend = evidence.trend;
   const std::vector<std::size_t> usual = usual_nights(trend, rules);
   if (std::cmp_less(usual.size(), rules.least_good_nights)) {
-    outcome.remarks.push_back(fmt::format(
-        "{}: {} of {} good nights on this machine so far; seconds and memory are not judged yet",
-        trend.name, usual.size(), rules.least_good_nights));
+    outcome.remarks.push_back(
+        fmt::format("{}: {} of {} passing nightly runs on this machine so far; seconds and memory "
+                    "are not judged yet",
+                    trend.name, usual.size(), rules.least_good_nights));
     return outcome;
   }
   const std::vector<NightSeries> seconds = seconds_series(trend, usual, rules);

@@ -14,7 +14,7 @@ namespace {
 
 constexpr int kBusyMilliseconds = 10'000;
 
-/// Writes that fail for want of room are told of by SQLite as either.
+/// SQLite reports a write that fails for want of room as either.
 bool is_full(int code) {
   return (code & 0xFF) == SQLITE_FULL || code == SQLITE_IOERR_WRITE || code == SQLITE_IOERR_FSYNC ||
          code == SQLITE_IOERR_TRUNCATE;
@@ -130,7 +130,7 @@ void Database::execute(const std::string& sql) {
 std::string Database::damage() {
   try {
     Statement check(*this, "PRAGMA integrity_check(1)");
-    if (!check.step()) return "its check says nothing";
+    if (!check.step()) return "its check returns nothing";
     const std::string answer = check.text(0);
     if (answer != "ok") return answer;
     Statement keys(*this, "PRAGMA foreign_key_check");

@@ -60,14 +60,15 @@ class Statement {
   int bound_ = 0;
 };
 
-/// An SQLite file. Every failure is an IoError that names the file; a full disk is told as such.
+/// An SQLite file. Every failure is an IoError that names the file; a full disk has its own
+/// message.
 class Database {
  public:
   enum class Access { kRead, kWrite, kCreate };
 
   /// Opens the file; only kCreate makes one that is not there. Waits up to ten seconds for another
   /// process that writes. A rollback journal is kept, not a write-ahead log: the store is then one
-  /// file between two nights, on any file system, and a night is a single transaction.
+  /// file between two nightly runs, on any file system, and a nightly run is a single transaction.
   /// @throws DamagedFile if it is not a database or not a whole one; IoError if it cannot be
   /// opened;
   ///         std::bad_alloc, as all below do, if SQLite ran out of memory.
@@ -80,14 +81,14 @@ class Database {
   void execute(const std::string& sql);
 
   /// What SQLite's own check finds wrong with the file; empty if nothing.
-  /// @throws IoError if the file cannot be read, which says nothing of what is in it.
+  /// @throws IoError if the file cannot be read, which implies nothing about its contents.
   std::string damage();
 
   std::int64_t last_row() const;
   const std::filesystem::path& path() const { return path_; }
   sqlite3* handle() const { return handle_; }
 
-  /// @throws IoError that says what went wrong last; DamagedFile if it is the file's bytes.
+  /// @throws IoError that names the last failure; DamagedFile if it is the file's bytes.
   [[noreturn]] void fail() const;
 
  private:

@@ -12,7 +12,7 @@
 namespace mapproof {
 namespace {
 
-/// A series without the nights that have no value.
+/// A series without the nightly runs that have no value.
 struct Known {
   NightSeries series = {};
   std::vector<double> values = {};
@@ -20,7 +20,7 @@ struct Known {
   ChangePoint change = {};
 };
 
-/// @param same_machine_alone  Whether other machines' nights are left out.
+/// @param same_machine_alone  Whether other machines' nightly runs are left out.
 void add_known(std::vector<Known>& all, NightSeries series, const StudyTrend& trend,
                bool same_machine_alone, int least_nights) {
   Known known{.series = std::move(series)};
@@ -44,7 +44,7 @@ std::vector<Known> known_series(const StudyTrend& trend, const RegressionRules& 
   for (std::size_t i = 0; i < trend.nights.size(); ++i)
     if (same_machine(trend.nights[i], trend.nights.back())) nights.push_back(i);
   for (NightSeries& series : seconds_series(trend, nights, rules)) {
-    // A drift is found below the limit of a single night.
+    // A drift is found below the limit of a single nightly run.
     series.least = std::log1p(0.5 * rules.least_slowdown);
     add_known(all, std::move(series), trend, true, least);
   }
@@ -53,7 +53,7 @@ std::vector<Known> known_series(const StudyTrend& trend, const RegressionRules& 
   return all;
 }
 
-/// Whether another rule tells of it already.
+/// Whether another rule reports it already.
 bool is_told(const std::vector<NightFinding>& found, const NightSeries& series) {
   return std::ranges::any_of(found, [&](const NightFinding& finding) {
     return finding.quantity == series.quantity && finding.subject.starts_with(series.subject);
@@ -75,10 +75,11 @@ NightFinding finding_of(const Known& known, double p, std::size_t tests, const S
           .subject = series.subject,
           .quantity = series.quantity,
           .since = since,
-          .sentence = fmt::format(
-              "{}: {} {} since about night {}, {}; p = {:.2g} corrected for {} series of {} nights",
-              series.shown, label, change, since, known.change.gradual ? "a slow drift" : "a step",
-              p, tests, known.values.size())};
+          .sentence = fmt::format("{}: {} {} since about nightly run {}, {}; p = {:.2g} corrected "
+                                  "for {} series of {} nightly runs",
+                                  series.shown, label, change, since,
+                                  known.change.gradual ? "a slow drift" : "a step", p, tests,
+                                  known.values.size())};
 }
 
 }  // namespace

@@ -15,7 +15,7 @@ namespace {
 
 using nlohmann::ordered_json;
 
-/// What made a night; nothing if another version wrote it in another way.
+/// What made a nightly run; nothing if another version wrote it in another way.
 Provenance provenance_of(const NightFacts& facts) {
   try {
     return from_json_text<Provenance>(facts.provenance, "provenance");
@@ -28,8 +28,8 @@ NightFile file_of(const NightFacts& facts, const std::vector<NightFinding>& find
   return {.facts = facts, .provenance = provenance_of(facts), .findings = findings};
 }
 
-/// Puts what made a night into its JSON as it was written that night; text that is not JSON stays
-/// text.
+/// Puts what made a nightly run into its JSON as it was written at the time; text that is not JSON
+/// stays text.
 void put_provenance(ordered_json& night, const std::string& text) {
   ordered_json parsed = ordered_json::parse(text, nullptr, false);
   night["provenance"] = parsed.is_discarded() ? ordered_json(text) : std::move(parsed);

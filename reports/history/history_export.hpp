@@ -18,7 +18,7 @@ namespace mapproof {
 // The fields of night.json and of an exported history (core/json/fields.hpp): both are written
 // alone.
 
-/// What a night is called: verdict_word().
+/// What a nightly run is called: verdict_word().
 enum class NightWord { kGood, kCost, kAccuracy, kNotCompared };
 
 inline std::string_view name(NightWord word) {
@@ -31,10 +31,10 @@ inline EnumNames enum_names(NightWord) {
 
 inline EnumNames enum_names(NightRule) { return names_up_to(NightRule::kCostDrift, "night_rule"); }
 
-/// night.json in a night's folder.
+/// night.json in a nightly run's folder.
 struct NightFile {
   NightFacts facts = {};
-  Provenance provenance = {};  ///< In the place of the text in the facts.
+  Provenance provenance = {};  ///< Replaces the text in the facts.
   std::vector<NightFinding> findings = {};
 };
 
@@ -46,16 +46,17 @@ void fields(Visitor& v, NightFinding& finding) {
   v.field("subject", finding.subject,
           {.description = "In ids: \"bearing, isomap-K6\"; of a whole study \"all methods\"."});
   v.field("quantity", finding.quantity, {.description = "Its id, or \"memory\"."});
-  v.field("since", finding.since, {.description = "The night it began.", .minimum = 0});
+  v.field("since", finding.since,
+          {.description = "The nightly run in which it began.", .minimum = 0});
   v.field("sentence", finding.sentence, {.description = "For readers, with numbers."});
 }
 
-/// Of a night whatever file it stands in.
+/// The fields of a nightly run, in either file.
 template <typename Visitor>
 void night_fields(Visitor& v, NightFile& night) {
   using namespace record_rules;
   NightFacts& facts = night.facts;
-  v.field("night", facts.number, {.description = "Its place in the order.", .minimum = 0});
+  v.field("night", facts.number, {.description = "Its index in the order, from 1.", .minimum = 0});
   v.field("started_utc", facts.started_utc, {.description = "ISO 8601."});
   v.field("ended_utc", facts.ended_utc);
   v.field("command", facts.command, {.max_bytes = 1'000'000});
@@ -65,7 +66,7 @@ void night_fields(Visitor& v, NightFile& night) {
   v.field("cores", facts.cores, kCount);
   v.field("jobs", facts.jobs, kCount);
   v.field("reference", facts.reference,
-          {.description = "The night it was compared with.", .minimum = 0});
+          {.description = "The nightly run it was compared with.", .minimum = 0});
   v.field("pinned", facts.pinned);
   NightWord word = facts.verdict == NightVerdict::kGood && !facts.reference
                        ? NightWord::kNotCompared
@@ -76,8 +77,9 @@ void night_fields(Visitor& v, NightFile& night) {
 
 template <typename Visitor>
 void fields(Visitor& v, NightFile& night) {
-  v.file("mapproof.night",
-         "night.json of mapproof nightly: where and when a night was made, and what got worse.");
+  v.file(
+      "mapproof.night",
+      "night.json of mapproof nightly: where and when a nightly run was made, and what got worse.");
   night_fields(v, night);
 }
 
@@ -87,7 +89,7 @@ struct ExportedSeries {
   std::map<std::string, double> runs = {};
 };
 
-/// A study of a night in an exported history.
+/// A study of a nightly run in an exported history.
 struct ExportedStudy {
   StudyNight study = {};
   std::vector<ExportedSeries> scores = {};
@@ -136,7 +138,7 @@ void fields(Visitor& v, ExportedStudy& exported) {
   v.field("peak_memory_mib", study.peak_memory_mib);
   std::vector<Quantity> quantities = study.quantities.declared();
   v.field("quantities", quantities,
-          {.description = "What the study declares beside mapproof's dictionary."});
+          {.description = "What the study declares in addition to mapproof's dictionary."});
   const auto labels = [&](std::string_view key, const std::map<std::string, std::string>& of_ids,
                           std::string_view what) {
     std::vector<Label> all;
@@ -159,23 +161,23 @@ void fields(Visitor& v, ExportedNight& night) {
 
 template <typename Visitor>
 void fields(Visitor& v, ExportedHistory& history) {
-  v.file("mapproof.history", "Every value of every night: mapproof history --export json.");
+  v.file("mapproof.history", "Every value of every nightly run: mapproof history --export json.");
   v.field("nights", history.nights);
 }
 
-/// Every value of every night as CSV [rfc4180]: night, started_utc, study, sensor, method, step,
-/// quantity, run, value, and what setup and method are called; a value that is missing is an empty
-/// cell. @throws IoError.
+/// Every value of every nightly run as CSV [rfc4180]: night, started_utc, study, sensor, method,
+/// step, quantity, run, value, and what setup and method are called; a value that is missing is an
+/// empty cell. @throws IoError.
 std::string history_csv(HistoryStore& history);
 
-/// Nights with their facts, findings and studies (docs/schemas/history.schema.json), without the
-/// values of runs; with them if asked. @throws IoError.
+/// Nightly runs with their facts, findings and studies (docs/schemas/history.schema.json), without
+/// the values of runs; with them if asked. @throws IoError.
 nlohmann::ordered_json history_json(HistoryStore& history, bool with_scores);
 
 /// The text of night.json (docs/schemas/night.schema.json).
 std::string night_json(const Night& night);
 
-/// One night's facts and findings, for what holds them among others: without a schema.
+/// One nightly run's facts and findings, for what holds them among others: without a schema.
 nlohmann::ordered_json night_value(const NightFacts& facts,
                                    const std::vector<NightFinding>& findings);
 

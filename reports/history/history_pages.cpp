@@ -60,7 +60,7 @@ std::vector<SeriesId> last_steps(const StudyTrend& trend) {
 /// Figures of the index: its reader sees the course at a glance, the trends have all.
 constexpr std::size_t kMostOnIndex = 2;
 
-/// Links to nights that stand in one sentence; the index has all.
+/// Links to nightly runs in one sentence at most; the index lists all.
 constexpr std::size_t kMostLinked = 10;
 
 FigureBlock block_of(const Figure& figure) {
@@ -73,20 +73,21 @@ Gallery gallery_of(const std::vector<Figure>& figures) {
   return gallery;
 }
 
-/// The findings of a night.
+/// The findings of a nightly run.
 std::span<const NightFinding> found_on(int night, const NightFindings& findings) {
   const auto found = findings.find(night);
   return found == findings.end() ? std::span<const NightFinding>{} : found->second;
 }
 
-/// Which nights the page is of.
+/// Which nightly runs the page shows.
 Paragraph nights_shown(const StudyTrend& trend) {
-  return {{{fmt::format("{} from night {} on are shown: those that had the same order as the last.",
-                        counted(static_cast<long long>(trend.nights.size()), "night"),
-                        trend.nights.front().number)}}};
+  return {{{fmt::format(
+      "{} from nightly run {} on are shown: those with the same settings as the last.",
+      counted(static_cast<long long>(trend.nights.size()), "nightly run"),
+      trend.nights.front().number)}}};
 }
 
-/// "all nights, trends of tiny, report of night 9, which it was compared with".
+/// "all nightly runs, trends of tiny, report of nightly run 9, which it was compared with".
 Paragraph ways(std::vector<Phrase> to, const std::optional<Phrase>& reference) {
   Paragraph all{{{"See "}}};
   for (std::size_t i = 0; i < to.size(); ++i) {
@@ -102,7 +103,7 @@ Paragraph ways(std::vector<Phrase> to, const std::optional<Phrase>& reference) {
   return all;
 }
 
-/// Figures of the last night's studies, those that have findings first.
+/// Figures of the last nightly run's studies, those that have findings first.
 std::vector<Figure> course(const IndexFacts& facts) {
   std::vector<const StudyTrend*> trends;
   for (const StudyTrend& trend : facts.trends) trends.push_back(&trend);
@@ -122,26 +123,27 @@ std::vector<Figure> course(const IndexFacts& facts) {
   return figures;
 }
 
-/// What is left of nights that were lost; nothing if none was.
+/// A warning on nightly runs that were lost, with what is left of them; nothing if none was.
 std::optional<Callout> told_of(const LostNights& lost) {
   if (lost.kept_as.empty()) return std::nullopt;
   const bool one = lost.kept_as.size() == 1;
   std::string text = fmt::format(
-      "{} kept as {}, and a new one was begun: nights are compared with none before that. ",
+      "{} kept as {}, and a new one was begun: nightly runs are not compared with any before "
+      "that. ",
       one ? "It is" : "They are", listed(lost.kept_as, 4));
   text += lost.reports.empty()
-              ? "No report of its nights is left in nights/."
+              ? "No report of its nightly runs is left in nights/."
               : fmt::format(
                     "The reports of {} from before that are still in nights/; they are "
                     "listed at the end of this page.",
-                    counted(static_cast<long long>(lost.reports.size()), "night"));
+                    counted(static_cast<long long>(lost.reports.size()), "nightly run"));
   return Callout{Callout::Tone::kWarning,
                  one ? "A history was damaged" : "Histories were damaged",
                  {{{text}}}};
 }
 
 Section last_section(const IndexFacts& facts, NightLinks& links) {
-  Section last{"last", "The last night", {}};
+  Section last{"last", "The last nightly run", {}};
   const NightFacts& tonight = facts.nights.back();
   if (auto damage = told_of(facts.lost)) last.blocks.emplace_back(std::move(*damage));
   if (const auto made = facts.studies.find(tonight.number); made != facts.studies.end())
@@ -161,7 +163,7 @@ Section lost_section(const LostNights& lost, NightLinks& links) {
   for (const auto& [night, studies] : lost.reports)
     for (const std::string& study : studies)
       list.items.push_back({{{study + ": ", Emphasis::kStrong}, links.report(night, study)}});
-  return {"lost", "Nights of a damaged history", {std::move(list)}};
+  return {"lost", "Nightly runs of a damaged history", {std::move(list)}};
 }
 
 }  // namespace
@@ -171,7 +173,7 @@ Phrase NightLinks::link(const std::string& path, const std::string& words) {
   return {path, Emphasis::kFile};
 }
 
-Phrase NightLinks::index() { return link(places_.pages + "index.html", "all nights"); }
+Phrase NightLinks::index() { return link(places_.pages + "index.html", "all nightly runs"); }
 
 Phrase NightLinks::trends(const std::string& study) {
   return link(fmt::format("{}trends/{}/report.html", places_.pages, study), "trends of " + study);
@@ -179,12 +181,12 @@ Phrase NightLinks::trends(const std::string& study) {
 
 Phrase NightLinks::report(int night, const std::string& study) {
   return link(fmt::format("{}nights/{:04}/{}/report.html", places_.nights, night, study),
-              fmt::format("report of night {}", night));
+              fmt::format("report of nightly run {}", night));
 }
 
 Phrase NightLinks::folder(int night) {
   return link(fmt::format("{}nights/{:04}/", places_.nights, night),
-              fmt::format("folder of night {}", night));
+              fmt::format("folder of nightly run {}", night));
 }
 
 std::string to_the_minute(const std::string& utc) {
@@ -195,14 +197,16 @@ std::string to_the_minute(const std::string& utc) {
 Table nights_table(std::span<const NightFacts> nights, const NightFindings& findings,
                    const NightStudies& studies, NightLinks& links) {
   Table table{.id = "nights",
-              .caption = "Every night, the last one first.",
-              .columns = {{"Night", "", "", "Its number: the order of nights, whatever clocks say"},
+              .caption = "Every nightly run, the last one first.",
+              .columns = {{"Nightly run", "", "",
+                           "Its number: the order of nightly runs, whatever clocks say"},
                           {"Started", "", "", "UTC"},
                           {"Verdict", "", "", ""},
                           {"Findings", "", "", "How many"},
-                          {"Against", "", "", "The night it was compared with"},
+                          {"Compared with", "", "", "The nightly run it was compared with"},
                           {"Host", "", "", ""},
-                          {"Report", "", "", "Of that night; the folder of several"}},
+                          {"Report", "", "",
+                           "The report of that nightly run; its folder if there are several"}},
               .rows = {},
               .notes = {}};
   for (const NightFacts& night : nights | std::views::reverse) {
@@ -212,7 +216,7 @@ Table nights_table(std::span<const NightFacts> nights, const NightFindings& find
     const Phrase place = made != studies.end() && made->second.size() == 1
                              ? links.report(night.number, made->second.front())
                              : links.folder(night.number);
-    // What got worse is not to be told by its words alone.
+    // What got worse is marked by weight as well, not by its text alone.
     const Emphasis weight =
         night.verdict == NightVerdict::kGood ? Emphasis::kPlain : Emphasis::kStrong;
     const Cell against = night.reference ? Cell{number(*night.reference, 0)} : Cell{MissingCell{}};
@@ -221,17 +225,18 @@ Table nights_table(std::span<const NightFacts> nights, const NightFindings& find
           TextCell{words_of(night) + (night.pinned ? ", pinned" : ""), weight},
           number(static_cast<double>(count), 0), against, TextCell{night.host, Emphasis::kData},
           TextCell{place.text, place.emphasis}},
-         fmt::format("night {}", night.number)});
+         fmt::format("nightly run {}", night.number)});
   }
   return table;
 }
 
 Table findings_table(const NightFindings& findings, const std::string& study) {
   Table table{.id = "findings",
-              .caption = "What got worse, the last night first.",
-              .columns = {{"Night", "", "", ""},
-                          {"Since", "", "", "The night it began, as far as can be told"},
-                          {"Kind", "", "", "By which rule"},
+              .caption = "What got worse, the last nightly run first.",
+              .columns = {{"Nightly run", "", "", ""},
+                          {"Since", "", "",
+                           "The nightly run in which it began, as far as can be determined"},
+                          {"Rule", "", "", "The rule that found it"},
                           {"Finding", "", "", ""}},
               .rows = {},
               .notes = {}};
@@ -240,7 +245,7 @@ Table findings_table(const NightFindings& findings, const std::string& study) {
       if (finding.study == study)
         table.rows.push_back({{number(night, 0), number(finding.since, 0),
                                text(std::string(name(finding.rule))), text(finding.sentence)},
-                              fmt::format("night {}", night)});
+                              fmt::format("nightly run {}", night)});
   return table;
 }
 
@@ -253,9 +258,9 @@ Table accuracy_table(const StudyTrend& trend) {
               .columns = {{"Method", "", "", ""},
                           {"Quantity", "", "", ""},
                           {"Unit", "", "", ""},
-                          {"First", "", "", "The first of the nights shown"},
-                          {"Before", "", "", "The night before the last"},
-                          {"Last", "", "", "The last night"}},
+                          {"First", "", "", "The first of the nightly runs shown"},
+                          {"Before", "", "", "The nightly run before the last"},
+                          {"Last", "", "", "The last nightly run"}},
               .rows = {},
               .notes = {}};
   for (const SeriesId& id : shown) {
@@ -275,9 +280,9 @@ HistoryPage trend_page(const StudyTrend& trend, const NightFindings& findings, b
   HistoryPage page;
   NightLinks links(places);
   page.figures = trend_figures(trend, findings);
-  page.report.title = trend.name + ", night by night";
+  page.report.title = trend.name + ", by nightly run";
   page.report.subtitle =
-      fmt::format("Nights {} to {}", trend.nights.front().number, trend.nights.back().number);
+      fmt::format("Nightly runs {} to {}", trend.nights.front().number, trend.nights.back().number);
   const NightFacts& tonight = trend.nights.back();
   page.report.opening.standing =
       study_standing(tonight, found_on(tonight.number, findings), trend.name, is_compared);
@@ -297,24 +302,26 @@ HistoryPage trend_page(const StudyTrend& trend, const NightFindings& findings, b
 HistoryPage index_page(const IndexFacts& facts, const HistoryPlaces& places) {
   HistoryPage page;
   Report& report = page.report;
-  report.title = "Nights";
+  report.title = "Nightly runs";
   if (facts.nights.empty()) {
     report.sections.push_back(
-        {"last", "The last night", {Paragraph{{{"No night was recorded yet."}}}}});
+        {"last", "The last nightly run", {Paragraph{{{"No nightly run was recorded yet."}}}}});
     return page;
   }
   NightLinks links(places);
   const NightFacts& tonight = facts.nights.back();
   report.subtitle = fmt::format("{}, the last begun {} UTC",
-                                counted(static_cast<long long>(facts.nights.size()), "night"),
+                                counted(static_cast<long long>(facts.nights.size()), "nightly run"),
                                 to_the_minute(tonight.started_utc));
   report.opening.standing = night_standing(tonight, found_on(tonight.number, facts.findings));
   report.sections.push_back(last_section(facts, links));
   page.figures = course(facts);
   if (!page.figures.empty())
-    report.sections.push_back({"course", "Over the nights", {gallery_of(page.figures)}});
-  report.sections.push_back(
-      {"nights", "All nights", {nights_table(facts.nights, facts.findings, facts.studies, links)}});
+    report.sections.push_back(
+        {"course", "Trends over the nightly runs", {gallery_of(page.figures)}});
+  report.sections.push_back({"nights",
+                             "All nightly runs",
+                             {nights_table(facts.nights, facts.findings, facts.studies, links)}});
   if (!facts.lost.reports.empty()) report.sections.push_back(lost_section(facts.lost, links));
   page.link_words = links.words();
   return page;
@@ -331,7 +338,7 @@ void add_night(Report& report, const Night& night, const std::string& study, boo
     opening.standing->worse = true;
     opening.standing->sentences.push_back(
         fmt::format("The history was damaged. It is kept as {}, and a new one begins with this "
-                    "night: there is none before it to compare with.",
+                    "nightly run: there is none before it to compare with.",
                     lost.kept_as.back()));
     std::vector<Phrase> reports;
     for (const auto& [number, studies] : lost.reports)

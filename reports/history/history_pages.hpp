@@ -28,10 +28,10 @@ class NightLinks {
   Phrase index();
   Phrase trends(const std::string& study);
   Phrase report(int night, const std::string& study);
-  /// The folder of a night of several studies.
+  /// The folder of a nightly run of several studies.
   Phrase folder(int night);
 
-  /// The words of every link that was asked for, by its path (see HtmlOptions::link_words).
+  /// The text of every link that was requested, by its path (see HtmlOptions::link_words).
   const std::map<std::string, std::string>& words() const { return words_; }
 
  private:
@@ -41,21 +41,22 @@ class NightLinks {
   std::map<std::string, std::string> words_;
 };
 
-/// Names of the studies by night.
+/// Names of the studies by nightly run.
 using NightStudies = std::map<int, std::vector<std::string>>;
 
-/// "2026-11-22 02:30" of "2026-11-22T02:30:07Z"; what is no such time as it is.
+/// "2026-11-22 02:30" of "2026-11-22T02:30:07Z"; any other text unchanged.
 std::string to_the_minute(const std::string& utc);
 
-/// One row a night, the last one first.
-/// @param studies  Of each night: its report is linked where there is one study, else its folder.
+/// One row per nightly run, the last one first.
+/// @param studies  Of each nightly run: its report is linked where there is one study, else its
+/// folder.
 Table nights_table(std::span<const NightFacts> nights, const NightFindings& findings,
                    const NightStudies& studies, NightLinks& links);
 
-/// One row a finding of those nights, the last night first.
+/// One row per finding of those nightly runs, the last nightly run first.
 Table findings_table(const NightFindings& findings, const std::string& study);
 
-/// Where each method stands tonight beside the night before and the first.
+/// The values of each method in the last nightly run, in the one before and in the first.
 Table accuracy_table(const StudyTrend& trend);
 
 /// A page with its figures as values.
@@ -65,37 +66,40 @@ struct HistoryPage {
   std::map<std::string, std::string> link_words;  ///< See HtmlOptions.
 };
 
-/// Nights of histories that were damaged and set aside: they are in no history any more.
+/// Nightly runs of histories that were damaged and set aside: they are in no history any more.
 struct LostNights {
   std::vector<std::string> kept_as;  ///< File names: "history.sqlite.damaged-1".
   NightStudies reports;              ///< The studies of each whose reports are still there.
 };
 
-/// All that the index tells.
+/// All that the index shows.
 struct IndexFacts {
   std::vector<NightFacts> nights = {};
   NightFindings findings = {};
-  NightStudies studies = {};              ///< Of the nights whose reports are to be linked.
-  std::vector<std::string> remarks = {};  ///< What could not be judged of the last night, or is
-                                          ///< only suspected.
-  std::vector<StudyTrend> trends = {};    ///< Of the last night's studies.
+  NightStudies studies = {};              ///< Of the nightly runs whose reports are to be linked.
+  std::vector<std::string> remarks = {};  ///< What could not be judged of the last nightly run, or
+                                          ///< is only suspected.
+  std::vector<StudyTrend> trends = {};    ///< Of the last nightly run's studies.
   LostNights lost = {};
 };
 
-/// One study over the nights: what was found, accuracy, seconds and memory of what trend_figures()
-/// shows. Pure: the same values give the same page.
-/// @param trend        At least one night.
-/// @param is_compared  Whether the last one's night of reference has the study, ordered in the same
+/// One study over the nightly runs: what was found, accuracy, seconds and memory of what
+/// trend_figures() shows. Pure: the same values give the same page.
+/// @param trend        At least one nightly run.
+/// @param is_compared  Whether the last one's reference run has the study, ordered in the same
 ///                     way.
 HistoryPage trend_page(const StudyTrend& trend, const NightFindings& findings, bool is_compared,
                        const HistoryPlaces& places);
 
-/// How the last night stands, a figure or two of its course, and all nights, the last one first.
+/// The verdict on the last nightly run, a figure or two of the trends, and all nightly runs, the
+/// last one first.
 HistoryPage index_page(const IndexFacts& facts, const HistoryPlaces& places);
 
-/// Puts at the head of a study's report how its night stands, and where else to look.
+/// Puts the verdict on a study's nightly run at the head of its report, with links to related
+/// pages.
 /// @param is_compared  As for trend_page().
-/// @param lost         Not empty: told of, since the history was found damaged that night.
+/// @param lost         Not empty: reported, since the history was found damaged in that nightly
+/// run.
 void add_night(Report& report, const Night& night, const std::string& study, bool is_compared,
                const LostNights& lost, NightLinks& links);
 

@@ -36,7 +36,7 @@ NightFacts read_facts(const Statement& row, const fs::path& path) {
   facts.pinned = row.integer(10) != 0;
   const auto verdict = night_verdict_named(row.text(11));
   if (!verdict)
-    throw DamagedFile(path.string(), fmt::format("night {} has the unknown verdict \"{}\"",
+    throw DamagedFile(path.string(), fmt::format("nightly run {} has the unknown verdict \"{}\"",
                                                  facts.number, printable(row.text(11))));
   facts.verdict = *verdict;
   return facts;
@@ -53,7 +53,7 @@ Quantities read_quantities(Database& database, std::int64_t study) {
   return quantities;
 }
 
-/// What each kind of label is called in the table.
+/// The name of each kind of label in the table.
 constexpr std::array kLabelKinds = {std::pair("setup", &StudyLabels::setups),
                                     std::pair("method", &StudyLabels::methods)};
 
@@ -80,7 +80,8 @@ std::int64_t id_of(Database& database, Statement& find, Statement& insert, const
   return database.last_row();
 }
 
-/// Makes a history without nights. It is put in its place whole: a file without tables is damage.
+/// Makes a history without nightly runs. It is renamed into place when it is whole: a file without
+/// tables is damage.
 void begin_history(const fs::path& path) {
   const fs::path journal = path.string() + "-journal";
   std::error_code error;
@@ -157,9 +158,9 @@ std::vector<NightFinding> HistoryStore::findings(int night) {
   while (rows.step()) {
     const auto rule = rule_named(rows.text(1));
     if (!rule)
-      throw DamagedFile(
-          database_->path().string(),
-          fmt::format("night {} has the unknown finding \"{}\"", night, printable(rows.text(1))));
+      throw DamagedFile(database_->path().string(),
+                        fmt::format("nightly run {} has the unknown finding \"{}\"", night,
+                                    printable(rows.text(1))));
     findings.push_back({.study = rows.text(0),
                         .rule = *rule,
                         .subject = rows.text(2),
@@ -252,7 +253,8 @@ StudyTrend HistoryStore::trend(const std::string& study, const std::string& orde
 void HistoryStore::append(const Night& night) {
   const NightFacts& facts = night.facts;
   if (facts.number <= last_number())
-    throw InvalidInput(fmt::format("night {} is not after night {}", facts.number, last_number()));
+    throw InvalidInput(
+        fmt::format("nightly run {} is not after nightly run {}", facts.number, last_number()));
   Transaction transaction(*database_);
   Statement insert(*database_, fmt::format("INSERT INTO nights ({}) VALUES "
                                            "(?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?)",
@@ -339,7 +341,8 @@ void HistoryStore::append_study(int night, const StudyNight& study) {
 void HistoryStore::pin(int night) {
   Transaction transaction(*database_);
   Statement find(*database_, "SELECT 1 FROM nights WHERE number = ?");
-  if (!find.bind(night).step()) throw InvalidInput(fmt::format("there is no night {}", night));
+  if (!find.bind(night).step())
+    throw InvalidInput(fmt::format("there is no nightly run {}", night));
   find.run();
   Statement(*database_, "UPDATE nights SET pinned = (number = ?)").bind(night).run();
   transaction.commit();

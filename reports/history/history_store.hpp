@@ -13,15 +13,16 @@ namespace mapproof {
 /// history.sqlite in the folder of a store.
 std::filesystem::path history_file(const std::filesystem::path& store);
 
-/// The nights that were finished (docs/file-formats.md lists the tables). Each is one transaction:
-/// after a kill or a full disk it is there whole or not at all, and those before it untouched.
+/// The nightly runs that were finished (docs/file-formats.md lists the tables). Each is one
+/// transaction: after a kill or a full disk it is there as a whole or not at all, and those before
+/// it are untouched.
 class HistoryStore {
  public:
-  /// Opens the store to append to it; one that is not there is begun. One of an older version is
-  /// migrated after a copy of it was kept, which remarks() tell of. The folder should be locked (see
-  /// FolderLock).
+  /// Opens the store to append to it; one that does not exist is created. One of an older version
+  /// is migrated after a copy of it was kept, which remarks() report. The folder should be locked
+  /// (see FolderLock).
   /// @throws IoError if it cannot be opened, is not ours, of a later version, or damaged: then it
-  ///         stays as it is, and says how a new one is begun.
+  ///         stays as it is, and the message explains how to begin a new one.
   static HistoryStore open(const std::filesystem::path& store);
 
   /// To read it, and for prune and pin. @throws IoError if there is none, it is damaged, or of
@@ -32,34 +33,34 @@ class HistoryStore {
 
   /// All, in order of number. @throws IoError.
   std::vector<NightFacts> nights();
-  /// Of one night, in the order they were found. @throws IoError.
+  /// Of one nightly run, in the order they were found. @throws IoError.
   std::vector<NightFinding> findings(int night);
-  /// Of one night, without its values. @throws IoError.
+  /// Of one nightly run, without its values. @throws IoError.
   std::vector<StudyNight> studies(int night);
-  /// The values of a study of that night; empty if it has none of that name. @throws IoError.
+  /// The values of a study of that nightly run; empty if it has none of that name. @throws IoError.
   Scores scores(int night, const std::string& study);
 
-  /// The study over the last `most` nights that had this order, up to and with `until`.
+  /// The study over the last `most` nightly runs that had this order, up to and with `until`.
   /// @throws IoError.
   StudyTrend trend(const std::string& study, const std::string& order_digest, int most, int until);
 
-  /// Adds a night as its number says, in one transaction. @throws IoError; InvalidInput if the
+  /// Adds a nightly run under its number, in one transaction. @throws IoError; InvalidInput if the
   /// number is taken or not above all others.
   void append(const Night& night);
 
-  /// Pins one night and no other. @throws InvalidInput if it is not there; IoError.
+  /// Pins one nightly run and no other. @throws InvalidInput if it is not there; IoError.
   void pin(int night);
 
-  /// Removes nights in one transaction. @throws IoError.
+  /// Removes nightly runs in one transaction. @throws IoError.
   void remove(const std::vector<int>& nights);
 
-  /// Gives back the room of what was removed; needs as much while it does. @throws IoError.
+  /// Frees the space of what was removed; needs as much in the meantime. @throws IoError.
   void compact();
 
-  /// The digests that figures of any night name. @throws IoError.
+  /// The digests that figures of any nightly run name. @throws IoError.
   std::vector<std::string> digests();
 
-  /// The greatest number that was ever given to a night here.
+  /// The greatest number that was ever given to a nightly run here.
   int last_number();
 
   /// What SQLite finds wrong; empty if nothing.

@@ -16,7 +16,8 @@ void append(RuleOutcome& all, RuleOutcome more) {
   std::ranges::move(more.remarks, std::back_inserter(all.remarks));
 }
 
-/// Whether the night has a study that was ordered just as one of tonight's.
+/// Whether the nightly run has a study that was ordered in the same way as one of this nightly
+/// run's.
 bool can_be_compared(HistoryStore& store, int night, const Night& tonight) {
   return std::ranges::any_of(
       tonight.studies, [&](const StudyNight& study) { return has_study(store, night, study); });
@@ -58,7 +59,7 @@ void add_tonight(StudyTrend& trend, const NightFacts& facts, const StudyNight& s
     for (const auto& [series, values] : study.scores) all.try_emplace(series, before, kNaN);
     for (auto& [series, of_nights] : all) {
       if (of_nights.size() != before)
-        throw InvalidInput("add_tonight: a series has another number of nights");
+        throw InvalidInput("add_tonight: a series has another number of nightly runs");
       const auto found = study.scores.find(series);
       of_nights.push_back(found == study.scores.end() ? kNaN : value_of(series, found->second));
     }
@@ -76,7 +77,7 @@ RuleOutcome judge_study(const StudyEvidence& evidence, const RegressionRules& ru
                         const std::vector<NightFinding>& yesterday) {
   RuleOutcome outcome = judge_accuracy(evidence, rules);
   RuleOutcome costs = judge_costs(evidence, rules);
-  // Few groups are judged both ways: a series is told once.
+  // Few groups are judged both ways: a series is reported once.
   std::erase_if(costs.findings, [&](const NightFinding& finding) {
     return std::ranges::any_of(outcome.findings, [&](const NightFinding& other) {
       return other.subject == finding.subject && other.quantity == finding.quantity;
@@ -91,7 +92,7 @@ RuleOutcome judge_study(const StudyEvidence& evidence, const RegressionRules& ru
     });
     if (same == yesterday.end() || same->since >= finding.since) continue;
     finding.since = same->since;
-    finding.sentence += fmt::format("; since night {}", same->since);
+    finding.sentence += fmt::format("; since nightly run {}", same->since);
   }
   return outcome;
 }
@@ -107,10 +108,10 @@ std::optional<int> reference_night(HistoryStore& store, const Night& tonight,
   const std::vector<NightFacts> nights = store.nights();
   if (asked) {
     if (std::ranges::find(nights, *asked, &NightFacts::number) == nights.end())
-      throw InvalidInput(fmt::format("--reference: there is no night {}", *asked));
+      throw InvalidInput(fmt::format("--reference: there is no nightly run {}", *asked));
     if (!can_be_compared(store, *asked, tonight))
       throw InvalidInput(
-          fmt::format("--reference: night {} made nothing of what is asked for with the same "
+          fmt::format("--reference: nightly run {} has no requested study with the same "
                       "settings",
                       *asked));
     return asked;
@@ -127,7 +128,7 @@ std::vector<std::string> judge_night(HistoryStore& store, Night& tonight,
                                      std::optional<int> asked_reference,
                                      const RegressionRules& rules) {
   tonight.facts.reference = reference_night(store, tonight, asked_reference);
-  // A night that was pinned may have made nothing of what tonight made.
+  // A pinned reference may have no study of this nightly run.
   if (tonight.facts.reference && !can_be_compared(store, *tonight.facts.reference, tonight))
     tonight.facts.reference.reset();
   const std::vector<NightFacts> nights = store.nights();
@@ -138,10 +139,10 @@ std::vector<std::string> judge_night(HistoryStore& store, Night& tonight,
     if (night.pinned) pinned = night.number;
   std::vector<std::string> remarks;
   if (!nights.empty() && tonight.facts.started_utc < nights.back().ended_utc)
-    remarks.push_back(
-        fmt::format("the clock stands at {}, before the end of night {} at {}: nights are ordered "
-                    "by their number",
-                    tonight.facts.started_utc, nights.back().number, nights.back().ended_utc));
+    remarks.push_back(fmt::format(
+        "the clock stands at {}, before the end of nightly run {} at {}: nightly runs are ordered "
+        "by their number",
+        tonight.facts.started_utc, nights.back().number, nights.back().ended_utc));
   for (const StudyNight& study : tonight.studies) {
     RuleOutcome outcome = judge_study(evidence_of(store, tonight, study, pinned), rules, yesterday);
     std::ranges::move(outcome.findings, std::back_inserter(tonight.findings));

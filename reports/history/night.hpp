@@ -13,11 +13,11 @@
 
 namespace mapproof {
 
-/// What a number of a night is of: all but the run.
+/// What a value of a nightly run belongs to: all of its key but the run.
 struct SeriesId {
   std::string sensor = {};  ///< Condition::setup: "bearing", "plaza-1".
   std::string method = {};  ///< With its parameter and all levels but steps: "isomap-K6 level=30".
-  int step = 0;             ///< 0: of the whole.
+  int step = 0;             ///< 0: of the whole run.
   std::string quantity = {};  ///< Quantity::id.
 
   auto operator<=>(const SeriesId&) const = default;
@@ -34,25 +34,25 @@ std::size_t levels_begin(const std::string& method);
 /// One value of one run.
 struct RunValue {
   std::string run = {};   ///< "layout-1-pose-2", "plaza-1".
-  std::string unit = {};  ///< What runs that depend on each other share: "layout-1".
-  double value = 0.0;     ///< NaN: no map came out, or there is nothing to judge.
+  std::string unit = {};  ///< Shared by runs that depend on each other: "layout-1".
+  double value = 0.0;     ///< NaN: there is no map, or nothing to judge.
 };
 
-/// The values of a study by what they are of; runs in ascending order.
+/// The values of a study by series; runs in ascending order.
 using Scores = std::map<SeriesId, std::vector<RunValue>>;
 
-/// A figure's file as it was drawn that night.
+/// A figure's file as it was drawn in that nightly run.
 struct FigureFile {
   std::string file = {};    ///< "fig-4.svg".
   std::string digest = {};  ///< SHA-256, hexadecimal.
   std::int64_t bytes = 0;
 };
 
-/// What a night holds of one study.
+/// What a nightly run holds of one study.
 struct StudyNight {
   std::string name = {};
   std::string kind = {};          ///< "mapproof.study", "mapproof.slam_study".
-  std::string order_digest = {};  ///< SHA-256 of the experiment as it was ordered: nights are
+  std::string order_digest = {};  ///< SHA-256 of the experiment as it was ordered: nightly runs are
                                   ///< compared where it is the same.
   bool draws_groups = false;      ///< StudyContents::draws_groups.
   int runs = 0;
@@ -64,7 +64,7 @@ struct StudyNight {
   std::vector<FigureFile> figures = {};
 };
 
-/// What is wrong with a night, in order of weight.
+/// What is wrong with a nightly run, in order of weight.
 enum class NightVerdict {
   kGood,
   kCost,      ///< Only seconds or memory grew.
@@ -77,12 +77,12 @@ std::optional<NightVerdict> night_verdict_named(std::string_view name);
 
 /// Which rule found something.
 enum class NightRule {
-  kAccuracy,       ///< Paired by seed against the reference night.
-  kLostResults,    ///< Results that no longer come out, or series that are not there any more.
-  kSeconds,        ///< One method slower than the others would have it.
-  kAllSeconds,     ///< Everything slower, two nights in a row.
-  kMemory,         ///< Two nights in a row.
-  kAccuracyDrift,  ///< A change point over many nights.
+  kAccuracy,       ///< Paired by seed against the reference nightly run.
+  kLostResults,    ///< Results that are now missing, or series that no longer exist.
+  kSeconds,        ///< One method slower than what all methods have in common explains.
+  kAllSeconds,     ///< Everything slower, two nightly runs in a row.
+  kMemory,         ///< Two nightly runs in a row.
+  kAccuracyDrift,  ///< A change point over many nightly runs.
   kCostDrift,
 };
 
@@ -97,17 +97,17 @@ struct NightFinding {
   NightRule rule = NightRule::kAccuracy;
   std::string subject = {};   ///< "bearing, isomap-K6"; of the whole study: "all methods".
   std::string quantity = {};  ///< Quantity::id, or "memory".
-  int since = 0;              ///< The night it began, as far as can be told.
+  int since = 0;              ///< The nightly run in which it began, as far as can be determined.
   std::string sentence = {};  ///< With numbers.
 };
 
-/// The heaviest of them.
+/// The most severe verdict of these findings.
 NightVerdict verdict_of(const std::vector<NightFinding>& findings);
 
-/// Where and when a night was made.
+/// Where and when a nightly run was made.
 struct NightFacts {
-  int number = 0;                ///< Its place in the order of nights, from 1; never given twice.
-  std::string started_utc = {};  ///< ISO 8601. Clocks jump: nights are ordered by number.
+  int number = 0;                ///< Its index in the order of nightly runs, from 1; never reused.
+  std::string started_utc = {};  ///< ISO 8601. Clocks can jump: nightly runs are ordered by number.
   std::string ended_utc = {};
   std::string command = {};
   std::string provenance = {};  ///< JSON.
@@ -115,7 +115,7 @@ struct NightFacts {
   std::string processor = {};  ///< "x86_64, AMD EPYC …".
   int cores = 0;
   int jobs = 0;
-  std::optional<int> reference = {};  ///< The night it was compared with.
+  std::optional<int> reference = {};  ///< The nightly run it was compared with.
   bool pinned = false;
   NightVerdict verdict = NightVerdict::kGood;
 };
@@ -127,37 +127,37 @@ std::string_view verdict_word(const NightFacts& night);
 /// Whether seconds of the two can be compared.
 bool same_machine(const NightFacts& a, const NightFacts& b);
 
-/// A night as it is appended.
+/// A nightly run as it is appended.
 struct Night {
   NightFacts facts = {};
   std::vector<StudyNight> studies = {};
   std::vector<NightFinding> findings = {};
 };
 
-/// One study over the nights that had the same order, oldest first, tonight last: what trends and
-/// change points are taken from.
+/// One study over the nightly runs that had the same order, oldest first, this nightly run last:
+/// what trends and change points are taken from.
 struct StudyTrend {
   std::string name = {};
   Quantities quantities = {};
-  StudyLabels labels = {};  ///< Of all these nights, the last one's first.
+  StudyLabels labels = {};  ///< Of all these nightly runs, the last one's first.
   std::vector<NightFacts> nights = {};
-  std::vector<double> peak_memory_mib = {};  ///< One a night; NaN: not known.
-  /// Medians over runs, one a night; NaN: none.
+  std::vector<double> peak_memory_mib = {};  ///< One per nightly run; NaN: not known.
+  /// Medians over runs, one per nightly run; NaN: none.
   std::map<SeriesId, std::vector<double>> medians = {};
-  /// Likewise, as change points are looked for in: see level_of().
+  /// Likewise the levels in which change points are searched: see level_of().
   std::map<SeriesId, std::vector<double>> levels = {};
 };
 
-/// The median of the values that are no NaN; NaN without any.
+/// The median of the values that are not NaN; NaN without any.
 double known_median(const std::vector<RunValue>& values);
 
 /// The mean over the runs of the logarithm of a quantity that is judged by ratio, 1e-9 for less;
-/// of any other its mean; its negative of what is better if it is higher. Runs differ far more than
-/// nights do: a median would follow one of them. NaN without any.
+/// of any other its mean; of a quantity that is better if higher, the negative of these. Runs
+/// differ far more than nightly runs do: a median would depend on one of them. NaN without any.
 double level_of(const Quantity& quantity, const std::vector<RunValue>& values);
 
-/// What nightly runs do with a series: what its quantity says; but one that stands in for another
-/// is only kept where `all`, a map by SeriesId, has the other as well.
+/// How nightly runs judge a series: by the rule of its quantity; but a quantity that stands in for
+/// another is only kept where `all`, a map by SeriesId, has the other as well.
 template <typename Map>
 NightlyRule rule_of(const SeriesId& series, const Quantities& quantities, const Map& all) {
   const Quantity& quantity = quantities.at(series.quantity);

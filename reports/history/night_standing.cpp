@@ -38,10 +38,11 @@ std::string verdict_sentence(const NightFacts& night, std::size_t findings) {
   const std::string count = counted(static_cast<long long>(findings), "finding");
   switch (night.verdict) {
     case NightVerdict::kGood:
-      return night.reference ? fmt::format("Nothing got worse than on night {}.", *night.reference)
-                             : "Not compared: no night to compare with has the same settings.";
+      return night.reference
+                 ? fmt::format("Nothing got worse than in nightly run {}.", *night.reference)
+                 : "Not compared: no nightly run to compare with has the same settings.";
     case NightVerdict::kCost:
-      return "Accuracy is as it was; seconds or memory grew: " + count + ".";
+      return "Accuracy is unchanged; seconds or memory grew: " + count + ".";
     default:
       return "Accuracy got worse or results are lost: " + count + ".";
   }
@@ -53,13 +54,14 @@ Standing study_standing(const NightFacts& night, std::span<const NightFinding> f
   tell(findings, study, "", result);
   const auto count = std::ranges::count(findings, study, &NightFinding::study);
   result.worse = count > 0;
-  const std::string tonight = fmt::format("Night {}: ", night.number);
+  const std::string tonight = fmt::format("Nightly run {}: ", night.number);
   if (result.worse)
     result.title = tonight + counted(count, "thing") + " got worse";
   else if (is_compared && night.reference)
-    result.title = tonight + fmt::format("nothing got worse than on night {}", *night.reference);
+    result.title =
+        tonight + fmt::format("nothing got worse than in nightly run {}", *night.reference);
   else
-    result.title = tonight + "not compared: no night to compare with has the same settings";
+    result.title = tonight + "not compared: no nightly run to compare with has the same settings";
   return result;
 }
 
@@ -69,7 +71,7 @@ Standing night_standing(const NightFacts& night, std::span<const NightFinding> f
   result.worse = !findings.empty();
   std::string verdict = lower_case(verdict_sentence(night, findings.size()));
   verdict.pop_back();  // A title has no full stop.
-  result.title = fmt::format("Night {}: {}", night.number, verdict);
+  result.title = fmt::format("Nightly run {}: {}", night.number, verdict);
   return result;
 }
 

@@ -76,7 +76,8 @@ std::vector<std::string> ObjectFolder::problems(const std::vector<std::string>& 
   std::vector<std::string> problems;
   for (const std::string& digest : digests) try {
       if (sha256_hex(read_file(path(digest))) != digest)
-        problems.push_back(path(digest).string() + ": is not what its name says");
+        problems.push_back(path(digest).string() +
+                           ": its contents do not match the SHA-256 in its name");
     } catch (const IoError& error) {
       problems.emplace_back(error.what());
     }

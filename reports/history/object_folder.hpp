@@ -16,15 +16,16 @@ class ObjectFolder {
   /// Where the file of that digest is or would be.
   std::filesystem::path path(const std::string& digest) const;
 
-  /// Keeps every file of a folder, which holds no folders, and puts a hard link in each one's
-  /// place, so that both take the room of one. Where there are no hard links the file is copied.
+  /// Keeps every file of a folder, which holds no folders, and replaces each by a hard link, so
+  /// that both take the space of one. The file is copied where hard links are not available.
   /// @return By name. @throws IoError.
   std::vector<FigureFile> keep(const std::filesystem::path& figures) const;
 
   /// Removes what none of `digests`, which ascend, names. @return How many files. @throws IoError.
   int remove_others(const std::vector<std::string>& digests) const;
 
-  /// What is wrong, a sentence each: a file that is not there, or is not what its name says.
+  /// One sentence for each problem: a file that is missing, or whose contents do not match its
+  /// name.
   std::vector<std::string> problems(const std::vector<std::string>& digests) const;
 
  private:

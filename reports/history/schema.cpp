@@ -20,7 +20,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// "mppf": tells our stores from other SQLite files, in PRAGMA application_id.
+/// "mppf": marks our stores among other SQLite files, in PRAGMA application_id.
 constexpr int kApplication = 0x6d707066;
 
 constexpr const char* kVersion1 = R"(
@@ -86,7 +86,7 @@ CREATE TABLE figures (
 CREATE INDEX figures_by_digest ON figures(digest);
 )";
 
-/// Pins, and what was found, one by one: before, a night had its verdict alone.
+/// Pins, and what was found, one by one: before, a nightly run had its verdict alone.
 constexpr const char* kVersion2 = R"(
 ALTER TABLE nights ADD COLUMN pinned INTEGER NOT NULL DEFAULT 0;
 CREATE TABLE findings (
@@ -102,9 +102,9 @@ CREATE TABLE findings (
 CREATE INDEX findings_by_night ON findings(night);
 )";
 
-/// What studies declare beside the dictionary of quantities. Before, a number that the dictionary
-/// did not have was of "other", with its name behind the method's, and the error of the observation
-/// matrix had another name.
+/// What studies declare in addition to the dictionary of quantities. Before, a number that the
+/// dictionary did not have was of "other", with its name behind the method's, and the error of the
+/// observation matrix had another name.
 constexpr const char* kVersion3 = R"(
 CREATE TABLE quantities (
   study INTEGER NOT NULL REFERENCES studies(id) ON DELETE CASCADE,
@@ -126,9 +126,9 @@ UPDATE series SET quantity = 'observation_error' WHERE quantity = 'observation';
 UPDATE findings SET quantity = 'observation_error' WHERE quantity = 'observation';
 )";
 
-/// What a study itself calls its setups and methods. Before, methods had mapproof's words for them,
-/// which are another's where a study declares its own: there each is its id, the words before its
-/// levels ("ekf" of "ekf noise=0.1").
+/// What a study itself calls its setups and methods. Before, methods had mapproof's labels, which
+/// are wrong where a study declares its own methods: there each label is its id, the part before
+/// its levels ("ekf" of "ekf noise=0.1").
 constexpr const char* kVersion4 = R"(
 CREATE TABLE labels (
   study INTEGER NOT NULL REFERENCES studies(id) ON DELETE CASCADE,
@@ -242,21 +242,21 @@ std::string damage_of_quantities(Database& database) {
   return "";
 }
 
-/// What SQLite's check cannot find: bytes that changed into words and numbers that have no meaning.
+/// What SQLite's check cannot find: bytes that changed into names and numbers without meaning.
 std::string damage_of_rows(Database& database) {
   if (version_of(database) != schema_version()) return "";
   Statement nights(database, "SELECT number, verdict FROM nights");
   while (nights.step()) {
     if (nights.integer(0) < 1 || nights.integer(0) > kMostNights)
-      return fmt::format("there is no night {}", nights.integer(0));
+      return fmt::format("there is no nightly run {}", nights.integer(0));
     if (!night_verdict_named(nights.text(1)))
-      return fmt::format("night {} has the unknown verdict \"{}\"", nights.integer(0),
+      return fmt::format("nightly run {} has the unknown verdict \"{}\"", nights.integer(0),
                          printable(nights.text(1)));
   }
   Statement findings(database, "SELECT night, kind FROM findings");
   while (findings.step())
     if (!rule_named(findings.text(1)))
-      return fmt::format("night {} has the unknown finding \"{}\"", findings.integer(0),
+      return fmt::format("nightly run {} has the unknown finding \"{}\"", findings.integer(0),
                          printable(findings.text(1)));
   return damage_of_quantities(database);
 }

@@ -8,8 +8,9 @@
 namespace mapproof {
 
 /// A store's database, which is there and whole: by SQLite's own check, by its tables, and by the
-/// words and numbers in them.
-/// @throws DamagedFile if it is not whole: a file without tables is not, an empty one say; IoError
+/// names and numbers in them.
+/// @throws DamagedFile if it is not whole: a file without tables, such as an empty one, is not;
+/// IoError
 ///         if it is not there, may not be read, is in use, or is not a store of ours.
 std::unique_ptr<Database> open_whole(const std::filesystem::path& path, Database::Access access);
 
@@ -29,8 +30,8 @@ std::string damage_of_tables(Database& database);
 /// @throws IoError; InvalidInput unless 1 <= version <= schema_version().
 void make_tables(Database& database, int version);
 
-/// Brings a store of an older version to the latest, in one transaction, after a copy of it was put
-/// beside it: history.sqlite.v1-backup, or with a number more if that is taken.
+/// Brings a store of an older version to the latest, in one transaction, after a copy was put in
+/// the same folder: history.sqlite.v1-backup, with a number appended if that name is taken.
 /// @return The copy; empty if there was nothing to do.
 /// @throws IoError.
 std::filesystem::path migrate(Database& database);

@@ -36,7 +36,7 @@ std::string id_of(const std::string& name) {
   return id;
 }
 
-/// Over the nights; infinite if none has a value.
+/// Over the nightly runs; infinite if none has a value.
 double level_over_nights(const std::vector<double>& values) {
   std::vector<double> known;
   std::ranges::copy_if(values, std::back_inserter(known),
@@ -47,7 +47,8 @@ double level_over_nights(const std::vector<double>& values) {
 /// A trend with what was found of it.
 struct Told {
   const StudyTrend& trend;
-  std::vector<std::pair<std::size_t, const NightFinding*>> findings;  ///< By the night's place.
+  std::vector<std::pair<std::size_t, const NightFinding*>>
+      findings;  ///< By the index of the nightly run.
   const TrendPlace& place;
 };
 
@@ -94,8 +95,8 @@ std::vector<Line> all_settings(const Told& told, const std::string& sensor,
   return lines;
 }
 
-/// Of each method the setting that was best over the nights, and all that have findings: one that
-/// got worse may have been the best. In the order of their names.
+/// Of each method the setting that was best over the nightly runs, and all that have findings: one
+/// that got worse may have been the best. In the order of their names.
 std::vector<Line> shown_settings(const Told& told, const std::string& sensor,
                                  const std::string& quantity) {
   const std::vector<Line> all = all_settings(told, sensor, quantity);
@@ -128,9 +129,9 @@ std::vector<Line> shown_settings(const Told& told, const std::string& sensor,
 
 ErrorPanel panel_of(const StudyTrend& trend) {
   ErrorPanel panel;
-  panel.x.label = "night";
+  panel.x.label = "nightly run";
   panel.x.whole = true;
-  // A single night, too, has an axis.
+  // A single nightly run, too, has an axis.
   const double first = trend.nights.front().number;
   panel.x.limits = Range{first - 0.5, std::max<double>(trend.nights.back().number, first) + 0.5};
   return panel;
@@ -142,7 +143,7 @@ std::vector<double> night_numbers(const StudyTrend& trend) {
   return x;
 }
 
-/// A mark at each night's value of a line that a finding is about.
+/// A mark at each nightly run's value of a line that a finding is about.
 template <typename Predicate>
 void mark_findings(const Told& told, const std::string& label, const std::vector<double>& values,
                    const Predicate& is_about_it, ErrorPanel& panel) {
@@ -160,13 +161,14 @@ ErrorLinesSpec named_spec(const Told& told, const std::string& id, const std::st
   ErrorLinesSpec spec;
   const bool named = told.place.among_others;
   spec.id = ("trend-" + (named ? id_of(told.trend.name) + "-" : "") + id).substr(0, kLongestId);
-  spec.title = (named ? told.trend.name + ", " : "") + title + ", night by night";
+  spec.title = (named ? told.trend.name + ", " : "") + title + ", by nightly run";
   return spec;
 }
 
 /// Ends the caption and draws it.
 Figure drawn(ErrorLinesSpec spec, ErrorPanel panel, bool varies) {
-  if (!panel.points.empty()) spec.caption += " Large marks: nights that have a finding about it.";
+  if (!panel.points.empty())
+    spec.caption += " Large marks: nightly runs that have a finding about it.";
   spec.panels.push_back(std::move(panel));
   Figure figure = error_lines_figure(spec);
   figure.varies = varies;
@@ -185,7 +187,7 @@ std::optional<Figure> lines_figure(const Told& told, const std::string& sensor,
   spec.quantity = facts.label;
   spec.caption = fmt::format(
       "Lines: median over runs of {}{}, of each method the setting that was best over these "
-      "nights, "
+      "nightly runs, "
       "and every setting that got worse.",
       facts.label,
       std::ranges::any_of(lines, [](const Line& line) { return line.id.step > 0; })
@@ -225,7 +227,8 @@ std::optional<Figure> memory_figure(const Told& told) {
 /// Quantity and sensor of a figure, in the order of the dictionary.
 using Subject = std::tuple<bool, std::size_t, std::string, std::string>;
 
-/// @param worst_first  Whether those that tonight's findings are about go before the others.
+/// @param worst_first  Whether those that this nightly run's findings are about go before the
+/// others.
 std::set<Subject> subjects_of(const Told& told, bool worst_first) {
   const std::size_t tonight = told.trend.nights.size() - 1;
   std::set<std::tuple<std::string, std::string>> found;

@@ -9,20 +9,20 @@
 
 namespace mapproof {
 
-/// Findings by night.
+/// Findings by nightly run.
 using NightFindings = std::map<int, std::vector<NightFinding>>;
 
-/// Where a trend's figures are to stand.
+/// The page that a trend's figures are for.
 struct TrendPlace {
-  bool among_others = false;  ///< Beside other studies': ids and titles name the study.
-  std::size_t most = 0;       ///< Figures at most; 0: all. Those that tonight's findings are about
-                              ///< go first.
+  bool among_others = false;  ///< With other studies': ids and titles name the study.
+  std::size_t most = 0;  ///< Figures at most; 0: all. Those that this nightly run's findings are
+                         ///< about go first.
 };
 
 /// Figures of a trend: one a sensor and quantity of accuracy, seconds, memory. Lines are the
-/// setting of each method that was best over the nights, and every setting that has a finding on
-/// one of them, which is marked there. Pure: the same values give the same figures.
-/// @param trend     At least one night.
+/// setting of each method that was best over the nightly runs, and every setting that has a finding
+/// on one of them, which is marked there. Pure: the same values give the same figures.
+/// @param trend     At least one nightly run.
 /// @param findings  Of any study; those of other studies are left out.
 std::vector<Figure> trend_figures(const StudyTrend& trend, const NightFindings& findings,
                                   const TrendPlace& place = {});

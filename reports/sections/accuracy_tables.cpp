@@ -65,7 +65,7 @@ void mark_best(Table& table, std::span<const SettingSummary> summaries) {
     table.rows[static_cast<std::size_t>(best - summaries.data())].marked = true;
 }
 
-/// "Paper: Yairi 2007, Table 1." and what is known about its numbers.
+/// "Paper: Yairi 2007, Table 1." and the notes on its numbers.
 void add_paper_notes(Table& table, const Published& published) {
   table.notes.push_back("Paper: " + published.source + ".");
   for (const PublishedValue& value : published.values)
@@ -121,8 +121,8 @@ Table accuracy_table(const SensorStudy& sensor, std::span<const SettingSummary> 
   mark_best(table, best);
   if (grid)
     table.notes.push_back(
-        "Each method stands with the parameter of least mean MPE over these very runs, as the "
-        "paper chose its own: an optimistic choice.");
+        "Each method has the parameter of least mean MPE over these same runs, as in the paper: an "
+        "optimistic choice.");
   if (const std::string ends = optima_at_an_end(sensor, best); !ends.empty())
     table.notes.push_back(
         "At an end of the values tried, so that a better one may lie beyond: " + ends + ".");
@@ -177,7 +177,7 @@ Table spread_table(const SensorStudy& sensor, std::span<const SettingSummary> be
                    {"MOE", "%", free, "The smaller of MOE and 100 % less MOE."},
                    {"All", "", "Runs", ""},
                    {"Scored", "", "Runs", "Their map could be scored."},
-                   {"With status", "", "Runs", "A warning or a failure."}};
+                   {"With warning", "", "Runs", "A warning or a failure."}};
   const int decimals = mpe_decimals(best);
   for (const SettingSummary& s : best)
     table.rows.push_back(
@@ -189,8 +189,8 @@ Table spread_table(const SensorStudy& sensor, std::span<const SettingSummary> be
          source_of(s),
          false});
   table.notes.push_back(
-      "MPE hangs on which landmarks are anchors. Free of that: MPE over all landmarks with the "
-      "affine map fitted to all of them, and MOE with mirrored maps turned back.");
+      "MPE depends on which landmarks are anchors. These errors do not: MPE over all landmarks "
+      "with the affine map fitted to all of them, and MOE with reflected maps reflected back.");
   return table;
 }
 
@@ -204,7 +204,7 @@ Table parameter_table(const SensorStudy& sensor, std::span<const SettingSummary>
                    {"95 % interval", "m", "", ""},
                    {"MOE", "%", "", "Mean over runs."},
                    {"Scored", "", "", ""},
-                   {"With status", "", "", ""}};
+                   {"With warning", "", "", ""}};
   const int decimals = mpe_decimals(all);
   for (const SettingSummary& s : all)
     table.rows.push_back(

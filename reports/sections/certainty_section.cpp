@@ -25,11 +25,11 @@ using Eigen::Index;
 Table ellipse_table(const MapRecord& record, const std::vector<std::optional<Ellipse>>& ellipses) {
   const std::string unit = record.frame == Frame::kTruth ? "m" : "";
   Table table{"ellipses",
-              "Ellipse of every landmark, the least sure first",
+              "95 % confidence ellipse of every landmark, the largest first",
               {{"Landmark", "", "", ""},
                {"longer", unit, "Half axis", ""},
                {"shorter", unit, "Half axis", ""},
-               {"Turn", "°", "", "Of the longer axis from the x axis, counter-clockwise."},
+               {"Angle", "°", "", "From the x axis to the longer axis, counter-clockwise."},
                {"Anchor", "", "", "Its true position was given."}},
               {},
               {}};
@@ -55,14 +55,14 @@ Table ellipse_table(const MapRecord& record, const std::vector<std::optional<Ell
 
 Section certainty_section(const MapRecord& record, const MapCertainty& certainty) {
   if (std::ssize(certainty.covariances) != record.estimate.rows())
-    throw InvalidInput("a map's ellipses need a covariance a landmark");
+    throw InvalidInput("the ellipses of a map need one covariance per landmark");
   std::vector<std::optional<Ellipse>> ellipses;
   std::vector<double> axes;
   for (Index i = 0; i < record.estimate.rows(); ++i) {
     ellipses.push_back(confidence_ellipse(certainty, i));
     if (ellipses.back() && !is_anchor(record, i)) axes.push_back(ellipses.back()->a);
   }
-  Section section{"certainty", "How sure each landmark is", {}};
+  Section section{"certainty", "Uncertainty of each landmark", {}};
   section.blocks.emplace_back(plain(ellipse_words(certainty)));
   if (!axes.empty())
     section.blocks.emplace_back(plain(fmt::format(

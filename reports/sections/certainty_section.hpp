@@ -6,7 +6,7 @@
 
 namespace mapproof {
 
-/// How sure each landmark of a map is: half axes and turn of its ellipse, the least sure first.
+/// Uncertainty of each landmark of a map: half axes and angle of its ellipse, the largest first.
 /// @throws InvalidInput unless there is a covariance a landmark.
 Section certainty_section(const MapRecord& record, const MapCertainty& certainty);
 

@@ -33,7 +33,7 @@ std::string p_text(double p) {
   return p < 0.001 ? "p < 0.001" : fmt::format("p = {}", format_number(p, 3));
 }
 
-/// A letter for each group of methods that are not told apart, as "a, b"; beyond z: "27".
+/// A letter for each group of methods that do not differ significantly, as "a, b"; beyond z: "27".
 std::string group_letters(const MethodRanks& ranks, int method) {
   std::vector<std::string> letters;
   for (std::size_t i = 0; i < ranks.alike.size(); ++i)
@@ -126,13 +126,14 @@ Table rank_table(const SensorStudy& sensor, const MethodRanks& ranks) {
                    {"Parameter", "", "", "The one of least mean MPE."},
                    {"Mean rank", "", "", "1 is the least MPE in each layout."},
                    {"MPE", "m", "", "Mean over layouts."},
-                   {"Alike", "", "", "Methods that share a letter are not told apart."}};
+                   {"Alike", "", "", "Methods that share a letter do not differ significantly."}};
   if (!ranks.test) return table;
   add_rank_rows(table, ranks);
   table.notes.push_back(test_note(ranks));
   table.notes.push_back(fmt::format(
-      "Methods that share a letter are not told apart by Nemenyi\u2019s test at {} %: their mean "
-      "ranks differ by less than the critical difference, {}. Layouts are the units, their poses "
+      "Methods that share a letter do not differ significantly by Nemenyi\u2019s test at {} %: "
+      "their mean ranks differ by less than the critical difference, {}. Layouts are the units, "
+      "their poses "
       "averaged.",
       format_number(100.0 * ranks.alpha, 0), format_number(ranks.critical_difference, 2)));
   std::vector<std::string> left_out;

@@ -78,7 +78,7 @@ std::string in_series(const std::vector<std::string>& items) {
   return text;
 }
 
-/// How many pairs of methods stand in the paper's order, and which do not.
+/// How many pairs of methods have the paper's order, and which do not.
 /// @param methods  All with a score and a published value that can be matched, by ascending MPE.
 std::string pairs_text(const std::vector<SettingSummary>& methods) {
   std::vector<std::string> swapped;
@@ -90,7 +90,7 @@ std::string pairs_text(const std::vector<SettingSummary>& methods) {
                                       method_label(methods[i].setting.method)));
   if (swapped.empty()) return " The paper has the same order.";
   const std::size_t pairs = n * (n - 1) / 2;
-  return fmt::format(" Of {} of methods, {} stand in the paper\u2019s order; it has {}.",
+  return fmt::format(" Of {} of methods, {} have the paper\u2019s order; the paper has {}.",
                      counted(static_cast<long long>(pairs), "pair"), pairs - swapped.size(),
                      in_series(swapped));
 }
@@ -131,7 +131,7 @@ Paragraph agreement_finding(Sensor sensor, std::span<const SettingSummary> metho
     ++compared;
     if (s.published->mpe_m >= interval->low && s.published->mpe_m <= interval->high) ++within;
   }
-  std::string text = ", beside the paper: ";
+  std::string text = ", compared with the paper: ";
   if (compared > 0)
     text += fmt::format("{} of {} printed MPE lie within our 95 % intervals; ", within, compared);
   if (noted > 0)

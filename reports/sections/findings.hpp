@@ -13,9 +13,9 @@ namespace mapproof {
 /// "0.219 m", small errors with a place more.
 std::string metres(double value);
 
-/// What the runs of one sensor say in words and numbers, the most wanted first: the best method,
+/// The findings of the runs of one sensor as sentences, the most important first: the best method,
 /// the order of the methods, how near the printed values are, whether the paper's orderings hold,
-/// how optimistic its choice of parameters is. Each only where there is something to say.
+/// how optimistic its choice of parameters is. Each only where it applies.
 ///
 /// @param methods  A summary a method, at its best parameter; one at least has a score.
 BulletList sensor_findings(const Study& study, const SensorStudy& sensor,

@@ -44,8 +44,8 @@ std::vector<Column> point_columns(const MapRecord& record) {
   std::vector<Column> columns = {
       {"Landmark", "", "", ""}, {"x", unit(record), "Map", ""}, {"y", unit(record), "Map", ""}};
   if (!any_truth(record)) return columns;
-  columns.push_back({"x", "m", "Truth", ""});
-  columns.push_back({"y", "m", "Truth", ""});
+  columns.push_back({"x", "m", "Ground truth", ""});
+  columns.push_back({"y", "m", "Ground truth", ""});
   if (record.frame == Frame::kTruth)
     columns.push_back({"Error", "m", "", "Distance from the true position."});
   return columns;
@@ -69,17 +69,17 @@ Table landmarks_table(const MapRecord& record) {
     table.rows.back().cells.emplace_back(TextCell{is_anchor(record, i) ? "yes" : "no"});
   }
   if (record.frame == Frame::kSimilarity)
-    table.notes.push_back(
-        fmt::format("{}: place, turn, scale and mirror of the map are arbitrary.",
-                    record.anchors.empty() ? "No anchors" : "Not fitted to the anchors"));
+    table.notes.push_back(fmt::format(
+        "{}: the map is defined up to a translation, a rotation, a scale and a reflection.",
+        record.anchors.empty() ? "No anchors" : "Not aligned to the anchors"));
   if (mapped_count(record) < record.estimate.rows())
-    table.notes.push_back("A dash stands for a landmark that has no place in the map.");
+    table.notes.push_back("A dash marks a landmark that has no position in the map.");
   return table;
 }
 
 Table anchors_table(const MapRecord& record) {
   const char* caption =
-      record.frame == Frame::kTruth ? "Anchors: what the map was fitted to" : "Anchors, as given";
+      record.frame == Frame::kTruth ? "Anchors: the map was aligned to them" : "Anchors, as given";
   Table table{"anchors", caption, point_columns(record), {}, {}};
   for (const Index row : record.anchors) table.rows.push_back(point_row(record, row));
   return table;
@@ -119,15 +119,15 @@ Paragraph worst_finding(const MapRecord& record) {
            {fmt::format(", by {} m.", format_number(largest, 3)), Emphasis::kPlain}}};
 }
 
-/// Why a map has a shape alone, and what that leaves untold.
+/// Why a map has a shape alone, and what that leaves undetermined.
 std::string shape_finding(const MapRecord& record) {
   const bool scored = record.score && !score_words(*record.score).empty();
   return fmt::format(
-      "{}: the map has a shape, but its place, turn, scale and mirror are arbitrary{}",
+      "{}: the map is defined up to a translation, a rotation, a scale and a reflection{}",
       record.anchors.empty() ? "No anchors were given"
-                             : "The map could not be fitted to the anchors",
+                             : "The map could not be aligned to the anchors",
       scored ? "; the errors above are those that need no anchors."
-             : ", and no error in metres can be told.");
+             : "; no error in metres can be determined.");
 }
 
 Section summary(const MapReportInput& input) {
@@ -167,7 +167,7 @@ Section input_section(const MapReportInput& input) {
   BulletList remarks;
   for (const std::string& remark : input.remarks)
     remarks.items.push_back({{{remark, Emphasis::kData}}});
-  section.blocks.emplace_back(plain("Left out or changed while reading:"));
+  section.blocks.emplace_back(plain("Left out or changed when the input was read:"));
   section.blocks.emplace_back(std::move(remarks));
   return section;
 }
@@ -175,7 +175,7 @@ Section input_section(const MapReportInput& input) {
 Section statuses(const MapRecord& record) {
   Section section{"statuses", "Warnings and failures", {}};
   if (record.statuses.empty()) {
-    section.blocks.emplace_back(plain("Nothing: the solve ended well."));
+    section.blocks.emplace_back(plain("None."));
     return section;
   }
   StatusList list;
@@ -204,7 +204,7 @@ void require_sizes(const MapRecord& record) {
   const Index rows = record.estimate.rows();
   if (static_cast<Index>(record.names.size()) != rows ||
       (record.truth_m && record.truth_m->rows() != rows))
-    throw InvalidInput("map_report: names, estimate and truth must be of one length");
+    throw InvalidInput("map_report: names, estimate and ground truth must have one length");
   for (const Index anchor : record.anchors)
     if (anchor < 0 || anchor >= rows) throw InvalidInput("map_report: an anchor is not a landmark");
 }

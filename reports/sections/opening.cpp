@@ -42,9 +42,9 @@ std::string ends(const Study& study) {
   const StudyCounts counts = count(study);
   const std::string maps = counted(counts.maps, "map");
   if (counts.unscored + counts.with_status == 0)
-    return fmt::format("Of {} every one ended well.", maps);
-  return fmt::format("Of {} {} {} a status, {} {} without a score.", maps, counts.with_status,
-                     counts.with_status == 1 ? "carries" : "carry",
+    return fmt::format("None of {} has a warning.", maps);
+  return fmt::format("Of {} {} {} warnings, {} {} without a score.", maps, counts.with_status,
+                     counts.with_status == 1 ? "has" : "have",
                      counts.unscored == 0 ? "none" : std::to_string(counts.unscored),
                      counts.unscored < 2 ? "is" : "are");
 }

@@ -9,7 +9,7 @@
 
 namespace mapproof {
 
-/// What a study's reader is to see first: the best method of each sensor beside the paper's value,
+/// The opening of a study's report: the best method of each sensor compared with the paper's value,
 /// how the maps ended, and a figure of each kind.
 Opening study_opening(const Study& study, const StudyFigures& figures);
 

@@ -14,7 +14,7 @@
 namespace mapproof {
 namespace {
 
-/// What the rows of the table are made for.
+/// The solves that the table has rows for.
 struct ProofKind {
   Sensor sensor;
   Method method;
@@ -79,9 +79,9 @@ Table proofs_table(const ProofsByKind& all) {
               "Semidefinite programs: how near the optimum",
               {{"Sensor", "", "", ""},
                {"Method", "", "", ""},
-               {"Solver", "", "", "What gave the answer."},
+               {"Solver", "", "", "The solver of the solution."},
                {"Solves", "", "", ""},
-               {"Proved", "", "",
+               {"Certified", "", "",
                 fmt::format("With a relative gap and a residual of at most {:g}.", kProvedGap)},
                {"Largest gap", "", "", "|dual - primal| / |dual|."},
                {"Largest residual", "", "", "Violation of a constraint over the largest one."},
@@ -120,9 +120,9 @@ std::optional<Section> proofs_section(const Study& study) {
   std::vector<std::string> by;
   for (const auto& [solver, count] : solved)
     by.push_back(fmt::format("{} by {}", count, title_of_solver(solver)));
-  Section section{"proofs", "How the semidefinite programs are proved", {}};
+  Section section{"proofs", "Certificates of the semidefinite programs", {}};
   section.blocks.emplace_back(plain(fmt::format(
-      "{} solved, {}. Each answer comes with an upper bound from its dual. Feasible and optimal to "
+      "{} solved, {}. Each solution has an upper bound from its dual. Feasible and optimal to "
       "within {:g}: {} of them; the largest relative gap is {}, the largest residual {}. Those of "
       "the variations are not counted.",
       counted(solves, "program"), listed(by, 3), kProvedGap, proved, gap_text(gap),
@@ -136,15 +136,16 @@ Section certificate_section(const Certificate& certificate) {
     return KeyValues::Item{std::move(key), {std::move(value), Emphasis::kPlain}};
   };
   std::string bound = fmt::format("{:.9g}", certificate.dual);
-  if (!std::isfinite(certificate.dual)) bound = "none proved";
+  if (!std::isfinite(certificate.dual)) bound = "none certified";
   if (certificate.dual < 0.0) bound = "below 0: no points have the distances to be kept";
-  Section section{"proof", "How the map is proved", {}};
+  Section section{"proof", "Certificate of the map", {}};
   section.blocks.emplace_back(plain(
       is_proved(certificate)
-          ? "No other map that keeps the distances in neighbourhoods spreads more, as the bound of "
-            "the semidefinite program\u2019s dual proves. Variances are in squared units of the "
+          ? "No other map that keeps the distances in neighbourhoods spreads more, as the dual of "
+            "the semidefinite program certifies. Variances are in squared units of the "
             "observation distances."
-          : "The answer of the semidefinite program is not proved. Variances are in squared units "
+          : "The solution of the semidefinite program is not certified. Variances are in squared "
+            "units "
             "of the observation distances."));
   section.blocks.emplace_back(KeyValues{
       {item("Solver", std::string(title_of_solver(certificate.solver))),

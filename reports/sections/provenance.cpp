@@ -47,7 +47,7 @@ KeyValues experiment_items(const Experiment& experiment) {
                                            experiment.world.side_m, experiment.world.side_m,
                                            counted(experiment.world.landmarks, "landmark"),
                                            1e3 * experiment.world.landmark_diameter_m))},
-                 {"Walk", data(fmt::format("steps of {:g} m, turns up to {:.4g} rad",
+                 {"Walk", data(fmt::format("steps of {:g} m, heading changes up to {:.4g} rad",
                                            experiment.walk.step_m, experiment.walk.turn_rad))},
                  {"Anchors", data(fmt::format("{}, nearest the corners", experiment.anchors))}};
   for (const SensorStudy& sensor : experiment.sensors) {

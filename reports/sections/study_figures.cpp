@@ -47,10 +47,10 @@ StudyFigures study_figures(const Study& study, std::span<const Timing> timings,
       "Drawn from actual runs: no pose of the robot enters a map.", std::move(scans));
   add("curves", "Error over observations",
       "Mean over runs; bands are 95 % intervals of the mean, layouts being the units. Each method "
-      "stands with its best parameter at the last checkpoint.",
+      "has its best parameter at the last checkpoint.",
       curve_figures(source));
   add("maps", "Maps",
-      "Where the paper shows a map, the run whose MPE is nearest to it stands beside the median "
+      "Where the paper shows a map, the run whose MPE is nearest to it is shown with the median "
       "run. For each method then the median run at the last checkpoint: neither its best map nor "
       "its worst.",
       map_figures(source));

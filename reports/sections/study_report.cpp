@@ -137,18 +137,17 @@ void add_ends(const Study& study, BulletList& findings, Highlights& highlights) 
   highlights.items.push_back({"Runs", fmt::format("{} of {}", study.runs.size(), planned),
                               fmt::format("{}, {} each", counted(experiment.layouts, "layout"),
                                           counted(experiment.poses, "initial pose"))});
-  highlights.items.push_back({"Maps with a status",
+  highlights.items.push_back({"Maps with warnings",
                               fmt::format("{} of {}", counts.with_status, counts.maps),
                               fmt::format("{} without a score", counts.unscored)});
   if (counts.maps == 0) return;
   const std::string maps = counted(counts.maps, "map");
-  const std::string text =
-      counts.with_status + counts.unscored == 0
-          ? fmt::format(": none: every one of {} ended well.", maps)
-          : fmt::format(
-                ": of {}, {} without a score and {} with a status, all listed below with "
-                "the reason.",
-                maps, counts.unscored, counts.with_status);
+  const std::string text = counts.with_status + counts.unscored == 0
+                               ? fmt::format(": none in {}.", maps)
+                               : fmt::format(
+                                     ": of {}, {} without a score and {} with warnings, all listed "
+                                     "below with the reason.",
+                                     maps, counts.unscored, counts.with_status);
   findings.items.push_back({{strong("Failures"), phrase(text)}});
 }
 
@@ -244,13 +243,12 @@ Section statuses_section(const Study& study) {
   if (list.items.empty() && counts.unscored == 0) {
     section.blocks.emplace_back(
         plain(counts.maps == 0 ? "No map was made."
-                               : fmt::format("Nothing: each solve ended well, {} in all.",
-                                             counted(counts.maps, "map"))));
+                               : fmt::format("None in {}.", counted(counts.maps, "map"))));
     return section;
   }
   section.blocks.emplace_back(plain(fmt::format(
-      "Of {}, {} with a status, {} without a score, and {} of these no map at all. A status is "
-      "data: the numbers above include every map that could be scored, with or without one.",
+      "Of {}, {} with warnings, {} without a score, and {} of these with no map at all. The "
+      "numbers above include every map that could be scored, with or without warnings.",
       counted(counts.maps, "map"), counts.with_status, counts.unscored, counts.failed)));
   section.blocks.emplace_back(std::move(list));
   return section;
@@ -261,7 +259,8 @@ Section summary_section(const Study& study) {
   section.blocks.emplace_back(plain(fmt::format(
       "Maps of {} built from what a simulated robot observed, without ever estimating its pose. "
       "MPE, mean position error: mean distance to the true position over the landmarks that are "
-      "no anchors. MOE, mean orientation error: share of landmark triples that turn the wrong way.",
+      "not anchors. MOE, mean orientation error: share of landmark triples with the wrong "
+      "orientation.",
       counted(study.experiment.world.landmarks, "landmark"))));
   BulletList findings;
   Highlights highlights;

@@ -18,7 +18,7 @@ struct StudyReportInput {
   std::string command;  ///< The one that makes this study and report again, ready to be typed.
 };
 
-/// The whole report of a study: summary, accuracy, figures, variations, statuses, provenance.
+/// The whole report of a study: summary, accuracy, figures, variations, warnings, provenance.
 Report study_report(const StudyReportInput& input);
 
 /// Its parts, each a pure function of the records.

@@ -22,7 +22,7 @@ std::string paper_table_id(const SensorStudy& sensor, std::string_view kind);
 /// @param best  A summary a method, at its best parameter.
 /// @param all   A summary a method and parameter.
 
-/// Every method at its best parameter beside the paper's best [yairi2007, tables 1 and 2].
+/// Every method at its best parameter compared with the paper's best [yairi2007, tables 1 and 2].
 Table accuracy_table(const SensorStudy& sensor, std::span<const SettingSummary> best, bool grid);
 
 /// Every method that was published at the parameter that was published: nothing is chosen by us.
@@ -36,7 +36,7 @@ Table spread_table(const SensorStudy& sensor, std::span<const SettingSummary> be
 
 Table parameter_table(const SensorStudy& sensor, std::span<const SettingSummary> all);
 
-/// Mean ranks over layouts, Friedman's test and what Nemenyi's tells apart.
+/// Mean ranks over layouts, Friedman's test and the significant differences by Nemenyi's.
 Table rank_table(const SensorStudy& sensor, const MethodRanks& ranks);
 
 /// The paper's orderings, each compared with the runs.

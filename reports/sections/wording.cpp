@@ -19,7 +19,7 @@ std::string_view meaning(StatusCode code) {
     case StatusCode::kNotConverged:
       return "The limit of iterations came before the stop rule.";
     case StatusCode::kUnproved:
-      return "The answer of a semidefinite program was not proved to be the best.";
+      return "The optimality of the solution of a semidefinite program was not certified.";
     case StatusCode::kRankDeficient:
       return "The data have fewer than two dimensions: the map is flat or a point.";
     case StatusCode::kUndetermined:
@@ -41,7 +41,7 @@ std::string_view meaning(StatusCode code) {
     case StatusCode::kDegenerateGeometry:
       return "Known landmarks or path lie in a special position, e.g. on one line or circle.";
     case StatusCode::kTooFewObservations:
-      return "There are fewer steps, landmarks or readings than the method needs.";
+      return "There are fewer steps, landmarks or measurements than the method needs.";
     case StatusCode::kFailed:
       return "No map came out.";
   }

@@ -69,7 +69,7 @@ TEST(MapEllipses, AreInEveryOutputAndTheSameAgain) {
   EXPECT_EQ(parse_map_certainty(text, "map.json")->replicates, 30);
   EXPECT_NE(read_file(folder.path() / "one" / "map.csv").find(",ellipse_a_m,"), std::string::npos);
   EXPECT_NE(read_file(folder.path() / "one/figures/map.svg").find("ellipse-5"), std::string::npos);
-  EXPECT_NE(read_file(folder.path() / "one/report.html").find("How sure each landmark is"),
+  EXPECT_NE(read_file(folder.path() / "one/report.html").find("Uncertainty of each landmark"),
             std::string::npos);
   EXPECT_EQ(mapproof({"validate", folder / "one"}).exit_code, 0);
   ASSERT_EQ(run(folder.path() / "two").exit_code, 0);

@@ -73,8 +73,8 @@ TEST(Nightly, RecordsANightAndItsReportAndFindsNothingWorseInTheNext) {
   const auto report_of = [&](const char* number) {
     return read_file(store / "nights" / number / "small/report.html");
   };
-  EXPECT_NE(report_of("0001").find("Night 1: not compared"), std::string::npos);
-  EXPECT_NE(report_of("0002").find("Night 2: nothing got worse than on night 1"),
+  EXPECT_NE(report_of("0001").find("Nightly run 1: not compared"), std::string::npos);
+  EXPECT_NE(report_of("0002").find("Nightly run 2: nothing got worse than in nightly run 1"),
             std::string::npos);
 }
 
@@ -128,7 +128,7 @@ TEST(Nightly, RefusesANightToCompareWithThatMadeSomethingElseBeforeAnyWork) {
   ASSERT_EQ(night(store).exit_code, 0);
   const Outcome outcome = night(store, {"--reference", "1"}, of_another_seed(folder));
   EXPECT_EQ(outcome.exit_code, 2);
-  EXPECT_EQ(lines_with(outcome.error, "--reference: night 1"), 1U) << outcome.error;
+  EXPECT_EQ(lines_with(outcome.error, "--reference: nightly run 1"), 1U) << outcome.error;
   EXPECT_FALSE(fs::exists(store / "nights/0002"));
   EXPECT_EQ(night(store, {"--reference", "1"}).exit_code, 0) << "the same order can be compared";
 }
@@ -142,13 +142,14 @@ TEST(Nightly, ThatHasNoNightToCompareWithIsNotCalledGood) {
   const json told = json::parse(outcome.out);
   EXPECT_TRUE(told.at("reference").is_null());
   EXPECT_EQ(told.at("verdict"), "not compared");
-  EXPECT_NE(told.at("remarks").dump().find("no night to compare with"), std::string::npos);
+  EXPECT_NE(told.at("remarks").dump().find("no nightly run to compare with"), std::string::npos);
   EXPECT_EQ(lines_with(mapproof({"history", store}).out, "not compared"), 2U);
   const std::string index = read_file(store / "index.html");
   EXPECT_EQ(index.find("Nothing got worse"), std::string::npos);
   EXPECT_NE(index.find(">not compared<"), std::string::npos);
   for (const char* page : {"trends/small/report.html", "nights/0002/small/report.html"})
-    EXPECT_NE(read_file(store / page).find("Night 2: not compared"), std::string::npos) << page;
+    EXPECT_NE(read_file(store / page).find("Nightly run 2: not compared"), std::string::npos)
+        << page;
 }
 
 TEST(Nightly, AfterPruningTheIndexNamesTheNightsThatAreLeft) {

@@ -160,8 +160,8 @@ TEST_F(StudyOfAnotherProgram, IsJudgedByNightlyRuns) {
   make("mine", "0.05");
   const Outcome third = night();
   EXPECT_EQ(third.exit_code, 1) << third.out;
-  for (const char* part : {"absolute trajectory error", "higher than on night 2", "runs localised",
-                           "points lower than on night 2"})
+  for (const char* part : {"absolute trajectory error", "higher than in nightly run 2",
+                           "runs localised", "points lower than in nightly run 2"})
     EXPECT_NE(third.out.find(part), std::string::npos) << part << " in:\n" << third.out;
 }
 

@@ -40,13 +40,13 @@ for (const [folder, file] of pages) {
 
 test("the index says how the last night stands and leads to it, and it leads back", async () => {
   const { page, close } = await open({}, history, "index.html");
-  assert.match(await page.locator(".standing").innerText(), /Night 2: /);
+  assert.match(await page.locator(".standing").innerText(), /Nightly run 2: /);
   assert.ok(await page.locator("#section-course svg").count() > 0);
-  await page.locator("#section-last").getByRole("link", { name: "report of night 2" }).click();
-  assert.match(await page.locator(".standing").innerText(), /Night 2: /);
+  await page.locator("#section-last").getByRole("link", { name: "report of nightly run 2" }).click();
+  assert.match(await page.locator(".standing").innerText(), /Nightly run 2: /);
   await page.getByRole("link", { name: "trends of small" }).click();
-  assert.match(await page.locator(".standing").innerText(), /Night 2: /);
-  await page.getByRole("link", { name: "all nights" }).click();
+  assert.match(await page.locator(".standing").innerText(), /Nightly run 2: /);
+  await page.getByRole("link", { name: "all nightly runs" }).click();
   await page.locator("#section-nights").waitFor();
   await close();
 });

@@ -98,7 +98,7 @@ TEST(ScatterEllipse, TurnsWithItsPoints) {
 TEST(EllipseMapFigure, JoinsTheTruthToTheMean) {
   const EllipseMapSpec spec = sample_runs(20, 5);
   const Figure figure = ellipse_map_figure(spec);
-  const auto bias = labelled<Segments>(figure.panels[0], "truth to mean").value();
+  const auto bias = labelled<Segments>(figure.panels[0], "ground truth to mean").value();
   ASSERT_EQ(bias.x0.size(), 20u);
   EXPECT_EQ(bias.x0[3], spec.truth_m(3, 0));
   EXPECT_NEAR(bias.x1[3], scatter_ellipse(spec.estimates_m, 3).mean_m.x(), 1e-15);
@@ -153,7 +153,7 @@ TEST(ShepardFigure, AFailedMapDoesNotFlattenTheOthers) {
   for (double& distance : spec.methods[1].mapped_m) distance *= 1e9;
   const Figure figure = shepard_figure(spec);
   EXPECT_LT(figure.panels[0].y.limits->high, 20.0);
-  EXPECT_TRUE(notes_contain(figure, "outside the picture"));
+  EXPECT_TRUE(notes_contain(figure, "outside the image"));
 }
 
 TEST(SpectrumFigure, StatesTheGapBetweenTheSecondAndTheThirdEigenvalue) {
@@ -258,7 +258,7 @@ TEST(PairDistancesFigure, ShowsEachPairThatHasPlacesAndWhatItIsOff) {
   const auto off = layers_of<Scatter>(figure.panels[1]);
   ASSERT_EQ(against.size(), 2u);
   ASSERT_EQ(against[0].x.size(), 1u);  // The third landmark has no place in the map,
-  ASSERT_EQ(against[1].x.size(), 2u);  // but one in the truth.
+  ASSERT_EQ(against[1].x.size(), 2u);  // but one in the ground truth.
   EXPECT_DOUBLE_EQ(against[0].x[0], 3.1);
   EXPECT_DOUBLE_EQ(against[0].y[0], 3.3);
   EXPECT_NEAR(off[0].y[0], 0.2, 1e-12);

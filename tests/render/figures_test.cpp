@@ -107,7 +107,7 @@ TEST(MapFigure, ShowsAnEstimateFarOutsideAsAnArrowAndSaysSo) {
   MapRecord map = sample_map(50, 0.05, 1);
   map.estimate.row(20) << 101.0, -40.0;
   const Figure figure = map_figure(map, "map");
-  EXPECT_TRUE(has_note(figure, "Arrows: 1 estimate outside the picture, up to"));
+  EXPECT_TRUE(has_note(figure, "Arrows: 1 estimate outside the image, up to"));
   const auto arrows = layer_of<Segments>(figure, "estimate outside");
   ASSERT_EQ(arrows.x1.size(), 1u);
   EXPECT_TRUE(arrows.arrow);
@@ -131,7 +131,7 @@ TEST(MapFigure, WithoutATruthSaysThatTheFrameIsArbitrary) {
   map.frame = Frame::kSimilarity;
   map.anchors.clear();
   const Figure figure = map_figure(map, "map");  // A truth in another frame is not drawn.
-  EXPECT_TRUE(has_note(figure, "place, turn, scale and mirror are arbitrary"));
+  EXPECT_TRUE(has_note(figure, "translation, rotation, scale and reflection are arbitrary"));
   EXPECT_NE(figure.caption.find("arbitrary"), std::string::npos);
   EXPECT_EQ(figure.panels[0].x.label.find("[m]"), std::string::npos);
   for (const Layer& layer : figure.panels[0].layers)

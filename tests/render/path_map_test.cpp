@@ -101,7 +101,7 @@ TEST(PathMap, NamesAPathThatLeavesThePictureAndKeepsThePicture) {
   SlamRun run = sample_drive("plaza-1", 2000, 1);
   run.records[0].estimate.path.positions_m *= 100.0;
   const Figure figure = figure_of(run);
-  EXPECT_TRUE(notes_contain(figure, "Beyond the picture: dead reckoning."));
+  EXPECT_TRUE(notes_contain(figure, "Outside the image: dead reckoning."));
   EXPECT_LT(figure.panels[0].x.limits->high, 150.0);
 }
 

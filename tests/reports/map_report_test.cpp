@@ -89,7 +89,7 @@ TEST(MapReport, TellsAnchorsThatDidNotTieTheMapFromNone) {
     return text;
   };
   const std::string given = findings(report_of(record));
-  EXPECT_NE(given.find("could not be fitted to the anchors"), std::string::npos) << given;
+  EXPECT_NE(given.find("could not be aligned to the anchors"), std::string::npos) << given;
   EXPECT_EQ(given.find("No anchors"), std::string::npos) << given;
   EXPECT_NE(given.find("2 things need attention, listed below."), std::string::npos) << given;
   record.anchors.clear();

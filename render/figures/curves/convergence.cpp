@@ -42,11 +42,11 @@ double near_top(const ErrorAxis& axis) {
                                    : std::lerp(low, high, kShare);
 }
 
-constexpr const char* kReadings = "range readings";
+constexpr const char* kReadings = "range measurements";
 constexpr const char* kObservation = "error of \u0108";
 const SlopeGuide kRootLaw{"slope \u22121/2", -0.5};
 
-/// A mean of each point over the number of readings.
+/// A mean of each point over the number of measurements.
 ErrorLine line_of(const ConvergenceCurve& curve, MeanEstimate ConvergencePoint::*what,
                   const std::string& label, const std::string& key) {
   ErrorLine line{.label = label, .key = key};
@@ -148,7 +148,7 @@ Figure window_curve_figure(const WindowCurveSpec& spec) {
   const std::string length = fmt::format("{:.3g}", windows.chosen_s);
   figure.caption = fmt::format(
       "Typical error of ranges that were held out, by window length; chosen: {} s, the least error "
-      "among the lengths that tell ranges at the most times. No ground truth enters the choice.",
+      "among the lengths that give ranges at the most times. No ground truth enters the choice.",
       length);
   figure.alt += fmt::format(" Chosen: {} s.", length);
   Panel& panel = figure.panels.emplace_back();
@@ -162,7 +162,7 @@ Figure window_curve_figure(const WindowCurveSpec& spec) {
 }
 
 Figure convergence_figure(const std::string& id, const ConvergenceCurve& curve) {
-  LogLogSpec spec = spec_of(id, "Convergence of the map with the number of readings", curve);
+  LogLogSpec spec = spec_of(id, "Convergence of the map with the number of measurements", curve);
   const ErrorLine observation =
       line_of(curve, &ConvergencePoint::observation, "measured", "observation");
   const ErrorLine landmarks =
@@ -201,7 +201,7 @@ Figure positions_figure(const std::string& id, const ConvergenceCurve& curve) {
   spec.caption = fmt::format(
       "{} A landmark is seen again and again, a position by {} alone: its error ends at what these "
       "allow. Slopes: {} and {}.",
-      means_of(curve), counted(curve.landmarks, "reading"), slope_of(landmarks),
+      means_of(curve), counted(curve.landmarks, "measurement"), slope_of(landmarks),
       slope_of(positions));
   spec.panels = {{"", kReadings, "error [m]", {landmarks, positions}, kRootLaw, {}}};
   return log_log_figure(spec);

@@ -20,11 +20,11 @@ struct WindowCurveSpec {
 /// @throws InvalidInput if lengths and errors differ in number, or a length is not positive.
 Figure window_curve_figure(const WindowCurveSpec& spec);
 
-/// Error of the measurement model C-hat over the number of readings, with 95 % bars and the slope
-/// −1/2 of theory, and the landmarks' error beside it [boots2013, figure 1B].
+/// Error of the measurement model C-hat over the number of measurements, with 95 % bars and the
+/// slope −1/2 of theory, together with the landmarks' error [boots2013, figure 1B].
 Figure convergence_figure(const std::string& id, const ConvergenceCurve& curve);
 
-/// The sine of the largest canonical angle between the learned subspace and the true one beside its
+/// The sine of the largest canonical angle between the learned subspace and the true one, with its
 /// bound [boots2013, eq. 5], whose constant is fitted at the first point.
 Figure subspace_angle_figure(const std::string& id, const ConvergenceCurve& curve);
 

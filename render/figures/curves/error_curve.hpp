@@ -69,7 +69,7 @@ struct ErrorByParameterSpec {
   std::vector<std::string> record_ids;
 };
 
-/// The mean error of each method over its parameter with its 95 % band, a panel a kind of
+/// The mean error of each method over its parameter with its 95 % band, one panel per kind of
 /// parameter; our optimum and the paper's marked.
 /// @throws InvalidInput as error_lines_figure.
 Figure error_by_parameter_figure(const ErrorByParameterSpec& spec);

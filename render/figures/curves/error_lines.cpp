@@ -72,7 +72,7 @@ Labels labels_of(const ErrorLinesSpec& spec) {
   return all;
 }
 
-/// Says how many means and points lie above the frame.
+/// Notes how many means and points lie above the frame.
 void note_ceiling(const ErrorLinesSpec& spec, const ErrorAxis& axis, Figure& figure) {
   const auto is_above = [&](double value) { return value > axis.limits.high; };
   long long above = 0;

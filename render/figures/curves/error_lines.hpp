@@ -9,7 +9,8 @@
 
 namespace mapproof {
 
-/// How the i-th curve of a figure looks: ink, dash and marker; no two of the first 21 are alike.
+/// The style of the i-th curve of a figure: colour, dash and marker; no two of the first 21 are
+/// alike.
 struct SeriesStyle {
   Ink ink = Ink::kSeries1;
   Dash dash = Dash::kSolid;
@@ -19,18 +20,18 @@ SeriesStyle series_style(std::size_t i);
 
 /// An error over something. All vectors are as long as `x`; NaN: nothing known.
 struct ErrorLine {
-  std::string label;              ///< In the legend; lines of one label look alike in all panels.
-  std::string key;                ///< [a-z0-9-]+, unique in its panel; ids of marks are made of it.
-  std::vector<double> x = {};     ///< Ascending.
+  std::string label;           ///< In the legend; lines of one label have one style in all panels.
+  std::string key;             ///< [a-z0-9-]+, unique in its panel; ids of marks are made of it.
+  std::vector<double> x = {};  ///< Ascending.
   std::vector<double> mean = {};  ///< Over runs.
   std::vector<double> low = {};   ///< Of the 95 % interval; empty, with `high`: no band.
   std::vector<double> high = {};
-  /// Which style it takes (see series_style), so that a method looks alike in all figures; empty,
+  /// Which style it takes (see series_style), so that a method has one style in all figures; empty,
   /// or two labels of one figure with the same: by first appearance.
   std::optional<std::size_t> series = std::nullopt;
 };
 
-/// A point to be told apart from the lines, such as a published value.
+/// A point that differs from the lines, such as a published value.
 struct ErrorPoint {
   std::string label;  ///< In the legend, shared by all points of one kind.
   std::string line;   ///< The label of the line whose colour it takes.

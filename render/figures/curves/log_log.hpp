@@ -9,7 +9,7 @@
 
 namespace mapproof {
 
-/// A line of the slope that theory tells, to be compared by eye: it stands a little above the data.
+/// A line of the slope that theory predicts, to be compared by eye: a little above the data.
 struct SlopeGuide {
   std::string label;  ///< "slope −1/2".
   double slope = 0.0;
@@ -44,7 +44,7 @@ double log_log_slope(const std::vector<double>& x, const std::vector<double>& y)
 std::string slope_words(double slope);
 
 /// Panels with two logarithmic axes each; values that are not positive are left out, and bars that
-/// reach down to zero end at the frame. The alt text tells each line's ends and its slope.
+/// reach down to zero end at the frame. The alt text gives each line's ends and its slope.
 /// @throws InvalidInput if a line's vectors disagree in length.
 Figure log_log_figure(const LogLogSpec& spec);
 

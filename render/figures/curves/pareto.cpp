@@ -32,7 +32,7 @@ struct ParetoLayers {
   Polyline steps{
       .label = "Pareto front", .ink = Ink::kSeries2, .dash = Dash::kDashed, .mark = {"front", {}}};
   Scatter best{.label = "on the front", .ink = Ink::kSeries2, .marker = Marker::kDiamond};
-  Scatter beaten{.label = "beaten in both", .ink = Ink::kSeries1, .filled = false};
+  Scatter beaten{.label = "dominated", .ink = Ink::kSeries1, .filled = false};
   PointLabels names;
   std::vector<std::string> words;  ///< Of those on the front.
 };

@@ -16,8 +16,8 @@ struct RefinementStartsSpec {
 };
 
 /// Final cost and error of every start of the refinement, whatever came of it: those from the
-/// spectral answer, from odometry and from random landmarks. Without a truth the iterations stand
-/// for the error. Starts without a result are counted in a note.
+/// spectral answer, from odometry and from random landmarks. Without ground truth the iterations
+/// stand for the error. Starts without a result are counted in a note.
 Figure refinement_starts_figure(const RefinementStartsSpec& spec);
 
 /// How many starts of one kind end within 1 % of the least cost of all, and how many there are.

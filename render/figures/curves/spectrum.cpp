@@ -25,7 +25,7 @@ void require_values(const SingularValuesSpec& spec) {
                            ": a singular value is negative or infinite");
 }
 
-/// What noise reaches: as told, or what was dropped.
+/// The level of noise: as given, or what was dropped.
 std::optional<double> floor_of(const SingularValues& one) {
   if (one.noise_level && *one.noise_level > 0.0) return one.noise_level;
   if (one.values.size() > one.rank && one.values[one.rank] > 0.0) return one.values[one.rank];

@@ -162,7 +162,8 @@ Figure critical_difference_figure(const CriticalDifferenceSpec& spec) {
         {"The Friedman test finds no difference: the bars prove nothing.", Ink::kWarning});
   if (!spec.methods.empty() && diagram.beyond_axis())
     figure.notes.push_back(
-        {"CD is longer than the axis (arrow): so few units tell no methods apart.", Ink::kWarning});
+        {"CD is longer than the axis (arrow): with so few units no difference is significant.",
+         Ink::kWarning});
   if (spec.methods.empty()) figure.notes.push_back({"There are no methods.", Ink::kWarning});
   figure.caption = fmt::format(
       "Mean ranks of {} over {}, the best to the left. Bars join methods that do not differ: their "

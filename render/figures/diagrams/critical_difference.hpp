@@ -26,7 +26,7 @@ struct CriticalDifferenceSpec {
 
 /// The critical-difference diagram [demsar2006, fig. 1]: methods at their mean ranks, the best to
 /// the left; thick bars join those that do not differ. An arrow stands for a critical
-/// difference longer than the axis, and a note says so.
+/// difference longer than the axis, with a note.
 /// @throws InvalidInput unless ranks are finite and in 1 to the number of methods, the critical
 ///         difference is positive and there are at most 30 methods.
 Figure critical_difference_figure(const CriticalDifferenceSpec& spec);

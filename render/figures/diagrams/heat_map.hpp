@@ -23,7 +23,7 @@ struct HeatMapSpec {
 };
 
 /// Coloured cells of one size with their numbers and a colour bar, the first levels at the lower
-/// left; missing ones are hatched, and a note says so. The colours are viridis, whose lightness
+/// left; missing ones are hatched, with a note. The colours are viridis, whose lightness
 /// rises evenly: along the logarithm where the values, all positive, span more than a factor of 10
 /// and are not percentages.
 /// @throws InvalidInput if values and levels differ in number or no value is there.

@@ -108,7 +108,7 @@ std::string colours(Sensor sensor) {
   return "from near (dark) to far (light)";
 }
 
-constexpr double kViewOfReach = 1.3;  // Half the side of the picture of a disc.
+constexpr double kViewOfReach = 1.3;  // Half the side of the image of a disc.
 constexpr Eigen::Index kTrail = 40;   // Steps of the path that are drawn.
 
 class MeasurementFigure {

@@ -8,7 +8,7 @@
 
 namespace mapproof {
 
-/// What pictures of a measurement are made of, in the plane and in space.
+/// The parts of figures of a measurement, in the plane and in space.
 
 /// @throws InvalidInput if parts disagree in size, lengths are not positive, places are not finite,
 ///         or the sensor is neither visibility nor bearing.

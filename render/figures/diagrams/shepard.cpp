@@ -65,7 +65,7 @@ Cells density(const ShepardPanel& panel, const PanelLimits& limits) {
     count = count > 0.0 ? std::log1p(count) : kNaN;
   }
   cells.values = std::move(counts);
-  // Even a single pair is told from the paper.
+  // Even a single pair is visible on the background.
   cells.limits = {0.4 * std::log1p(1.0), std::log1p(most)};
   cells.ink = Ink::kSeries1;
   return cells;
@@ -135,7 +135,7 @@ Figure shepard_figure(const ShepardSpec& spec) {
                     significant(fits[i].stress), counted(fits[i].pairs, "pair"));
     if (greatest(method, method.mapped_m) > limits.y.high)
       figure.notes.push_back(
-          {fmt::format("{}: distances up to {} m are outside the picture.", method.title,
+          {fmt::format("{}: distances up to {} m are outside the image.", method.title,
                        significant(greatest(method, method.mapped_m))),
            Ink::kWarning});
   }

@@ -48,7 +48,7 @@ PanelLimits limits_of(const Points& truth_m) {
 struct EllipseLayers {
   Ellipses scatter{
       .label = "95 % of estimates", .ink = Ink::kSeries1, .fill = Fill::kTint, .width = 0.6};
-  Segments bias{.label = "truth to mean", .ink = Ink::kText, .width = 0.7};
+  Segments bias{.label = "ground truth to mean", .ink = Ink::kText, .width = 0.7};
   Scatter means{.label = "mean estimate", .ink = Ink::kSeries1, .size = 0.6};
   Scatter truth{.label = "true position", .ink = Ink::kText, .filled = false, .size = 0.7};
   Scatter anchors{.label = "anchor",
@@ -97,11 +97,11 @@ PanelLimits widened(const PanelLimits& limits, const Ellipses& ellipses) {
   return {widen(limits.x, ellipses.x, true), widen(limits.y, ellipses.y, false)};
 }
 
-/// What the words say.
+/// What the text reports.
 struct EllipseSummary {
   std::size_t placed = 0;        ///< Landmarks with a mean.
   std::size_t with_ellipse = 0;  ///< With three runs or more.
-  std::size_t outside = 0;       ///< Means beyond the picture.
+  std::size_t outside = 0;       ///< Means outside the image.
   double sum_bias_m = 0.0;       ///< Over those placed.
   double sum_a_m = 0.0;          ///< Over those with an ellipse.
   double worst_a_m = 0.0;
@@ -127,7 +127,7 @@ std::string alt_of(const EllipseMapSpec& spec, const EllipseSummary& summary) {
       fmt::format("Scatter of the estimates of {} over {}.", counted(spec.names.size(), "landmark"),
                   counted(spec.estimates_m.size(), "run"));
   if (summary.placed > 0)
-    text += fmt::format(" The means are {} m from the truth on average.",
+    text += fmt::format(" The means are {} m from the ground truth on average.",
                         significant(summary.sum_bias_m / static_cast<double>(summary.placed)));
   if (summary.with_ellipse > 0)
     text +=
@@ -144,7 +144,7 @@ std::vector<Note> notes_of(const EllipseSummary& summary) {
     notes.push_back({"Fewer than three runs: no ellipses.", Ink::kWarning});
   if (summary.outside > 0)
     notes.push_back(
-        {counted(summary.outside, "mean estimate") + " outside the picture.", Ink::kWarning});
+        {counted(summary.outside, "mean estimate") + " outside the image.", Ink::kWarning});
   return notes;
 }
 

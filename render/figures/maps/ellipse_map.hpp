@@ -33,9 +33,10 @@ struct ScatterEllipse {
 /// rows `row` of all runs.
 ScatterEllipse scatter_ellipse(const std::vector<Points>& estimates_m, Eigen::Index row);
 
-/// Where the runs of one layout put each landmark: the mean, joined to the truth, and the 95 %
-/// ellipse of the scatter.
-/// @throws InvalidInput if parts disagree in size, the truth is not finite, or places are infinite.
+/// Where the runs of one layout put each landmark: the mean, joined to the ground truth, and the 95
+/// % ellipse of the scatter.
+/// @throws InvalidInput if parts disagree in size, the ground truth is not finite, or positions are
+/// infinite.
 Figure ellipse_map_figure(const EllipseMapSpec& spec);
 
 }  // namespace mapproof

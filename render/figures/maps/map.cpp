@@ -62,7 +62,8 @@ Range middle_of(const Points& points, Eigen::Index column) {
   return {values[cut], values[values.size() - 1 - cut]};
 }
 
-/// Where a reader's eye belongs: the room if the truth is known, else the bulk of the estimates.
+/// Where a reader's eye belongs: the room if the ground truth is known, else the bulk of the
+/// estimates.
 Extent core_of(const MapRecord& record, const MapView& view) {
   Extent extent;
   if (record.frame == Frame::kTruth) {
@@ -106,8 +107,9 @@ void find_worst(MapView& view) {
   view.worst.resize(std::min(view.worst.size(), most));
 }
 
-constexpr std::size_t kMostNamed = 5;            // Names in one sentence.
-constexpr Eigen::Index kMostLabelsOfShape = 30;  // Without a truth all names are shown up to this.
+constexpr std::size_t kMostNamed = 5;  // Names in one sentence.
+constexpr Eigen::Index kMostLabelsOfShape =
+    30;  // Without ground truth all names are shown up to this.
 
 std::string subject(const MapRecord& record, std::string_view separator) {
   if (!std::holds_alternative<FromSensor>(record.origin))
@@ -163,7 +165,7 @@ class MapFigure {
     if (record_.names.empty()) notes.push_back({"There are no landmarks.", Ink::kWarning});
     if (const std::string score = score_text(record_); !score.empty()) notes.push_back({score});
     if (record_.frame == Frame::kSimilarity)
-      notes.push_back({"Shape alone: place, turn, scale and mirror are arbitrary."});
+      notes.push_back({"Shape alone: translation, rotation, scale and reflection are arbitrary."});
     if (!view_.outside.empty()) notes.push_back({outside_text(), Ink::kWarning});
     if (!view_.unmapped.empty())
       notes.push_back(
@@ -175,7 +177,7 @@ class MapFigure {
 
   std::string outside_text() const {
     std::string text =
-        fmt::format("Arrows: {} outside the picture", counted(view_.outside.size(), "estimate"));
+        fmt::format("Arrows: {} outside the image", counted(view_.outside.size(), "estimate"));
     double farthest = 0.0;
     for (const Eigen::Index i : view_.outside)
       if (view_.error_m[i] > farthest) farthest = view_.error_m[i];
@@ -189,9 +191,9 @@ class MapFigure {
     if (!score.empty()) caption += ": " + score;
     caption += ".";
     if (record_.frame == Frame::kSimilarity)
-      caption += " Dots: estimates; place, turn, scale and mirror are arbitrary.";
+      caption += " Dots: estimates; translation, rotation, scale and reflection are arbitrary.";
     else if (record_.anchors.empty() && !record_.truth_m)
-      caption += " Dots: estimates; place and turn are arbitrary.";
+      caption += " Dots: estimates; translation and rotation are arbitrary.";
     else
       caption +=
           " Open circles: true positions; dots: estimates, joined by their errors; squares: "
@@ -238,7 +240,7 @@ class MapFigure {
     return lines;
   }
 
-  /// From the true place toward the estimate, up to the edge of the picture.
+  /// From the true position toward the estimate, up to the edge of the image.
   Segments arrows() const {
     Segments lines{.label = "estimate outside", .ink = Ink::kSeries1, .width = 0.8, .arrow = true};
     for (const Eigen::Index i : view_.outside) {
@@ -274,7 +276,7 @@ class MapFigure {
   }
 
   Scatter estimates() const {
-    // A single entry would need no legend, and look like one more landmark.
+    // A single entry needs no legend, and would resemble one more landmark.
     const bool alone = record_.frame == Frame::kSimilarity && view_.outside.empty();
     Scatter points{.label = alone ? "" : "estimate", .ink = Ink::kSeries1, .size = 0.8};
     for (Eigen::Index i = 0; i < rows(); ++i) {

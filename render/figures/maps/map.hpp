@@ -24,7 +24,8 @@ struct MapView {
   std::vector<bool> has_estimate;
   std::vector<bool> has_truth;
   std::vector<bool> is_anchor;
-  std::vector<double> error_m;         ///< NaN unless both places are known, in the frame of truth.
+  std::vector<double>
+      error_m;  ///< NaN unless both positions are known, in the frame of the ground truth.
   std::vector<Eigen::Index> worst;     ///< Rows of the greatest errors, no anchors, worst first.
   std::vector<Eigen::Index> unmapped;  ///< Rows without an estimate.
   std::vector<Eigen::Index> outside;   ///< Rows whose estimate lies outside `limits`.
@@ -34,12 +35,12 @@ struct MapView {
 /// @throws InvalidInput if the record's parts disagree in size or hold infinities.
 MapView view_of(const MapRecord& record);
 
-/// One map: truth as open circles, estimates as dots, joined by lines; anchors as squares; the
-/// worst landmarks labelled. Estimates far outside the room become arrows at the frame, and the
+/// One map: ground truth as open circles, estimates as dots, joined by lines; anchors as squares;
+/// the worst landmarks labelled. Estimates far outside the room become arrows at the frame, and the
 /// figure says so. Statuses are drawn below the title.
 ///
 /// @param id    Of the figure, [a-z][a-z0-9-]*.
-/// @param what  What it shows, where method, sensor and steps of the record do not say it: its
+/// @param what  What it shows, where method, sensor and steps of the record do not: its
 ///              title, and the start of its caption. Empty: they do.
 /// @throws InvalidInput if the record's parts disagree in size.
 /// @note Pure: O(landmarks).

@@ -73,7 +73,7 @@ void add_ellipses(const MapRecord& record, const MapCertainty& certainty, Figure
 std::string ellipse_words(const MapCertainty& certainty) {
   std::string words = fmt::format(
       "Ellipses ({:g} %): where the mean of the maps of other such walks would lie, by {} of "
-      "blocks of {} drawn anew; what every such map has wrong is not in them.",
+      "blocks of {}, as bootstrap resamples; a bias that all these maps share is not included.",
       100.0 * certainty.confidence, counted(certainty.maps, "map"),
       counted(certainty.block_steps, "step"));
   if (certainty.maps < certainty.replicates)

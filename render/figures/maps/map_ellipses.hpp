@@ -8,13 +8,13 @@
 
 namespace mapproof {
 
-/// Puts the ellipses of a map under what its figure shows, and tells of them in the caption. Where
+/// Puts the ellipses of a map under what its figure shows, and describes them in the caption. Where
 /// some are as large as the map, the frame cuts them.
 /// @param figure  map_figure() of the record.
 /// @throws InvalidInput unless there is a covariance a landmark.
 void add_ellipses(const MapRecord& record, const MapCertainty& certainty, Figure& figure);
 
-/// What the ellipses of a map say, and what they do not: a sentence or two.
+/// What the ellipses of a map include, and what they do not: a sentence or two.
 std::string ellipse_words(const MapCertainty& certainty);
 
 }  // namespace mapproof

@@ -83,7 +83,7 @@ Figure grid_of(const MapGridSpec& spec, const std::vector<const TitledMap*>& map
   figure.caption += maps.front()->map.frame == Frame::kTruth
                         ? "Open circles: true positions; dots: estimates, joined by their errors; "
                           "squares: anchors."
-                        : "Place, turn, scale and mirror are arbitrary.";
+                        : "Translation, rotation, scale and reflection are arbitrary.";
   if (!without_place.empty()) {
     const std::string text =
         "Landmarks without a place are left out of: " + listed(without_place, 4) + ".";

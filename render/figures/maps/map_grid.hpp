@@ -17,14 +17,14 @@ struct TitledMap {
 struct MapGridSpec {
   std::string id;  ///< [a-z][a-z0-9-]*.
   std::string title;
-  std::vector<TitledMap> maps;  ///< All in the frame of truth, or none.
+  std::vector<TitledMap> maps;  ///< All in the frame of the ground truth, or none.
 };
 
 /// One run's map at each checkpoint, at most ten of them, all with the same limits.
 /// @throws InvalidInput if there is no map, frames differ, or a record's parts disagree in size.
 Figure film_strip_figure(const MapGridSpec& spec);
 
-/// Two maps or a few beside each other with the same limits, such as the run nearest to a paper's
+/// Two maps or a few side by side with the same limits, such as the run nearest to a paper's
 /// example and the median run; the worst landmarks named as in map_figure.
 /// @throws InvalidInput as film_strip_figure.
 Figure map_pair_figure(const MapGridSpec& spec);

@@ -128,8 +128,9 @@ Figure occlusion_figure(const OcclusionSpec& spec) {
   for (Panel& panel : figure.panels)
     panel.x.label = "scans within reach that occlusion decides [%]";
   figure.caption =
-      "Share of the looks at landmarks within reach in which another landmark hides the one looked "
-      "at, so that visibility is no matter of robot and landmark alone; the number of runs, and "
+      "Share of the scans of landmarks within reach in which another landmark hides the one "
+      "observed, so that visibility does not depend on robot and landmark alone; the number of "
+      "runs, and "
       "the error of each run's maps.";
   if (shares.empty()) {
     figure.notes.push_back({"There are no runs.", Ink::kWarning});

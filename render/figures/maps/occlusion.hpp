@@ -19,7 +19,8 @@ struct OcclusionMethod {
 struct OcclusionSpec {
   std::string id;  ///< [a-z][a-z0-9-]*.
   std::string title;
-  std::vector<double> hidden_share;  ///< Of looks at landmarks within reach, 0 to 1, one a run.
+  std::vector<double>
+      hidden_share;  ///< Of observations of landmarks within reach, 0 to 1, one per run.
   std::vector<OcclusionMethod> methods;
   std::vector<std::string> record_ids;
 };

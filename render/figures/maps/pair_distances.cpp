@@ -41,7 +41,7 @@ Segments pair_lines(const MeasuredMapSpec& spec) {
   return lines;
 }
 
-/// Distances of the pairs between known places, beside those measured.
+/// Distances of the pairs between known positions, compared with those measured.
 struct Distances {
   const char* where;  ///< "in the map".
   Scatter against;    ///< Measured and known distance.
@@ -123,8 +123,8 @@ Figure pair_distances_figure(const PairDistancesSpec& spec) {
                                                is_fitted ? "in the map as fitted" : "in the map",
                                                Ink::kSeries1, Marker::kCircle)};
   if (spec.map.truth_m)
-    known.push_back(
-        distances_in(*spec.map.truth_m, spec, "in the truth", Ink::kSeries2, Marker::kCross));
+    known.push_back(distances_in(*spec.map.truth_m, spec, "in the ground truth", Ink::kSeries2,
+                                 Marker::kCross));
   double longest = 0.0;
   for (const Distances& distances : known)
     for (const double x : distances.against.x) longest = std::max(longest, x);

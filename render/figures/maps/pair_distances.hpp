@@ -31,8 +31,8 @@ struct PairDistancesSpec {
   const std::vector<MeasuredPair>& pairs;  ///< Of its rows.
 };
 
-/// Measured distances of pairs against those in the map and, where it is known, in the truth; and
-/// beside that what they are off, over the distance. Pairs without a place are not shown.
+/// Measured distances of pairs against those in the map and, where it is known, in the ground
+/// truth; and next to that their errors over the distance. Pairs without a position are not shown.
 /// @throws InvalidInput if a pair's row is none.
 Figure pair_distances_figure(const PairDistancesSpec& spec);
 

@@ -24,7 +24,7 @@ namespace {
 using Eigen::Index;
 
 constexpr double kPathReach = 0.5;  // Sides about the core that paths may take up.
-constexpr double kMargin = 0.05;    // Of the picture's side.
+constexpr double kMargin = 0.05;    // Of the image's side.
 constexpr double kVisible = 0.06;   // Half axis of the largest ellipse, of the side, at most.
 constexpr double kTolerance = 1.0 / 3600.0;  // Of the side.
 
@@ -136,7 +136,7 @@ double enlargement(const PathView& view) {
 
 bool any_finite(const Points& points) { return points.array().isFinite().any(); }
 
-constexpr std::size_t kMostNamedLandmarks = 12;  // Landmarks with a name beside them.
+constexpr std::size_t kMostNamedLandmarks = 12;  // Landmarks with a name next to them.
 
 std::string label_of(const SlamRecord& record) { return std::string(info(record.method).label); }
 
@@ -307,7 +307,7 @@ class PathMap {
       notes.push_back(
           {fmt::format("Ellipses hold 95 % and are enlarged {:g} times.", view_.enlarged)});
     if (!view_.leaving.empty())
-      notes.push_back({"Beyond the picture: " + listed(view_.leaving, 4) + ".", Ink::kWarning});
+      notes.push_back({"Outside the image: " + listed(view_.leaving, 4) + ".", Ink::kWarning});
     std::vector<std::string> others;
     for (const SlamRecord* record : view_.failed) {
       const auto& statuses = record->estimate.statuses;

@@ -16,10 +16,11 @@ struct PathMapSpec {
   std::vector<SlamMethod> methods;  ///< Shown in this order, the first lowest.
 };
 
-/// Paths and landmarks of a run, true and recovered: the map above and, where there is a truth, the
-/// error of each position over time below. Paths are thinned to what the eye can see. Landmarks
-/// that carry a covariance have the ellipse of 95 %, enlarged by a stated factor where it would be
-/// too small to be seen. A path that leaves the picture, and a method without a path, is named.
+/// Paths and landmarks of a run, true and recovered: the map above and, where there is ground
+/// truth, the error of each position over time below. Paths are thinned to what the eye can see.
+/// Landmarks that carry a covariance have the ellipse of 95 %, enlarged by a stated factor where it
+/// would be too small to be seen. A path that leaves the image, and a method without a path, is
+/// named.
 /// @throws InvalidInput if parts of a record disagree in size.
 /// @note Pure. O(T log T) a method.
 Figure path_map_figure(const PathMapSpec& spec);
@@ -29,14 +30,14 @@ struct PathView {
   std::vector<const SlamRecord*> shown;   ///< Those asked for that have a path or a landmark.
   std::vector<const SlamRecord*> failed;  ///< Those that have neither.
   PanelLimits limits;                     ///< Of the map.
-  double side_m = 1.0;                    ///< The longer one of the picture's sides.
-  std::vector<std::string> leaving;       ///< Labels of methods whose path leaves the picture.
+  double side_m = 1.0;                    ///< The longer one of the image's sides.
+  std::vector<std::string> leaving;       ///< Labels of methods whose path leaves the image.
   double tolerance_m = 0.0;               ///< Of thinning: a third of a pixel at 1200.
   double enlarged = 1.0;                  ///< Factor of the ellipses.
 };
 
-/// The picture is where the truth is, or, without one, the bulk of the paths, and what lies within
-/// half its side about it.
+/// The image is where the ground truth is, or, without one, the bulk of the paths, and what lies
+/// within half its side about it.
 /// @throws InvalidInput if parts of a record disagree in size.
 PathView path_view(const PathMapSpec& spec);
 

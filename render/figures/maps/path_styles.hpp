@@ -7,7 +7,7 @@
 
 namespace mapproof {
 
-/// How a method's path, errors and landmarks look, the same in all figures.
+/// The style of a method's path, errors and landmarks, the same in all figures.
 struct PathStyle {
   Ink ink = Ink::kSeries1;
   Dash dash = Dash::kSolid;  ///< Of errors over time; paths are solid, being dense.
@@ -16,7 +16,7 @@ struct PathStyle {
 };
 PathStyle path_style(SlamMethod method);
 
-/// The truth's ink: wide and grey, so that what lies on it is seen.
+/// The colour class of the ground truth: wide and grey, so that what lies on it is seen.
 inline constexpr Ink kTrueInk = Ink::kMuted;
 
 /// "unaligned", "rigid", "rigid with reflection", "similarity": how an error was taken, in

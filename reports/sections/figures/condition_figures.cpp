@@ -62,7 +62,7 @@ std::string parameter_words(const Variation& variation) {
   return words;
 }
 
-/// A panel a level, error over the parameter.
+/// One panel per level, error over the parameter.
 Figure grid_figure(const Study& study, const Variation& variation) {
   const std::vector<VariedSetting> settings = summarize(study, variation);
   ErrorLinesSpec spec;
@@ -103,7 +103,7 @@ Figure level_figure(const Study& study, const Variation& variation) {
   return level_curve_figure(spec);
 }
 
-/// All placements of one sensor's anchors, a panel a method.
+/// All placements of one sensor's anchors, one panel per method.
 void add_anchors(const Study& study, Sensor sensor, std::vector<Figure>& figures) {
   AnchorCountSpec spec;
   spec.id = fmt::format("anchors-{}", name(sensor));

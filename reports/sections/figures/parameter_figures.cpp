@@ -11,7 +11,7 @@
 namespace mapproof {
 namespace {
 
-/// A map off by this many sides of the room says nothing but that it is wrong.
+/// A map with an error of this many sides of the room carries no information but that it is wrong.
 constexpr double kOffTheRoom = 10.0;
 
 using Estimate = std::optional<MeanEstimate> SettingSummary::*;

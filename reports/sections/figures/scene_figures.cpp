@@ -59,8 +59,8 @@ void add_best(FigureSource& source, const SettingSummary& best, std::vector<Scen
        .record_ids = {map->id}}));
 }
 
-/// The median run of the best method, at every checkpoint that has a map in the frame of the truth;
-/// empty with fewer than two.
+/// The median run of the best method, at every checkpoint that has a map in the frame of the ground
+/// truth; empty with fewer than two.
 std::optional<FormingSceneSpec> forming_of(FigureSource& source, const SensorStudy& sensor) {
   const std::vector<SettingSummary> all = source.best(sensor);
   const SettingSummary* best = best_of(all);

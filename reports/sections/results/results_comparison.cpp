@@ -290,8 +290,9 @@ std::string sentence_of(const MethodComparison& comparison, const ResultsView& v
                   is_significant(next) ? "a significant difference" : "no significant difference",
                   p_words(next.corrected_p), counted(comparison.groups, "group"));
   if (has_rank_diagram(comparison) && is_apart_by_ranks(comparison, 1) != is_significant(next))
-    text += fmt::format("; their mean ranks {} them apart",
-                        is_significant(next) ? "do not tell" : "tell");
+    text +=
+        fmt::format("; their mean ranks {}",
+                    is_significant(next) ? "do not differ significantly" : "differ significantly");
   return text + ").";
 }
 
@@ -318,10 +319,10 @@ std::string disagreement_of(const MethodComparison& comparison, const ResultsVie
   const std::string best = label_of(comparison.methods[0], view);
   std::string text;
   if (!by_pairs.empty())
-    text = fmt::format("The paired test tells {} from {}, mean ranks do not. ",
+    text = fmt::format("The paired test distinguishes {} from {}, mean ranks do not. ",
                        listed(by_pairs, kMostNamed), best);
   if (!by_ranks.empty())
-    text += fmt::format("Mean ranks tell {} from {}, the paired test does not. ",
+    text += fmt::format("Mean ranks distinguish {} from {}, the paired test does not. ",
                         listed(by_ranks, kMostNamed), best);
   return text +
          "Both can be: the paired test weighs how large the differences are and is corrected for "

@@ -33,7 +33,7 @@ std::vector<Block> given_provenance(const ResultsView& view, const std::string& 
 /// and where the numbers come from.
 Report results_report(const ResultsReportInput& input);
 
-/// Its sections alone, to stand in a report with others: ids begin with the study's name, titles
+/// Its sections alone, for a report with others: ids begin with the study's name, titles
 /// with its title.
 std::vector<Section> results_sections(const ResultsReportInput& input);
 

@@ -34,7 +34,7 @@ Cell interval_cell_of(const std::optional<Interval>& interval, int decimals) {
   return IntervalCell{interval->low, interval->high, decimals};
 }
 
-/// The cells of one condition, and what is to be said of them.
+/// The cells of one condition, and the notes on them.
 class CellMaker {
  public:
   CellMaker(const ResultsView& view, Table& table) : view_(view), table_(table) {}
@@ -80,7 +80,7 @@ void add_note(const ResultsView& view, Table& table) {
           counted(static_cast<long long>(view.groups()), "group")));
 }
 
-/// "SDE: not converged in 3 of 9 at noise 0.5.": a note per line and status.
+/// "SDE: not converged in 3 of 9 at noise 0.5.": one note per line and status.
 void add_status_notes(const ResultsView& view, const ResultsBlock& block,
                       const std::vector<ResultsLine>& lines, Table& table) {
   for (const ResultsLine& line : lines) {

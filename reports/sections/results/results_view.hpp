@@ -21,13 +21,13 @@ struct ResultsBlock {
   std::string factor = {};         ///< Along which curves go; empty: there is a single level.
   std::vector<Level> levels = {};  ///< Of it, ascending; none without a factor.
   std::vector<Condition> conditions = {};  ///< One per level; one without a factor.
-  std::vector<Level> others = {};          ///< The levels at which the other factors stand.
+  std::vector<Level> others = {};          ///< The levels of the other factors.
 
   /// Whether the levels are numbers, so that a curve can go along them.
   bool has_axis() const;
 };
 
-/// The blocks of a setup that differ in the same factors, to be seen beside each other.
+/// The blocks of a setup that differ in the same factors, shown side by side.
 struct ResultsOverview {
   std::string id;       ///< Of its section; unique in the study.
   std::string title;    ///< "Indoors: overview by terrain".
@@ -109,7 +109,7 @@ class ResultsView {
   void add_setup(const Label& setup);
   void make_overviews();
   std::optional<ResultsOverview> overview_of(const std::vector<const ResultsBlock*>& blocks) const;
-  /// "noise 0.1 m", "grass": a text says by itself what it is of.
+  /// "noise 0.1 m", "grass": a text needs no name of its factor.
   std::string short_words(const Level& level) const;
 
   const ResultsStudy& study_;
@@ -133,7 +133,7 @@ std::string slug_of(const std::string& text);
 /// The level's text for ids, with its sign in words: "minus-5", "0-5", "grass".
 std::string level_slug(const Level& level);
 
-/// Decimals that tell these values apart: three significant digits of their median.
+/// Decimals that distinguish these values: three significant digits of their median.
 int decimals_of(std::vector<double> sizes);
 
 }  // namespace mapproof

@@ -44,7 +44,7 @@ Figure path_figure(const SlamRun& run) {
   return path_map_figure({id, numbered(id) + title, run, shown_methods(run)});
 }
 
-/// One panel a rank: known landmarks change nothing about the factorised matrix.
+/// One panel per rank: known landmarks change nothing about the factorised matrix.
 std::optional<Figure> spectrum_figure_of(const SlamRun& run) {
   SingularValuesSpec spec;
   spec.id = "spectrum-" + run.id;
@@ -192,7 +192,8 @@ StudyFigures slam_figures(const SlamStudy& study, const SlamTimings& timings) {
   if (study.histories)
     add(kSlamHistories, "Range-only SLAM: mapping without a path",
         "The mapping methods on the ranges and the squared ranges of one simulated world, each by "
-        "the affine map that fits all landmarks best, beside the spectral map of the same data.",
+        "the affine map that fits all landmarks best, compared with the spectral map of the same "
+        "data.",
         history_figures(*study.histories));
   if (!timings.factorization.empty())
     add(kSlamCost, "Range-only SLAM: cost",

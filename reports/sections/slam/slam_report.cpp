@@ -59,7 +59,7 @@ std::optional<Section> cost_section(const SlamReportInput& input) {
                     {plain("Seconds differ from one run of the program to the next.")}};
   if (is_of_paper(input.study))
     section.blocks.emplace_back(plain(
-        "The paper tells O((2N)\u00B2 T) for its factorisation, and \u201Cusually taking less "
+        "The paper states O((2N)\u00B2 T) for its factorisation, and \u201Cusually taking less "
         "than a second to run\u201D, in Matlab on a 2.66 GHz Core i7."));
   if (seconds) section.blocks.emplace_back(*std::move(seconds));
   return section;
@@ -73,7 +73,8 @@ std::string subtitle(const SlamStudy& study) {
   return text;
 }
 
-/// A section's title where no other paper stands beside it: without the words that tell them apart.
+/// The title of a section in a report on this paper alone: without the words that distinguish
+/// papers.
 std::string alone(std::string title) {
   constexpr std::string_view kPrefix = "Range-only SLAM: ";
   if (!title.starts_with(kPrefix)) return title;
@@ -105,11 +106,11 @@ void add_statuses(const std::string& where, const std::string& id,
   }
 }
 
-constexpr std::size_t kMostRuns = 2;  ///< Told before anything else.
+constexpr std::size_t kMostRuns = 2;  ///< Reported before anything else.
 constexpr std::size_t kMostThumbnails = 6;
 
 /// "Plaza 1: 0.19 m refined, 0.36 m spectral (rigid), 16 m dead reckoning (unaligned). "; an
-/// alignment is told once for methods in a row that share it. Empty if no method has an error.
+/// alignment is reported once for methods in a row that share it. Empty if no method has an error.
 std::vector<Phrase> errors_of(const SlamRun& run) {
   std::vector<Phrase> phrases;
   const TrajectoryError* before = nullptr;
@@ -201,7 +202,7 @@ Section slam_statuses_section(const SlamStudy& study) {
                    "space", record.estimate.statuses, list);
   std::ranges::stable_partition(list.items, &StatusList::Item::failed);
   if (list.items.empty())
-    section.blocks.emplace_back(plain("Nothing: each solve ended well."));
+    section.blocks.emplace_back(plain("None."));
   else
     section.blocks.emplace_back(std::move(list));
   return section;
@@ -223,7 +224,7 @@ Opening slam_opening(const SlamStudy& study, const StudyFigures& figures) {
       study.convergence.empty() ? kNaN : convergence_slope(study.convergence.front());
   if (std::isfinite(slope)) {
     text.phrases.push_back(
-        {"In simulation the error of the observation model goes as the readings "
+        {"In simulation the error of the observation model changes as the number of measurements "
          "to the power "});
     text.phrases.push_back(strong(slope_words(slope)));
     text.phrases.push_back({"; theory: \u22121/2."});

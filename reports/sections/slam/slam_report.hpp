@@ -22,7 +22,7 @@ struct SlamReportInput {
 /// The whole report of a range-only study.
 Report slam_report(const SlamReportInput& input);
 
-/// Its sections alone, to stand in a report with others: ids of sections and tables begin with
+/// Its sections alone, for a report with others: ids of sections and tables begin with
 /// "slam-", but for the paper's "table-plaza".
 std::vector<Section> slam_sections(const SlamReportInput& input);
 

@@ -25,14 +25,14 @@ RunList runs_of(const SlamStudy& study, bool simulated) {
 /// What the reader of the log did or noticed.
 void add_remarks(const SlamRun& run, Section& section) {
   if (run.log.remarks.empty()) return;
-  section.blocks.emplace_back(plain("While reading:"));
+  section.blocks.emplace_back(plain("When the log was read:"));
   BulletList remarks;
   for (const std::string& remark : run.log.remarks)
     remarks.items.push_back({{{remark, Emphasis::kData}}});
   section.blocks.emplace_back(std::move(remarks));
 }
 
-/// The first figure in full width, the others beside each other.
+/// The first figure in full width, the others side by side.
 Section section_of(const FigureGroup* figures, std::string id, std::string title) {
   if (figures == nullptr) return {std::move(id), std::move(title), {}};
   Section section{figures->id, figures->title, {plain(figures->words)}};
@@ -52,9 +52,10 @@ Paragraph bound_words(const ConvergenceCurve& curve) {
   return plain(fmt::format(
       "Eq. 5 bounds the sine of the largest canonical angle between the learned subspace and the "
       "true one by N c \u221A(2 log T / T) / \u03B3. The text of the paper concludes a sample "
-      "complexity of \u00D5(\u03B6\u00B2) for an error \u03B6, which would ask for fewer readings "
-      "the smaller the error: a misprint. Solved for T, the bound gives \u00D5(1/\u03B6\u00B2). "
-      "The measured sine changes as the readings to the power {}.",
+      "complexity of \u00D5(\u03B6\u00B2) for an error \u03B6, which would ask for fewer "
+      "measurements the smaller the error: a misprint. Solved for T, the bound gives "
+      "\u00D5(1/\u03B6\u00B2). "
+      "The measured sine changes as the number of measurements to the power {}.",
       slope_words(log_log_slope(steps, sines))));
 }
 
@@ -84,8 +85,8 @@ Section slam_run_section(const SlamRun& run, const FigureGroup* figures) {
     section.blocks.emplace_back(plain(fmt::format(
         "Ranges come one at a time: windows of {:.3g} s bring them to common times. Of the lengths "
         "that "
-        "tell ranges at the most times it is the one that best predicts ranges held out, without a "
-        "look at the truth.",
+        "give ranges at the most times it is the one that best predicts ranges held out, without "
+        "the ground truth.",
         run.windows->chosen_s)));
   if (auto landmarks = slam_landmark_table(run)) section.blocks.emplace_back(*std::move(landmarks));
   add_remarks(run, section);

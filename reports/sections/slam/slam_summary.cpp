@@ -34,14 +34,13 @@ std::string error_sentence_of(const SlamRun& run) {
   return parts.empty() ? "" : listed(parts, 6);
 }
 
-/// How far the ranges are off, where the refinement told.
+/// The scale error of the ranges, where the refinement determined it.
 std::string scale_words(const SlamRun& run) {
   const SlamRecord* refined = record_of(run, SlamMethod::kRefined);
   if (refined == nullptr || refined->estimate.range_scale == 1.0) return "";
   const double percent = 100.0 * (refined->estimate.range_scale - 1.0);
   return fmt::format(
-      " Its ranges are {} % too {}, as the refinement tells from odometry and ranges "
-      "alone.",
+      " Its ranges are {} % too {}, as the refinement estimates from odometry and ranges alone.",
       significant(std::abs(percent), 2), percent > 0.0 ? "long" : "short");
 }
 
@@ -75,16 +74,15 @@ void add_run(const SlamRun& run, BulletList& findings, Highlights& highlights) {
   }
 }
 
-/// Where landmarks and positions end, with the most readings.
+/// The errors of landmarks and positions with the most measurements.
 std::string end_words(const ConvergenceCurve& curve) {
   const ConvergencePoint& last = curve.points.back();
   if (last.landmarks_m.values == 0) return "";
-  std::string text = fmt::format(" After {} steps landmarks are {} off on average", last.steps,
+  std::string text = fmt::format(" After {} steps the mean error of landmarks is {}", last.steps,
                                  metres_of(last.landmarks_m.mean));
   if (last.positions_m.values > 0)
     text += fmt::format(
-        ", single positions of the robot, which have no more readings than at the "
-        "start, {}",
+        ", single positions of the robot, which have no more measurements than at the start, {}",
         metres_of(last.positions_m.mean));
   return text + ".";
 }
@@ -99,16 +97,17 @@ void add_convergence(const SlamStudy& study, BulletList& findings, Highlights& h
       {"Convergence of \u0108, slope", text, "theory: \u22121/2 in the logarithms"});
   findings.items.push_back(
       {{strong("Convergence"),
-        phrase(fmt::format(": the error of the observation model changes as the readings to the "
-                           "power {} ({}); theory tells \u22121/2.{}",
+        phrase(fmt::format(": the error of the observation model changes as the number of "
+                           "measurements to the power {} ({}); theory predicts \u22121/2.{}",
                            text, curve.title, end_words(curve)))}});
 }
 
 void add_remarks_on_paper(BulletList& findings) {
   findings.items.push_back(
       {{strong("The paper\u2019s numbers"),
-        phrase(": its text prints no errors; it refers to its technical report for them. So ours "
-               "stand alone. Fig. 2A is a photograph of the robot: left out.")}});
+        phrase(
+            ": its text prints no errors; it refers to its technical report for them. So there is "
+            "nothing to compare ours with. Fig. 2A is a photograph of the robot: left out.")}});
 }
 
 }  // namespace
@@ -126,10 +125,9 @@ Section slam_summary_section(const SlamStudy& study) {
   for (const SlamRun& run : study.runs)
     if (run.simulated) add_run(run, findings, highlights);
   if (is_of_paper(study)) add_remarks_on_paper(findings);
-  section.blocks.emplace_back(
-      plain("Path of a robot and places of landmarks from ranges, and odometry where there is any. "
-            "Squared ranges factor into landmarks and positions; least squares refines what comes "
-            "out."));
+  section.blocks.emplace_back(plain(
+      "Path of a robot and positions of landmarks from ranges, and odometry where there is any. "
+      "Squared ranges factor into landmarks and positions; least squares refines both."));
   if (!highlights.items.empty()) section.blocks.emplace_back(std::move(highlights));
   section.blocks.emplace_back(std::move(findings));
   return section;

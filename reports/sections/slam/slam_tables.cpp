@@ -26,7 +26,7 @@ std::string method_label(SlamMethod method) {
   return fmt::format("{}{}", info(method).label, info(method).baseline ? " (baseline)" : "");
 }
 
-/// Ranges over distances, where the method told it from the data.
+/// Ranges over distances, where the method determined it from the data.
 Cell scale_cell(const SlamRecord& record) {
   if (record.estimate.range_scale == 1.0) return MissingCell{};
   return NumberCell{record.estimate.range_scale, 4};
@@ -95,8 +95,8 @@ Table slam_error_table(std::string id, std::string caption, std::span<const Slam
   table.columns = {
       {"Data set", "", "", ""},
       {"Method", "", "", ""},
-      {"Given", "", "", "Landmarks whose true places the method was given."},
-      {"Alignment", "", "", "Of the path to the truth, before its error was taken."},
+      {"Given", "", "", "Landmarks whose true positions the method was given."},
+      {"Alignment", "", "", "Of the path to the ground truth, before its error was computed."},
       {"Mean", "m", group, "Over the full path."},
       {"RMSE", "m", group, "Over the full path."},
       {"Last 10 %", "m", group, "Mean over the last tenth of the path."},
@@ -113,7 +113,8 @@ Table slam_error_table(std::string id, std::string caption, std::span<const Slam
   }
   table.notes = {
       "An error means nothing without its alignment. Unaligned: compared as it came, tied to the "
-      "truth by known landmarks or by the start. Rigid: after the best rotation and translation, "
+      "ground truth by known landmarks or by the start. Rigid: after the best rotation and "
+      "translation, "
       "no "
       "scale.",
       "Marked: the least mean of a data set among rigidly aligned paths."};
@@ -151,9 +152,9 @@ Table slam_drive_table(std::span<const SlamRun* const> runs) {
                    {"Landmarks", "", "", ""},
                    {"Length", "km", "", "Of the true path, or of the odometry without one."},
                    {"Poses", "", "", "Of the true path, or of the odometry without one."},
-                   {"Range readings", "", "", ""}};
+                   {"Range measurements", "", "", ""}};
   if (published)
-    for (const char* title : {"Length", "Poses", "Range readings"})
+    for (const char* title : {"Length", "Poses", "Range measurements"})
       table.columns.push_back({title, title[0] == 'L' ? "km" : "", "Paper", ""});
   for (const SlamRun* run : runs) {
     const RangeLog& log = run->log;
@@ -193,9 +194,9 @@ std::optional<Table> slam_landmark_table(const SlamRun& run) {
     table.columns.push_back({"y", "m", "Standard deviation", ""});
   }
   if (truth) {
-    table.columns.push_back({"x", "m", "Truth", ""});
-    table.columns.push_back({"y", "m", "Truth", ""});
-    table.columns.push_back({"Error", "m", "", "Distance from the true place."});
+    table.columns.push_back({"x", "m", "Ground truth", ""});
+    table.columns.push_back({"y", "m", "Ground truth", ""});
+    table.columns.push_back({"Error", "m", "", "Distance from the true position."});
   }
   for (Index i = 0; i < estimate.landmarks_m.rows(); ++i) {
     Row row;
@@ -243,9 +244,9 @@ Table slam_convergence_table(std::span<const ConvergenceCurve> curves) {
                     angle = "Subspace angle";
   Table table;
   table.id = "slam-convergence";
-  table.caption = "Convergence with the number of readings";
+  table.caption = "Convergence with the number of measurements";
   table.columns = {{"Noise", "", "", ""},
-                   {"Readings", "", "", "Landmarks times steps."},
+                   {"Measurements", "", "", "Landmarks times steps."},
                    {"Pairs", "", "", "Random pairs of path and environment."},
                    {"Mean", "", model, "Frobenius norm."},
                    {"95 %", "", model, ""},
@@ -277,7 +278,7 @@ Table slam_history_table(const RangeHistoryStudy& study) {
   table.columns = {
       {"Method", "", "", ""},
       {"MPE", "m", "Ranges", "After the affine map that fits all landmarks best."},
-      {"MOE", "%", "Ranges", "Landmark triples that turn the wrong way, up to a mirror."},
+      {"MOE", "%", "Ranges", "Landmark triples with the wrong orientation, up to a reflection."},
       {"MPE", "m", "Squared ranges", ""},
       {"MOE", "%", "Squared ranges", ""}};
   for (const MethodInfo& method : all_methods()) {
@@ -306,12 +307,13 @@ Table slam_space_table(const SpaceRun& run) {
   table.id = "slam-space";
   table.caption = fmt::format("{} in space from {} steps of ranges",
                               counted(run.landmarks_m.rows(), "landmark"), run.positions_m.rows());
-  table.columns = {{"Known landmarks", "", "", ""},
-                   {"Landmarks", "m", "Mean error", ""},
-                   {"Positions", "m", "Mean error", ""},
-                   {"Alignment", "", "", "Before the errors were taken."},
-                   {"Range scale", "", "", "Measured range over distance, where it can be told."},
-                   {"Condition", "", "", "Of the regression, or of the upgrade."}};
+  table.columns = {
+      {"Known landmarks", "", "", ""},
+      {"Landmarks", "m", "Mean error", ""},
+      {"Positions", "m", "Mean error", ""},
+      {"Alignment", "", "", "Before the errors were taken."},
+      {"Range scale", "", "", "Measured range over distance, where it is identifiable."},
+      {"Condition", "", "", "Of the regression, or of the upgrade."}};
   const auto cell = [](const std::optional<double>& number, int decimals) {
     return number ? Cell{NumberCell{*number, decimals}} : Cell{MissingCell{}};
   };

@@ -19,7 +19,7 @@ Table slam_error_table(std::string id, std::string caption, std::span<const Slam
 /// Mean and RMSE under every other alignment that was tried; empty if there is none.
 std::optional<Table> slam_alignment_table(std::span<const SlamRun* const> runs);
 
-/// What was recorded, beside what the paper prints of it.
+/// What was recorded, compared with what the paper prints of it.
 Table slam_drive_table(std::span<const SlamRun* const> runs);
 
 /// Landmarks of the record that mapped_record() picks; empty if there is none.

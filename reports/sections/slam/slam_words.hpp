@@ -21,7 +21,7 @@ const TrajectoryError* error_of(const SlamRun& run, SlamMethod method);
 /// none has.
 const SlamRecord* mapped_record(const SlamRun& run);
 
-/// Whether the study is the paper's, so that there is something to say about the paper.
+/// Whether the study is the paper's, so that it can be compared with the paper.
 bool is_of_paper(const SlamStudy& study);
 
 /// "Plaza 1", or the id where the log has no name.
@@ -33,8 +33,8 @@ std::string path_figure_id(const SlamRun& run);
 /// Length of the true path, or else of the odometry, m; empty with neither.
 std::optional<double> length_m(const RangeLog& log);
 
-/// The power of the readings that the error of the observation model goes with; NaN if it has less
-/// than two errors.
+/// The power of the number of measurements with which the error of the observation model changes;
+/// NaN if it has less than two errors.
 double convergence_slope(const ConvergenceCurve& curve);
 
 }  // namespace mapproof

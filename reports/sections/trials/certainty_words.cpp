@@ -47,8 +47,8 @@ std::vector<std::string> certainty_conclusions(const TrialStudy& study) {
     const auto [truth_low, truth_high] = range_of(study, setup, "truth_covered_percent");
     const auto [bias_low, bias_high] = range_of(study, setup, "bias_m");
     sentences.push_back(fmt::format(
-        "{}: they hold the truth for {:.1f} to {:.1f} % of them, since the mean map is {:.3f} to "
-        "{:.3f} m off itself: ellipses tell of chance, not of what a method has wrong each time.",
+        "{}: they hold the ground truth for {:.1f} to {:.1f} % of them, since the mean map itself "
+        "is {:.3f} to {:.3f} m off: ellipses measure random errors, not the bias of a method.",
         setup.title, truth_low, truth_high, bias_low, bias_high));
   }
   return sentences;

@@ -18,7 +18,7 @@ constexpr const char* kFixedMethod = "fixed";
 
 std::string choice_question(const TrialExperiment&) {
   return "All methods with several parameters map the same observations. How much worse than the "
-         "best of these maps is the one that a criterion picks which knows nothing of the truth? "
+         "best of these maps is the one that a criterion picks without the ground truth? "
          "With anchors it judges maps fitted to them, and is judged by their MPE; without, it "
          "judges the shapes alone, and is judged by the MPE with the affine map fitted on all "
          "landmarks.";

@@ -12,9 +12,10 @@ namespace {
 
 std::string labels_question(const TrialExperiment& experiment) {
   return fmt::format(
-      "A share of the labels is dealt out anew: among single readings of a step that are known to "
-      "be without a label, the same without that knowledge, or among whole rows over stretches of "
-      "{:g} steps. What does mapping the labels as given cost, what leaving doubtful readings out, "
+      "A share of the landmark IDs is permuted: among single measurements of a step that are known "
+      "to be without an ID, the same without that knowledge, or among whole rows over intervals of "
+      "{:g} steps. What does mapping with the IDs as given cost, what leaving doubtful "
+      "measurements out, "
       "and what is won by estimating the correspondence? Maps are of SMACOF over K = {:g} "
       "neighbours.",
       number_option(experiment, "stretch"), number_option(experiment, "neighbours"));
@@ -38,8 +39,8 @@ std::vector<std::string> labels_conclusions(const TrialStudy& study) {
     }
     if (levels.empty()) continue;
     sentences.push_back(
-        fmt::format("{}: of {} % of the labels confused, {} % are set right; the mean MPE is {} m "
-                    "with labels as given and {} m with those estimated.",
+        fmt::format("{}: of {} % of wrong landmark IDs, {} % are corrected; the mean MPE is {} m "
+                    "with the IDs as given and {} m with those estimated.",
                     setup.title, all_listed(levels), all_listed(right), all_listed(given),
                     all_listed(estimated)));
   }

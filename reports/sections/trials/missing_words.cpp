@@ -17,7 +17,8 @@ std::string missing_question(const TrialExperiment& experiment) {
   return fmt::format(
       "Bearings of all landmarks are simulated and a share of them is taken away: at random, those "
       "of the most distant landmarks, or those that wide landmarks hide. PPCA and PCA of {0:g} "
-      "dimensions fill the gaps, the landmarks' means fill them, or distances are taken over "
+      "dimensions fill the missing data, the landmarks' means fill them, or distances are taken "
+      "over "
       "common steps; covisible pairs are the {1:g} landmarks that each is most often observed "
       "with. kNN-SMACOF (K = {2:g}) and ISOMAP (K = {3:g}) map the distances; maps are aligned to "
       "the anchors in least squares.",
@@ -67,7 +68,8 @@ double regret_m(const TrialStudy& study, const std::string& series) {
 
 std::string advice_words(const TrialStudy& study) {
   return fmt::format(
-      "Choosing the way by the gaps' pattern costs {:.3f} m of MPE over the best map of each trial "
+      "Choosing the strategy by the pattern of missing data costs {:.3f} m of MPE over the best "
+      "map of each trial "
       "on average; common steps always cost {:.3f} m, PPCA always {:.3f} m.",
       regret_m(study, "auto"), regret_m(study, "common-steps-smacof-knn"),
       regret_m(study, "ppca-smacof-knn"));

@@ -89,7 +89,7 @@ std::vector<std::string> mixed_conclusions(const TrialStudy& study) {
     std::erase(ends, "");
     if (!ends.empty())
       sentences.push_back(
-          fmt::format("{}: the best of the maps together beside the best of one sensor: {}.",
+          fmt::format("{}: the best map of both sensors compared with the best of one sensor: {}.",
                       setup.title, fmt::join(ends, "; ")));
   }
   for (const TrialSetup& setup : study.design.setups)

@@ -48,13 +48,13 @@ std::vector<std::string> mrclam_conclusions(const TrialStudy& study) {
     const double error = series_value(part, "pairs", "mpe_m");
     if (std::isnan(error)) {
       sentences.push_back(fmt::format(
-          "{}: no error can be told; {:.0f} landmarks are mapped from range and bearing.", part.id,
-          std::max(0.0, series_value(part, "pairs", "mapped"))));
+          "{}: no error can be determined; {:.0f} landmarks are mapped from range and bearing.",
+          part.id, std::max(0.0, series_value(part, "pairs", "mapped"))));
       continue;
     }
     sentences.push_back(
         fmt::format("{}: range and bearing together put the landmarks {:.3f} m off (MPE), {:.3f} m "
-                    "after a rigid fit; the distances of pairs say it, no pose.",
+                    "after a rigid fit; the error is over distances of pairs, without poses.",
                     part.id, error, series_value(part, "pairs", "rigid_m")));
     std::vector<std::string> others;
     for (const char* start : {"visibility", "bearing", "range"})
@@ -65,7 +65,8 @@ std::vector<std::string> mrclam_conclusions(const TrialStudy& study) {
                                       listed(others, others.size() + 1)));
     if (const double swapped = series_value(part, "swapped", "mpe_m"); !std::isnan(swapped))
       sentences.push_back(fmt::format(
-          "{}: with two labels swapped in half of the scans the map is {:.3f} m off, corrected "
+          "{}: with two landmark IDs swapped in half of the scans the map is {:.3f} m off, "
+          "corrected "
           "{:.3f} "
           "m; with a landmark called by another's name in all scans {:.3f} m, corrected {:.3f} m.",
           part.id, swapped, series_value(part, "swapped-corrected", "mpe_m"),

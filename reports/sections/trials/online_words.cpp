@@ -10,7 +10,7 @@
 namespace mapproof {
 namespace {
 
-/// The series of maps that are carried on, not made anew.
+/// The series of incremental maps, not those computed again.
 std::vector<std::string> carried_on(const TrialDesign& design) {
   std::vector<std::string> ids;
   for (const TrialSeries& series : design.series)
@@ -21,7 +21,8 @@ std::vector<std::string> carried_on(const TrialDesign& design) {
 std::string online_question(const TrialExperiment& experiment) {
   return fmt::format(
       "Observations arrive one by one, and every {:g} of them the map is made from sums over pairs "
-      "that are carried on. How far is it from the map that all observations so far make anew, and "
+      "that are updated incrementally. How far is it from the map computed again from all "
+      "observations so far, and "
       "through how many of them does each go?",
       number_option(experiment, "every"));
 }
@@ -44,8 +45,9 @@ std::vector<std::string> online_conclusions(const TrialStudy& study) {
       beyond = most("beyond_percent", beyond);
     }
     sentences.push_back(fmt::format(
-        "{}: up to {:g} observations no map carried on, whatever the method, was further than "
-        "{:.2g} ppm of its size from the map made anew{}; it goes through {:g} observations for "
+        "{}: up to {:g} observations no incremental map, whatever the method, was further than "
+        "{:.2g} ppm of its size from the map computed again{}; it goes through {:g} observations "
+        "for "
         "its last update instead of {:g}.",
         setup.title, last, greatest,
         beyond > 0.0

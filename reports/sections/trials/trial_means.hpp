@@ -46,7 +46,7 @@ std::optional<MeanEstimate> trial_difference(const TrialStudy& study, const Cond
                                              std::string_view quantity);
 
 /// "better", "worse" or "no different beyond chance", of a quantity that is better if lower;
-/// without an interval nothing is said of chance: "better, in one layout".
+/// without an interval there is no statement on significance: "better, in one layout".
 std::string verdict_words(const MeanEstimate& difference);
 
 }  // namespace mapproof

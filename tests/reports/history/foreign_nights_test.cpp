@@ -14,8 +14,8 @@
 namespace mapproof::test {
 namespace {
 
-/// Nights of a table of results: three methods at four noises in two quantities, 18 runs in six
-/// groups or another number of them. What a run scores is the same every night.
+/// Nightly runs of a table of results: three methods at four noises in two quantities, 18 runs in
+/// six groups or another number of them. What a run scores is the same in every nightly run.
 struct ForeignNight {
   int groups = 6;
   std::function<bool(const SeriesId&, int run)> is_there = [](const SeriesId&, int) {
@@ -68,7 +68,7 @@ Night second_night(const ForeignNight& first, const ForeignNight& second,
   const std::vector<std::string> told = judge_night(store, next, std::nullopt);
   if (remarks != nullptr) *remarks = told;
   store.append(next);
-  // The one after it is compared with the last good one.
+  // The one after it is compared with the last passing one.
   Night third = night_of(3, second);
   EXPECT_EQ(reference_night(store, third, std::nullopt),
             next.facts.verdict == NightVerdict::kGood ? 2 : 1);
@@ -89,9 +89,9 @@ TEST(ForeignNights, AMethodThatIsMissingIsAFailureAndNoReference) {
                                    }});
   EXPECT_EQ(night.facts.verdict, NightVerdict::kAccuracy);
   EXPECT_EQ(told(night), std::vector<std::string>{"lost-results: indoors, scan matching: ate_m"});
-  EXPECT_EQ(
-      night.findings[0].sentence,
-      "indoors, scan matching: no result any more, where night 1 had 8 series (ATE and found)");
+  EXPECT_EQ(night.findings[0].sentence,
+            "indoors, scan matching: no result any more, where nightly run 1 had 8 series (ATE and "
+            "found)");
 }
 
 TEST(ForeignNights, AQuantityASetupOrALevelThatIsMissingIsAFailure) {
@@ -123,8 +123,9 @@ TEST(ForeignNights, TheLossOfManyResultsIsAFailureHoweverItIsWritten) {
     EXPECT_EQ(night.facts.verdict, NightVerdict::kAccuracy);
     ASSERT_EQ(told(night),
               std::vector<std::string>{"lost-results: indoors, gamma noise=0.4: ate_m"});
-    EXPECT_NE(night.findings[0].sentence.find("14 of the 18 results of night 1 no longer come out"),
-              std::string::npos);
+    EXPECT_NE(
+        night.findings[0].sentence.find("14 of the 18 results of nightly run 1 no longer come out"),
+        std::string::npos);
   }
 }
 
@@ -136,9 +137,10 @@ TEST(ForeignNights, AFewLostResultsAreRemarkedOn) {
   const Night night = second_night({}, plan, &remarks);
   EXPECT_TRUE(night.findings.empty());
   ASSERT_FALSE(remarks.empty());
-  EXPECT_EQ(remarks[0],
-            "mine: 2 results of night 1 no longer come out, of indoors, gamma, noise=0.4; too few "
-            "of each to be judged");
+  EXPECT_EQ(
+      remarks[0],
+      "mine: 2 results of nightly run 1 no longer come out, of indoors, gamma, noise=0.4; too few "
+      "of each to be judged");
 }
 
 TEST(ForeignNights, EverySeriesThatGotWorseIsNamed) {

@@ -101,7 +101,7 @@ TEST(HistoryStore, IsBegunWhereThereIsNoneAndNowhereElse) {
   EXPECT_TRUE(HistoryStore::open_existing(store).nights().empty());
 }
 
-/// A store of three nights, damaged: its first `cut` bytes, `flips` of them changed.
+/// A store of three nightly runs, damaged: its first `cut` bytes, `flips` of them changed.
 std::string damaged_bytes(const fs::path& path, double cut, int flips, Random& random) {
   {
     HistoryStore store = HistoryStore::open(path.parent_path());
@@ -114,7 +114,7 @@ std::string damaged_bytes(const fs::path& path, double cut, int flips, Random& r
   std::string bytes = read_file(path);
   bytes.resize(static_cast<std::size_t>(cut * static_cast<double>(bytes.size())));
   for (int i = 0; i < flips; ++i) {
-    // Half of them in the first pages: the header, the tables' definitions, the nights.
+    // Half of them in the first pages: the header, the tables' definitions, the nightly runs.
     const double reach = i % 2 == 0 ? 12'000.0 : static_cast<double>(bytes.size());
     const auto at = static_cast<std::size_t>(
         random.uniform(0.0, std::min(reach, static_cast<double>(bytes.size()))));
@@ -152,7 +152,8 @@ TEST(HistoryStore, ThatIsInUseIsNotTakenForADamagedOne) {
   EXPECT_THROW(HistoryStore::open(folder.path()), IoError);
 }
 
-/// Appends nights to a store as long as it lives, each time under its lock, as the program does.
+/// Appends nightly runs to a store as long as it lives, each time under its lock, as the program
+/// does.
 [[noreturn]] void append_for_ever(const fs::path& folder, const fs::path& finished) {
   for (;;) {
     const FolderLock lock(folder, [] {});
@@ -176,7 +177,8 @@ TEST(HistoryStore, LosesNoFinishedNightToAHundredKillsOfTwoWriters) {
   make_folder(store);
   Random random(7);
   const fs::path finished = folder.path() / "finished";
-  // A busy machine finishes few nights between two kills: it goes on until there is enough to lose.
+  // A busy machine finishes few nightly runs between two kills: it goes on until there is enough to
+  // lose.
   for (int kill = 0; kill < 100 || (kill < 1000 && numbers_in(finished).size() <= 20); ++kill) {
     std::vector<pid_t> writers;
     for (int i = 0; i < 2; ++i) {

@@ -47,7 +47,7 @@ TEST(HistoryPages, BeginWithThreeFindingsAndSayHowManyMore) {
   for (int i = 1; i <= 7; ++i)
     night.findings.push_back({.study = "mine", .sentence = fmt::format("worse {}", i)});
   const Standing stands = study_standing(night.facts, night.findings, "mine", true);
-  EXPECT_EQ(stands.title, "Night 5: 7 things got worse");
+  EXPECT_EQ(stands.title, "Nightly run 5: 7 things got worse");
   ASSERT_EQ(stands.sentences.size(), 4U);
   EXPECT_EQ(stands.sentences[2], "worse 3.");
   EXPECT_TRUE(stands.sentences[3].starts_with("And 4 more"));
@@ -57,13 +57,13 @@ TEST(HistoryPages, BeginWithThreeFindingsAndSayHowManyMore) {
           {.nights = {night.facts}, .findings = {{5, night.findings}}, .studies = {{5, {"mine"}}}},
           {})
           .report;
-  EXPECT_EQ(index.subtitle, "1 night, the last begun 2026-11-22 02:30 UTC");
+  EXPECT_EQ(index.subtitle, "1 nightly run, the last begun 2026-11-22 02:30 UTC");
   ASSERT_TRUE(index.opening.standing.has_value());
   EXPECT_TRUE(index.opening.standing->worse);
   EXPECT_EQ(index.opening.standing->sentences.size(), 4U);
 }
 
-/// A trend of two settings of ISOMAP, the first of which was best until the last night.
+/// A trend of two settings of ISOMAP, the first of which was best until the last nightly run.
 StudyTrend best_got_worse() {
   StudyTrend trend{.name = "mine"};
   for (int number = 1; number <= 4; ++number) trend.nights.push_back({.number = number});
@@ -127,11 +127,11 @@ TEST(HistoryPages, SayOfANightThatWasNotComparedThatItWasNot) {
   const StudyTrend trend = best_got_worse();
   const auto& stands = trend_page(trend, {}, false, {}).report.opening.standing;
   ASSERT_TRUE(stands.has_value());
-  EXPECT_TRUE(stands->title.starts_with("Night 4: not compared")) << stands->title;
+  EXPECT_TRUE(stands->title.starts_with("Nightly run 4: not compared")) << stands->title;
   const NightFacts night{.number = 4};
   EXPECT_EQ(verdict_word(night), "not compared");
   EXPECT_EQ(verdict_word({.number = 4, .reference = 2}), "good");
-  EXPECT_TRUE(night_standing(night, {}).title.starts_with("Night 4: not compared"));
+  EXPECT_TRUE(night_standing(night, {}).title.starts_with("Nightly run 4: not compared"));
 }
 
 /// The links of a paragraph, by what they say.
@@ -150,14 +150,14 @@ TEST(HistoryPages, LeadToEachOtherInWords) {
   add_night(report, night, "mine", true, {}, links);
   EXPECT_EQ(links_of(report.opening.findings.front(), links.words()),
             (std::map<std::string, std::string>{
-                {"all nights", "../../../index.html"},
+                {"all nightly runs", "../../../index.html"},
                 {"trends of mine", "../../../trends/mine/report.html"},
-                {"report of night 3", "../../../nights/0003/mine/report.html"}}));
+                {"report of nightly run 3", "../../../nights/0003/mine/report.html"}}));
   const HistoryPage trends = trend_page(best_got_worse(), {}, false, {"../../", "../../"});
   EXPECT_EQ(links_of(trends.report.opening.findings.front(), trends.link_words),
             (std::map<std::string, std::string>{
-                {"all nights", "../../index.html"},
-                {"report of night 4", "../../nights/0004/mine/report.html"}}));
+                {"all nightly runs", "../../index.html"},
+                {"report of nightly run 4", "../../nights/0004/mine/report.html"}}));
 }
 
 TEST(HistoryPages, SayThatAHistoryWasDamagedAndWhereItsReportsAre) {
@@ -169,7 +169,8 @@ TEST(HistoryPages, SayThatAHistoryWasDamagedAndWhereItsReportsAre) {
   EXPECT_TRUE(report.opening.standing->worse);
   EXPECT_NE(report.opening.standing->sentences.back().find("history.sqlite.damaged-1"),
             std::string::npos);
-  EXPECT_TRUE(links_of(report.opening.findings.at(1), links.words()).contains("report of night 4"));
+  EXPECT_TRUE(
+      links_of(report.opening.findings.at(1), links.words()).contains("report of nightly run 4"));
   const HistoryPage index = index_page({.nights = {night.facts}, .lost = lost}, {});
   EXPECT_NO_THROW(check(index.report));
   EXPECT_EQ(index.report.sections.back().id, "lost");
@@ -215,7 +216,7 @@ TEST(HistoryPages, TakeNoTwoMethodsOfAnotherProgramForSettingsOfOne) {
   const Figure figure = trend_figures(trend, {}).front();
   EXPECT_EQ(curves(figure),
             (std::vector<std::string>{"Walk isomap-K5", "Walk isomap-K6", "Walk isomap-K7"}));
-  EXPECT_EQ(figure.title, "By compass: MPE, night by night");
+  EXPECT_EQ(figure.title, "By compass: MPE, by nightly run");
   EXPECT_EQ(std::get<TextCell>(accuracy_table(trend).rows[0].cells[0]).text,
             "By compass, Walk isomap-K5, 150 steps");
 }

@@ -60,7 +60,8 @@ TEST(ObjectFolder, KeepsAFigureOfTwoNightsOnceAndDropsWhatNoNightNames) {
   EXPECT_TRUE(objects.problems({first[0].digest}).empty());
   EXPECT_EQ(objects.remove_others({first[0].digest}), 1);
   EXPECT_EQ(objects.problems({second[0].digest}).size(), 1U);
-  EXPECT_EQ(read_file(folder.path() / "b" / "more.svg"), "other");  // The night keeps its own.
+  EXPECT_EQ(read_file(folder.path() / "b" / "more.svg"),
+            "other");  // The nightly run keeps its own.
 }
 
 }  // namespace

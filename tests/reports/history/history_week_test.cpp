@@ -72,7 +72,7 @@ TEST(HistoryWeek, ASlowDriftIsFoundWithAboutTheNightItBegan) {
   HistoryStore store = HistoryStore::open(folder.path());
   std::optional<NightFinding> first;
   for (int number = 1; number <= 40 && !first; ++number) {
-    // Each night by .4 %: less than counts from one night to the next.
+    // Each nightly run by .4 %: less than counts from one nightly run to the next.
     const double drift = std::pow(1.004, std::max(0, number - 12));
     const Night night =
         judged(store, sample_night(number, 9, {.error = {{"lpca", drift}}, .error_noise = 0.002}));

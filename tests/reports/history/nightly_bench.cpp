@@ -1,5 +1,5 @@
-// Simulated histories judged night by night: how often the rules cry wolf, and what they find.
-// mapproof_nightly_bench [HISTORIES] [NIGHTS]
+// Simulated histories judged one nightly run after the other: how often the rules cry wolf, and
+// what they find. mapproof_nightly_bench [HISTORIES] [NIGHTS]
 
 #include <algorithm>
 #include <cmath>
@@ -19,7 +19,7 @@
 namespace mapproof {
 namespace {
 
-/// What is planted from one night on.
+/// What is planted from one nightly run on.
 struct Scenario {
   std::string name;
   std::function<test::Plant(int night, int from)> plant;
@@ -38,7 +38,7 @@ std::vector<Scenario> scenarios() {
   };
   return {
       {"none", with([](test::Plant&, int) {}), ""},
-      {"one night twice as slow",
+      {"one nightly run twice as slow",
        with([](test::Plant& plant, int after) { plant.all_seconds = after == 1 ? 2.0 : 1.0; }), ""},
       {"error of one method +5 %", with([](test::Plant& plant, int) {
          plant.error = {{"lpca", 1.05}};
@@ -48,7 +48,7 @@ std::vector<Scenario> scenarios() {
          plant.error = {{"lpca", 1.02}};
        }),
        "bearing, lpca"},
-      {"error of one method +0.3 % a night", with([](test::Plant& plant, int after) {
+      {"error of one method +0.3 % a nightly run", with([](test::Plant& plant, int after) {
          plant.error = {{"lpca", std::pow(1.003, after)}};
        }),
        "bearing, lpca"},
@@ -56,7 +56,7 @@ std::vector<Scenario> scenarios() {
          plant.seconds = {{"lpca", 1.2}};
        }),
        "bearing, lpca"},
-      {"seconds of one method +0.6 % a night", with([](test::Plant& plant, int after) {
+      {"seconds of one method +0.6 % a nightly run", with([](test::Plant& plant, int after) {
          plant.seconds = {{"lpca", std::pow(1.006, after)}};
        }),
        "bearing, lpca"},
@@ -71,8 +71,8 @@ struct Tally {
   int nights = 0;        ///< Judged, without anything planted or before it.
   int false_nights = 0;  ///< Of them, with a finding.
   bool wrong = false;    ///< Something that was not planted was named at any time.
-  int found_after = -1;  ///< Nights from the plant to the first right finding.
-  int dated_off = 0;     ///< Between the night named and the right one.
+  int found_after = -1;  ///< Nightly runs from the plant to the first right finding.
+  int dated_off = 0;     ///< Between the nightly run named and the right one.
 };
 
 /// One history in memory: the store's part in it is tested elsewhere.
@@ -145,11 +145,12 @@ int main(int argc, char** argv) {
   const int histories = argc > 1 ? std::atoi(argv[1]) : 1000;
   const int nights = argc > 2 ? std::atoi(argv[2]) : 40;
   const int from = nights / 2 + 1;
-  fmt::print("{} histories of {} nights, planted on night {}\n", histories, nights, from);
+  fmt::print("{} histories of {} nightly runs, planted in nightly run {}\n", histories, nights,
+             from);
   fmt::print("{:<38} {:>9} {:>9} {:>9} {:>9} {:>7} {:>7}\n", "", "false", "histories", "found",
              "the same", "median", "night");
-  fmt::print("{:<38} {:>9} {:>9} {:>9} {:>9} {:>7} {:>7}\n", "planted", "a night %", "with any %",
-             "%", "night %", "delay", "off by");
+  fmt::print("{:<38} {:>9} {:>9} {:>9} {:>9} {:>7} {:>7}\n", "planted", "a nightly run %",
+             "with any %", "%", "nightly run %", "delay", "off by");
   for (const Scenario& scenario : scenarios()) {
     std::vector<Tally> tallies(static_cast<std::size_t>(histories));
     tbb::parallel_for(0, histories, [&](int i) {

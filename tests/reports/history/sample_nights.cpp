@@ -33,7 +33,7 @@ Night sample_night(int number, std::uint64_t seed, const Plant& plant) {
                 .cores = 2,
                 .jobs = 2}};
   StudyNight study{.name = "sample", .kind = "mapproof.study", .order_digest = "d", .runs = 25};
-  // What a run scores is the same every night; noise is the night's own.
+  // What a run scores is the same in every nightly run; noise is the nightly run's own.
   Random same(1);
   Random random(derive_seed(seed, {static_cast<std::uint64_t>(number)}));
   const double busy = plant.all_seconds * std::exp(plant.night_noise * random.normal());

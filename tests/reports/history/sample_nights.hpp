@@ -9,7 +9,7 @@
 
 namespace mapproof::test {
 
-/// What a simulated night does to a method's values, as factors.
+/// What a simulated nightly run does to a method's values, as factors.
 struct Plant {
   std::map<std::string, double> error = {};    ///< By method.
   std::map<std::string, double> seconds = {};  ///< By method.
@@ -17,13 +17,14 @@ struct Plant {
   double memory = 1.0;
   double error_noise = 0.0;     ///< Of each run, standard deviation of the logarithm.
   double seconds_noise = 0.05;  ///< Of each piece.
-  double night_noise = 0.05;    ///< Of a night, shared by all its seconds.
+  double night_noise = 0.05;    ///< Of a nightly run, shared by all its seconds.
 };
 
-/// A night of one study: six methods, 5 layouts x 5 poses, one step; noise by `seed`.
+/// A nightly run of one study: six methods, 5 layouts x 5 poses, one step; noise by `seed`.
 Night sample_night(int number, std::uint64_t seed, const Plant& plant = {});
 
-/// Judges a night by those that the store holds and appends it. @return With verdict and findings.
+/// Judges a nightly run by those that the store holds and appends it. @return With verdict and
+/// findings.
 Night judged(HistoryStore& store, Night night);
 
 }  // namespace mapproof::test
