@@ -14,19 +14,20 @@
 namespace mapproof {
 namespace {
 
-constexpr std::size_t kSettledPairs = 4;  ///< Twos of labels that are settled.
-constexpr double kLeastGain = 0.3;        ///< Of the first one's.
-/// So rare, and so much rarer than the other label's, one label's changes are chance.
+constexpr std::size_t kSettledPairs = 4;  ///< Pairs of IDs that are refined scan by scan.
+constexpr double kLeastGain = 0.3;        ///< Of the first pair's.
+/// Below this share, and so much below the other ID's, one ID's changes are chance.
 constexpr double kByChance = 0.1;
 constexpr double kRarer = 0.25;
-/// Scans against a stretch, as a share of those that it explains, and what it may cost more.
+/// Scans that contradict a stretch, as a share of those that it explains, and how much more it may
+/// cost.
 constexpr double kStrays = 0.05;
 constexpr double kAsGood = 1.1;
 
-/// Detections that a trial gives another label, of each of both.
+/// Detections that a hypothesis gives another ID, of each of both.
 struct Changes {
   double all = 0.0;
-  double first_share = 0.0;  ///< Of those under the first label.
+  double first_share = 0.0;  ///< Of those under the first ID.
   double second_share = 0.0;
 
   bool one_sided() const {
@@ -65,7 +66,7 @@ FaultTrial settled(const LabelledScans& scans, const std::vector<int>& labels,
   return settled_trial(scans, labels, labels, std::move(trial), start, shared.map.width_m, width_m);
 }
 
-/// Both ways of telling whose the places are; of them the simpler one.
+/// Both ways of deciding which landmark has which position; of them the simpler one.
 FaultTrial simpler_trial(const LabelledScans& scans, const std::vector<int>& labels,
                          const SharedPlaces& shared, double width_m) {
   const Points& start = shared.map.positions_m;
@@ -87,7 +88,8 @@ FaultTrial simpler_trial(const LabelledScans& scans, const std::vector<int>& lab
                  changes.second_share > changes.first_share, width_m);
 }
 
-/// For each place of an order: scans given another label, less those that tell and keep theirs.
+/// For each position of an order: scans given another ID, less those that have evidence and keep
+/// theirs.
 Eigen::VectorXi balance(const LabelledScans& scans, const std::vector<int>& labels,
                         const FaultTrial& trial, std::size_t order) {
   Eigen::VectorXi result = Eigen::VectorXi::Zero(scans.log.steps);
@@ -105,7 +107,7 @@ Eigen::VectorXi balance(const LabelledScans& scans, const std::vector<int>& labe
   return result;
 }
 
-/// The stretch that holds the fault, if there is one but for a few scans.
+/// The stretch that holds the fault, if one does except for a few scans.
 std::optional<StepStretch> stretch_of(const LabelledScans& scans, const std::vector<int>& labels,
                                       const FaultTrial& trial) {
   for (std::size_t order = 0; order < scans.places.size(); ++order) {
@@ -122,7 +124,8 @@ std::optional<StepStretch> stretch_of(const LabelledScans& scans, const std::vec
   return std::nullopt;
 }
 
-/// The same fault over a stretch, where detections that no scan tells of are corrected too.
+/// The same fault over a stretch, where detections without evidence from their scan are corrected
+/// too.
 FaultTrial over_stretch(const LabelledScans& scans, const std::vector<int>& labels,
                         FaultTrial trial, double width_m) {
   const std::optional<StepStretch> stretch = stretch_of(scans, labels, trial);
@@ -147,8 +150,8 @@ bool seen_in_scan(const DetectionLog& log, const std::vector<int>& labels, std::
   return false;
 }
 
-/// What each detection costs in a map under each label in its place, its scan's others keeping
-/// theirs: detections x landmarks, nothing but of those that bear `label`.
+/// What each detection costs in a map under each ID in place of its own, while the others in its
+/// scan keep theirs: detections x landmarks, zero but for those with the ID `label`.
 Eigen::MatrixXd label_costs(const LabelledScans& scans, const std::vector<int>& labels,
                             const RobustMap& map, int label) {
   const Eigen::Index M = map.positions_m.rows();
@@ -166,9 +169,9 @@ Eigen::MatrixXd label_costs(const LabelledScans& scans, const std::vector<int>& 
 }
 
 constexpr std::size_t kTried = 40;  ///< Hypotheses that a map is made for.
-/// The best of each kind, whose maps are made from nothing too.
+/// The best of each type, whose maps are also made without a start.
 constexpr std::size_t kBegunAnew = 4;
-/// A fault in single scans has more freedom: it must cost less than this share of a stretch's.
+/// A fault in single scans has more freedom: it must cost less than this share of a stretch's cost.
 constexpr double kPlainer = 0.9;
 
 /// The stretch of steps over which the fault explains the scans better, in a map that holds it.
@@ -190,7 +193,7 @@ StepStretch sharpened(const LabelledScans& scans, const std::vector<int>& labels
   return greatest_sum(order, gains);
 }
 
-/// The items with the fault corrected in whole blocks: what makes trying many cheap.
+/// The items with the fault corrected in whole blocks: this makes many hypotheses cheap to test.
 std::vector<PairItem> corrected_items(const LabelledScans& scans,
                                       const std::vector<PairItem>& items,
                                       const LabelHypothesis& one) {
@@ -213,8 +216,8 @@ std::vector<PairItem> corrected_items(const LabelledScans& scans,
   return result;
 }
 
-/// The map under corrected labels, from the one before with both landmarks put where the fault has
-/// them.
+/// The map under corrected IDs, from the previous one with both landmarks at the positions that the
+/// fault implies.
 RobustMap moved_map(const std::vector<PairItem>& items, const RobustMap& map,
                     const LabelHypothesis& one) {
   Points start = map.positions_m;
@@ -223,7 +226,8 @@ RobustMap moved_map(const std::vector<PairItem>& items, const RobustMap& map,
   return lowered_map(items, start, map.width_m);
 }
 
-/// The better one of that map and of one from nothing: wrong labels may have folded the map before.
+/// The better one of that map and of one without a start: wrong IDs may have folded the previous
+/// map.
 RobustMap refolded_map(const LabelledScans& scans, const std::vector<PairItem>& items,
                        const RobustMap& map, const LabelHypothesis& one) {
   RobustMap moved = moved_map(items, map, one);
@@ -233,7 +237,7 @@ RobustMap refolded_map(const LabelledScans& scans, const std::vector<PairItem>& 
                       scans.blocks.count);
 }
 
-/// The fault over the stretch of steps that its map makes of it.
+/// The fault over the stretch of steps that its map yields.
 FaultTrial sharp_trial(const LabelledScans& scans, const std::vector<int>& labels,
                        LabelHypothesis one, RobustMap map) {
   FaultTrial trial{one, sharpened(scans, labels, one, map), {}, std::move(map)};
@@ -245,14 +249,14 @@ FaultTrial sharp_trial(const LabelledScans& scans, const std::vector<int>& label
   return trial;
 }
 
-/// The first few of each kind of fault.
+/// The first few of each type of fault.
 void choose(const std::vector<LabelHypothesis>& from, std::vector<LabelHypothesis>& chosen) {
   std::map<LabelFault, std::size_t> taken;
   for (const LabelHypothesis& one : from)
     if (taken[one.fault]++ < kBegunAnew) chosen.push_back(one);
 }
 
-/// The hypotheses that are promising enough to be tried from nothing.
+/// The hypotheses that are promising enough for a map without a start.
 std::vector<LabelHypothesis> worth_a_map(const LabelledScans& scans,
                                          const std::vector<PairItem>& items, const RobustMap& map) {
   std::vector<LabelHypothesis> in_map = hypotheses_in_map(items, map, scans.blocks, kTried);

@@ -9,10 +9,10 @@ namespace mapproof {
 namespace {
 
 constexpr std::size_t kMostLabels = 40;
-constexpr int kMostPartners = 60;  ///< Of the distances' search: for more it would be slow.
+constexpr int kMostPartners = 60;  ///< Of the search by distances: with more it would be slow.
 constexpr int kDistances = 32;     ///< Values of a distance that are tried.
 
-/// The best stretch of each fault of each two labels, the best ones of all.
+/// The best stretch of each fault of each pair of IDs, the best ones of all.
 /// @param placed  Fills in where both landmarks are.
 template <typename Placed>
 std::vector<LabelHypothesis> best_stretches(const StretchCosts& costs, const LogBlocks& blocks,
@@ -35,7 +35,7 @@ std::vector<LabelHypothesis> best_stretches(const StretchCosts& costs, const Log
   return found;
 }
 
-/// What the items of each label cost if its distance to each partner were this or that.
+/// What the items of each ID cost as a function of its distance to each partner.
 StretchCosts distance_costs(const std::vector<PairItem>& items, const RobustMap& map,
                             const LogBlocks& blocks) {
   StretchCosts result{costly_labels(items, map, kMostLabels), {}, kDistances};

@@ -50,7 +50,7 @@ std::vector<int> corrected_labels(const LabelledScans& scans, std::vector<int> l
   const std::vector<std::size_t>& places = scans.places[stretch.order];
   const std::vector<Detection>& detections = scans.log.detections;
   for (std::size_t row = 0, end = 0; row < detections.size(); row = end) {
-    bool taken = false;  // a landmark is seen once in a scan
+    bool taken = false;  // a landmark is seen at most once in a scan
     for (end = row; end < detections.size() && detections[end].step == detections[row].step; ++end)
       taken = taken || labels[end] == one.second;
     const std::size_t place = places[static_cast<std::size_t>(detections[row].step)];

@@ -8,7 +8,7 @@
 namespace mapproof {
 namespace {
 
-/// Adds what an item costs if its landmark stands on each point.
+/// Adds what an item costs if its landmark is at each point.
 void add_costs(const Points& grid, const Eigen::RowVector2d& partner, const PairItem& item,
                double width_m, Eigen::Ref<Eigen::VectorXf> costs) {
   const Eigen::ArrayXd residuals =
@@ -44,7 +44,7 @@ Points grid_over(const Points& map, int side) {
 
 PlaceCosts place_costs(const std::vector<PairItem>& items, const Points& map, int blocks,
                        const std::vector<int>& labels, double width_m, int side) {
-  if (side < 2) throw InvalidInput("a grid needs two points a side");
+  if (side < 2) throw InvalidInput("a grid needs two points per side");
   PlaceCosts result{grid_over(map, side), {labels, {}, 0}};
   result.costs.segment = result.grid_m.rows();
   std::vector<int> place(static_cast<std::size_t>(map.rows()), -1);
@@ -70,7 +70,7 @@ RobustMap unfolded_map(const std::vector<PairItem>& items, RobustMap map, int bl
     const Eigen::VectorXd costs = places.costs.costs.front().cast<double>().rowwise().sum();
     Eigen::Index best = 0;
     const double least = costs.minCoeff(&best);
-    // Another place on the coarse grid may be better than the present one only by much.
+    // Another position on the coarse grid may be better than the present one only by much.
     double present = 0.0;
     for (const PairItem& item : items)
       if (item.first == k || item.second == k)

@@ -46,7 +46,7 @@ Mapped largest_group(const std::vector<PairItem>& items, int landmarks) {
   return mapped;
 }
 
-/// The pieces that the finite distances hold together, by row.
+/// The components that the finite distances connect, by row.
 std::vector<int> pieces_of(const Eigen::MatrixXd& D) {
   Graph graph(static_cast<std::size_t>(D.rows()));
   for (Eigen::Index i = 0; i < D.rows(); ++i)
@@ -56,8 +56,8 @@ std::vector<int> pieces_of(const Eigen::MatrixXd& D) {
   return components(graph);
 }
 
-/// Takes pairs away that were seen in few scans, which may all be of wrong labels, but for those of
-/// landmarks that have few better ones, and those that alone join what the others hold together.
+/// Removes pairs that were seen in few scans, which may all be of wrong IDs, except those of
+/// landmarks that have few better ones, and those that alone join what the others connect.
 void leave_well_seen(Eigen::MatrixXd& D, const Eigen::MatrixXd& scans) {
   const auto well = [&](Eigen::Index i, Eigen::Index j) {
     return i != j && std::isfinite(D(i, j)) && scans(i, j) >= kFewestScans;
@@ -230,10 +230,11 @@ RobustMap lowered_map(const std::vector<PairItem>& items, const Points& start, d
 }
 
 RobustMap robust_map(const std::vector<PairItem>& items, int landmarks) {
-  if (landmarks > kMostLandmarks) throw InvalidInput("labels of more than 2000 landmarks");
+  if (landmarks > kMostLandmarks)
+    throw InvalidInput("the check of landmark IDs takes at most 2000 landmarks");
   for (const PairItem& item : items)
     if (item.first < 0 || item.second >= landmarks)
-      throw InvalidInput("a pair of landmarks that are not there");
+      throw InvalidInput("a pair names a landmark that is not there");
   const Mapped mapped = largest_group(items, landmarks);
   Points start = Points::Constant(landmarks, 2, kNaN);
   if (mapped.landmarks.size() < 3) return finished(items, std::move(start), 1.0);

@@ -22,7 +22,7 @@ std::vector<int> labels_scan_by_scan(const LabelledScans& scans, const std::vect
                                      const Points& map, double width_m) {
   const double price = kPrice * width_m * width_m / (kScanWidths * kScanWidths);
   const bool both = fault.fault == LabelFault::kSwapped;
-  // The label that a detection bears if it does not keep its present one.
+  // The ID that a detection gets if it does not keep its present one.
   const auto otherwise = [&](std::size_t row) {
     if (!both && given[row] != fault.first) return labels[row];
     return labels[row] == fault.first    ? fault.second
@@ -66,7 +66,7 @@ FaultTrial settled_trial(const LabelledScans& scans, const std::vector<int>& giv
       if (trial.map.cost < best.map.cost) best = trial;
       continue;
     }
-    // Labels that were wrong may have folded what is mapped of the others.
+    // Wrong IDs may have folded the map of the others.
     unfolded = true;
     RobustMap anew = freshly_mapped(items, static_cast<int>(start.rows()), width_m);
     if (anew.cost < trial.map.cost) trial.map = std::move(anew);
