@@ -9,7 +9,8 @@
 namespace mapproof {
 namespace {
 
-/// Of a landmark's places in the maps that have it; NaN if fewer than half of them do.
+/// Covariance of a landmark's positions in the maps that have it; NaN if fewer than half of them
+/// do.
 Eigen::Matrix2d covariance(const std::vector<Points>& maps, Eigen::Index landmark) {
   Eigen::Vector2d sum = Eigen::Vector2d::Zero();
   int count = 0;
@@ -47,7 +48,7 @@ std::vector<Eigen::Index> drawn_steps(Eigen::Index steps, Eigen::Index block, Ra
 MapCertainty bootstrap_map(Eigen::Index landmarks, Eigen::Index steps, const MapOfSteps& map_of,
                            const MapBootstrapOptions& options) {
   if (options.replicates < 10 || options.replicates > 10000)
-    throw InvalidInput("a bootstrap needs 10 to 10,000 replicates");
+    throw InvalidInput("the bootstrap needs 10 to 10,000 replicates");
   std::vector<Points> maps;
   for (int i = 0; i < options.replicates; ++i) {
     Random random(derive_seed(options.seed, {static_cast<std::uint64_t>(i)}));
@@ -73,7 +74,8 @@ double bootstrap_freedom(Eigen::Index steps, Eigen::Index block, int maps) {
 }
 
 double squared_radius(double confidence, double freedom) {
-  if (!(confidence > 0.0 && confidence < 1.0)) throw InvalidInput("a confidence between 0 and 1");
+  if (!(confidence > 0.0 && confidence < 1.0))
+    throw InvalidInput("a confidence must lie between 0 and 1");
   if (!(freedom > 1.0)) throw InvalidInput("an ellipse needs more than one degree of freedom");
   // 2 f / (f - 1) times the quantile of F with 2 and f - 1 degrees, which has a closed form.
   return freedom * std::expm1(-2.0 / (freedom - 1.0) * std::log1p(-confidence));

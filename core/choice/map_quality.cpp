@@ -51,7 +51,7 @@ Eigen::VectorXd ranks_about(const Eigen::MatrixXd& D, Eigen::Index i) {
   return ranks;
 }
 
-/// How many ranks too far those are in `there` that are among the nearest in `here`.
+/// How many ranks too far in `there` those are that are among the nearest in `here`.
 double intruders(const Eigen::VectorXd& here, const Eigen::VectorXd& there, Eigen::Index self,
                  double neighbours) {
   double sum = 0.0;

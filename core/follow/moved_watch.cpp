@@ -57,7 +57,7 @@ std::vector<NoticedMove> MovedWatch::check(const IncrementalLog& scans, const De
     const auto known = std::ranges::find_if(
         moved_, [&](const NoticedMove& move) { return move.found.landmark == found.landmark; });
     if (known != moved_.end()) {
-      *known = now;  // More scans tell the time better.
+      *known = now;  // More scans determine the time better.
       continue;
     }
     moved_.push_back(now);

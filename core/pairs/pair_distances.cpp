@@ -114,7 +114,8 @@ void set_precisions(std::vector<MeasuredPair>& pairs, const std::vector<double>&
     const double relative = noise.relative * pairs[k].distance_m;
     const double variance =
         floor * floor + relative * relative + squares / (scans + noise.prior_scans) / scans;
-    // Beyond a double where nothing scatters and nothing is presumed: all that is left is to count.
+    // Beyond a double where nothing scatters and no noise is assumed: then the precision is the
+    // count.
     pairs[k].precision = 1.0 / std::max(variance, 1e-24 / scans);
   }
 }

@@ -25,7 +25,8 @@ void check(const std::vector<MeasuredPair>& pairs, std::size_t landmarks,
     if (pair.first < 0 || pair.first >= pair.second ||
         pair.second >= static_cast<Eigen::Index>(landmarks) ||
         !known.emplace(pair.first, pair.second).second)
-      throw InvalidInput("measured pairs must be of two landmarks in order, and each there once");
+      throw InvalidInput(
+          "measured pairs must name two landmarks in ascending order, each pair once");
     if (!(pair.distance_m >= 0.0 && std::isfinite(pair.distance_m)) ||
         !(pair.precision > 0.0 && std::isfinite(pair.precision)))
       throw InvalidInput("measured pairs need finite distances >= 0 and precisions > 0");
@@ -56,7 +57,7 @@ std::vector<Eigen::Index> largest_group(const std::vector<int>& component) {
   return *std::ranges::max_element(groups, {}, [](const auto& group) { return group.size(); });
 }
 
-/// What the pairs leave open, by landmark.
+/// What the pairs do not determine, by landmark.
 std::vector<Status> gaps(const Graph& graph, const std::vector<Eigen::Index>& group,
                          const std::vector<std::string>& names) {
   std::vector<std::string> alone;
@@ -107,7 +108,7 @@ PairProblem problem_of(const std::vector<MeasuredPair>& pairs,
   return problem;
 }
 
-/// The turns of landmarks of the group alone, in its rows.
+/// The orientations of triples of the group alone, in its rows.
 std::vector<SeenTurn> turns_of(const std::vector<SeenTurn>& turns,
                                const std::vector<Eigen::Index>& group) {
   std::vector<SeenTurn> result;
@@ -123,8 +124,8 @@ std::vector<SeenTurn> turns_of(const std::vector<SeenTurn>& turns,
   return result;
 }
 
-/// The map of the group's rows; its pairs' precisions become those they had at last.
-/// @param start  Of the group; empty: looked for.
+/// The map of the group's rows; its pairs' precisions become the final ones.
+/// @param start  Of the group; empty: none.
 Embedding solve(PairProblem& problem, const Points& start, const std::vector<SeenTurn>& turns,
                 const PairMapOptions& options) {
   if (!options.refined) return path_map(problem, shares_by_triangles(problem));
