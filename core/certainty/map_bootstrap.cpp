@@ -5,6 +5,7 @@
 
 #include "core/base/errors.hpp"
 #include "core/base/not_finite.hpp"
+#include "core/statistics/block_bootstrap.hpp"
 
 namespace mapproof {
 namespace {
@@ -33,18 +34,6 @@ Eigen::Matrix2d covariance(const std::vector<Points>& maps, Eigen::Index landmar
 
 }  // namespace
 
-std::vector<Eigen::Index> drawn_steps(Eigen::Index steps, Eigen::Index block, Random& random) {
-  if (block < 1 || block > steps) throw InvalidInput("blocks of 1 to as many steps as there are");
-  std::vector<Eigen::Index> drawn;
-  drawn.reserve(static_cast<std::size_t>(steps));
-  while (std::ssize(drawn) < steps) {
-    const auto first = static_cast<Eigen::Index>(random.uniform() * static_cast<double>(steps));
-    for (Eigen::Index i = 0; i < block && std::ssize(drawn) < steps; ++i)
-      drawn.push_back((first + i) % steps);
-  }
-  return drawn;
-}
-
 MapCertainty bootstrap_map(Eigen::Index landmarks, Eigen::Index steps, const MapOfSteps& map_of,
                            const MapBootstrapOptions& options) {
   if (options.replicates < 10 || options.replicates > 10000)
@@ -52,7 +41,8 @@ MapCertainty bootstrap_map(Eigen::Index landmarks, Eigen::Index steps, const Map
   std::vector<Points> maps;
   for (int i = 0; i < options.replicates; ++i) {
     Random random(derive_seed(options.seed, {static_cast<std::uint64_t>(i)}));
-    std::optional<Points> map = map_of(drawn_steps(steps, options.block, random));
+    std::optional<Points> map =
+        map_of(block_resample(steps, options.block, BlockEnds::kCircular, random));
     if (!map) continue;
     if (map->rows() != landmarks) throw InvalidInput("a bootstrap's maps need all landmarks");
     maps.push_back(std::move(*map));

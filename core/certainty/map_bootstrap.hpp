@@ -17,11 +17,6 @@ struct MapBootstrapOptions {
   std::uint64_t seed = 1;
 };
 
-/// Steps of blocks drawn with replacement from a circle, as many as there are: every step is as
-/// likely as any other.
-/// @throws InvalidInput unless 1 <= block <= steps.
-std::vector<Eigen::Index> drawn_steps(Eigen::Index steps, Eigen::Index block, Random& random);
-
 /// The map that some steps make, in the frame of the estimate: M x 2, NaN rows where a landmark has
 /// no position; empty if there is none.
 using MapOfSteps = std::function<std::optional<Points>(const std::vector<Eigen::Index>& steps)>;

@@ -13,6 +13,7 @@
 #include "core/embed/connected_graph.hpp"
 #include "core/graph/shortest_paths.hpp"
 #include "core/score/map_score.hpp"
+#include "core/statistics/block_bootstrap.hpp"
 
 namespace mapproof {
 namespace {
@@ -137,8 +138,8 @@ void MapJudge::judge_stability(const ObservationHistory& history, Eigen::Index s
   std::vector<double> sums(maps_.size(), 0.0);
   for (int draw = 0; draw < options.replicates; ++draw) {
     Random random(derive_seed(options.seed, {static_cast<std::uint64_t>(draw)}));
-    const std::vector<Points> drawn =
-        resampled.maps_of(drawn_steps(steps, block, random), options.settings);
+    const std::vector<Points> drawn = resampled.maps_of(
+        block_resample(steps, block, BlockEnds::kCircular, random), options.settings);
     for (std::size_t m = 0; m < maps_.size(); ++m) {
       if (!maps_[m].mapped) continue;
       const double gap = relative_gap(drawn[m], maps_[m].embedding.coordinates);

@@ -6,9 +6,9 @@
 
 namespace mapproof {
 
-/// When to stop lowering the stress.
+/// When to stop minimizing the stress.
 struct SmacofOptions {
-  /// Stop once one iteration lowers the stress by less than this share of it, >= 0.
+  /// Stop once one iteration reduces the stress by less than this share of it, >= 0.
   double relative_fall = 1e-7;
   int max_iterations = 1000;  ///< >= 1.
 };

@@ -124,7 +124,7 @@ class Varying {
                          variation_.placement.value_or(experiment_.anchor_placement), random);
   }
 
-  /// Observes and embeds anew where the level asks for it.
+  /// Observes and embeds again where the level asks for it.
   void prepare(const Experiment& varied) {
     const bool same_history = history_ && variation_.factor != Factor::kNoise &&
                               variation_.factor != Factor::kDropoutShare;
@@ -215,7 +215,7 @@ Eigen::MatrixXd observed_squares(const ObservationHistory& history, Eigen::Index
   return squared;
 }
 
-/// What figures show of one sensor's history, spectra apart.
+/// What figures show of one sensor's history, without spectra.
 ///
 /// The scan is the one that shows most: for visibility the step with the most hidden landmarks (of
 /// those the one with the most visible), for other sensors the step nearest the room's centre; of

@@ -54,16 +54,23 @@ Changes changes_of(const std::vector<int>& labels, const FaultTrial& trial) {
   return {first + second, first / of_first, second / of_second};
 }
 
-FaultTrial settled(const LabelledScans& scans, const std::vector<int>& labels,
-                   const SharedPlaces& shared, const Points& start, LabelFault fault, bool turned,
-                   double width_m) {
+/// A fault of the two IDs that share positions. @param turned  The second one comes first.
+LabelHypothesis fault_of(const SharedPlaces& shared, LabelFault fault, bool turned = false) {
+  LabelHypothesis result;
+  result.fault = fault;
+  result.first = turned ? shared.second : shared.first;
+  result.second = turned ? shared.first : shared.second;
+  return result;
+}
+
+/// The fault in single scans of the whole log, scans being judged at `told_m`.
+FaultTrial settled(const ScanLabels& of, const LabelHypothesis& fault, const Points& start,
+                   double told_m, double width_m) {
   FaultTrial trial;
-  trial.fault.fault = fault;
-  trial.fault.first = turned ? shared.second : shared.first;
-  trial.fault.second = turned ? shared.first : shared.second;
-  trial.stretch = {0, 0, scans.places.front().size()};
+  trial.fault = fault;
+  trial.stretch = {0, 0, of.scans.places.front().size()};
   trial.scattered = true;
-  return settled_trial(scans, labels, labels, std::move(trial), start, shared.map.width_m, width_m);
+  return settled_trial(of, std::move(trial), start, told_m, width_m);
 }
 
 /// Both ways of deciding which landmark has which position; of them the simpler one.
@@ -72,9 +79,11 @@ FaultTrial simpler_trial(const LabelledScans& scans, const std::vector<int>& lab
   const Points& start = shared.map.positions_m;
   Points exchanged = start;
   exchanged.row(shared.first).swap(exchanged.row(shared.second));
-  FaultTrial best = settled(scans, labels, shared, start, LabelFault::kSwapped, false, width_m);
-  FaultTrial other =
-      settled(scans, labels, shared, exchanged, LabelFault::kSwapped, false, width_m);
+  const ScanLabels of{scans, labels, labels};
+  const double told_m = shared.map.width_m;
+  const LabelHypothesis swap = fault_of(shared, LabelFault::kSwapped);
+  FaultTrial best = settled(of, swap, start, told_m, width_m);
+  FaultTrial other = settled(of, swap, exchanged, told_m, width_m);
   Changes changes = changes_of(labels, best);
   const Changes of_other = changes_of(labels, other);
   if (changes.one_sided() != of_other.one_sided() ? of_other.one_sided()
@@ -84,8 +93,8 @@ FaultTrial simpler_trial(const LabelledScans& scans, const std::vector<int>& lab
   }
   if (!changes.one_sided()) return best;
   const Points places = best.map.positions_m;
-  return settled(scans, labels, shared, places, LabelFault::kInPart,
-                 changes.second_share > changes.first_share, width_m);
+  const bool turned = changes.second_share > changes.first_share;
+  return settled(of, fault_of(shared, LabelFault::kInPart, turned), places, told_m, width_m);
 }
 
 /// For each position of an order: scans given another ID, less those that have evidence and keep
@@ -135,7 +144,7 @@ FaultTrial over_stretch(const LabelledScans& scans, const std::vector<int>& labe
   whole.stretch = *stretch;
   if (whole.fault.fault == LabelFault::kInPart) whole.fault.fault = LabelFault::kWrong;
   whole.labels = corrected_labels(scans, labels, whole.fault, *stretch);
-  whole = settled_trial(scans, labels, std::vector(whole.labels), whole, trial.map.positions_m,
+  whole = settled_trial({scans, labels, std::vector(whole.labels)}, whole, trial.map.positions_m,
                         width_m, width_m);
   return whole.map.cost < kAsGood * trial.map.cost ? whole : trial;
 }
@@ -284,14 +293,14 @@ std::optional<FaultTrial> best_trial(const LabelledScans& scans, const std::vect
   std::optional<FaultTrial> lowest;
   for (const auto& [fault, found] : best) {
     FaultTrial trial = sharp_trial(scans, labels, found.first, found.second);
-    trial = settled_trial(scans, labels, std::vector(trial.labels), trial, trial.map.positions_m,
+    trial = settled_trial({scans, labels, std::vector(trial.labels)}, trial, trial.map.positions_m,
                           trial.map.width_m, map.width_m);
     trial = simplified(scans, labels, std::move(trial));
     if (trial.map.cost < (lowest ? lowest->map.cost : map.cost)) lowest = std::move(trial);
   }
   std::optional<FaultTrial> mixed = mixed_trial(scans, labels, map);
   if (mixed)
-    mixed = settled_trial(scans, labels, labels, *mixed, mixed->map.positions_m, map.width_m,
+    mixed = settled_trial({scans, labels, labels}, *mixed, mixed->map.positions_m, map.width_m,
                           map.width_m);
   if (mixed && mixed->map.cost < (lowest ? lowest->map.cost : map.cost)) lowest = std::move(mixed);
   std::optional<FaultTrial> scattered = scattered_trial(scans, labels, map);
@@ -347,7 +356,7 @@ FaultTrial simplified(const LabelledScans& scans, const std::vector<int>& labels
   for (std::size_t k = 0; k < labels.size(); ++k)
     if (labels[k] != simple.fault.first) simple.labels[k] = labels[k];
   const double width_m = trial.map.width_m;
-  simple = settled_trial(scans, labels, std::vector(simple.labels), simple, trial.map.positions_m,
+  simple = settled_trial({scans, labels, std::vector(simple.labels)}, simple, trial.map.positions_m,
                          width_m, width_m);
   return simple.map.cost < kAsGood * trial.map.cost ? simple : trial;
 }

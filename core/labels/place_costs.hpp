@@ -21,12 +21,12 @@ struct PlaceCosts {
   StretchCosts costs;  ///< Values are the grid's points.
 };
 
-/// @param map  M x 2, NaN rows: unmapped, and partners of no landmark.
+/// @param map  Its width is that of the cost; unmapped landmarks are partners of no landmark.
 /// @param labels  The IDs to cost, each a row of the map.
 /// @param side  Of the grid, points, >= 2.
 /// @note O(items * side^2) time; 4 * side^2 * blocks * labels bytes.
-PlaceCosts place_costs(const std::vector<PairItem>& items, const Points& map, int blocks,
-                       const std::vector<int>& labels, double width_m, int side = 20);
+PlaceCosts place_costs(const std::vector<PairItem>& items, const RobustMap& map, int blocks,
+                       const std::vector<int>& labels, int side = 20);
 
 /// Moves each landmark in turn to where it costs least while the others stay, and minimizes the
 /// cost of the whole again, as long as that helps: it resolves folds that majorisation alone does

@@ -46,7 +46,7 @@ MAPPROOF_VECTORISED_WIDE void invert_leaf(const double* L, double* inverse) {
 }
 
 /// A factorisation of blocks on the diagonal, the inverses of whose leaves are kept: every block
-/// beside the diagonal is multiplied by some of them.
+/// off the diagonal is multiplied by some of them.
 class Factorisation {
  public:
   explicit Factorisation(Index n)

@@ -9,7 +9,7 @@
 namespace mapproof {
 namespace {
 
-/// What a sensor measured; visibility: 1. NaN: nothing.
+/// One sensor's measurement; visibility: 1. NaN: none.
 double value_of(const Detection& seen, Sensor sensor) {
   if (sensor == Sensor::kVisibility) return 1.0;
   return sensor == Sensor::kRange ? seen.range_m * seen.range_m : seen.bearing_rad;

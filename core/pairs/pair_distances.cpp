@@ -25,10 +25,11 @@ void for_each_pair(const std::vector<Detection>& detections, const Visit& visit)
   for (auto first = detections.begin(); first != detections.end();) {
     const auto last = std::find_if(
         first, detections.end(), [&](const Detection& other) { return other.step != first->step; });
-    for (auto a = first; a != last; ++a)
-      if (is_whole(*a))
-        for (auto b = a + 1; b != last; ++b)
-          if (is_whole(*b)) visit(*a, *b);
+    for (auto a = first; a != last; ++a) {
+      if (!is_whole(*a)) continue;
+      for (auto b = a + 1; b != last; ++b)
+        if (is_whole(*b)) visit(*a, *b);
+    }
     first = last;
   }
 }

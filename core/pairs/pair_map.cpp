@@ -46,17 +46,6 @@ std::vector<MeasuredPair> trusted(const std::vector<MeasuredPair>& pairs, std::s
   return taken;
 }
 
-/// Landmarks of the largest component, the first of several, ascending.
-std::vector<Eigen::Index> largest_group(const std::vector<int>& component) {
-  std::vector<std::vector<Eigen::Index>> groups;
-  for (std::size_t i = 0; i < component.size(); ++i) {
-    groups.resize(std::max(groups.size(), static_cast<std::size_t>(component[i]) + 1));
-    groups[static_cast<std::size_t>(component[i])].push_back(static_cast<Eigen::Index>(i));
-  }
-  if (groups.empty()) return {};
-  return *std::ranges::max_element(groups, {}, [](const auto& group) { return group.size(); });
-}
-
 /// What the pairs do not determine, by landmark.
 std::vector<Status> gaps(const Graph& graph, const std::vector<Eigen::Index>& group,
                          const std::vector<std::string>& names) {
@@ -148,7 +137,7 @@ PairMap pair_map(const std::vector<MeasuredPair>& pairs, const std::vector<std::
   result.embedding.coordinates.setConstant(std::ssize(names), 2, kNaN);
   const std::vector<MeasuredPair> taken = trusted(pairs, names.size(), options.fewest_scans);
   const Graph graph = graph_of(taken, names.size());
-  const std::vector<Eigen::Index> group = largest_group(components(graph));
+  const std::vector<Eigen::Index> group = largest_component(graph);
   if (group.size() < 3) {
     result.embedding.statuses.push_back(status_of<StatusReason::kTooFewPairs>(pairs.size()));
     return result;

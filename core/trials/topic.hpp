@@ -30,7 +30,7 @@ struct TrialContext {
   bool with_maps = false;             ///< Maps to be shown are asked for.
 };
 
-/// A question that studies of trials can put: what it compares and how one part is made. Its words
+/// A question that studies of trials can ask: what it compares and how one part is made. Its texts
 /// are in reports/sections/trials.
 /// What its functions return depends on their arguments alone, seconds apart.
 struct Topic {
