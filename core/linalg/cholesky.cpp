@@ -17,8 +17,8 @@ using Leaf = Eigen::Matrix<double, kLeaf, kLeaf>;
 /// About half of n, in whole leaves.
 Index half(Index n) { return (n / 2 + kLeaf - 1) / kLeaf * kLeaf; }
 
-/// Replaces the lower half of A by its factor, column by column; what comes to stand above
-/// the diagonal means nothing. False if there is no factor.
+/// Replaces the lower half of A by its factor, column by column; the values above the diagonal
+/// are meaningless. False if there is no factor.
 MAPPROOF_VECTORISED_WIDE bool factor_leaf(double* A) {
   for (Index j = 0; j < kLeaf; ++j) {
     double* const column = A + j * kLeaf;

@@ -26,7 +26,7 @@ TEST(DrawnSteps, AreWholeBlocksOnACircle) {
   }
 }
 
-TEST(DrawnSteps, TakeEveryStepAlikeOften) {
+TEST(DrawnSteps, TakeEveryStepEquallyOften) {
   Random random(2);
   Eigen::VectorXd counts = Eigen::VectorXd::Zero(20);
   for (int i = 0; i < 5000; ++i)
@@ -62,7 +62,7 @@ MapOfSteps mean_of(const Eigen::MatrixXd& values) {
   };
 }
 
-TEST(BootstrapMap, TellsTheVarianceOfAMean) {
+TEST(BootstrapMap, EstimatesTheVarianceOfAMean) {
   Random random(3);
   Eigen::MatrixXd values(400, 2);
   for (Eigen::Index t = 0; t < 400; ++t) values.row(t) << random.normal(), 2.0 * random.normal();
@@ -73,7 +73,7 @@ TEST(BootstrapMap, TellsTheVarianceOfAMean) {
   EXPECT_EQ(found.maps, 4000);
 }
 
-TEST(BootstrapMap, HoldsTheTruthOfMeansOfCorrelatedSeriesAsOftenAsItSays) {
+TEST(BootstrapMap, HasItsNominalCoverageForMeansOfCorrelatedSeries) {
   // 600 series of 500 steps whose mean has the variance (1 - rho^2) / (1 - rho)^2 / 500.
   int held = 0;
   constexpr int kSeries = 600;
@@ -100,7 +100,7 @@ TEST(BootstrapMap, IsTheSameForTheSameSeed) {
   EXPECT_NE(once, bootstrap_map(1, 50, mean_of(values), {.block = 5, .seed = 8}));
 }
 
-TEST(BootstrapMap, KnowsNothingOfALandmarkThatMostMapsMiss) {
+TEST(BootstrapMap, HasNoCovarianceForALandmarkThatMostMapsMiss) {
   int call = 0;
   const MapOfSteps sometimes = [&](const std::vector<Eigen::Index>&) -> std::optional<Points> {
     Points map = Points::Constant(2, 2, 1.0 + 0.1 * call);

@@ -9,7 +9,7 @@
 namespace mapproof {
 namespace {
 
-TEST(OnlineTopic, FollowsEverySensorToEveryLevel) {
+TEST(OnlineTopic, MapsEverySensorIncrementallyToEveryLevel) {
   TrialExperiment experiment;
   experiment.topic = "online";
   experiment.steps = 300;
