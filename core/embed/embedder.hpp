@@ -30,7 +30,7 @@ class Embedder {
  public:
   /// @param proximities  Of landmarks that were all observed; fewer than 3 make every embedding
   ///        kFailed. Pairs without a common step (infinite distance) take the shortest path over
-  ///        the others where a method needs all distances, and the embedding says so.
+  ///        the others where a method needs all distances, and the embedding has a status of it.
   explicit Embedder(Proximities proximities, EmbedderOptions options = {});
 
   /// @return kFailed, with NaN coordinates, if the method cannot give a map of these data. The

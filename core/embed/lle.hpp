@@ -53,7 +53,7 @@ inline constexpr int kFewestHessianNeighbours = 6;
 ///         bottom_eigenmap, and kRankDeficient if neighbourhoods spread in one direction alone and
 ///         so have no tangent plane.
 /// @throws InvalidInput if the bounds above are broken.
-/// @note O(n K^3) time beside that of the eigenvalues.
+/// @note O(n K^3) time in addition to that of the eigenvalues.
 Embedding hessian_lle(const Eigen::MatrixXd& squared_distances, const NeighbourLists& neighbours);
 
 struct LleOptions {
@@ -71,7 +71,7 @@ struct LleOptions {
 ///         neighbourhood the data spread in one direction alone, and kNotEuclidean if in some no
 ///         points have such distances: the negative eigenvalues of their Gram matrix are cut.
 /// @throws InvalidInput if the bounds above are broken.
-/// @note O(n K^3) time beside that of the eigenvalues.
+/// @note O(n K^3) time in addition to that of the eigenvalues.
 Embedding lle(const Eigen::MatrixXd& squared_distances, const NeighbourLists& neighbours,
               const LleOptions& options = {});
 

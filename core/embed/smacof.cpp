@@ -76,7 +76,7 @@ MAPPROOF_VECTORISED void pair_terms(const Eigen::RowVector2d& at, const Partners
   }
 }
 
-/// One majorisation problem: Z <- V^+ B(Z) Z lowers its stress, or keeps it.
+/// One majorisation problem: Z <- V^+ B(Z) Z reduces its stress, or keeps it.
 class EqualWeights {
  public:
   explicit EqualWeights(const Eigen::MatrixXd& distances)

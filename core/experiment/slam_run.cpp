@@ -149,7 +149,7 @@ void add_random_starts(SlamEstimates& estimates, const SlamRunOptions& options, 
   }
 }
 
-/// Without ground truth all paths are aligned to the first there is.
+/// Without ground truth all paths are aligned to the first one.
 void lay_on_first(SlamRun& run, const SlamRunOptions& options) {
   const SlamRecord* first = nullptr;
   for (SlamRecord& record : run.records) {

@@ -207,7 +207,7 @@ std::optional<Bridging> bridge_components(Graph& graph, const Eigen::MatrixXd& d
   Bridging result{.pieces = piece.empty() ? 0 : *std::ranges::max_element(piece) + 1};
   if (result.pieces <= 1) return result;
 
-  // Kruskal over the components: a label of each, merged as bridges are laid.
+  // Kruskal over the components: a number for each, merged as bridges are added.
   std::vector<int> label(static_cast<std::size_t>(result.pieces));
   std::iota(label.begin(), label.end(), 0);
   std::vector<Bridge> laid;

@@ -33,7 +33,7 @@ std::vector<Eigen::Index> largest_component(const Graph& graph);
 /// What it took to make a graph connected.
 struct Bridging {
   int pieces = 1;        ///< Components before; 1 if nothing was done.
-  double longest = 0.0;  ///< Length of the longest bridge laid.
+  double longest = 0.0;  ///< Length of the longest bridge.
 };
 
 /// Joins the components of `graph` by the shortest bridges (a minimum spanning tree over them).

@@ -8,7 +8,7 @@ namespace mapproof {
 namespace {
 
 constexpr int kMostRounds = 12;
-constexpr double kPrice = 2.0;       ///< Of another label, variances.
+constexpr double kPrice = 2.0;       ///< Of another landmark ID, variances.
 constexpr double kScanWidths = 1.5;  ///< Standard deviations in a width.
 
 RobustMap freshly_mapped(const std::vector<PairItem>& items, int landmarks, double width_m) {

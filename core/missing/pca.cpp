@@ -71,7 +71,7 @@ void maximise(const Moments& moments, double entries, double floor, LowRankModel
   model.ridge = std::max(left / entries, floor);
 }
 
-/// x <- L^-1 (x - its mean) with L L' the covariance of all x, and the model the other way about.
+/// x <- L^-1 (x - its mean) with L L' the covariance of all x, and the inverse for the model.
 void whiten(const Moments& moments, LowRankModel& model) {
   const Eigen::Index q = model.loadings.cols();
   const double columns = moments.all(q, q);

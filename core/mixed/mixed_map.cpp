@@ -194,7 +194,7 @@ Embedding start_of(const std::vector<Eigen::MatrixXd>& squared, const std::vecto
 }
 
 /// The joint map of the rows, from the mean distances' map and each sensor's own by order; empty if
-/// none of them places all the rows.
+/// none of them maps all the rows.
 std::optional<JointMap> joint_from_all(const std::vector<Eigen::MatrixXd>& distances,
                                        const Embedding& mean,
                                        const std::vector<MixedSensor>& sensors, const Rows& rows) {

@@ -9,7 +9,7 @@ namespace mapproof {
 /// history_of(log, sensor) up to rounding.
 ///
 /// @throws InvalidInput if a detection names no landmark.
-/// @note O(sum of k^2) time over scans with k detections, O(M^2) memory beside the log.
+/// @note O(sum of k^2) time over scans with k detections, O(M^2) memory in addition to the log.
 Proximities detected_proximities(const DetectionLog& log, Sensor sensor);
 
 }  // namespace mapproof

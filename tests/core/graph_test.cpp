@@ -80,6 +80,13 @@ TEST(CompletedDistances, FillOnlyWhatIsMissing) {
   EXPECT_DOUBLE_EQ(filled(0, 3), 7.0);
 }
 
+TEST(LargestComponent, IsTheFirstOfTheLargest) {
+  const auto edge = [](Eigen::Index to) { return Edge{.to = to, .length = 1.0}; };
+  const Graph graph = {{}, {edge(3)}, {edge(4)}, {edge(1)}, {edge(2)}};
+  EXPECT_EQ(largest_component(graph), (std::vector<Eigen::Index>{1, 3}));
+  EXPECT_TRUE(largest_component({}).empty());
+}
+
 TEST(BridgeComponents, LaysTheShortestBridgesBetweenThreeIslands) {
   Points points(6, 2);
   points << 0, 0, 1, 0, 5, 0, 6, 0, 20, 0, 21, 0;

@@ -329,7 +329,7 @@ MatrixXd Reduced::times_laplacian(const MatrixXd& P, const VectorXd& w) const {
 
 void Reduced::schur(const MatrixXd& P, const MatrixXd& Q, MatrixXd& S) const {
   S.resize(pairs(), pairs());
-  // Both products of a point in one place; the origin's are zero.
+  // Both products of a point next to each other; the origin's are zero.
   Eigen::Matrix2Xd pq = Eigen::Matrix2Xd::Zero(2, n_ + 1);
   for (Index l = 0; l < pairs(); ++l) {
     const auto [a, b] = ends(l);

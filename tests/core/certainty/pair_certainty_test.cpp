@@ -65,7 +65,7 @@ TEST_P(CertaintyOfPairs, IsHowFarMapsOfOtherScansLieApart) {
   EXPECT_LT(ratio, 1.6);
 }
 
-TEST_P(CertaintyOfPairs, IsNothingWhereScansDoNotErr) {
+TEST_P(CertaintyOfPairs, IsZeroWhereScansHaveNoErrors) {
   for (const Eigen::Matrix2d& C :
        pair_certainty(scans_at(hall(), kScans, 4, 1), GetParam().second, {.replicates = 20})
            .covariances)
