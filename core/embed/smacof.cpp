@@ -137,7 +137,7 @@ class SomeWeights {
     factor_.compute(V);
     const Eigen::VectorXd pivots = factor_.vectorD();
     if (factor_.info() != Eigen::Success || !(pivots.minCoeff() > 1e-12 * degree.maxCoeff()))
-      throw InvalidInput("SMACOF's weights leave the landmarks in pieces");
+      throw InvalidInput("SMACOF's weights do not connect all landmarks");
   }
 
   double scale() const { return scale_; }

@@ -18,7 +18,7 @@ struct SmacofOptions {
 ///
 /// @param distances  n x n, symmetric, zero diagonal, finite.
 /// @param weights    n x n, symmetric, finite, >= 0, connecting all landmarks; empty: all equal to
-/// one.
+///                   one.
 /// @param start      n x 2, finite.
 /// @return The stress is given as a share of sum w_ij delta_ij^2. kNotConverged if the limit of
 ///         iterations came first; kRankDeficient if the map is flat (see planarity.hpp), as it is

@@ -95,7 +95,7 @@ class Varying {
           const Path& path)
       : experiment_(experiment), variation_(variation), run_(run), path_(path) {
     if (variation.step < 1 || variation.step > path.positions_m.rows())
-      throw InvalidInput("a variation at a step that the path does not have");
+      throw InvalidInput("a variation names a step that the path does not have");
   }
 
   void add_level(double level, std::vector<VariationRecord>& records) {
@@ -285,7 +285,7 @@ void map_at(const Experiment& experiment, const ObservationHistory& history,
 int observations_of(const Experiment& experiment) {
   int observations = 1;
   for (const SensorStudy& study : experiment.sensors) {
-    if (study.checkpoints.empty()) throw InvalidInput("a sensor's study without checkpoints");
+    if (study.checkpoints.empty()) throw InvalidInput("a sensor's study has no checkpoints");
     observations = std::max(observations, study.checkpoints.back());
   }
   for (const Variation& variation : experiment.variations)

@@ -8,7 +8,7 @@
 namespace mapproof {
 
 LabelledScans labelled_scans(const DetectionLog& log, int most_blocks) {
-  if (most_blocks < 1) throw InvalidInput("a log is cut into one block or more");
+  if (most_blocks < 1) throw InvalidInput("a log needs one block or more");
   LabelledScans scans{log, scan_pairs(log), {}, {}};
   scans.blocks = cut_in_blocks(log, scans.pairs, 24);
   const int robots = std::max(1, scans.blocks.count / 24);

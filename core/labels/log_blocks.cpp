@@ -112,7 +112,7 @@ std::vector<int> given_labels(const DetectionLog& log) {
 }
 
 LogBlocks cut_in_blocks(const DetectionLog& log, const std::vector<ScanPair>& pairs, int slices) {
-  if (slices < 1) throw InvalidInput("a log is cut into one slice or more");
+  if (slices < 1) throw InvalidInput("a log needs one slice or more");
   const std::vector<double> clock = clock_of(log);
   const std::vector<double> cuts = cuts_of(clock, pairs, slices);
   LogBlocks blocks;

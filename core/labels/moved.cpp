@@ -310,7 +310,8 @@ Change change_of(const std::vector<Timed>& gains, double width_m) {
 void check(const MovedOptions& options) {
   if (!(options.level > 0.0 && options.level < 1.0))
     throw InvalidInput("the level of significance must lie between 0 and 1");
-  if (options.permutations < 19) throw InvalidInput("a permutation test needs 19 or more");
+  if (options.permutations < 19)
+    throw InvalidInput("a permutation test needs 19 permutations or more");
   if (options.slices < 6) throw InvalidInput("a change in time needs 6 slices or more");
 }
 

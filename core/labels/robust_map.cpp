@@ -236,7 +236,7 @@ RobustMap robust_map(const std::vector<PairItem>& items, int landmarks) {
     throw InvalidInput("the check of landmark IDs takes at most 2000 landmarks");
   for (const PairItem& item : items)
     if (item.first < 0 || item.second >= landmarks)
-      throw InvalidInput("a pair names a landmark that is not there");
+      throw InvalidInput("a pair names a landmark that does not exist");
   const Mapped mapped = mapped_landmarks(items, landmarks);
   Points start = Points::Constant(landmarks, 2, kNaN);
   if (mapped.landmarks.size() < 3) return finished(items, std::move(start), 1.0);

@@ -108,7 +108,7 @@ void check(const std::vector<ObservationHistory>& histories, Eigen::Index steps)
       throw InvalidInput("several sensors must have observed the same landmarks");
     for (std::size_t b = 0; b < a; ++b)
       if (histories[a].sensor == histories[b].sensor)
-        throw InvalidInput(fmt::format("the sensor {} is there twice", name(histories[a].sensor)));
+        throw InvalidInput(fmt::format("the sensor {} is given twice", name(histories[a].sensor)));
   }
 }
 

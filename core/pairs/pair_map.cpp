@@ -32,7 +32,7 @@ void check(const std::vector<MeasuredPair>& pairs, std::size_t landmarks,
       throw InvalidInput("measured pairs need finite distances >= 0 and precisions > 0");
   }
   if (options.start && options.start->rows() != static_cast<Eigen::Index>(landmarks))
-    throw InvalidInput("a map to begin with needs a row for each landmark");
+    throw InvalidInput("the initial map needs one row per landmark");
   if (options.fewest_scans < 1 || options.reweightings < 0 || !(options.tolerance > 0.0))
     throw InvalidInput("a map of pairs needs fewest_scans >= 1, reweightings >= 0, tolerance > 0");
 }

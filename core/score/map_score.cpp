@@ -50,12 +50,12 @@ MAPPROOF_VECTORISED Count count_turns(Offsets truth, Offsets estimate, Eigen::In
 
 void check(const Points& estimate, const Points& truth, const std::vector<Eigen::Index>& anchors) {
   if (estimate.rows() != truth.rows())
-    throw InvalidInput(fmt::format("a map of {} landmarks and a ground truth of {}",
-                                   estimate.rows(), truth.rows()));
+    throw InvalidInput(fmt::format("the map has {} landmarks, the ground truth {}", estimate.rows(),
+                                   truth.rows()));
   for (const Eigen::Index anchor : anchors)
     if (anchor < 0 || anchor >= truth.rows())
       throw InvalidInput(
-          fmt::format("anchor {} is none of the {} landmarks", anchor, truth.rows()));
+          fmt::format("anchor {} is not among the {} landmarks", anchor, truth.rows()));
 }
 
 }  // namespace

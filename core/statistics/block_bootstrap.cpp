@@ -6,7 +6,8 @@ namespace mapproof {
 
 std::vector<Eigen::Index> block_resample(Eigen::Index steps, Eigen::Index block, BlockEnds ends,
                                          Random& random) {
-  if (block < 1 || block > steps) throw InvalidInput("blocks of 1 to as many steps as there are");
+  if (block < 1 || block > steps)
+    throw InvalidInput("a block needs 1 step to as many as there are");
   const Eigen::Index starts = ends == BlockEnds::kCircular ? steps : steps - block + 1;
   std::vector<Eigen::Index> drawn;
   drawn.reserve(static_cast<std::size_t>(steps));

@@ -10,7 +10,7 @@ namespace mapproof {
 
 /// How the blocks of a block bootstrap lie in the series.
 enum class BlockEnds {
-  kCircular,  ///< A block that reaches the end goes on at the beginning: all steps are equally
+  kCircular,  ///< A block that reaches the end continues at the beginning: all steps are equally
               ///< likely [politis1992].
   kInside,    ///< Every block lies within the series [kuensch1989].
 };
