@@ -21,9 +21,9 @@ Affine weighted_least_squares(const Points& from, const Points& to,
   return affine;
 }
 
-/// Through four points the residuals of any affine map are one vector shared out by the points'
-/// affine dependency c (sum c_i = 0, sum c_i from_i = 0): the least sum puts all of it on the point
-/// of the largest |c_i| and meets the other three.
+/// Through four points the residuals of any affine map are one vector divided by the points' affine
+/// dependency c (sum c_i = 0, sum c_i from_i = 0): the least sum puts all of it on the point of the
+/// largest |c_i| and meets the other three.
 Affine through_three_of_four(const Points& from, const Points& to) {
   Eigen::Matrix<double, 4, 3> rows;
   rows << from.rowwise() - from.colwise().mean(), Eigen::Vector4d::Ones();

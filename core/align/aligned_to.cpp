@@ -11,7 +11,7 @@ namespace mapproof {
 namespace {
 
 std::vector<Eigen::Index> rows_of_both(const Points& a, const Points& b) {
-  if (a.rows() != b.rows()) throw InvalidInput("two maps of different numbers of landmarks");
+  if (a.rows() != b.rows()) throw InvalidInput("the two maps have different numbers of landmarks");
   std::vector<Eigen::Index> both;
   for (Eigen::Index i = 0; i < a.rows(); ++i)
     if (a.row(i).allFinite() && b.row(i).allFinite()) both.push_back(i);

@@ -6,13 +6,13 @@
 
 namespace mapproof {
 
-/// `points` moved, turned, mirrored and scaled to lie on `onto` best in least squares, over the
+/// `points` translated, rotated, reflected and scaled to fit `onto` best in least squares, over the
 /// rows that both have; empty if those are fewer than three.
 /// @param points, onto  M x 2; NaN rows are left out, and stay NaN.
 /// @throws InvalidInput if they differ in number.
 std::optional<Points> aligned_to(const Points& points, const Points& onto);
 
-/// The same of metric points: moved, turned and mirrored alone.
+/// The same of metric points: translated, rotated and reflected alone.
 std::optional<Points> laid_rigidly_on(const Points& points, const Points& onto);
 
 /// How far `points`, aligned to `onto`, lie from it: root mean square over the rows that both have,

@@ -7,7 +7,7 @@
 namespace mapproof {
 
 /// The four landmarks furthest out along the diagonals of the extent, all different, ascending;
-/// rows with NaN are none.
+/// rows with NaN are left out.
 std::vector<Eigen::Index> diagonal_anchors(const Points& truth_m);
 
 }  // namespace mapproof

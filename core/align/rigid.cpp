@@ -29,7 +29,7 @@ SpaceMotion fit_space_motion(const SpacePoints& from, const SpacePoints& to, boo
   const Eigen::JacobiSVD<Eigen::Matrix3d> svd(moments, Eigen::ComputeFullU | Eigen::ComputeFullV);
   if (svd.info() != Eigen::Success)
     throw InvalidInput("an alignment needs points whose squares are finite");
-  // The last axis is turned where only a mirror would fit better.
+  // The last axis is flipped where only a reflection would fit better.
   Eigen::Vector3d signs = Eigen::Vector3d::Ones();
   const double determinant = (svd.matrixU() * svd.matrixV().transpose()).determinant();
   const Eigen::Vector3d& s = svd.singularValues();
@@ -47,9 +47,9 @@ Similarity fit_similarity(const Points& from, const Points& to, Alignment alignm
   if (!from.allFinite() || !to.allFinite()) throw InvalidInput("an alignment needs finite points");
   if (alignment == Alignment::kNone) return {};
 
-  // Points as complex numbers about their centres: a turn is a factor, a mirror the conjugate. The
-  // best factor has the direction of sum conj(a) b; mirrored, of sum a b; the longer sum fits
-  // better.
+  // Points as complex numbers about their centres: a rotation is a factor, a reflection the
+  // conjugate. The best factor has the direction of sum conj(a) b; reflected, of sum a b; the
+  // longer sum fits better.
   const Eigen::RowVector2d from_center = from.colwise().mean();
   const Eigen::RowVector2d to_center = to.colwise().mean();
   Complex plain = 0.0;

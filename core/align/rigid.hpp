@@ -7,7 +7,7 @@
 
 namespace mapproof {
 
-/// z -> rotation * z + offset, points as rows. A mirror is a rotation of determinant -1.
+/// z -> rotation * z + offset, points as rows. A reflection is a rotation of determinant -1.
 struct SpaceMotion {
   Eigen::Matrix3d rotation = Eigen::Matrix3d::Identity();
   Eigen::RowVector3d offset = Eigen::RowVector3d::Zero();
@@ -17,13 +17,14 @@ struct SpaceMotion {
   }
 };
 
-/// The motion, or mirror where it may, that takes `from` closest to `to` in least squares
-/// [umeyama1991], in closed form. Where the points fix no turn, one of the best.
+/// The rigid motion, or reflection where allowed, that takes `from` closest to `to` in least
+/// squares [umeyama1991], in closed form. Where the points determine no rotation, one of the best.
 /// @param from, to  n x 3, finite, n >= 1.
 /// @throws InvalidInput if the bounds above are broken.
 SpaceMotion fit_space_motion(const SpacePoints& from, const SpacePoints& to, bool may_mirror);
 
-/// z -> scale * rotation * z + offset, points as rows. A mirror is a rotation of determinant -1.
+/// z -> scale * rotation * z + offset, points as rows. A reflection is a rotation of determinant
+/// -1.
 struct Similarity {
   double scale = 1.0;
   Eigen::Matrix2d rotation = Eigen::Matrix2d::Identity();
@@ -34,10 +35,10 @@ struct Similarity {
   }
 };
 
-/// The map of that kind that takes `from` closest to `to` in least squares [umeyama1991], in closed
+/// The map of that type that takes `from` closest to `to` in least squares [umeyama1991], in closed
 /// form. The identity for kNone.
 ///
-/// Where the points fix no turn, because they of one side are all in one place, it does not turn
+/// Where the points determine no rotation, because those of one side coincide, it does not rotate
 /// (and does not scale, if that is the side of `from`).
 /// @param from, to  n x 2, finite, n >= 1.
 /// @throws InvalidInput if the bounds above are broken.

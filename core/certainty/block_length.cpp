@@ -96,7 +96,7 @@ Eigen::Index map_block_length(const ObservationHistory& history, Eigen::Index st
     for (Eigen::Index i = j + 1; i < M; ++i)
       if (pair++ % stride == 0) {
         const Eigen::VectorXd series = pair_series(rows, history.sensor, steps, i, j);
-        // A pair never seen together tells nothing of how long steps are alike.
+        // A pair never seen together has no information on how long steps are correlated.
         if (series.size() == 0 || series.maxCoeff() == series.minCoeff()) continue;
         sum += best_block_length(series);
         ++count;

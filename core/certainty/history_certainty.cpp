@@ -29,7 +29,7 @@ MapCertainty history_certainty(const ObservationHistory& history, Eigen::Index s
                                const CertaintyFrame& frame,
                                const HistoryCertaintyOptions& options) {
   if (frame.positions_m.rows() != history.landmarks())
-    throw InvalidInput("a certainty needs a frame of all landmarks");
+    throw InvalidInput("confidence ellipses need a frame of all landmarks");
   const Eigen::Index block = options.block > 0 ? options.block : map_block_length(history, steps);
   ResampledMaps maps(history, steps, options.embedder, options.rule);
   const auto map_of = [&](const std::vector<Eigen::Index>& drawn) {

@@ -10,7 +10,7 @@
 
 namespace mapproof {
 
-/// What the ellipses of a map refer to, and how they are drawn.
+/// What the confidence ellipses of a map refer to, and how they are computed.
 struct HistoryCertaintyOptions {
   MethodSetting setting;  ///< With its parameter.
   EmbedderOptions embedder = {};
@@ -21,22 +21,22 @@ struct HistoryCertaintyOptions {
   AffineFit fit = AffineFit::kLeastDistances;
 };
 
-/// How the maps of other steps are brought to the frame of the estimate: fitted to the anchors if
-/// there are any, else aligned to the estimate by the similarity or mirrored similarity that fits
-/// best, since what such a map leaves open is not uncertainty.
+/// How the maps of bootstrap resamples are brought to the frame of the estimate: fitted to the
+/// anchors if there are any, else aligned to the estimate by the similarity, with or without
+/// reflection, that fits best, since the freedom of such a map is not uncertainty.
 struct CertaintyFrame {
   Points positions_m;                 ///< M x 2: the anchors' rows are read; or the estimate.
-  std::vector<Eigen::Index> anchors;  ///< Empty: lay on `positions_m`.
-  bool keeps_scale = false;           ///< Maps are metric: they are laid rigidly on either.
+  std::vector<Eigen::Index> anchors;  ///< Empty: align to `positions_m`.
+  bool keeps_scale = false;           ///< Maps are metric: they are aligned rigidly in either case.
 };
 
-/// A map in that frame; empty if it cannot be brought there.
+/// A map in that frame; empty if it cannot be aligned.
 std::optional<Points> in_frame(const Points& coordinates, const CertaintyFrame& frame,
                                AffineFit fit);
 
-/// The certainty of the map of the first `steps` observations, see bootstrap_map.
+/// The uncertainty of the map of the first `steps` observations, see bootstrap_map.
 /// @throws InvalidInput if a bound is broken.
-/// @note As costly as `replicates` maps, O(M^2 N) each and what the method takes.
+/// @note As costly as `replicates` maps, O(M^2 N) each and the method's own time.
 MapCertainty history_certainty(const ObservationHistory& history, Eigen::Index steps,
                                const CertaintyFrame& frame, const HistoryCertaintyOptions& options);
 

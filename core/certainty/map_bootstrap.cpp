@@ -5,11 +5,13 @@
 
 #include "core/base/errors.hpp"
 #include "core/base/not_finite.hpp"
+#include "core/statistics/block_bootstrap.hpp"
 
 namespace mapproof {
 namespace {
 
-/// Of a landmark's places in the maps that have it; NaN if fewer than half of them do.
+/// Covariance of a landmark's positions in the maps that have it; NaN if fewer than half of them
+/// do.
 Eigen::Matrix2d covariance(const std::vector<Points>& maps, Eigen::Index landmark) {
   Eigen::Vector2d sum = Eigen::Vector2d::Zero();
   int count = 0;
@@ -32,26 +34,15 @@ Eigen::Matrix2d covariance(const std::vector<Points>& maps, Eigen::Index landmar
 
 }  // namespace
 
-std::vector<Eigen::Index> drawn_steps(Eigen::Index steps, Eigen::Index block, Random& random) {
-  if (block < 1 || block > steps) throw InvalidInput("blocks of 1 to as many steps as there are");
-  std::vector<Eigen::Index> drawn;
-  drawn.reserve(static_cast<std::size_t>(steps));
-  while (std::ssize(drawn) < steps) {
-    const auto first = static_cast<Eigen::Index>(random.uniform() * static_cast<double>(steps));
-    for (Eigen::Index i = 0; i < block && std::ssize(drawn) < steps; ++i)
-      drawn.push_back((first + i) % steps);
-  }
-  return drawn;
-}
-
 MapCertainty bootstrap_map(Eigen::Index landmarks, Eigen::Index steps, const MapOfSteps& map_of,
                            const MapBootstrapOptions& options) {
   if (options.replicates < 10 || options.replicates > 10000)
-    throw InvalidInput("a bootstrap needs 10 to 10,000 replicates");
+    throw InvalidInput("the bootstrap needs 10 to 10,000 replicates");
   std::vector<Points> maps;
   for (int i = 0; i < options.replicates; ++i) {
     Random random(derive_seed(options.seed, {static_cast<std::uint64_t>(i)}));
-    std::optional<Points> map = map_of(drawn_steps(steps, options.block, random));
+    std::optional<Points> map =
+        map_of(block_resample(steps, options.block, BlockEnds::kCircular, random));
     if (!map) continue;
     if (map->rows() != landmarks) throw InvalidInput("a bootstrap's maps need all landmarks");
     maps.push_back(std::move(*map));
@@ -73,7 +64,8 @@ double bootstrap_freedom(Eigen::Index steps, Eigen::Index block, int maps) {
 }
 
 double squared_radius(double confidence, double freedom) {
-  if (!(confidence > 0.0 && confidence < 1.0)) throw InvalidInput("a confidence between 0 and 1");
+  if (!(confidence > 0.0 && confidence < 1.0))
+    throw InvalidInput("a confidence must lie between 0 and 1");
   if (!(freedom > 1.0)) throw InvalidInput("an ellipse needs more than one degree of freedom");
   // 2 f / (f - 1) times the quantile of F with 2 and f - 1 degrees, which has a closed form.
   return freedom * std::expm1(-2.0 / (freedom - 1.0) * std::log1p(-confidence));

@@ -17,17 +17,12 @@ struct MapBootstrapOptions {
   std::uint64_t seed = 1;
 };
 
-/// Steps of blocks drawn with replacement from a circle, as many as there are: every step is as
-/// likely as any other.
-/// @throws InvalidInput unless 1 <= block <= steps.
-std::vector<Eigen::Index> drawn_steps(Eigen::Index steps, Eigen::Index block, Random& random);
-
 /// The map that some steps make, in the frame of the estimate: M x 2, NaN rows where a landmark has
-/// no place; empty if none came out.
+/// no position; empty if there is none.
 using MapOfSteps = std::function<std::optional<Points>(const std::vector<Eigen::Index>& steps)>;
 
-/// How sure each landmark is: covariances over maps of steps drawn anew [kuensch1989]
-/// [politis1992], and the radius of their 95 % ellipses.
+/// The uncertainty of each landmark: covariances over the maps of bootstrap resamples of the steps
+/// [kuensch1989] [politis1992], and the radius of their 95 % confidence ellipses.
 ///
 /// A covariance from N steps in blocks of b is about as good as one of 3 N / 2 b independent maps,
 /// and no better than that of the replicates, so the radius is that of Hotelling's T^2 with so many

@@ -63,7 +63,7 @@ Eigen::VectorXd signs_of(const DetectionLog& log, const std::vector<std::size_t>
 
 Eigen::Index block_length_of(const DetectionLog& log, std::vector<MeasuredPair> pairs) {
   std::ranges::stable_sort(pairs, std::ranges::greater(), &MeasuredPair::scans);
-  // The pairs seen most often tell enough; a length costs some N^1.5 for N scans.
+  // The pairs seen most often suffice; a length costs some N^1.5 for N scans.
   constexpr double kMostPairs = 60.0;
   constexpr double kMostWork = 3e8;
   const double most =
@@ -86,7 +86,7 @@ MapCertainty pair_certainty(const DetectionLog& log, const CertaintyFrame& frame
                             const PairCertaintyOptions& options) {
   if (log.steps < 1) throw InvalidInput("a bootstrap needs a scan or more");
   if (frame.positions_m.rows() != std::ssize(log.names))
-    throw InvalidInput("a certainty needs a frame of all landmarks");
+    throw InvalidInput("confidence ellipses need a frame of all landmarks");
   std::set<std::pair<Eigen::Index, Eigen::Index>> trusted;
   const PairMap whole = pair_map_of(log);
   const std::vector<MeasuredPair>& pairs = whole.pairs;

@@ -7,12 +7,12 @@
 
 namespace mapproof {
 
-/// Maps of steps of one history drawn with replacement. What one step tells is worked out once.
+/// Maps of steps of one history drawn with replacement. Each step's contribution is computed once.
 class ResampledMaps {
  public:
   /// @param steps  How many observations are drawn from, 1 <= steps <= history.steps().
   /// @throws InvalidInput if `steps` is out of bounds.
-  /// @param rule  See HistoryEmbedder; with one every draw goes through it as a history.
+  /// @param rule  See HistoryEmbedder; if given, every resample goes through it as a history.
   ResampledMaps(const ObservationHistory& history, Eigen::Index steps, EmbedderOptions options,
                 ProximityRule rule = {});
 

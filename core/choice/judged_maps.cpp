@@ -13,6 +13,7 @@
 #include "core/embed/connected_graph.hpp"
 #include "core/graph/shortest_paths.hpp"
 #include "core/score/map_score.hpp"
+#include "core/statistics/block_bootstrap.hpp"
 
 namespace mapproof {
 namespace {
@@ -25,7 +26,7 @@ bool failed(const Embedding& embedding) {
          embedding.statuses.end();
 }
 
-/// The mean of the ranks by all criteria that tell something of every map.
+/// The mean of the ranks by all criteria that have a value for every map.
 void combine(std::vector<JudgedMap>& maps) {
   std::vector<double> sums(maps.size(), 0.0);
   int criteria = 0;
@@ -71,7 +72,7 @@ std::span<const CriterionInfo> all_criteria() {
       {.criterion = Criterion::kStability,
        .name = "stability",
        .label = "Instability",
-       .meaning = "how far maps of steps drawn anew lie from the map, in its size",
+       .meaning = "how far maps of bootstrap resamples lie from the map, in its size",
        .lower_is_better = true},
       {.criterion = Criterion::kAnchors,
        .name = "anchors",
@@ -98,7 +99,7 @@ MapJudge::MapJudge(const ObservationHistory& history, Eigen::Index steps,
                    const ChoiceOptions& options)
     : fit_(options.fit) {
   if (options.replicates < 0 || options.replicates > 10000)
-    throw InvalidInput("a choice needs 0 to 10,000 replicates");
+    throw InvalidInput("the choice needs 0 to 10,000 replicates");
   observe(history, steps, options);
   HistoryEmbedder embedder(history, steps, options.embedder, options.rule);
   for (const MethodSetting& setting : options.settings) {
@@ -129,7 +130,7 @@ void MapJudge::observe(const ObservationHistory& history, Eigen::Index steps,
   along_the_graph_ = shortest_paths(graph.graph);
 }
 
-/// Draws the steps anew and maps them by every setting.
+/// Resamples the steps and maps them by every setting.
 void MapJudge::judge_stability(const ObservationHistory& history, Eigen::Index steps,
                                const ChoiceOptions& options) {
   const Eigen::Index block = map_block_length(history, steps);
@@ -137,8 +138,8 @@ void MapJudge::judge_stability(const ObservationHistory& history, Eigen::Index s
   std::vector<double> sums(maps_.size(), 0.0);
   for (int draw = 0; draw < options.replicates; ++draw) {
     Random random(derive_seed(options.seed, {static_cast<std::uint64_t>(draw)}));
-    const std::vector<Points> drawn =
-        resampled.maps_of(drawn_steps(steps, block, random), options.settings);
+    const std::vector<Points> drawn = resampled.maps_of(
+        block_resample(steps, block, BlockEnds::kCircular, random), options.settings);
     for (std::size_t m = 0; m < maps_.size(); ++m) {
       if (!maps_[m].mapped) continue;
       const double gap = relative_gap(drawn[m], maps_[m].embedding.coordinates);
@@ -150,7 +151,7 @@ void MapJudge::judge_stability(const ObservationHistory& history, Eigen::Index s
       value_of(maps_[m].values, Criterion::kStability) = std::sqrt(sums[m] / options.replicates);
 }
 
-/// Fills in what needs the one map alone.
+/// Fills in the criteria that need the one map alone.
 void MapJudge::judge(JudgedMap& map, const CertaintyFrame& frame) const {
   const Points places = map.positions(seen_, Eigen::all);
   const auto n = static_cast<int>(places.rows());

@@ -12,7 +12,7 @@
 
 namespace mapproof {
 
-/// What can be told of a map without knowing the truth.
+/// Criteria of a map that need no ground truth.
 enum class Criterion {
   kStress,
   kResidualVariance,
@@ -39,7 +39,7 @@ std::span<const CriterionInfo> all_criteria();
 
 const CriterionInfo& info(Criterion criterion);
 
-/// A value a criterion; NaN: it could not be told.
+/// One value per criterion; NaN: undetermined.
 using CriterionValues = std::array<double, kCriteria>;
 
 inline double& value_of(CriterionValues& values, Criterion criterion) {
@@ -57,12 +57,12 @@ struct ChoiceOptions {
   std::vector<MethodSetting> settings = {};  ///< With their parameters.
   EmbedderOptions embedder;
   ProximityRule rule = {};  ///< See HistoryEmbedder.
-  int replicates = 20;      ///< Maps of steps drawn anew, for the stability; 0: it is not judged.
+  int replicates = 20;  ///< Maps of bootstrap resamples, for the stability; 0: it is not computed.
   std::uint64_t seed = 1;
   AffineFit fit = AffineFit::kLeastDistances;
 };
 
-/// One candidate: its map and what the criteria say of it.
+/// One candidate: its map and its criteria.
 struct JudgedMap {
   MethodSetting setting;
   Embedding embedding;
@@ -71,7 +71,7 @@ struct JudgedMap {
   CriterionValues values{};
 };
 
-/// Maps a history by every setting and judges the maps without the truth.
+/// Maps a history by every setting and judges the maps without ground truth.
 ///
 /// Distances are those of the observation vectors. The residual variance is against shortest paths
 /// over one graph of 8 neighbours for all; neighbourhoods are of 10, or a quarter of the landmarks.
@@ -84,7 +84,7 @@ class MapJudge {
   /// @param frame  The anchors and their positions; without anchors the maps are judged as they
   ///               are, and nothing of the frame is read.
   /// @return In the order of the settings. kCombined is the mean of the ranks by all criteria that
-  ///         could be told of every map.
+  ///         have a value for every map.
   /// @throws InvalidInput for a frame of other landmarks.
   std::vector<JudgedMap> in(const CertaintyFrame& frame) const;
 
@@ -106,8 +106,8 @@ class MapJudge {
 std::vector<MethodSetting> usual_candidates(const HistoryEmbedder& embedder,
                                             Eigen::Index landmarks);
 
-/// The maps by one criterion, best first: rows of `maps`, those that came out alone; ties, and maps
-/// of which the criterion tells nothing, in the order given and last.
+/// The maps by one criterion, best first: rows of `maps`, successful ones alone; ties, and maps for
+/// which the criterion has no value, in the order given and last.
 std::vector<std::size_t> ranked(const std::vector<JudgedMap>& maps, Criterion criterion);
 
 }  // namespace mapproof

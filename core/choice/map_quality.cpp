@@ -51,7 +51,7 @@ Eigen::VectorXd ranks_about(const Eigen::MatrixXd& D, Eigen::Index i) {
   return ranks;
 }
 
-/// How many ranks too far those are in `there` that are among the nearest in `here`.
+/// How many ranks too far in `there` those are that are among the nearest in `here`.
 double intruders(const Eigen::VectorXd& here, const Eigen::VectorXd& there, Eigen::Index self,
                  double neighbours) {
   double sum = 0.0;
@@ -82,7 +82,7 @@ NeighbourhoodsKept neighbourhoods_kept(const Eigen::MatrixXd& distances, const P
                                        int neighbours) {
   const Eigen::Index n = map.rows();
   if (neighbours < 1 || 2 * neighbours >= n)
-    throw InvalidInput("neighbourhoods of 1 to fewer than half of the landmarks");
+    throw InvalidInput("neighbourhoods need 1 to fewer than half of the landmarks");
   const double size = static_cast<double>(n);
   const double k = neighbours;
   const Eigen::MatrixXd D = distances_in(map);

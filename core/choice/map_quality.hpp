@@ -31,7 +31,7 @@ struct NeighbourhoodsKept {
 NeighbourhoodsKept neighbourhoods_kept(const Eigen::MatrixXd& distances, const Points& map,
                                        int neighbours);
 
-/// How far each anchor that the map has is from where an affine map fitted to the others puts it:
+/// How far each anchor on the map is from its position under an affine map fitted to the others:
 /// the mean, m.
 /// @param anchors_m  Read at the rows `anchors` alone.
 /// @return NaN with fewer than four such anchors, or where the others never span the plane.

@@ -24,7 +24,7 @@ std::vector<Eigen::Index> known_and_mapped(const Eigen::MatrixXd& distances, con
 double mixed_continuity(const std::vector<Eigen::MatrixXd>& distances,
                         const std::vector<double>& weights, const Points& map) {
   if (distances.size() != weights.size())
-    throw InvalidInput("the continuity of a mixed map needs a weight each sensor");
+    throw InvalidInput("the continuity of a mixed map needs one weight per sensor");
   double sum = 0.0, total = 0.0;
   for (std::size_t s = 0; s < distances.size(); ++s) {
     if (distances[s].rows() != map.rows() || distances[s].cols() != map.rows())

@@ -12,7 +12,7 @@ namespace mapproof {
 /// sensor's neighbourhoods keep (see neighbourhoods_kept), 1 at best. Neighbourhoods are of 10, or
 /// a quarter of the landmarks that the sensor knows and the map has.
 ///
-/// So maps of one sensor and of several can be compared without the truth.
+/// So maps of one sensor and of several can be compared without ground truth.
 /// @param distances  Of each sensor, M x M; infinite: not known.
 /// @param weights    As many, >= 0.
 /// @param map        M x 2; NaN rows: unmapped.

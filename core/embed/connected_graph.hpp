@@ -10,7 +10,7 @@
 
 namespace mapproof {
 
-/// Tells whether neighbours were chosen among landmarks of which the observations say nothing.
+/// Whether neighbours were chosen among landmarks on which the observations have no information.
 ///
 /// @param nearest  K or more of each landmark, nearest first (see nearest_neighbours).
 /// @param apart  The distance of landmarks never seen together; infinite: there are no such.
@@ -27,7 +27,7 @@ std::optional<Status> arbitrary_neighbours(const NeighbourLists& nearest, int ne
 /// @note O(n^2).
 int groups_seen_together(const Eigen::MatrixXd& squared_distances, double apart_squared);
 
-/// A neighbour graph in one piece, with what it took.
+/// A neighbour graph in one piece, with its warnings.
 struct ConnectedGraph {
   Graph graph;                   ///< Of connected_neighbourhoods: NeighbourLists.
   std::vector<Status> statuses;  ///< kBridged, or kFailed if it stays in pieces.
@@ -53,8 +53,8 @@ ConnectedGraph connected_neighbourhoods(const Eigen::MatrixXd& distances,
 /// way out of a group becomes a neighbour of the one it starts from (kBridged).
 void tie_blends(ConnectedGraph& neighbourhoods, const Eigen::MatrixXd& distances);
 
-/// Neighbourhoods for HLLE: all tied together by landmarks in common, which a landmark that is
-/// nobody's neighbour is not. Where they are not, landmarks join their own (kBridged).
+/// Neighbourhoods for HLLE: all tied together by landmarks in common, unlike a landmark that is not
+/// a neighbour of any other. Where they are not, landmarks join their own (kBridged).
 void tie_sets(ConnectedGraph& neighbourhoods);
 
 }  // namespace mapproof

@@ -26,7 +26,7 @@ Embedding failed(Eigen::Index landmarks, Status why) {
   return result;
 }
 
-/// What went wrong with the map that `result` started from, unless it says the same of itself.
+/// The warnings of the map that `result` started from, except those it has itself.
 void add_statuses_of_start(Embedding& result, const Embedding& start, Method method) {
   std::vector<Status> added;
   for (const Status& status : start.statuses)
@@ -111,7 +111,7 @@ Embedding Embedder::embed(const MethodSetting& setting) {
   return result;
 }
 
-/// What the observations leave open whatever the method.
+/// What the observations do not determine whatever the method.
 std::vector<Status> Embedder::caveats(const Embedding& map, const MethodSetting& setting) {
   std::vector<Status> statuses;
   if (std::ranges::find(map.statuses, StatusCode::kFailed, &Status::code) != map.statuses.end())
@@ -224,7 +224,7 @@ Embedding Embedder::on_neighbourhoods(Method method, int neighbours) {
   return result;
 }
 
-/// Sorted once for all K up to some: most studies ask for one K after another.
+/// Sorted once for all K up to some: most studies use one K after another.
 const NeighbourLists& Embedder::nearest(int neighbours) {
   constexpr int kUsual = 16;
   if (nearest_count_ < neighbours) {
@@ -235,7 +235,7 @@ const NeighbourLists& Embedder::nearest(int neighbours) {
   return nearest_;
 }
 
-/// Those of pairs without a common step as their completed distances have them.
+/// Those of pairs that are never co-visible as their completed distances have them.
 Eigen::MatrixXd Embedder::complete_inner_products() const {
   if (completed_pairs_ == 0) return proximities_.inner_products;
   const Eigen::VectorXd squares = proximities_.inner_products.diagonal();
@@ -261,7 +261,7 @@ const Embedding& Embedder::equal_weights() {
 
 namespace {
 
-/// One scan puts all bearings on a circle, two on a torus: no map is told by so few.
+/// One scan puts all bearings on a circle, two on a torus: too few to determine a map.
 constexpr Eigen::Index kFewestSteps = 3;
 
 }  // namespace

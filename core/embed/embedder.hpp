@@ -24,13 +24,13 @@ struct EmbedderOptions {
   LleOptions lle;
 };
 
-/// Every mapping method over the same proximities; what several of them start from is computed
+/// Every mapping method over the same proximities; starts that several of them share are computed
 /// once.
 class Embedder {
  public:
   /// @param proximities  Of landmarks that were all observed; fewer than 3 make every embedding
   ///        kFailed. Pairs without a common step (infinite distance) take the shortest path over
-  ///        the others where a method needs all distances, and the embedding says so.
+  ///        the others where a method needs all distances, and the embedding has a status of it.
   explicit Embedder(Proximities proximities, EmbedderOptions options = {});
 
   /// @return kFailed, with NaN coordinates, if the method cannot give a map of these data. The
@@ -60,7 +60,7 @@ class Embedder {
 
   EmbedderOptions options_;
   Proximities proximities_;
-  Eigen::MatrixXd distances_;  ///< Empty until asked for; may hold infinities.
+  Eigen::MatrixXd distances_;  ///< Empty until needed; may hold infinities.
   /// Distances and squares, all finite if the data allow; empty where nothing had to be completed.
   Eigen::MatrixXd completed_distances_;
   Eigen::MatrixXd completed_squares_;
@@ -69,14 +69,14 @@ class Embedder {
   Eigen::Index completed_pairs_ = 0;
   bool seen_apart_ = false;  ///< Some landmarks share no step even over others.
   double apart_ = 0.0;       ///< Landmarks as far as this were never seen together.
-  double cutoff_ = 0.0;      ///< Landmarks as far as this are nobody's neighbours.
+  double cutoff_ = 0.0;      ///< Landmarks as far as this are not neighbours of any other.
   int groups_ = 1;           ///< Of landmarks of which no two were seen together with another's.
   std::optional<Embedding> linear_;
   std::optional<Embedding> equal_weights_;
 };
 
-/// Another way from observations to proximities than proximities(): takes a history of landmarks
-/// that were all observed, and how many steps to use.
+/// An alternative to proximities(): takes a history of landmarks that were all observed, and how
+/// many steps to use.
 using ProximityRule = std::function<Proximities(const ObservationHistory&, Eigen::Index)>;
 
 /// Maps the landmarks seen in the first `steps` observations of a history; the others get NaN rows

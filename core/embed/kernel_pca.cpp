@@ -29,7 +29,7 @@ Embedding of_kernel(Eigen::MatrixXd K) {
   const bool is_said = std::ranges::any_of(result.statuses, [](const Status& status) {
     return status.code == StatusCode::kUndetermined || status.code == StatusCode::kRankDeficient;
   });
-  // Three landmarks or four have too few eigenvalues to tell.
+  // Three landmarks or four have too few eigenvalues to decide.
   if (!is_said && B.rows() > 4 && result.spectrum.size() > 1 &&
       result.spectrum(1) > kLeastOfMean * mean && result.spectrum(1) < kMostOfMean * mean)
     result.statuses.push_back(status_of<StatusReason::kEqualKernel>(result.spectrum(1) / mean));
@@ -48,7 +48,7 @@ Embedding kernel_pca(const Eigen::MatrixXd& inner_products, const PolynomialKern
   check(inner_products);
   if (kernel.degree < 1 || kernel.degree > 20)
     throw InvalidInput("a polynomial kernel needs a degree from 1 to 20");
-  // Over its largest value, so that no power overflows; the map then gets its scale back.
+  // Divided by its largest value, so that no power overflows; the map then gets its scale back.
   const Eigen::ArrayXXd shifted = inner_products.array() + 1.0;
   const double largest = std::max(shifted.abs().maxCoeff(), 1e-300);
   const Eigen::ArrayXXd base = shifted / largest;

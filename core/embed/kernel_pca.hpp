@@ -23,7 +23,7 @@ struct PolynomialKernel {
 /// @return As of principal_coordinates: kRankDeficient if the kernel is constant, kUndetermined if
 ///         it is that of landmarks that are all equally far.
 /// @throws InvalidInput if the bounds above are broken.
-/// @note O(n^2) time beside that of the eigenvalues.
+/// @note O(n^2) time in addition to that of the eigenvalues.
 Embedding kernel_pca(const Eigen::MatrixXd& squared_distances, const GaussianKernel& kernel);
 
 /// The same with the polynomial kernel.

@@ -85,7 +85,7 @@ void check_neighbourhoods(const Eigen::MatrixXd& squared_distances,
     if (std::ssize(edges) < fewest)
       throw InvalidInput(fmt::format("need {} neighbours of each landmark", fewest));
     for (const Edge& edge : edges)
-      if (edge.to < 0 || edge.to >= n) throw InvalidInput("a neighbour that is not a landmark");
+      if (edge.to < 0 || edge.to >= n) throw InvalidInput("a neighbour is not a landmark");
   }
 }
 

@@ -37,7 +37,7 @@ class QuadraticForms {
 };
 
 /// Hessian LLE needs this many neighbours for a map of the plane: 1, x, y and their three products
-/// must be told apart.
+/// must be distinguishable.
 inline constexpr int kFewestHessianNeighbours = 6;
 
 /// Hessian LLE: the functions over the landmarks whose Hessian, estimated in the tangent plane of
@@ -48,12 +48,12 @@ inline constexpr int kFewestHessianNeighbours = 6;
 /// Gram-Schmidt; one that adds none (neighbours on a conic) is left out.
 /// @param squared_distances  n x n, symmetric, zero diagonal, finite, n > 6.
 /// @param neighbours  At least 6 of each landmark (see nearest_neighbours), in one piece.
-/// @return Columns of length 1, which the paper's last step would turn and scale to be orthonormal
-///         over a neighbourhood: an affine map, left to the alignment. Statuses as of
+/// @return Columns of length 1, which the paper's last step would rotate and scale to be
+///         orthonormal over a neighbourhood: an affine map, left to the alignment. Statuses as of
 ///         bottom_eigenmap, and kRankDeficient if neighbourhoods spread in one direction alone and
 ///         so have no tangent plane.
 /// @throws InvalidInput if the bounds above are broken.
-/// @note O(n K^3) time beside that of the eigenvalues.
+/// @note O(n K^3) time in addition to that of the eigenvalues.
 Embedding hessian_lle(const Eigen::MatrixXd& squared_distances, const NeighbourLists& neighbours);
 
 struct LleOptions {
@@ -71,7 +71,7 @@ struct LleOptions {
 ///         neighbourhood the data spread in one direction alone, and kNotEuclidean if in some no
 ///         points have such distances: the negative eigenvalues of their Gram matrix are cut.
 /// @throws InvalidInput if the bounds above are broken.
-/// @note O(n K^3) time beside that of the eigenvalues.
+/// @note O(n K^3) time in addition to that of the eigenvalues.
 Embedding lle(const Eigen::MatrixXd& squared_distances, const NeighbourLists& neighbours,
               const LleOptions& options = {});
 

@@ -12,9 +12,16 @@
 namespace mapproof {
 namespace {
 
-/// Adds what one pair does to B(Z) Z, and returns what it does to the stress.
-double add_pair(const Points& Z, Eigen::Index i, Eigen::Index j, double delta, double weight,
-                Points& BZ) {
+struct WeightedPair {
+  Eigen::Index i;
+  Eigen::Index j;
+  double delta;  ///< The distance to be kept.
+  double weight;
+};
+
+/// Adds one pair's term to B(Z) Z, and returns its term of the stress.
+double add_pair(const Points& Z, const WeightedPair& pair, Points& BZ) {
+  const auto& [i, j, delta, weight] = pair;
   const double dx = Z(i, 0) - Z(j, 0);
   const double dy = Z(i, 1) - Z(j, 1);
   const double distance = std::sqrt(dx * dx + dy * dy);
@@ -29,7 +36,7 @@ double add_pair(const Points& Z, Eigen::Index i, Eigen::Index j, double delta, d
   return weight * residual * residual;
 }
 
-/// What the pairs of one landmark with others do, each for itself.
+/// The terms of the pairs of one landmark with others, one value per pair.
 struct PairBuffers {
   explicit PairBuffers(Eigen::Index n) : x(n), y(n), stress(n) {}
 
@@ -38,15 +45,25 @@ struct PairBuffers {
   Eigen::ArrayXd stress;
 };
 
-/// Without a sum, so that the compiler may take several pairs at a time, with the same bits
-/// whatever the width of the processor's vectors.
-/// @param at  The landmark's place; the others' and their distances are `count` values each.
-MAPPROOF_VECTORISED void pair_terms(const Eigen::RowVector2d& at, const double* x, const double* y,
-                                    const double* delta, Eigen::Index count,
-                                    double* __restrict out_x, double* __restrict out_y,
-                                    double* __restrict out_stress) {
+/// The partners of one landmark: `count` values each.
+struct Partners {
+  const double* x;
+  const double* y;
+  const double* delta;  ///< The distances to be kept.
+  Eigen::Index count;
+};
+
+/// Without a sum, so that the compiler may vectorise it, with the same bits whatever the width of
+/// the processor's vectors.
+/// @param at  The landmark's position.
+MAPPROOF_VECTORISED void pair_terms(const Eigen::RowVector2d& at, const Partners& partners,
+                                    PairBuffers& out) {
   const double at_x = at.x();
   const double at_y = at.y();
+  const auto [x, y, delta, count] = partners;
+  double* __restrict out_x = out.x.data();
+  double* __restrict out_y = out.y.data();
+  double* __restrict out_stress = out.stress.data();
   for (Eigen::Index i = 0; i < count; ++i) {
     const double dx = at_x - x[i];
     const double dy = at_y - y[i];
@@ -59,7 +76,7 @@ MAPPROOF_VECTORISED void pair_terms(const Eigen::RowVector2d& at, const double* 
   }
 }
 
-/// One majorisation problem: Z <- V^+ B(Z) Z lowers its stress, or keeps it.
+/// One majorisation problem: Z <- V^+ B(Z) Z reduces its stress, or keeps it.
 class EqualWeights {
  public:
   explicit EqualWeights(const Eigen::MatrixXd& distances)
@@ -75,9 +92,12 @@ class EqualWeights {
     stress = 0.0;
     for (Eigen::Index j = 0; j < n - 1; ++j) {
       const Eigen::Index count = n - 1 - j;
-      pair_terms(Z.row(j), Z.col(0).data() + j + 1, Z.col(1).data() + j + 1,
-                 distances_.col(j).data() + j + 1, count, pairs.x.data(), pairs.y.data(),
-                 pairs.stress.data());
+      pair_terms(Z.row(j),
+                 {.x = Z.col(0).data() + j + 1,
+                  .y = Z.col(1).data() + j + 1,
+                  .delta = distances_.col(j).data() + j + 1,
+                  .count = count},
+                 pairs);
       stress += pairs.stress.head(count).sum();
       BZ(j, 0) += pairs.x.head(count).sum();
       BZ(j, 1) += pairs.y.head(count).sum();
@@ -97,8 +117,8 @@ class SomeWeights {
  public:
   SomeWeights(const Eigen::MatrixXd& distances, const Eigen::MatrixXd& weights) {
     const Eigen::Index n = distances.rows();
-    // V is the weights' Laplacian. Its solutions are arbitrary in place: the last landmark's is the
-    // origin, which leaves a regular matrix of the others, as sparse as the weights.
+    // V is the weights' Laplacian. Its solutions are defined up to translation: the last landmark
+    // is the origin, which leaves a regular matrix of the others, as sparse as the weights.
     std::vector<Eigen::Triplet<double>> entries;
     Eigen::VectorXd degree = Eigen::VectorXd::Zero(n);
     for (Eigen::Index j = 0; j < n; ++j)
@@ -117,7 +137,7 @@ class SomeWeights {
     factor_.compute(V);
     const Eigen::VectorXd pivots = factor_.vectorD();
     if (factor_.info() != Eigen::Success || !(pivots.minCoeff() > 1e-12 * degree.maxCoeff()))
-      throw InvalidInput("SMACOF's weights leave the landmarks in pieces");
+      throw InvalidInput("SMACOF's weights do not connect all landmarks");
   }
 
   double scale() const { return scale_; }
@@ -126,27 +146,19 @@ class SomeWeights {
     const Eigen::Index n = Z.rows();
     Points BZ = Points::Zero(n, 2);
     stress = 0.0;
-    for (const Pair& pair : pairs_)
-      stress += add_pair(Z, pair.i, pair.j, pair.delta, pair.weight, BZ);
+    for (const WeightedPair& pair : pairs_) stress += add_pair(Z, pair, BZ);
     Points next = Points::Zero(n, 2);
     next.topRows(n - 1) = factor_.solve(BZ.topRows(n - 1));
     return next.rowwise() - next.colwise().mean();
   }
 
  private:
-  struct Pair {
-    Eigen::Index i;
-    Eigen::Index j;
-    double delta;
-    double weight;
-  };
-
-  std::vector<Pair> pairs_;
+  std::vector<WeightedPair> pairs_;
   double scale_ = 0.0;
   Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>> factor_;
 };
 
-/// Lowers the stress from the start until it falls no more.
+/// Minimizes the stress from the start until it falls no more.
 template <typename Problem>
 Embedding lowered(const Problem& problem, const Points& start, const SmacofOptions& options) {
   Embedding result;

@@ -6,9 +6,9 @@
 
 namespace mapproof {
 
-/// When to stop lowering the stress.
+/// When to stop minimizing the stress.
 struct SmacofOptions {
-  /// Stop once one iteration lowers the stress by less than this share of it, >= 0.
+  /// Stop once one iteration reduces the stress by less than this share of it, >= 0.
   double relative_fall = 1e-7;
   int max_iterations = 1000;  ///< >= 1.
 };
@@ -18,7 +18,7 @@ struct SmacofOptions {
 ///
 /// @param distances  n x n, symmetric, zero diagonal, finite.
 /// @param weights    n x n, symmetric, finite, >= 0, connecting all landmarks; empty: all equal to
-/// one.
+///                   one.
 /// @param start      n x 2, finite.
 /// @return The stress is given as a share of sum w_ij delta_ij^2. kNotConverged if the limit of
 ///         iterations came first; kRankDeficient if the map is flat (see planarity.hpp), as it is

@@ -95,7 +95,7 @@ class Varying {
           const Path& path)
       : experiment_(experiment), variation_(variation), run_(run), path_(path) {
     if (variation.step < 1 || variation.step > path.positions_m.rows())
-      throw InvalidInput("a variation at a step that the path does not have");
+      throw InvalidInput("a variation names a step that the path does not have");
   }
 
   void add_level(double level, std::vector<VariationRecord>& records) {
@@ -124,7 +124,7 @@ class Varying {
                          variation_.placement.value_or(experiment_.anchor_placement), random);
   }
 
-  /// Observes and embeds anew where the level asks for it.
+  /// Observes and embeds again where the level asks for it.
   void prepare(const Experiment& varied) {
     const bool same_history = history_ && variation_.factor != Factor::kNoise &&
                               variation_.factor != Factor::kDropoutShare;
@@ -215,7 +215,7 @@ Eigen::MatrixXd observed_squares(const ObservationHistory& history, Eigen::Index
   return squared;
 }
 
-/// What figures show of one sensor's history, spectra apart.
+/// What figures show of one sensor's history, without spectra.
 ///
 /// The scan is the one that shows most: for visibility the step with the most hidden landmarks (of
 /// those the one with the most visible), for other sensors the step nearest the room's centre; of
@@ -285,7 +285,7 @@ void map_at(const Experiment& experiment, const ObservationHistory& history,
 int observations_of(const Experiment& experiment) {
   int observations = 1;
   for (const SensorStudy& study : experiment.sensors) {
-    if (study.checkpoints.empty()) throw InvalidInput("a sensor's study without checkpoints");
+    if (study.checkpoints.empty()) throw InvalidInput("a sensor's study has no checkpoints");
     observations = std::max(observations, study.checkpoints.back());
   }
   for (const Variation& variation : experiment.variations)

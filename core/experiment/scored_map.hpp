@@ -9,13 +9,13 @@ namespace mapproof {
 
 /// A map in the frame of its anchors, with its score if it could be tied to them.
 struct ScoredMap {
-  Points positions_m;  ///< M x 2; NaN rows where a landmark has no place.
+  Points positions_m;  ///< M x 2; NaN rows where a landmark has no position.
   Frame frame = Frame::kTruth;
   std::vector<Status> statuses;  ///< Of the embedding and of the alignment.
   std::optional<Score> score;
 };
 
-/// Aligns an embedding to the anchors and scores it against the truth.
+/// Aligns an embedding to the anchors and scores it against the ground truth.
 /// @param truth_m  M x 2.
 ScoredMap scored_map(const Embedding& embedding, const Points& truth_m,
                      const std::vector<Eigen::Index>& anchors, AffineFit fit);

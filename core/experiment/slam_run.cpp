@@ -103,11 +103,11 @@ bool has_start_pose(const StartPose& start) {
   return start.x_m != 0.0 || start.y_m != 0.0 || start.heading_rad != 0.0;
 }
 
-/// Under which the error of a method on this log is told first.
+/// The alignment under which the error of a method on this log is reported first.
 Alignment first_alignment(SlamMethod method, const RangeLog& log, const SlamRunOptions& options) {
   const SlamMethodInfo& facts = info(method);
   if (facts.knows_landmarks) return Alignment::kNone;
-  // What starts in a frame of its own cannot be compared as it comes.
+  // What starts in a frame of its own cannot be compared as it is.
   if (method == SlamMethod::kDeadReckoning)
     return has_start_pose(log.start) ? Alignment::kNone : Alignment::kRigid;
   const bool refines = is_refinement(method) || method == SlamMethod::kBatchFixedScale;
@@ -142,14 +142,14 @@ void add_random_starts(SlamEstimates& estimates, const SlamRunOptions& options, 
     try {
       record.estimate = estimates.refined_from_random(number);
     } catch (const InvalidInput&) {
-      return;  // The first one says why.
+      return;  // The first one has the reason.
     }
     score_against_truth(record, run.log, first_alignment(method, run.log, options));
     run.starts.push_back(start_of(record, number));
   }
 }
 
-/// Without a truth all paths are aligned to the first there is.
+/// Without ground truth all paths are aligned to the first one.
 void lay_on_first(SlamRun& run, const SlamRunOptions& options) {
   const SlamRecord* first = nullptr;
   for (SlamRecord& record : run.records) {
@@ -252,7 +252,7 @@ void SlamEstimates::prepare(SlamMethod method) {
     if (method == SlamMethod::kRefined || method == SlamMethod::kBatchFixedScale) spectral_start();
     if (method == SlamMethod::kRefinedFromOdometry) odometry_start();
   } catch (const InvalidInput&) {
-    // Comes again, and is told, when the method itself runs.
+    // The error recurs, and is reported, when the method itself runs.
   }
 }
 

@@ -16,9 +16,9 @@ struct SlamRunOptions {
   std::vector<SlamMethod> methods;        ///< In the order of the tables.
   std::optional<KnownLandmarks> known{};  ///< For the methods that know landmarks.
   bool ties_refinement = false;           ///< The refinement holds the known landmarks too.
-  RangeNoise noise{};                     ///< What is taken off squared ranges that come together.
-  int random_starts = 0;                  ///< Of the refinement, beside the one that is kept.
-  std::uint64_t seed = 0;                 ///< Of the random starts.
+  RangeNoise noise{};      ///< The bias that is subtracted from squared ranges that come together.
+  int random_starts = 0;   ///< Of the refinement, in addition to the one that is kept.
+  std::uint64_t seed = 0;  ///< Of the random starts.
 };
 
 struct SlamRunResult {
@@ -27,29 +27,29 @@ struct SlamRunResult {
                                     ///< the choice of windows.
 };
 
-/// Runs each method on a log, brings what came out into the frame of the truth (or, without one,
-/// of the first method), and takes the errors.
+/// Runs each method on a log, aligns the results to the frame of the ground truth (or, without one,
+/// of the first method), and computes the errors.
 ///
-/// With odometry, windows of the ranges are chosen by what they predict. Without, the spectral
-/// methods take the times at which all landmarks were ranged to, the map's mirror image is as good
-/// as the map, and all other methods come out kFailed.
+/// With odometry, windows of the ranges are chosen by their predictions. Without, the spectral
+/// methods take the times at which all landmarks were ranged to, the map's reflection is as good as
+/// the map, and all other methods fail with kFailed.
 /// Pure but for the timings.
 SlamRunResult make_slam_run(const std::string& id, RangeLog log, const SlamRunOptions& options);
 
-/// Lays an estimate on the truth of a log by `first` and takes its errors, under this and every
-/// weaker alignment that means something. Nothing without a truth.
+/// Aligns an estimate to the ground truth of a log by `first` and computes its errors, under this
+/// and every weaker alignment that is meaningful. Nothing without ground truth.
 void score_against_truth(SlamRecord& record, const RangeLog& log, Alignment first);
 
-/// Lays an estimate on a path, rigidly, with mirror if it is free to.
+/// Aligns an estimate to a path, rigidly, with reflection if it is free.
 void lay_on(SlamEstimate& estimate, const Trajectory& path, bool may_mirror);
 
-/// The methods on one log; what several of them start from is computed once.
+/// The methods on one log; starts that several of them share are computed once.
 class SlamEstimates {
  public:
   /// Both must outlive it.
   SlamEstimates(const RangeLog& log, const SlamRunOptions& options);
 
-  /// What a method makes of the log, in whatever frame; kFailed where it cannot.
+  /// A method's estimate from the log, in whatever frame; kFailed where it cannot.
   SlamEstimate estimate(SlamMethod method);
 
   /// The refinement from random landmarks, of that number from 1.
@@ -60,7 +60,7 @@ class SlamEstimates {
   std::vector<Eigen::Matrix2d> landmark_covariances(SlamMethod method,
                                                     const SlamEstimate& estimate) const;
 
-  /// Makes what a method starts from, so that it is not timed with it.
+  /// Computes a method's start, so that it is not timed with it.
   void prepare(SlamMethod method);
 
   /// The window lengths tried; empty without odometry.

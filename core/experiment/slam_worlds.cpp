@@ -45,7 +45,7 @@ Eigen::MatrixXd centred(const Eigen::MatrixXd& rows) {
   return rows.colwise() - Eigen::VectorXd(rows.rowwise().mean());
 }
 
-/// Lays a map on the truth by all landmarks, and scores it.
+/// Aligns a map to the ground truth by all landmarks, and scores it.
 void fit_and_score(RangeHistoryMap& map, const Points& coordinates, const Points& truth_m) {
   std::vector<Eigen::Index> all(static_cast<std::size_t>(truth_m.rows()));
   std::iota(all.begin(), all.end(), Eigen::Index{0});
@@ -152,7 +152,7 @@ double mean_distance(const SpacePoints& a, const SpacePoints& b) {
   return (a - b).rowwise().norm().mean();
 }
 
-/// What a flight's ranges give, aligned to the truth where no landmark tied it down.
+/// The map of a flight's ranges, aligned to the ground truth where no landmark tied it down.
 SpaceRecord record_of(const RangeFlight& flight, const RangeNoise& noise,
                       const std::optional<KnownSpaceLandmarks>& known) {
   SpaceRecord record{.knows_landmarks = known.has_value(),

@@ -19,16 +19,16 @@ RangeNoise range_noise(const RangeNoiseModel& noise);
 /// @throws InvalidInput if it has no example.
 SlamRun make_example(const SlamExperiment& experiment, std::vector<SlamTiming>& timings);
 
-/// Errors as readings come in, over all pairs; these run in parallel, and share their worlds, walks
-/// and random numbers over the noise models. A pair without a map at some number of steps does not
-/// count there.
+/// Errors as measurements come in, over all pairs; these run in parallel, and share their worlds,
+/// walks and random numbers over the noise models. A pair without a map at some number of steps
+/// does not count there.
 ConvergenceCurve make_convergence(const SlamExperiment& experiment, const RangeNoiseModel& noise);
 
 /// Every mapping method on ranges and on squared ranges of one world, and the spectral map.
 /// @throws InvalidInput if the experiment has no such part.
 RangeHistoryStudy make_histories(const SlamExperiment& experiment);
 
-/// What comes of the ranges of one flight in space, with landmarks known and with none.
+/// The maps of the ranges of one flight in space, with landmarks known and with none.
 /// @throws InvalidInput if the experiment has no such part.
 SpaceRun make_space_run(const SlamExperiment& experiment);
 

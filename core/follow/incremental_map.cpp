@@ -17,17 +17,17 @@ void grow_square(Eigen::MatrixXd& matrix, Eigen::Index size) {
   matrix.bottomRows(size - before).setZero();
 }
 
-/// One scan puts all bearings on a circle, two on a torus: no map is told by so few.
+/// One scan puts all bearings on a circle, two on a torus: too few to determine a map.
 constexpr Eigen::Index kFewestSteps = 3;
 
 }  // namespace
 
 void PairSums::grow(Eigen::Index landmarks) {
-  if (landmarks < landmarks_) throw InvalidInput("sums of pairs cannot lose landmarks");
+  if (landmarks < landmarks_) throw InvalidInput("sums over pairs cannot lose landmarks");
   landmarks_ = landmarks;
   const Eigen::Index room = products_.rows();
   if (landmarks <= room) return;
-  // Twice the room, so that landmarks that come one by one cost no copy each.
+  // Twice the room, so that landmarks that arrive one by one do not cost a copy each.
   const Eigen::Index size = std::max(landmarks, 2 * room);
   for (Eigen::MatrixXd* matrix : {&products_, &counts_}) grow_square(*matrix, size);
   if (sensor_ != Sensor::kBearing) grow_square(squares_, size);
@@ -42,7 +42,7 @@ void PairSums::add(const std::vector<StepEntry>& step) {
   for (std::size_t k = 0; k < entries.size(); ++k) {
     StepEntry& entry = entries[k];
     if (entry.landmark < 0 || entry.landmark >= landmarks() || !std::isfinite(entry.value))
-      throw InvalidInput("a step needs finite values of landmarks there are");
+      throw InvalidInput("a step needs finite values of known landmarks");
     if (k > 0 && entries[k - 1].landmark == entry.landmark)
       throw InvalidInput("a step lists a landmark twice");
     if (sensor_ == Sensor::kVisibility && entry.value == 0.0) lists_detections_ = false;

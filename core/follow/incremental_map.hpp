@@ -16,31 +16,30 @@ struct StepEntry {
   double value = 0.0;  ///< 0 or 1, rad, or m; finite.
 };
 
-/// The sums over steps from which the proximities of observation histories follow, so that a step
-/// more costs what its own pairs of landmarks cost, however many there were before.
+/// The sums over steps that determine the proximities of observation histories, so that one more
+/// step costs only its own pairs of landmarks, however many there were before.
 class PairSums {
  public:
   explicit PairSums(Sensor sensor) : sensor_(sensor) {}
 
-  /// Landmarks from now on: so far unobserved ones come to those there are.
-  /// @throws InvalidInput for fewer than there are.
-  /// @note Memory up to 32 n^2 bytes for n landmarks, four times that while they become more.
+  /// The number of landmarks from now on: unobserved ones are added.
+  /// @throws InvalidInput for fewer than before.
+  /// @note Memory up to 32 n^2 bytes for n landmarks, four times that while their number grows.
   void grow(Eigen::Index landmarks);
 
   /// Adds a step; landmarks that it does not list were not observed.
-  /// @throws InvalidInput for a landmark that is none, is listed twice, or whose value is not
-  ///         finite.
+  /// @throws InvalidInput for an unknown landmark, one listed twice, or a value that is not finite.
   /// @note O(k^2) for k landmarks listed.
   void add(const std::vector<StepEntry>& step);
 
   Eigen::Index landmarks() const { return landmarks_; }
   Eigen::Index steps() const { return steps_; }
 
-  /// Landmarks about which something was observed, ascending: see unseen_landmarks().
+  /// Landmarks with any observation, ascending: see unseen_landmarks().
   std::vector<Eigen::Index> seen() const;
 
-  /// The proximities of some landmarks that were seen: those of proximities() of all steps, but for
-  /// rounding. Where visibility lists detections alone, what is not listed counts as not seen.
+  /// The proximities of some seen landmarks: those of proximities() of all steps, but for rounding.
+  /// Where visibility lists detections alone, unlisted landmarks count as not seen.
   /// @note O(n^2) for n rows.
   Proximities proximities_of(const std::vector<Eigen::Index>& rows) const;
 
@@ -55,8 +54,8 @@ class PairSums {
   Eigen::Index landmarks_ = 0;  ///< The matrices have room for more.
   Eigen::Index steps_ = 0;
   bool lists_detections_ = true;  ///< Visibility: no 0 was listed so far.
-  // Entry (i, j) is over the steps that list both. Those that are the same both ways are kept below
-  // the diagonal, and what a sensor has no use for is empty.
+  // Entry (i, j) is over the steps that list both. Symmetric ones are kept below the diagonal, and
+  // those that a sensor does not need are empty.
   Eigen::MatrixXd products_;  ///< i >= j: of i's value and j's; cosines of differences of bearings.
   Eigen::MatrixXd counts_;    ///< i >= j: steps.
   Eigen::MatrixXd squares_;   ///< Of i's; not of bearings.
@@ -70,21 +69,21 @@ struct FollowOptions {
 };
 
 /// How near every update is to the map of the whole history: see relative_gap(). The proximities
-/// are the same but for rounding, and so is what is done with them.
+/// are the same but for rounding, and so are the computations with them.
 inline constexpr double kFollowedWithin = 1e-6;
 
-/// One state of a map that grows.
+/// One state of an incremental map.
 struct FollowedUpdate {
   Embedding embedding;    ///< M x 2; NaN rows: not observed so far.
   MethodSetting setting;  ///< With its parameter.
 };
 
-/// A map of observations that arrive in time. A step costs its pairs; an update O(M^2) and what the
-/// method takes, whatever the number of steps.
+/// An incremental map of observations that arrive in time. A step costs its pairs; an update costs
+/// O(M^2) and the method's own time, independent of the number of steps.
 ///
-/// Each update is the map of the whole history by the same method, within kFollowedWithin: it
-/// begins where that begins. Going on from the last map instead would save iterations, but stress
-/// has several minima, and no test at hand tells which of them the whole history leads to.
+/// Each update is the map of the whole history by the same method, within kFollowedWithin: it has
+/// the same start. To continue from the last map would save iterations, but stress has several
+/// minima, and no available test determines which of them the whole history leads to.
 class IncrementalMap {
  public:
   IncrementalMap(Sensor sensor, FollowOptions options) : options_(options), sums_(sensor) {}

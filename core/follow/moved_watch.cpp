@@ -10,11 +10,11 @@ namespace mapproof {
 
 void IncrementalLog::add(const ScanKey& scan, const std::vector<Detection>& detections) {
   if (scan.robot < 0 || scan.robot > std::ssize(robots_) || !std::isfinite(scan.key))
-    throw InvalidInput("robots are numbered as they come, and their scans have a step or time");
+    throw InvalidInput("robots are numbered as they appear, and their scans need a step or a time");
   if (scan.robot == std::ssize(robots_)) robots_.emplace_back();
   Robot& robot = robots_[static_cast<std::size_t>(scan.robot)];
   if (!robot.keys.empty() && scan.key <= robot.keys.back())
-    throw InvalidInput("a robot's scans come in ascending order");
+    throw InvalidInput("a robot's scans must be in ascending order");
   for (Detection seen : detections) {
     seen.step = static_cast<int>(robot.keys.size());
     robot.detections.push_back(seen);
@@ -57,7 +57,7 @@ std::vector<NoticedMove> MovedWatch::check(const IncrementalLog& scans, const De
     const auto known = std::ranges::find_if(
         moved_, [&](const NoticedMove& move) { return move.found.landmark == found.landmark; });
     if (known != moved_.end()) {
-      *known = now;  // More scans tell the time better.
+      *known = now;  // More scans determine the time better.
       continue;
     }
     moved_.push_back(now);

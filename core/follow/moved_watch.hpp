@@ -8,8 +8,8 @@
 
 namespace mapproof {
 
-/// Scans of several robots as they come, pooled as a file of all of them would be: robot by robot,
-/// each robot's in order of step or time.
+/// Scans of several robots as they arrive, pooled as a file of all of them would be: robot by
+/// robot, each robot's in order of step or time.
 class IncrementalLog {
  public:
   /// Adds a scan; robots are numbered as they come.
@@ -35,18 +35,18 @@ class IncrementalLog {
   int steps_ = 0;
 };
 
-/// A landmark that was noticed to have moved, while scans still came.
+/// A landmark that was found to have moved while scans still arrive.
 struct NoticedMove {
   MovedLandmark found;  ///< In the scans of the check.
-  ScanKey from;         ///< The first detection at the new place.
+  ScanKey from;         ///< The first detection at the new position.
 };
 
-/// Looks for landmarks that moved in a log that grows, and keeps their later detections apart.
+/// Looks for moved landmarks in a growing log, and keeps their later detections apart.
 ///
 /// A check is find_moved() of all scans so far, made when there are a quarter more of them than at
-/// the last: by then a move right after it holds long enough to tell. So that all the checks
-/// together say of hardly more than `level` of logs without a move that something moved, the k-th
-/// has a level of level / (k (k + 1)).
+/// the last: by then a move right after it is visible for long enough. So that all checks together
+/// report a move in hardly more than `level` of the logs without one, the k-th has a level of level
+/// / (k (k + 1)).
 class MovedWatch {
  public:
   explicit MovedWatch(const MovedOptions& options = {}) : options_(options) {}
@@ -54,10 +54,10 @@ class MovedWatch {
   /// Whether there are scans enough for the next check.
   bool is_due(int steps) const { return steps >= next_; }
 
-  /// Checks. @return What was not noticed before. @note As find_moved().
+  /// Checks. @return New findings. @note As find_moved().
   std::vector<NoticedMove> check(const IncrementalLog& scans, const DetectionLog& log);
 
-  /// The log with two landmarks for each that was noticed, "NAME (moved)" the later one.
+  /// The log with two landmarks for each one found, "NAME (moved)" the later one.
   DetectionLog split(const IncrementalLog& scans, DetectionLog log) const;
 
   const std::vector<NoticedMove>& moved() const { return moved_; }

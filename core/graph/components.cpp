@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numeric>
 #include <tuple>
+#include <utility>
 
 namespace mapproof {
 namespace {
@@ -108,6 +109,20 @@ void insert_edge(Graph& graph, Eigen::Index from, Eigen::Index to, double length
   edges.insert(place, {to, length});
 }
 
+/// The shortest edge that leaves a group, and its start; `to` is negative if none is finite.
+std::pair<Eigen::Index, Edge> shortest_way_out(const std::vector<Eigen::Index>& group,
+                                               const Eigen::MatrixXd& distances) {
+  Edge best{.to = -1, .length = HUGE_VAL};
+  Eigen::Index from = -1;
+  for (const Eigen::Index i : group)
+    for (Eigen::Index j = 0; j < distances.rows(); ++j)
+      if (distances(j, i) < best.length && !std::ranges::binary_search(group, j)) {
+        best = {j, distances(j, i)};
+        from = i;
+      }
+  return {from, best};
+}
+
 }  // namespace
 
 std::vector<std::vector<Eigen::Index>> closed_groups(const NeighbourLists& lists) {
@@ -131,14 +146,7 @@ std::optional<int> open_closed_groups(NeighbourLists& lists, const Eigen::Matrix
   // Each round opens all groups but the first, so that there are fewer every time.
   for (auto groups = closed_groups(lists); groups.size() > 1; groups = closed_groups(lists))
     for (std::size_t g = 1; g < groups.size(); ++g) {
-      Edge best{.to = -1, .length = HUGE_VAL};
-      Eigen::Index from = -1;
-      for (const Eigen::Index i : groups[g])
-        for (Eigen::Index j = 0; j < distances.rows(); ++j)
-          if (distances(j, i) < best.length && !std::ranges::binary_search(groups[g], j)) {
-            best = {j, distances(j, i)};
-            from = i;
-          }
+      const auto [from, best] = shortest_way_out(groups[g], distances);
       if (best.to < 0) return std::nullopt;
       lists[static_cast<std::size_t>(from)].push_back(best);
       ++added;
@@ -186,12 +194,20 @@ std::vector<int> components(const Graph& graph) {
   return piece;
 }
 
+std::vector<Eigen::Index> largest_component(const Graph& graph) {
+  std::vector<std::vector<Eigen::Index>> groups(graph.size() + 1);
+  const std::vector<int> component = components(graph);
+  for (std::size_t i = 0; i < component.size(); ++i)
+    groups[static_cast<std::size_t>(component[i])].push_back(static_cast<Eigen::Index>(i));
+  return *std::ranges::max_element(groups, {}, [](const auto& group) { return group.size(); });
+}
+
 std::optional<Bridging> bridge_components(Graph& graph, const Eigen::MatrixXd& distances) {
   std::vector<int> piece = components(graph);
   Bridging result{.pieces = piece.empty() ? 0 : *std::ranges::max_element(piece) + 1};
   if (result.pieces <= 1) return result;
 
-  // Kruskal over the components: a label of each, merged as bridges are laid.
+  // Kruskal over the components: a number for each, merged as bridges are added.
   std::vector<int> label(static_cast<std::size_t>(result.pieces));
   std::iota(label.begin(), label.end(), 0);
   std::vector<Bridge> laid;

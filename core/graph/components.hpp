@@ -27,10 +27,13 @@ int join_sets(NeighbourLists& lists);
 /// The connected component of each node, numbered from 0 in the order of their lowest node.
 std::vector<int> components(const Graph& graph);
 
+/// The nodes of the largest connected component, ascending; of equally large ones the first.
+std::vector<Eigen::Index> largest_component(const Graph& graph);
+
 /// What it took to make a graph connected.
 struct Bridging {
   int pieces = 1;        ///< Components before; 1 if nothing was done.
-  double longest = 0.0;  ///< Length of the longest bridge laid.
+  double longest = 0.0;  ///< Length of the longest bridge.
 };
 
 /// Joins the components of `graph` by the shortest bridges (a minimum spanning tree over them).

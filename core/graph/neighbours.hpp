@@ -32,7 +32,7 @@ struct NeighbourOptions {
 /// The K nearest others of each node, nearest first: lists[i] are those of i, fewer where fewer are
 /// within the cutoff. Ties, after rounding to 40 bits (some 12 digits), go to the lower row.
 ///
-/// @param distances  n x n, symmetric, entries >= 0 or infinite, which are nobody's neighbours.
+/// @param distances  n x n, symmetric, entries >= 0 or infinite, which are not edges.
 /// @throws InvalidInput if K is not in [1, n).
 /// @note O(n^2 + n K log K) time on average, O(n^2 log n) if all distances are alike.
 NeighbourLists nearest_neighbours(const Eigen::MatrixXd& distances,

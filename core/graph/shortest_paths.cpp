@@ -36,7 +36,7 @@ struct FlatGraph {
     first.push_back(steps.size());
   }
 
-  /// Tells `shortened` each new length and its node, where the way through `node` is shorter.
+  /// Reports to `shortened` each new length and its node, where the way through `node` is shorter.
   template <typename Shortened>
   void relax(std::int32_t node, double* lengths, const Shortened& shortened) const {
     const double length = lengths[node];
@@ -53,8 +53,8 @@ struct FlatGraph {
 
 /// Nodes by their length so far, in buckets no wider than the shortest edge: no node of a bucket
 /// can shorten another's way, so that their order within it does not count. The buckets are a ring,
-/// as long as the longest edge. A node whose length fell stands in its old bucket as well, to be
-/// met there when it is long settled, which changes nothing.
+/// as long as the longest edge. A node whose length fell stays in its old bucket as well and is met
+/// there after its length is final, which changes nothing.
 class Buckets {
  public:
   static constexpr double kMost = 4096.0;

@@ -20,19 +20,19 @@ namespace {
 using Exchange = std::pair<int, int>;
 using Exchanges = std::vector<Exchange>;
 
-constexpr std::size_t kMostDoubted = 40;  ///< Known places whose labels are doubted.
-constexpr double kHuberWidths = 2.0;      ///< Of Huber's cost, in standard deviations of a place.
-constexpr double kLeastEvidence = 30.0;   ///< Variances that an exchange has to explain,
-constexpr double kLeastLead = 10.0;       ///< and those by which it has to lead before any other.
-constexpr double kMostLeft = 5.0;         ///< Deviations that its landmarks may be off then.
+constexpr std::size_t kMostDoubted = 40;  ///< Landmarks with a known position whose IDs are tested.
+constexpr double kHuberWidths = 2.0;     ///< Of Huber's cost, in standard deviations of a position.
+constexpr double kLeastEvidence = 30.0;  ///< Variances that an exchange has to explain,
+constexpr double kLeastLead = 10.0;      ///< and those by which it has to lead any other.
+constexpr double kMostLeft = 5.0;        ///< Deviations that its landmarks may be off then.
 
-/// How well a map fits the known places.
+/// How well a map fits the known positions.
 struct Fit {
-  std::vector<double> misses_m;  ///< Of each known place.
+  std::vector<double> misses_m;  ///< Of each known position.
   double cost = 0.0;             ///< Sum of Huber costs, m^2.
 };
 
-/// A map and the places that are known of it.
+/// A map and the known positions of its landmarks.
 class KnownPlaces {
  public:
   KnownPlaces(const Points& map_m, const Points& known_m) {
@@ -111,19 +111,20 @@ double root_mean_square(const Fit& fit) {
   return std::sqrt(sum / static_cast<double>(std::max<std::size_t>(1, fit.misses_m.size())));
 }
 
-/// The standard deviation of a place by the middle miss; a similarity hides four of 2 k misses.
+/// The standard deviation of a position, from the median miss; a similarity hides four of 2 k
+/// misses.
 double deviation_of(const Fit& fit) {
   const double places = static_cast<double>(fit.misses_m.size());
   return upper_median(fit.misses_m) / 1.18 * std::sqrt(places / (places - 2.0));
 }
 
-/// A known place first, and of two the lower.
+/// A landmark with a known position comes first; of two, the lower.
 Exchange in_order(const KnownPlaces& places, int known, int other) {
   if (std::ranges::binary_search(places.rows(), other) && other < known) return {other, known};
   return {known, other};
 }
 
-/// All exchanges that involve one of the known places that fit worst.
+/// All exchanges that involve one of the known positions that fit worst.
 Exchanges candidates(const KnownPlaces& places, const Fit& given) {
   std::vector<std::size_t> order(places.rows().size());
   std::iota(order.begin(), order.end(), std::size_t{0});
@@ -142,7 +143,7 @@ Exchanges candidates(const KnownPlaces& places, const Fit& given) {
   return result;
 }
 
-/// The exchanges and one more, or nothing's cost if that shares a label with one of them.
+/// The exchanges and one more, or an infinite cost if that shares an ID with one of them.
 double cost_with(const KnownPlaces& places, Exchanges exchanges, const Exchange& one,
                  double deviation_m) {
   for (const auto& [a, b] : exchanges)
@@ -151,7 +152,7 @@ double cost_with(const KnownPlaces& places, Exchanges exchanges, const Exchange&
   return places.fit(exchanges, deviation_m).cost;
 }
 
-/// The exchanges that lower the cost the most, one after another.
+/// The exchanges that reduce the cost the most, one after another.
 Exchanges lowest(const KnownPlaces& places, const Exchanges& tried, double deviation_m) {
   const std::size_t most = (places.rows().size() - 2) / 2;
   Exchanges chosen;
@@ -171,7 +172,7 @@ Exchanges lowest(const KnownPlaces& places, const Exchanges& tried, double devia
   return chosen;
 }
 
-/// Whether the landmarks of the exchanges stand where they then should.
+/// Whether the landmarks of the exchanges are where they then should be.
 bool in_place(const KnownPlaces& places, const Exchanges& chosen, const Fit& fit,
               double deviation_m) {
   for (std::size_t k = 0; k < places.rows().size(); ++k)
@@ -182,8 +183,8 @@ bool in_place(const KnownPlaces& places, const Exchanges& chosen, const Fit& fit
   return true;
 }
 
-/// Whether each exchange is needed, and none could stand in its place.
-/// @param least_m  A place is not held to be surer than this.
+/// Whether each exchange is needed, and none could replace it.
+/// @param least_m  No position is taken to be more certain than this.
 bool decided(const KnownPlaces& places, const Exchanges& chosen, const Exchanges& tried,
              double least_m) {
   const Fit fit = places.fit(chosen, least_m);
@@ -191,7 +192,7 @@ bool decided(const KnownPlaces& places, const Exchanges& chosen, const Exchanges
   if (!in_place(places, chosen, fit, deviation)) return false;
   const double variance = deviation * deviation;
   const double cost = places.fit(chosen, deviation).cost;
-  // A map seen in a mirror, as with bearings of the other sign, is not a fault of labels.
+  // A reflected map, as with bearings of the other sign, is not an ID swap.
   if (places.fit({}, deviation, true).cost < cost + kLeastEvidence * variance) return false;
   for (std::size_t k = 0; k < chosen.size(); ++k) {
     Exchanges others = chosen;
@@ -205,7 +206,7 @@ bool decided(const KnownPlaces& places, const Exchanges& chosen, const Exchanges
   return true;
 }
 
-/// The standard deviation of the pairs' residuals by their middle one.
+/// The standard deviation of the pairs' residuals, from their median.
 double deviation_of(const PairMap& map) {
   const Points& points = map.embedding.coordinates;
   std::vector<double> residuals = {0.0};
@@ -230,7 +231,7 @@ DetectionLog exchanged(const DetectionLog& log, const Exchanges& exchanges) {
 
 AnchorCheck check_anchor_labels(const DetectionLog& log, const Points& known_m) {
   if (known_m.rows() != std::ssize(log.names))
-    throw InvalidInput("known places have a row for each landmark");
+    throw InvalidInput("known positions need one row per landmark");
   const PairMap map = pair_map_of(log);
   const KnownPlaces places(map.embedding.coordinates, known_m);
   AnchorCheck check;

@@ -87,7 +87,7 @@ class Assignment {
 
 using Mask = Eigen::Array<bool, Eigen::Dynamic, Eigen::Dynamic>;
 
-/// What a reading is in the model: M x channels of one step, without the mean of the landmarks,
+/// A measurement as the model has it: M x channels of one step, without the mean of the landmarks,
 /// which no permutation changes.
 Eigen::MatrixXd step_values(const ObservationHistory& history, Eigen::Index step) {
   const Eigen::ArrayXd values = history.values.col(step).array();
@@ -96,16 +96,16 @@ Eigen::MatrixXd step_values(const ObservationHistory& history, Eigen::Index step
     Y.resize(values.size(), 2);
     Y << values.cos().matrix(), values.sin().matrix();
   } else if (history.sensor == Sensor::kRange) {
-    Y = values.square().matrix();  // affine in the position, but for what all steps share
+    Y = values.square().matrix();  // affine in the position, but for a term that all steps share
   } else {
     Y = values.matrix();
   }
   return Y.rowwise() - Y.colwise().mean();
 }
 
-/// The history as the model sees it: labels are which row of a step's readings a landmark has.
+/// The history as the model has it: an ID is the row of a step's measurements that a landmark has.
 struct Labelled {
-  std::vector<Eigen::MatrixXd> readings;              ///< Of each step, in the rows they came in.
+  std::vector<Eigen::MatrixXd> readings;              ///< Of each step, in the rows of the input.
   std::vector<std::vector<Eigen::Index>> doubtful;    ///< Rows of each step.
   std::vector<std::vector<Eigen::Index>> reading_of;  ///< Of each landmark, in each step.
 
@@ -114,7 +114,7 @@ struct Labelled {
   }
 };
 
-/// The spread of the values that the components leave, and the components.
+/// The spread of the values that the components do not explain, and the components.
 struct Model {
   Eigen::MatrixXd components;  ///< M x q, orthonormal.
   double loss = 0.0;
@@ -135,16 +135,16 @@ Model model_of(const Labelled& labelled, Eigen::Index rank) {
   return model_of(gram, rank);
 }
 
-/// How the labels of a stretch of steps are dealt.
+/// How the IDs of a stretch of steps are assigned.
 struct Dealing {
   Eigen::Index stretch = 1;
-  double change_cost = 0.0;  ///< For each step and label that is not the given one.
+  double change_cost = 0.0;  ///< For each step and ID that is not the given one.
 };
 
-/// Gives the doubtful landmarks of the stretch that begins at a step the readings nearest to what
-/// is expected of them.
+/// Assigns to the doubtful landmarks of the stretch that begins at a step the measurements nearest
+/// to their expected values.
 /// @param expected  Of each step of the stretch.
-/// @return Whether a label changed.
+/// @return Whether an ID changed.
 bool assign(Labelled& labelled, std::size_t step, const std::vector<Eigen::MatrixXd>& expected,
             double change_cost) {
   const std::vector<Eigen::Index>& rows = labelled.doubtful[step];
@@ -161,7 +161,7 @@ bool assign(Labelled& labelled, std::size_t step, const std::vector<Eigen::Matri
     costs.rowwise() += read.rowwise().squaredNorm().transpose();
   }
   const std::vector<Eigen::Index> columns = least_assignment(costs);
-  // Equal sums must not go back and forth.
+  // Equal sums must not alternate.
   std::vector<Eigen::Index> place(labelled.reading_of[step].size(), 0);
   for (Eigen::Index k = 0; k < d; ++k)
     place[static_cast<std::size_t>(rows[static_cast<std::size_t>(k)])] = k;
@@ -180,8 +180,8 @@ bool assign(Labelled& labelled, std::size_t step, const std::vector<Eigen::Matri
   return true;
 }
 
-/// Deals the labels of all stretches. @return Whether one changed.
-/// @param expected  What is expected of a step: M x channels.
+/// Assigns the IDs of all stretches. @return Whether one changed.
+/// @param expected  The expected values of a step: M x channels.
 template <typename Expected>
 bool assign_all(Labelled& labelled, const Dealing& dealing, const Expected& expected) {
   bool changed = false;
@@ -196,7 +196,8 @@ bool assign_all(Labelled& labelled, const Dealing& dealing, const Expected& expe
   return changed;
 }
 
-/// The median of what readings under the given labels are off the components, squared.
+/// The median of the squared residuals of the measurements from the components, under the given
+/// IDs.
 double median_residual(const Labelled& labelled, Eigen::Index rank) {
   const Eigen::MatrixXd components = model_of(labelled, rank).components;
   std::vector<double> squares;
@@ -209,7 +210,7 @@ double median_residual(const Labelled& labelled, Eigen::Index rank) {
   return upper_median(std::move(squares));
 }
 
-/// Which doubtful readings no exchange within their step would make nearly as likely.
+/// The doubtful measurements that no exchange within their step would make nearly as likely.
 Mask clear_readings(const Labelled& labelled, Eigen::Index rank) {
   const Eigen::MatrixXd components = model_of(labelled, rank).components;
   const double least = 4.0 * median_residual(labelled, rank);
@@ -230,7 +231,7 @@ Mask clear_readings(const Labelled& labelled, Eigen::Index rank) {
   return clear;
 }
 
-/// Labels and components in turn until no label changes.
+/// Alternates between IDs and components until no ID changes.
 struct Descent {
   Labelled labelled;
   double loss = 0.0;
@@ -254,8 +255,8 @@ Descent lowered(Labelled labelled, Eigen::Index rank, int most_rounds, const Dea
   return descent;
 }
 
-/// What the components make of a step by its certain entries alone, drawn towards the mean so that
-/// few entries do not run wild.
+/// The components' prediction of a step from its certain entries alone, shrunk towards the mean so
+/// that few entries do not make it extreme.
 Eigen::MatrixXd expected_from_certain(const Eigen::MatrixXd& Y, const std::vector<char>& certain,
                                       const Eigen::MatrixXd& components) {
   const Eigen::Index q = components.cols();
@@ -269,8 +270,8 @@ Eigen::MatrixXd expected_from_certain(const Eigen::MatrixXd& Y, const std::vecto
   return components * A.ldlt().solve(b);
 }
 
-/// Labels from the components of the certain entries: the doubtful ones are filled with what the
-/// components say of them, again and again [yairi2007, section 5.1].
+/// IDs from the components of the certain entries: the doubtful ones are filled with the
+/// components' predictions, iteratively [yairi2007, section 5.1].
 Labelled from_certain(Labelled labelled, Eigen::Index rank, const Dealing& dealing) {
   constexpr int kFillings = 15;
   const Eigen::Index M = labelled.readings.front().rows();
@@ -320,15 +321,15 @@ Labelled labelled_history(const ObservationHistory& history, const Mask& doubtfu
 void check(const ObservationHistory& history, const Mask& doubtful,
            const CorrespondenceOptions& options) {
   if (history.landmarks() < 3 || history.steps() < 1)
-    throw InvalidInput("labels need three landmarks and a step");
+    throw InvalidInput("data association needs three landmarks and a step");
   if (doubtful.rows() != history.landmarks() || doubtful.cols() != history.steps())
-    throw InvalidInput("which entries are doubtful is asked of every entry");
+    throw InvalidInput("the doubtful entries need one flag per entry");
   if (!history.values.allFinite())
-    throw InvalidInput("labels are estimated of histories without missing entries");
+    throw InvalidInput("data association needs histories without missing entries");
   if (options.rank < 1 || options.most_rounds < 1 || options.stretch < 1)
-    throw InvalidInput("labels need a rank, a round and a stretch of 1 or more");
+    throw InvalidInput("data association needs a rank, rounds and a stretch of 1 or more");
   if (!(options.change_cost >= 0.0 && std::isfinite(options.change_cost)))
-    throw InvalidInput("what a change of labels costs must be finite and not below 0");
+    throw InvalidInput("the cost of a changed landmark ID must be finite and not below 0");
 }
 
 }  // namespace
@@ -352,14 +353,14 @@ Correspondence estimated_correspondence(const ObservationHistory& history, const
   double spread = 0.0;
   for (const Eigen::MatrixXd& Y : given.readings) spread += Y.squaredNorm();
   Descent best = lowered(given, rank, options.most_rounds, dealing);
-  // Components to spare learn which labels are confused; a few have no room for that.
+  // Many components would fit the confused IDs too; a few cannot.
   constexpr Eigen::Index kFew = 4;
   if (rank > kFew) {
     Descent other = lowered(given, kFew, options.most_rounds, dealing);
     other = lowered(std::move(other.labelled), rank, options.most_rounds, dealing);
     if (other.loss < best.loss) best = std::move(other);
   }
-  // Where nothing is certain, filling has nothing to start from.
+  // Without a certain entry, filling has no start.
   if (!doubtful.all()) {
     Descent other = lowered(from_certain(given, rank, dealing), rank, options.most_rounds, dealing);
     if (other.loss < best.loss) best = std::move(other);

@@ -14,19 +14,20 @@
 namespace mapproof {
 namespace {
 
-constexpr std::size_t kSettledPairs = 4;  ///< Twos of labels that are settled.
-constexpr double kLeastGain = 0.3;        ///< Of the first one's.
-/// So rare, and so much rarer than the other label's, one label's changes are chance.
+constexpr std::size_t kSettledPairs = 4;  ///< Pairs of IDs that are refined scan by scan.
+constexpr double kLeastGain = 0.3;        ///< Of the first pair's.
+/// Below this share, and so much below the other ID's, one ID's changes are chance.
 constexpr double kByChance = 0.1;
 constexpr double kRarer = 0.25;
-/// Scans against a stretch, as a share of those that it explains, and what it may cost more.
+/// Scans that contradict a stretch, as a share of those that it explains, and how much more it may
+/// cost.
 constexpr double kStrays = 0.05;
 constexpr double kAsGood = 1.1;
 
-/// Detections that a trial gives another label, of each of both.
+/// Detections that a hypothesis gives another ID, of each of both.
 struct Changes {
   double all = 0.0;
-  double first_share = 0.0;  ///< Of those under the first label.
+  double first_share = 0.0;  ///< Of those under the first ID.
   double second_share = 0.0;
 
   bool one_sided() const {
@@ -53,27 +54,36 @@ Changes changes_of(const std::vector<int>& labels, const FaultTrial& trial) {
   return {first + second, first / of_first, second / of_second};
 }
 
-FaultTrial settled(const LabelledScans& scans, const std::vector<int>& labels,
-                   const SharedPlaces& shared, const Points& start, LabelFault fault, bool turned,
-                   double width_m) {
-  FaultTrial trial;
-  trial.fault.fault = fault;
-  trial.fault.first = turned ? shared.second : shared.first;
-  trial.fault.second = turned ? shared.first : shared.second;
-  trial.stretch = {0, 0, scans.places.front().size()};
-  trial.scattered = true;
-  return settled_trial(scans, labels, labels, std::move(trial), start, shared.map.width_m, width_m);
+/// A fault of the two IDs that share positions. @param turned  The second one comes first.
+LabelHypothesis fault_of(const SharedPlaces& shared, LabelFault fault, bool turned = false) {
+  LabelHypothesis result;
+  result.fault = fault;
+  result.first = turned ? shared.second : shared.first;
+  result.second = turned ? shared.first : shared.second;
+  return result;
 }
 
-/// Both ways of telling whose the places are; of them the simpler one.
+/// The fault in single scans of the whole log, scans being judged at `told_m`.
+FaultTrial settled(const ScanLabels& of, const LabelHypothesis& fault, const Points& start,
+                   double told_m, double width_m) {
+  FaultTrial trial;
+  trial.fault = fault;
+  trial.stretch = {0, 0, of.scans.places.front().size()};
+  trial.scattered = true;
+  return settled_trial(of, std::move(trial), start, told_m, width_m);
+}
+
+/// Both ways of deciding which landmark has which position; of them the simpler one.
 FaultTrial simpler_trial(const LabelledScans& scans, const std::vector<int>& labels,
                          const SharedPlaces& shared, double width_m) {
   const Points& start = shared.map.positions_m;
   Points exchanged = start;
   exchanged.row(shared.first).swap(exchanged.row(shared.second));
-  FaultTrial best = settled(scans, labels, shared, start, LabelFault::kSwapped, false, width_m);
-  FaultTrial other =
-      settled(scans, labels, shared, exchanged, LabelFault::kSwapped, false, width_m);
+  const ScanLabels of{scans, labels, labels};
+  const double told_m = shared.map.width_m;
+  const LabelHypothesis swap = fault_of(shared, LabelFault::kSwapped);
+  FaultTrial best = settled(of, swap, start, told_m, width_m);
+  FaultTrial other = settled(of, swap, exchanged, told_m, width_m);
   Changes changes = changes_of(labels, best);
   const Changes of_other = changes_of(labels, other);
   if (changes.one_sided() != of_other.one_sided() ? of_other.one_sided()
@@ -83,11 +93,12 @@ FaultTrial simpler_trial(const LabelledScans& scans, const std::vector<int>& lab
   }
   if (!changes.one_sided()) return best;
   const Points places = best.map.positions_m;
-  return settled(scans, labels, shared, places, LabelFault::kInPart,
-                 changes.second_share > changes.first_share, width_m);
+  const bool turned = changes.second_share > changes.first_share;
+  return settled(of, fault_of(shared, LabelFault::kInPart, turned), places, told_m, width_m);
 }
 
-/// For each place of an order: scans given another label, less those that tell and keep theirs.
+/// For each position of an order: scans given another ID, less those that have evidence and keep
+/// theirs.
 Eigen::VectorXi balance(const LabelledScans& scans, const std::vector<int>& labels,
                         const FaultTrial& trial, std::size_t order) {
   Eigen::VectorXi result = Eigen::VectorXi::Zero(scans.log.steps);
@@ -105,7 +116,7 @@ Eigen::VectorXi balance(const LabelledScans& scans, const std::vector<int>& labe
   return result;
 }
 
-/// The stretch that holds the fault, if there is one but for a few scans.
+/// The stretch that holds the fault, if one does except for a few scans.
 std::optional<StepStretch> stretch_of(const LabelledScans& scans, const std::vector<int>& labels,
                                       const FaultTrial& trial) {
   for (std::size_t order = 0; order < scans.places.size(); ++order) {
@@ -122,7 +133,8 @@ std::optional<StepStretch> stretch_of(const LabelledScans& scans, const std::vec
   return std::nullopt;
 }
 
-/// The same fault over a stretch, where detections that no scan tells of are corrected too.
+/// The same fault over a stretch, where detections without evidence from their scan are corrected
+/// too.
 FaultTrial over_stretch(const LabelledScans& scans, const std::vector<int>& labels,
                         FaultTrial trial, double width_m) {
   const std::optional<StepStretch> stretch = stretch_of(scans, labels, trial);
@@ -132,7 +144,7 @@ FaultTrial over_stretch(const LabelledScans& scans, const std::vector<int>& labe
   whole.stretch = *stretch;
   if (whole.fault.fault == LabelFault::kInPart) whole.fault.fault = LabelFault::kWrong;
   whole.labels = corrected_labels(scans, labels, whole.fault, *stretch);
-  whole = settled_trial(scans, labels, std::vector(whole.labels), whole, trial.map.positions_m,
+  whole = settled_trial({scans, labels, std::vector(whole.labels)}, whole, trial.map.positions_m,
                         width_m, width_m);
   return whole.map.cost < kAsGood * trial.map.cost ? whole : trial;
 }
@@ -147,8 +159,8 @@ bool seen_in_scan(const DetectionLog& log, const std::vector<int>& labels, std::
   return false;
 }
 
-/// What each detection costs in a map under each label in its place, its scan's others keeping
-/// theirs: detections x landmarks, nothing but of those that bear `label`.
+/// What each detection costs in a map under each ID in place of its own, while the others in its
+/// scan keep theirs: detections x landmarks, zero but for those with the ID `label`.
 Eigen::MatrixXd label_costs(const LabelledScans& scans, const std::vector<int>& labels,
                             const RobustMap& map, int label) {
   const Eigen::Index M = map.positions_m.rows();
@@ -166,9 +178,9 @@ Eigen::MatrixXd label_costs(const LabelledScans& scans, const std::vector<int>& 
 }
 
 constexpr std::size_t kTried = 40;  ///< Hypotheses that a map is made for.
-/// The best of each kind, whose maps are made from nothing too.
+/// The best of each type, whose maps are also made without a start.
 constexpr std::size_t kBegunAnew = 4;
-/// A fault in single scans has more freedom: it must cost less than this share of a stretch's.
+/// A fault in single scans has more freedom: it must cost less than this share of a stretch's cost.
 constexpr double kPlainer = 0.9;
 
 /// The stretch of steps over which the fault explains the scans better, in a map that holds it.
@@ -190,7 +202,7 @@ StepStretch sharpened(const LabelledScans& scans, const std::vector<int>& labels
   return greatest_sum(order, gains);
 }
 
-/// The items with the fault corrected in whole blocks: what makes trying many cheap.
+/// The items with the fault corrected in whole blocks: this makes many hypotheses cheap to test.
 std::vector<PairItem> corrected_items(const LabelledScans& scans,
                                       const std::vector<PairItem>& items,
                                       const LabelHypothesis& one) {
@@ -213,8 +225,8 @@ std::vector<PairItem> corrected_items(const LabelledScans& scans,
   return result;
 }
 
-/// The map under corrected labels, from the one before with both landmarks put where the fault has
-/// them.
+/// The map under corrected IDs, from the previous one with both landmarks at the positions that the
+/// fault implies.
 RobustMap moved_map(const std::vector<PairItem>& items, const RobustMap& map,
                     const LabelHypothesis& one) {
   Points start = map.positions_m;
@@ -223,7 +235,8 @@ RobustMap moved_map(const std::vector<PairItem>& items, const RobustMap& map,
   return lowered_map(items, start, map.width_m);
 }
 
-/// The better one of that map and of one from nothing: wrong labels may have folded the map before.
+/// The better one of that map and of one without a start: wrong IDs may have folded the previous
+/// map.
 RobustMap refolded_map(const LabelledScans& scans, const std::vector<PairItem>& items,
                        const RobustMap& map, const LabelHypothesis& one) {
   RobustMap moved = moved_map(items, map, one);
@@ -233,7 +246,7 @@ RobustMap refolded_map(const LabelledScans& scans, const std::vector<PairItem>& 
                       scans.blocks.count);
 }
 
-/// The fault over the stretch of steps that its map makes of it.
+/// The fault over the stretch of steps that its map yields.
 FaultTrial sharp_trial(const LabelledScans& scans, const std::vector<int>& labels,
                        LabelHypothesis one, RobustMap map) {
   FaultTrial trial{one, sharpened(scans, labels, one, map), {}, std::move(map)};
@@ -245,14 +258,14 @@ FaultTrial sharp_trial(const LabelledScans& scans, const std::vector<int>& label
   return trial;
 }
 
-/// The first few of each kind of fault.
+/// The first few of each type of fault.
 void choose(const std::vector<LabelHypothesis>& from, std::vector<LabelHypothesis>& chosen) {
   std::map<LabelFault, std::size_t> taken;
   for (const LabelHypothesis& one : from)
     if (taken[one.fault]++ < kBegunAnew) chosen.push_back(one);
 }
 
-/// The hypotheses that are promising enough to be tried from nothing.
+/// The hypotheses that are promising enough for a map without a start.
 std::vector<LabelHypothesis> worth_a_map(const LabelledScans& scans,
                                          const std::vector<PairItem>& items, const RobustMap& map) {
   std::vector<LabelHypothesis> in_map = hypotheses_in_map(items, map, scans.blocks, kTried);
@@ -280,14 +293,14 @@ std::optional<FaultTrial> best_trial(const LabelledScans& scans, const std::vect
   std::optional<FaultTrial> lowest;
   for (const auto& [fault, found] : best) {
     FaultTrial trial = sharp_trial(scans, labels, found.first, found.second);
-    trial = settled_trial(scans, labels, std::vector(trial.labels), trial, trial.map.positions_m,
+    trial = settled_trial({scans, labels, std::vector(trial.labels)}, trial, trial.map.positions_m,
                           trial.map.width_m, map.width_m);
     trial = simplified(scans, labels, std::move(trial));
     if (trial.map.cost < (lowest ? lowest->map.cost : map.cost)) lowest = std::move(trial);
   }
   std::optional<FaultTrial> mixed = mixed_trial(scans, labels, map);
   if (mixed)
-    mixed = settled_trial(scans, labels, labels, *mixed, mixed->map.positions_m, map.width_m,
+    mixed = settled_trial({scans, labels, labels}, *mixed, mixed->map.positions_m, map.width_m,
                           map.width_m);
   if (mixed && mixed->map.cost < (lowest ? lowest->map.cost : map.cost)) lowest = std::move(mixed);
   std::optional<FaultTrial> scattered = scattered_trial(scans, labels, map);
@@ -343,7 +356,7 @@ FaultTrial simplified(const LabelledScans& scans, const std::vector<int>& labels
   for (std::size_t k = 0; k < labels.size(); ++k)
     if (labels[k] != simple.fault.first) simple.labels[k] = labels[k];
   const double width_m = trial.map.width_m;
-  simple = settled_trial(scans, labels, std::vector(simple.labels), simple, trial.map.positions_m,
+  simple = settled_trial({scans, labels, std::vector(simple.labels)}, simple, trial.map.positions_m,
                          width_m, width_m);
   return simple.map.cost < kAsGood * trial.map.cost ? simple : trial;
 }

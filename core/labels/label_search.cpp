@@ -9,10 +9,10 @@ namespace mapproof {
 namespace {
 
 constexpr std::size_t kMostLabels = 40;
-constexpr int kMostPartners = 60;  ///< Of the distances' search: for more it would be slow.
+constexpr int kMostPartners = 60;  ///< Of the search by distances: with more it would be slow.
 constexpr int kDistances = 32;     ///< Values of a distance that are tried.
 
-/// The best stretch of each fault of each two labels, the best ones of all.
+/// The best stretch of each fault of each pair of IDs, the best ones of all.
 /// @param placed  Fills in where both landmarks are.
 template <typename Placed>
 std::vector<LabelHypothesis> best_stretches(const StretchCosts& costs, const LogBlocks& blocks,
@@ -20,22 +20,24 @@ std::vector<LabelHypothesis> best_stretches(const StretchCosts& costs, const Log
   std::vector<LabelHypothesis> found;
   for (std::size_t order = 0; order < blocks.block_orders.size(); ++order) {
     StretchSearch search(costs, blocks.block_orders[order], static_cast<int>(order));
+    const auto add_best = [&](LabelFault fault, std::size_t a, std::size_t b) {
+      LabelHypothesis best = search.best(fault, a, b);
+      if (!(best.gain > 0.0)) return;
+      placed(best, search.costs(fault, a, b, best.begin, best.end));
+      found.push_back(best);
+    };
     for (std::size_t a = 0; a < costs.labels.size(); ++a)
-      for (std::size_t b = 0; b < costs.labels.size(); ++b)
-        for (const LabelFault fault : {LabelFault::kSwapped, LabelFault::kWrong}) {
-          if (a == b || (fault == LabelFault::kSwapped && a > b)) continue;
-          LabelHypothesis best = search.best(fault, a, b);
-          if (!(best.gain > 0.0)) continue;
-          placed(best, search.costs(fault, a, b, best.begin, best.end));
-          found.push_back(best);
-        }
+      for (std::size_t b = 0; b < costs.labels.size(); ++b) {
+        if (a < b) add_best(LabelFault::kSwapped, a, b);
+        if (a != b) add_best(LabelFault::kWrong, a, b);
+      }
   }
   std::ranges::stable_sort(found, std::greater<>(), &LabelHypothesis::gain);
   if (found.size() > most) found.resize(most);
   return found;
 }
 
-/// What the items of each label cost if its distance to each partner were this or that.
+/// What the items of each ID cost as a function of its distance to each partner.
 StretchCosts distance_costs(const std::vector<PairItem>& items, const RobustMap& map,
                             const LogBlocks& blocks) {
   StretchCosts result{costly_labels(items, map, kMostLabels), {}, kDistances};
@@ -83,8 +85,8 @@ std::vector<int> costly_labels(const std::vector<PairItem>& items, const RobustM
 std::vector<LabelHypothesis> hypotheses_in_map(const std::vector<PairItem>& items,
                                                const RobustMap& map, const LogBlocks& blocks,
                                                std::size_t most) {
-  const PlaceCosts places = place_costs(items, map.positions_m, blocks.count,
-                                        costly_labels(items, map, kMostLabels), map.width_m);
+  const PlaceCosts places =
+      place_costs(items, map, blocks.count, costly_labels(items, map, kMostLabels));
   return best_stretches(places.costs, blocks, most, [&](LabelHypothesis& one, const auto& costs) {
     Eigen::Index point = 0;
     costs.first.minCoeff(&point);

@@ -7,24 +7,24 @@
 
 namespace mapproof {
 
-/// The mapped labels whose items cost most, ascending.
+/// The mapped IDs whose items cost most, ascending.
 std::vector<int> costly_labels(const std::vector<PairItem>& items, const RobustMap& map,
                                std::size_t most);
 
-/// The most promising ways in which labels may be wrong over one stretch of blocks, judged in a
-/// map: all pairs of the 40 labels that cost most, all stretches, both landmarks where on a grid
-/// they cost least while the others stay.
-/// @param most  How many hypotheses, of different labels or kind or order.
+/// The most promising wrong data associations over one stretch of blocks, judged in a map: all
+/// pairs of the 40 IDs that cost most, all stretches, both landmarks where on a grid they cost
+/// least while the others stay.
+/// @param most  How many hypotheses, of different IDs or type or order.
 /// @return Descending by gain, all gains > 0.
-/// @note Of L labels: O(L^2 blocks^2) grids of 400 points.
+/// @note For L IDs: O(L^2 blocks^2) grids of 400 points.
 std::vector<LabelHypothesis> hypotheses_in_map(const std::vector<PairItem>& items,
                                                const RobustMap& map, const LogBlocks& blocks,
                                                std::size_t most);
 
-/// The same judged by the distances alone, each label's to each other one as nearly the same in all
-/// blocks as may be. For maps that wrong labels have folded; it needs pairs seen both within the
-/// stretch and outside.
-/// @note Of L labels: O(L^2 blocks^2) rows of 32 distances for each of M landmarks.
+/// The same judged by the distances alone, with each ID's distance to each other one as constant as
+/// possible over all blocks. For maps that wrong IDs have folded; it needs pairs seen both within
+/// the stretch and outside.
+/// @note For L IDs: O(L^2 blocks^2) rows of 32 distances for each of M landmarks.
 std::vector<LabelHypothesis> hypotheses_of_distances(const std::vector<PairItem>& items,
                                                      const RobustMap& map, const LogBlocks& blocks,
                                                      std::size_t most);

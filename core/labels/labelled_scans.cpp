@@ -8,7 +8,7 @@
 namespace mapproof {
 
 LabelledScans labelled_scans(const DetectionLog& log, int most_blocks) {
-  if (most_blocks < 1) throw InvalidInput("a log is cut into one block or more");
+  if (most_blocks < 1) throw InvalidInput("a log needs one block or more");
   LabelledScans scans{log, scan_pairs(log), {}, {}};
   scans.blocks = cut_in_blocks(log, scans.pairs, 24);
   const int robots = std::max(1, scans.blocks.count / 24);
@@ -50,7 +50,7 @@ std::vector<int> corrected_labels(const LabelledScans& scans, std::vector<int> l
   const std::vector<std::size_t>& places = scans.places[stretch.order];
   const std::vector<Detection>& detections = scans.log.detections;
   for (std::size_t row = 0, end = 0; row < detections.size(); row = end) {
-    bool taken = false;  // a landmark is seen once in a scan
+    bool taken = false;  // a landmark is seen at most once in a scan
     for (end = row; end < detections.size() && detections[end].step == detections[row].step; ++end)
       taken = taken || labels[end] == one.second;
     const std::size_t place = places[static_cast<std::size_t>(detections[row].step)];

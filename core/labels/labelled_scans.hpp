@@ -9,37 +9,38 @@
 
 namespace mapproof {
 
-/// A log in the form that the search for wrong labels needs.
+/// A log in the form that the search for wrong data associations needs.
 struct LabelledScans {
   const DetectionLog& log;  ///< Has to outlive it.
   std::vector<ScanPair> pairs;
   LogBlocks blocks;
-  std::vector<std::vector<std::size_t>> places;  ///< Of each step in each of the blocks' orders.
+  std::vector<std::vector<std::size_t>>
+      places;  ///< Index of each step in each of the blocks' orders.
 };
 
 /// @param most_blocks  The log is cut into about so many.
 /// @throws InvalidInput if most_blocks < 1, or as scan_pairs and cut_in_blocks do.
 LabelledScans labelled_scans(const DetectionLog& log, int most_blocks);
 
-/// Steps of one order that a fault holds in: [begin, end) places.
+/// Steps of one order that a fault holds in: indices [begin, end).
 struct StepStretch {
   std::size_t order = 0;
   std::size_t begin = 0;
   std::size_t end = 0;
 };
 
-/// The stretch of the greatest sum, in one pass. @param gains  Of each place of that order.
+/// The stretch of the greatest sum, in one pass. @param gains  Of each index of that order.
 StepStretch greatest_sum(std::size_t order, const Eigen::VectorXd& gains);
 
-/// Whose a detection under `label` is where the fault holds.
+/// The landmark of a detection under `label` where the fault holds.
 int other_label(const LabelHypothesis& one, int label);
 
-/// The labels with the fault corrected over the stretch; a landmark is seen once in a scan.
+/// The IDs with the fault corrected over the stretch; a landmark is seen at most once in a scan.
 std::vector<int> corrected_labels(const LabelledScans& scans, std::vector<int> labels,
                                   const LabelHypothesis& one, const StepStretch& stretch);
 
-/// The log with other labels, a landmark once a scan.
-/// @param left_out  Nonzero: detections that are not taken over; empty for none.
+/// The log with other IDs, each landmark at most once per scan.
+/// @param left_out  Nonzero: detections that are dropped; empty for none.
 DetectionLog relabelled(const DetectionLog& log, const std::vector<int>& labels,
                         const std::vector<char>& left_out = {});
 

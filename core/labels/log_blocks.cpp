@@ -21,11 +21,11 @@ void check(const DetectionLog& log) {
   int step = 0;
   for (const Detection& detection : log.detections) {
     if (detection.landmark < 0 || detection.landmark >= std::ssize(log.names))
-      throw InvalidInput("a detection of a landmark that the log does not name");
+      throw InvalidInput("a detection names a landmark that the log does not have");
     if (detection.step < step || detection.step >= log.steps)
-      throw InvalidInput("detections whose steps descend or are not the log's");
+      throw InvalidInput("the detections' steps descend or are not the log's");
     if (std::isinf(detection.range_m) || std::isinf(detection.bearing_rad))
-      throw InvalidInput("a detection with an infinite value");
+      throw InvalidInput("a detection has an infinite value");
     step = detection.step;
   }
 }
@@ -45,11 +45,11 @@ std::size_t pairs_in(const DetectionLog& log, std::size_t begin, std::size_t end
 
 constexpr int kMostRobots = 64;
 
-/// What stands for the time of each step: the log's own, or the step.
+/// The time of each step: the log's own, or the step number.
 std::vector<double> clock_of(const DetectionLog& log) {
   const auto steps = static_cast<std::size_t>(log.steps);
   if (!log.times_s.empty() && log.times_s.size() != steps)
-    throw InvalidInput("a log needs no times, or one of each step");
+    throw InvalidInput("a log needs no times, or one per step");
   if (!std::ranges::all_of(log.times_s, [](double time) { return std::isfinite(time); }))
     throw InvalidInput("a log's times must be finite");
   std::vector<double> clock = log.times_s;
@@ -63,7 +63,7 @@ std::vector<double> clock_of(const DetectionLog& log) {
   return clock;
 }
 
-/// The first times of all slices but the first: quantiles of the pairs' times.
+/// The start times of all slices but the first: quantiles of the pairs' times.
 std::vector<double> cuts_of(const std::vector<double>& clock, const std::vector<ScanPair>& pairs,
                             int slices) {
   std::vector<double> times;
@@ -112,11 +112,12 @@ std::vector<int> given_labels(const DetectionLog& log) {
 }
 
 LogBlocks cut_in_blocks(const DetectionLog& log, const std::vector<ScanPair>& pairs, int slices) {
-  if (slices < 1) throw InvalidInput("a log is cut into one slice or more");
+  if (slices < 1) throw InvalidInput("a log needs one slice or more");
   const std::vector<double> clock = clock_of(log);
   const std::vector<double> cuts = cuts_of(clock, pairs, slices);
   LogBlocks blocks;
-  std::map<std::pair<int, int>, int> numbers;  // (robot, slice) as they come: robot by robot
+  std::map<std::pair<int, int>, int>
+      numbers;  // (robot, slice) in order of appearance: robot by robot
   int robot = 0;
   for (std::size_t step = 0; step < clock.size(); ++step) {
     if (step > 0 && clock[step] < clock[step - 1]) ++robot;

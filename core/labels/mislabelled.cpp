@@ -21,7 +21,7 @@ namespace {
 
 constexpr double kFar = 0.25;           ///< Of the median distance.
 constexpr std::size_t kNamed = 4;       ///< Landmarks.
-constexpr double kWorse = 2.0;          ///< Than the middle landmark, to be named.
+constexpr double kWorse = 2.0;          ///< Than the median landmark, to be named.
 constexpr double kDeviations = 1.4826;  ///< Standard deviation over median of absolute values.
 
 /// 0 without a value.
@@ -29,7 +29,7 @@ double median_or_zero(const std::vector<double>& values) {
   return values.empty() ? 0.0 : upper_median(values);
 }
 
-/// The middle pair's spread of the blocks' distances about their median.
+/// The median pair's spread of the blocks' distances about their median.
 double spread_of(const std::vector<PairItem>& items) {
   std::map<std::pair<int, int>, std::vector<double>> distances;
   for (const PairItem& item : items)
@@ -44,7 +44,7 @@ double spread_of(const std::vector<PairItem>& items) {
   return median_or_zero(spreads);
 }
 
-/// @param map  Of the pairs under these labels.
+/// @param map  Of the pairs under these IDs.
 /// @note O(P log P) time for P pairs.
 LabelDoubts label_doubts(const LabelledScans& scans, const std::vector<int>& labels,
                          const RobustMap& map) {
@@ -83,14 +83,14 @@ LabelDoubts label_doubts(const LabelledScans& scans, const std::vector<int>& lab
   return doubts;
 }
 
-constexpr double kFitsNot = 8.0;  ///< A detection's cost, in variances, under a label not its own.
+constexpr double kFitsNot = 8.0;     ///< A detection's cost, in variances, under a wrong ID.
 constexpr double kNearlyAll = 0.97;  ///< Of the detections that a fault may hold for.
 
-/// How well the fall of the cost is explained by the labels tried.
+/// How well the relabelled detections explain the reduction of the cost.
 struct Explanation {
-  double share = 0.0;        ///< The fall, of what all pairs of both labels cost.
-  double left = 0.0;         ///< What a relabelled pair costs on the average, in variances.
-  std::size_t partners = 0;  ///< Landmarks that relabelled detections are seen with.
+  double share = 0.0;        ///< The reduction, of what all pairs of both IDs cost.
+  double left = 0.0;         ///< Mean cost of a relabelled pair, in variances.
+  std::size_t partners = 0;  ///< Landmarks that are co-visible with relabelled detections.
 };
 
 Explanation explained(const LabelledScans& scans, const std::vector<int>& labels,
@@ -124,8 +124,8 @@ Explanation explained(const LabelledScans& scans, const std::vector<int>& labels
           static_cast<std::size_t>(std::ranges::count(partners, 1))};
 }
 
-/// Whether the finding's stretch of steps is one robot's, and no detection of both labels by it
-/// lies outside.
+/// Whether the finding's stretch of steps is one robot's, and no detection of both IDs by it lies
+/// outside.
 bool is_all_of_robot(const DetectionLog& log, const std::vector<int>& labels,
                      const LabelFinding& finding) {
   if (finding.by_time || log.scans.empty()) return false;
@@ -141,7 +141,7 @@ bool is_all_of_robot(const DetectionLog& log, const std::vector<int>& labels,
   return true;
 }
 
-/// Where and when the detections are that a trial relabelled.
+/// Where and when the detections are that a hypothesis relabelled.
 LabelFinding found(const LabelledScans& scans, const std::vector<int>& labels,
                    const FaultTrial& trial) {
   LabelFinding finding{.fault = trial.fault.fault,
@@ -164,7 +164,7 @@ LabelFinding found(const LabelledScans& scans, const std::vector<int>& labels,
     if (is_meant && place >= trial.stretch.begin && place < trial.stretch.end) ++meant;
     if (labels[k] == trial.labels[k]) continue;
     ++finding.detections;
-    // Scans beside the stretch that were given otherwise one by one do not widen it.
+    // Scans near the stretch that were relabelled one by one do not widen it.
     if (place < trial.stretch.begin || place >= trial.stretch.end) continue;
     first = std::min(first, place);
     last = std::max(last, place);
@@ -186,7 +186,7 @@ LabelFinding found(const LabelledScans& scans, const std::vector<int>& labels,
   return finding;
 }
 
-/// A swap that changes most detections of both labels is its complement under other names. Of a
+/// A swap that changes most detections of both IDs is its complement under other names. Of a
 /// complement in two parts the one with more detections is taken; the other is left for the next
 /// search.
 void turn_to_minority(const LabelledScans& scans, const std::vector<int>& labels,
@@ -201,7 +201,7 @@ void turn_to_minority(const LabelledScans& scans, const std::vector<int>& labels
     const std::size_t place = places[static_cast<std::size_t>(scans.log.detections[k].step)];
     (place < trial.stretch.begin ? before : place < trial.stretch.end ? inside : after) += 1;
   }
-  // In two parts only if it is plainly the smaller: halves are about equal either way.
+  // In two parts only if it is clearly the smaller: halves are about equal either way.
   const bool in_parts = before > 0 && after > 0;
   const std::size_t outside = before + after;
   if (outside == 0 || (in_parts ? 2 * inside <= 3 * outside : inside <= outside)) return;
@@ -218,7 +218,7 @@ void turn_to_minority(const LabelledScans& scans, const std::vector<int>& labels
                             trial.map.positions_m, trial.map.width_m);
 }
 
-/// What gains little in many scans may be a sensor's error in one part of the hall.
+/// A fault that gains little in many scans may be a sensor's error in one part of the hall.
 bool convincing(const Explanation& explanation, const LabelCheckOptions& options) {
   return explanation.share >= options.least_share && explanation.left <= options.most_left &&
          explanation.partners >= static_cast<std::size_t>(options.fewest_partners);
@@ -233,8 +233,8 @@ RobustMap better_map(const std::vector<PairItem>& items, RobustMap map, const Po
   return lowered_map(items, other.positions_m, own);
 }
 
-/// The map of all pairs under some labels at a width of its own: from nothing, from the map that
-/// takes few scans and folds for wrong, or from a start, whichever costs less.
+/// The map of all pairs under some IDs at a width of its own: without a start, from the map that
+/// rejects few scans, or from a start, whichever costs less.
 RobustMap map_under(const LabelledScans& scans, const std::vector<int>& labels,
                     const Points* start_m = nullptr) {
   const std::vector<PairItem> items = pair_items(scans.pairs, labels, scans.blocks);
@@ -250,8 +250,8 @@ double loss_at(const LabelledScans& scans, const std::vector<int>& labels, const
   return lowered_map(pair_items(scans.pairs, labels, scans.blocks), map_m, width_m).loss_m;
 }
 
-/// Detections of labels at fault in single scans that fit neither of both: they would be all that
-/// some pairs are known by.
+/// Detections of IDs at fault in single scans that fit neither landmark: some pairs would be known
+/// by them alone.
 std::vector<char> fitting_neither(const LabelledScans& scans, const std::vector<int>& labels,
                                   const RobustMap& map, std::vector<LabelFinding>& findings) {
   std::vector<char> left_out(labels.size(), 0);
@@ -296,7 +296,7 @@ LabelCheck check_labels(const DetectionLog& log, const LabelCheckOptions& option
     finding.evidence = evidence;
     finding.loss_before_m = check.loss_after_m;
     labels = std::move(trial->labels);
-    // Labels that were wrong may have widened the residuals that the width stands for.
+    // Wrong IDs may have widened the residuals that determine the width.
     map = map_under(scans, labels, &trial->map.positions_m);
     check.loss_after_m = loss_at(scans, labels, map.positions_m, told_width_m);
     finding.loss_after_m = check.loss_after_m;

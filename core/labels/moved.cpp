@@ -16,11 +16,12 @@
 namespace mapproof {
 namespace {
 
-constexpr int kPlainlyLarge = 100;  ///< Permutations with as much, after which no more are drawn.
+constexpr int kPlainlyLarge =
+    100;  ///< Permutations that gain as much, after which no more are drawn.
 constexpr std::size_t kFewestSlices = 6;
 constexpr int kDirections = 12;
 
-/// A distance of the landmark from a known place, in a slice of time.
+/// A distance of the landmark from a known position, in a slice of time.
 struct Pull {
   std::size_t slice;
   Eigen::RowVector2d from_m;
@@ -42,14 +43,14 @@ std::vector<Pull> pulls_of(const std::vector<PairItem>& items, const RobustMap& 
   return pulls;
 }
 
-/// The places that are tried, the map's first.
+/// The candidate positions, the map's first.
 std::vector<Eigen::RowVector2d> tried_places(const RobustMap& map, int landmark) {
   double reach = 0.0;
   for (Eigen::Index k = 0; k < map.positions_m.rows(); ++k)
     if (map.positions_m.row(k).allFinite())
       reach = std::max(reach, (map.positions_m.row(k) - map.positions_m.row(landmark)).norm());
   std::vector<Eigen::RowVector2d> places = {map.positions_m.row(landmark)};
-  // Without noise the width is next to nothing: twenty circles reach a millionth of the map.
+  // Without noise the width is nearly zero: twenty circles reach a millionth of the map.
   for (double radius = std::max(map.width_m / 8.0, 1e-6 * reach);
        radius < 2.0 * reach && radius > 0.0; radius *= 2.0)
     for (int k = 0; k < kDirections; ++k) {
@@ -60,7 +61,7 @@ std::vector<Eigen::RowVector2d> tried_places(const RobustMap& map, int landmark)
   return places;
 }
 
-/// What the pulls of each slice cost at each place.
+/// What the pulls of each slice cost at each position.
 Eigen::MatrixXd costs_of(const std::vector<Pull>& pulls,
                          const std::vector<Eigen::RowVector2d>& places, double width_m,
                          std::size_t slices) {
@@ -73,7 +74,7 @@ Eigen::MatrixXd costs_of(const std::vector<Pull>& pulls,
   return costs;
 }
 
-/// How a pull asks for a shift from a place.
+/// The shift from a position that a pull asks for.
 ShiftSlice asked(const Pull& pull, const Eigen::RowVector2d& place, double width_m) {
   const Eigen::RowVector2d away = place - pull.from_m;
   const double distance = away.norm();
@@ -84,7 +85,7 @@ ShiftSlice asked(const Pull& pull, const Eigen::RowVector2d& place, double width
   return {weight * direction * direction.transpose(), weight * residual * direction};
 }
 
-/// H^-1 g, and nothing in a direction that no pair measures.
+/// H^-1 g, and zero in a direction that no pair measures.
 Eigen::Vector2d shift_by(const ShiftSlice& sum) {
   const double ridge = 1e-9 * sum.H.trace();
   const double a = sum.H(0, 0) + ridge;
@@ -97,7 +98,7 @@ Eigen::Vector2d shift_by(const ShiftSlice& sum) {
 
 double fall(const ShiftSlice& sum) { return 0.5 * sum.g.dot(shift_by(sum)); }
 
-/// The place near `place` where the pulls of the slices [first, last) cost least.
+/// The position near `place` where the pulls of the slices [first, last) cost least.
 Eigen::RowVector2d settled(const std::vector<Pull>& pulls, Eigen::RowVector2d place,
                            std::size_t first, std::size_t last, double width_m) {
   constexpr int kRounds = 20;
@@ -116,9 +117,9 @@ Eigen::RowVector2d settled(const std::vector<Pull>& pulls, Eigen::RowVector2d pl
 
 struct Split {
   double cost = 0.0;
-  std::size_t first = 0;  ///< Slice of the second place; 0: none.
+  std::size_t first = 0;  ///< Slice of the second position; 0: none.
   Eigen::Index old = 0;
-  Eigen::Index fresh = 0;  ///< Rows of the places.
+  Eigen::Index fresh = 0;  ///< Rows of the positions.
 };
 
 Split best_split(const Eigen::MatrixXd& costs) {
@@ -147,7 +148,7 @@ void shuffle(std::vector<Value>& values, Random& random) {
               values[static_cast<std::size_t>(random.uniform() * static_cast<double>(k + 1))]);
 }
 
-/// The share of permutations whose gain, inflated, is as much; the change itself among them.
+/// The share of permutations whose gain, inflated, is as large; the change itself among them.
 double share_of(std::vector<ShiftSlice> slices, double gain, double inflation, int count,
                 Random& random) {
   int as_much = 1;
@@ -160,11 +161,11 @@ double share_of(std::vector<ShiftSlice> slices, double gain, double inflation, i
   return static_cast<double>(as_much) / drawn;
 }
 
-/// The log as it is tried, some landmarks split already.
+/// The log under test, some landmarks already split.
 struct Tried {
   std::vector<std::string> names;
   std::vector<int> labels;
-  std::vector<int> splits;  ///< Landmarks that were split, and what they became.
+  std::vector<int> splits;  ///< Landmarks that were split, and their later halves.
 };
 
 std::vector<PairItem> items_of(const std::vector<ScanPair>& pairs, const Tried& tried,
@@ -172,7 +173,7 @@ std::vector<PairItem> items_of(const std::vector<ScanPair>& pairs, const Tried& 
   return pair_items(pairs, tried.labels, blocks);
 }
 
-/// Places in time of the steps.
+/// Index in time of each step.
 std::vector<std::size_t> places_in_time(const LogBlocks& blocks) {
   const std::vector<int>& order = blocks.step_orders.back();
   std::vector<std::size_t> places(order.size());
@@ -183,7 +184,7 @@ std::vector<std::size_t> places_in_time(const LogBlocks& blocks) {
 /// A landmark that may have moved.
 struct Suspect {
   int landmark = -1;
-  std::size_t slice = 0;  ///< With which its second place begins.
+  std::size_t slice = 0;  ///< With which its second position begins.
   double p = 1.0;         ///< By Holm.
 };
 
@@ -219,13 +220,13 @@ Suspect least_p(const std::vector<PairItem>& items, const RobustMap& map, const 
   return best;
 }
 
-/// Pairs of one landmark in order of time, with what they cost at its old and its new place.
+/// Pairs of one landmark in order of time, with what they cost at its old and its new position.
 struct Timed {
   std::size_t place;
-  double gain;  ///< Of the new place.
+  double gain;  ///< Of the new position.
 };
 
-/// Splits a landmark at the place in time that lowers the cost the most.
+/// Splits a landmark at the index in time that reduces the cost the most.
 class Splitter {
  public:
   Splitter(const std::vector<ScanPair>& pairs, const LogBlocks& blocks,
@@ -246,7 +247,7 @@ class Splitter {
     return result;
   }
 
-  /// The map of split labels: both places where their own pairs ask for them.
+  /// The map of split IDs: both positions where their own pairs ask for them.
   RobustMap map_of(const Tried& split, const RobustMap& before) const {
     const std::vector<PairItem> items = items_of(pairs_, split, blocks_);
     Points start(before.positions_m.rows() + 1, 2);
@@ -255,7 +256,7 @@ class Splitter {
     return unfolded_map(items, lowered_map(items, start, before.width_m), blocks_.count);
   }
 
-  /// Gains of the new place over the old one, in order of time.
+  /// Gains of the new position over the old one, in order of time.
   std::vector<Timed> gains(const Tried& tried, int landmark, const RobustMap& map) const {
     std::vector<Timed> result;
     const Eigen::RowVector2d old_m = map.positions_m.row(landmark);
@@ -289,14 +290,14 @@ struct Change {
 };
 
 Change change_of(const std::vector<Timed>& gains, double width_m) {
-  // Sums from the end: what is gained if the new place holds from here on.
+  // Sums from the end: the gain if the new position holds from here on.
   std::vector<double> sums(gains.size() + 1, 0.0);
   for (std::size_t k = gains.size(); k-- > 0;) sums[k] = sums[k + 1] + gains[k].gain;
   std::size_t best = 0;
   for (std::size_t k = 1; k < gains.size(); ++k)
     if (sums[k] > sums[best]) best = k;
-  // 1.92 is half of chi square's 95 % point of one parameter; scans that follow each other err
-  // alike, so that ten of them are taken to tell what one does.
+  // 1.92 is half of chi square's 95 % point of one parameter; consecutive scans have correlated
+  // errors, so that ten of them are taken as one independent scan.
   const double variance = width_m * width_m / 2.25;
   const double enough = sums[best] - 10.0 * 1.92 * variance;
   std::size_t first = best;
@@ -308,8 +309,9 @@ Change change_of(const std::vector<Timed>& gains, double width_m) {
 
 void check(const MovedOptions& options) {
   if (!(options.level > 0.0 && options.level < 1.0))
-    throw InvalidInput("a level of significance lies between 0 and 1");
-  if (options.permutations < 19) throw InvalidInput("a permutation test needs 19 or more");
+    throw InvalidInput("the level of significance must lie between 0 and 1");
+  if (options.permutations < 19)
+    throw InvalidInput("a permutation test needs 19 permutations or more");
   if (options.slices < 6) throw InvalidInput("a change in time needs 6 slices or more");
 }
 

@@ -8,7 +8,7 @@
 namespace mapproof {
 namespace {
 
-/// Adds what an item costs if its landmark stands on each point.
+/// Adds what an item costs if its landmark is at each point.
 void add_costs(const Points& grid, const Eigen::RowVector2d& partner, const PairItem& item,
                double width_m, Eigen::Ref<Eigen::VectorXf> costs) {
   const Eigen::ArrayXd residuals =
@@ -42,12 +42,12 @@ Points grid_over(const Points& map, int side) {
   return grid;
 }
 
-PlaceCosts place_costs(const std::vector<PairItem>& items, const Points& map, int blocks,
-                       const std::vector<int>& labels, double width_m, int side) {
-  if (side < 2) throw InvalidInput("a grid needs two points a side");
-  PlaceCosts result{grid_over(map, side), {labels, {}, 0}};
+PlaceCosts place_costs(const std::vector<PairItem>& items, const RobustMap& map, int blocks,
+                       const std::vector<int>& labels, int side) {
+  if (side < 2) throw InvalidInput("a grid needs two points per side");
+  PlaceCosts result{grid_over(map.positions_m, side), {labels, {}, 0}};
   result.costs.segment = result.grid_m.rows();
-  std::vector<int> place(static_cast<std::size_t>(map.rows()), -1);
+  std::vector<int> place(static_cast<std::size_t>(map.positions_m.rows()), -1);
   for (std::size_t k = 0; k < labels.size(); ++k) {
     place[static_cast<std::size_t>(labels[k])] = static_cast<int>(k);
     result.costs.costs.emplace_back(Eigen::MatrixXf::Zero(result.grid_m.rows(), blocks));
@@ -56,8 +56,8 @@ PlaceCosts place_costs(const std::vector<PairItem>& items, const Points& map, in
     for (const auto& [own, partner] :
          {std::pair(item.first, item.second), std::pair(item.second, item.first)}) {
       const int at = place[static_cast<std::size_t>(own)];
-      if (at >= 0 && map.row(partner).allFinite())
-        add_costs(result.grid_m, map.row(partner), item, width_m,
+      if (at >= 0 && map.positions_m.row(partner).allFinite())
+        add_costs(result.grid_m, map.positions_m.row(partner), item, map.width_m,
                   result.costs.costs[static_cast<std::size_t>(at)].col(item.block));
     }
   return result;
@@ -66,11 +66,11 @@ PlaceCosts place_costs(const std::vector<PairItem>& items, const Points& map, in
 RobustMap unfolded_map(const std::vector<PairItem>& items, RobustMap map, int blocks) {
   for (int k = 0; k < map.positions_m.rows(); ++k) {
     if (!map.positions_m.row(k).allFinite()) continue;
-    const PlaceCosts places = place_costs(items, map.positions_m, blocks, {k}, map.width_m);
+    const PlaceCosts places = place_costs(items, map, blocks, {k});
     const Eigen::VectorXd costs = places.costs.costs.front().cast<double>().rowwise().sum();
     Eigen::Index best = 0;
     const double least = costs.minCoeff(&best);
-    // Another place on the coarse grid may be better than the present one only by much.
+    // Another position on the coarse grid may be better than the present one only by much.
     double present = 0.0;
     for (const PairItem& item : items)
       if (item.first == k || item.second == k)

@@ -13,23 +13,24 @@ namespace mapproof {
 /// @param side  >= 2.
 Points grid_over(const Points& map, int side);
 
-/// What the detections under one label cost in each block, were their landmark anywhere on a grid
-/// while the others stay: whose detections they are can then be asked of any stretch of blocks by
-/// sums alone.
+/// What the detections under one ID cost in each block, for each position of their landmark on a
+/// grid while the others stay: the data association over any stretch of blocks then needs sums
+/// alone.
 struct PlaceCosts {
   Points grid_m;       ///< G x 2, over the map and a quarter of its extent around.
   StretchCosts costs;  ///< Values are the grid's points.
 };
 
-/// @param map  M x 2, NaN rows: unmapped, and partners of nobody.
-/// @param labels  Which to ask of, each a row of the map.
+/// @param map  Its width is that of the cost; unmapped landmarks are partners of no landmark.
+/// @param labels  The IDs to cost, each a row of the map.
 /// @param side  Of the grid, points, >= 2.
 /// @note O(items * side^2) time; 4 * side^2 * blocks * labels bytes.
-PlaceCosts place_costs(const std::vector<PairItem>& items, const Points& map, int blocks,
-                       const std::vector<int>& labels, double width_m, int side = 20);
+PlaceCosts place_costs(const std::vector<PairItem>& items, const RobustMap& map, int blocks,
+                       const std::vector<int>& labels, int side = 20);
 
-/// Puts each landmark in turn where it costs least while the others stay, and lowers the cost of
-/// the whole again, as long as that helps: out of folds that majorisation alone stays in.
+/// Moves each landmark in turn to where it costs least while the others stay, and minimizes the
+/// cost of the whole again, as long as that helps: it resolves folds that majorisation alone does
+/// not.
 RobustMap unfolded_map(const std::vector<PairItem>& items, RobustMap map, int blocks);
 
 }  // namespace mapproof

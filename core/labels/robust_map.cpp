@@ -27,26 +27,21 @@ struct Mapped {
 };
 
 /// The landmarks of the largest group that pairs hold together.
-Mapped largest_group(const std::vector<PairItem>& items, int landmarks) {
+Mapped mapped_landmarks(const std::vector<PairItem>& items, int landmarks) {
   Graph graph(static_cast<std::size_t>(landmarks));
   for (const PairItem& item : items) {
     graph[static_cast<std::size_t>(item.first)].push_back({item.second, item.distance_m});
     graph[static_cast<std::size_t>(item.second)].push_back({item.first, item.distance_m});
   }
-  const std::vector<int> piece = components(graph);
-  std::vector<int> sizes(graph.size() + 1, 0);
-  for (const int number : piece) ++sizes[static_cast<std::size_t>(number)];
-  const auto largest = static_cast<int>(std::ranges::max_element(sizes) - sizes.begin());
   Mapped mapped{std::vector<int>(graph.size(), -1), {}};
-  for (int k = 0; k < landmarks; ++k)
-    if (piece[static_cast<std::size_t>(k)] == largest) {
-      mapped.row[static_cast<std::size_t>(k)] = static_cast<int>(mapped.landmarks.size());
-      mapped.landmarks.push_back(k);
-    }
+  for (const Eigen::Index k : largest_component(graph)) {
+    mapped.row[static_cast<std::size_t>(k)] = static_cast<int>(mapped.landmarks.size());
+    mapped.landmarks.push_back(static_cast<int>(k));
+  }
   return mapped;
 }
 
-/// The pieces that the finite distances hold together, by row.
+/// The components that the finite distances connect, by row.
 std::vector<int> pieces_of(const Eigen::MatrixXd& D) {
   Graph graph(static_cast<std::size_t>(D.rows()));
   for (Eigen::Index i = 0; i < D.rows(); ++i)
@@ -56,8 +51,8 @@ std::vector<int> pieces_of(const Eigen::MatrixXd& D) {
   return components(graph);
 }
 
-/// Takes pairs away that were seen in few scans, which may all be of wrong labels, but for those of
-/// landmarks that have few better ones, and those that alone join what the others hold together.
+/// Removes pairs that were seen in few scans, which may all be of wrong IDs, except those of
+/// landmarks that have few better ones, and those that alone join what the others connect.
 void leave_well_seen(Eigen::MatrixXd& D, const Eigen::MatrixXd& scans) {
   const auto well = [&](Eigen::Index i, Eigen::Index j) {
     return i != j && std::isfinite(D(i, j)) && scans(i, j) >= kFewestScans;
@@ -112,9 +107,16 @@ Eigen::MatrixXd median_distances(const std::vector<PairItem>& items, const Mappe
   return D;
 }
 
-/// Weights and distances of one round: what the cost's majorising parabolas add up to.
+/// Weights and distances of the stress that majorises the cost at a map, n x n.
+struct Majorant {
+  Eigen::MatrixXd W;
+  Eigen::MatrixXd D;
+};
+
+/// Sets the majorant at Z: the sum of the majorising parabolas of all pairs.
 void majorise(const std::vector<PairItem>& items, const Mapped& mapped, const Points& Z,
-              double width_m, Eigen::MatrixXd& W, Eigen::MatrixXd& D) {
+              double width_m, Majorant& majorant) {
+  auto& [W, D] = majorant;
   W.setZero();
   D.setZero();
   for (const PairItem& item : items) {
@@ -204,7 +206,7 @@ double map_cost(const std::vector<PairItem>& items, const Points& map, double wi
 
 RobustMap lowered_map(const std::vector<PairItem>& items, const Points& start, double width_m,
                       int rounds) {
-  Mapped mapped = largest_group(items, static_cast<int>(start.rows()));
+  Mapped mapped = mapped_landmarks(items, static_cast<int>(start.rows()));
   std::erase_if(mapped.landmarks, [&](int k) { return !start.row(k).allFinite(); });
   std::ranges::fill(mapped.row, -1);
   for (std::size_t k = 0; k < mapped.landmarks.size(); ++k)
@@ -213,13 +215,13 @@ RobustMap lowered_map(const std::vector<PairItem>& items, const Points& start, d
   const auto n = static_cast<Eigen::Index>(mapped.landmarks.size());
   if (n < 3) return finished(items, std::move(map), width_m);
   Points Z = start(mapped.landmarks, Eigen::all);
-  Eigen::MatrixXd W(n, n);
-  Eigen::MatrixXd D(n, n);
+  Majorant majorant{Eigen::MatrixXd(n, n), Eigen::MatrixXd(n, n)};
   map(mapped.landmarks, Eigen::all) = Z;
   double cost = map_cost(items, map, width_m);
   for (int round = 0; round < rounds; ++round) {
-    majorise(items, mapped, Z, width_m, W, D);
-    Z = smacof(D, W, Z, {.relative_fall = 1e-4, .max_iterations = 20}).coordinates;
+    majorise(items, mapped, Z, width_m, majorant);
+    Z = smacof(majorant.D, majorant.W, Z, {.relative_fall = 1e-4, .max_iterations = 20})
+            .coordinates;
     map(mapped.landmarks, Eigen::all) = Z;
     const double next = map_cost(items, map, width_m);
     const bool settled = cost - next <= 1e-5 * cost;
@@ -230,11 +232,12 @@ RobustMap lowered_map(const std::vector<PairItem>& items, const Points& start, d
 }
 
 RobustMap robust_map(const std::vector<PairItem>& items, int landmarks) {
-  if (landmarks > kMostLandmarks) throw InvalidInput("labels of more than 2000 landmarks");
+  if (landmarks > kMostLandmarks)
+    throw InvalidInput("the check of landmark IDs takes at most 2000 landmarks");
   for (const PairItem& item : items)
     if (item.first < 0 || item.second >= landmarks)
-      throw InvalidInput("a pair of landmarks that are not there");
-  const Mapped mapped = largest_group(items, landmarks);
+      throw InvalidInput("a pair names a landmark that does not exist");
+  const Mapped mapped = mapped_landmarks(items, landmarks);
   Points start = Points::Constant(landmarks, 2, kNaN);
   if (mapped.landmarks.size() < 3) return finished(items, std::move(start), 1.0);
   const Eigen::MatrixXd D = completed_distances(median_distances(items, mapped));

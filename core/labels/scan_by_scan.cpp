@@ -8,7 +8,7 @@ namespace mapproof {
 namespace {
 
 constexpr int kMostRounds = 12;
-constexpr double kPrice = 2.0;       ///< Of another label, variances.
+constexpr double kPrice = 2.0;       ///< Of another landmark ID, variances.
 constexpr double kScanWidths = 1.5;  ///< Standard deviations in a width.
 
 RobustMap freshly_mapped(const std::vector<PairItem>& items, int landmarks, double width_m) {
@@ -17,17 +17,16 @@ RobustMap freshly_mapped(const std::vector<PairItem>& items, int landmarks, doub
 
 }  // namespace
 
-std::vector<int> labels_scan_by_scan(const LabelledScans& scans, const std::vector<int>& given,
-                                     const std::vector<int>& labels, const LabelHypothesis& fault,
+std::vector<int> labels_scan_by_scan(const ScanLabels& of, const LabelHypothesis& fault,
                                      const Points& map, double width_m) {
+  const auto& [scans, given, labels] = of;
   const double price = kPrice * width_m * width_m / (kScanWidths * kScanWidths);
   const bool both = fault.fault == LabelFault::kSwapped;
-  // The label that a detection bears if it does not keep its present one.
+  // The ID that a detection gets if it does not keep its present one.
   const auto otherwise = [&](std::size_t row) {
-    if (!both && given[row] != fault.first) return labels[row];
-    return labels[row] == fault.first    ? fault.second
-           : labels[row] == fault.second ? fault.first
-                                         : labels[row];
+    const int label = of.labels[row];
+    if (!both && of.given[row] != fault.first) return label;
+    return label == fault.first ? fault.second : label == fault.second ? fault.first : label;
   };
   std::vector<int> result = labels;
   ScanCosts costs(scans, map, width_m);
@@ -46,17 +45,16 @@ std::vector<int> labels_scan_by_scan(const LabelledScans& scans, const std::vect
   return result;
 }
 
-FaultTrial settled_trial(const LabelledScans& scans, const std::vector<int>& given,
-                         const std::vector<int>& labels, FaultTrial trial, const Points& start,
-                         double told_m, double width_m) {
-  trial.map.positions_m = turned_as_seen(scans, labels, start);
-  trial.labels = labels;
+FaultTrial settled_trial(const ScanLabels& of, FaultTrial trial, const Points& start, double told_m,
+                         double width_m) {
+  const LabelledScans& scans = of.scans;
+  trial.map.positions_m = turned_as_seen(scans, of.labels, start);
+  trial.labels = of.labels;
   FaultTrial best;
   best.map.cost = kInfinity;
   bool unfolded = false;
   for (int round = 0; round < kMostRounds; ++round) {
-    std::vector<int> next =
-        labels_scan_by_scan(scans, given, labels, trial.fault, trial.map.positions_m, told_m);
+    std::vector<int> next = labels_scan_by_scan(of, trial.fault, trial.map.positions_m, told_m);
     const bool settled = round > 0 && next == trial.labels;
     if (settled && unfolded) break;
     trial.labels = std::move(next);
@@ -66,7 +64,7 @@ FaultTrial settled_trial(const LabelledScans& scans, const std::vector<int>& giv
       if (trial.map.cost < best.map.cost) best = trial;
       continue;
     }
-    // Labels that were wrong may have folded what is mapped of the others.
+    // Wrong IDs may have folded the map of the others.
     unfolded = true;
     RobustMap anew = freshly_mapped(items, static_cast<int>(start.rows()), width_m);
     if (anew.cost < trial.map.cost) trial.map = std::move(anew);

@@ -7,33 +7,36 @@
 
 namespace mapproof {
 
-/// A fault of labels that was tried, and what came of it.
+/// A data-association hypothesis that was tested, and its result.
 struct FaultTrial {
   LabelHypothesis fault;
   StepStretch stretch;
   std::vector<int> labels;
   RobustMap map;
-  bool scattered = false;  ///< In single scans, whenever; the stretch is then the whole log.
+  bool scattered = false;  ///< In single scans, at any time; the stretch is then the whole log.
 };
 
-/// Two labels given anew scan by scan, each scan as it costs less in a map.
+/// The scans of a log with their landmark IDs; all three must outlive it.
+struct ScanLabels {
+  const LabelledScans& scans;
+  const std::vector<int>& given;   ///< The IDs before the fault is corrected.
+  const std::vector<int>& labels;  ///< The current ones: they stay where a scan gives no evidence.
+};
+
+/// Reassigns two IDs scan by scan, each scan as it costs less in a map.
 ///
-/// kSwapped: in a scan both stand for each other, or neither; else detections under the first label
-/// may be of the second landmark, unless that is in the scan. Another label than `labels` gives
-/// must gain two variances.
-/// @param given  The labels before the fault is corrected; `labels` are those believed so far.
-/// @param map  Turned as seen (see scan_costs.hpp).
+/// kSwapped: in a scan both are exchanged, or neither; else detections under the first ID may be of
+/// the second landmark, unless that is in the scan. An ID other than that in `labels` must gain two
+/// variances.
+/// @param map  Reflected as seen (see scan_costs.hpp).
 /// @note Linear in detections.
-std::vector<int> labels_scan_by_scan(const LabelledScans& scans, const std::vector<int>& given,
-                                     const std::vector<int>& labels, const LabelHypothesis& fault,
+std::vector<int> labels_scan_by_scan(const ScanLabels& of, const LabelHypothesis& fault,
                                      const Points& map, double width_m);
 
-/// Gives both labels anew and lowers the map's cost again, in turn, until no label changes.
-/// @param labels  As they are believed before: where a scan tells nothing they stay.
-/// @param start  M x 2: the map to begin with.
-/// @param told_m  Width of Huber's cost by which scans are told; the map's is `width_m`.
-FaultTrial settled_trial(const LabelledScans& scans, const std::vector<int>& given,
-                         const std::vector<int>& labels, FaultTrial trial, const Points& start,
-                         double told_m, double width_m);
+/// Alternates between reassigning both IDs and minimizing the map's cost until no ID changes.
+/// @param start  M x 2: the initial map.
+/// @param told_m  Width of Huber's cost by which scans are judged; the map's is `width_m`.
+FaultTrial settled_trial(const ScanLabels& of, FaultTrial trial, const Points& start, double told_m,
+                         double width_m);
 
 }  // namespace mapproof

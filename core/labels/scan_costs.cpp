@@ -7,8 +7,8 @@
 namespace mapproof {
 namespace {
 
-/// Others that stand closer together tell the turn, and so a bearing, too badly: of the distance of
-/// the detection from their mean.
+/// Others that stand closer together determine the robot's heading, and so a bearing, too badly: of
+/// the distance of the detection from their mean.
 constexpr double kLeastExtent = 0.15;
 
 }  // namespace

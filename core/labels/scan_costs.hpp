@@ -8,27 +8,27 @@
 
 namespace mapproof {
 
-/// The map, or its mirror image, so that its landmarks turn the way round that the scans show them.
-/// @param labels  A landmark of each detection.
+/// The map, or its reflection, so that its landmarks have the orientation that the scans show.
+/// @param labels  The landmark ID of each detection.
 Points turned_as_seen(const LabelledScans& scans, const std::vector<int>& labels, Points map);
 
-/// What the detections of one scan cost in a map under this or that label, the others' labels being
-/// certain. Where two others or more tell where the robot was, range and bearing count each for
-/// itself: a range that is wrong spoils all of a detection's distances alike, its bearing not.
+/// What the detections of one scan cost in a map under different IDs, given the IDs of the others.
+/// Where two others or more determine the robot's pose, range and bearing count separately: a wrong
+/// range spoils all of a detection's distances alike, but not its bearing.
 class ScanCosts {
  public:
-  /// @param map  M x 2, turned as seen; NaN rows: not mapped.
+  /// @param map  M x 2, reflected as seen; NaN rows: not mapped.
   /// @param width_m  Of Huber's cost.
   ScanCosts(const LabelledScans& scans, const Points& map, double width_m);
 
-  /// Takes the scan that begins at a row, without the detections under either of two labels.
+  /// Takes the scan that begins at a row, without the detections under either of two IDs.
   /// @return The row after its last.
   std::size_t take(const std::vector<int>& labels, std::size_t row, int first, int second);
 
-  bool tells() const { return !others_.empty(); }       ///< Whether anything is known of the scan.
+  bool tells() const { return !others_.empty(); }       ///< Whether the scan gives any evidence.
   bool has_pose() const { return others_.size() > 1; }  ///< Whether its bearings count.
 
-  /// m^2; 0 where nothing tells.
+  /// m^2; 0 without evidence.
   double operator()(std::size_t row, int landmark) const;
 
  private:
@@ -37,7 +37,7 @@ class ScanCosts {
   const LabelledScans& scans_;
   const Points& map_;
   double width_m_;
-  std::vector<std::pair<std::size_t, int>> others_;  ///< Row and label.
+  std::vector<std::pair<std::size_t, int>> others_;  ///< Row and landmark ID.
   ScanPose pose_;                                    ///< Of the others, if they are two or more.
 };
 

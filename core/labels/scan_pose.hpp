@@ -6,11 +6,11 @@
 
 namespace mapproof {
 
-/// The rigid motion of least squares between places of a map and what one scan saw of them.
+/// The rigid motion of least squares between positions on a map and what one scan saw of them.
 class ScanPose {
  public:
   ScanPose() = default;
-  /// @param mapped_m  Two places or more, as many as `seen_m`.
+  /// @param mapped_m  Two positions or more, as many as `seen_m`.
   ScanPose(const std::vector<Eigen::RowVector2d>& mapped_m,
            const std::vector<Eigen::RowVector2d>& seen_m);
 
@@ -21,7 +21,7 @@ class ScanPose {
     return (place_m - seen_mean_m_) * turn_.transpose() + mapped_mean_m_;
   }
 
-  /// Root mean square distance of the places from their mean: what the turn stands on.
+  /// Root mean square distance of the positions from their mean: the base of the rotation.
   double extent_m() const { return extent_m_; }
   const Eigen::RowVector2d& seen_mean_m() const { return seen_mean_m_; }
 

@@ -16,13 +16,13 @@
 namespace mapproof {
 namespace {
 
-constexpr int kFewestDetections = 20;  ///< That tell where they stand,
-constexpr double kLeastShare = 0.06;   ///< of which the second place has at least this share.
-constexpr double kMostStrays = 0.25;   ///< Share that stand at neither.
-constexpr double kReach = 0.3;         ///< Of a place, of the usual distance of neighbours.
-constexpr double kApart = 3.0;         ///< The places are so many reaches apart.
+constexpr int kFewestDetections = 20;  ///< With a determined position,
+constexpr double kLeastShare = 0.06;   ///< of which the second position has at least this share.
+constexpr double kMostStrays = 0.25;   ///< Share of detections at neither.
+constexpr double kReach = 0.3;         ///< Of a position, of the usual distance of neighbours.
+constexpr double kApart = 3.0;         ///< The positions are so many reaches apart.
 constexpr double kFurthest = 4.0;      ///< A detection from the others, in their extents.
-constexpr double kLeastFall = 0.25;    ///< Of the cost, to call a label shared.
+constexpr double kLeastFall = 0.25;    ///< Of the cost, to report an ID as shared.
 constexpr std::size_t kTriedLabels = 4;
 constexpr int kBlocks = 40;
 
@@ -32,8 +32,8 @@ struct Standing {
   Eigen::RowVector2d place_m;
 };
 
-/// Where a scan's detection of a label stands, as two others or more in it tell; nothing if they
-/// stand too close together to.
+/// Where a scan's detection of an ID stands, as two others or more in it determine; empty if they
+/// stand too close together.
 std::optional<Eigen::RowVector2d> standing(std::span<const Detection> scan, const Detection& own,
                                            const Points& map) {
   std::vector<Eigen::RowVector2d> mapped;
@@ -78,7 +78,7 @@ double neighbour_distance(const Points& map) {
   return nearest.empty() ? 0.0 : median(nearest);
 }
 
-/// The middle of the densest disk among some places, and how many it holds.
+/// The middle of the densest disk among some positions, and how many it holds.
 std::pair<Eigen::RowVector2d, int> densest(const std::vector<Eigen::RowVector2d>& places,
                                            double reach_m) {
   constexpr std::size_t kTried = 300;
@@ -99,7 +99,7 @@ DetectionLog without(DetectionLog log, int label) {
   return log;
 }
 
-/// The two places of a label, if it has two.
+/// The two positions of an ID, if it has two.
 std::optional<SharedLabel> two_places(const DetectionLog& log, int label) {
   const Points map = pair_map_of(without(log, label)).embedding.coordinates;
   const double reach_m = kReach * neighbour_distance(map);
@@ -163,7 +163,7 @@ std::optional<SharedLabel> shared_label(const DetectionLog& log) {
       candidates.push_back(std::move(*one));
   std::ranges::stable_sort(candidates, std::ranges::greater(), &SharedLabel::second_detections);
   candidates.resize(std::min(candidates.size(), kTriedLabels));
-  // While one label folds the map, others seem to stand at two places as well.
+  // While one ID folds the map, others seem to be at two positions as well.
   std::optional<SharedLabel> best;
   std::optional<MappedLabels> whole;
   for (SharedLabel& candidate : candidates) {

@@ -7,28 +7,29 @@
 
 namespace mapproof {
 
-/// A label that two landmarks bear: its detections are of two places.
+/// A landmark ID that two landmarks share: its detections are at two positions.
 struct SharedLabel {
   int label = 0;
-  double apart_m = 0.0;      ///< The two places,
+  double apart_m = 0.0;      ///< Distance of the two positions,
   int first_detections = 0;  ///< the detections of the one that has more,
   int second_detections = 0;
-  int untold = 0;  ///< and those of which no scan tells whose they are.
-  /// Of each detection of the log: 1 or 2, the place that it shows; 0: of another label, or untold.
+  int untold = 0;  ///< and those that no scan assigns to either.
+  /// Of each detection of the log: 1 or 2, the position that it shows; 0: of another ID, or
+  /// undetermined.
   std::vector<char> place = {};
-  double loss_before_m = 0.0;  ///< Root mean square of the pairs' residuals, far ones drawn in,
-  double loss_after_m = 0.0;   ///< with one place and with two.
+  double loss_before_m = 0.0;  ///< Root mean square of the pairs' residuals with outliers clipped,
+  double loss_after_m = 0.0;   ///< with one position and with two.
 };
 
-/// The label whose detections stand most plainly at two places, if splitting it explains the scans
-/// clearly better: one landmark was called by another's name in all its detections.
+/// The ID whose detections are most clearly at two positions, if splitting it explains the scans
+/// significantly better: one landmark had another's ID in all its detections.
 ///
-/// Each label in turn is left out of the map; where a scan shows two other landmarks or more, it
-/// then tells where the label's detection stands.
-/// @note Of each label a pair_map_of().
+/// Each ID in turn is left out of the map; a scan with two other landmarks or more then determines
+/// where the ID's detection stands.
+/// @note A pair_map_of() for each ID.
 std::optional<SharedLabel> shared_label(const DetectionLog& log);
 
-/// The log with the second place under a label of its own; untold detections are left out.
+/// The log with the second position under an ID of its own; undetermined detections are left out.
 /// @param second  Row of its name: one that has no detections, or the next after the last.
 DetectionLog split_label(const DetectionLog& log, const SharedLabel& shared, int second);
 

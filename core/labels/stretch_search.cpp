@@ -26,7 +26,7 @@ float StretchSearch::least(const Eigen::VectorXf& costs) const {
   return sum;
 }
 
-/// Whether a block of the order says anything of the labels that the fault takes away.
+/// Whether a block of the order has evidence about the IDs that the fault takes away.
 bool StretchSearch::concerned(LabelFault fault, std::size_t a, std::size_t b,
                               Eigen::Index block) const {
   const auto has = [&](std::size_t label) {

@@ -7,51 +7,51 @@
 
 namespace mapproof {
 
-/// How labels may be wrong over a stretch.
+/// The types of wrong data association over a stretch.
 enum class LabelFault {
-  kSwapped,  ///< Two landmarks bear each other's label.
-  kWrong,    ///< Detections under one label are of another landmark.
-  kInPart,   ///< Some of them are, whenever.
+  kSwapped,  ///< ID swap: two landmarks have each other's ID.
+  kWrong,    ///< Detections under one ID are of another landmark.
+  kInPart,   ///< Some of them are, at any time.
 };
 
 /// The name used in files: "swapped", "wrong", "mixed".
 std::string_view name(LabelFault fault);
 
-/// A stretch of blocks over which labels may be wrong.
+/// A stretch of blocks over which IDs may be wrong.
 struct LabelHypothesis {
   LabelFault fault = LabelFault::kSwapped;
-  int first = 0;   ///< The label; kSwapped: the lower of the two.
-  int second = 0;  ///< kSwapped: the other; kWrong: whose detections they are.
-  int order = 0;   ///< Which of the blocks' orders the stretch is one in.
-  int begin = 0;   ///< Places in that order, [begin, end).
+  int first = 0;   ///< The ID; kSwapped: the lower of the two.
+  int second = 0;  ///< kSwapped: the other; kWrong: the landmark of the detections.
+  int order = 0;   ///< The order of the blocks that the stretch belongs to.
+  int begin = 0;   ///< Indices in that order, [begin, end).
   int end = 0;
-  double gain = 0.0;  ///< By how much it lowers the cost that was asked for, m^2.
-  Eigen::RowVector2d first_m = Eigen::RowVector2d::Zero();   ///< Where both landmarks then are,
-  Eigen::RowVector2d second_m = Eigen::RowVector2d::Zero();  ///< or may be looked for first.
+  double gain = 0.0;  ///< By how much it reduces the given cost, m^2.
+  Eigen::RowVector2d first_m = Eigen::RowVector2d::Zero();   ///< Positions of both landmarks then,
+  Eigen::RowVector2d second_m = Eigen::RowVector2d::Zero();  ///< or the first positions to try.
 };
 
-/// What the detections under some labels cost, block by block, for each value of what is not known
-/// of their landmarks: costs of stretches are sums of columns, of labels that share a landmark too.
+/// What the detections under some IDs cost, block by block, for each value of the unknowns of their
+/// landmarks: the costs of stretches, and of IDs that share a landmark, are sums of columns.
 struct StretchCosts {
   std::vector<int> labels;
-  std::vector<Eigen::MatrixXf> costs;  ///< Of each label: values x blocks.
-  Eigen::Index segment = 1;  ///< Each so many values are those of one unknown; the cheapest counts.
+  std::vector<Eigen::MatrixXf> costs;  ///< Of each ID: values x blocks.
+  Eigen::Index segment = 1;  ///< Each so many values belong to one unknown; the cheapest counts.
 };
 
-/// Two labels over all stretches of one order of blocks.
+/// Two IDs over all stretches of one order of blocks.
 class StretchSearch {
  public:
   /// @param costs  Has to outlive the search.
-  /// @param order  All blocks, in the order whose stretches are looked at.
+  /// @param order  All blocks, in the order whose stretches are searched.
   /// @param number  Of that order, for the hypotheses.
   StretchSearch(const StretchCosts& costs, const std::vector<int>& order, int number);
 
-  /// The stretch in which the fault of the a-th and b-th label gains the most; its gain is 0 if
-  /// none gains. Both landmarks' places are left for the caller to fill.
+  /// The stretch in which the fault of the a-th and b-th ID gains the most; its gain is 0 if none
+  /// gains. The caller fills in both landmarks' positions.
   /// @note O(blocks^2 * values) time.
   LabelHypothesis best(LabelFault fault, std::size_t a, std::size_t b);
 
-  /// What both landmarks cost at each value under a hypothesis of the a-th and b-th label.
+  /// What both landmarks cost at each value under a hypothesis of the a-th and b-th ID.
   const std::pair<Eigen::VectorXf, Eigen::VectorXf>& costs(LabelFault fault, std::size_t a,
                                                            std::size_t b, int begin, int end);
 

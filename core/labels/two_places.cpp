@@ -13,12 +13,12 @@
 namespace mapproof {
 namespace {
 
-constexpr int kFewestOfTwo = 10;               ///< Of two landmarks, to ask for two distances.
+constexpr int kFewestOfTwo = 10;               ///< Of two landmarks, to test for two distances.
 constexpr std::size_t kAskedScans = 200;       ///< Of two landmarks, at most.
-constexpr std::size_t kAskedDetections = 250;  ///< Of a label, at most.
-constexpr std::size_t kLabels = 4;             ///< Of either kind of doubt, asked in twos.
-constexpr std::size_t kAskedLabels = 20;       ///< For two places.
-constexpr int kSide = 18;                      ///< Of the grid of places.
+constexpr std::size_t kAskedDetections = 250;  ///< Of an ID, at most.
+constexpr std::size_t kLabels = 4;             ///< Of either type of doubt, tested in pairs.
+constexpr std::size_t kAskedLabels = 20;       ///< Tested for two positions.
+constexpr int kSide = 18;                      ///< Of the grid of positions.
 
 /// Every so many of the values that at most `most` are left.
 template <typename Value>
@@ -30,7 +30,7 @@ void thin_out(std::vector<Value>& values, std::size_t most) {
   values.resize(kept);
 }
 
-/// By how much two distances explain the values better than one, a value, m^2.
+/// By how much two distances explain the values better than one, per value, m^2.
 double gain_of_two(const std::vector<double>& values, double width_m) {
   const auto [low, high] = std::ranges::minmax(values);
   const auto steps = static_cast<Eigen::Index>(std::min(40.0, std::ceil((high - low) / width_m)));
@@ -51,7 +51,7 @@ double gain_of_two(const std::vector<double>& values, double width_m) {
   return (one - two) / static_cast<double>(n);
 }
 
-/// Costs of a label's detections at each point of a grid: detections x points.
+/// Costs of an ID's detections at each point of a grid: detections x points.
 Eigen::MatrixXf detection_costs(const LabelledScans& scans, const std::vector<int>& labels,
                                 const RobustMap& core, int label, const Points& grid) {
   std::map<std::size_t, std::vector<std::pair<int, double>>> seen;  // row: others and distances
@@ -91,7 +91,7 @@ RobustMap core_map(const std::vector<PairItem>& items, int landmarks, int first,
   return anew;
 }
 
-/// Finds the two places, and which is whose: as fewer detections ask for.
+/// Finds the two positions, and which is whose: as fewer detections ask for.
 void place(SharedPlaces& shared, const Eigen::MatrixXf& A, const Eigen::MatrixXf& B,
            const Points& grid) {
   const Eigen::VectorXf of_a = A.colwise().sum();
@@ -111,10 +111,10 @@ void place(SharedPlaces& shared, const Eigen::MatrixXf& A, const Eigen::MatrixXf
       (one_each - least) / std::max<double>(1.0, static_cast<double>(A.rows() + B.rows()));
 }
 
-/// One label whose detections may be of two places.
+/// One ID whose detections may be at two positions.
 struct TwoPlaces {
   int label = 0;
-  double gain = 0.0;         ///< Over one place, m^2 a detection.
+  double gain = 0.0;         ///< Over one position, m^2 per detection.
   std::vector<int> next_to;  ///< The landmarks nearest to both.
 };
 
@@ -129,7 +129,7 @@ int nearest_to(const Points& map, const Eigen::RowVector2d& place) {
   return nearest;
 }
 
-/// The two places that explain one label's detections best, in a map of all others.
+/// The two positions that explain one ID's detections best, in a map of all others.
 TwoPlaces two_places(const LabelledScans& scans, const std::vector<int>& labels,
                      const std::vector<PairItem>& items, int landmarks, int label) {
   const RobustMap core = core_map(items, landmarks, label, label, scans.blocks.count);
@@ -154,8 +154,8 @@ TwoPlaces two_places(const LabelledScans& scans, const std::vector<int>& labels,
   return found;
 }
 
-/// Each two of the labels that seem to have two distances or two places, and each of them with
-/// those whose places it seems to have.
+/// All pairs of the IDs that seem to have two distances or two positions, and each of them with
+/// those whose positions it seems to have.
 std::set<std::pair<int, int>> worth_asking(const LabelledScans& scans,
                                            const std::vector<int>& labels,
                                            const std::vector<PairItem>& items,

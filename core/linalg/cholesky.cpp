@@ -17,8 +17,8 @@ using Leaf = Eigen::Matrix<double, kLeaf, kLeaf>;
 /// About half of n, in whole leaves.
 Index half(Index n) { return (n / 2 + kLeaf - 1) / kLeaf * kLeaf; }
 
-/// Replaces the lower half of A by its factor, column by column; what comes to stand above
-/// the diagonal means nothing. False if there is no factor.
+/// Replaces the lower half of A by its factor, column by column; the values above the diagonal
+/// are meaningless. False if there is no factor.
 MAPPROOF_VECTORISED_WIDE bool factor_leaf(double* A) {
   for (Index j = 0; j < kLeaf; ++j) {
     double* const column = A + j * kLeaf;
@@ -46,7 +46,7 @@ MAPPROOF_VECTORISED_WIDE void invert_leaf(const double* L, double* inverse) {
 }
 
 /// A factorisation of blocks on the diagonal, the inverses of whose leaves are kept: every block
-/// beside the diagonal is multiplied by some of them.
+/// off the diagonal is multiplied by some of them.
 class Factorisation {
  public:
   explicit Factorisation(Index n)

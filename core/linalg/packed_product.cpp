@@ -63,12 +63,14 @@ void add(const ConstBlock& A, const ConstBlock& B, double sign, bool lower_only,
     for (Index block = 0; block < A.rows(); block += kBlockRows) {
       const Index end = std::min(block + kBlockRows, A.rows());
       const Index last_column = lower_only ? end : B.rows();
-      for (Index column = 0; column < last_column; column += kTileColumns)
-        for (Index row = block; row < end; row += kTileRows) {
-          if (lower_only && row + kTileRows <= column) continue;  // above the diagonal
+      for (Index column = 0; column < last_column; column += kTileColumns) {
+        // Whole tiles above the diagonal are left out.
+        const Index above = lower_only ? std::max<Index>(0, (column - block) / kTileRows) : 0;
+        for (Index row = block + above * kTileRows; row < end; row += kTileRows) {
           multiply_tile(rows.data() + row * depth, columns.data() + column * depth, depth, tile);
           add_tile(tile, {.row = row, .column = column, .lower_only = lower_only}, sign, out);
         }
+      }
     }
   }
 }

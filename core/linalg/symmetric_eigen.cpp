@@ -22,9 +22,9 @@ EigenPairs dense(const Eigen::MatrixXd& matrix, Eigen::Index k) {
           .converged = solver.info() == Eigen::Success};
 }
 
-/// Whether an operator has a larger eigenvalue than the smallest found, in the directions left
-/// over: Lanczos can miss copies of a multiple eigenvalue. A few steps of the power method tell,
-/// from a fixed start without symmetry.
+/// Whether an operator has a larger eigenvalue than the smallest found, in the remaining
+/// directions: Lanczos can miss copies of a multiple eigenvalue. A few steps of the power method
+/// decide, from a fixed start without symmetry.
 template <typename Operator>
 bool missed_any(const Operator& op, const EigenPairs& found) {
   constexpr int kSteps = 6;

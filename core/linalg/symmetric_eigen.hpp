@@ -7,7 +7,7 @@ namespace mapproof {
 
 /// Some eigenpairs of a symmetric matrix.
 struct EigenPairs {
-  Eigen::VectorXd values;   ///< k; the first asked for first.
+  Eigen::VectorXd values;   ///< k; the first requested one first.
   Eigen::MatrixXd vectors;  ///< n x k, orthonormal columns, signs fixed (see sign.hpp).
   bool converged = true;    ///< False: the solver gave up; the pairs are its best.
 };
@@ -21,7 +21,7 @@ struct EigenPairs {
 /// @note O(n^3) time dense, O(k n^2) an iteration otherwise. Deterministic.
 EigenPairs largest_eigenpairs(const Eigen::MatrixXd& matrix, Eigen::Index k);
 
-/// The k smallest eigenpairs, ascending, beside a null vector that is known beforehand.
+/// The k smallest eigenpairs, ascending, apart from a null vector that is known beforehand.
 ///
 /// Dense up to n = 40 or 8 k. Above that Lanczos with a fixed start on the inverse of the matrix
 /// shifted off zero, which a sparse Cholesky factor applies; what comes out is judged by its

@@ -22,7 +22,7 @@ void multiply_with_fma(const double* rows, const double* columns, Index depth, d
 
 #if defined(__x86_64__)
 
-// In intrinsics: of a loop over std::fma the compiler makes no vectors.
+// In intrinsics: the compiler does not vectorise a loop over std::fma.
 [[gnu::target("avx512f")]] void multiply_with_avx512(const double* rows, const double* columns,
                                                      Index depth, double* tile) {
   __m512d sums[kTileColumns];

@@ -19,7 +19,7 @@ inline constexpr Eigen::Index kTileColumns = 6;
 /// @note A processor of x86-64 without FMA (from before 2013) takes a hundred times as long.
 void multiply_tile(const double* rows, const double* columns, Eigen::Index depth, double* tile);
 
-/// One way to do the same.
+/// One implementation of it.
 struct TileKernel {
   std::string_view name;
   void (*multiply)(const double* rows, const double* columns, Eigen::Index depth, double* tile);

@@ -44,7 +44,7 @@ Graph graph_of(const Eigen::MatrixXd& squared_distances) {
   return graph;
 }
 
-/// 1 / d^2 beside the diagonal; d is at least a small share of the largest.
+/// 1 / d^2 off the diagonal; d is at least a small share of the largest.
 Eigen::MatrixXd relative_weights(const Eigen::MatrixXd& distances) {
   const double least = 1e-3 * distances.maxCoeff();
   Eigen::MatrixXd weights = distances.cwiseMax(least).cwiseAbs2().cwiseInverse();
@@ -57,9 +57,9 @@ Eigen::MatrixXd relative_weights(const Eigen::MatrixXd& distances) {
 Proximities covisible_proximities(const ObservationHistory& history, Eigen::Index steps,
                                   const CovisibleOptions& options) {
   if (options.neighbours < 1 || options.least_common < 1)
-    throw InvalidInput("covisible pairs need a neighbour and a common step or more");
+    throw InvalidInput("covisible pairs need one neighbour and one common step or more");
   if (history.sensor == Sensor::kVisibility)
-    throw InvalidInput("covisible pairs are of bearings or ranges, not of visibility");
+    throw InvalidInput("covisible pairs need bearings or ranges, not visibility");
   Proximities result = proximities(history, steps);
   const Eigen::Index M = history.landmarks();
   const Eigen::MatrixXd seen =

@@ -13,7 +13,7 @@ namespace {
 constexpr std::array kNames = {std::string_view("common-steps"), std::string_view("ppca"),
                                std::string_view("pca"), std::string_view("mean")};
 
-/// The rows that a group does not show.
+/// The missing rows of a group.
 std::vector<Eigen::Index> missing_rows(const ColumnGroup& group, Eigen::Index rows) {
   std::vector<Eigen::Index> missing;
   auto observed = group.rows.begin();
@@ -26,7 +26,7 @@ std::vector<Eigen::Index> missing_rows(const ColumnGroup& group, Eigen::Index ro
   return missing;
 }
 
-/// A matrix without gaps, and the sum over its columns of the filled entries' covariances.
+/// A completed matrix, and the sum over its columns of the filled entries' covariances.
 struct Filled {
   Eigen::MatrixXd values;      ///< M x C.
   Eigen::MatrixXd covariance;  ///< M x M.
@@ -59,7 +59,7 @@ LowRankModel means_alone(const Features& matrix) {
           .ridge = 1.0};
 }
 
-/// The model that a filling fits, and how that went.
+/// The model that a filling fits, and its outcome.
 LowRankModel fitted_model(const Features& matrix, const FillingOptions& options,
                           std::vector<Status>& statuses) {
   if (options.filling == Filling::kMean) return means_alone(matrix);
@@ -104,7 +104,7 @@ FilledProximities filled_proximities(const ObservationHistory& history, Eigen::I
 Proximities filled_from(const Features& matrix, Sensor sensor, const LowRankModel& model,
                         GapDistances distances) {
   Filled filled = fill(matrix, model, distances == GapDistances::kExpected);
-  // Squared ranges count from their mean over time, which gaps had moved.
+  // Squared ranges are centred on their mean over time, which missing data had moved.
   if (sensor == Sensor::kRange)
     filled.values.colwise() -= Eigen::VectorXd(filled.values.rowwise().mean());
   return proximities_of_products(gram(filled.values) + filled.covariance, sensor);

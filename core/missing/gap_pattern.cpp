@@ -17,9 +17,9 @@ namespace {
 constexpr std::array kRecommendationNames = {
     std::string_view("common-steps"), std::string_view("ppca"), std::string_view("covisible")};
 constexpr double kFewSteps = 5.0;
-constexpr double kPatterned = 2.0;    ///< Dispersion above this is not chance.
+constexpr double kPatterned = 2.0;    ///< Dispersion above this is not random.
 constexpr double kByDistance = -0.7;  ///< Nearness below this: a sensor of short range.
-constexpr double kManyApart = 0.15;   ///< Of pairs with few common steps: nothing fills them.
+constexpr double kManyApart = 0.15;   ///< Of pairs with few common steps: no model can fill them.
 
 /// Ranks from 1; equal values have their mean rank.
 std::vector<double> ranks_of(const std::vector<double>& values) {
@@ -50,7 +50,7 @@ double rank_correlation(const std::vector<double>& a, const std::vector<double>&
   return xx > 0.0 && yy > 0.0 ? xy / std::sqrt(xx * yy) : 0.0;
 }
 
-/// Standard deviations that a pair's common steps are from chance (hypergeometric).
+/// Standard deviations of a pair's number of common steps from that at random (hypergeometric).
 double excess(double common, double a, double b, double steps) {
   const double expected = a * b / steps;
   const double variance = expected * (1.0 - a / steps) * (1.0 - b / steps);
@@ -104,7 +104,7 @@ GapAdvice advised_way(const GapPattern& pattern, Sensor sensor) {
 double median_disagreement(const Proximities& filled, const Proximities& common) {
   const Eigen::MatrixXd& D = common.squared_distances;
   if (filled.squared_distances.rows() != D.rows())
-    throw InvalidInput("distances of the same landmarks are compared");
+    throw InvalidInput("the compared distances must be of the same landmarks");
   std::vector<double> shares;
   for (Eigen::Index j = 0; j < D.cols(); ++j)
     for (Eigen::Index i = j + 1; i < D.rows(); ++i)

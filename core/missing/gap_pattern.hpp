@@ -7,16 +7,17 @@
 
 namespace mapproof {
 
-/// What the gaps of a history look like, told without the truth.
+/// The pattern of a history's missing data, without ground truth.
 struct GapPattern {
   double missing_share = 0.0;  ///< Of all entries.
   double apart_share = 0.0;    ///< Of pairs of landmarks: those without a common step,
   double few_share = 0.0;      ///< and with fewer than five.
   /// Root mean square, over the pairs, of how many standard deviations their common steps are from
-  /// what gaps at random would leave: about 1 at random; more in patterns or in bursts.
+  /// those of data missing at random: about 1 at random; more in patterns or in bursts.
   double dispersion = 0.0;
-  /// Rank correlation, over the pairs that have common steps, of that with their distance: near -1
-  /// where near landmarks are observed together and distant ones are not; about 0 at random.
+  /// Rank correlation, over the pairs that have common steps, of their number with the pair's
+  /// distance: near -1 where near landmarks are observed together and distant ones are not; about 0
+  /// at random.
   double nearness = 0.0;
 };
 
@@ -25,16 +26,16 @@ struct GapPattern {
 /// @note As costly as proximities().
 GapPattern gap_pattern(const ObservationHistory& history, Eigen::Index steps);
 
-/// What serves such gaps best.
+/// The best strategy for such missing data.
 enum class GapWay { kCommonSteps, kPpca, kCovisible };
 
-/// "common-steps", "ppca", "covisible": as the command line has them.
+/// "common-steps", "ppca", "covisible": as on the command line.
 std::string_view name(GapWay way);
 
-/// Why a way serves the gaps best.
+/// Why a strategy is best for the missing data.
 enum class GapReason {
   kNoGaps,
-  kOfVisibility,  ///< Whose entries are not filled in.
+  kOfVisibility,  ///< Visibility: its entries are not filled in.
   kHardlyEver,    ///< Many pairs are hardly ever observed together; near ones are.
   kByDistance,
   kByAPattern,  ///< That can be filled in.
@@ -46,13 +47,14 @@ struct GapAdvice {
   GapReason why = GapReason::kNoGaps;
 };
 
-/// The way that made the best maps of such gaps in the study of missing entries: bearings of which
-/// distant landmarks are missing, common steps; ranges of which many pairs were hardly ever
-/// observed together, covisible pairs; visibility, or no gaps, common steps; else PPCA.
+/// The strategy that made the best maps of such data in the study of missing entries: bearings with
+/// distant landmarks missing, pairwise-complete; ranges of which many pairs were hardly ever
+/// observed together, covisible pairs; visibility, or no missing data, pairwise-complete; else
+/// PPCA.
 GapAdvice advised_way(const GapPattern& pattern, Sensor sensor);
 
-/// How far distances over filled entries are from those over common steps, where those are: the
-/// median over the pairs of the difference, as a share of the latter; NaN without any.
+/// The deviation of distances over filled entries from pairwise-complete ones, where those exist:
+/// the median over the pairs of the difference, as a share of the latter; NaN without any.
 double median_disagreement(const Proximities& filled, const Proximities& common);
 
 }  // namespace mapproof

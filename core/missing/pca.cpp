@@ -71,7 +71,7 @@ void maximise(const Moments& moments, double entries, double floor, LowRankModel
   model.ridge = std::max(left / entries, floor);
 }
 
-/// x <- L^-1 (x - its mean) with L L' the covariance of all x, and the model the other way about.
+/// x <- L^-1 (x - its mean) with L L' the covariance of all x, and the inverse for the model.
 void whiten(const Moments& moments, LowRankModel& model) {
   const Eigen::Index q = model.loadings.cols();
   const double columns = moments.all(q, q);
@@ -148,7 +148,7 @@ void Moments::add(const Features& matrix, const ColumnGroup& group, const GroupF
 double Moments::regress(Eigen::Index row, double penalty, LowRankModel& model) const {
   const Eigen::Index q = model.loadings.cols();
   Eigen::MatrixXd A = products.col(row).reshaped(q + 1, q + 1);
-  // As good as nothing beside the data: a row of few entries keeps a regular matrix.
+  // Negligible compared with the data: a row of few entries keeps a regular matrix.
   const double regular = 1e-12 * A.trace();
   A.diagonal().array() += regular;
   A.diagonal().head(q).array() += penalty;
@@ -164,13 +164,13 @@ void require_low_rank(const Features& matrix, Eigen::Index dimensions) {
   const Eigen::Index M = matrix.values.rows();
   if (dimensions < 1 || dimensions >= M)
     throw InvalidInput(
-        fmt::format("{} dimensions asked for of {}, 1 to {} can be", dimensions, M, M - 1));
-  if (!matrix.values.allFinite()) throw InvalidInput("a matrix with entries that are not finite");
+        fmt::format("{} dimensions requested of {}: 1 to {} are possible", dimensions, M, M - 1));
+  if (!matrix.values.allFinite()) throw InvalidInput("the matrix has entries that are not finite");
   if (matrix.observed.size() == 0) return;
   if (matrix.observed.rows() != M || matrix.observed.cols() != matrix.values.cols())
-    throw InvalidInput("what was observed differs from the matrix in size");
+    throw InvalidInput("the mask of observed entries differs from the matrix in size");
   if (!(matrix.observed.rowwise().sum().array() > 0.0).all())
-    throw InvalidInput("a row without an observed entry");
+    throw InvalidInput("the matrix has a row without an observed entry");
 }
 
 double observed_entries(const Features& matrix) {

@@ -11,7 +11,7 @@
 namespace mapproof {
 
 /// A plane of few dimensions near the columns of a matrix: a column y of M rows is W x + mean, and
-/// what is left over.
+/// a residual.
 struct LowRankModel {
   Eigen::MatrixXd loadings;  ///< W, M x q.
   Eigen::VectorXd mean;      ///< M.
@@ -20,7 +20,7 @@ struct LowRankModel {
   double ridge = 0.0;
 };
 
-/// Columns of which the same rows were observed: one factor serves them all.
+/// Columns of which the same rows were observed: they share one factor.
 struct ColumnGroup {
   std::vector<Eigen::Index> rows;  ///< Observed ones, ascending; may be empty.
   std::vector<Eigen::Index> columns;
@@ -29,7 +29,7 @@ struct ColumnGroup {
 /// @note O(M C log C) time.
 std::vector<ColumnGroup> column_groups(const Features& matrix);
 
-/// What one group's columns are in the plane, given the rows observed of them.
+/// The coordinates of one group's columns in the plane, given their observed rows.
 struct GroupFit {
   Eigen::MatrixXd x;             ///< q x columns.
   Eigen::MatrixXd inverse;       ///< (W_o' W_o + ridge I)^-1 with W_o of the observed rows.
@@ -48,7 +48,7 @@ struct Moments {
            const Eigen::MatrixXd& spread);
 
   /// The row's loadings and mean that fit its observed entries best, with a penalty on the
-  /// loadings; returns what is left of its squares.
+  /// loadings; returns its residual sum of squares.
   double regress(Eigen::Index row, double penalty, LowRankModel& model) const;
 
   Eigen::MatrixXd products;  ///< (q + 1)^2 x M: sums of (x, 1)(x, 1)' of each row, column-major.
@@ -63,8 +63,8 @@ void require_low_rank(const Features& matrix, Eigen::Index dimensions);
 
 double observed_entries(const Features& matrix);
 
-/// What the variance of noise is never taken to be below: a small share of the mean square of an
-/// observed entry. Data of fewer dimensions than q have no noise, and no greatest likelihood.
+/// Lower bound of the variance of noise: a small share of the mean square of an observed entry.
+/// Data of fewer dimensions than q have no noise, and no greatest likelihood.
 double least_noise(const Features& matrix);
 
 /// A start for either method: mean and leading eigenvectors of the rows' covariance, each entry of
@@ -79,7 +79,7 @@ struct RegularisedPcaOptions {
   /// Penalty on the squares of W and x, as a share of the largest singular value that the matrix
   /// would have if it were complete, > 0.
   double penalty_share = 0.003;
-  double least_fall = 1e-4;  ///< Stop once an iteration lowers the loss by less than this share.
+  double least_fall = 1e-4;  ///< Stop once an iteration reduces the loss by less than this share.
   int max_iterations = 300;  ///< >= 1.
 };
 
@@ -90,9 +90,9 @@ struct RegularisedPca {
   std::vector<Status> statuses;  ///< kNotConverged if the limit of iterations came first.
 };
 
-/// PCA of a matrix with missing entries: least sum over the observed entries of
-/// (y - W x - mean)^2 + penalty (|W|^2 + |x|^2), by alternating least squares [ilin2010]. Without
-/// the penalty entries that are hardly held run away.
+/// PCA of a matrix with missing entries: least sum over the observed entries of (y - W x - mean)^2
+/// + penalty (|W|^2 + |x|^2), by alternating least squares [ilin2010]. Without the penalty, entries
+/// that are hardly constrained diverge.
 ///
 /// The penalty is that of the nuclear norm of W X [hastie2015].
 /// @param matrix  M x C, every row observed once or more.
@@ -118,7 +118,7 @@ struct Ppca {
 };
 
 /// Probabilistic PCA of a matrix with missing entries by EM [tipping1999] [ilin2010]: each column
-/// is a sample of M variables, of which it shows some. Missing entries count as missing at random.
+/// is a sample of M variables, partly observed. Missing entries count as missing at random.
 ///
 /// Every iteration is followed by the change of coordinates that makes the x of all columns white,
 /// which leaves fit and likelihood no worse and EM much faster [liu1998].

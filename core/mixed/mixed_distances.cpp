@@ -61,7 +61,7 @@ double reliability(const ObservationHistory& history, Eigen::Index steps) {
 Proximities mixed_proximities(const std::vector<Eigen::MatrixXd>& squared,
                               const std::vector<double>& weights) {
   if (squared.empty() || squared.size() != weights.size())
-    throw InvalidInput("mixed distances need sensors, and a weight each");
+    throw InvalidInput("mixed distances need sensors, and one weight per sensor");
   const Eigen::Index M = squared.front().rows();
   Eigen::MatrixXd sum = Eigen::MatrixXd::Zero(M, M);
   Eigen::MatrixXd total = Eigen::MatrixXd::Zero(M, M);

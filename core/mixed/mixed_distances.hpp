@@ -9,9 +9,9 @@
 
 namespace mapproof {
 
-/// How far a sensor's distances are the same in both halves of its steps: the correlation of them
-/// over all pairs, stepped up to the full length (Spearman and Brown). In [0, 1); 0 with fewer than
-/// 4 steps, or where a half tells nothing.
+/// How far a sensor's distances agree between both halves of its steps: their correlation over all
+/// pairs, stepped up to the full length (Spearman and Brown). In [0, 1); 0 with fewer than 4 steps,
+/// or where a half is uninformative.
 double reliability(const ObservationHistory& history, Eigen::Index steps);
 
 /// Distances of several sensors in one: of each pair the weighted mean of the squared distances
@@ -24,8 +24,8 @@ double reliability(const ObservationHistory& history, Eigen::Index steps);
 Proximities mixed_proximities(const std::vector<Eigen::MatrixXd>& squared,
                               const std::vector<double>& weights);
 
-/// Weights for that by reliability r: r / (1 - r), as of a signal and its noise; of a sum of 1.
-/// Equal ones if none tells anything.
+/// Weights for that by reliability r: r / (1 - r), as of a signal and its noise; they sum to 1.
+/// Equal ones if no sensor is informative.
 std::vector<double> weights_of(const std::vector<double>& reliabilities);
 
 }  // namespace mapproof

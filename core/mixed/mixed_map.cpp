@@ -33,7 +33,7 @@ std::vector<Pair> sorted_pairs(const Eigen::MatrixXd& distances) {
   return pairs;
 }
 
-/// What one sensor says of its pairs on the map's scale: expected distance and its variance.
+/// One sensor's estimate of its pairs on the map's scale: expected distance and its variance.
 struct Voice {
   std::vector<double> expected;
   std::vector<double> variance;
@@ -108,7 +108,7 @@ void check(const std::vector<ObservationHistory>& histories, Eigen::Index steps)
       throw InvalidInput("several sensors must have observed the same landmarks");
     for (std::size_t b = 0; b < a; ++b)
       if (histories[a].sensor == histories[b].sensor)
-        throw InvalidInput(fmt::format("{} is there twice", name(histories[a].sensor)));
+        throw InvalidInput(fmt::format("the sensor {} is given twice", name(histories[a].sensor)));
   }
 }
 
@@ -122,7 +122,7 @@ Eigen::MatrixXd squared_of(const ObservationHistory& history) {
   return D;
 }
 
-/// Rows that some sensor knows something of.
+/// Rows that some sensor has data of.
 Rows known_rows(const std::vector<Eigen::MatrixXd>& squared) {
   Rows rows;
   for (Eigen::Index i = 0; i < squared.front().rows(); ++i)
@@ -194,7 +194,7 @@ Embedding start_of(const std::vector<Eigen::MatrixXd>& squared, const std::vecto
 }
 
 /// The joint map of the rows, from the mean distances' map and each sensor's own by order; empty if
-/// none of them places all the rows.
+/// none of them maps all the rows.
 std::optional<JointMap> joint_from_all(const std::vector<Eigen::MatrixXd>& distances,
                                        const Embedding& mean,
                                        const std::vector<MixedSensor>& sensors, const Rows& rows) {
@@ -287,7 +287,7 @@ JointMap joint_map(const std::vector<Eigen::MatrixXd>& distances, const Points& 
     if (!(now > 0.0)) break;
     map = std::sqrt(size / now) * result.embedding.coordinates;
   }
-  // Stopping is by rounds: what a round's SMACOF left is no trouble.
+  // Rounds decide when to stop: a SMACOF that did not converge within a round is not a problem.
   std::erase_if(result.embedding.statuses,
                 [](const Status& one) { return one.code == StatusCode::kNotConverged; });
   result.embedding.coordinates = map;
@@ -334,7 +334,7 @@ MixedMap mixed_map(const std::vector<ObservationHistory>& histories, Eigen::Inde
     reliabilities.push_back(result.sensors.back().reliability);
   }
   std::vector<double> weights = weights_of(reliabilities);
-  // A sensor that tells hardly anything still tells more of its own pairs than nothing does.
+  // Even a nearly uninformative sensor has more information on its own pairs than no sensor.
   for (double& weight : weights) weight = std::max(weight, 1e-9);
   const Rows rows = known_rows(squared);
   const Eigen::Index M = squared.front().rows();

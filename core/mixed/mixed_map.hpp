@@ -22,10 +22,11 @@ struct JointMap {
 /// One map of several manifolds of observations that are the plane, each bent in its own way
 /// [yairi2007, section 6]: of each sensor only the order of its distances is trusted.
 ///
-/// In turn, each sensor's distances become the increasing function of them that fits the map's best
-/// (monotone regression [kruskal1964]), with the variance about it that pairs of such a distance
-/// have; and the map takes a few steps of SMACOF towards their mean over the sensors, weighted by
-/// these variances' inverses. So a sensor that cannot tell far pairs apart has a say in near ones.
+/// Alternately, each sensor's distances become the increasing function of them that fits the map's
+/// best (monotone regression [kruskal1964]), with the variance about it at pairs of such a
+/// distance; and the map takes a few steps of SMACOF towards their mean over the sensors, weighted
+/// by the inverses of these variances. So a sensor that cannot distinguish far pairs still
+/// contributes to near ones.
 /// @param distances  Of each sensor, M x M; infinite: not known.
 /// @param start      M x 2, finite.
 /// @return kFailed if the pairs that some sensor knows leave the landmarks in pieces.
@@ -36,14 +37,14 @@ JointMap joint_map(const std::vector<Eigen::MatrixXd>& distances, const Points& 
 
 /// How badly a map agrees with the order of the sensors' distances: the mean over all pairs that a
 /// sensor knows of half the logarithm of the variance about the increasing fit, in units of the
-/// map's mean square distance from its centre; at least half of log(1e-4) for each. What
-/// joint_map() lowers, but for rounds; so maps from several starts can be compared.
+/// map's mean square distance from its centre; at least half of log(1e-4) for each. joint_map()
+/// minimizes it, but for rounds; so maps from several starts can be compared.
 /// @param map  M x 2, finite, no point.
 /// @throws InvalidInput if sizes differ or a bound is broken.
 double order_misfit(const std::vector<Eigen::MatrixXd>& distances, const Points& map);
 
-/// The joint map from whichever start ends in the least order_misfit(); of equal ones the first. A
-/// sensor whose bends the one start shares would confirm itself: so each has its start.
+/// The joint map from the start with the least final order_misfit(); of equal ones the first. A
+/// sensor whose distortion a single start shared would confirm itself: so each has its start.
 /// @param starts  One or more, as joint_map() needs them.
 /// @throws InvalidInput without a start, or as joint_map().
 JointMap best_joint_map(const std::vector<Eigen::MatrixXd>& distances,
@@ -53,19 +54,19 @@ JointMap best_joint_map(const std::vector<Eigen::MatrixXd>& distances,
 /// violators).
 std::vector<double> increasing_fit(const std::vector<double>& values);
 
-/// What one sensor gives to a map of several.
+/// One sensor's contribution to a map of several.
 struct MixedSensor {
   Sensor sensor = Sensor::kVisibility;
   MethodSetting setting;      ///< Of its own map, with its parameter.
   Embedding own;              ///< Of its observations alone, M x 2.
-  Embedding by_order;         ///< The same by the joint map's way; empty if `own` is not a map.
+  Embedding by_order;         ///< The same by the joint map's method; empty if `own` is not a map.
   Eigen::MatrixXd distances;  ///< M x M; infinite: not known to this sensor.
   double reliability = 0.0;   ///< See reliability().
   double weight = 0.0;        ///< In the mean distances that the joint map starts from; sum 1.
   double share = 0.0;         ///< In the weights of all pairs of the joint map; sum 1.
 };
 
-/// A joint map and what it was made of.
+/// A joint map and its inputs.
 struct MixedMap {
   Embedding joint;        ///< M x 2; NaN rows: unseen by every sensor.
   Embedding mean;         ///< The map of the mean distances, likewise; `joint` starts from it too.

@@ -9,7 +9,7 @@
 namespace mapproof {
 namespace {
 
-/// What a sensor measured; visibility: 1. NaN: nothing.
+/// One sensor's measurement; visibility: 1. NaN: none.
 double value_of(const Detection& seen, Sensor sensor) {
   if (sensor == Sensor::kVisibility) return 1.0;
   return sensor == Sensor::kRange ? seen.range_m * seen.range_m : seen.bearing_rad;
@@ -22,7 +22,7 @@ Eigen::VectorXd means_of(const DetectionLog& log, Sensor sensor) {
   Eigen::VectorXd counts = Eigen::VectorXd::Zero(M);
   for (const Detection& seen : log.detections) {
     if (seen.landmark < 0 || seen.landmark >= M)
-      throw InvalidInput("a detection names no landmark of its log");
+      throw InvalidInput("a detection names a landmark that its log does not have");
     const double value = value_of(seen, sensor);
     if (sensor != Sensor::kRange || std::isnan(value)) continue;
     sums(seen.landmark) += value;

@@ -22,7 +22,7 @@ Eigen::MatrixXd centered_rows(const Eigen::MatrixXd& rows, const Mask& missing) 
 void require_steps(const ObservationHistory& history, Eigen::Index steps) {
   if (steps < 1 || steps > history.steps())
     throw InvalidInput(
-        fmt::format("{} observations asked for, 1 to {} are there", steps, history.steps()));
+        fmt::format("{} observations requested, 1 to {} are available", steps, history.steps()));
 }
 
 Features features(const ObservationHistory& history, Eigen::Index steps) {

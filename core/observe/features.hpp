@@ -6,7 +6,7 @@
 
 namespace mapproof {
 
-/// The vectors whose distances the mapping methods keep, a landmark a row, zero where missing.
+/// The vectors whose distances the mapping methods keep, one row per landmark, zero where missing.
 struct Features {
   Eigen::MatrixXd values;  ///< M x C; C = steps, or 2 * steps for bearings (cosines, then sines).
   /// M x C: 1 where a value was observed, 0 elsewhere. Empty: everywhere.

@@ -10,17 +10,17 @@
 
 namespace mapproof {
 
-/// How alike the observation histories of each two landmarks are.
+/// The similarity of the observation histories of each pair of landmarks.
 struct Proximities {
   Eigen::MatrixXd inner_products;     ///< M x M; of normalised vectors for visibility.
   Eigen::MatrixXd squared_distances;  ///< M x M, zero diagonal; infinite: no common step.
-  /// The squared distance of landmarks never seen together, 2 for visibility: among several of them
-  /// nothing tells which is nearer. Infinite for other sensors.
+  /// The squared distance of landmarks never seen together, 2 for visibility: which of several is
+  /// nearer is not determined. Infinite for other sensors.
   double apart_squared = kInfinity;
 };
 
 /// Euclidean proximities of the observation vectors (see features.hpp). With missing entries the
-/// sums run over each pair's common steps and are scaled to the full length.
+/// sums are pairwise-complete and are scaled to the full length.
 ///
 /// @param steps  How many observations to use, from the first.
 /// @return For visibility, squared distances are 2 - 2 cos of the angle between the vectors; the
@@ -29,7 +29,7 @@ struct Proximities {
 /// @note O(M^2 N) time.
 Proximities proximities(const ObservationHistory& history, Eigen::Index steps);
 
-/// The same of vectors at hand (see features).
+/// The same of given vectors (see features).
 Proximities proximities(const Features& rows, Sensor sensor);
 
 /// The same of vectors of which only the inner products are known, M x M; their diagonal is > 0 for

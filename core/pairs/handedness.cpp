@@ -23,8 +23,8 @@ double turn_of(const SeenTurn& triple, const Points& map) {
   return std::isnan(area) ? 0.0 : area;
 }
 
-/// Above 0 if the scan and the map turn alike, each triple bounded by the smaller of its areas so
-/// that no wrong one of it decides alone.
+/// Above 0 if the scan and the map have the same orientation, each triple bounded by the smaller of
+/// its areas so that no single wrong one decides.
 double agreement(std::span<const Detection* const> scan, const Points& map) {
   double sum = 0.0;
   for (std::size_t k = 0; k + 2 < scan.size(); ++k) {

@@ -25,10 +25,11 @@ void for_each_pair(const std::vector<Detection>& detections, const Visit& visit)
   for (auto first = detections.begin(); first != detections.end();) {
     const auto last = std::find_if(
         first, detections.end(), [&](const Detection& other) { return other.step != first->step; });
-    for (auto a = first; a != last; ++a)
-      if (is_whole(*a))
-        for (auto b = a + 1; b != last; ++b)
-          if (is_whole(*b)) visit(*a, *b);
+    for (auto a = first; a != last; ++a) {
+      if (!is_whole(*a)) continue;
+      for (auto b = a + 1; b != last; ++b)
+        if (is_whole(*b)) visit(*a, *b);
+    }
     first = last;
   }
 }
@@ -114,7 +115,8 @@ void set_precisions(std::vector<MeasuredPair>& pairs, const std::vector<double>&
     const double relative = noise.relative * pairs[k].distance_m;
     const double variance =
         floor * floor + relative * relative + squares / (scans + noise.prior_scans) / scans;
-    // Beyond a double where nothing scatters and nothing is presumed: all that is left is to count.
+    // Beyond a double where nothing scatters and no noise is assumed: then the precision is the
+    // count.
     pairs[k].precision = 1.0 / std::max(variance, 1e-24 / scans);
   }
 }

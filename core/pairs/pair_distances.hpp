@@ -7,13 +7,14 @@
 
 namespace mapproof {
 
-/// How far a measured distance is believed. All are shares, so that the unit of length is free.
+/// How precise a measured distance is taken to be. All are shares, so that the unit of length is
+/// free.
 struct PairNoise {
-  /// What no number of scans takes away, as a share of the distance: a sensor's own errors.
+  /// The part that no number of scans reduces, as a share of the distance: a sensor's own errors.
   double relative = 0.03;
   /// The same, as a share of the median distance of all pairs.
   double floor = 0.01;
-  /// Scans that the scatter common to all pairs counts as in a pair's own.
+  /// Number of scans that the scatter common to all pairs counts for in a pair's own.
   double prior_scans = 3.0;
 };
 
@@ -22,8 +23,8 @@ struct PairNoise {
 double scan_distance(const Detection& a, const Detection& b);
 
 /// Distances of landmarks seen in one scan: by the law of cosines from both ranges and the angle
-/// between both bearings, whatever the pose. Of each pair the median over its scans, so that up to
-/// half of them may be anything.
+/// between both bearings, independent of the pose. Each pair gets the median over its scans, so
+/// that up to half of them may be outliers.
 ///
 /// The precision is 1 / (floor^2 + relative^2 + scatter^2 / scans): scatter from the median
 /// absolute deviation, drawn towards the median scatter of all pairs as if that had been seen in

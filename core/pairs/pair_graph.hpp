@@ -12,7 +12,7 @@
 
 namespace mapproof {
 
-/// Whether range and bearing are there both.
+/// Whether both range and bearing are there.
 inline bool is_located(const Detection& seen) {
   return std::isfinite(seen.range_m) && std::isfinite(seen.bearing_rad);
 }
@@ -26,9 +26,10 @@ inline double cross(const Eigen::RowVector2d& a, const Eigen::RowVector2d& b) {
   return a.x() * b.y() - a.y() * b.x();
 }
 
-inline constexpr int kPairsToPlace = 3;  ///< Two leave a landmark its mirror image.
+inline constexpr int kPairsToPlace = 3;  ///< Two leave a landmark's reflection open.
 
-/// Of each pair: it was seen in so many scans, or one of its landmarks has too few that were.
+/// For each pair: whether it was seen in so many scans, or one of its landmarks has too few pairs
+/// that were.
 std::vector<bool> are_trusted(const std::vector<MeasuredPair>& pairs, std::size_t landmarks,
                               int fewest_scans);
 

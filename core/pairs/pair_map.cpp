@@ -25,13 +25,14 @@ void check(const std::vector<MeasuredPair>& pairs, std::size_t landmarks,
     if (pair.first < 0 || pair.first >= pair.second ||
         pair.second >= static_cast<Eigen::Index>(landmarks) ||
         !known.emplace(pair.first, pair.second).second)
-      throw InvalidInput("measured pairs must be of two landmarks in order, and each there once");
+      throw InvalidInput(
+          "measured pairs must name two landmarks in ascending order, each pair once");
     if (!(pair.distance_m >= 0.0 && std::isfinite(pair.distance_m)) ||
         !(pair.precision > 0.0 && std::isfinite(pair.precision)))
       throw InvalidInput("measured pairs need finite distances >= 0 and precisions > 0");
   }
   if (options.start && options.start->rows() != static_cast<Eigen::Index>(landmarks))
-    throw InvalidInput("a map to begin with needs a row for each landmark");
+    throw InvalidInput("the initial map needs one row per landmark");
   if (options.fewest_scans < 1 || options.reweightings < 0 || !(options.tolerance > 0.0))
     throw InvalidInput("a map of pairs needs fewest_scans >= 1, reweightings >= 0, tolerance > 0");
 }
@@ -45,18 +46,7 @@ std::vector<MeasuredPair> trusted(const std::vector<MeasuredPair>& pairs, std::s
   return taken;
 }
 
-/// Landmarks of the largest component, the first of several, ascending.
-std::vector<Eigen::Index> largest_group(const std::vector<int>& component) {
-  std::vector<std::vector<Eigen::Index>> groups;
-  for (std::size_t i = 0; i < component.size(); ++i) {
-    groups.resize(std::max(groups.size(), static_cast<std::size_t>(component[i]) + 1));
-    groups[static_cast<std::size_t>(component[i])].push_back(static_cast<Eigen::Index>(i));
-  }
-  if (groups.empty()) return {};
-  return *std::ranges::max_element(groups, {}, [](const auto& group) { return group.size(); });
-}
-
-/// What the pairs leave open, by landmark.
+/// What the pairs do not determine, by landmark.
 std::vector<Status> gaps(const Graph& graph, const std::vector<Eigen::Index>& group,
                          const std::vector<std::string>& names) {
   std::vector<std::string> alone;
@@ -107,7 +97,7 @@ PairProblem problem_of(const std::vector<MeasuredPair>& pairs,
   return problem;
 }
 
-/// The turns of landmarks of the group alone, in its rows.
+/// The orientations of triples of the group alone, in its rows.
 std::vector<SeenTurn> turns_of(const std::vector<SeenTurn>& turns,
                                const std::vector<Eigen::Index>& group) {
   std::vector<SeenTurn> result;
@@ -123,8 +113,8 @@ std::vector<SeenTurn> turns_of(const std::vector<SeenTurn>& turns,
   return result;
 }
 
-/// The map of the group's rows; its pairs' precisions become those they had at last.
-/// @param start  Of the group; empty: looked for.
+/// The map of the group's rows; its pairs' precisions become the final ones.
+/// @param start  Of the group; empty: none.
 Embedding solve(PairProblem& problem, const Points& start, const std::vector<SeenTurn>& turns,
                 const PairMapOptions& options) {
   if (!options.refined) return path_map(problem, shares_by_triangles(problem));
@@ -147,7 +137,7 @@ PairMap pair_map(const std::vector<MeasuredPair>& pairs, const std::vector<std::
   result.embedding.coordinates.setConstant(std::ssize(names), 2, kNaN);
   const std::vector<MeasuredPair> taken = trusted(pairs, names.size(), options.fewest_scans);
   const Graph graph = graph_of(taken, names.size());
-  const std::vector<Eigen::Index> group = largest_group(components(graph));
+  const std::vector<Eigen::Index> group = largest_component(graph);
   if (group.size() < 3) {
     result.embedding.statuses.push_back(status_of<StatusReason::kTooFewPairs>(pairs.size()));
     return result;

@@ -17,15 +17,15 @@
 namespace mapproof {
 namespace {
 
-constexpr int kMostFolds = 5;           ///< Taken back, one after the other,
+constexpr int kMostFolds = 5;           ///< Unfolded, one after the other,
 constexpr std::size_t kTriedTurns = 3;  ///< by so many triples each.
 constexpr int kFirmScans = 28;          ///< Of pairs that hold landmarks together in a fold.
 constexpr int kMostSay = 100;           ///< Scans that count for a pair when maps are compared.
 constexpr double kAsGood = 1.15;        ///< Costs that maps of one quality differ by.
 constexpr double kAgreed = 0.02;        ///< Share of the scans that disagree with a map that fits.
 
-/// Compares maps by how many scans they disagree with, by what those measured and by the way round
-/// that they show landmarks: a pair that lies off costs at most as much as its scans [geman1985].
+/// Compares maps by how many scans they disagree with, in distance and in orientation of landmarks:
+/// a pair that is off costs at most as much as its scans [geman1985].
 class Judge {
  public:
   /// @param width  Residual of which a pair costs half of the most.
@@ -54,8 +54,8 @@ class Judge {
   double width_;
 };
 
-/// One landmark and what hangs on it once two others are gone, by pairs of many scans; it alone if
-/// that is all the rest.
+/// One landmark and those connected to it once two others are removed, by pairs of many scans; it
+/// alone if that is all the rest.
 std::vector<Eigen::Index> hanging_on(const PairProblem& problem, Eigen::Index one, Eigen::Index a,
                                      Eigen::Index b) {
   std::vector<MeasuredPair> firm;
@@ -84,14 +84,14 @@ Points folded(Points map, const std::vector<Eigen::Index>& rows, Eigen::Index a,
   return map;
 }
 
-/// Takes back folds: distances alone leave landmarks on the wrong side of a line.
+/// Unfolds the map: distances alone leave landmarks on the wrong side of a line.
 class Unfolding {
  public:
   Unfolding(PairProblem& problem, const std::vector<SeenTurn>& turns, const Judge& judge,
             const PairMapOptions& options)
       : problem_(problem), turns_(turns), judge_(judge), options_(options) {}
 
-  /// The map with folds taken back, singly or two together, as long as that helps.
+  /// The unfolded map, one or two folds at a time, as long as that helps.
   PairSolution of(PairSolution best) {
     for (int round = 0; round < kMostFolds; ++round) {
       std::vector<PairSolution> others = folded_anew(best);
@@ -111,8 +111,9 @@ class Unfolding {
   }
 
  private:
-  /// Maps in which a landmark, with what hangs on it, is folded over the line through two others
-  /// with which the scans show it the other way round, and that are lowered again.
+  /// Maps in which a landmark, with those connected to it, is reflected across the line through two
+  /// others with which the scans show the opposite orientation, and whose stress is minimized
+  /// again.
   std::vector<PairSolution> folded_anew(const PairSolution& from) {
     const Points& map = from.map.coordinates;
     std::vector<SeenTurn> wrong = turned_otherwise(turns_, map);
@@ -138,13 +139,13 @@ class Unfolding {
   const PairMapOptions& options_;
 };
 
-constexpr double kLeastResidual = 0.1;  ///< In units of what the precisions promise.
-/// Weights that differ more than this allows would leave the landmarks in pieces.
+constexpr double kLeastResidual = 0.1;  ///< In units of the residual that the precisions imply.
+/// Weights that differ by more than this would disconnect the landmarks.
 constexpr double kLeastWeight = 1e-5;  ///< Of that of a pair that fits.
 /// Of the pairs that starts after the first are made of.
 constexpr int kFewestScansOfStarts[] = {7, 14, 28, 56, 112};
 
-/// Shares of the weights left by how far each pair is from the map [geman1985].
+/// Shares of the weights left by each pair's residual on the map [geman1985].
 std::vector<double> shares(const std::vector<double>& residuals, double tolerance) {
   const double usual = usual_residual(residuals);
   std::vector<double> result;
@@ -163,7 +164,7 @@ void weigh(PairProblem& problem, const std::vector<double>& left) {
   }
 }
 
-/// The graph without pairs that triangles speak against, if it is in one piece without them.
+/// The graph without pairs that violate triangle inequalities, if it is connected without them.
 Graph starting_graph(const std::vector<MeasuredPair>& pairs, const std::vector<double>& left,
                      std::size_t landmarks) {
   std::vector<MeasuredPair> good;
@@ -193,7 +194,7 @@ std::vector<bool> against_triangles(const std::vector<MeasuredPair>& pairs, Eige
     const auto a = sides.col(pair.first).array();
     const auto b = sides.col(pair.second).array();
     const Eigen::ArrayXd longest = a.max(b).max(pair.distance_m);
-    // What one side is longer than the other two together; NaN where one is not known.
+    // By how much one side is longer than the other two together; NaN where one is not known.
     const Eigen::ArrayXd gap = 2.0 * longest - a - b - pair.distance_m;
     const Eigen::Index triangles = (gap == gap).count();
     const Eigen::Index broken = (gap > slack * longest).count();
@@ -212,7 +213,7 @@ std::vector<double> residuals(const PairProblem& problem, const Points& map) {
 }
 
 double usual_residual(const std::vector<double>& residuals) {
-  // A normal's standard deviation is 1.4826 times the median of what lies off it.
+  // A normal's standard deviation is 1.4826 times the median absolute deviation.
   return std::max(kLeastResidual, 1.4826 * median(residuals));
 }
 
@@ -296,7 +297,7 @@ Embedding path_map(const PairProblem& problem, const std::vector<double>& left) 
 PairSolution searched(PairProblem& problem, const std::vector<SeenTurn>& turns,
                       const PairMapOptions& options) {
   const std::vector<std::vector<double>> starts = first_shares(problem);
-  PairMapOptions rough = options;  // Tells which map it will be.
+  PairMapOptions rough = options;  // Decides which map it will be.
   rough.smacof.relative_fall = std::max(rough.smacof.relative_fall, 1e-6);
   rough.smacof.max_iterations = std::min(rough.smacof.max_iterations, 300);
   std::vector<PairSolution> solutions;

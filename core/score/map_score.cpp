@@ -50,23 +50,23 @@ MAPPROOF_VECTORISED Count count_turns(Offsets truth, Offsets estimate, Eigen::In
 
 void check(const Points& estimate, const Points& truth, const std::vector<Eigen::Index>& anchors) {
   if (estimate.rows() != truth.rows())
-    throw InvalidInput(
-        fmt::format("a map of {} landmarks and a truth of {}", estimate.rows(), truth.rows()));
+    throw InvalidInput(fmt::format("the map has {} landmarks, the ground truth {}", estimate.rows(),
+                                   truth.rows()));
   for (const Eigen::Index anchor : anchors)
     if (anchor < 0 || anchor >= truth.rows())
       throw InvalidInput(
-          fmt::format("anchor {} is none of the {} landmarks", anchor, truth.rows()));
+          fmt::format("anchor {} is not among the {} landmarks", anchor, truth.rows()));
 }
 
 }  // namespace
 
 double orientation_error_percent(const Points& truth, const Points& estimate) {
   const Eigen::Index n = truth.rows();
-  if (estimate.rows() != n) throw InvalidInput("truth and estimate differ in size");
+  if (estimate.rows() != n) throw InvalidInput("ground truth and estimate differ in size");
   std::int64_t judged = 0;
   std::int64_t wrong = 0;
   for (Eigen::Index i = 0; i < n; ++i) {
-    // Of length one, so that each turn is a sine; NaN where two points coincide.
+    // Of length one, so that each turn's value is a sine; NaN where two points coincide.
     const Points t = (truth.bottomRows(n - i - 1).rowwise() - truth.row(i)).rowwise().normalized();
     const Points e = estimate.bottomRows(n - i - 1).rowwise() - estimate.row(i);
     const Offsets to_truth{t.col(0).data(), t.col(1).data()};
@@ -127,7 +127,7 @@ std::optional<Score> score_map(const Points& estimate_m, const Points& truth_m,
   Score score;
   score.mpe_m = count > 0 ? sum / count : nan;
   score.moe_percent = orientation_error_percent(truth, estimate);
-  // Not 100 less the other: triples that the map flattens are wrong both ways round.
+  // Not 100 less the other: triples that the map flattens are wrong in both orientations.
   const Points mirrored = estimate.rowwise().reverse();
   score.moe_unmirrored_percent =
       score.moe_percent > 50.0

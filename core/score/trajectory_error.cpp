@@ -10,7 +10,7 @@
 namespace mapproof {
 namespace {
 
-/// True poses and what was estimated at their times.
+/// True poses and their estimates at the same times.
 struct CommonPoses {
   Eigen::VectorXd time_s;
   Points estimate_m;
@@ -59,7 +59,7 @@ Tenths tenths_of(const Eigen::VectorXd& time_s, const Eigen::VectorXd& error_m) 
 std::optional<double> landmark_error(const Similarity& map, const Points& estimate_m,
                                      const Points& truth_m) {
   if (estimate_m.rows() != truth_m.rows())
-    throw InvalidInput("the landmarks of estimate and truth differ in number");
+    throw InvalidInput("the landmarks of estimate and ground truth differ in number");
   const Eigen::VectorXd gaps_m = (map(estimate_m) - truth_m).rowwise().norm();
   double sum = 0.0;
   int count = 0;

@@ -8,7 +8,7 @@
 namespace mapproof {
 
 /// The map from the frame of `path` to that of `truth` which an error is taken after: fitted over
-/// the true poses within the time of `path`, at their times. Landmarks play no part in it.
+/// the true poses within the time of `path`, at their times. Landmarks are not used.
 /// @return Empty if the two have fewer than 2 poses in common.
 /// @throws InvalidInput for a times_problem() of either path.
 std::optional<Similarity> path_alignment(const Trajectory& path, const Trajectory& truth,
@@ -19,8 +19,8 @@ std::optional<Similarity> path_alignment(const Trajectory& path, const Trajector
 /// are sought among all that begin at a true pose.
 ///
 /// @param true_landmarks  N x 2, NaN rows: not surveyed; or empty.
-/// @return Empty if fewer than 2 poses can be compared. Landmarks without an estimated place do not
-///         count.
+/// @return Empty if fewer than 2 poses can be compared. Landmarks without an estimated position do
+///         not count.
 /// @throws InvalidInput as above, or if the landmarks differ in number.
 /// @note O(T log T).
 std::optional<TrajectoryError> trajectory_error(const SlamEstimate& estimate,

@@ -46,9 +46,10 @@ Losses occlusion_losses(const World& world, const Path& path) {
 }
 
 ObservationHistory with_gaps(ObservationHistory history, const Losses& losses, double share) {
-  if (!(share >= 0.0 && share < 1.0)) throw InvalidInput("a share of gaps that is not in [0, 1)");
+  if (!(share >= 0.0 && share < 1.0))
+    throw InvalidInput("the share of missing data must be in [0, 1)");
   if (losses.rows() != history.landmarks() || losses.cols() != history.steps())
-    throw InvalidInput("losses of another history");
+    throw InvalidInput("the losses are of another history");
   std::vector<Eigen::Index> entries(static_cast<std::size_t>(losses.size()));
   std::iota(entries.begin(), entries.end(), 0);
   const auto lost =

@@ -19,7 +19,7 @@ void check(const RangeFlightOptions& o) {
     throw InvalidInput("a world's height must be above 0 and at most its width");
   if (!(o.step_m > 0.0 && o.step_m <= 0.5 * o.height_m))
     throw InvalidInput("a step must be above 0 and at most half the height");
-  if (!(o.turn_sigma_rad >= 0.0)) throw InvalidInput("turns must not be negative");
+  if (!(o.turn_sigma_rad >= 0.0)) throw InvalidInput("heading changes must not be negative");
 }
 
 Eigen::RowVector3d uniform_place(const RangeFlightOptions& options, Random& random) {
@@ -64,7 +64,7 @@ void check(const RangeWorldOptions& o) {
     throw InvalidInput("a world's half width must be above 0");
   if (!(o.step_m > 0.0 && o.step_m <= o.half_width_m))
     throw InvalidInput("a step must be above 0 and at most the half width");
-  if (!(o.turn_sigma_rad >= 0.0)) throw InvalidInput("turns must not be negative");
+  if (!(o.turn_sigma_rad >= 0.0)) throw InvalidInput("heading changes must not be negative");
 }
 
 Eigen::RowVector2d uniform_point(double half_width, Random& random) {
@@ -98,7 +98,7 @@ Eigen::MatrixXd simulated_ranges(const Eigen::MatrixXd& landmarks_m,
                                  const Eigen::MatrixXd& positions_m,
                                  const SimulatedRangeNoise& noise, Random& random) {
   if (landmarks_m.cols() != positions_m.cols())
-    throw InvalidInput("landmarks and positions must be of one dimension");
+    throw InvalidInput("landmarks and positions must have the same dimension");
   if (!(noise.sigma_m >= 0.0 && noise.share >= 0.0))
     throw InvalidInput("noise must not be negative");
   if (!(noise.correlation >= 0.0 && noise.correlation < 1.0))

@@ -9,7 +9,7 @@
 
 namespace mapproof {
 
-/// How simulated ranges err.
+/// The errors of simulated ranges.
 struct SimulatedRangeNoise {
   double sigma_m = 0.0;      ///< Standard deviation of a range, m, >= 0.
   double share = 0.0;        ///< The same as a share of the range, >= 0; both add as variances.
@@ -42,7 +42,7 @@ struct RangeFlight {
   Eigen::MatrixXd ranges_m;  ///< N x T, noisy, >= 0.
 };
 
-/// Landmarks uniform in the box, a vehicle that flies on in a wavering direction and turns to a
+/// Landmarks uniform in the box, a vehicle that flies on in a random-walk direction and turns to a
 /// random one at the border, and its ranges.
 /// @throws InvalidInput if a bound is broken.
 /// @note O(N T) time.
@@ -67,7 +67,7 @@ struct RangeWorld {
   Eigen::MatrixXd ranges_m;     ///< N x T, noisy, >= 0.
 };
 
-/// Landmarks uniform in the area, a robot that walks on in a wavering direction and turns to a
+/// Landmarks uniform in the area, a robot that walks on in a random-walk direction and turns to a
 /// random one at the border, and its ranges.
 /// @throws InvalidInput if a bound is broken.
 /// @note O(N T) time.

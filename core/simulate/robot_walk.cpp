@@ -5,8 +5,8 @@
 #include <numbers>
 #include <optional>
 
-#include "core/base/errors.hpp"
 #include "core/base/angle.hpp"
+#include "core/base/errors.hpp"
 
 namespace mapproof {
 namespace {
@@ -15,7 +15,7 @@ constexpr double kPi = std::numbers::pi;
 constexpr double kTurnResolution =
     kPi / 90.0;  // 2 degrees: finer turns change nothing in the maps.
 
-/// Where the robot's centre may be.
+/// The free positions of the robot's centre.
 class FreeSpace {
  public:
   FreeSpace(const World& world, const WalkOptions& options)
@@ -47,7 +47,7 @@ Pose ahead(const Pose& pose, double heading, double distance) {
   return {pose.x + distance * std::cos(heading), pose.y + distance * std::sin(heading), heading};
 }
 
-/// The next substep, after the smallest turn that makes it free; empty if none does.
+/// The next substep, after the smallest heading change that makes it free; empty if none does.
 std::optional<Pose> next_substep(const FreeSpace& space, const Pose& pose, double length) {
   for (double turn = 0.0; turn <= kPi; turn += kTurnResolution)
     for (const double side : {1.0, -1.0}) {
@@ -64,7 +64,7 @@ Pose free_pose(const World& world, const FreeSpace& space, Random& random) {
     const double heading = random.uniform(-kPi, kPi);
     if (space.contains(x, y)) return {x, y, heading};
   }
-  throw InvalidInput("the room has no free place for the robot");
+  throw InvalidInput("the room has no free position for the robot");
 }
 
 }  // namespace

@@ -11,7 +11,7 @@
 
 namespace mapproof {
 
-/// What the sensor reads of each landmark along the path: M x N.
+/// The sensor's measurement of each landmark along the path: M x N.
 ///
 /// Visibility: 1 if the cylinder looks wider than the visual angle [yairi2007, section 4.3.1] and
 /// no other cylinder cuts the ray to its centre. Bearing: direction to the centre relative to the
@@ -25,7 +25,7 @@ ObservationHistory observe(const World& world, const Path& path, const SensorOpt
 /// How far a landmark's centre may be and still be seen, m: its cylinder looks 2 asin(r / d) wide.
 double visibility_reach(const World& world, const SensorOptions& options);
 
-/// What visibility makes of each landmark from `position`, without noise: M.
+/// The visibility of each landmark from `position`, without noise: M.
 std::vector<View> views_from(const World& world, const Eigen::RowVector2d& position,
                              const SensorOptions& options);
 

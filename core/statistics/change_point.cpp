@@ -30,7 +30,7 @@ double largest_statistic(std::span<const double> x) {
   return largest;
 }
 
-/// Each value as the median of itself and its two neighbours: a single wild one is gone.
+/// Each value as the median of itself and its two neighbours: a single outlier is removed.
 std::vector<double> smoothed(std::span<const double> x) {
   std::vector<double> out(x.begin(), x.end());
   for (std::size_t i = 1; i + 1 < x.size(); ++i)

@@ -13,10 +13,10 @@ struct ChangePoint {
   double rise = 0.0;     ///< Step: median after less median before. Gradual: of the fitted line.
 };
 
-/// Pettitt's test for a change at an unknown place [pettitt1979], against a rise: by ranks, so that
-/// a few wild values and the scale of the noise do not matter. p is his limit, too large for short
-/// series. The place is that of the step, or of the bend into a rising line, that leaves the least
-/// sum of squares of the values, those far from their neighbours drawn in.
+/// Pettitt's test for a change at an unknown index [pettitt1979], against a rise: by ranks, so that
+/// a few outliers and the scale of the noise do not matter. p is his limit, too large for short
+/// series. The index is that of the step, or of the bend into a rising line, that leaves the least
+/// sum of squares of the values, outliers being clipped.
 ///
 /// @param values  In order of time; finite.
 /// @throws InvalidInput if one is not finite or there are more than 10,000.

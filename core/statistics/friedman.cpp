@@ -12,7 +12,7 @@
 namespace mapproof {
 namespace {
 
-/// Squared ranks are multiples of 1/4 and their sums exact; what they are divided into is not.
+/// Squared ranks are multiples of 1/4 and their sums exact; their quotients are not.
 constexpr double kRounding = 1e-12;
 
 double chi_square_of(const Eigen::MatrixXd& ranks_of_units) {

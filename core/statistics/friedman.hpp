@@ -10,7 +10,7 @@ namespace mapproof {
 struct FriedmanTest {
   int units = 0;
   int methods = 0;
-  std::vector<double> mean_ranks;  ///< One a method; 1 is the rank of the least value.
+  std::vector<double> mean_ranks;  ///< One per method; 1 is the rank of the least value.
   double chi_square = 0.0;         ///< Friedman's, corrected for ties; 0 if all values tie.
   double chi_square_p = 1.0;       ///< Of at least that, if no method differs.
   double f = 0.0;    ///< Iman and Davenport's, less conservative; infinite if all units agree.

@@ -12,7 +12,7 @@
 namespace mapproof {
 namespace {
 
-/// Sum over clusters of the squared sum of what values lie beside the mean.
+/// Sum over clusters of the squared sum of the values' deviations from the mean.
 double squared_cluster_sums(std::span<const double> values, std::span<const int> clusters,
                             double mean, int& count) {
   std::map<int, double> sums;

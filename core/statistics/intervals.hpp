@@ -5,7 +5,7 @@
 
 namespace mapproof {
 
-/// A mean with what is known of its uncertainty.
+/// A mean with its uncertainty.
 struct MeanEstimate {
   double mean = 0.0;
   int values = 0;

@@ -31,7 +31,7 @@ SignedRankTest signed_rank_test(std::span<const double> differences);
 double least_signed_rank_p(int pairs);
 
 /// p of several tests corrected for their number, in the order given [holm1979]: comparing with a
-/// level keeps the chance of any false alarm below it, whatever the tests have to do with each
+/// level keeps the chance of any false alarm below it, however the tests depend on each
 /// other. At most 1.
 /// @throws InvalidInput if one is not in [0, 1].
 std::vector<double> holm(std::span<const double> p);

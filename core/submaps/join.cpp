@@ -33,10 +33,10 @@ Affine about_means(const Points& from, const Points& to, const Eigen::VectorXd& 
   return {.linear = linear, .offset = target - source * linear};
 }
 
-/// The map of that kind that takes `from` closest to `to` in weighted least squares.
+/// The map of that type that takes `from` closest to `to` in weighted least squares.
 /// @param from, to  n x 2, finite, n >= 1.
 /// @param weights   n, >= 0, with a positive sum.
-/// @return Where the points fix it only in part, one of the best.
+/// @return One of the best where the points determine it only in part.
 Affine fit_join(const Points& from, const Points& to, const Eigen::VectorXd& weights,
                 JoinKind kind) {
   const Eigen::VectorXd shares = weights / weights.sum();
@@ -55,8 +55,8 @@ Affine fit_join(const Points& from, const Points& to, const Eigen::VectorXd& wei
   return about_means(from, to, shares, linear);
 }
 
-/// Huber's weights of residuals: 1 up to some two standard deviations as their median tells them,
-/// falling as 1/r beyond.
+/// Huber's weights of residuals: 1 up to some two standard deviations by their median, falling as
+/// 1/r beyond.
 Eigen::VectorXd huber_weights(const Eigen::VectorXd& residuals, double median) {
   const double trusted = std::max(kTrusted * median, 1e-12 * residuals.maxCoeff());
   if (!(trusted > 0.0)) return Eigen::VectorXd::Ones(residuals.size());
@@ -95,7 +95,7 @@ struct Overlap {
   double cost = 0.0;  ///< The less the better: the residual over the root of the count.
 };
 
-/// Shared landmarks flatter than this leave the mirror image to chance.
+/// Shared landmarks flatter than this leave the reflection to chance.
 constexpr double kFlattest = 0.05;
 
 std::vector<std::pair<Eigen::Index, Eigen::Index>> shared_rows(const Submap& first,
@@ -163,7 +163,7 @@ Affine after(const Affine& second, const Affine& first) {
           .offset = first.offset * second.linear + second.offset};
 }
 
-/// Where each map goes; empty: it is in no tree with the root.
+/// The transformation of each map; empty: it is in no tree with the root.
 using Places = std::vector<std::optional<Affine>>;
 
 /// From one map outward along the tree.
@@ -233,7 +233,7 @@ void even_scales(const std::vector<Overlap>& overlaps, std::vector<Submap>& maps
     maps[static_cast<std::size_t>(g)].positions *= std::exp(logarithms(g));
 }
 
-/// Mean places of all landmarks, and how far the maps are from them.
+/// Mean positions of all landmarks, and how far the maps are from them.
 class Consensus {
  public:
   Consensus(std::vector<Submap>& maps, Eigen::Index landmarks)
@@ -259,7 +259,7 @@ class Consensus {
     means_.array().colwise() /= sums.array();  // 0 / 0, NaN, where no map has the landmark
   }
 
-  /// Less weight for places that are far from their landmark's mean.
+  /// Less weight for positions that are far from their landmark's mean.
   void take_weights() {
     std::vector<double> distances;
     for (const Submap& map : maps_)
@@ -276,7 +276,7 @@ class Consensus {
     }
   }
 
-  /// Fits each map to the means of what it shares; returns the largest shift of a landmark.
+  /// Fits each map to the means of its shared landmarks; returns the largest shift of a landmark.
   double refit(JoinKind kind) {
     double shift = 0.0;
     for (std::size_t g = 0; g < maps_.size(); ++g) {
@@ -307,8 +307,8 @@ class Consensus {
   std::vector<Eigen::VectorXd> weights_;  ///< Of each map's landmarks.
 };
 
-/// Gives all maps together back the covariance that they had: affine fits to means lose some of it
-/// each time, and would end in a point.
+/// Restores the covariance of all maps together: affine fits to means lose some of it each time,
+/// and would end in a point.
 class KeptSpread {
  public:
   explicit KeptSpread(const std::vector<Submap>& maps) : factor_(factor_of(maps)) {}
@@ -322,7 +322,7 @@ class KeptSpread {
   }
 
  private:
-  /// L with L L' the covariance of all places of placed maps.
+  /// L with L L' the covariance of all positions of placed maps.
   static Eigen::Matrix2d factor_of(const std::vector<Submap>& maps) {
     Eigen::Matrix2d squares = Eigen::Matrix2d::Zero();
     Eigen::RowVector2d sum = Eigen::RowVector2d::Zero();
@@ -345,7 +345,7 @@ double radius_of(const Points& points) {
   return std::sqrt(centred.squaredNorm() / static_cast<double>(points.rows()));
 }
 
-/// Lowers the distances of all maps to the mean places of what they share.
+/// Minimizes the distances of all maps to the mean positions of their shared landmarks.
 Points refined(std::vector<Submap>& maps, JoinKind kind, Eigen::Index landmarks) {
   constexpr int kMostRounds = 500;
   Consensus consensus(maps, landmarks);
@@ -392,7 +392,7 @@ void check(const std::vector<Submap>& maps, JoinKind kind, Eigen::Index landmark
     if (std::ranges::adjacent_find(map.landmarks, std::greater_equal<>()) != map.landmarks.end())
       throw InvalidInput("a sub-map's landmarks are not ascending");
     if (map.landmarks.front() < 0 || map.landmarks.back() >= landmarks)
-      throw InvalidInput("a sub-map of landmarks that there are not");
+      throw InvalidInput("a sub-map names landmarks that do not exist");
   }
 }
 
@@ -400,7 +400,7 @@ void check(const std::vector<Submap>& maps, JoinKind kind, Eigen::Index landmark
 
 JoinResult join_submaps(std::vector<Submap> maps, JoinKind kind, Eigen::Index landmarks) {
   check(maps, kind, landmarks);
-  // Scales are settled first: fitted together with the rest, they would shrink.
+  // Scales come first: fitted together with the rest, they would shrink.
   if (kind == JoinKind::kSimilarity) even_scales(overlaps_of(maps, kind), maps);
   const JoinKind left = kind == JoinKind::kAffine ? kind : JoinKind::kRigid;
   const std::vector<Overlap> overlaps = overlaps_of(maps, left);

@@ -8,11 +8,11 @@
 
 namespace mapproof {
 
-/// What may be done to a sub-map to fit it to the others; a mirror image always may.
+/// The transformations that may fit a sub-map to the others; reflection always may.
 enum class JoinKind {
-  kRigid,       ///< Turn and shift.
+  kRigid,       ///< Rotation and translation.
   kSimilarity,  ///< And scale: maps whose axes have one scale.
-  kAffine,      ///< Any affine map: eigenmaps, whose axes have a scale each.
+  kAffine,      ///< Any affine map: eigenmaps, each of whose axes has its own scale.
 };
 
 /// A joined map with its warnings.
@@ -25,8 +25,8 @@ struct JoinResult {
 ///  1. two that share 3 landmarks or more, not on one line, are fitted to each other, robustly;
 ///  2. similarity: the scales that agree best with all fits, in least squares of their logarithms;
 ///  3. a spanning tree of the best fits places all of them;
-///  4. all of them together: each is fitted to the mean places of its shared landmarks, and these
-///     are taken again, robustly, until they rest.
+///  4. all of them together: each is fitted to the mean positions of its shared landmarks, and
+/// these are computed again, robustly, until they converge.
 /// The largest tree is placed; the other sub-maps are marked and named in the statuses.
 ///
 /// @param maps       Finite positions; ascending landmarks, all < `landmarks`; one map or more.

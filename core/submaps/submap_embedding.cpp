@@ -82,15 +82,15 @@ ObservationHistory seen_by(const ObservationHistory& history, Eigen::Index steps
   return part;
 }
 
-/// The setting with a number of neighbours that a group of that size has.
+/// The setting with a number of neighbours that is possible for a group of that size.
 MethodSetting fitting(MethodSetting setting, std::size_t size) {
   if (on_graph(setting.method) && setting.parameter)
     setting.parameter = std::min(*setting.parameter, static_cast<double>(size) - 1.0);
   return setting;
 }
 
-/// Sub-maps with a place for every landmark that got one, and the first status of each code with
-/// how often it came up.
+/// Sub-maps with a position for every landmark that got one, and the first status of each code with
+/// its count.
 struct Mapped {
   std::vector<Submap> maps;
   std::map<StatusCode, Status> statuses;
@@ -123,7 +123,7 @@ std::vector<Status> statuses_of(const Mapped& mapped, std::size_t groups) {
   for (const auto& [code, first] : mapped.statuses) {
     Status& status = statuses.emplace_back(first);
     status.submaps->submaps = static_cast<int>(groups);
-    // A sub-map that came to nothing does not fail the whole.
+    // A sub-map that failed does not fail the whole.
     if (code == StatusCode::kFailed && !mapped.maps.empty())
       status.code = StatusCode::kTooFewObservations;
   }
@@ -143,7 +143,7 @@ std::vector<LandmarkGroup> overlapping_groups(const Eigen::MatrixXd& distances,
                                               const GroupOptions& options) {
   if (options.size < 6 || options.neighbours < 1 ||
       !(options.overlap_share >= 0.0 && options.overlap_share <= 0.8))
-    throw InvalidInput("groups of 6 landmarks or more that share 0 to 80 % of them can be made");
+    throw InvalidInput("groups need 6 landmarks or more and share 0 to 80 % of them");
   const Eigen::Index M = distances.rows();
   Rows all(static_cast<std::size_t>(M));
   std::iota(all.begin(), all.end(), 0);

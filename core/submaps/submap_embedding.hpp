@@ -17,15 +17,15 @@ struct GroupOptions {
   int neighbours = 8;  ///< K of the graph along which distances are measured, >= 1.
 };
 
-/// A group with what it has for itself.
+/// A group: its own landmarks and all of its members.
 struct LandmarkGroup {
-  std::vector<Eigen::Index> own;      ///< Ascending; each landmark is one group's own.
+  std::vector<Eigen::Index> own;      ///< Ascending; each landmark is in one group's own part.
   std::vector<Eigen::Index> members;  ///< Ascending: these, and the nearest others.
 };
 
-/// Divides landmarks into overlapping groups of neighbours: halved again and again between two that
-/// are far from each other along the neighbour graph, until a group's own part is small enough;
-/// then each group takes in the nearest others.
+/// Divides landmarks into overlapping groups of neighbours: halved repeatedly between two that are
+/// far from each other along the neighbour graph, until a group's own part is small enough; then
+/// each group adds the nearest others.
 ///
 /// @param distances  M x M, symmetric, zero diagonal, >= 0; infinite: nothing is known.
 /// @return One group of all if M <= size.
@@ -43,12 +43,12 @@ struct SubmapOptions {
 
 /// A whole map made of sub-maps.
 struct SubmapEmbedding {
-  Embedding embedding;  ///< M rows; its statuses tell of sub-maps and joins too.
+  Embedding embedding;  ///< M rows; its statuses include those of sub-maps and joins.
   JoinedSubmaps joined;
   double median_residual = 0.0;  ///< Of the joins, relative; NaN without any.
 };
 
-/// Maps overlapping groups of landmarks apart, by any method, and joins the maps [yairi2007,
+/// Maps overlapping groups of landmarks separately, by any method, and joins the maps [yairi2007,
 /// sections 5.1 and 5.2]. LLE, LEM, HLLE and KPCA are joined by affine maps, the others by
 /// similarities.
 ///
@@ -61,7 +61,7 @@ struct SubmapEmbedding {
 SubmapEmbedding embed_submaps(const ObservationHistory& history, Eigen::Index steps,
                               const MethodSetting& setting, const SubmapOptions& options = {});
 
-/// What a method's sub-maps are joined by.
+/// The type of transformation that joins a method's sub-maps.
 bool joined_by_affine(Method method);
 
 }  // namespace mapproof

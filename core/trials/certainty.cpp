@@ -18,7 +18,7 @@
 namespace mapproof {
 namespace {
 
-/// Whether a point is in the ellipse about a place.
+/// Whether a point is in the ellipse about a position.
 bool covers(const MapCertainty& certainty, Eigen::Index i, const Eigen::RowVector2d& place,
             const Eigen::RowVector2d& point) {
   const Eigen::Matrix2d& C = certainty.covariances[static_cast<std::size_t>(i)];
@@ -70,10 +70,11 @@ TrialDesign certainty_design(const TrialExperiment& experiment) {
     design.series.push_back({slug(setting), label(setting)});
   design.quantities = {
       study_quantity("mean_covered_percent", "Mean in the ellipse", "%", Better::kHigher),
-      study_quantity("truth_covered_percent", "Truth in the ellipse", "%", Better::kHigher),
-      study_quantity("bias_m", "Mean map from the truth", "m", Better::kLower),
+      study_quantity("truth_covered_percent", "Ground truth in the ellipse", "%", Better::kHigher),
+      study_quantity("bias_m", "Mean map from the ground truth", "m", Better::kLower),
       study_quantity("spread_m", "Maps from the mean map (RMS)", "m", Better::kLower),
-      study_quantity("told_m", "Maps from the mean map as ellipses tell", "m", Better::kLower)};
+      study_quantity("told_m", "Maps from the mean map by the ellipses (RMS)", "m",
+                     Better::kLower)};
   return design;
 }
 
@@ -84,13 +85,15 @@ class WalkedWorld {
       : context_(context),
         frame_{context.world->landmarks_m, context.anchors},
         histories_(walked_histories(
-            *context.world, context.experiment.walk, sensor, context.experiment.steps,
-            static_cast<int>(number_option(context.experiment, "walks")),
+            *context.world, context.experiment.walk,
+            {.sensor = sensor,
+             .steps = context.experiment.steps,
+             .walks = static_cast<int>(number_option(context.experiment, "walks"))},
             derive_seed(context.seed, {static_cast<std::uint64_t>(sensor)}))) {}
 
   Eigen::Index most_steps() const { return histories_.front().steps(); }
 
-  /// Ellipses of the first walks, and how many of them hold what they should.
+  /// Confidence ellipses of the first walks, and their coverage.
   /// @param blocks  Their length in units of the usual one.
   Trial tried(const MethodSetting& setting, Eigen::Index steps, double blocks,
               TrialPart& part) const {
@@ -180,14 +183,13 @@ TrialPart make_certainty(const TrialContext& context) {
 }  // namespace
 
 std::vector<ObservationHistory> walked_histories(const World& world, const WalkOptions& walk,
-                                                 Sensor sensor, int steps, int walks,
-                                                 std::uint64_t seed) {
+                                                 const WalkedSensor& walked, std::uint64_t seed) {
   std::vector<ObservationHistory> histories;
   SensorOptions options;
-  options.sensor = sensor;
-  for (int w = 0; w < walks; ++w) {
+  options.sensor = walked.sensor;
+  for (int w = 0; w < walked.walks; ++w) {
     Random random(derive_seed(seed, {static_cast<std::uint64_t>(w)}));
-    const Path path = random_walk(world, walk, steps, random);
+    const Path path = random_walk(world, walk, walked.steps, random);
     histories.push_back(observe(world, path, options, random));
   }
   return histories;
@@ -233,7 +235,7 @@ Coverage coverage(const std::vector<Points>& maps, const std::vector<MapCertaint
       judged += 1.0;
     }
   }
-  // Without anything to judge these are 0 / 0, NaN.
+  // Without maps or ellipses these are 0 / 0, NaN.
   return {.mean_percent = sum.mean_percent / judged,
           .truth_percent = sum.truth_percent / judged,
           .bias_m = sum.bias_m / landmarks,

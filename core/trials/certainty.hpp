@@ -9,28 +9,34 @@
 
 namespace mapproof {
 
+/// One sensor on many walks.
+struct WalkedSensor {
+  Sensor sensor;
+  int steps;  ///< Of each walk.
+  int walks;
+};
+
 /// Histories of one sensor from many walks in the same world, each from a pose of its own.
 std::vector<ObservationHistory> walked_histories(const World& world, const WalkOptions& walk,
-                                                 Sensor sensor, int steps, int walks,
-                                                 std::uint64_t seed);
+                                                 const WalkedSensor& walked, std::uint64_t seed);
 
-/// What the maps of many walks are, and what the ellipses of single ones say of it.
+/// The distribution of the maps of many walks, and how well the ellipses of single ones cover it.
 struct Coverage {
   double mean_percent = 0.0;   ///< Of landmarks whose mean is in the ellipse.
   double truth_percent = 0.0;  ///< Of those whose true position is.
-  double bias_m = 0.0;         ///< Mean distance of the mean map from the truth.
+  double bias_m = 0.0;         ///< Mean distance of the mean map from the ground truth.
   double spread_m = 0.0;       ///< Root mean square distance of a map from the mean map.
   double told_m = 0.0;         ///< The same by the ellipses' covariances.
 };
 
-/// The maps of all histories in the frame of the anchors; those that cannot be brought there are
+/// The maps of all histories in the frame of the anchors; those that cannot be aligned to it are
 /// left out.
 /// @param steps  How many observations of each.
 std::vector<Points> walked_maps(const std::vector<ObservationHistory>& histories,
                                 Eigen::Index steps, const CertaintyFrame& frame,
                                 const HistoryCertaintyOptions& options);
 
-/// Judges ellipses by all landmarks that are not anchors.
+/// The coverage of the ellipses over all landmarks that are not anchors.
 /// @param maps         Of all walks, the first of them those that ellipses were drawn for.
 /// @param certainties  Of the first maps, as many or fewer.
 /// @return NaN without maps or ellipses.

@@ -31,26 +31,26 @@ TrialDesign labels_design(const TrialExperiment& experiment) {
   std::vector<double> percent;
   for (const double share : list_option(experiment, "shares")) percent.push_back(100.0 * share);
   const std::vector<TrialFactor> factors = {
-      {"confused_percent", "labels confused", "%", std::move(percent)}};
-  design.setups = {{kUnlabelled, "Readings without a label", factors},
-                   {kConfused, "Readings under a wrong label, not known which", factors},
+      {"confused_percent", "confused landmark IDs", "%", std::move(percent)}};
+  design.setups = {{kUnlabelled, "Measurements without a landmark ID", factors},
+                   {kConfused, "Measurements under a wrong landmark ID, not known which", factors},
                    {kStretches, "Landmarks confused over stretches, not known which", factors}};
-  design.series = {{kGiven, "Labels as given"},
-                   {kLeftOut, "Doubtful readings left out"},
-                   {kEstimated, "Correspondence estimated"}};
+  design.series = {{kGiven, "Landmark IDs as given"},
+                   {kLeftOut, "Doubtful measurements left out"},
+                   {kEstimated, "Data association estimated"}};
   design.quantities = {
-      study_quantity("correct_percent", "Confused labels set right", "%", Better::kHigher),
+      study_quantity("correct_percent", "Confused IDs corrected", "%", Better::kHigher),
       known_quantity("mpe_m"), known_quantity("moe_unmirrored_percent")};
   return design;
 }
 
-/// A history some of whose labels were dealt out anew.
+/// A history some of whose landmark IDs were permuted.
 struct Confused {
   ObservationHistory history;
-  Mask confused;  ///< M x N: took part in the dealing.
+  Mask confused;  ///< M x N: took part in the permutation.
 };
 
-/// Deals the readings of the marked rows of one step.
+/// Permutes the measurements of the marked rows of one step.
 void deal(Confused& to, Eigen::Index step, const std::vector<Eigen::Index>& order) {
   const Eigen::VectorXd before = to.history.values.col(step);
   std::size_t next = 0;
@@ -58,7 +58,7 @@ void deal(Confused& to, Eigen::Index step, const std::vector<Eigen::Index>& orde
     if (to.confused(row, step)) to.history.values(row, step) = before(order[next++]);
 }
 
-/// The rows that are dealt, at random, in a random order.
+/// The rows that are permuted, at random, in a random order.
 std::vector<Eigen::Index> drawn(Eigen::Index rows, double share, Random& random,
                                 std::vector<char>& marked) {
   std::vector<Eigen::Index> order;
@@ -74,7 +74,7 @@ std::vector<Eigen::Index> drawn(Eigen::Index rows, double share, Random& random,
   return order;
 }
 
-/// @param stretch  So many steps are dealt alike.
+/// @param stretch  So many steps have the same permutation.
 Confused confused_history(const ObservationHistory& truth, double share, Eigen::Index stretch,
                           Random& random) {
   Confused result{truth, Mask::Constant(truth.landmarks(), truth.steps(), false)};
@@ -89,8 +89,8 @@ Confused confused_history(const ObservationHistory& truth, double share, Eigen::
   return result;
 }
 
-/// Of the readings that the dealing gave to another landmark, the share that is where it belongs;
-/// empty without any.
+/// Of the measurements that the permutation gave to another landmark, the share that is back at its
+/// own; empty without any.
 std::optional<double> correct_percent(const ObservationHistory& found,
                                       const ObservationHistory& truth,
                                       const ObservationHistory& given) {
@@ -101,7 +101,7 @@ std::optional<double> correct_percent(const ObservationHistory& found,
   return 100.0 * static_cast<double>(right) / static_cast<double>(all);
 }
 
-/// One confused history, mapped in every way.
+/// One confused history, mapped with every strategy.
 class ConfusedMaps {
  public:
   ConfusedMaps(const TrialContext& context, const ObservationHistory& truth,

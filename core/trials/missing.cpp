@@ -24,11 +24,12 @@ constexpr const char* kAtRandom = "at-random";
 constexpr const char* kLimitedRange = "sensor-range";
 constexpr const char* kOcclusion = "occlusion";
 
-/// The fillings in the order of the tables, with their words.
-constexpr std::pair<Filling, const char*> kFillings[] = {{Filling::kCommonSteps, "Common steps"},
-                                                         {Filling::kPpca, "PPCA"},
-                                                         {Filling::kPca, "PCA with missing data"},
-                                                         {Filling::kMean, "Means"}};
+/// The fillings in the order of the tables, with their labels.
+constexpr std::pair<Filling, const char*> kFillings[] = {
+    {Filling::kCommonSteps, "Pairwise-complete"},
+    {Filling::kPpca, "PPCA"},
+    {Filling::kPca, "PCA with missing data"},
+    {Filling::kMean, "Means"}};
 constexpr const char* kExpected = "ppca-expected";
 constexpr const char* kCovisible = "covisible";
 constexpr const char* kAuto = "auto";
@@ -37,13 +38,13 @@ MethodSetting smacof_of(const TrialExperiment& experiment) {
   return {Method::kSmacofKnn, number_option(experiment, "smacof_neighbours")};
 }
 
-/// The methods that a filling is tried with.
+/// The methods that a filling is combined with.
 std::vector<MethodSetting> settings_of(const TrialExperiment& experiment, Filling filling) {
   if (filling == Filling::kMean) return {smacof_of(experiment)};
   return {smacof_of(experiment), {Method::kIsomap, number_option(experiment, "isomap_neighbours")}};
 }
 
-/// Without the parameter, which the question tells.
+/// Without the parameter, which the experiment fixes.
 std::string method_words(const MethodSetting& setting) {
   return setting.method == Method::kSmacofKnn ? "kNN-SMACOF" : "ISOMAP";
 }
@@ -74,7 +75,8 @@ TrialDesign missing_design(const TrialExperiment& experiment) {
           {series_id(filling, setting), fmt::format("{}, {}", words, method_words(setting))});
   design.series.push_back({kExpected, "PPCA, expected squares, kNN-SMACOF"});
   design.series.push_back({kCovisible, "Covisible pairs, SMACOF of relative errors"});
-  design.series.push_back({kAuto, "The way that the gaps' pattern advises, kNN-SMACOF"});
+  design.series.push_back(
+      {kAuto, "The strategy that the pattern of missing data suggests, kNN-SMACOF"});
   design.quantities = {known_quantity("mpe_m"), known_quantity("moe_unmirrored_percent"),
                        study_quantity("mapped_percent", "Landmarks mapped", "%", Better::kHigher)};
   return design;
@@ -89,7 +91,7 @@ std::map<std::string, double> values_of(const ScoredMap& map) {
           {"mapped_percent", share}};
 }
 
-/// One history with gaps, mapped in every way.
+/// One history with missing data, mapped with every strategy.
 class GappedHistory {
  public:
   GappedHistory(const TrialContext& context, const ObservationHistory& history,
@@ -107,15 +109,16 @@ class GappedHistory {
     if (seen_.size() < 3) return;
     for (const auto& [filling, words] : kFillings) map_filled(filling);
     add_advised();
-    if (setup_.id == kAtRandom) return;  // such gaps do not tell what is near
+    if (setup_.id == kAtRandom)
+      return;  // data missing at random have no information on what is near
     const CovisibleOptions options{
         .neighbours = static_cast<int>(number_option(context_.experiment, "covisible_neighbours"))};
     add(kCovisible, relative_stress_map(covisible_proximities(history_, steps(), options)), {});
   }
 
  private:
-  /// The trial of the way that the pattern of the gaps advises, once more under its own name. Of
-  /// bearings that is never covisible pairs.
+  /// The trial of the strategy that the pattern of missing data suggests, once more under its own
+  /// name. For bearings that is never covisible pairs.
   void add_advised() {
     const GapAdvice advice = advised_way(gap_pattern(history_, steps()), history_.sensor);
     const Filling filling = advice.way == GapWay::kPpca ? Filling::kPpca : Filling::kCommonSteps;
@@ -147,7 +150,7 @@ class GappedHistory {
     add(kExpected, expected.embed(smacof), filled.statuses);
   }
 
-  /// Adds what came of one series; returns its map.
+  /// Adds the result of one series; returns its map.
   ScoredMap add(const std::string& series, Embedding embedding,
                 const std::vector<Status>& statuses) {
     const Points mapped = std::move(embedding.coordinates);
@@ -160,7 +163,7 @@ class GappedHistory {
     return map;
   }
 
-  /// Maps at the highest level of each setup: with gaps left, and filled by PPCA.
+  /// Maps at the highest level of each setup: with missing data left, and filled by PPCA.
   bool shown(Filling filling) const {
     return context_.with_maps && level_ == levels_of(setup_).back() &&
            (filling == Filling::kCommonSteps || filling == Filling::kPpca);

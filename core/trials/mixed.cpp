@@ -79,7 +79,7 @@ class MixedTrials {
       const std::string id(name(sensor.sensor));
       record(id, sensor.own);
       if (!sensor.own.coordinates.allFinite()) return;  // Nothing to mix.
-      // What the joint map's way makes of the one sensor: it must not pass for what mixing does.
+      // The joint map's method on the one sensor: its gain must not be taken for that of mixing.
       if (sensor.by_order.coordinates.rows() > 0) record(id + "-order", sensor.by_order);
     }
     const std::vector<double> equal(squared.size(), 1.0);

@@ -22,14 +22,14 @@ struct DetectionSensor {
   double bearing_rad = 0.0175;  ///< Of a bearing; >= 0.
 };
 
-/// A landmark that stands elsewhere from some step on.
+/// A landmark that is at another position from some step on.
 struct SimulatedMove {
   Eigen::Index landmark = 0;
   Eigen::RowVector2d by_m = Eigen::RowVector2d::Zero();
   Eigen::Index from_step = 0;
 };
 
-/// What the sensor sees along a path, a scan a step; nothing hides anything.
+/// What the sensor sees along a path, one scan per step; nothing is occluded.
 DetectionLog simulated_detections(const World& world, const Path& path,
                                   const DetectionSensor& sensor, const SimulatedMove& move,
                                   Random& random) {
@@ -70,7 +70,7 @@ TrialDesign moved_design(const TrialExperiment& experiment) {
        fmt::format("A move of {:g} m under noise", number_option(experiment, "distance_m")),
        {{kNoiseShare, "noise of the range, as a share of it", "",
          list_option(experiment, "noises")}}}};
-  design.series = {{kTest, "Permutation test of the place over time"}};
+  design.series = {{kTest, "Permutation test of the position over time"}};
   design.quantities = {
       study_quantity("named_percent", "Moved landmark named", "%", Better::kHigher),
       study_quantity("false_percent", "Logs in which another is named", "%", Better::kLower),
@@ -79,7 +79,7 @@ TrialDesign moved_design(const TrialExperiment& experiment) {
   return design;
 }
 
-/// What came of several logs.
+/// The results of several logs.
 struct Tally {
   int tried = 0;
   int named = 0;
@@ -103,7 +103,7 @@ struct Tally {
     wrong += other ? 1 : 0;
   }
 
-  /// @param moves  False: nothing moved, so that nothing could be named.
+  /// @param moves  False: nothing moved, so that no landmark should be named.
   std::map<std::string, double> values(bool moves) const {
     std::map<std::string, double> values{{"false_percent", 100.0 * wrong / tried}};
     if (moves) values["named_percent"] = 100.0 * named / tried;

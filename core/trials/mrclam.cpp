@@ -43,13 +43,13 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Real scans some of whose labels were made wrong.
+/// Real scans some of whose landmark IDs were made wrong.
 struct SpoiltLabels {
   std::string id;  ///< "swapped", "misnamed".
   DetectionLog log;
 };
 
-/// How much was found wrong, and the log without it.
+/// The number of faults found, and the corrected log.
 struct CorrectedLabels {
   int faults = 0;
   DetectionLog log;
@@ -77,7 +77,7 @@ DetectionLog swapped_in_half(DetectionLog log, int a, int b, std::uint64_t seed)
   return log;
 }
 
-/// @param log  Where both are in a scan, the misnamed detection is left out: a label is there once.
+/// @param log  Where both are in a scan, the misnamed detection is left out: an ID occurs once.
 DetectionLog misnamed(DetectionLog log, int a, int b) {
   std::set<int> of_b;
   for (const Detection& seen : log.detections)
@@ -91,9 +91,9 @@ DetectionLog misnamed(DetectionLog log, int a, int b) {
   return log;
 }
 
-/// Two labels swapped in half of the scans, drawn at random; and one landmark called by another's
-/// name in all of them. The landmarks are among those seen most: so the fault weighs.
-/// @return None of fewer than 6 landmarks.
+/// An ID swap in half of the scans, drawn at random; and one landmark called by another's name in
+/// all of them. The landmarks are among those seen most, so that the fault has weight.
+/// @return Empty for fewer than 6 landmarks.
 std::vector<SpoiltLabels> spoilt_labels(const DetectionLog& log, std::uint64_t seed) {
   const std::vector<int> order = by_detections(log);
   if (order.size() < 6) return {};
@@ -101,9 +101,9 @@ std::vector<SpoiltLabels> spoilt_labels(const DetectionLog& log, std::uint64_t s
           {"misnamed", misnamed(log, order[5], order[2])}};
 }
 
-/// Labels that contradict one another, that two landmarks bear, or that known places contradict,
+/// IDs that contradict one another, that two landmarks share, or that known positions contradict,
 /// corrected as `mapproof map --repair-ids` does.
-/// @param known_m  M x 2; empty: no place is known.
+/// @param known_m  M x 2; empty: no position is known.
 CorrectedLabels corrected_log(const DetectionLog& log, const std::optional<Points>& known_m) {
   CorrectedLabels corrected{.faults = 0, .log = log};
   const std::vector<Eigen::Index> unseen = unseen_in(log);
@@ -171,7 +171,7 @@ TrialData set_of(const fs::path& folder, const std::vector<TrialData>& others) {
        std::ranges::any_of(others, [&](const TrialData& other) { return other.set.id == id; });
        ++number)
     id = fmt::format("{}-{}", id_of(name), number);
-  read_mrclam_detections(folder);  // A set that cannot be read is told before anything is made.
+  read_mrclam_detections(folder);  // A set that cannot be read is reported before anything is made.
   return {.set = {.id = id, .title = printable(name), .digest = digest_of(folder)},
           .folder = folder};
 }
@@ -197,14 +197,14 @@ constexpr int kFewestReplicates = 10;  ///< Of a bootstrap.
 constexpr const char* kSetup = "sensors";
 constexpr const char* kLabels = "labels";
 
-/// Series of scans whose labels were made wrong, as they are and corrected.
+/// Series of scans with wrong data association, as they are and corrected.
 constexpr std::pair<const char*, const char*> kSpoilt[] = {
-    {"swapped", "Two labels swapped in half of the scans"},
+    {"swapped", "Two landmark IDs swapped in half of the scans"},
     {"swapped-corrected", "The same, corrected"},
     {"misnamed", "One landmark called by another's name in all scans"},
     {"misnamed-corrected", "The name corrected"}};
 
-/// One way from a set's scans to a map.
+/// One strategy from a set's scans to a map.
 struct RealWay {
   const char* id;
   const char* label;
@@ -229,24 +229,25 @@ const RealWay kWays[] = {
 TrialDesign mrclam_design(const TrialExperiment&) {
   TrialDesign design;
   design.setups = {{kSetup, "A map per sensor and method"},
-                   {kLabels, "Range and bearing with labels made wrong"}};
+                   {kLabels, "Range and bearing with wrong data association"}};
   for (const RealWay& way : kWays) design.series.push_back({way.id, way.label});
   for (const auto& [id, label] : kSpoilt) design.series.push_back({id, label});
   design.quantities = {
       known_quantity("mpe_m"),
       known_quantity("moe_percent"),
       study_quantity("mpe_all_fitted_m", "MPE, affine map to all", "m", Better::kLower),
-      study_quantity("rigid_m", "Off after a rigid fit to all", "m", Better::kLower),
-      study_quantity("pair_m", "Pairs off in the map (median)", "m", Better::kLower),
+      study_quantity("rigid_m", "Error after a rigid fit to all", "m", Better::kLower),
+      study_quantity("pair_m", "Error of pairs in the map (median)", "m", Better::kLower),
       study_quantity("mapped", "Landmarks mapped", "", Better::kHigher),
-      study_quantity("faults", "Faults of labels found", "", Better::kHigher)};
+      study_quantity("faults", "Wrong data associations found", "", Better::kHigher)};
   return design;
 }
 
-/// A set as the ways take it.
+/// A set as the strategies take it.
 struct RealSet {
   DetectionSource source;
-  std::vector<Eigen::Index> anchors;  ///< Empty: without a truth, or none that serve.
+  std::vector<Eigen::Index>
+      anchors;  ///< Empty: without ground truth, or with too few usable anchors.
 };
 
 std::vector<Eigen::Index> anchors_of(const DetectionSource& source) {
@@ -259,7 +260,7 @@ std::vector<Eigen::Index> anchors_of(const DetectionSource& source) {
   return anchors;
 }
 
-/// Mean distance from the truth after the turn, mirror and shift that fit best.
+/// Mean distance from the ground truth after the best rotation, reflection and translation.
 double rigid_error(const Points& map, const Points& truth_m) {
   std::vector<Eigen::Index> both;
   for (Eigen::Index i = 0; i < map.rows(); ++i)
@@ -281,7 +282,7 @@ double median_residual(const Points& map, const std::vector<MeasuredPair>& pairs
   return residuals.empty() ? kNaN : median(residuals);
 }
 
-/// What one way makes of a set.
+/// The map of a set by one strategy.
 struct Made {
   Embedding embedding;
   std::vector<MeasuredPair> pairs;
@@ -323,9 +324,9 @@ MapRecord record_of(const RealWay& way, const RealSet& set, const Made& made) {
   map.anchors = set.anchors;
   map.estimate = made.embedding.coordinates;
   map.statuses = made.embedding.statuses;
-  // In metres of its own, unless the anchors say better.
+  // In metres of its own, unless anchors are given.
   map.frame = way.method ? Frame::kSimilarity : Frame::kTruth;
-  if (set.anchors.empty()) return map;  // without a frame the truth cannot be shown
+  if (set.anchors.empty()) return map;  // without a frame the ground truth cannot be shown
   map.truth_m = set.source.truth_m;
   ScoredMap scored = scored_map(made.embedding, *set.source.truth_m, set.anchors, kFit);
   map.statuses = std::move(scored.statuses);
@@ -335,10 +336,11 @@ MapRecord record_of(const RealWay& way, const RealSet& set, const Made& made) {
   return map;
 }
 
-Trial trial_of(const char* setup, const std::string& series, const RealWay& way, const RealSet& set,
-               const Made& made, const MapRecord& map) {
+/// @param trial  Its setup and series are given.
+Trial scored_trial(Trial trial, const RealWay& way, const RealSet& set, const Made& made,
+                   const MapRecord& map) {
   const Points& own = made.embedding.coordinates;
-  Trial trial{.at = condition(setup), .series = series, .values = {}, .statuses = map.statuses};
+  trial.statuses = map.statuses;
   trial.values["mapped"] =
       static_cast<double>((map.estimate.col(0).array() == map.estimate.col(0).array()).count());
   if (!set.anchors.empty()) {
@@ -364,8 +366,10 @@ void add_way(const RealWay& way, const RealSet& set, const TrialContext& context
                  .map = record_of(way, set, made),
                  .pairs = made.pairs,
                  .certainty = {}};
-  part.trials.push_back(trial_of(kSetup, way.id, way, set, made, shown.map));
-  // The last way is what pairs come to: its map shows them, and how sure it is.
+  part.trials.push_back(
+      scored_trial({.at = condition(kSetup), .series = way.id, .values = {}, .statuses = {}}, way,
+                   set, made, shown.map));
+  // The last strategy is the final one for pairs: its map shows them and its uncertainty.
   const bool is_last = &way == &kWays[std::size(kWays) - 1];
   if (!is_last) shown.pairs.clear();
   const int replicates = static_cast<int>(number_option(context.experiment, "replicates"));
@@ -382,7 +386,7 @@ void add_way(const RealWay& way, const RealSet& set, const TrialContext& context
   if (context.with_maps) part.maps.push_back(std::move(shown));
 }
 
-/// The map of measured pairs of scans whose labels were made wrong, and corrected.
+/// The map of measured pairs of scans with wrong data association, as given and corrected.
 void add_labels(const RealSet& set, const TrialContext& context, TrialPart& part) {
   const RealWay& way = kWays[std::size(kWays) - 1];
   const auto add = [&](const std::string& series, const DetectionLog& log,
@@ -392,7 +396,9 @@ void add_labels(const RealSet& set, const TrialContext& context, TrialPart& part
     const Made made = make_map(way, other, context);
     part.seconds.push_back(
         {context.part, series, std::chrono::duration<double>(Clock::now() - start).count()});
-    part.trials.push_back(trial_of(kLabels, series, way, other, made, record_of(way, other, made)));
+    part.trials.push_back(
+        scored_trial({.at = condition(kLabels), .series = series, .values = {}, .statuses = {}},
+                     way, other, made, record_of(way, other, made)));
   };
   for (const SpoiltLabels& spoilt : spoilt_labels(set.source.log, context.seed)) {
     add(spoilt.id, spoilt.log, Clock::now());

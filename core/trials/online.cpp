@@ -18,31 +18,31 @@ using Clock = std::chrono::steady_clock;
 
 constexpr Sensor kFollowedSensors[] = {Sensor::kBearing, Sensor::kVisibility, Sensor::kRange};
 
-/// Each has one setting for all histories, and two series: carried on and made anew.
+/// Each has one setting for all histories, and two series: incremental and from scratch.
 const MethodSetting kFollowedSettings[] = {
     {Method::kSmacof, std::nullopt}, {Method::kSmacofKnn, 6.0}, {Method::kIsomap, 6.0}};
 
-/// Of the maps made anew; those carried on have slug(setting).
+/// Of the maps made from scratch; the incremental ones have slug(setting).
 std::string anew_series(const MethodSetting& setting) { return slug(setting) + "-anew"; }
 
 TrialDesign online_design(const TrialExperiment& experiment) {
   TrialDesign design;
   for (const Sensor sensor : kFollowedSensors)
     design.setups.push_back({std::string(name(sensor)),
-                             fmt::format("Maps from {}, carried on", name(sensor)),
+                             fmt::format("Incremental maps from {}", name(sensor)),
                              {{std::string(kStepsFactor), "observations so far", "",
                                list_option(experiment, "observations")}}});
   for (const MethodSetting& setting : kFollowedSettings) {
-    design.series.push_back({slug(setting), label(setting) + ", carried on"});
-    design.series.push_back({anew_series(setting), label(setting) + ", anew"});
+    design.series.push_back({slug(setting), label(setting) + ", incremental"});
+    design.series.push_back({anew_series(setting), label(setting) + ", from scratch"});
   }
   design.quantities = {
-      study_quantity("gap_ppm", "Off the map made anew", "ppm", Better::kLower),
+      study_quantity("gap_ppm", "Distance from the map from scratch", "ppm", Better::kLower),
       study_quantity("greatest_gap_ppm", "The same, at most over all updates so far", "ppm",
                      Better::kLower),
       study_quantity("beyond_percent", "Updates so far beyond the stated bound", "%",
                      Better::kLower),
-      study_quantity("steps_gone_through", "Observations gone through for the update", "",
+      study_quantity("steps_gone_through", "Observations processed for the update", "",
                      Better::kLower)};
   return design;
 }
@@ -58,7 +58,7 @@ std::vector<StepEntry> step_of(const ObservationHistory& history, Eigen::Index t
   return step;
 }
 
-/// What the updates so far came to.
+/// The results of the updates so far.
 struct Gaps {
   double last = 0.0;
   double greatest = 0.0;
@@ -73,7 +73,7 @@ struct Gaps {
   }
 };
 
-/// Follows one history from its first step to its last by one method.
+/// Maps one history incrementally from its first step to its last by one method.
 void follow(const TrialContext& context, const MethodSetting& setting,
             const ObservationHistory& history, TrialPart& part) {
   const auto every = static_cast<Eigen::Index>(number_option(context.experiment, "every"));

@@ -21,7 +21,7 @@ using Clock = std::chrono::steady_clock;
 constexpr const char* kSize = "size";
 constexpr const char* kOverlap = "overlap";
 constexpr const char* kSubmapsRange = "sensor-range";
-constexpr const char* kFilled = "-filled";  ///< Ends the series whose gaps PPCA fills.
+constexpr const char* kFilled = "-filled";  ///< Ends the series whose missing data PPCA fills.
 
 std::vector<MethodSetting> settings_of(const TrialExperiment& experiment) {
   const double K = number_option(experiment, "neighbours");
@@ -67,7 +67,7 @@ TrialDesign submaps_design(const TrialExperiment& experiment) {
   return design;
 }
 
-/// What is tried at one level: whole or in parts of some size and overlap.
+/// The setting at one level: whole or in parts of some size and overlap.
 struct Way {
   SubmapOptions parts;
   bool whole = false;

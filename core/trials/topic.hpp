@@ -27,10 +27,10 @@ struct TrialContext {
   std::vector<Eigen::Index> anchors;  ///< Of the simulated world.
   std::uint64_t seed = 0;             ///< For all that the part draws; derive_seed() from it.
   std::filesystem::path data;         ///< Folder of the data set; empty: simulated.
-  bool with_maps = false;             ///< Maps to be shown are asked for.
+  bool with_maps = false;             ///< Maps to be shown are requested.
 };
 
-/// A question that studies of trials can put: what it compares and how one part is made. Its words
+/// A question that studies of trials can ask: what it compares and how one part is made. Its texts
 /// are in reports/sections/trials.
 /// What its functions return depends on their arguments alone, seconds apart.
 struct Topic {

@@ -7,39 +7,39 @@
 
 namespace mapproof {
 
-/// How often the ellipses of a map hold the mean of the maps of many walks in the same world, and
-/// how often the truth: by sensor, method and number of steps, and by the length of the blocks.
+/// How often the confidence ellipses of a map hold the mean of the maps of many walks in the same
+/// world, and how often the ground truth: by sensor, method and number of steps, and by the length
+/// of the blocks.
 extern const Topic kCertaintyTopic;
 
-/// How well what can be told of maps without the truth picks among methods and parameters.
+/// How well the criteria that need no ground truth pick among methods and parameters.
 extern const Topic kChoiceTopic;
 
-/// Confused labels: bearings whose landmarks are not told apart, entry by entry or row by row over
-/// stretches; the correspondence is estimated with the map, against the share that is confused.
+/// Wrong data association: bearings with confused landmark IDs, entry by entry or row by row over
+/// stretches; the association is estimated with the map, against the share that is confused.
 extern const Topic kLabelsTopic;
 
-/// Missing entries: bearings with gaps at random, of a sensor of limited range, and behind other
-/// landmarks; gaps are filled or left, and mapped, against the share that is missing.
+/// Missing entries: bearings missing at random, beyond a sensor's limited range, and behind other
+/// landmarks; missing data are filled or left, and mapped, against the share that is missing.
 extern const Topic kMissingTopic;
 
-/// Whether several kinds of sensor in one map are better than the best of them alone.
+/// Whether several sensors in one map are better than the best of them alone.
 extern const Topic kMixedTopic;
 
-/// Landmarks that move once: how far they must for the move to be noticed, named and dated, and how
-/// often one is named that did not move.
+/// Landmarks that move once: how far they must move to be noticed, named and dated, and how often a
+/// landmark that did not move is named.
 extern const Topic kMovedTopic;
 
-/// Real robots' looks at surveyed landmarks (MRCLAM [leung2011]): a map per kind of sensor and
-/// method, without poses and odometry, against the survey; the pairs that range and bearing
-/// measured, and how sure each landmark is.
+/// Real robots' scans of surveyed landmarks (MRCLAM [leung2011]): one map per sensor and method,
+/// without poses and odometry, against the survey; the pairs that range and bearing measured, and
+/// the uncertainty of each landmark.
 extern const Topic kMrclamTopic;
 
-/// How far maps that are carried on as observations arrive lie from those of the whole history, and
-/// what each takes.
+/// How far incremental maps lie from those of the whole history, and the cost of each.
 extern const Topic kOnlineTopic;
 
-/// Sub-maps against the whole map: by their size, by their overlap, and where a sensor of limited
-/// range leaves gaps.
+/// Sub-maps compared with the whole map: by their size, by their overlap, and where a sensor of
+/// limited range leaves data missing.
 extern const Topic kSubmapsTopic;
 
 /// Errors of maps over the size of the room, the number and diameter of landmarks, the sensor's

@@ -40,7 +40,7 @@ TEST(Lpca, RecoversPointsFromTheirDistances) {
   EXPECT_LT(std::abs(map.spectrum(2)), 1e-12);
 }
 
-TEST(Lpca, SaysWhenTheDataAreFlat) {
+TEST(Lpca, ReportsFlatData) {
   Points line = scattered(10, 1);
   line.col(1).setZero();
   const Embedding map = lpca(distances_of(line).cwiseAbs2());
@@ -56,7 +56,7 @@ TEST(Smacof, StaysAtAPerfectMap) {
   EXPECT_LT(procrustes_gap(points, map.coordinates), 1e-12);
 }
 
-TEST(Smacof, LowersItsStressAtEveryStep) {
+TEST(Smacof, ReducesItsStressAtEveryStep) {
   const Points points = scattered(20, 4);
   const Points start = scattered(20, 5);
   const Eigen::MatrixXd D = distances_of(points);
@@ -101,7 +101,7 @@ TEST(Smacof, RefusesWeightsAndOptionsOutOfBounds) {
   EXPECT_THROW(smacof(D, {}, points, {.max_iterations = 0}), InvalidInput);
 }
 
-TEST(Embedder, SaysThatTheStartOfWeightedSmacofDidNotConverge) {
+TEST(Embedder, ReportsThatTheStartOfWeightedSmacofDidNotConverge) {
   EmbedderOptions options;
   options.smacof = {.relative_fall = 0.0, .max_iterations = 2};
   const Points points = scattered(25, 9);
@@ -134,7 +134,7 @@ TEST(Isomap, WithAllNeighboursIsLpca) {
   EXPECT_LT(procrustes_gap(points, map.coordinates), 1e-12);
 }
 
-TEST(Isomap, SaysThatItBridgedIslands) {
+TEST(Isomap, ReportsThatItBridgedIslands) {
   Points points(20, 2);
   points << scattered(10, 1), (scattered(10, 2).rowwise() + Eigen::RowVector2d(50, 0));
   const Embedding map = isomap(distances_of(points), {.neighbours = 3});
@@ -169,14 +169,14 @@ TEST_P(EveryMethod, ScalesWithItsData) {
   EXPECT_LT(procrustes_gap(map / map.norm(), big / big.norm()), 1e-6);
 }
 
-TEST_P(EveryMethod, GivesAMapOrSaysWhyNotForHardData) {
+TEST_P(EveryMethod, GivesAMapOrAReasonForHardData) {
   const auto check = [&](const Eigen::MatrixXd& D, const std::string& what) {
     const Embedding map = Embedder({.inner_products = D, .squared_distances = D.cwiseAbs2()})
                               .embed(setting(GetParam()));
     EXPECT_EQ(map.coordinates.rows(), D.rows()) << what;
     EXPECT_TRUE(map.coordinates.allFinite() || has(map, StatusCode::kFailed)) << what;
   };
-  check(Eigen::MatrixXd::Zero(10, 10), "all landmarks at one place");
+  check(Eigen::MatrixXd::Zero(10, 10), "all landmarks at one position");
   check(Eigen::MatrixXd::Ones(10, 10) - Eigen::MatrixXd::Identity(10, 10), "all equally far");
   Points line = scattered(10, 1);
   line.col(1).setZero();
@@ -191,13 +191,13 @@ TEST_P(EveryMethod, GivesAMapOrSaysWhyNotForHardData) {
   check(distances_of(scattered(2, 1)), "two landmarks");
 }
 
-TEST_P(EveryMethod, SaysWhenItsMapIsFlat) {
+TEST_P(EveryMethod, ReportsAFlatMap) {
   Points line = scattered(10, 1);
   line.col(1) = 2.0 * line.col(0);
   const Embedding of_line = Embedder(proximities_of(line)).embed(setting(GetParam()));
   const auto said = std::ranges::count(of_line.statuses, StatusCode::kRankDeficient, &Status::code);
   EXPECT_LE(said, 1);
-  // Some methods bend a line: their map is not flat, and says nothing.
+  // Some methods bend a line: their map is not flat, and has no status.
   EXPECT_GE(said, planarity(of_line.coordinates) <= kFlatPlanarity ? 1 : 0);
   const Embedding of_point =
       Embedder(proximities_of(Points::Zero(10, 2))).embed(setting(GetParam()));
@@ -219,7 +219,7 @@ TEST_P(EveryMethod, CompletesPairsWithoutACommonStep) {
   EXPECT_LT(procrustes_gap(whole.coordinates, map.coordinates), 0.1 * std::max(size, 1.0));
 }
 
-TEST_P(EveryMethod, BridgesIslandsAndSaysSo) {
+TEST_P(EveryMethod, BridgesIslandsAndReportsIt) {
   Points points(30, 2);
   points << scattered(15, 1), (scattered(15, 2).rowwise() + Eigen::RowVector2d(3, 0));
   const Embedding map = Embedder(proximities_of(points)).embed(setting(GetParam()));
@@ -227,7 +227,7 @@ TEST_P(EveryMethod, BridgesIslandsAndSaysSo) {
   EXPECT_EQ(has(map, StatusCode::kBridged), on_graph(GetParam().method));
 }
 
-TEST_P(EveryMethod, MapsThreeLandmarksOrSaysWhyNot) {
+TEST_P(EveryMethod, MapsThreeLandmarksOrGivesAReason) {
   MethodSetting few = setting(GetParam());
   if (on_graph(few.method)) few.parameter = 2.0;
   const Embedding map = Embedder(proximities_of(scattered(3, 1))).embed(few);
@@ -239,7 +239,7 @@ TEST_P(EveryMethod, MapsThreeLandmarksOrSaysWhyNot) {
   }
 }
 
-TEST_P(EveryMethod, MapsDuplicatesToFinitePlaces) {
+TEST_P(EveryMethod, MapsDuplicatesToFinitePositions) {
   Points points = scattered(25, 9);
   points.row(7) = points.row(3);
   points.row(20) = points.row(3);

@@ -32,7 +32,7 @@ TEST(SimulateRun, SharesTheLayoutAmongPosesAndNothingElse) {
   EXPECT_NE(a.maps.back().estimate, b.maps.back().estimate);
 }
 
-TEST(SimulateRun, GivesAMethodTheSameMapWhateverStandsBesideIt) {
+TEST(SimulateRun, GivesAMethodTheSameMapWhateverOtherMethodsRun) {
   Experiment alone = small_experiment();
   alone.sensors.erase(alone.sensors.begin());
   std::erase_if(alone.sensors[0].methods,
@@ -124,7 +124,7 @@ TEST(Variations, OfAnchorsScoreOneEmbeddingOverOtherAnchors) {
   EXPECT_EQ(records[0].score->moe_unmirrored_percent, records[2].score->moe_unmirrored_percent);
 }
 
-TEST(Variations, OfASensorThatIsNotThereAreRefused) {
+TEST(Variations, OfAMissingSensorAreRefused) {
   Experiment experiment = small_experiment();
   experiment.variations = {noise_variation()};
   experiment.variations[0].sensor = Sensor::kRange;

@@ -35,7 +35,7 @@ TEST(NeighbourGraph, BreaksTiesThatDifferByRoundingInFavourOfTheLowerRow) {
   const Graph graph = neighbour_graph(D, {.neighbours = 1});
   ASSERT_EQ(graph[3].size(), 1U);
   EXPECT_EQ(graph[3][0].to, 0);
-  EXPECT_EQ(graph[0].size(), 3U);  // everybody's first choice, its own is 1
+  EXPECT_EQ(graph[0].size(), 3U);  // every node's first choice, its own is 1
 }
 
 TEST(NeighbourGraph, LeavesOutPairsAtTheCutoffAndInfinitePairs) {
@@ -80,6 +80,13 @@ TEST(CompletedDistances, FillOnlyWhatIsMissing) {
   EXPECT_DOUBLE_EQ(filled(0, 3), 7.0);
 }
 
+TEST(LargestComponent, IsTheFirstOfTheLargest) {
+  const auto edge = [](Eigen::Index to) { return Edge{.to = to, .length = 1.0}; };
+  const Graph graph = {{}, {edge(3)}, {edge(4)}, {edge(1)}, {edge(2)}};
+  EXPECT_EQ(largest_component(graph), (std::vector<Eigen::Index>{1, 3}));
+  EXPECT_TRUE(largest_component({}).empty());
+}
+
 TEST(BridgeComponents, LaysTheShortestBridgesBetweenThreeIslands) {
   Points points(6, 2);
   points << 0, 0, 1, 0, 5, 0, 6, 0, 20, 0, 21, 0;
@@ -94,7 +101,7 @@ TEST(BridgeComponents, LaysTheShortestBridgesBetweenThreeIslands) {
   EXPECT_DOUBLE_EQ(shortest_paths(graph)(0, 5), 21.0);
 }
 
-TEST(BridgeComponents, SaysSoWhenNoBridgeIsFinite) {
+TEST(BridgeComponents, IsEmptyWhenNoBridgeIsFinite) {
   Eigen::MatrixXd D = Eigen::MatrixXd::Constant(4, 4, HUGE_VAL);
   D.diagonal().setZero();
   D(0, 1) = D(1, 0) = D(2, 3) = D(3, 2) = 1.0;

@@ -78,7 +78,7 @@ TEST(Proximities, UseTheCommonStepsOfEachPairAndScaleThem) {
   EXPECT_TRUE(std::isinf(result.squared_distances(0, 2)));
 }
 
-TEST(Proximities, OfVisibilityWithGapsNormaliseOverCommonSteps) {
+TEST(Proximities, OfVisibilityWithMissingDataArePairwiseComplete) {
   Eigen::MatrixXd seen(2, 4);
   seen << 1, 1, 0, 1,  //
       1, 0, 1, kMissing;

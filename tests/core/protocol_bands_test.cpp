@@ -27,8 +27,8 @@ std::ostream& operator<<(std::ostream& out, const MethodBands& bands) {
   return out << name(bands.sensor) << " " << slug(bands.setting);
 }
 
-/// Where 1 to 99 % of the means over 5 layouts of independent prototypes lie: numpy, scikit-learn
-/// and CSDP, least-squares affine map over anchors near the corners. A triple of a mirrored map
+/// The 1 to 99 % range of the means over 5 layouts of independent prototypes: numpy, scikit-learn
+/// and CSDP, least-squares affine map over anchors near the corners. A triple of a reflected map
 /// counts as right, as there.
 const MethodBands kBands[] = {
     {Sensor::kVisibility, {Method::kLpca, {}}, Band{.83, 1.66}, {16.4, 21.5}},

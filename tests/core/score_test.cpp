@@ -42,7 +42,7 @@ INSTANTIATE_TEST_SUITE_P(Both, FitAffine,
                          ::testing::Values(AffineFit::kLeastDistances, AffineFit::kLeastSquares));
 
 TEST(FitAffine, LeastDistancesThroughFourPointsMeetsThree) {
-  // The residuals of an affine fit through 4 points are one vector shared out by the points'
+  // The residuals of an affine fit through 4 points are one vector divided by the points'
   // affine dependency n; the least sum of distances puts all of it on the largest |n_i|.
   const Points from = scattered(4, 3);
   const Points to = scattered(4, 4);
@@ -78,7 +78,7 @@ TEST(FitAffine, LeastDistancesCannotBeBetteredByASmallChange) {
   }
 }
 
-TEST(FitAffine, LeastDistancesShrugsOffOneWrongAnchor) {
+TEST(FitAffine, LeastDistancesIsRobustToOneWrongAnchor) {
   const Points from = scattered(8, 5);
   Points to = kSheared(from);
   to.row(2) += Eigen::RowVector2d(10, 10);
@@ -86,7 +86,7 @@ TEST(FitAffine, LeastDistancesShrugsOffOneWrongAnchor) {
   EXPECT_LT((found.linear - kSheared.linear).cwiseAbs().maxCoeff(), 1e-5);
 }
 
-TEST(OrientationError, IsZeroForAnyProperAffineImageAndHundredForAMirror) {
+TEST(OrientationError, IsZeroForAnyProperAffineImageAndHundredForAReflection) {
   const Points truth = scattered(15, 1);
   EXPECT_EQ(orientation_error_percent(truth, 3.0 * truth), 0.0);
   Points mirrored = truth;
@@ -110,7 +110,7 @@ TEST(OrientationError, AgreesWithCountingTriples) {
   EXPECT_NEAR(orientation_error_percent(truth, estimate), 100.0 * wrong / all, 1e-12);
 }
 
-TEST(OrientationError, CountsFlattenedTriplesAsWrongAndLeavesFlatTruthOut) {
+TEST(OrientationError, CountsFlattenedTriplesAsWrongAndLeavesFlatGroundTruthOut) {
   Points truth(4, 2);
   truth << 0, 0, 1, 0, 2, 0, 0, 1;  // the first three are on a line
   EXPECT_EQ(orientation_error_percent(truth, Points::Zero(4, 2)), 100.0);
@@ -118,7 +118,7 @@ TEST(OrientationError, CountsFlattenedTriplesAsWrongAndLeavesFlatTruthOut) {
   EXPECT_TRUE(std::isnan(orientation_error_percent(truth.topRows(3), truth.topRows(3))));
 }
 
-TEST(OrientationError, LeavesALineInTheTruthOutHoweverItIsTurned) {
+TEST(OrientationError, LeavesALineInTheGroundTruthOutHoweverItIsRotated) {
   Points truth(9, 2);
   for (Eigen::Index i = 0; i < 8; ++i) truth.row(i) << 0.1 * static_cast<double>(i * i), 0.0;
   truth.row(8) << 0.3, 1.0;
@@ -131,7 +131,7 @@ TEST(OrientationError, LeavesALineInTheTruthOutHoweverItIsTurned) {
   }
 }
 
-TEST(OrientationError, LeavesOutPointsThatCoincideInTheTruth) {
+TEST(OrientationError, LeavesOutPointsThatCoincideInTheGroundTruth) {
   Points truth(4, 2);
   truth << 0, 0, 0, 0, 1, 0, 0, 1;
   EXPECT_EQ(orientation_error_percent(truth, truth), 0.0);
@@ -146,7 +146,7 @@ TEST(ScoreMap, RefusesRowsThatDoNotMatch) {
   EXPECT_THROW(align_to_anchors(truth, truth, {0, 2, -1}, fit), InvalidInput);
 }
 
-TEST(ScoreMap, AveragesTheErrorOverLandmarksThatAreNoAnchors) {
+TEST(ScoreMap, AveragesTheErrorOverLandmarksThatAreNotAnchors) {
   const Points truth = test::grid(3, 3);
   Points estimate = truth;
   estimate.row(4) += Eigen::RowVector2d(0.3, 0.4);
@@ -174,7 +174,7 @@ TEST(AlignToAnchors, ForgetsTheFrameOfTheEmbedding) {
   EXPECT_LT((map.positions_m - truth).cwiseAbs().maxCoeff(), 1e-12);
 }
 
-TEST(AlignToAnchors, SaysWhyItCannot) {
+TEST(AlignToAnchors, ReportsWhyItCannot) {
   const Points truth = scattered(10, 1);
   Points flat = truth;
   flat.col(1).setZero();
@@ -188,7 +188,7 @@ TEST(AlignToAnchors, SaysWhyItCannot) {
   EXPECT_THROW(align_to_anchors(truth, flat, {0, 1, 2}, AffineFit::kLeastSquares), InvalidInput);
 }
 
-TEST(ScoreMap, CountsEveryTripleOfAFlatMapAsWrongBothWaysRound) {
+TEST(ScoreMap, CountsEveryTripleOfAFlatMapAsWrongInBothOrientations) {
   const Points truth = test::grid(3, 3);
   Points flat = truth;
   flat.col(1).setZero();

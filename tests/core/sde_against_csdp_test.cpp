@@ -30,8 +30,9 @@ using Setting = std::tuple<Sensor, int>;
 
 double size_of(const Embedding& map) { return map.coordinates.rowwise().norm().maxCoeff(); }
 
-/// Few neighbours leave parts of the graph that turn on hinges and lose no variance: the optimum is
-/// then a face, and where on it a solver ends moves the map by some 1e-3, up to 1e-2 seen.
+/// Few neighbours leave parts of the graph that rotate about hinges and lose no variance: the
+/// optimum is then a face, and where on it a solver ends moves the map by some 1e-3, up to 1e-2
+/// seen.
 class SdeAgainstCsdp : public ::testing::TestWithParam<Setting> {
  protected:
   static Eigen::MatrixXd distances() {
@@ -46,19 +47,19 @@ class SdeAgainstCsdp : public ::testing::TestWithParam<Setting> {
 /// Bearings have no ties among neighbours, which the numbers of the landmarks would break.
 class SdeWithoutTies : public SdeAgainstCsdp {};
 
-TEST_P(SdeAgainstCsdp, BothProveOneOptimumAndGiveOneMap) {
+TEST_P(SdeAgainstCsdp, BothCertifyOneOptimumAndGiveOneMap) {
   const Eigen::MatrixXd D = distances();
   const Embedding own = unfolded(D, SdpSolver::kInteriorPoint);
   const Embedding other = unfolded(D, SdpSolver::kCsdp);
   ASSERT_TRUE(own.certificate && other.certificate);
-  // Ours, and not the CSDP that is asked where ours fails.
+  // Ours, and not the CSDP that runs where ours fails.
   EXPECT_EQ(own.certificate->solver, SdpSolver::kInteriorPoint);
   EXPECT_EQ(other.certificate->solver, SdpSolver::kCsdp);
   EXPECT_LE(own.certificate->relative_gap, 1e-7);
   EXPECT_LE(own.certificate->constraint_residual, 1e-7);
   const double objective = other.certificate->primal;
   EXPECT_NEAR(own.certificate->primal, objective, 1e-6 * objective);
-  // Each one's bound holds for the other's answer.
+  // The bound of each one holds for the other's solution.
   EXPECT_LE(own.certificate->primal, other.certificate->dual * (1.0 + 1e-7));
   EXPECT_LE(other.certificate->primal, own.certificate->dual * (1.0 + 1e-7));
   EXPECT_LE(procrustes_gap(other.coordinates, own.coordinates), same_map() * size_of(own));

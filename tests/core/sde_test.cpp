@@ -79,7 +79,7 @@ TEST_P(EverySolver, KeepsLandmarksOfOneLineOnIt) {
   EXPECT_TRUE(has(map, StatusCode::kRankDeficient));
 }
 
-TEST_P(EverySolver, ProvesItsAnswer) {
+TEST_P(EverySolver, CertifiesItsSolution) {
   for (const int neighbours : {3, 5, 8}) {
     const Embedding map = unfolded(noisy_distances(30, 7), neighbours);
     ASSERT_TRUE(map.certificate);
@@ -97,7 +97,7 @@ TEST_P(EverySolver, ReachesAVarianceNoLessThanThatOfTheData) {
   EXPECT_GE(unfolded(D, 4).certificate->primal, variance * (1.0 - 1e-6));
 }
 
-TEST_P(EverySolver, PutsLandmarksAtOnePlaceOnOnePoint) {
+TEST_P(EverySolver, MapsLandmarksAtOnePositionToOnePoint) {
   Points points = scattered(12, 5);
   points.row(7) = points.row(2);
   points.row(9) = points.row(2);
@@ -112,7 +112,7 @@ TEST_P(EverySolver, MapsThreeLandmarks) {
   EXPECT_LT(procrustes_gap(points, unfolded(distances_of(points), 2).coordinates), 1e-5);
 }
 
-TEST_P(EverySolver, SaysWhenNoPointsHaveSuchDistances) {
+TEST_P(EverySolver, ReportsWhenNoPointsHaveSuchDistances) {
   Eigen::MatrixXd D = distances_of(scattered(10, 4));
   D(2, 5) = D(5, 2) = 9.0;  // Longer than any way round.
   const Embedding map = unfolded(D, 9);
@@ -120,7 +120,7 @@ TEST_P(EverySolver, SaysWhenNoPointsHaveSuchDistances) {
   EXPECT_FALSE(is_proved(*map.certificate));
   EXPECT_TRUE(map.coordinates.allFinite());
   EXPECT_GT(map.certificate->constraint_residual, 1e-3);
-  EXPECT_GT(map.certificate->relative_gap, 1e-3);  // Of no sign: a bound below 0 is not a proof.
+  EXPECT_GT(map.certificate->relative_gap, 1e-3);  // Of no sign: a bound below 0 certifies nothing.
 }
 
 INSTANTIATE_TEST_SUITE_P(Sde, EverySolver,
@@ -141,7 +141,7 @@ TEST(Sde, FactorsOfLowRankComeNearTheOptimum) {
   }
 }
 
-TEST(Sde, SaysThatItBridgedIslands) {
+TEST(Sde, ReportsThatItBridgedIslands) {
   Points points(20, 2);
   points << scattered(10, 1), (scattered(10, 2).rowwise() + Eigen::RowVector2d(50, 0));
   const Embedding map = sde(distances_of(points), {.neighbours = {.neighbours = 3}});

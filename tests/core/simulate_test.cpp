@@ -113,7 +113,7 @@ TEST(RandomWalk, SeesTheWholeRoomInTime) {
   EXPECT_GT(visits.minCoeff(), 10);
 }
 
-TEST(RandomWalk, ThrowsWhereThereIsNoFreePlace) {
+TEST(RandomWalk, ThrowsWhereThereIsNoFreePosition) {
   const World full{
       .side_m = 0.1, .landmark_diameter_m = 0.2, .landmarks_m = Points::Constant(1, 2, 0.05)};
   Random random(1);
@@ -128,7 +128,7 @@ World landmarks_at(const Points& positions) {
   return {.side_m = 10.0, .landmark_diameter_m = 0.048, .landmarks_m = positions};
 }
 
-TEST(Observe, SeesACylinderThatScansWiderThanFiveDegrees) {
+TEST(Observe, SeesACylinderThatIsWiderThanFiveDegrees) {
   Points positions(2, 2);
   positions << 0.549, 0, 0, 0.552;  // 5 degrees are reached at 0.550 m
   Random random(1);
@@ -163,7 +163,7 @@ TEST(Observe, MeasuresBearingsFromTheHeadingAndRangesFromTheCentre) {
   EXPECT_EQ(ranges, Eigen::Vector2d(2, 5));
 }
 
-TEST(Observe, DisturbsAsMuchAsItIsAskedTo) {
+TEST(Observe, AddsTheRequestedNoise) {
   const World world = landmarks_at(test::grid(10, 10));
   Path path = standing_at_origin(0.0);
   path.positions_m = Points::Constant(100, 2, 4.5);

@@ -13,8 +13,8 @@
 #include "core/base/errors.hpp"
 #include "core/linalg/decompositions.hpp"
 
-// What CSDP calls where it finds no memory (scripts/cmake/FindCsdp.cmake). It is C: nothing of it is
-// passed over that has to be undone, but for memory.
+// CSDP calls this where it finds no memory (scripts/cmake/FindCsdp.cmake). CSDP is C: the jump
+// skips nothing that has to be undone, except memory.
 extern "C" {
 [[noreturn]] void mapproof_csdp_exit(int) { throw std::bad_alloc(); }
 int mapproof_csdp_puts(const char*) { return 0; }
@@ -159,7 +159,7 @@ constexpr paramstruc kParameters = {.axtol = 1e-8,
                                     .perturbobj = 0,
                                     .fastmode = 0};
 
-/// Runs CSDP from its own kind of start; fills X and y (y counted from 1).
+/// Runs CSDP from its own type of start; fills X and y (y counted from 1).
 int run_csdp(const Problem& problem, Block& X, std::vector<double>& y, Objective& objective) {
   const int n = static_cast<int>(objective.size());
   const int m = static_cast<int>(problem.pairs.size());
@@ -208,7 +208,7 @@ CsdpAnswer solve_with_csdp(const Problem& problem) {
   const auto m = std::ssize(problem.pairs);
   if (m < 1 || m > kMostCsdpPairs)
     throw InvalidInput(fmt::format("CSDP takes 1 to {} pairs, got {}", kMostCsdpPairs, m));
-  // Nothing says that CSDP, or the LAPACK under it, may run twice at once.
+  // CSDP, or the LAPACK under it, is not documented as safe to run twice at once.
   static std::mutex alone;
   const std::lock_guard lock(alone);
 

@@ -6,10 +6,10 @@
 
 namespace mapproof::unfolding {
 
-/// Pairs that CSDP can be asked to keep: its matrix of them squared takes 200 MB there.
+/// The most pairs for CSDP: its matrix of them squared takes 200 MB there.
 inline constexpr Eigen::Index kMostCsdpPairs = 5000;
 
-/// What CSDP made of a problem.
+/// CSDP's result for a problem.
 struct CsdpAnswer {
   Solution solution;
   int code = 0;  ///< CSDP's: 0 solved, 3 solved with reduced accuracy, others failed.

@@ -63,8 +63,8 @@ constexpr int kHalvings = 6;
 constexpr int kMostHalvings = 30;       // While no part of a step is feasible: a billionth.
 constexpr double kSharp = 0.01;         // Of the boundary; the rest would not shorten the way.
 constexpr double kTieBreak = 1e-14;     // Lifts a Schur complement that is singular by rounding.
-constexpr double kUsualCentring = 0.3;  // Where the guess tells nothing.
-constexpr double kStuck = 1e-7;         // A step as short as this leads nowhere.
+constexpr double kUsualCentring = 0.3;  // Where the guess has no information.
+constexpr double kStuck = 1e-7;         // A step as short as this makes no progress.
 constexpr double kFirstLength = 0.5;    // As if a step of that length had come before.
 constexpr double kLift = 0.1;           // Of a typical squared distance, into the interior.
 
@@ -203,8 +203,8 @@ class InteriorPoint {
     return move;
   }
 
-  /// The step corrected for its own second order, again as long as it gets no shorter. That saves
-  /// one factor in four, and pays where the factor is the work.
+  /// The step corrected for its own second order, repeatedly as long as it gets no shorter. That
+  /// saves one factor in four, and pays where the factor dominates the cost.
   std::optional<Move> corrected(double mu, const Step& guess) {
     auto move = move_to(mu, guess);
     if (reduced_.pairs() < kPairsToCorrectAgain * reduced_.size()) return move;
@@ -254,9 +254,9 @@ class InteriorPoint {
   int iterations_ = 0;
 };
 
-/// Newton steps from where the interior point has shown the rank; empty if they do not converge.
-/// For flat answers alone: those of flat data, whose feasible set has no interior, are the ones
-/// that lack digits, and elsewhere the steps take more time than they bring.
+/// Newton steps from the rank that the interior point has found; empty if they do not converge. For
+/// flat solutions alone: those of flat data, whose feasible set has no interior, lack digits;
+/// elsewhere the steps cost more time than they save.
 std::optional<Solution> polished(const Problem& problem, Solution solution) {
   if (solution.Y.cols() > kMostPolishedRank) return std::nullopt;
   Rows Y = solution.Y;
@@ -329,7 +329,7 @@ MatrixXd Reduced::times_laplacian(const MatrixXd& P, const VectorXd& w) const {
 
 void Reduced::schur(const MatrixXd& P, const MatrixXd& Q, MatrixXd& S) const {
   S.resize(pairs(), pairs());
-  // Both products of a point in one place; the origin's are zero.
+  // Both products of a point next to each other; the origin's are zero.
   Eigen::Matrix2Xd pq = Eigen::Matrix2Xd::Zero(2, n_ + 1);
   for (Index l = 0; l < pairs(); ++l) {
     const auto [a, b] = ends(l);
@@ -390,7 +390,7 @@ ProvedSolution solve_by_interior_point(const Problem& problem, const MatrixXd& g
                                        const InteriorPointOptions& options) {
   InteriorPoint method(problem, gram, options);
   method.run(kGapToPolish);
-  method.forget_schur();  // Polishing makes a matrix of that size.
+  method.forget_schur();  // Refining makes a matrix of that size.
   const auto candidate = polished(problem, method.solution(method.dividing_eigenvalue()));
   if (candidate) {
     const Certificate proof = certify(problem, *candidate);

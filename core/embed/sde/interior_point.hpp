@@ -86,9 +86,9 @@ struct InteriorPointOptions {
 /// Solves by a primal-dual interior point with predictor and corrector steps [helmberg1996].
 ///
 /// The first point is held at the origin, which leaves the feasible set an interior. All iterates
-/// are dual feasible, so that each proves a bound. A constraint is b'K b with b = e_i - e_j, so the
-/// Schur complement's entries are (b_k'X b_l)(b_k'Z^-1 b_l): its Cholesky factor is the work, and
-/// is used for several corrections of a step.
+/// are dual feasible, so that each certifies a bound. A constraint is b'K b with b = e_i - e_j, so
+/// the Schur complement's entries are (b_k'X b_l)(b_k'Z^-1 b_l): its Cholesky factor dominates the
+/// cost, and is used for several corrections of a step.
 ///
 /// @param gram  points x points: inner products the pairs' distances nearly follow from.
 /// @return The last iterate, whether or not it meets the options.

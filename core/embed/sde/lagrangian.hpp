@@ -6,7 +6,7 @@
 
 namespace mapproof::unfolding {
 
-/// A point a row, contiguous: pairs of rows are what everything here reads.
+/// One row per point, contiguous: everything here reads pairs of rows.
 using Rows = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
 
 /// Y less its mass-weighted mean.
@@ -25,7 +25,7 @@ class AugmentedLagrangian {
  public:
   explicit AugmentedLagrangian(const Problem& problem);
 
-  /// Lowers f from Y by Newton steps, each solved by conjugate gradients, preconditioned by the
+  /// Minimizes f from Y by Newton steps, each solved by conjugate gradients, preconditioned by the
   /// points' own blocks. Sets w to the multipliers that the residuals at the new Y suggest.
   /// @note O(pairs rank) time a product; O(points rank^3) once where `refresh` asks for new blocks.
   void descend(Rows& Y, Eigen::VectorXd& w, bool refresh);

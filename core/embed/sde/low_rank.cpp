@@ -14,7 +14,7 @@ constexpr int kRoundsToJudgement = 40;
 /// Of a typical squared distance: a column of less spread is dropped.
 constexpr double kVanished = 1e-5;
 
-/// Y turned to its principal axes, ascending, without those that vanish.
+/// Y rotated to its principal axes, ascending, without those that vanish.
 Rows without_vanished(const Problem& problem, const Rows& Y) {
   const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> axes(Eigen::MatrixXd(Y.transpose() * Y));
   const double least = kVanished * static_cast<double>(problem.points()) * problem.squared.mean();
@@ -58,7 +58,7 @@ class Ascent {
                     certificate.constraint_residual / options_.constraint_residual);
   }
 
-  /// Keeps the state if nothing better was proved so far.
+  /// Keeps the state if no better bound was certified so far.
   void judge() {
     Solution candidate{.solver = SdpSolver::kLowRank, .Y = Y_, .w = w_};
     const Certificate certificate = certify(problem_, candidate);

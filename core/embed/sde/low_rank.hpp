@@ -11,14 +11,14 @@ struct LowRankOptions {
   int max_rounds = 80;  ///< Of the augmented Lagrangian, at most 120 Hessian products each.
 };
 
-/// Comes near the solution by factors of low rank [burer2003]: rounds of the augmented Lagrangian.
-/// Columns are added to Y where the dual is infeasible and dropped where they vanish, so the answer
-/// nears the semidefinite program's. For programs that are too large for the interior point: a
-/// gap of some 1e-2 is what the rounds prove.
+/// Approaches the solution by factors of low rank [burer2003]: rounds of the augmented Lagrangian.
+/// Columns are added to Y where the dual is infeasible and dropped where they vanish, so the
+/// solution nears the semidefinite program's. For programs that are too large for the interior
+/// point: the rounds certify a gap of some 1e-2.
 ///
 /// @param start  points x any number of columns; the nearer to feasible the better.
-/// @return The best that was proved, whether or not it meets the options.
-/// @note Deterministic. O(pairs rank) time a product, O(points^3) a proof.
+/// @return The best certified solution, whether or not it meets the options.
+/// @note Deterministic. O(pairs rank) time per product, O(points^3) per certificate.
 ProvedSolution solve_low_rank(const Problem& problem, const Eigen::MatrixXd& start,
                               const LowRankOptions& options = {});
 

@@ -33,7 +33,7 @@ std::vector<Pair> kept_pairs(const Eigen::MatrixXd& distances, const NeighbourOp
   return pairs;
 }
 
-/// Numbers the places of landmarks, from 0 in the order of their lowest landmark.
+/// Numbers the positions of landmarks, from 0 in the order of their lowest landmark.
 std::vector<Eigen::Index> places(const Eigen::MatrixXd& distances, const std::vector<Pair>& pairs,
                                  double largest) {
   std::vector<Eigen::Index> lowest(static_cast<std::size_t>(distances.rows()));

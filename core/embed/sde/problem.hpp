@@ -15,7 +15,7 @@ namespace mapproof::unfolding {
 using Pair = std::pair<Eigen::Index, Eigen::Index>;
 
 /// Maximum variance unfolding [weinberger2004] of points that stand for one landmark or several at
-/// the same place:
+/// the same position:
 ///
 ///   max  sum_i mass_i |y_i|^2   s.t.  |y_i - y_j|^2 = squared_ij for all pairs,
 ///                                     sum_i mass_i y_i = 0,
@@ -32,19 +32,19 @@ struct Problem {
   std::vector<Eigen::Index> point_of;  ///< Of each landmark.
 
   Eigen::Index points() const { return mass.size(); }
-  /// Whether all landmarks are at one place: then there are no pairs.
+  /// Whether all landmarks are at one position: then there are no pairs.
   bool is_one_point() const { return points() <= 1; }
 };
 
 /// The program that keeps the distances of all pairs within {i} and its K nearest, for every i, and
-/// those of `bridges`. Landmarks at one place (squared distance up to 1e-14 of the largest) become
-/// one point.
+/// those of `bridges`. Landmarks at one position (squared distance up to 1e-14 of the largest)
+/// become one point.
 /// @param distances  n x n, symmetric, zero diagonal; pairs at infinite distance are left out.
 /// @param graph      Whose edges are kept too (the bridges are among them).
 Problem neighbourhood_problem(const Eigen::MatrixXd& distances, const NeighbourOptions& options,
                               const Graph& graph);
 
-/// A solver's answer: coordinates whose inner products are K, and the dual's weights.
+/// A solution: coordinates whose inner products are K, and the dual's weights.
 struct Solution {
   SdpSolver solver = SdpSolver::kLowRank;
   Eigen::MatrixXd Y;  ///< points x rank; its mass-weighted mean is zero.
@@ -52,7 +52,7 @@ struct Solution {
   int iterations = 0;
 };
 
-/// An answer with its proof.
+/// A solution with its dual certificate.
 struct ProvedSolution {
   Solution solution;
   Certificate certificate;
@@ -62,7 +62,7 @@ struct ProvedSolution {
 /// feasible exactly if T >= I (the second term only lifts the eigenvalue 0 that L(w) always has).
 Eigen::MatrixXd dual_matrix(const Problem& problem, const Eigen::VectorXd& w);
 
-/// Y Y' put on trial: w, scaled until it is feasible, gives an upper bound on every answer.
+/// Certifies Y Y': w, scaled until it is feasible, gives an upper bound on every solution.
 /// @note O(n^3) time.
 Certificate certify(const Problem& problem, const Solution& solution);
 

@@ -19,11 +19,11 @@ namespace mapproof {
 namespace {
 
 constexpr Eigen::Index kMostPairsToAskAgain = 2000;
-/// The map has fewer digits than the variance: so much less gap than asked for, where that is
+/// The map has fewer digits than the variance: so much less gap than requested, where that is
 /// cheap.
 constexpr double kMoreDigits = 0.01;
 constexpr Eigen::Index kMostPairsForMoreDigits = 2500;
-/// Elsewhere enough that the certificate, computed apart, still meets what was asked for.
+/// Elsewhere enough that the certificate, computed separately, still meets what was requested.
 constexpr double kSomeDigits = 0.5;
 
 void check(const Eigen::MatrixXd& distances, const SdeOptions& options) {
@@ -64,7 +64,7 @@ unfolding::ProvedSolution proved(const unfolding::Problem& problem, unfolding::S
   return {.solution = std::move(solution), .certificate = certificate};
 }
 
-/// By the solver asked for; where ours proves too little, CSDP is asked too if that is cheap.
+/// By the requested solver; where ours certifies too little, CSDP runs too if that is cheap.
 unfolding::ProvedSolution solve(const unfolding::Problem& problem, const Eigen::MatrixXd& distances,
                                 const SdeOptions& options) {
   if (options.solver == SdpSolver::kCsdp)
@@ -85,7 +85,7 @@ unfolding::ProvedSolution solve(const unfolding::Problem& problem, const Eigen::
   return meets(other.certificate, options) ? other : own;
 }
 
-/// What was not proved, and by how much.
+/// What was not certified, and by how much.
 Status shortfall(const Certificate& certificate, const SdeOptions& options) {
   if (certificate.dual < 0.0)  // A variance is not.
     return status_of<StatusReason::kBoundBelowZero>(certificate.constraint_residual);

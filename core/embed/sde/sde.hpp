@@ -12,7 +12,7 @@ struct SdeOptions {
   NeighbourOptions neighbours;
   /// kInteriorPoint stands for ours: low rank above unfolding::kMostInteriorPairs.
   SdpSolver solver = SdpSolver::kInteriorPoint;
-  double relative_gap = kProvedGap;              ///< To be proved, in (0, 1).
+  double relative_gap = kProvedGap;              ///< To be certified, in (0, 1).
   double constraint_residual = kProvedResidual;  ///< To be reached, in (0, 1).
 };
 
@@ -23,10 +23,10 @@ struct SdeOptions {
 /// @return Centred, columns orthogonal, in descending order of spread; the spectrum holds up to 10
 ///         eigenvalues, the certificate how near the optimum they are. kBridged and kFailed as
 ///         isomap(); kRankDeficient as lpca(); kNotEuclidean where the bound proves that no points
-///         have such distances; kUnproved, with the numbers, if the gap or the residual asked for
-///         was not reached.
+///         have such distances; kUnproved, with the numbers, if the requested gap or residual was
+/// not reached.
 /// @throws InvalidInput if K is not in [1, n), n < 3 or an option is out of bounds; if CSDP is
-///         asked for by name, for more than unfolding::kMostCsdpPairs pairs.
+///         requested by name, for more than unfolding::kMostCsdpPairs pairs.
 Embedding sde(const Eigen::MatrixXd& distances, const SdeOptions& options);
 
 }  // namespace mapproof

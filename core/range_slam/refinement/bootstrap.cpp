@@ -4,25 +4,10 @@
 
 #include "core/align/aligned_to.hpp"
 #include "core/base/errors.hpp"
-#include "core/base/random.hpp"
 #include "core/range_slam/factors/metric_upgrade.hpp"
+#include "core/statistics/block_bootstrap.hpp"
 
 namespace mapproof {
-namespace {
-
-/// Steps of blocks drawn with replacement, as many as there are.
-std::vector<Eigen::Index> drawn_steps(Eigen::Index T, Eigen::Index block, Random& random) {
-  std::vector<Eigen::Index> steps;
-  steps.reserve(static_cast<std::size_t>(T));
-  while (std::ssize(steps) < T) {
-    const auto first = static_cast<Eigen::Index>(random.uniform() * double(T - block + 1));
-    for (Eigen::Index i = 0; i < block && std::ssize(steps) < T; ++i) steps.push_back(first + i);
-  }
-  return steps;
-}
-
-}  // namespace
-
 LandmarkBootstrap bootstrap_landmarks(const Eigen::MatrixXd& Y, const Points& landmarks_m,
                                       const std::optional<KnownLandmarks>& known,
                                       const BootstrapOptions& options) {
@@ -37,7 +22,7 @@ LandmarkBootstrap bootstrap_landmarks(const Eigen::MatrixXd& Y, const Points& la
   std::vector<Points> maps;
   for (int i = 0; i < options.replicates; ++i) {
     Random random(derive_seed(options.seed, {static_cast<std::uint64_t>(i)}));
-    const auto steps = drawn_steps(T, std::min(options.block, T), random);
+    const auto steps = block_resample(T, std::min(options.block, T), BlockEnds::kInside, random);
     const Factorization factors = factorize(Y(Eigen::all, steps), 4);
     const SpectralMap map =
         known ? map_from_known_landmarks(factors, *known) : metric_upgrade(factors).map;

@@ -55,7 +55,7 @@ TEST(BestBlockLength, StaysWithinItsBoundForATrend) {
   EXPECT_LE(length, 60.0);
 }
 
-TEST(BestBlockLength, DoesNotHangOnScaleOrOffset) {
+TEST(BestBlockLength, DoesNotDependOnScaleOrOffset) {
   const Eigen::VectorXd series = autoregressive(3000, 0.7, 5);
   const Eigen::VectorXd moved = (1e3 * series.array() + 7.0).matrix();
   EXPECT_NEAR(best_block_length(series), best_block_length(moved), 1e-6);
@@ -69,7 +69,7 @@ TEST(MapBlockLength, LeavesRoomForThreeBlocks) {
   EXPECT_THROW(map_block_length(history, 31), InvalidInput);
 }
 
-TEST(MapBlockLength, TakesHistoriesWithoutAnyCommonStep) {
+TEST(MapBlockLength, AcceptsHistoriesWithoutAnyCommonStep) {
   ObservationHistory history{Sensor::kRange, {"a", "b"}, Eigen::MatrixXd(2, 12)};
   history.values.setConstant(NAN);
   for (Eigen::Index t = 0; t < 12; ++t) history.values(t % 2, t) = double(t);

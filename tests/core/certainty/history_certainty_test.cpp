@@ -75,7 +75,7 @@ TEST_P(EverySensor, EveryLandmarkThatIsSeenHasAnEllipse) {
     EXPECT_EQ(C(0, 1), C(1, 0));
     EXPECT_GE(C.determinant(), -1e-12 * C.squaredNorm());
   }
-  if (sensor == Sensor::kRange && dropout == 0.0) return;  // Nothing errs: see below.
+  if (sensor == Sensor::kRange && dropout == 0.0) return;  // No errors: see below.
   double least = HUGE_VAL;
   for (Eigen::Index i = 0; i < 16; ++i)
     if (std::ranges::find(frame.anchors, i) == frame.anchors.end())
@@ -89,7 +89,7 @@ INSTANTIATE_TEST_SUITE_P(
                       std::pair{Sensor::kBearing, 0.0}, std::pair{Sensor::kBearing, 0.3},
                       std::pair{Sensor::kRange, 0.0}, std::pair{Sensor::kRange, 0.3}));
 
-TEST(HistoryCertainty, IsNothingWhereTheMapIsTheSameForAllSteps) {
+TEST(HistoryCertainty, IsZeroWhereTheMapIsTheSameForAllSteps) {
   // Ranges without noise give LPCA the same map up to an affine one, whatever the steps.
   const Walked made = walked(Sensor::kRange, 0.0);
   const MapCertainty found =
@@ -142,7 +142,7 @@ TEST(InFrame, LeavesMapsOutThatAreTiedByTooFewLandmarks) {
   EXPECT_FALSE(in_frame(map, {Points::Identity(4, 2), {}}, AffineFit::kLeastSquares));
 }
 
-TEST(InFrame, LaysMapsOnAnEstimateByAMirroredSimilarity) {
+TEST(InFrame, AlignsMapsToAnEstimateByAReflectedSimilarity) {
   Points place(4, 2), map(4, 2);
   place << 0.0, 0.0, 3.0, 0.0, 3.0, 1.0, 0.0, 2.0;
   for (Eigen::Index i = 0; i < 4; ++i) map.row(i) << 5.0 - 2.0 * place(i, 0), 2.0 * place(i, 1);

@@ -12,34 +12,6 @@
 namespace mapproof {
 namespace {
 
-TEST(DrawnSteps, AreWholeBlocksOnACircle) {
-  Random random(1);
-  const std::vector<Eigen::Index> drawn = drawn_steps(100, 10, random);
-  ASSERT_EQ(drawn.size(), 100U);
-  for (std::size_t i = 0; i < drawn.size(); ++i) {
-    EXPECT_GE(drawn[i], 0);
-    EXPECT_LT(drawn[i], 100);
-    if (i % 10 != 0) {
-      EXPECT_EQ(drawn[i], (drawn[i - 1] + 1) % 100);
-    }
-  }
-}
-
-TEST(DrawnSteps, TakeEveryStepAlikeOften) {
-  Random random(2);
-  Eigen::VectorXd counts = Eigen::VectorXd::Zero(20);
-  for (int i = 0; i < 5000; ++i)
-    for (const Eigen::Index step : drawn_steps(20, 7, random)) counts(step) += 1.0;
-  // Each is binomial about 5000 with a standard deviation below 7 times its root.
-  EXPECT_LT((counts.array() - 5000.0).abs().maxCoeff(), 700.0);
-}
-
-TEST(DrawnSteps, NeedBlocksNoLongerThanTheSteps) {
-  Random random(1);
-  EXPECT_THROW(drawn_steps(5, 6, random), InvalidInput);
-  EXPECT_THROW(drawn_steps(5, 0, random), InvalidInput);
-}
-
 /// A map whose one landmark lies at the mean of a value of the steps.
 MapOfSteps mean_of(const Eigen::MatrixXd& values) {
   return [values](const std::vector<Eigen::Index>& steps) -> std::optional<Points> {
@@ -47,7 +19,7 @@ MapOfSteps mean_of(const Eigen::MatrixXd& values) {
   };
 }
 
-TEST(BootstrapMap, TellsTheVarianceOfAMean) {
+TEST(BootstrapMap, EstimatesTheVarianceOfAMean) {
   Random random(3);
   Eigen::MatrixXd values(400, 2);
   for (Eigen::Index t = 0; t < 400; ++t) values.row(t) << random.normal(), 2.0 * random.normal();
@@ -58,7 +30,7 @@ TEST(BootstrapMap, TellsTheVarianceOfAMean) {
   EXPECT_EQ(found.maps, 4000);
 }
 
-TEST(BootstrapMap, HoldsTheTruthOfMeansOfCorrelatedSeriesAsOftenAsItSays) {
+TEST(BootstrapMap, HasItsNominalCoverageForMeansOfCorrelatedSeries) {
   // 600 series of 500 steps whose mean has the variance (1 - rho^2) / (1 - rho)^2 / 500.
   int held = 0;
   constexpr int kSeries = 600;
@@ -85,7 +57,7 @@ TEST(BootstrapMap, IsTheSameForTheSameSeed) {
   EXPECT_NE(once, bootstrap_map(1, 50, mean_of(values), {.block = 5, .seed = 8}));
 }
 
-TEST(BootstrapMap, KnowsNothingOfALandmarkThatMostMapsMiss) {
+TEST(BootstrapMap, HasNoCovarianceForALandmarkThatMostMapsMiss) {
   int call = 0;
   const MapOfSteps sometimes = [&](const std::vector<Eigen::Index>&) -> std::optional<Points> {
     Points map = Points::Constant(2, 2, 1.0 + 0.1 * call);

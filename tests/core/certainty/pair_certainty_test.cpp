@@ -17,7 +17,7 @@ constexpr int kScans = 400;
 
 Points hall() { return 6.0 * scattered(9, 5); }
 
-/// Scans whose ranges err by 5 % each, in `together` scans that follow each other alike.
+/// Scans with errors of 5 % of each range, equal in `together` consecutive scans.
 DetectionLog erring_scans(std::uint64_t seed, int together) {
   DetectionLog log = scans_at(hall(), kScans, 4, seed);
   Random random(1000 + seed);
@@ -29,7 +29,7 @@ DetectionLog erring_scans(std::uint64_t seed, int together) {
   return log;
 }
 
-/// Mean squared distance of a landmark from its mean place, over maps of many logs.
+/// Mean squared distance of a landmark from its mean position, over maps of many logs.
 double spread(int together, const CertaintyFrame& frame) {
   constexpr int kMaps = 240;
   std::vector<Points> maps;
@@ -65,7 +65,7 @@ TEST_P(CertaintyOfPairs, IsHowFarMapsOfOtherScansLieApart) {
   EXPECT_LT(ratio, 1.6);
 }
 
-TEST_P(CertaintyOfPairs, IsNothingWhereScansDoNotErr) {
+TEST_P(CertaintyOfPairs, IsZeroWhereScansHaveNoErrors) {
   for (const Eigen::Matrix2d& C :
        pair_certainty(scans_at(hall(), kScans, 4, 1), GetParam().second, {.replicates = 20})
            .covariances)
@@ -79,7 +79,7 @@ INSTANTIATE_TEST_SUITE_P(
                       std::pair("rigid_on_anchors", CertaintyFrame{hall(), {0, 3, 5, 8}, true})),
     [](const auto& one) { return std::string(one.param.first); });
 
-TEST(PairCertainty, TakesScansTogetherThatErrAlike) {
+TEST(PairCertainty, DrawsScansWithCorrelatedErrorsTogether) {
   const CertaintyFrame frame{hall(), {}, true};
   EXPECT_LE(pair_block_length(erring_scans(1, 1)), 4);
   EXPECT_GE(pair_block_length(erring_scans(1, 40)), 7);
@@ -89,7 +89,7 @@ TEST(PairCertainty, TakesScansTogetherThatErrAlike) {
   EXPECT_NEAR(by_blocks, apart, 0.4 * apart);
 }
 
-TEST(PairCertainty, HangsOnItsSeedAlone) {
+TEST(PairCertainty, DependsOnItsSeedAlone) {
   const DetectionLog log = erring_scans(3, 1);
   const CertaintyFrame frame{hall(), {}, true};
   const PairCertaintyOptions options{.replicates = 10, .block = 5, .seed = 4};

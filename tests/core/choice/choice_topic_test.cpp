@@ -11,7 +11,7 @@
 namespace mapproof {
 namespace {
 
-TEST(ChoiceTopic, RegretsNothingOfTheBestAndTriesEverySeries) {
+TEST(ChoiceTopic, HasNoRegretForTheBestAndTriesEverySeries) {
   TrialExperiment experiment;
   experiment.topic = "choice";
   experiment.steps = 300;

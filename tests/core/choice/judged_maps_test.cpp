@@ -36,7 +36,7 @@ std::vector<MethodSetting> some_settings() {
           {Method::kHessianLle, 4.0}};
 }
 
-TEST(MapJudge, TellsEverythingOfMapsThatCameOutAndNothingOfOthers) {
+TEST(MapJudge, HasEveryCriterionForSuccessfulMapsAndNoneForOthers) {
   const Walked made = walked(Sensor::kBearing);
   const MapJudge judge(made.history, 600,
                        {.settings = some_settings(), .embedder = {}, .replicates = 3});
@@ -48,7 +48,7 @@ TEST(MapJudge, TellsEverythingOfMapsThatCameOutAndNothingOfOthers) {
   EXPECT_EQ(ranked(maps, Criterion::kCombined).size(), 3U);
 }
 
-TEST(MapJudge, KnowsNothingOfAnchorsThatThereAreNone) {
+TEST(MapJudge, HasNoAnchorCriterionWithoutAnchors) {
   const Walked made = walked(Sensor::kVisibility);
   const MapJudge judge(made.history, 600,
                        {.settings = some_settings(), .embedder = {}, .replicates = 0});
@@ -77,7 +77,7 @@ TEST(MapJudge, IsNotMovedByTheOrderOfTheSettings) {
     }
 }
 
-TEST(MapJudge, TakesLandmarksThatAreTooFewOrNeverSeen) {
+TEST(MapJudge, AcceptsTooFewOrUnseenLandmarks) {
   ObservationHistory nothing{Sensor::kBearing, {"a", "b", "c", "d"}, {}};
   nothing.values.setConstant(4, 30, NAN);
   const ChoiceOptions options{.settings = some_settings(), .embedder = {}, .replicates = 2};
@@ -98,7 +98,7 @@ TEST(UsualCandidates, FitTheLandmarksThereAre) {
   }
 }
 
-TEST(Ranked, PutsTheBestFirstWhicheverWayACriterionGoes) {
+TEST(Ranked, PutsTheBestFirstInEitherDirectionOfACriterion) {
   std::vector<JudgedMap> maps(3);
   for (std::size_t m = 0; m < 3; ++m) {
     maps[m].mapped = true;

@@ -38,7 +38,7 @@ TEST(NeighbourhoodsKept, AreThoseOfScikitLearn) {
   }
 }
 
-TEST(NeighbourhoodsKept, AreAllOfAPerfectMapAndHangOnNeitherScaleNorOrder) {
+TEST(NeighbourhoodsKept, AreAllOfAPerfectMapAndDependOnNeitherScaleNorOrder) {
   const Points points = test::scattered(20, 5);
   const NeighbourhoodsKept kept = neighbourhoods_kept(test::distances_of(points), -3.0 * points, 4);
   EXPECT_DOUBLE_EQ(kept.trustworthiness, 1.0);
@@ -51,7 +51,7 @@ TEST(NeighbourhoodsKept, AreAllOfAPerfectMapAndHangOnNeitherScaleNorOrder) {
               neighbourhoods_kept(data.distances, data.map, 5).continuity, 1e-12);
 }
 
-TEST(NeighbourhoodsKept, TakeTiesAndMissingDistancesWhateverTheirOrder) {
+TEST(NeighbourhoodsKept, AcceptTiesAndMissingDistancesInAnyOrder) {
   Eigen::MatrixXd distances = Eigen::MatrixXd::Constant(9, 9, std::sqrt(2.0));
   distances.diagonal().setZero();
   distances(0, 1) = distances(1, 0) = HUGE_VAL;
@@ -74,7 +74,7 @@ TEST(NormalisedStress, IsThatOfTheBestScale) {
   EXPECT_NEAR(normalised_stress(data.distances, data.map), 0.15516984937372463, 1e-12);
 }
 
-TEST(MapQuality, IsPerfectForTheTruthAtAnyScaleAndWorstForAPoint) {
+TEST(MapQuality, IsPerfectForTheGroundTruthAtAnyScaleAndWorstForAPoint) {
   const Points points = test::scattered(12, 2);
   const Eigen::MatrixXd D = test::distances_of(points);
   EXPECT_NEAR(normalised_stress(D, 7.0 * points), 0.0, 1e-12);

@@ -48,7 +48,7 @@ TEST(HessianLle, UnrollsASheetWithAHole) {
   EXPECT_LT(affine_gap(sheet, map.coordinates), 0.03);
 }
 
-TEST(HessianLle, SaysThatALineHasNoTangentPlanes) {
+TEST(HessianLle, ReportsThatALineHasNoTangentPlanes) {
   Points line = scattered(12, 1);
   line.col(1).setZero();
   const Eigen::MatrixXd D = distances_of(line);
@@ -62,7 +62,7 @@ TEST(HessianLle, RefusesFewerThanSixNeighbours) {
   EXPECT_THROW(hessian_lle(D.cwiseAbs2(), nearest(D, 5)), InvalidInput);
 }
 
-TEST(HessianLle, PlacesALandmarkThatIsNobodysNeighbour) {
+TEST(HessianLle, MapsALandmarkThatIsNotANeighbourOfAnother) {
   Points points(31, 2);
   points << scattered(30, 3), 3.0, 0.4;  // far from all others
   Embedder embedder({.inner_products = {}, .squared_distances = distances_of(points).cwiseAbs2()});

@@ -49,7 +49,7 @@ TEST(HistoryEmbedder, RefusesStepsThatTheHistoryDoesNotHave) {
   }
 }
 
-TEST(HistoryEmbedder, FailsPolitelyWhenNothingWasSeen) {
+TEST(HistoryEmbedder, FailsWithAStatusWhenNothingWasSeen) {
   ObservationHistory history{.sensor = Sensor::kVisibility,
                              .names = landmark_names(5),
                              .values = Eigen::MatrixXd::Zero(5, 10)};
@@ -58,7 +58,7 @@ TEST(HistoryEmbedder, FailsPolitelyWhenNothingWasSeen) {
   EXPECT_EQ(map.coordinates.rows(), 5);
 }
 
-/// Landmarks seen by twos and threes in two rooms, the door between them shut.
+/// Landmarks seen in twos and threes in two rooms, the door between them shut.
 ObservationHistory two_rooms(Eigen::Index landmarks_each) {
   const Eigen::Index n = landmarks_each;
   ObservationHistory history{.sensor = Sensor::kVisibility,
@@ -73,7 +73,7 @@ ObservationHistory two_rooms(Eigen::Index landmarks_each) {
   return history;
 }
 
-TEST(HistoryEmbedder, SaysWhenNeighboursWereNeverSeenTogether) {
+TEST(HistoryEmbedder, ReportsNeighboursThatWereNeverSeenTogether) {
   const ObservationHistory history = two_rooms(8);
   HistoryEmbedder embedder(history, 16);
   for (const MethodInfo& method : all_methods()) {
@@ -88,14 +88,14 @@ TEST(HistoryEmbedder, SaysWhenNeighboursWereNeverSeenTogether) {
   }
 }
 
-TEST(HistoryEmbedder, SaysOfEveryMethodThatRoomsWereNeverSeenTogether) {
+TEST(HistoryEmbedder, ReportsForEveryMethodThatRoomsWereNeverSeenTogether) {
   for (const bool only : {false, true}) {
     EmbedderOptions options;
     options.only_seen_together = only;
     HistoryEmbedder embedder(two_rooms(8), 16, options);
     for (const MethodInfo& method : all_methods()) {
       const Embedding map = embedder.embed(embedder.usual_setting(method.method));
-      // Beside it, such even rooms leave other things undetermined.
+      // In addition, such even rooms leave other things undetermined.
       const Status* groups = status_for(map, StatusReason::kGroupsNeverTogether);
       EXPECT_TRUE((groups != nullptr && groups->values[0] == 2.0) || has(map, StatusCode::kFailed))
           << method.name;
@@ -103,7 +103,7 @@ TEST(HistoryEmbedder, SaysOfEveryMethodThatRoomsWereNeverSeenTogether) {
   }
 }
 
-TEST(HistoryEmbedder, SaysThatOneScanOrTwoTellNoMap) {
+TEST(HistoryEmbedder, ReportsThatOneScanOrTwoDetermineNoMap) {
   ObservationHistory history{.sensor = Sensor::kBearing,
                              .names = landmark_names(8),
                              .values = Eigen::MatrixXd::Zero(8, 3)};

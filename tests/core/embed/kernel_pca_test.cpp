@@ -30,7 +30,7 @@ TEST(KernelPca, TendsToLpcaAsTheGaussianWidens) {
 }
 
 // Of n landmarks all equally far, the centred kernel is (1 - k) (I - 11'/n).
-TEST(KernelPca, SaysThatEquallyFarLandmarksHaveNoMap) {
+TEST(KernelPca, ReportsThatEquallyFarLandmarksHaveNoMap) {
   const Eigen::MatrixXd D = Eigen::MatrixXd::Ones(8, 8) - Eigen::MatrixXd::Identity(8, 8);
   const Embedding map = kernel_pca(D, GaussianKernel{.variance = 0.5});
   ASSERT_FALSE(map.statuses.empty());
@@ -55,7 +55,7 @@ TEST(KernelPca, RefusesKernelsOutOfBounds) {
                InvalidInput);
 }
 
-TEST(KernelPca, SaysThatAKernelNearTheIdentityMakesNoMap) {
+TEST(KernelPca, ReportsThatAKernelNearTheIdentityGivesNoMap) {
   const Eigen::MatrixXd squares = distances_of(test::grid(5, 6)).cwiseAbs2();
   const auto is_undetermined = [&](double variance) {
     const Embedding map = kernel_pca(squares, GaussianKernel{variance});

@@ -31,7 +31,7 @@ TEST(LaplacianEigenmap, DrawsARingAsACircle) {
   }
 }
 
-TEST(LaplacianEigenmap, SaysThatACompleteGraphHasNoMap) {
+TEST(LaplacianEigenmap, ReportsThatACompleteGraphHasNoMap) {
   const Embedding map = laplacian_eigenmap(ring(7, 3));
   EXPECT_NEAR(map.spectrum(0), 7.0 / 6.0, 1e-12);
   ASSERT_FALSE(map.statuses.empty());

@@ -48,7 +48,7 @@ TEST(Lle, SolvesALargeMapAsItDoesASmallOne) {
   EXPECT_LT(map.coordinates.colwise().sum().cwiseAbs().maxCoeff(), 1e-8);
 }
 
-TEST(Lle, SaysThatALineHasNoMap) {
+TEST(Lle, ReportsThatALineHasNoMap) {
   Points line = scattered(12, 1);
   line.col(1).setZero();
   const Embedding map = lle(distances_of(line).cwiseAbs2(), nearest(line, 4));
@@ -65,7 +65,7 @@ TEST(Lle, RefusesWhatItCannotUse) {
   EXPECT_THROW(lle(Eigen::MatrixXd::Constant(10, 10, HUGE_VAL), nearest(points, 4)), InvalidInput);
 }
 
-TEST(Lle, SaysWhereNoPointsHaveTheDistances) {
+TEST(Lle, ReportsWhereNoPointsHaveTheDistances) {
   // Two of the neighbours of landmark 0 are farther from each other than over it.
   Eigen::MatrixXd squares = distances_of(test::grid(3, 4)).cwiseAbs2();
   squares(1, 4) = squares(4, 1) = 40.0;

@@ -37,8 +37,8 @@ Points points_of(const json& rows) {
   return points;
 }
 
-/// Largest difference after the best signs of the columns; after the best rotation or mirror image
-/// where the two columns belong to one eigenvalue. No shift, no scale.
+/// Largest difference after the best signs of the columns; after the best rotation or reflection
+/// where the two columns belong to one eigenvalue. No translation, no scale.
 double gauge_gap(const Embedding& ours, const Points& theirs) {
   const double first = std::abs(ours.spectrum(0));
   const double apart = std::abs(ours.spectrum(0) - ours.spectrum(1));

@@ -48,7 +48,7 @@ void write_layout(const std::filesystem::path& folder, std::uint64_t seed, int l
   const Path path = random_walk(world, {}, steps, random);
   for (const Sensor sensor : {Sensor::kVisibility, Sensor::kBearing, Sensor::kRange}) {
     const ObservationHistory history = observe(world, path, {.sensor = sensor}, random);
-    // What is metric needs fewer steps.
+    // Metric distances need fewer steps.
     ObservationHistory kept = history;
     if (sensor != Sensor::kVisibility) kept.values = history.values.leftCols((steps + 9) / 10);
     write_file(folder / fmt::format("{}-{}.{}.csv", name(sensor), seed, name(sensor)),

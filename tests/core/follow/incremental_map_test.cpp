@@ -91,7 +91,7 @@ INSTANTIATE_TEST_SUITE_P(Follow, FollowedBy,
                            return word;
                          });
 
-TEST(IncrementalMap, HoldsLandmarksFromWhenTheyAreSeen) {
+TEST(IncrementalMap, HoldsLandmarksFromTheirFirstDetectionOn) {
   IncrementalMap map(Sensor::kBearing,
                      {.setting = {Method::kSmacof, std::nullopt}, .embedder = {}});
   map.grow(4);
@@ -119,7 +119,7 @@ TEST(IncrementalMap, HoldsLandmarksFromWhenTheyAreSeen) {
             kFollowedWithin);
 }
 
-TEST(IncrementalMap, SaysThatNothingCameOfNothing) {
+TEST(IncrementalMap, FailsWithoutObservations) {
   IncrementalMap map(Sensor::kRange, {.setting = {Method::kIsomap, std::nullopt}, .embedder = {}});
   EXPECT_EQ(map.update().embedding.statuses[0].code, StatusCode::kFailed);
   map.grow(2);

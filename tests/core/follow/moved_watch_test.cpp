@@ -11,7 +11,7 @@
 namespace mapproof::test {
 namespace {
 
-/// Landmark 7 stands half a metre elsewhere from one scan on.
+/// Landmark 7 is half a metre away from one scan on.
 DetectionLog half_metre_move(int scans, int from) {
   return scans_with_move(scans, 7, {0.3, -0.4}, from);
 }

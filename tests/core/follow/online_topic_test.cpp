@@ -9,7 +9,7 @@
 namespace mapproof {
 namespace {
 
-TEST(OnlineTopic, FollowsEverySensorToEveryLevel) {
+TEST(OnlineTopic, MapsEverySensorIncrementallyToEveryLevel) {
   TrialExperiment experiment;
   experiment.topic = "online";
   experiment.steps = 300;
@@ -31,7 +31,7 @@ TEST(OnlineTopic, FollowsEverySensorToEveryLevel) {
                                     .seed = 5,
                                     .data = {},
                                     .with_maps = true})};
-  // Three sensors, three methods, two levels, carried on and anew.
+  // Three sensors, three methods, two levels, incremental and from scratch.
   ASSERT_EQ(study.parts[0].trials.size(), 36U);
   for (const Trial& trial : study.parts[0].trials) {
     EXPECT_GE(trial.values.at("greatest_gap_ppm"), trial.values.at("gap_ppm"));

@@ -11,7 +11,7 @@
 namespace mapproof {
 namespace {
 
-/// A history of random values, a share of them missing, and a landmark that comes late.
+/// A history of random values, a share of them missing, and a landmark that arrives late.
 ObservationHistory random_history(Sensor sensor, double missing, std::uint64_t seed) {
   Random random(seed);
   ObservationHistory history{sensor, {"a", "b", "c", "d", "e", "f"}, Eigen::MatrixXd(6, 40)};
@@ -92,7 +92,7 @@ TEST(PairSums, TakeWhatIsNotListedAsNotSeenWhereDetectionsAloneAreListed) {
   EXPECT_NEAR(found.squared_distances(0, 1), expected.squared_distances(0, 1), 1e-12);
 }
 
-TEST(PairSums, RefuseWhatIsNoStep) {
+TEST(PairSums, RefuseWhatIsNotAStep) {
   PairSums sums(Sensor::kRange);
   sums.grow(2);
   EXPECT_THROW(sums.add({{2, 1.0}}), InvalidInput);

@@ -16,7 +16,7 @@ Graph lists(const std::vector<std::vector<Eigen::Index>>& targets) {
   return graph;
 }
 
-// 0 and 1 look at each other, so do 3 and 4; 2 looks at both pairs.
+// 0 and 1 are neighbours of each other, so are 3 and 4; 2 has both pairs as neighbours.
 const std::vector<std::vector<Eigen::Index>> kTwoPairs = {{1}, {0}, {1, 3}, {4}, {3}};
 
 TEST(ClosedGroups, AreThoseThatNoListLeaves) {
@@ -35,7 +35,7 @@ TEST(OpenClosedGroups, AddsTheShortestWayOut) {
   EXPECT_EQ(graph[3].back().to, 2);
 }
 
-TEST(JoinSets, LetsALandmarkThatIsNobodysNeighbourJoinItsOwn) {
+TEST(JoinSets, LetsALandmarkThatIsNotANeighbourOfAnotherJoinItsOwn) {
   Graph graph = lists({{1, 2}, {0, 2}, {0, 1}, {0, 1}});
   EXPECT_EQ(join_sets(graph), 1);
   EXPECT_EQ(graph[3].back().to, 3);

@@ -14,7 +14,7 @@ namespace {
 
 bool always(int) { return true; }
 
-/// The places of some landmarks, in another frame than any map's.
+/// The positions of some landmarks, in another frame than any map's.
 Points known(const std::vector<Eigen::Index>& landmarks) {
   const Points truth = noisy_landmarks();
   Points places = Points::Constant(truth.rows(), 2, std::numeric_limits<double>::quiet_NaN());
@@ -27,7 +27,7 @@ Points known(const std::vector<Eigen::Index>& landmarks) {
 const std::vector<Eigen::Index> kCorners = {0, 2, 12, 14};
 const std::vector<Eigen::Index> kSix = {0, 2, 5, 9, 12, 14};
 
-TEST(AnchorLabels, NamesNothingWhereLabelsAreRight) {
+TEST(AnchorLabels, FindsNothingWhereTheIdsAreRight) {
   for (std::uint64_t seed = 1; seed <= 5; ++seed)
     for (const auto& anchors : {kCorners, kSix}) {
       const AnchorCheck check = check_anchor_labels(noisy_scans(600, seed), known(anchors));
@@ -59,7 +59,7 @@ TEST(AnchorLabels, FindsAnAnchorExchangedWithAnyOtherLandmark) {
   }
 }
 
-TEST(AnchorLabels, FindsTwoExchangesAmongSixPlaces) {
+TEST(AnchorLabels, FindsTwoExchangesAmongSixPositions) {
   const DetectionLog clean = noisy_scans(600, 3);
   const DetectionLog wrong = swapped(swapped(clean, 0, 9, always), 14, 7, always);
   const AnchorCheck check = check_anchor_labels(wrong, known(kSix));
@@ -67,7 +67,7 @@ TEST(AnchorLabels, FindsTwoExchangesAmongSixPlaces) {
   EXPECT_EQ(wrong_labels(check.repaired, clean), 0);
 }
 
-TEST(AnchorLabels, SaysNothingOfFewerThanFourPlaces) {
+TEST(AnchorLabels, FindsNothingWithFewerThanFourPositions) {
   const DetectionLog wrong = swapped(noisy_scans(600, 1), 0, 2, always);
   const AnchorCheck check = check_anchor_labels(wrong, known({0, 2, 12}));
   EXPECT_EQ(check.places, 3);
@@ -75,20 +75,20 @@ TEST(AnchorLabels, SaysNothingOfFewerThanFourPlaces) {
   EXPECT_EQ(wrong_labels(check.repaired, wrong), 0);
 }
 
-TEST(AnchorLabels, DoesNotBlameLabelsForASurveyThatIsWrong) {
+TEST(AnchorLabels, DoesNotBlameIdsForAWrongSurvey) {
   Points places = known(kSix);
   places.row(5) += Eigen::RowVector2d(3.3, 0.9);
   EXPECT_TRUE(check_anchor_labels(noisy_scans(600, 1), places).exchanges.empty());
 }
 
-TEST(AnchorLabels, DoesNotBlameLabelsForBearingsOfTheOtherSign) {
+TEST(AnchorLabels, DoesNotBlameIdsForBearingsOfTheOtherSign) {
   DetectionLog mirrored = noisy_scans(600, 1);
   for (Detection& detection : mirrored.detections) detection.bearing_rad *= -1.0;
   for (const auto& anchors : {kCorners, kSix})
     EXPECT_TRUE(check_anchor_labels(mirrored, known(anchors)).exchanges.empty());
 }
 
-TEST(AnchorLabels, TakesWhatHasNoMap) {
+TEST(AnchorLabels, AcceptsALogWithoutAMap) {
   EXPECT_TRUE(check_anchor_labels({}, Points(0, 2)).exchanges.empty());
   const DetectionLog lonely{{"A", "B"}, {{0, 0, 1.0, 0.0}, {1, 1, 2.0, 0.0}}, 2, {}};
   EXPECT_EQ(check_anchor_labels(lonely, Points::Zero(2, 2)).places, 0);

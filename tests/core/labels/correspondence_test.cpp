@@ -24,7 +24,7 @@ ObservationHistory observed(Sensor sensor, int steps) {
   return observe(world, path, {.sensor = sensor}, random);
 }
 
-/// Exchanges the readings of doubtful landmarks of each step at random.
+/// Exchanges the measurements of doubtful landmarks of each step at random.
 ObservationHistory shuffled(ObservationHistory history, const Mask& doubtful) {
   Random random(8);
   for (Eigen::Index step = 0; step < history.steps(); ++step) {
@@ -78,7 +78,7 @@ TEST(Assignment, RefusesMoreRowsThanColumns) {
   EXPECT_TRUE(least_assignment(Eigen::MatrixXd(0, 0)).empty());
 }
 
-TEST(Correspondence, KeepsLabelsThatAreRight) {
+TEST(Correspondence, KeepsIdsThatAreRight) {
   const ObservationHistory truth = observed(Sensor::kRange, 200);
   const Correspondence found =
       estimated_correspondence(truth, Mask::Constant(30, 200, true), {.rank = 3});
@@ -87,7 +87,7 @@ TEST(Correspondence, KeepsLabelsThatAreRight) {
   EXPECT_TRUE(found.settled);
 }
 
-TEST(Correspondence, IsExactForRangesOfWhichAThirdAreWithoutALabel) {
+TEST(Correspondence, IsExactForRangesOfWhichAThirdHaveNoId) {
   const ObservationHistory truth = observed(Sensor::kRange, 200);
   const Mask doubtful = doubted(30, 200, 0.33);
   const Correspondence found =
@@ -95,7 +95,7 @@ TEST(Correspondence, IsExactForRangesOfWhichAThirdAreWithoutALabel) {
   EXPECT_EQ(share_right(found.history, truth, doubtful), 1.0);
 }
 
-TEST(Correspondence, FindsMostLabelsOfBearingsAndLowersTheLoss) {
+TEST(Correspondence, FindsMostIdsOfBearingsAndReducesTheLoss) {
   const ObservationHistory truth = observed(Sensor::kBearing, 400);
   const Mask doubtful = doubted(30, 400, 0.3);
   const ObservationHistory confused = shuffled(truth, doubtful);
@@ -105,7 +105,7 @@ TEST(Correspondence, FindsMostLabelsOfBearingsAndLowersTheLoss) {
   EXPECT_LT(found.loss_after, 0.5 * found.loss_before);
 }
 
-TEST(Correspondence, ExchangesReadingsOfAStepAlone) {
+TEST(Correspondence, ExchangesMeasurementsOfOneStepOnly) {
   const ObservationHistory truth = observed(Sensor::kBearing, 50);
   const Mask doubtful = doubted(30, 50, 0.5);
   const ObservationHistory confused = shuffled(truth, doubtful);

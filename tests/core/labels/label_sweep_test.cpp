@@ -1,5 +1,5 @@
-// Slow: labels of the real sets put wrong in several ways, pair by pair. Prints what
-// docs/methods/measurements.md says of it.
+// Slow: the landmark IDs of the real sets made wrong in several ways, pair by pair. Prints the
+// numbers of docs/methods/measurements.md.
 #include <algorithm>
 #include <functional>
 #include <iostream>
@@ -16,18 +16,18 @@
 namespace mapproof::test {
 namespace {
 
-constexpr int kSeenWell = 30;  ///< Detections of each label by that robot, together with others.
+constexpr int kSeenWell = 30;  ///< Detections of each landmark by that robot, together with others.
 
 bool same_labels(const LabelFinding& one, int a, int b) {
   return std::minmax(one.first, one.second) == std::minmax(a, b);
 }
 
-/// What came of a swap in one robot's log.
+/// The result of a swap in one robot's log.
 struct Sweep {
   int tried = 0;
   int named = 0;
   int corrected = 0;  ///< To nine tenths or more.
-  int others = 0;     ///< Logs in which labels are named that are not named in the clean one.
+  int others = 0;     ///< Logs in which IDs are named that are not named in the clean one.
 
   void add(const DetectionLog& log, const LabelCheck& clean, int a, int b,
            const std::function<bool(int)>& in_step) {
@@ -54,7 +54,7 @@ struct Sweep {
   }
 };
 
-/// The number-th of all pairs of 15 labels.
+/// The number-th of all pairs of 15 landmarks.
 std::pair<int, int> pair_of(int number) {
   int a = 0;
   for (; number >= 14 - a; ++a) number -= 14 - a;
@@ -87,7 +87,7 @@ TEST_P(LabelSweep, NamesMostPairsSwappedInOneRobotsLog) {
   EXPECT_GE(sweep.named, 0.9 * sweep.tried);
 }
 
-/// Faults in single scans or over a part of the time, of every tenth pair of labels.
+/// Faults in single scans or over a part of the time, of every tenth pair of landmarks.
 class FaultSweep : public testing::TestWithParam<std::tuple<const char*, const char*>> {};
 
 TEST_P(FaultSweep, LeavesMostMapsAsGoodAsOnesWithoutFaults) {

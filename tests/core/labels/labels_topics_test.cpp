@@ -48,18 +48,18 @@ const Trial& trial(const TrialStudy& study, std::string_view setup, std::string_
   return *found;
 }
 
-TEST(LabelsTopic, EstimatesBetterThanLabelsAsGiven) {
+TEST(LabelsTopic, EstimatesBetterThanTheGivenIds) {
   const TrialStudy study = small_study(kLabelsTopic, {{"shares", {0.0, 0.2}}, {"neighbours", {6}}});
   EXPECT_EQ(trial(study, "unlabelled", "given", 0.0).values.at("mpe_m"),
             trial(study, "unlabelled", "estimated", 0.0).values.at("mpe_m"));
   EXPECT_GT(trial(study, "unlabelled", "estimated", 20.0).values.at("correct_percent"), 70.0);
   EXPECT_FALSE(trial(study, "unlabelled", "given", 20.0).values.contains("correct_percent"));
   EXPECT_EQ(conclusions_of(study).size(), 3U);
-  // Its MOE allows for a reflection, and says so.
+  // Its MOE allows for a reflection, and the label states it.
   EXPECT_EQ(study.design.quantities[2], known_quantity("moe_unmirrored_percent"));
 }
 
-TEST(MovedTopic, NamesWhatMovedFarAndNothingElse) {
+TEST(MovedTopic, FindsTheLandmarkThatMovedFarAndNoOther) {
   const TrialStudy study = small_study(kMovedTopic, {{"distances_m", {0.0, 0.3}},
                                                      {"noises", {0.02}},
                                                      {"reach_m", {1.2}},

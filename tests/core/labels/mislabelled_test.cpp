@@ -10,7 +10,7 @@
 namespace mapproof::test {
 namespace {
 
-TEST(LabelCheck, NamesNothingInCleanScans) {
+TEST(LabelCheck, FindsNothingInCleanScans) {
   for (std::uint64_t seed = 1; seed <= 5; ++seed) {
     const LabelCheck check = check_labels(noisy_scans(600, seed));
     EXPECT_TRUE(check.findings.empty()) << seed;
@@ -18,7 +18,7 @@ TEST(LabelCheck, NamesNothingInCleanScans) {
   }
 }
 
-TEST(LabelCheck, FindsTwoLabelsSwappedFromSomeStepOn) {
+TEST(LabelCheck, FindsAnIdSwapFromSomeStepOn) {
   const DetectionLog clean = noisy_scans(600, 1);
   for (const auto& [a, b] :
        {std::pair(0, 14), std::pair(2, 7), std::pair(6, 7), std::pair(3, 11)}) {
@@ -52,7 +52,7 @@ TEST(LabelCheck, FindsSwapsOfSeveralPairs) {
   EXPECT_LE(wrong_labels(check.repaired, clean), 8);
 }
 
-TEST(LabelCheck, FindsDetectionsUnderTheLabelOfAnother) {
+TEST(LabelCheck, FindsDetectionsUnderTheIdOfAnother) {
   const DetectionLog clean = noisy_scans(600, 4);
   for (const auto& [landmark, other] : {std::pair(13, 7), std::pair(0, 6)}) {
     const DetectionLog wrong = called(clean, landmark, other, [](int step) { return step < 150; });
@@ -65,7 +65,7 @@ TEST(LabelCheck, FindsDetectionsUnderTheLabelOfAnother) {
   }
 }
 
-TEST(LabelCheck, FindsLabelsSwappedInSingleScans) {
+TEST(LabelCheck, FindsIdSwapsInSingleScans) {
   const DetectionLog clean = noisy_scans(900, 8);
   for (const auto& [a, b] : {std::pair(0, 14), std::pair(3, 11)}) {
     const DetectionLog wrong = swapped(clean, a, b, [](int step) { return step % 5 < 2; });
@@ -90,7 +90,7 @@ TEST(LabelCheck, FindsALandmarkCalledByAnothersNameInSingleScans) {
 }
 
 TEST(LabelCheck, DoubtsScansThatFitNoMap) {
-  // Three landmarks take turns under each other's labels: no fault of two explains that.
+  // Three landmarks take turns under each other's IDs: no fault of two explains that.
   DetectionLog wrong = noisy_scans(600, 10);
   for (Detection& seen : wrong.detections)
     if (seen.landmark < 9 && seen.step % 2 == 0) seen.landmark = (seen.landmark + 3) % 9;
@@ -102,12 +102,12 @@ TEST(LabelCheck, DoubtsScansThatFitNoMap) {
   EXPECT_FALSE(check.doubts.landmarks.empty());
 }
 
-TEST(LabelCheck, CannotKnowOfASwapInAllDetections) {
+TEST(LabelCheck, CannotDetectASwapInAllDetections) {
   const DetectionLog renamed = swapped(noisy_scans(600, 5), 3, 10, [](int) { return true; });
   EXPECT_TRUE(check_labels(renamed).findings.empty());
 }
 
-TEST(LabelCheck, NamesTheFewerDetectionsOfASwap) {
+TEST(LabelCheck, ReportsTheFewerDetectionsOfASwap) {
   const DetectionLog clean = noisy_scans(600, 6);
   const LabelCheck check = check_labels(swapped(clean, 2, 12, [](int step) { return step < 450; }));
   ASSERT_EQ(check.findings.size(), 1U);
@@ -115,7 +115,7 @@ TEST(LabelCheck, NamesTheFewerDetectionsOfASwap) {
   EXPECT_TRUE(check.findings.front().to_the_end);
 }
 
-TEST(LabelCheck, TellsOneRobotsScansFromTheOthers) {
+TEST(LabelCheck, DistinguishesOneRobotsScansFromTheOthers) {
   DetectionLog log = noisy_scans(900, 7);
   for (int step = 0; step < log.steps; ++step) log.times_s.push_back(step % 300);
   const DetectionLog wrong = swapped(log, 6, 8, [](int step) { return step >= 300 && step < 600; });
@@ -125,7 +125,7 @@ TEST(LabelCheck, TellsOneRobotsScansFromTheOthers) {
   EXPECT_LE(wrong_labels(check.repaired, log), 4);
 }
 
-TEST(LabelCheck, TakesALogWithoutAnyPair) {
+TEST(LabelCheck, AcceptsALogWithoutAnyPair) {
   EXPECT_TRUE(check_labels({}).findings.empty());
   DetectionLog lonely{{"A", "B"}, {{0, 0, 1.0, 0.0}, {1, 1, 2.0, 0.0}}, 2, {}};
   EXPECT_TRUE(check_labels(lonely).findings.empty());

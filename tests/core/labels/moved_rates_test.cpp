@@ -1,5 +1,5 @@
-// Slow: how often a landmark that stands still is said to have moved, and how often one that moved
-// is named. Prints what docs/methods/measurements.md says of it.
+// Slow: how often a landmark that stands still is reported as moved, and how often one that moved
+// is found. Prints the numbers of docs/methods/measurements.md.
 #include <algorithm>
 #include <cmath>
 #include <iostream>
@@ -20,12 +20,12 @@ constexpr int kScans = 3000;
 constexpr int kStill = 200;  ///< Logs in which nothing moves.
 constexpr int kMoves = 50;   ///< Logs of each length of move.
 
-/// How a robot's sensor errs.
+/// The errors of a robot's sensor.
 struct SensorErrors {
   const char* name;
-  double measurement_share = 0.02;  ///< Of a range, each detection anew.
-  double common_share = 0.0;        ///< Of all ranges of some 100 looks alike.
-  double bearing_rad = 0.0175;      ///< Each detection anew.
+  double measurement_share = 0.02;  ///< Of a range, independent for each detection.
+  double common_share = 0.0;        ///< Of all ranges of some 100 scans alike.
+  double bearing_rad = 0.0175;      ///< Independent for each detection.
 };
 
 /// A move of one landmark from a scan on; none: of no length.
@@ -35,8 +35,8 @@ struct Move {
   Eigen::RowVector2d by_m = Eigen::RowVector2d::Zero();
 };
 
-/// A robot that drives straight from one random place to the next, .1 m a scan, and sees what is
-/// within 5 m and 35 degrees of its heading.
+/// A robot that drives straight from one random position to the next, .1 m per scan, and sees
+/// landmarks within 5 m and 35 degrees of its heading.
 DetectionLog driven_scans(const SensorErrors& errors, const Move& move, Random& random) {
   const Points landmarks = noisy_landmarks();
   const Eigen::RowVector2d low = landmarks.colwise().minCoeff();
@@ -74,7 +74,7 @@ DetectionLog driven_scans(const SensorErrors& errors, const Move& move, Random& 
 
 class MovedRates : public testing::TestWithParam<SensorErrors> {};
 
-TEST_P(MovedRates, FewStandStillAndAreNamed) {
+TEST_P(MovedRates, FewStandStillAndAreReported) {
   int named = 0;
   int named_at_any_length = 0;
   for (std::uint64_t k = 0; k < kStill; ++k) {
@@ -90,7 +90,7 @@ TEST_P(MovedRates, FewStandStillAndAreNamed) {
   EXPECT_LE(named, 0.05 * kStill + 3.0 * std::sqrt(0.05 * 0.95 * kStill));
 }
 
-TEST_P(MovedRates, MostThatMoveFarAreNamed) {
+TEST_P(MovedRates, MostThatMoveFarAreReported) {
   for (const double length : {0.1, 0.2, 0.5, 1.0, 2.0}) {
     int named = 0;
     int others = 0;

@@ -12,7 +12,7 @@
 namespace mapproof::test {
 namespace {
 
-TEST(FindMoved, NamesTheLandmarkAndTheTime) {
+TEST(FindMoved, FindsTheLandmarkAndTheTime) {
   const DetectionLog log = scans_with_move(800, 7, {0.3, -0.4}, 500);
   const MovedCheck check = find_moved(log);
   ASSERT_EQ(check.moved.size(), 1U);
@@ -34,7 +34,7 @@ TEST(FindMoved, SplitsTheLogAtTheMove) {
   EXPECT_EQ(early, 0);
 }
 
-TEST(FindMoved, NamesFewerThanItsLevelWhereNothingMoves) {
+TEST(FindMoved, ReportsFewerThanItsLevelWhereNothingMoves) {
   int alarms = 0;
   for (std::uint64_t seed = 1; seed <= 20; ++seed)
     alarms +=
@@ -68,7 +68,7 @@ std::vector<PlaceChange> hanging_slices(double rho, Random& random) {
 }
 
 TEST(BestGain, IsThatOfTwoMeans) {
-  // Asked for at 0 by three slices and at 3 by two: one place costs 3 * 2 / 5 * 9 / 2 more.
+  // Asked for at 0 by three slices and at 3 by two: one position costs 3 * 2 / 5 * 9 / 2 more.
   std::vector<ShiftSlice> slices(5, {Eigen::Matrix2d::Identity(), {0.0, 0.0}});
   slices[3].g.x() = slices[4].g.x() = 3.0;
   EXPECT_NEAR(best_gain(slices), 5.4, 1e-6);
@@ -90,14 +90,14 @@ TEST(ChanceOf, IsSmallForAFarMoveWhateverTheInflation) {
   EXPECT_DOUBLE_EQ(chance_of(change, {1999, 1, 4.0}), 1.0 / 2000.0);
 }
 
-TEST(Inflation, GrowsWithErrorsThatHangTogether) {
+TEST(Inflation, GrowsWithCorrelatedErrors) {
   double before = 0.0;
   for (const double rho : {0.0, 0.3, 0.6}) {
     Random random(17);
     double mean = 0.0;
     for (std::uint64_t k = 0; k < 50; ++k) mean += inflation(hanging_slices(rho, random), k) / 50.0;
     EXPECT_GT(mean, before + 0.1);
-    // Sums of what hangs together vary by (1 + rho) / (1 - rho) of what those of the rest do.
+    // Sums of correlated errors vary by (1 + rho) / (1 - rho) of what independent ones do.
     EXPECT_LT(mean, 1.3 * (1.0 + rho) / (1.0 - rho));
     before = mean;
   }

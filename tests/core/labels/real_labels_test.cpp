@@ -37,13 +37,13 @@ TEST_P(RealLabels, SwappedInTheSecondHalfAreNamedAndCorrected) {
     EXPECT_EQ(check.findings[0].first, a);
     EXPECT_EQ(check.findings[0].second, b);
     EXPECT_LT(check.loss_after_m, 0.75 * check.loss_before_m);
-    // Which half bears the right names the survey alone can tell.
+    // Which half has the right names is determined by the survey alone.
     const DetectionLog corrected = check_anchor_labels(check.repaired, *source_.truth_m).repaired;
     EXPECT_LT(wrong_labels(corrected, log()), spoilt / 10);
   }
 }
 
-TEST_P(RealLabels, AsTheyAreRaiseNoDoubt) {
+TEST_P(RealLabels, RaiseNoDoubtAsTheyAre) {
   const LabelCheck check = check_labels(log());
   EXPECT_TRUE(check.findings.empty());
   EXPECT_FALSE(check.doubts.grave());
@@ -88,12 +88,12 @@ TEST_P(RealLabels, OfALandmarkThatIsNeverCalledByItsOwnNameAreFound) {
     EXPECT_EQ(shared->label, b);
     const DetectionLog split = split_label(wrong, *shared, a);
     const DetectionLog corrected = check_anchor_labels(split, *source_.truth_m).repaired;
-    // Without its own name a landmark is in no map: its place is gained as well.
+    // Without its own name a landmark is in no map: its position is gained as well.
     const double error_m = map_error_m(corrected, *source_.truth_m);
     errors_m.push_back(error_m);
   }
   std::ranges::sort(errors_m);
-  EXPECT_LT(errors_m[1], 0.3);  // Of three faults; one may leave too little to tell.
+  EXPECT_LT(errors_m[1], 0.3);  // Of three faults; one may leave too little evidence.
 }
 
 TEST_P(RealLabels, AreNotExchangedByTheSurvey) {

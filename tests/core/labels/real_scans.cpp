@@ -16,7 +16,7 @@
 namespace mapproof::test {
 namespace {
 
-/// The log without detections of one landmark in scans that another is in too: under one label both
+/// The log without detections of one landmark in scans that another is in too: under one ID both
 /// are one.
 DetectionLog without(DetectionLog log, int landmark, int other,
                      const std::function<bool(int)>& in_step) {

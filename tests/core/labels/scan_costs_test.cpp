@@ -27,11 +27,11 @@ TEST(ScanCosts, ARangeThatIsShortDoesNotMakeTheBearingWrong) {
   EXPECT_TRUE(costs.has_pose());
   // Along the ray alone: huber(2).
   EXPECT_NEAR(costs(3, 3), huber_cost(2.0, 0.2), 1e-12);
-  // E is 1.5 m beside the ray, and at that range: huber(1.5).
+  // E is 1.5 m off the ray, and at that range: huber(1.5).
   EXPECT_NEAR(costs(3, 4), huber_cost(1.5, 0.2), 1e-12);
 }
 
-TEST(ScanCosts, ADetectionAloneTellsNothing) {
+TEST(ScanCosts, ADetectionAloneHasNoEvidence) {
   const ShortRange one;
   const LabelledScans scans = labelled_scans(one.log, 10);
   ScanCosts costs(scans, one.map_m, 0.2);
@@ -40,7 +40,7 @@ TEST(ScanCosts, ADetectionAloneTellsNothing) {
   EXPECT_EQ(costs(3, 4), 0.0);
 }
 
-TEST(TurnedAsSeen, MirrorsAMapThatTurnsTheOtherWayRound) {
+TEST(TurnedAsSeen, ReflectsAMapOfTheOppositeOrientation) {
   const ShortRange one;
   const LabelledScans scans = labelled_scans(one.log, 10);
   Points mirrored = one.map_m;

@@ -31,7 +31,7 @@ TEST(SharedLabel, SplitGivesTheMapOfBoth) {
   ASSERT_TRUE(shared.has_value());
   const DetectionLog split = split_label(wrong, *shared, 7);
   Points map = pair_map_of(split).embedding.coordinates;
-  // Which of both places is whose the scans do not say.
+  // The scans do not determine which of both positions is whose.
   Points other = map;
   other.row(2).swap(other.row(7));
   EXPECT_LT(
@@ -39,7 +39,7 @@ TEST(SharedLabel, SplitGivesTheMapOfBoth) {
       0.15);
 }
 
-TEST(SharedLabel, IsNoneWhereEachLabelIsOneLandmarks) {
+TEST(SharedLabel, IsNoneWhereEachIdIsOneLandmarks) {
   for (const std::uint64_t seed : {1, 2, 3, 4, 5})
     EXPECT_FALSE(shared_label(noisy_scans(1500, seed)).has_value());
 }

@@ -38,7 +38,7 @@ TEST(Cholesky, FactorsAsEigenDoesAndLeavesTheOtherHalfAlone) {
   }
 }
 
-TEST(Cholesky, FactorsABlockOfAMatrixAndNothingBeside) {
+TEST(Cholesky, FactorsABlockOfAMatrixAndNothingElse) {
   Eigen::MatrixXd whole = random_matrix(140, 140, 3);
   const Eigen::MatrixXd before = whole;
   const Eigen::MatrixXd A = positive(110);

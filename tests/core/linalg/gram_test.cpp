@@ -16,7 +16,8 @@ Eigen::MatrixXd noise(Eigen::Index rows, Eigen::Index columns) {
       rows, columns, [&](Eigen::Index, Eigen::Index) { return random.uniform() - 0.5; });
 }
 
-/// One entry, summed as the header says: in order, over blocks of 256 columns, by fused additions.
+/// One entry, summed as the header states: in order, over blocks of 256 columns, by fused
+/// additions.
 double plain(const Eigen::MatrixXd& X, Eigen::Index i, Eigen::Index j) {
   double total = 0.0;
   for (Eigen::Index first = 0; first < X.cols(); first += 256) {
@@ -37,7 +38,7 @@ TEST(Gram, HasTheBitsOfAPlainLoopWhateverTheProcessor) {
   }
 }
 
-TEST(Gram, OfNothingIsNothing) {
+TEST(Gram, OfAnEmptyMatrixIsEmpty) {
   EXPECT_EQ(gram(Eigen::MatrixXd(0, 0)).size(), 0);
   EXPECT_TRUE(gram(Eigen::MatrixXd(3, 0)).isZero());
 }

@@ -33,7 +33,7 @@ TEST(LargestEigenpairs, FindBothCopiesOfADoubleEigenvalue) {
   }
 }
 
-TEST(LargestEigenpairs, RefuseWhatIsNoMatrix) {
+TEST(LargestEigenpairs, RefuseInvalidMatrices) {
   EXPECT_THROW(largest_eigenpairs(Eigen::MatrixXd::Zero(2, 3), 1), InvalidInput);
   EXPECT_THROW(largest_eigenpairs(Eigen::MatrixXd::Zero(2, 2), 3), InvalidInput);
   EXPECT_THROW(largest_eigenpairs(Eigen::MatrixXd::Constant(2, 2, NAN), 1), InvalidInput);

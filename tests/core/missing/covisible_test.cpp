@@ -57,7 +57,7 @@ TEST(Covisible, RelativeStressOfACompleteGraphFindsThePointsAgain) {
   EXPECT_LT(test::procrustes_gap(points, relative_stress_map(data).coordinates), 1e-6);
 }
 
-TEST(Covisible, SaysThatPiecesGiveNoMap) {
+TEST(Covisible, FailsWhereThePairsDoNotConnect) {
   Proximities data;
   data.squared_distances = Eigen::MatrixXd::Constant(6, 6, HUGE_VAL);
   for (Eigen::Index i = 0; i < 6; ++i)

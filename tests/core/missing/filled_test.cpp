@@ -33,7 +33,7 @@ double mpe_of(const Proximities& data, const test::WalkedRoom& room) {
       .mpe_m;
 }
 
-TEST(Filled, WithoutGapsIsWhatProximitiesSay) {
+TEST(Filled, WithoutMissingDataEqualsProximities) {
   const test::WalkedRoom room = test::walked_room(1, 50, 12);
   for (const Sensor sensor : {Sensor::kVisibility, Sensor::kBearing, Sensor::kRange}) {
     const ObservationHistory history = observed_in(room, sensor, 0.0);
@@ -94,7 +94,7 @@ TEST(Filled, HalfOfTheBearingsGiveAsGoodAMapAsAllOfThemButNotByTheirMeans) {
   EXPECT_GT(by_means, 2.0 * whole);
 }
 
-TEST(Filled, HasNoGapLeftWhereLandmarksWereHardlySeen) {
+TEST(Filled, IsCompleteWhereLandmarksWereHardlySeen) {
   const test::WalkedRoom room = test::walked_room(4, 40, 10);
   for (const Sensor sensor : {Sensor::kVisibility, Sensor::kBearing, Sensor::kRange}) {
     ObservationHistory history = observed_in(room, sensor, 0.9);

@@ -37,7 +37,7 @@ GapWay way_of(const ObservationHistory& history) {
   return advised_way(gap_pattern(history, history.steps()), history.sensor).way;
 }
 
-TEST(GapPattern, IsThatOfChanceWhereEntriesAreMissingAtRandom) {
+TEST(GapPattern, IsRandomWhereEntriesAreMissingAtRandom) {
   const GapPattern pattern = gap_pattern(Gapped(Sensor::kBearing).at_random(0.4), 1000);
   EXPECT_NEAR(pattern.missing_share, 0.4, 1e-9);
   EXPECT_NEAR(pattern.dispersion, 1.0, 0.1);
@@ -45,7 +45,7 @@ TEST(GapPattern, IsThatOfChanceWhereEntriesAreMissingAtRandom) {
   EXPECT_EQ(pattern.few_share, 0.0);
 }
 
-TEST(GapPattern, TellsASensorOfShortRangeByNearnessAndPairsApart) {
+TEST(GapPattern, RecognisesASensorOfShortRangeByNearnessAndPairsApart) {
   const GapPattern pattern = gap_pattern(Gapped(Sensor::kBearing).out_of_range(0.85), 1000);
   EXPECT_GT(pattern.dispersion, 5.0);
   EXPECT_LT(pattern.nearness, -0.6);
@@ -53,18 +53,18 @@ TEST(GapPattern, TellsASensorOfShortRangeByNearnessAndPairsApart) {
   EXPECT_LE(pattern.apart_share, pattern.few_share);
 }
 
-TEST(GapPattern, IsNothingWithoutGaps) {
+TEST(GapPattern, IsEmptyWithoutMissingData) {
   const GapPattern pattern = gap_pattern(Gapped(Sensor::kRange).whole, 500);
   EXPECT_EQ(pattern.missing_share, 0.0);
   EXPECT_EQ(pattern.dispersion, 0.0);
 }
 
-TEST(GapAdvice, IsWhatMadeTheBestMapsOfEachKindOfGap) {
+TEST(GapAdvice, IsTheBestStrategyForEachPatternOfMissingData) {
   const Gapped bearing(Sensor::kBearing);
   EXPECT_EQ(way_of(bearing.whole), GapWay::kCommonSteps);
   for (const double share : {0.1, 0.3, 0.5, 0.7}) {
     EXPECT_EQ(way_of(bearing.at_random(share)), GapWay::kPpca) << share;
-    // A tenth out of range is not told from hidden ones, and matters little.
+    // A tenth out of range is not distinguished from hidden ones, and matters little.
     if (share > 0.1) {
       EXPECT_EQ(way_of(bearing.out_of_range(share)), GapWay::kCommonSteps) << share;
     }

@@ -16,7 +16,7 @@ ObservationHistory bearings_of(const test::WalkedRoom& room) {
   return observe(room.world, room.path, {.sensor = Sensor::kBearing}, random);
 }
 
-TEST(Gaps, TakeTheShareThatIsAskedForAndLeaveTheRest) {
+TEST(Gaps, RemoveTheRequestedShareAndLeaveTheRest) {
   const test::WalkedRoom room = test::walked_room(1, 60, 20);
   const ObservationHistory history = bearings_of(room);
   Random random(2);

@@ -65,7 +65,7 @@ TEST(MissingTopic, TriesEverySeriesAndConcludesWithNumbers) {
                              .with_maps = true};
   study.parts.push_back(kMissingTopic.make(context));
   const TrialPart& part = study.parts.front();
-  // Covisible pairs are not tried at the two levels of gaps at random.
+  // Covisible pairs are not tried at the two levels of data missing at random.
   EXPECT_EQ(part.trials.size(), 4 * study.design.series.size() - 2);
   for (const Trial& trial : part.trials) {
     EXPECT_EQ(trial.values.size(), study.design.quantities.size());

@@ -56,7 +56,7 @@ TEST(Ppca, OfCompleteDataIsTheClosedFormSolution) {
   EXPECT_LT((fitted.model.mean - matrix.values.rowwise().mean()).norm(), 1e-6);
 }
 
-TEST(Ppca, GetsToTheClosedFormFromAStartThatGapsHaveSpoilt) {
+TEST(Ppca, ConvergesToTheClosedFormFromAStartSpoiltByMissingData) {
   // A column more, of which almost nothing was observed, moves the start away from the solution
   // and the solution hardly at all.
   Features matrix = test::gappy_matrix(6, 400, 2, 0.5, 0.0, 2);
@@ -71,7 +71,7 @@ TEST(Ppca, GetsToTheClosedFormFromAStartThatGapsHaveSpoilt) {
   EXPECT_LT((covariance_of(fitted.model) - expected).norm(), 1e-4 * expected.norm());
 }
 
-TEST(Ppca, TellsTheLikelihoodThatBruteForceFindsAndNeverLowersIt) {
+TEST(Ppca, HasTheLikelihoodOfBruteForceAndNeverReducesIt) {
   const Features matrix = test::gappy_matrix(8, 60, 3, 0.4, 0.4, 3);
   PpcaOptions options{.dimensions = 3, .least_rise = 1e-10, .max_iterations = 2000};
   const Ppca fitted = ppca(matrix, options);
@@ -129,7 +129,7 @@ TEST(Ppca, FollowsAPermutationOfItsRows) {
   EXPECT_LT((covariance(order, order) - other).norm(), 1e-4 * other.norm());
 }
 
-TEST(Ppca, SaysThatItWasStopped) {
+TEST(Ppca, ReportsThatItWasStopped) {
   const Features matrix = test::gappy_matrix(8, 60, 3, 0.4, 0.4, 3);
   const Ppca fitted = ppca(matrix, {.dimensions = 3, .least_rise = 0.0, .max_iterations = 1});
   ASSERT_EQ(fitted.statuses.size(), 1U);

@@ -63,7 +63,7 @@ TEST(RegularisedPca, StaysFiniteOfDataThatAreAllZero) {
   EXPECT_TRUE(fitted.model.mean.allFinite());
 }
 
-TEST(RegularisedPca, RefusesAPenaltyThatIsNone) {
+TEST(RegularisedPca, RefusesAPenaltyOfZero) {
   const Features matrix = test::gappy_matrix(5, 30, 1, 0.1, 0.3, 5);
   EXPECT_THROW(regularised_pca(matrix, {.dimensions = 2, .penalty_share = 0.0}), InvalidInput);
   EXPECT_THROW(regularised_pca(matrix, {.dimensions = 5}), InvalidInput);

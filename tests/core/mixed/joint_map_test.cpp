@@ -25,7 +25,7 @@ Points shaken(const Points& points, double by, std::uint64_t seed) {
 }
 
 TEST(JointMap, IsThatOfTheDistancesHoweverEachSensorBendsThem) {
-  // Monotone functions of the same distances: their order alone fixes the map nearly.
+  // Monotone functions of the same distances: their order alone nearly determines the map.
   const Points truth = test::scattered(30, 6);
   const Eigen::MatrixXd D = test::distances_of(truth);
   const Eigen::MatrixXd bent = D.array().square() + 0.3 * D.array();
@@ -35,14 +35,14 @@ TEST(JointMap, IsThatOfTheDistancesHoweverEachSensorBendsThem) {
   EXPECT_NEAR(joint.shares[0] + joint.shares[1], 1.0, 1e-12);
 }
 
-TEST(JointMap, HearsASensorOfNoiseLess) {
+TEST(JointMap, GivesANoisySensorLessWeight) {
   const Points truth = test::scattered(30, 7);
   const Eigen::MatrixXd D = test::distances_of(truth);
   const Eigen::MatrixXd noise = test::distances_of(test::scattered(30, 99));
   EXPECT_GT(joint_map({D, noise}, shaken(truth, 0.02, 2)).shares[0], 0.9);
 }
 
-TEST(JointMap, DoesNotHangOnTheOrderOfTheLandmarks) {
+TEST(JointMap, DoesNotDependOnTheOrderOfTheLandmarks) {
   const Points truth = test::scattered(20, 8);
   const Eigen::MatrixXd D = test::distances_of(truth);
   const Points start = shaken(truth, 0.05, 3);

@@ -29,7 +29,7 @@ TEST(Reliability, FallsWithNoise) {
   EXPECT_GE(noisy, 0.0);
 }
 
-TEST(Reliability, IsNoneOfNothing) {
+TEST(Reliability, IsZeroWithoutObservations) {
   ObservationHistory nothing{Sensor::kRange, {"a", "b", "c"}, {}};
   nothing.values.setConstant(3, 10, NAN);
   EXPECT_EQ(reliability(nothing, 10), 0.0);

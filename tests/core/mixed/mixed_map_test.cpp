@@ -41,7 +41,7 @@ TEST(MixedMap, IsThatOfTheSensorWithoutNoiseWhateverTheMethodThatItBeginsFrom) {
   }
 }
 
-TEST(MixedMap, DoesNotHangOnTheOrderOfTheSensors) {
+TEST(MixedMap, DoesNotDependOnTheOrderOfTheSensors) {
   const TwoSensors seen;
   const MethodSetting setting{Method::kSmacofKnn, 6.0};
   const Points once = mixed_map(seen.histories, 0, setting).joint.coordinates;
@@ -50,7 +50,7 @@ TEST(MixedMap, DoesNotHangOnTheOrderOfTheSensors) {
   EXPECT_LT(test::procrustes_gap(once, again), 1e-6);
 }
 
-TEST(MixedMap, PlacesALandmarkThatOneSensorAloneKnows) {
+TEST(MixedMap, MapsALandmarkThatOneSensorAloneKnows) {
   TwoSensors seen;
   seen.histories[1].values.row(7).setConstant(std::nan(""));
   const MixedMap map = mixed_map(seen.histories, 0, {Method::kSmacofKnn, 6.0});
@@ -59,7 +59,7 @@ TEST(MixedMap, PlacesALandmarkThatOneSensorAloneKnows) {
   EXPECT_FALSE(std::isfinite(map.sensors[1].distances(7, 3)));
 }
 
-TEST(MixedMap, LeavesOutWhatNoSensorSawAndSaysSo) {
+TEST(MixedMap, LeavesOutAndReportsWhatNoSensorSaw) {
   TwoSensors seen;
   for (ObservationHistory& history : seen.histories)
     history.values.row(2).setConstant(std::nan(""));

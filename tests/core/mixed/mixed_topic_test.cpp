@@ -36,11 +36,12 @@ TEST(MixedTopic, MapsEverySensorAndEveryMixAtEveryLevel) {
                                    .seed = 5,
                                    .data = {},
                                    .with_maps = true})};
-  // 2 sensors in two ways and 3 mixes at 4 levels, 3 sensors in two ways and 3 mixes at 2.
+  // 2 sensors with two methods and 3 mixes at 4 levels, 3 sensors with two methods and 3 mixes at
+  // 2.
   ASSERT_EQ(study.parts[0].trials.size(), 46U);
   for (const Trial& trial : study.parts[0].trials) EXPECT_GT(trial.values.at("mpe_m"), 0.0);
   const std::vector<std::string> sentences = conclusions_of(study);
-  // Of each setup what mixing gains, then what choosing by the neighbourhoods costs.
+  // Of each setup the gain of mixing, then the cost of choosing by the neighbourhoods.
   ASSERT_EQ(sentences.size(), 6U);
   for (const char* part :
        {"at noise of bearings 0\u00B0, ", "at noise of bearings 20\u00B0, ", "in one layout"})

@@ -15,7 +15,7 @@
 namespace mapproof {
 namespace {
 
-/// A set of the real data with the most that its map may be off.
+/// A set of the real data with the largest error of its map that passes.
 struct RealSet {
   const char* name;
   double most_m;  ///< Mean over the landmarks that are not anchors.
@@ -23,7 +23,7 @@ struct RealSet {
 
 class MrclamPairs : public testing::TestWithParam<RealSet> {};
 
-/// MPE of the map that scans come to, in the frame of the anchors.
+/// MPE of the map of the scans, in the frame of the anchors.
 double mpe_m(const DetectionLog& log, const Points& truth_m) {
   const std::vector<Eigen::Index> anchors = diagonal_anchors(truth_m);
   const AffineFit fit = AffineFit::kLeastDistances;
@@ -32,7 +32,7 @@ double mpe_m(const DetectionLog& log, const Points& truth_m) {
   return score_map(map.positions_m, truth_m, anchors, fit).value().mpe_m;
 }
 
-/// The log with so many detections of one landmark, spread evenly, called by another's name.
+/// The log with so many detections of one landmark, spread evenly, under another's name.
 DetectionLog misnamed(DetectionLog log, const std::string& from, const std::string& to, int count) {
   const auto row = [&](const std::string& name) {
     return static_cast<int>(std::ranges::find(log.names, name) - log.names.begin());

@@ -84,7 +84,7 @@ TEST(MrclamTopic, PairsOfPerfectRobotsGiveThePerfectMap) {
   EXPECT_LT(pairs.values.at("mpe_m"), 1e-8);
   EXPECT_LT(pairs.values.at("rigid_m"), 1e-8);
   EXPECT_EQ(pairs.values.at("mapped"), 9.0);
-  // Labels made wrong have scores and no maps of their own.
+  // Scans with wrong landmark IDs have scores and no maps of their own.
   ASSERT_EQ(part.maps.size() + 4, design.series.size());
   ASSERT_TRUE(part.maps.back().certainty);
   EXPECT_EQ(part.maps.back().certainty->covariances.size(), 9U);
@@ -93,7 +93,7 @@ TEST(MrclamTopic, PairsOfPerfectRobotsGiveThePerfectMap) {
   EXPECT_GE(trial(part, "swapped-corrected").values.at("faults"), 1.0);
   EXPECT_LT(trial(part, "misnamed-corrected").values.at("rigid_m"), 1e-6);
   EXPECT_FALSE(part.maps.back().pairs.empty());
-  // What does not apply to a way is not a result of it that was lost.
+  // A quantity that does not apply to a strategy is not a lost result.
   for (const Trial& one : part.trials)
     for (const auto& [quantity, value] : one.values)
       EXPECT_FALSE(std::isnan(value)) << one.series << ", " << quantity;
@@ -101,7 +101,7 @@ TEST(MrclamTopic, PairsOfPerfectRobotsGiveThePerfectMap) {
   EXPECT_FALSE(trial(part, "swapped").values.contains("faults"));
 }
 
-TEST(MrclamTopic, WithoutATruthThereAreMapsAndNoErrors) {
+TEST(MrclamTopic, WithoutGroundTruthThereAreMapsAndNoErrors) {
   const test::TemporaryFolder folder;
   write_set(folder, "set", false);
   const TrialPart part = made(experiment(), kMrclamTopic.data_sets(folder.path()).at(0));
@@ -116,7 +116,7 @@ TEST(MrclamTopic, WithoutATruthThereAreMapsAndNoErrors) {
   EXPECT_EQ(conclusions_of(study).size(), 1U);
 }
 
-TEST(MrclamTopic, ASetThatCannotBeReadIsSaidToBeSo) {
+TEST(MrclamTopic, ReportsASetThatCannotBeRead) {
   const test::TemporaryFolder folder;
   write_set(folder, "set", true);
   folder.file("set/Robot1_Measurement.dat", "1 2\n");

@@ -15,14 +15,14 @@
 namespace mapproof {
 namespace {
 
-/// One look at A and B.
+/// One scan of A and B.
 DetectionLog one_scan(Detection a, Detection b) {
   a.landmark = 0;
   b.landmark = 1;
   return {.names = {"A", "B"}, .detections = {a, b}, .steps = 1, .times_s = {}};
 }
 
-/// Looks at A and B that measure these distances, B straight behind A.
+/// Scans of A and B that measure these distances, B straight behind A.
 DetectionLog scans_of(const std::vector<double>& distances) {
   DetectionLog log{.names = {"A", "B"}, .detections = {}, .steps = 0, .times_s = {}};
   for (const double distance : distances) {
@@ -43,7 +43,7 @@ TEST(PairDistances, ThreeAndFourAtARightAngleAreFive) {
   EXPECT_EQ(pairs[0].scans, 1);
 }
 
-TEST(PairDistances, ATurnOfTheRobotBeyondThePoleChangesNothing) {
+TEST(PairDistances, AHeadingChangeBeyondThePoleChangesNothing) {
   const auto pairs = measured_pairs(
       one_scan({.range_m = 3, .bearing_rad = 3.1}, {.range_m = 3, .bearing_rad = -3.1}));
   EXPECT_NEAR(pairs.at(0).distance_m, 6.0 * std::sin(std::numbers::pi - 3.1), 1e-14);
@@ -92,7 +92,7 @@ TEST(PairDistances, AreTheMedianOfTheirScans) {
   EXPECT_NEAR(measured_pairs(scans_of({2.0, 2.1, 77.0})).at(0).distance_m, 2.1, 1e-13);
 }
 
-TEST(PairDistances, ArePreciseAsTheirScatterAndNumberOfScansSay) {
+TEST(PairDistances, HaveThePrecisionOfTheirScatterAndNumberOfScans) {
   // Scatter 1.4826 * 0.1, in the pair's own scans and in the median pair's, which it is.
   const PairNoise noise{.relative = 0.02, .floor = 0.01};
   const double variance =
@@ -109,7 +109,7 @@ TEST(PairDistances, ManyScansOfAPairAreTakenFromAllOverTheLog) {
   EXPECT_NEAR(pairs[0].distance_m, 3.0, 1e-13);
 }
 
-TEST(PairDistances, RefuseWhatIsNoLog) {
+TEST(PairDistances, RefuseWhatIsNotALog) {
   DetectionLog log = scans_of({1.0, 2.0});
   std::swap(log.detections.front(), log.detections.back());
   EXPECT_THROW(measured_pairs(log), InvalidInput);

@@ -35,7 +35,7 @@ TEST(PairMap, DetectionsWithoutNoiseGiveTheMapToANanometre) {
   }
 }
 
-TEST(PairMap, TurnsTheWayRoundThatTheScansShow) {
+TEST(PairMap, HasTheOrientationThatTheScansShow) {
   const Points landmarks = scattered(12, 4);
   const DetectionLog log = scans_at(landmarks, 300, 4, 4);
   EXPECT_FALSE(seen_mirrored(log, landmarks));
@@ -88,7 +88,7 @@ TEST(PairMap, AFewWrongNamesHardlyMoveTheMap) {
   EXPECT_LT(procrustes_gap(landmarks, pair_map_of(log).embedding.coordinates), 0.02);
 }
 
-TEST(PairMap, APairThatFitsNothingIsPassedOver) {
+TEST(PairMap, APairThatFitsNothingIsIgnored) {
   const Points landmarks = scattered(9, 10);
   const DetectionLog log = scans_at(landmarks, 400, 5, 10);
   std::vector<MeasuredPair> pairs = measured_pairs(log);
@@ -100,7 +100,7 @@ TEST(PairMap, APairThatFitsNothingIsPassedOver) {
   EXPECT_LT(map.pairs[3].precision, 2e-5 * pairs[3].precision);
 }
 
-TEST(Triangles, SpeakAgainstThePairThatIsWrongAlone) {
+TEST(Triangles, ContradictOnlyTheWrongPair) {
   const Points landmarks = scattered(9, 10);
   std::vector<MeasuredPair> pairs = measured_pairs(scans_at(landmarks, 400, 5, 10));
   EXPECT_EQ(std::ranges::count(against_triangles(pairs, 9), true), 0);
@@ -110,7 +110,7 @@ TEST(Triangles, SpeakAgainstThePairThatIsWrongAlone) {
   EXPECT_EQ(std::ranges::count(against, true), 1);
 }
 
-TEST(PairMap, ALandmarkSeenAloneIsNamedAndLeftOut) {
+TEST(PairMap, ALandmarkSeenAloneIsReportedAndLeftOut) {
   const Points landmarks = scattered(8, 11);
   DetectionLog log = scans_at(landmarks, 300, 4, 11);
   log.names.push_back("Alone");
@@ -164,7 +164,7 @@ TEST(PairMap, NothingMeasuredIsAStatus) {
   EXPECT_TRUE(map.coordinates.array().isNaN().all());
 }
 
-TEST(PairMap, RefusesWhatAreNoPairs) {
+TEST(PairMap, RefusesWhatAreNotPairs) {
   const std::vector<std::string> names = {"A", "B", "C"};
   EXPECT_THROW(pair_map({{.first = 1, .second = 1}}, names), InvalidInput);
   EXPECT_THROW(pair_map({{.first = 0, .second = 3}}, names), InvalidInput);

@@ -27,7 +27,7 @@ TEST(PairedChange, OfFewPairsIsStudentsT) {
   EXPECT_NEAR(change.low, 3.0 - 1.963243, 1e-5);
 }
 
-TEST(PairedChange, OfManyPairsIsTheMedianOfWalshAveragesAndOneWildPairDoesNotMoveIt) {
+TEST(PairedChange, OfManyPairsIsTheMedianOfWalshAveragesAndOneOutlierDoesNotMoveIt) {
   std::vector<double> differences;
   for (int i = 0; i < 25; ++i) differences.push_back(1.0 + 0.01 * i);
   const PairedChange clean = paired_change(differences);
@@ -45,7 +45,7 @@ TEST(PairedChange, NothingChangedHasNoP) {
     EXPECT_EQ(paired_change(std::vector<double>(static_cast<std::size_t>(n), 0.0)).p, 1.0) << n;
 }
 
-TEST(PairedChange, IntervalsHoldTheTruthAsOftenAsTheySay) {
+TEST(PairedChange, IntervalsHaveTheirNominalCoverage) {
   for (const int n : {8, 25}) {
     int held = 0;
     for (std::uint64_t seed = 0; seed < 2000; ++seed) {
@@ -56,19 +56,19 @@ TEST(PairedChange, IntervalsHoldTheTruthAsOftenAsTheySay) {
   }
 }
 
-TEST(PairedChange, RefusesWhatIsNoDifference) {
+TEST(PairedChange, RefusesInvalidDifferences) {
   EXPECT_THROW(paired_change({}), InvalidInput);
   EXPECT_THROW(paired_change(std::vector{1.0, std::nan("")}), InvalidInput);
 }
 
-TEST(RobustNoise, IsTheStandardDeviationOfANormalAndHalfOfItMayBeWild) {
+TEST(RobustNoise, IsTheStandardDeviationOfANormalAndHalfOfItMayBeOutliers) {
   std::vector<double> values = noise(20'000, 7);
   EXPECT_NEAR(robust_noise(values).sigma, 1.0, 0.03);
   for (std::size_t i = 0; i < 1000; ++i) values[i] = 1e9;
   EXPECT_NEAR(robust_noise(values).sigma, 1.0, 0.1);
 }
 
-TEST(RobustNoise, LimitsOfFewValuesAreCrossedAboutAsSeldomAsAskedFor) {
+TEST(RobustNoise, LimitsOfFewValuesAreCrossedAboutAsSeldomAsRequested) {
   for (const int n : {5, 10, 20}) {
     int crossed = 0;
     for (std::uint64_t seed = 0; seed < 20'000; ++seed) {
@@ -101,19 +101,19 @@ TEST(ChangePoint, FindsWhereASlowDriftBegins) {
   EXPECT_NEAR(change.first, 30, 6);
 }
 
-TEST(ChangePoint, OneWildValueIsNoChange) {
+TEST(ChangePoint, OneOutlierIsNotAChange) {
   std::vector<double> values(30, 1.0);
   values[20] = 1e6;
   EXPECT_GT(rise_in(values).p, 0.5);
 }
 
-TEST(ChangePoint, AFallIsNoRise) {
+TEST(ChangePoint, AFallIsNotARise) {
   std::vector<double> values(30, 1.0);
   for (std::size_t i = 15; i < 30; ++i) values[i] = 0.0;
   EXPECT_EQ(rise_in(values).p, 1.0);
 }
 
-TEST(ChangePoint, FalseAlarmsAreNoMoreThanAskedFor) {
+TEST(ChangePoint, FalseAlarmsAreNoMoreThanRequested) {
   int alarms = 0;
   for (std::uint64_t seed = 0; seed < 4000; ++seed) alarms += rise_in(noise(30, seed)).p < 0.01;
   EXPECT_LE(alarms, 40);

@@ -54,7 +54,7 @@ TEST(Friedman, DependsOnTheOrderOfValuesAlone) {
   EXPECT_EQ(a.f_p, b.f_p);
 }
 
-TEST(Friedman, IsSureWhereAllUnitsAgree) {
+TEST(Friedman, IsCertainWhereAllUnitsAgree) {
   const FriedmanTest test = friedman(Eigen::RowVector3d(1, 2, 3).replicate(6, 1));
   EXPECT_NEAR(test.chi_square, 12.0, 1e-12);  // n (k - 1)
   EXPECT_EQ(test.f, std::numeric_limits<double>::infinity());

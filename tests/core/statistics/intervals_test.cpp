@@ -40,7 +40,7 @@ TEST(StudentT, TendsToTheNormalDistribution) {
   EXPECT_NEAR(student_t_quantile(0.975, 1e6), 1.959963984540054, 1e-5);
 }
 
-TEST(StudentT, RefusesWhatIsNoProbability) {
+TEST(StudentT, RefusesWhatIsNotAProbability) {
   EXPECT_THROW(student_t_quantile(0.0, 3), InvalidInput);
   EXPECT_THROW(student_t_quantile(1.0, 3), InvalidInput);
   EXPECT_THROW(student_t_quantile(std::nan(""), 3), InvalidInput);

@@ -79,7 +79,7 @@ TEST(SignedRank, OfDifferencesToOneSideHasFullEffectAndTheLeastP) {
   EXPECT_DOUBLE_EQ(test.p, least_signed_rank_p(6));
 }
 
-TEST(SignedRank, SaysNothingWithoutADifference) {
+TEST(SignedRank, FindsNothingWithoutADifference) {
   const SignedRankTest test = signed_rank_test(std::vector<double>(5, 0.0));
   EXPECT_EQ(test.p, 1.0);
   EXPECT_EQ(test.effect, 0.0);
@@ -98,7 +98,7 @@ TEST(Holm, CorrectsByHandAsInItsPaper) {
   EXPECT_DOUBLE_EQ(corrected[1], 0.06);  // Never below one that is smaller.
 }
 
-TEST(Holm, RefusesWhatIsNoProbability) {
+TEST(Holm, RefusesWhatIsNotAProbability) {
   EXPECT_THROW(holm(std::vector{0.5, 1.5}), InvalidInput);
   EXPECT_THROW(holm(std::vector{std::nan("")}), InvalidInput);
 }

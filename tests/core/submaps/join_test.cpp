@@ -14,7 +14,7 @@
 namespace mapproof {
 namespace {
 
-/// A change of frame at random, with a mirror image every other time.
+/// A random change of frame, with a reflection every other time.
 Points elsewhere(const Points& points, JoinKind kind, Random& random) {
   const double angle = random.uniform(0.0, 2.0 * std::numbers::pi);
   Eigen::Matrix2d linear;
@@ -56,7 +56,7 @@ TEST(Join, BringsPiecesOfAMapTogetherWhateverTheirFrames) {
     }
 }
 
-TEST(Join, LosesLittleToNoiseAndTellsOfItInTheResiduals) {
+TEST(Join, LosesLittleToNoiseAndShowsItInTheResiduals) {
   const Points points = test::scattered(120, 2);
   const JoinResult result = join_submaps(taken_apart(points, JoinKind::kSimilarity, 24, 0.005, 4),
                                          JoinKind::kSimilarity, 120);
@@ -84,7 +84,7 @@ TEST(Join, IsNotMovedByOneLandmarkThatASubmapHasWrong) {
   EXPECT_LT(gap(points(rows, Eigen::all), others(rows, Eigen::all), JoinKind::kSimilarity), 0.02);
 }
 
-TEST(Join, LeavesOutWhatSharesTooLittleAndSaysSo) {
+TEST(Join, LeavesOutAndReportsWhatSharesTooLittle) {
   const Points points = test::grid(4, 4);
   const auto part = [&](std::vector<Eigen::Index> rows) {
     return Submap{.landmarks = rows, .positions = points(rows, Eigen::all)};
@@ -101,7 +101,7 @@ TEST(Join, LeavesOutWhatSharesTooLittleAndSaysSo) {
   EXPECT_FALSE(result.joined.submaps[1].placed);
 }
 
-TEST(Join, RefusesMapsThatAreNone) {
+TEST(Join, RefusesWhatAreNotMaps) {
   EXPECT_THROW(join_submaps({}, JoinKind::kSimilarity, 4), InvalidInput);
   const Submap good{.landmarks = {0, 1, 2}, .positions = test::scattered(3, 1)};
   EXPECT_THROW(join_submaps({good}, JoinKind::kRigid, 4), InvalidInput);

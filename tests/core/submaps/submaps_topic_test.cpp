@@ -9,7 +9,7 @@
 namespace mapproof {
 namespace {
 
-TEST(SubmapsTopic, HoldsPartsAgainstTheWholeAndSaysWhichIsWorse) {
+TEST(SubmapsTopic, ComparesPartsWithTheWholeAndReportsWhichIsWorse) {
   TrialExperiment experiment;
   experiment.topic = kSubmapsTopic.name;
   for (const TrialOption& option : kSubmapsTopic.options)
@@ -31,9 +31,9 @@ TEST(SubmapsTopic, HoldsPartsAgainstTheWholeAndSaysWhichIsWorse) {
                                             .seed = 3,
                                             .data = {},
                                             .with_maps = false}));
-  // Its MOE allows for a reflection, and says so.
+  // Its MOE allows for a reflection, and the label states it.
   EXPECT_EQ(study.design.quantities[1], known_quantity("moe_unmirrored_percent"));
-  // Six series at each of four levels, and two more where there are gaps.
+  // Six series at each of four levels, and two more where data are missing.
   EXPECT_EQ(study.parts.front().trials.size(), 26U);
   for (const Trial& trial : study.parts.front().trials) {
     EXPECT_EQ(trial.values.at("mapped_percent"), 100.0) << trial.series;
@@ -44,7 +44,7 @@ TEST(SubmapsTopic, HoldsPartsAgainstTheWholeAndSaysWhichIsWorse) {
   }
   const auto sentences = conclusions_of(study);
   ASSERT_FALSE(sentences.empty());
-  // One layout tells nothing of chance.
+  // One layout has no information on chance.
   EXPECT_NE(sentences.front().find("no difference is beyond chance"), std::string::npos)
       << sentences.front();
 }
