@@ -282,7 +282,7 @@ TEST(ResultsComparison, SaysWherePairedTestAndMeanRanksContradictEachOther) {
   EXPECT_LT(found.ranks->mean_ranks[1] - found.ranks->mean_ranks[0], critical_difference(found));
   const std::string note = disagreement_of(found, view);
   EXPECT_TRUE(note.starts_with("The paired test tells n from m, mean ranks do not. ")) << note;
-  EXPECT_NE(sentence_of(found, view).find("their mean ranks do not tell them apart"),
+  EXPECT_NE(sentence_of(found, view).find("their mean ranks do not distinguish them"),
             std::string::npos);
   EXPECT_EQ(comparison_table(view, found).notes.back(), note);
   const StudyFigures figures = results_figures(view, {found});

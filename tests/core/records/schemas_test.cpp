@@ -11,7 +11,7 @@
 #include "core/records/experiments/slam_experiment_json.hpp"
 #include "core/records/maps/map_files.hpp"
 #include "core/records/observations/observations.hpp"
-#include "core/records/studies/slam_run_json.hpp"
+#include "core/records/studies/slam_store.hpp"
 #include "core/records/studies/timings_jsonl.hpp"
 #include "core/topics/validate.hpp"
 #include "tests/core/records/samples.hpp"

@@ -127,7 +127,7 @@ void add_curve_styles(const Figure& figure, std::vector<ValueCase>& cases) {
   });
 }
 
-/// What a figure says that it is made of, whether or not it varies, and numbers in its words.
+/// What a figure states that it is made of, whether or not it varies, and numbers in its words.
 void add_records(std::vector<ValueCase>& cases) {
   cases.push_back(changed_figure(figures()[1], "marked as one that varies", Verdict::kChanged,
                                  {"varies from run to run no \u2192 yes"},
