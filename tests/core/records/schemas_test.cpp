@@ -10,6 +10,8 @@
 #include "core/records/experiments/profiles.hpp"
 #include "core/records/experiments/slam_experiment_json.hpp"
 #include "core/records/maps/map_files.hpp"
+#include "core/records/observations/detections.hpp"
+#include "core/records/observations/observation_json.hpp"
 #include "core/records/observations/observations.hpp"
 #include "core/records/studies/slam_store.hpp"
 #include "core/records/studies/timings_jsonl.hpp"
