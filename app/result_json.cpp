@@ -3,7 +3,7 @@
 #include <cmath>
 #include <cstdint>
 
-#include "core/json/record_json.hpp"
+#include "core/json/record_writer.hpp"
 #include "core/records/value_fields.hpp"
 #include "render/figures/status_words.hpp"
 

@@ -20,7 +20,7 @@
 #include "app/study/folder_report.hpp"
 #include "core/base/errors.hpp"
 #include "core/base/files.hpp"
-#include "core/json/record_json.hpp"
+#include "core/json/record_writer.hpp"
 #include "core/records/studies/folder_lock.hpp"
 #include "core/records/value_fields.hpp"
 #include "reports/history/history_export.hpp"

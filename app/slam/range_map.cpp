@@ -11,7 +11,7 @@
 #include "core/base/input_file.hpp"
 #include "core/base/not_finite.hpp"
 #include "core/base/words.hpp"
-#include "core/records/studies/slam_run_json.hpp"
+#include "core/records/studies/slam_store.hpp"
 
 namespace mapproof {
 namespace {

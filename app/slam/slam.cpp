@@ -18,7 +18,6 @@
 #include "core/base/files.hpp"
 #include "core/records/observations/trajectory_files.hpp"
 #include "core/records/ranges/range_log_files.hpp"
-#include "core/records/studies/slam_run_json.hpp"
 #include "core/records/studies/slam_store.hpp"
 #include "render/figures/status_words.hpp"
 

@@ -39,7 +39,7 @@ class ByteSource {
   /// The name in errors: the path, or "standard input".
   const std::string& name() const { return name_; }
 
-  /// The path of the file, to find others beside it; empty for a stream.
+  /// The path of the file, to find others next to it; empty for a stream.
   const std::filesystem::path& path() const { return path_; }
 
   /// The next `count` bytes, fewer only at the end; they stay unread.

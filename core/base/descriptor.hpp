@@ -26,8 +26,8 @@ class Descriptor {
   int number_;
 };
 
-/// Writes all of `bytes`, in as many calls as that takes. @return False if it could not; errno says
-/// why.
+/// Writes all of `bytes`, in as many calls as that takes. @return False if it could not; errno
+/// holds the reason.
 bool write_all(const Descriptor& file, std::string_view bytes);
 
 }  // namespace mapproof

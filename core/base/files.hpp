@@ -16,7 +16,7 @@ void require_file(const std::filesystem::path& path);
 /// Makes the folder and those above it. @throws IoError if that cannot be done.
 void make_folder(const std::filesystem::path& path);
 
-/// Replaces the file at once: written beside its place and renamed. After a kill or a full disk
+/// Replaces the file at once: written next to it and renamed. After a kill or a full disk
 /// either the old file or the new one is there, whole. Folders above it are made.
 /// @throws IoError, and leaves nothing behind.
 void write_file(const std::filesystem::path& path, std::string_view bytes);

@@ -45,7 +45,7 @@ bool ends(int number, const struct stat& facts) {
   return S_ISFIFO(facts.st_mode) || S_ISSOCK(facts.st_mode) || is_null || ::isatty(number) == 1;
 }
 
-/// Opens the path anew: a duplicate of the descriptor would share its offset with others.
+/// Opens the path again: a duplicate of the descriptor would share its offset with others.
 Descriptor opened(const fs::path& path, const std::string& name) {
   Descriptor file(::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK | O_NOCTTY));
   if (file.get() < 0) refuse_opening(name);

@@ -20,7 +20,7 @@ class Unpacker {
   /// Gives it the next packed bytes.
   void feed(std::string_view packed);
 
-  /// Says that no more bytes come: drain() then gives those that might have begun a packed file.
+  /// No more bytes come: drain() then gives those that might have begun a packed file.
   void end();
 
   /// Appends unpacked bytes to `bytes`, at most `count`.

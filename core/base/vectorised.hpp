@@ -2,7 +2,7 @@
 
 /// Before a function whose loops gain from wide vectors: it is compiled for AVX2 as well, and the
 /// program takes what the processor has. Nothing on other processors than x86-64. Results must not
-/// hang on the width: no sum that the compiler would have to reorder.
+/// depend on the width: no sum that the compiler would have to reorder.
 #if defined(__x86_64__)
 #define MAPPROOF_VECTORISED [[gnu::target_clones("avx2", "default")]]
 /// The same, and AVX-512 too: for loops over eight entries at a time.

@@ -267,17 +267,13 @@ void map_at(const Experiment& experiment, const ObservationHistory& history,
                                   .certificate = embedding.certificate});
     if (step == study.checkpoints.back() && embedding.spectrum.size() > 0)
       result.details.sensors.back().spectra.emplace_back(setting, embedding.spectrum);
-    result.maps.push_back({.id = record_id(run.id, history.sensor, setting, step),
-                           .origin = FromSensor{history.sensor, setting},
-                           .step = step,
-                           .frame = map.frame,
-                           .names = history.names,
-                           .estimate = std::move(map.positions_m),
-                           .truth_m = run.world.landmarks_m,
-                           .anchors = run.anchors,
-                           .statuses = std::move(map.statuses),
-                           .certificate = std::nullopt,
-                           .score = map.score});
+    result.maps.push_back(map_record({.id = record_id(run.id, history.sensor, setting, step),
+                                      .origin = FromSensor{history.sensor, setting},
+                                      .step = step,
+                                      .names = history.names,
+                                      .truth_m = run.world.landmarks_m,
+                                      .anchors = run.anchors},
+                                     std::move(map)));
   }
 }
 

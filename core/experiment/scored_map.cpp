@@ -18,6 +18,20 @@ ScoredMap scored_map(const Embedding& embedding, const Points& truth_m,
   return map;
 }
 
+MapRecord map_record(MapSource source, ScoredMap map) {
+  return {.id = std::move(source.id),
+          .origin = std::move(source.origin),
+          .step = source.step,
+          .frame = map.frame,
+          .names = std::move(source.names),
+          .estimate = std::move(map.positions_m),
+          .truth_m = std::move(source.truth_m),
+          .anchors = std::move(source.anchors),
+          .statuses = std::move(map.statuses),
+          .certificate = std::nullopt,
+          .score = map.score};
+}
+
 EmbedderOptions embedder_options(const SolverOptions& solver) {
   EmbedderOptions options;
   options.only_seen_together = solver.only_seen_together;

@@ -1,5 +1,11 @@
 #pragma once
 
+#include <optional>
+#include <string>
+#include <vector>
+
+#include <Eigen/Core>
+
 #include "core/embed/embedder.hpp"
 #include "core/model/experiment.hpp"
 #include "core/model/map_record.hpp"
@@ -9,7 +15,7 @@ namespace mapproof {
 
 /// A map in the frame of its anchors, with its score if it could be tied to them.
 struct ScoredMap {
-  Points positions_m;  ///< M x 2; NaN rows where a landmark has no position.
+  Points positions_m;  ///< M x 2; NaN rows: the landmark has no position.
   Frame frame = Frame::kTruth;
   std::vector<Status> statuses;  ///< Of the embedding and of the alignment.
   std::optional<Score> score;
@@ -19,6 +25,19 @@ struct ScoredMap {
 /// @param truth_m  M x 2.
 ScoredMap scored_map(const Embedding& embedding, const Points& truth_m,
                      const std::vector<Eigen::Index>& anchors, AffineFit fit);
+
+/// What a map was made of; the rest of its record is its ScoredMap.
+struct MapSource {
+  std::string id;  ///< MapRecord::id.
+  MapOrigin origin;
+  int step = 0;                       ///< Number of observations used, N.
+  std::vector<std::string> names;     ///< M.
+  std::optional<Points> truth_m;      ///< M x 2; NaN rows: ground truth unknown.
+  std::vector<Eigen::Index> anchors;  ///< Rows of the landmarks with known position.
+};
+
+/// The record of a map, without a certificate.
+MapRecord map_record(MapSource source, ScoredMap map);
 
 /// The solvers' options as an experiment states them.
 EmbedderOptions embedder_options(const SolverOptions& solver);

@@ -19,9 +19,9 @@ namespace mapproof {
 ///     v.field("ink", note.ink, {.description = "Of the theme."});
 ///   }
 ///
-/// Of it record_json.hpp makes the writer and the strict reader, and
+/// From it record_writer.hpp makes the writer, record_reader.hpp the strict reader, and
 /// tests/support/record_schema.hpp the schema in docs/schemas; other visitors may ask it for more.
-/// FieldVisitor lists what a visitor is told.
+/// FieldVisitor lists the calls that a visitor receives.
 ///
 /// An enumeration has its names in `EnumNames enum_names(Enum)`; what is an array of fixed size in
 /// files has its elements in `auto as_tuple(T&)`, a std::tuple of references. A map has any keys.
@@ -37,7 +37,7 @@ enum class Key {
   kNotNull,   ///< Required, and an empty optional is neither written nor read, as null.
 };
 
-/// What a value is held to beside its type, in the words of JSON Schema. Of an array, all but the
+/// The rules of a value besides its type, in the words of JSON Schema. Of an array, all but the
 /// numbers of its items hold for each item.
 struct FieldRule {
   std::string_view description = {};
@@ -89,7 +89,7 @@ std::string_view name_in_files(Enum value) {
   return enum_names(value).names[static_cast<std::size_t>(value)];
 }
 
-/// What a visitor is told, and overrides if it cares: this one does not.
+/// The calls that a visitor receives. It overrides those that it needs; this one ignores all.
 struct FieldVisitor {
   static constexpr bool kReads = false;  ///< Whether it fills the fields in.
 
@@ -99,7 +99,7 @@ struct FieldVisitor {
   void about(std::string_view) {}
   /// First of a whole file: the name of its schema, "mapproof.figure", and its description.
   void file(std::string_view, std::string_view) {}
-  /// First of an alternative of a variant: the key that tells alternatives apart, and its value.
+  /// First of an alternative of a variant: the key that distinguishes alternatives, and its value.
   void tag(std::string_view, std::string_view) {}
   /// A key and its value, in the order of files.
   template <typename T>
@@ -110,8 +110,8 @@ struct FieldVisitor {
   void group(std::string_view, Fields, const FieldRule& = {}) {}
   /// How many of its keys a record has, where there are bounds to that.
   void key_count(std::size_t, std::size_t) {}
-  /// What no rule says is wrong with the fields so far: at a key, "limits" or "axes/0/limits", or
-  /// at an item of its array.
+  /// What is wrong with the fields so far beyond the rules: at a key, "limits" or "axes/0/limits",
+  /// or at an item of its array.
   void refuse(std::string_view, std::string_view) {}
   void refuse(std::string_view, std::size_t, std::string_view) {}
 };

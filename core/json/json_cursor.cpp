@@ -39,14 +39,14 @@ std::string bounds(double least, double most) {
 constexpr std::size_t kDepth = 64;
 
 /// Builds the value while nlohmann-json's parser reads, and stops at what it would let pass:
-/// repeated keys and endless nesting. `problem` then says what, without a place.
+/// repeated keys and endless nesting. `problem` then holds the problem, without a location.
 class Builder : public nlohmann::json_sax<Json> {
  public:
   explicit Builder(std::size_t size) : size_(size) {}
 
   Json root;
   std::string problem;
-  std::optional<std::size_t> offset;  ///< Of the problem, if the parser told.
+  std::optional<std::size_t> offset;  ///< Of the problem, if the parser gave it.
   std::string pointer;                ///< Of the problem, if it has one.
 
   bool null() override { return put(nullptr); }
@@ -170,7 +170,7 @@ class SchemaFinder : public nlohmann::json_sax<Json> {
   bool is_schema_ = false;  ///< The second level is the root's schema.
 };
 
-/// Forwards the text byte by byte and counts, so that a stop has a place.
+/// Forwards the text byte by byte and counts, so that a stop has a location.
 class CountingIterator {
  public:
   using iterator_category = std::input_iterator_tag;
@@ -337,7 +337,8 @@ std::vector<double> JsonCursor::numbers_or_null(double least, double most,
     double value = kNaN;
     if (item.is_number()) value = item.get<double>();
     if (!item.is_null() && !(value >= least && value <= most))
-      element(numbers.size()).number_or_null(least, most);  // Says what is wrong with it.
+      element(numbers.size())
+          .number_or_null(least, most);  // Throws, with the problem in its message.
     numbers.push_back(value);
   }
   return numbers;
@@ -346,7 +347,8 @@ std::vector<double> JsonCursor::numbers_or_null(double least, double most,
 SchemaId schema_of(const JsonCursor& document) {
   if (!document.is_object() || !document.find("schema"))
     document.fail(
-        "says not what it is: expected the key \"schema\" with the name and version of its format");
+        "does not state its format: expected the key \"schema\" with the name and version of its "
+        "format");
   const JsonCursor schema = document.at("schema");
   schema.allow_only({"name", "version"});
   return {schema.at("name").text(100), schema.at("version").integer32(1, 1'000'000)};

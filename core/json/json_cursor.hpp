@@ -13,7 +13,7 @@
 
 namespace mapproof {
 
-/// A place in a parsed JSON file, with typed getters whose errors name the file and the place:
+/// A value in a parsed JSON file, with typed getters whose errors name the file and the pointer:
 /// IoError("study.json: /runs/3/layout: expected an integer from 1 to 10000, got 1e9").
 /// The document must outlive it.
 class JsonCursor {
@@ -79,7 +79,7 @@ struct JsonDocument {
 ///         a double, nesting deeper than 64, NUL bytes and bytes that are not UTF-8.
 JsonDocument parse_json(std::string_view text, const std::string& source);
 
-/// What a file of ours says it is, in its key "schema".
+/// The format of a file of mapproof, from its key "schema".
 struct SchemaId {
   std::string name;  ///< "mapproof.study".
   int version = 0;
@@ -88,7 +88,7 @@ struct SchemaId {
 /// @throws IoError if the document does not say what it is.
 SchemaId schema_of(const JsonCursor& document);
 
-/// The name of the schema that a JSON text says it is of, before anything else is known of it: the
+/// The name of the schema that a JSON text names, before anything else is known of it: the
 /// text may be cut off, or wrong behind the name. Empty if there is none.
 std::string schema_name_in(std::string_view text);
 

@@ -25,7 +25,7 @@ std::optional<double> number_in(std::string_view cell);
 /// Why number_in() refuses the cell, or why an infinite one is no good.
 std::string number_problem(std::string_view cell);
 
-/// Whether the cell says that a value is missing: nothing, or NaN in any case.
+/// Whether the cell stands for a missing value: nothing, or NaN in any case.
 bool is_missing(std::string_view cell);
 
 /// `cell` in quotes, short enough for an error's line.

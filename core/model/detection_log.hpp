@@ -20,7 +20,7 @@ struct Detection {
 
 /// Which scan it was among the scans of several robots: one robot's at one step or time.
 struct ScanKey {
-  int robot = 0;     ///< In the order in which they come; 0 where robots are not told apart.
+  int robot = 0;     ///< In the order in which they come; 0 where robots are not distinguished.
   double key = 0.0;  ///< Step or time, finite.
 
   auto operator<=>(const ScanKey&) const = default;
@@ -44,7 +44,7 @@ std::vector<Eigen::Index> unseen_in(const DetectionLog& log);
 /// Brings detections into their order again, after their labels changed.
 void sort_detections(std::vector<Detection>& detections);
 
-/// What one kind of sensor saw in those scans, as an array: visibility 0 where a landmark was not
+/// What one sensor observed in those scans, as an array: visibility 0 where a landmark was not
 /// seen, bearing and range NaN.
 /// @note 8 M N bytes.
 ObservationHistory history_of(const DetectionLog& log, Sensor sensor);

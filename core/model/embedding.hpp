@@ -13,7 +13,7 @@ namespace mapproof {
 
 /// Coordinates that a mapping method gives the landmarks, before any alignment.
 struct Embedding {
-  Points coordinates;  ///< M x 2, arbitrary frame; NaN rows where a landmark has no place.
+  Points coordinates;  ///< M x 2, arbitrary frame; NaN rows where a landmark has no position.
   std::vector<Status> statuses;  ///< Empty if all went well.
   /// Eigenvalues, those of the map's columns first: descending, but for LLE, LEM and HLLE
   /// ascending, without the constant's; empty for iterative methods.

@@ -58,7 +58,7 @@ struct Variation {
   Factor factor = Factor::kNoise;
   std::vector<double> levels;  ///< Ascending.
   int step = 0;
-  /// Where the anchors stand; empty: as in the experiment.
+  /// Placement of the anchors; empty: as in the experiment.
   std::optional<AnchorPlacement> placement;
   std::vector<MethodSetting> settings;
 };
@@ -72,7 +72,7 @@ struct VariationRecord {
   std::optional<Score> score;  ///< Empty if no map came out.
 };
 
-/// A number that a paper printed, shown beside ours.
+/// A number that a paper printed, compared with ours.
 struct PublishedValue {
   MethodSetting setting;
   double mpe_m = 0.0;
@@ -83,7 +83,7 @@ struct PublishedValue {
 /// What was published on one sensor's part of an experiment; nothing if `source` is empty.
 struct Published {
   std::string source = {};  ///< "Yairi 2007, Table 1".
-  std::string table = {};   ///< Id of the table that has ours beside it: "table-1"; may be empty.
+  std::string table = {};  ///< Id of the table that compares ours with it: "table-1"; may be empty.
   std::vector<PublishedValue> values = {};
   std::vector<std::string> notes = {};  ///< On all of the values, a sentence or two each.
   /// Methods from least to greatest MPE, as the source has them and ours is expected to.
@@ -108,7 +108,7 @@ struct WalkOptions {
   double wall_margin_m = 0.06;  ///< Least distance of the robot's centre to a wall.
 };
 
-/// One kind of sensor and what is wrong with it.
+/// One sensor and its errors.
 struct SensorOptions {
   Sensor sensor = Sensor::kVisibility;
   double visual_angle_rad =
@@ -168,7 +168,7 @@ std::vector<MethodSetting> settings_of(const SensorStudy& study);
 enum class FigureKind {
   kIdea,         ///< Observation histories become a map.
   kMeasurement,  ///< One scan of the sensor.
-  kErrorCurve,   ///< MPE over the steps, a curve a method.
+  kErrorCurve,   ///< MPE over the steps, one curve per method.
   kMap,          ///< The map of one run.
 };
 

@@ -7,11 +7,11 @@
 
 namespace mapproof {
 
-/// How far the landmarks' places would move if the same steps were walked and observed anew.
+/// How far the landmarks' positions would move if the same steps were walked and observed again.
 struct MapCertainty {
   /// M, of the map's unit squared; NaN where too few replicates placed the landmark.
   std::vector<Eigen::Matrix2d> covariances;
-  /// Of the ellipse: (x - place)' C^-1 (x - place) up to this.
+  /// Of the ellipse: (x - position)' C^-1 (x - position) up to this.
   double squared_radius = 0.0;
   double confidence = 0.95;  ///< That the ellipse holds the mean of such maps.
   int replicates = 0;        ///< Drawn.
@@ -21,7 +21,7 @@ struct MapCertainty {
   bool operator==(const MapCertainty&) const = default;
 };
 
-/// An ellipse about a landmark's place, in the map's unit.
+/// An ellipse about a landmark's position, in the map's unit.
 struct Ellipse {
   double a = 0.0;         ///< The longer half axis.
   double b = 0.0;         ///< The shorter.

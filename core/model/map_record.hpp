@@ -30,8 +30,8 @@ std::string_view name(AnchorPlacement placement);
 /// The frame that a map's coordinates are in.
 enum class Frame {
   kTruth,       ///< Metres, aligned to the anchors by an affine map.
-  kSimilarity,  ///< No anchors, or none that could tie the map to the truth: shape alone; place,
-                ///< turn, scale and mirror are arbitrary.
+  kSimilarity,  ///< No anchors, or none that could tie the map to the ground truth: the shape alone
+                ///< is meaningful; translation, rotation, scale and reflection are arbitrary.
 };
 
 /// The name used in files: "truth", "similarity".
@@ -81,11 +81,11 @@ struct MapRecord {
   Frame frame = Frame::kTruth;
   std::vector<std::string> names;     ///< M.
   Points estimate;                    ///< M x 2, m if frame is kTruth; NaN rows: not mapped.
-  std::optional<Points> truth_m;      ///< M x 2; NaN rows: truth unknown.
+  std::optional<Points> truth_m;      ///< M x 2; NaN rows: ground truth unknown.
   std::vector<Eigen::Index> anchors;  ///< Rows whose true position was given.
   std::vector<Status> statuses;
-  std::optional<Certificate> certificate;  ///< Of a semidefinite program on a person's own data.
-  std::optional<Score> score;              ///< If there is a truth and the map could be scored.
+  std::optional<Certificate> certificate;  ///< Of a semidefinite program on user data.
+  std::optional<Score> score;  ///< If there is a ground truth and the map could be scored.
 };
 
 /// Whether the position of that landmark was given.

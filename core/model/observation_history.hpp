@@ -13,13 +13,13 @@ namespace mapproof {
 
 /// Where landmarks lie in the space of their observation histories, seen in three dimensions.
 struct ObservationManifold {
-  Eigen::MatrixXd coordinates;             ///< M x 3; NaN rows: not to be told.
+  Eigen::MatrixXd coordinates;             ///< M x 3; NaN rows: not determined.
   std::array<double, 3> shares{};          ///< Of all spread in each coordinate, descending.
   int neighbours = 0;                      ///< K of the neighbour graph.
   std::vector<std::pair<int, int>> edges;  ///< Its edges, each once, the lower row first.
 };
 
-/// What was observed of M landmarks over N steps by one kind of sensor [yairi2007, eqs. 3 and 5].
+/// What one sensor observed of M landmarks over N steps [yairi2007, eqs. 3 and 5].
 struct ObservationHistory {
   Sensor sensor = Sensor::kVisibility;
   std::vector<std::string> names;  ///< Of the landmarks, M of them, all different.

@@ -18,7 +18,7 @@ struct RangeReading {
 };
 
 /// Motion of the robot from the pose before to the pose at `time_s`: first forward along the
-/// heading before and leftwards across it, then the turn.
+/// heading before and leftwards across it, then the heading change.
 struct Motion {
   double time_s = 0.0;
   double distance_m = 0.0;
@@ -35,7 +35,7 @@ struct Trajectory {
   Eigen::Index size() const { return time_s.size(); }
 };
 
-/// What keeps a path from being one: sizes that differ, or times that are not finite or do not
+/// Why a path is not valid: sizes that differ, or times that are not finite or do not
 /// ascend; empty if nothing. Positions and headings may be NaN: not known.
 std::string times_problem(const Trajectory& path);
 
@@ -50,7 +50,8 @@ struct StartPose {
   double heading_rad = 0.0;
 };
 
-/// What a robot recorded on its way: odometry and ranges, and the truth where somebody surveyed it.
+/// What a robot recorded on its way: odometry and ranges, and the ground truth where it was
+/// surveyed.
 struct RangeLog {
   std::string name;                    ///< For titles, e.g. "Plaza 1".
   std::vector<std::string> landmarks;  ///< Names, N of them, all different.

@@ -2,11 +2,13 @@
 
 namespace mapproof {
 
-/// How far a map is from the truth [yairi2007, section 4.1]. NaN where there is nothing to judge.
+/// How far a map is from the ground truth [yairi2007, section 4.1]. NaN where there is nothing to
+/// compare.
 struct Score {
   /// Mean position error over the mapped landmarks that are not anchors; NaN if there are none.
   double mpe_m = 0.0;
-  /// Share of landmark triples whose orientation is wrong; NaN if the truth lies on one line.
+  /// Share of landmark triples whose orientation is wrong; NaN if the ground truth lies on one
+  /// line.
   double moe_percent = 0.0;
 
   /// Free of the anchors' choice: the affine map fitted to all landmarks, the error over all. NaN

@@ -16,7 +16,7 @@ namespace mapproof {
 /// What solved a semidefinite program.
 enum class SdpSolver {
   kInteriorPoint,  ///< Our own: a primal-dual interior point [helmberg1996].
-  kLowRank,        ///< Our own: factors of low rank [burer2003], proved by its multipliers.
+  kLowRank,        ///< Our own: factors of low rank [burer2003], certified by its multipliers.
   kCsdp,           ///< CSDP, an interior-point method [borchers1999].
 };
 
@@ -30,13 +30,13 @@ std::optional<SdpSolver> sdp_solver_named(std::string_view name);
 inline constexpr double kProvedGap = 1e-6;
 inline constexpr double kProvedResidual = 1e-6;
 
-/// How near the optimum a maximisation by semidefinite programming came, proved by its dual.
+/// How near the optimum a maximisation by semidefinite programming came, certified by its dual.
 struct Certificate {
   SdpSolver solver = SdpSolver::kInteriorPoint;
   double primal = 0.0;        ///< The objective reached, in squared units of the data.
   double dual = 0.0;          ///< No feasible point's objective is above this; below 0: there is no
-                              ///< feasible point; infinite: nothing was proved.
-  double relative_gap = 0.0;  ///< |dual - primal| / |dual|; infinite: nothing was proved.
+                              ///< feasible point; infinite: nothing was certified.
+  double relative_gap = 0.0;  ///< |dual - primal| / |dual|; infinite: nothing was certified.
   double constraint_residual = 0.0;  ///< Largest violation over the largest right-hand side.
 
   bool operator==(const Certificate&) const = default;
@@ -46,11 +46,11 @@ struct Certificate {
 bool is_proved(const Certificate& certificate);
 
 /// How an estimated path was aligned to the true one before its error was taken. An error without
-/// it means nothing.
+/// it has no meaning.
 enum class Alignment {
   kNone,                 ///< Compared as it came: known landmarks or a given start tie the frame.
   kRigid,                ///< Best rotation and translation.
-  kRigidWithReflection,  ///< Best rotation, translation and mirror.
+  kRigidWithReflection,  ///< Best rotation, translation and reflection.
   kSimilarity,           ///< Best rotation, translation and scale.
 };
 
@@ -60,7 +60,7 @@ std::string_view name(Alignment alignment);
 /// Path and landmarks that one range-only method estimated.
 struct SlamEstimate {
   Trajectory path;
-  Points landmarks_m;                            ///< N x 2; NaN rows: no place came out.
+  Points landmarks_m;                            ///< N x 2; NaN rows: no position was found.
   double range_scale = 1.0;                      ///< Measured range over distance, as estimated.
   std::vector<Eigen::Matrix2d> landmark_cov_m2;  ///< N, or empty if not asked for.
   std::vector<Eigen::Matrix2d> position_cov_m2;  ///< At `position_cov_rows`; may be empty.
@@ -82,15 +82,15 @@ struct TrajectoryError {
   double last_tenth_m = 0.0;          ///< Mean over the last 10 % of the time.
   double best_tenth_m = 0.0;          ///< Least mean over 10 % of the time in one piece.
   double worst_tenth_m = 0.0;         ///< Greatest mean over 10 % of the time in one piece.
-  std::optional<double> landmarks_m;  ///< Mean over the landmarks that have a true place.
+  std::optional<double> landmarks_m;  ///< Mean over the landmarks that have a true position.
   Eigen::Index poses = 0;             ///< True poses that were compared.
 };
 
 /// Path and landmarks in space that were estimated from ranges alone.
 struct SpaceEstimate {
-  SpacePoints landmarks_m;            ///< N x 3; NaN rows: no place came out.
+  SpacePoints landmarks_m;            ///< N x 3; NaN rows: no position was found.
   SpacePoints positions_m;            ///< T x 3, at the times of the ranges; 0 x 3: none.
-  double range_scale = 1.0;           ///< Measured range over distance, where it can be told.
+  double range_scale = 1.0;           ///< Measured range over distance, where it can be determined.
   Eigen::VectorXd singular_values;    ///< Of the squared ranges, descending.
   std::optional<double> noise_level;  ///< The singular value that noise alone reaches.
   std::optional<double> condition;    ///< Of the regression or upgrade.
@@ -102,9 +102,10 @@ struct SpaceEstimate {
 /// What came of one flight's ranges: with some landmarks known, or with none.
 struct SpaceRecord {
   bool knows_landmarks = false;
-  SpaceEstimate estimate;                   ///< In the frame of the truth, after the alignment.
-  Alignment alignment = Alignment::kNone;   ///< With mirror where no landmark is known.
-  std::optional<double> landmarks_error_m;  ///< Mean distances from the truth; empty: no map.
+  SpaceEstimate estimate;  ///< In the frame of the ground truth, after the alignment.
+  Alignment alignment = Alignment::kNone;  ///< With reflection where no landmark is known.
+  std::optional<double>
+      landmarks_error_m;  ///< Mean distances from the ground truth; empty: no map.
   std::optional<double> positions_error_m;
 };
 
@@ -112,7 +113,7 @@ struct SpaceRecord {
 struct SpaceRun {
   SpacePoints landmarks_m;           ///< N x 3, the truth.
   SpacePoints positions_m;           ///< T x 3, the truth.
-  std::vector<Eigen::Index> known;   ///< Rows whose place one record was given.
+  std::vector<Eigen::Index> known;   ///< Rows whose position was given to one record.
   std::string noise;                 ///< In words.
   std::vector<SpaceRecord> records;  ///< With known landmarks first.
 };

@@ -14,8 +14,8 @@ std::vector<std::pair<std::string, std::string>> facts_of(const SlamExperiment& 
       {"Simulated area", fmt::format("{0:g} m \u00D7 {0:g} m", 2.0 * world.half_width_m)},
       {"Simulated landmarks", fmt::format("{}, {} of them known", world.landmarks, world.known)},
       {"Simulated walk",
-       fmt::format("steps of {:g} m, the heading turns by {:g} rad (1 \u03C3) a step", world.step_m,
-                   world.turn_sigma_rad)}};
+       fmt::format("steps of {:g} m, the heading changes by {:g} rad (1 \u03C3) per step",
+                   world.step_m, world.turn_sigma_rad)}};
   if (const auto& example = experiment.example)
     facts.emplace_back("Example",
                        fmt::format("{} steps, {}", example->steps, example->noise.title));

@@ -25,24 +25,24 @@ struct RangeNoiseModel {
 /// does not give is ours.
 struct SlamWorldOptions {
   int landmarks = 6;
-  int known = 4;               ///< The first so many have a known place.
+  int known = 4;               ///< The first so many have a known position.
   double half_width_m = 10.0;  ///< Landmarks and path lie in [-half_width, half_width]^2.
   double step_m = 1.0;
   double turn_sigma_rad = 0.5;  ///< Of the heading from step to step.
 };
 
-/// One world and walk to look at.
+/// One world and walk that are shown.
 struct SlamExample {
   std::string figure;  ///< Id of its figure: "fig-1a".
   int steps = 500;
   RangeNoiseModel noise;  ///< Its id is that of the run.
 };
 
-/// Errors over many random pairs of path and world, as readings come in.
+/// Errors over many random pairs of path and world, as measurements come in.
 struct ConvergenceOptions {
   int pairs = 1000;
-  /// Worlds whose known landmarks lie nearer a line or circle than this condition number tells are
-  /// drawn again: a few of them would rule the means.
+  /// Worlds whose known landmarks lie so near a line or circle that this condition number is
+  /// exceeded are drawn again: a few of them would dominate the means.
   double most_condition = 1e6;
   std::vector<int> steps;  ///< Ascending.
   std::vector<RangeNoiseModel> noises;
@@ -70,7 +70,7 @@ struct RangeHistoryOptions {
 /// A flight in space over landmarks that are ranged to at every step.
 struct SpaceFlightOptions {
   int landmarks = 12;
-  int known = 6;  ///< The first so many have a known place.
+  int known = 6;  ///< The first so many have a known position.
   int steps = 400;
   double half_width_m = 10.0;  ///< Landmarks and flight lie in [-half_width, half_width]^2,
   double height_m = 8.0;       ///< from the ground to this height.
@@ -101,7 +101,7 @@ struct SlamExperiment {
   FactorizationGrid factorization;
 };
 
-/// What is said of a data set that is not there: its name and how to get it.
+/// The sentence on a data set that is missing: its name and how to get it.
 std::string missing_sentence(const SlamDataSet& data);
 
 /// What an experiment asks for, in words: {"Area", "20 m x 20 m"}.

@@ -53,14 +53,16 @@ constexpr std::array kSlamMethods = {
     SlamMethodInfo{.method = SlamMethod::kRefinedFromRandom,
                    .name = "refined-from-random",
                    .label = "refined, from random",
-                   .summary = "nonlinear least squares from landmarks at random places"},
+                   .summary = "nonlinear least squares from landmarks at random positions"},
 };
 
 }  // namespace
 
 std::span<const SlamMethodInfo> all_slam_methods() { return kSlamMethods; }
 
-const SlamMethodInfo& info(SlamMethod method) { return kSlamMethods[static_cast<std::size_t>(method)]; }
+const SlamMethodInfo& info(SlamMethod method) {
+  return kSlamMethods[static_cast<std::size_t>(method)];
+}
 
 std::optional<SlamMethod> slam_method_named(std::string_view name) {
   for (const SlamMethodInfo& candidate : kSlamMethods)

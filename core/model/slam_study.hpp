@@ -41,7 +41,7 @@ enum class SlamMethod {
   kBatchFixedScale,      ///< Nonlinear least squares, range scale held at 1; baseline.
   kRefined,              ///< Nonlinear least squares, scale free, started from kSpectral.
   kRefinedFromOdometry,  ///< The same, started from dead reckoning.
-  kRefinedFromRandom,    ///< The same, landmarks started at random places.
+  kRefinedFromRandom,    ///< The same, landmarks started at random positions.
 };
 
 /// Everything about a method that needs no solver.
@@ -51,7 +51,7 @@ struct SlamMethodInfo {
   std::string_view label;  ///< In figures and tables.
   std::string_view summary;
   bool baseline = false;
-  bool knows_landmarks = false;             ///< Needs four or more landmarks' true places.
+  bool knows_landmarks = false;             ///< Needs four or more landmarks' true positions.
   Alignment alignment = Alignment::kRigid;  ///< Under which its error is reported first.
 };
 
@@ -63,11 +63,12 @@ std::optional<SlamMethod> slam_method_named(std::string_view name);
 /// What one method made of one log.
 struct SlamRecord {
   SlamMethod method = SlamMethod::kSpectral;
-  /// In the frame of its first alignment, the truth's if there is one; without a truth laid rigidly
-  /// on the run's first record, so that paths can be drawn over one another.
+  /// In the frame of its first alignment, the truth's if there is one; without a ground truth
+  /// aligned rigidly to the run's first record, so that paths can be drawn over one another.
   SlamEstimate estimate;
   std::vector<TrajectoryError> errors;  ///< Under each alignment tried, the first the method's own.
-  std::vector<double> error_m;  ///< Under the first alignment, one a pose; empty without truth.
+  std::vector<double>
+      error_m;  ///< Under the first alignment, one per pose; empty without ground truth.
 };
 
 /// Window lengths tried and what each predicted of ranges it had not seen.
@@ -100,7 +101,7 @@ struct SlamRun {
   std::string figure;  ///< Id of the figure of its paths: "fig-2b"; empty: "path-" and `id`.
   bool simulated = false;
   RangeLog log;
-  std::vector<Eigen::Index> known;  ///< Landmarks whose places some methods are given.
+  std::vector<Eigen::Index> known;  ///< Landmarks whose positions some methods are given.
   std::optional<WindowCurve> windows;
   std::vector<SlamRecord> records;
   std::vector<RefinementStart> starts;  ///< Empty: none compared.
@@ -108,11 +109,11 @@ struct SlamRun {
   std::optional<UpgradeClouds> upgrade;  ///< Of SlamMethod::kSpectral, where it gave a map.
 };
 
-/// Means over random pairs of path and environment, after so many readings.
+/// Means over random pairs of path and environment, after so many measurements.
 struct ConvergencePoint {
   int steps = 0;             ///< Columns of Y.
   MeanEstimate observation;  ///< Frobenius norm of C-hat - C [boots2013, Figure 1B].
-  MeanEstimate landmarks_m;  ///< Mean distance of landmarks from their places.
+  MeanEstimate landmarks_m;  ///< Mean distance of landmarks from their true positions.
   MeanEstimate positions_m;  ///< Mean distance of the robot's positions from theirs.
   MeanEstimate sine;         ///< Largest sine of the canonical angles of the map's subspace.
   double bound = 0.0;        ///< Eq. 5's, its constant fitted at the first point.
@@ -122,7 +123,7 @@ struct ConvergencePoint {
 struct ConvergenceCurve {
   std::string id;     ///< [a-z0-9-]+: "white", "correlated".
   std::string title;  ///< "white noise, 1 % of range".
-  int landmarks = 0;  ///< Readings are as many a step.
+  int landmarks = 0;  ///< As many measurements per step.
   std::vector<ConvergencePoint> points;
   double slope = 0.0;  ///< Of log observation error over log steps, by least squares.
 };

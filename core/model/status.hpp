@@ -19,7 +19,7 @@ namespace mapproof {
 enum class StatusCode {
   kBridged,              ///< The neighbour graph was in pieces; joined by the shortest bridges.
   kNotConverged,         ///< The iteration limit came before the stop rule.
-  kUnproved,             ///< The answer of a semidefinite program was not proved to be the best.
+  kUnproved,             ///< The answer of a semidefinite program was not certified as the optimum.
   kRankDeficient,        ///< Fewer than two dimensions in the data: the map is flat or a point.
   kUndetermined,         ///< Other maps fit equally well; which of them came out is arbitrary.
   kArbitraryNeighbours,  ///< Landmarks with fewer than K others ever seen together with them.
@@ -31,9 +31,9 @@ enum class StatusCode {
   kAnchorsDegenerate,    ///< Anchors nearly on one line in the embedding: the affine map is
                          ///< arbitrary.
   kDegenerateGeometry,   ///< Known landmarks or path in a special position, e.g. on one line or
-                         ///< circle: the condition number says so.
-  kTooFewObservations,   ///< Fewer steps, landmarks or readings than the method needs.
-  kFailed,               ///< No map came out at all; the reason says why.
+                         ///< circle: the condition number shows it.
+  kTooFewObservations,   ///< Fewer steps, landmarks or measurements than the method needs.
+  kFailed,               ///< No map came out at all; the reason gives the cause.
 };
 
 /// Why, in the order of kStatusReasons. The sentences are in render/figures/status_words.
@@ -336,7 +336,7 @@ requires((std::is_arithmetic_v<Values> && ...)) Status status_of(Values... value
   return status_of<kReason>(std::vector<std::string>(), values...);
 }
 
-/// What somebody else said, who has no reason of ours.
+/// The message of another program, which has no reason code.
 Status status_with_message(StatusCode code, std::string message);
 
 }  // namespace mapproof

@@ -28,7 +28,7 @@ std::string record_id(const RunId& run, Sensor sensor, const MethodSetting& sett
 Measurement measurement(const RunDetails& run, const SensorDetails& sensor, const World& world) {
   const Eigen::Index step = sensor.scan_step;
   if (step < 1 || step > run.path.positions_m.rows())
-    throw InvalidInput("a look at a step that the path does not have");
+    throw InvalidInput("a scan at a step that the path does not have");
   return {.sensor = sensor.sensor,
           .run = run.id,
           .step = sensor.scan_step,

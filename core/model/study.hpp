@@ -72,7 +72,7 @@ struct RunRecord {
 
 /// How often occlusion decided what was seen: eq. 4 of the paper holds where it does not.
 struct Occlusion {
-  long within_reach = 0;  ///< Looks at a landmark near enough to be seen.
+  long within_reach = 0;  ///< Detections of landmarks near enough to be seen.
   long hidden = 0;        ///< Of them, those that another landmark hid.
 };
 

@@ -20,9 +20,9 @@ struct SubmapJoin {
   int first = 0;  ///< Indices of sub-maps, first < second.
   int second = 0;
   int shared = 0;         ///< Landmarks of both.
-  double residual = 0.0;  ///< RMS distance of the places that both give the shared landmarks, over
-                          ///< the RMS radius of these; NaN if one of them is not placed.
-  bool in_tree = false;   ///< Of the spanning tree that the joining started from.
+  double residual = 0.0;  ///< RMS distance of the positions that both give the shared landmarks,
+                          ///< over the RMS radius of these; NaN if one of them is not placed.
+  bool in_tree = false;  ///< Of the spanning tree that the joining started from.
 };
 
 /// Sub-maps joined into one map.

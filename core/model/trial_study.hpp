@@ -117,7 +117,7 @@ struct MeasuredPair {
   int scans = 0;           ///< That showed both.
 };
 
-/// A map to be looked at.
+/// A map that is shown.
 struct TrialMap {
   std::string id;      ///< [a-z][A-Za-z0-9.+-]*, unique in its part: "bearing-isomap-K8".
   Condition at;        ///< The setup and a level of each of its factors.

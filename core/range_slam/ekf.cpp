@@ -22,12 +22,12 @@ constexpr Eigen::Index kMostFiltered = 500;
 constexpr Eigen::Index kScale = 3;  ///< In the state: x, y, heading, range scale, landmarks.
 /// Nearer than this a landmark has no direction.
 constexpr double kNearestRange_m = 1e-9;
-/// Readings that a first place needs.
+/// Measurements that a first position needs.
 constexpr std::size_t kReadingsToStart = 5;
-/// Share of the initial way after which a landmark that found no place is tried again.
+/// Share of the initial way after which a landmark without a position is tried again.
 constexpr double kNextTry = 0.5;
 
-/// A landmark that waits for its first place.
+/// A landmark that waits for its first position.
 struct Waiting {
   std::vector<RangeReading> readings;
   double next_try_m = 0.0;  ///< Way at which it is tried again.
@@ -136,7 +136,7 @@ class Filter {
     P_ -= PHt * PHt.transpose() / S;
   }
 
-  /// The first place of a landmark, from its readings along the path up to `row`.
+  /// The first position of a landmark, from its measurements along the path up to `row`.
   void place(std::size_t landmark, Eigen::Index row) {
     Waiting& waiting = waiting_[landmark];
     waiting.next_try_m = way_m_ + kNextTry * options_.initial_way_m;
@@ -156,7 +156,7 @@ class Filter {
     if (!found.allFinite() || !(eigen(0) > least)) return;
     const auto at = static_cast<Eigen::Index>(4 + 2 * landmark);
     x_.segment<2>(at) = found.transpose();
-    // What the readings leave open, and what the path under them may be off by.
+    // The variance that the measurements leave, and that of the path at them.
     P_.block<2, 2>(at, at) = information.inverse() + P_.topLeftCorner<2, 2>();
     is_placed_[landmark] = true;
     waiting.readings.clear();
@@ -199,7 +199,7 @@ std::string EkfOptions::problem(Eigen::Index n) const {
   if (!(gate > 0.0)) return "the gate must be positive";
   if (!(range_scale > 0.0 && scale_sigma >= 0.0)) return "the range scale must be positive";
   if (!(initial_way_m > 0.0 && initial_sigma_m > 0.0))
-    return "a first place needs a positive way and standard deviation";
+    return "a first position needs a positive way and standard deviation";
   if (covariances < 0) return "the number of covariances cannot be negative";
   return known ? known_problem(*known, n) : "";
 }

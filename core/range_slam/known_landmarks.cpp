@@ -93,7 +93,7 @@ std::string known_problem(const KnownLandmarks& known, Eigen::Index n) {
 std::string known_problem(const std::vector<Eigen::Index>& rows, const Eigen::MatrixXd& positions_m,
                           Eigen::Index n) {
   if (positions_m.rows() != std::ssize(rows) || !positions_m.allFinite())
-    return "known landmarks need a finite place each";
+    return "known landmarks need a finite position each";
   for (const Eigen::Index row : rows)
     if (row < 0 || row >= n) return fmt::format("no landmark is number {}", row);
   if (std::set(rows.begin(), rows.end()).size() != rows.size())

@@ -14,8 +14,8 @@ namespace mapproof {
 ///         `landmarks` - 1, and ascend in time.
 void check_ranges(const std::vector<RangeReading>& ranges, Eigen::Index landmarks);
 
-/// Points of a planarity up to this are so near one line that ranges to or from them hardly tell
-/// the sides of it apart.
+/// Points of a planarity up to this are so near one line that ranges to or from them hardly
+/// distinguish its two sides.
 inline constexpr double kNearlyFlat = 0.03;
 
 /// kDegenerateGeometry for landmarks nearly on one line, kUndetermined for a path that is, with the
@@ -24,7 +24,7 @@ inline constexpr double kNearlyFlat = 0.03;
 std::optional<Status> landmarks_on_a_line(const Points& landmarks_m);
 std::optional<Status> path_on_a_line(const Points& positions_m);
 
-/// Which landmarks have a reading from `first_s` to `last_s`: N.
+/// Which landmarks have a measurement from `first_s` to `last_s`: N.
 std::vector<bool> heard_between(const RangeLog& log, double first_s, double last_s);
 
 /// kLandmarkUnseen with the names of the landmarks that are not placed, if there are any.

@@ -32,7 +32,7 @@ LandmarkReadings thinned(const LandmarkReadings& readings) {
   return readings.at(rows);
 }
 
-/// Sum of e^2 / (e^2 + bend^2) over the readings.
+/// Sum of e^2 / (e^2 + bend^2) over the measurements.
 double misfit(const LandmarkReadings& readings, const Eigen::RowVector2d& place) {
   double sum = 0.0;
   for (Eigen::Index i = 0; i < readings.range_m.size(); ++i) {
@@ -62,7 +62,7 @@ Eigen::RowVector2d best_of_grid(const LandmarkReadings& readings) {
   return best;
 }
 
-/// Damped Gauss-Newton steps on the same misfit by weights, kept while they lower it.
+/// Damped Gauss-Newton steps on the same misfit by weights, kept while they reduce it.
 Eigen::RowVector2d polished(const LandmarkReadings& readings, Eigen::RowVector2d place) {
   double damping = kDamping;
   double value = misfit(readings, place);

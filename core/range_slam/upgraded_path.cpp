@@ -13,7 +13,7 @@
 namespace mapproof {
 namespace {
 
-/// A share of |p|^2/2 that is as little as this beside [1, p] does not tell the scale.
+/// A share of |p|^2/2 that is as little as this beside [1, p] does not determine the scale.
 constexpr double kCircular = 1e-6;
 
 constexpr Eigen::Index kRankWithHeading = 7;
@@ -38,7 +38,7 @@ Eigen::VectorXcd centered_as_complex(const Points& points) {
   return z.array() - z.mean();
 }
 
-/// Scale of one piece, and its say in the median.
+/// Scale of one piece, and its weight in the median.
 struct Piece {
   double scale;
   double weight;
@@ -59,7 +59,7 @@ LandmarksOnPath landmarks_on_path(const Points& positions_m, const Eigen::Matrix
   if (!positions_m.allFinite() || !Y.allFinite())
     throw InvalidInput("landmarks on a path need finite ranges and positions");
   if (!(planarity(positions_m) > kFlatPlanarity))
-    throw InvalidInput("landmarks are not told by a path on one line");
+    throw InvalidInput("a path on one line does not determine the landmarks");
 
   // About the path's centre, where the columns are nearly at right angles.
   const Eigen::RowVector2d center = positions_m.colwise().mean();
@@ -133,7 +133,7 @@ OdometryFit fit_to_odometry(const Points& positions_m, const Points& odometry_m,
   if (!positions_m.allFinite() || !odometry_m.allFinite())
     throw InvalidInput("paths must be finite to be compared");
 
-  // As complex numbers a turn with a scale is a factor a: |a| is the regression of the map on
+  // As complex numbers a rotation with a scale is a factor a: |a| is the regression of the map on
   // odometry, which is the cleaner of the two over a short piece.
   std::vector<Piece> straight, mirrored;
   double upright = 0.0, turned = 0.0, total = 0.0;

@@ -47,7 +47,7 @@ inline constexpr FieldRule kCount = {.minimum = 0, .maximum = std::numeric_limit
 inline constexpr FieldRule kLength = {.minimum = 0.0, .nullable = true};
 inline constexpr FieldRule kPercent = {.minimum = 0.0, .maximum = 100.0, .nullable = true};
 inline constexpr FieldRule kPositions = {
-    .description = "A row per landmark: [x, y], or null where there is no position.",
+    .description = "One row per landmark: [x, y], or null where there is no position.",
     .nullable = true,
     .max_items = kMostLandmarks};
 inline constexpr FieldRule kRows = {.description = "Rows of landmarks, counted from 0.",
@@ -174,7 +174,7 @@ void fields(Visitor& v, Certificate& certificate) {
   v.type("certificate");
   v.about(
       "Of a method that is a semidefinite program: how near its optimum. A dual below 0: there "
-      "is not a feasible point; null: nothing was proved.");
+      "is not a feasible point; null: nothing was certified.");
   v.field("solver", certificate.solver);
   v.field("primal", certificate.primal, {.minimum = 0.0});
   v.field("dual", certificate.dual, {.nullable = true, .null_is = kInfinity});

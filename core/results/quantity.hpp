@@ -48,16 +48,17 @@ struct Quantity {
   Better better = Better::kNeither;
   Tolerance rounding = {1e-9, 1e-6};  ///< What rounding may do on another processor.
   NightlyRule nightly = NightlyRule::kShown;
-  bool of_solver = false;  ///< Of how it went, no error of what came out: a hint, never a proof.
-  /// The id of a quantity that says much the same: nightly runs judge this one only where a method
-  /// does not have that one.
+  bool of_solver =
+      false;  ///< Of the course of a solve, not an error of its result: an indication, no evidence.
+  /// The id of a quantity that measures much the same: nightly runs judge this one only where a
+  /// method does not have that one.
   std::string stands_in_for = {};
 
   bool operator==(const Quantity&) const = default;
 };
 
-/// The dictionary: all that mapproof itself measures, the most telling first. What rounding may do
-/// is not what a reader would shrug at: solvers repeat exactly on the same processor.
+/// The dictionary: all that mapproof itself measures, the most informative first. What rounding may
+/// do is not what a reader would shrug at: solvers repeat exactly on the same processor.
 std::span<const Quantity> all_quantities();
 
 /// The dictionary's entry; null if there is none of that id.
@@ -79,7 +80,7 @@ std::string problem_of(const Quantity& quantity);
 /// @throws InvalidInput with problem_of() it.
 Quantity study_quantity(std::string id, std::string label, std::string unit, Better better);
 
-/// The dictionary and what one study declares beside it.
+/// The dictionary and what one study declares besides it.
 class Quantities {
  public:
   /// Adds a quantity that the dictionary does not have; one that it has is left as it is there.

@@ -30,7 +30,7 @@ void complete_quantities(ResultsStudy& study, const std::set<std::string>& in_ro
       study.quantities.push_back(quantity.id);
 }
 
-/// What to say where some rows of a setup have a factor and others have not; empty else.
+/// The remark where some rows of a setup have a factor and others have not; empty else.
 std::string lacking(const std::vector<Result>& rows, const std::string& setup,
                     const std::string& factor) {
   long without = 0, all = 0;
@@ -108,7 +108,7 @@ std::vector<std::string> label_remarks_of(const ResultsStudy& study) {
     for (const Label& label : *labels)
       if (const auto [first, is_new] = ids.emplace(label.label, label.id); !is_new)
         remarks.push_back(fmt::format(
-            "{}: {} and {} have the same label \"{}\": figures and tables do not tell them apart",
+            "{}: {} and {} have the same label \"{}\": figures and tables do not distinguish them",
             list, printable(first->second, 40), printable(label.id, 40),
             printable(label.label, 40)));
   }

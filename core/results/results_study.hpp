@@ -32,13 +32,13 @@ struct ResultsStudy {
 };
 
 /// Adds the quantities, setups, methods and factors that rows have and the lists do not: of the
-/// dictionary's quantities the most telling first, else in ascending order, labelled by their ids.
-/// Quantities that no row has are taken away.
+/// dictionary's quantities the most informative first, else in ascending order, labelled by their
+/// ids. Quantities that no row has are taken away.
 /// @return The list and the id of the first label that no row has: "setups: indoors"; empty if
 ///         every row has one.
 std::string complete(ResultsStudy& study);
 
-/// What a reader of the table should look at though it can be used, a sentence each: rows of a
+/// What a reader of the table should check though it can be used, a sentence each: rows of a
 /// setup that lack a factor which others of it have; a quantity in % whose values all lie in 0
 /// to 1.
 std::vector<std::string> remarks_of(const ResultsStudy& study);

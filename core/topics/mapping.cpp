@@ -9,7 +9,7 @@
 #include "core/records/experiments/profiles.hpp"
 #include "core/records/studies/results_of.hpp"
 #include "core/records/studies/run_json.hpp"
-#include "core/records/studies/study_files.hpp"
+#include "core/records/studies/study_folder.hpp"
 #include "core/records/studies/study_store.hpp"
 #include "core/topics/experiment_changes.hpp"
 #include "core/topics/study_kind.hpp"
@@ -38,7 +38,7 @@ StudyPlan plan_mapping(std::string_view text, const std::string& source,
 
 Run read_run(const fs::path& file, const RunId& id) {
   Run run = parse_run(read_file(file), file.string());
-  if (run.id != id) throw IoError(file.string(), "/run", "says that it is " + slug(run.id));
+  if (run.id != id) throw IoError(file.string(), "/run", "states that it is " + slug(run.id));
   return run;
 }
 

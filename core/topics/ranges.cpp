@@ -15,9 +15,8 @@
 #include "core/records/experiments/slam_experiment_json.hpp"
 #include "core/records/ranges/range_log_files.hpp"
 #include "core/records/studies/results_of.hpp"
-#include "core/records/studies/slam_files.hpp"
-#include "core/records/studies/slam_run_json.hpp"
 #include "core/records/studies/slam_store.hpp"
+#include "core/records/studies/study_folder.hpp"
 #include "core/topics/experiment_changes.hpp"
 
 namespace mapproof {
@@ -25,7 +24,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// All landmarks whose place was surveyed; empty if there are none.
+/// All landmarks whose position was surveyed; empty if there are none.
 std::optional<KnownLandmarks> surveyed(const RangeLog& log) {
   if (!log.true_landmarks) return std::nullopt;
   KnownLandmarks known;

@@ -14,7 +14,7 @@ namespace mapproof {
 /// A JSON file of a kind of study.
 struct StudyFile {
   std::string_view schema;  ///< "mapproof.run".
-  /// Reads it, with all its profiles if it has any. @throws IoError with the place.
+  /// Reads it, with all its profiles if it has any. @throws IoError with the location.
   void (*check)(std::string_view text, const std::string& source);
 };
 
@@ -56,7 +56,7 @@ extern const StudyKind kTableStudies;
 /// These, in the order in which they are asked.
 std::span<const StudyKind* const> all_study_kinds();
 
-/// The kind of an experiment's text. @throws IoError with the place if it is none.
+/// The kind of an experiment's text. @throws IoError with the location if it is none.
 const StudyKind& kind_of_experiment(std::string_view text, const std::string& source);
 
 /// The kind of the study in a folder; null if its study.json is of no kind that is known.
@@ -68,7 +68,7 @@ const StudyKind* kind_of_study(const std::filesystem::path& folder);
 std::vector<std::filesystem::path> files_of_run(const std::filesystem::path& folder,
                                                 const std::string& run);
 
-/// Reads the study in a folder, of whatever kind.
+/// Reads the study in a folder, of any kind.
 /// @throws IoError if there is no study.json or it cannot be read.
 StudyContents read_study_contents(const std::filesystem::path& folder, const ContentsAsked& asked);
 

@@ -12,7 +12,7 @@
 
 namespace mapproof {
 
-/// What the command line says about an experiment in place of its file.
+/// What the command line sets of an experiment in place of its file.
 struct ExperimentChanges {
   std::optional<std::uint64_t> seed;
   std::optional<int> layouts;

@@ -106,7 +106,7 @@ void read_trials(const fs::path& folder, const std::string& text, const Contents
     try_file(contents, folder, path, asked, [&] {
       TrialPart part = parse_trial_part(read_file(path), path.string(), &study.design).part;
       if (part.id != path.stem().string())
-        throw IoError(path.string(), "/id", "says that it is " + part.id);
+        throw IoError(path.string(), "/id", "states that it is " + part.id);
       contents.runs[part.id] = part.run ? fmt::format("layout-{}", part.run->layout) : part.id;
       if (asked.maps && asked.maps(path))
         for (const TrialMap& map : part.maps)

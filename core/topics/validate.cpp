@@ -42,7 +42,8 @@ namespace fs = std::filesystem;
 
 using Reader = ObservationSource (*)(std::string_view, const std::string&, Sensor, AngleUnit);
 
-/// Of the three kinds the bearings' error says most: values that fit none are often degrees.
+/// Of the three sensors the bearings' error is the most helpful: values that fit none are often
+/// degrees.
 void check_observations(std::string_view text, const std::string& source, Reader reader) {
   for (const Sensor sensor : {Sensor::kVisibility, Sensor::kRange}) {
     try {
@@ -69,9 +70,9 @@ bool is_part_of_mrclam(const std::filesystem::path& path) {
   return name == "Barcodes.dat" || name.ends_with("_Measurement.dat");
 }
 
-/// Reads a table of whatever kind mapproof knows: long or wide observations, landmarks with
+/// Reads a table of any kind that mapproof knows: long or wide observations, landmarks with
 /// positions, a map. The header decides which, or the rows if there is none. What the values of
-/// observations are is not told by a table: visibility, bearing and range are tried.
+/// observations are is not determined by a table: visibility, bearing and range are tried.
 /// @param kind  Set to what it was taken for, before anything is thrown.
 /// @throws IoError if it is none, or is broken.
 void check_table(ByteSource& input, std::string& kind) {
@@ -253,7 +254,7 @@ std::vector<Finding> check_folder(const fs::path& folder, const ForeignReader& f
       findings.push_back(check(path, foreign));
       if (is_leftover(path))
         findings.back().problem = findings.back().path + ": left by a killed process";
-      // What is wrong with a file is wrong with its study and its table: it is told once.
+      // What is wrong with a file is wrong with its study and its table: it is reported once.
       const std::string problem = findings.back().problem;
       const auto last = std::prev(findings.end());
       if (!problem.empty())

@@ -10,6 +10,7 @@
 #include "core/base/random.hpp"
 #include "core/certainty/block_length.hpp"
 #include "core/certainty/map_bootstrap.hpp"
+#include "core/experiment/scored_map.hpp"
 #include "core/linalg/decompositions.hpp"
 #include "core/simulate/robot_walk.hpp"
 #include "core/simulate/sensors.hpp"
@@ -129,18 +130,18 @@ class WalkedWorld {
     shown.id = fmt::format("{}-{}", at.setup, slug(setting));
     shown.at = at;
     shown.series = slug(setting);
-    MapRecord& map = shown.map;
-    map.id = shown.id;
-    map.origin = FromSensor{history.sensor, setting};
-    map.step = static_cast<int>(history.steps());
-    map.names = history.names;
-    map.truth_m = frame_.positions_m;
-    map.anchors = frame_.anchors;
     const Embedding embedding = embedder.embed(setting);
-    map.statuses = embedding.statuses;
     const auto placed = in_frame(embedding.coordinates, frame_, AffineFit::kLeastDistances);
-    map.frame = placed ? Frame::kTruth : Frame::kSimilarity;
-    map.estimate = placed.value_or(embedding.coordinates);
+    shown.map = map_record({.id = shown.id,
+                            .origin = FromSensor{history.sensor, setting},
+                            .step = static_cast<int>(history.steps()),
+                            .names = history.names,
+                            .truth_m = frame_.positions_m,
+                            .anchors = frame_.anchors},
+                           {.positions_m = placed.value_or(embedding.coordinates),
+                            .frame = placed ? Frame::kTruth : Frame::kSimilarity,
+                            .statuses = embedding.statuses,
+                            .score = std::nullopt});
     if (!placed) return shown;
     shown.certainty =
         history_certainty(history, history.steps(), frame_, {.setting = setting, .embedder = {}});

@@ -160,16 +160,13 @@ class ConfusedMaps {
     shown.id = id;
     shown.at = condition_at(setup_, level_);
     shown.series = series;
-    shown.map.id = id;
-    shown.map.origin = FromSensor{truth_.sensor, setting};
-    shown.map.step = static_cast<int>(truth_.steps());
-    shown.map.frame = map.frame;
-    shown.map.names = truth_.names;
-    shown.map.estimate = map.positions_m;
-    shown.map.truth_m = context_.world->landmarks_m;
-    shown.map.anchors = context_.anchors;
-    shown.map.statuses = map.statuses;
-    shown.map.score = map.score;
+    shown.map = map_record({.id = id,
+                            .origin = FromSensor{truth_.sensor, setting},
+                            .step = static_cast<int>(truth_.steps()),
+                            .names = truth_.names,
+                            .truth_m = context_.world->landmarks_m,
+                            .anchors = context_.anchors},
+                           map);
     part_.maps.push_back(std::move(shown));
   }
 

@@ -313,27 +313,23 @@ Made make_map(const RealWay& way, const RealSet& set, const TrialContext& contex
 }
 
 MapRecord record_of(const RealWay& way, const RealSet& set, const Made& made) {
-  MapRecord map;
-  map.id = way.id;
-  if (way.method)
-    map.origin = FromSensor{way.sensor, made.setting};
-  else
-    map.origin = FromPairs{};
-  map.step = set.source.log.steps;
-  map.names = set.source.log.names;
-  map.anchors = set.anchors;
-  map.estimate = made.embedding.coordinates;
-  map.statuses = made.embedding.statuses;
-  // In metres of its own, unless anchors are given.
-  map.frame = way.method ? Frame::kSimilarity : Frame::kTruth;
-  if (set.anchors.empty()) return map;  // without a frame the ground truth cannot be shown
-  map.truth_m = set.source.truth_m;
-  ScoredMap scored = scored_map(made.embedding, *set.source.truth_m, set.anchors, kFit);
-  map.statuses = std::move(scored.statuses);
-  map.score = scored.score;
-  map.frame = scored.frame;
-  map.estimate = std::move(scored.positions_m);
-  return map;
+  MapSource source{
+      .id = way.id,
+      .origin = way.method ? MapOrigin(FromSensor{way.sensor, made.setting}) : FromPairs{},
+      .step = set.source.log.steps,
+      .names = set.source.log.names,
+      .truth_m = std::nullopt,
+      .anchors = set.anchors};
+  // Without anchors there is no frame in which the ground truth could be shown; the map of measured
+  // pairs is in metres all the same.
+  if (set.anchors.empty())
+    return map_record(std::move(source), {.positions_m = made.embedding.coordinates,
+                                          .frame = way.method ? Frame::kSimilarity : Frame::kTruth,
+                                          .statuses = made.embedding.statuses,
+                                          .score = std::nullopt});
+  source.truth_m = set.source.truth_m;
+  return map_record(std::move(source),
+                    scored_map(made.embedding, *set.source.truth_m, set.anchors, kFit));
 }
 
 /// @param trial  Its setup and series are given.

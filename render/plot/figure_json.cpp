@@ -1,7 +1,8 @@
 #include "render/plot/figure_json.hpp"
 
 #include "core/base/errors.hpp"
-#include "core/json/record_json.hpp"
+#include "core/json/record_reader.hpp"
+#include "core/json/record_writer.hpp"
 #include "render/plot/figure_fields.hpp"
 
 namespace mapproof {

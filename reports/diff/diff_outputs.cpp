@@ -4,7 +4,7 @@
 
 #include "core/base/errors.hpp"
 #include "core/base/words.hpp"
-#include "core/json/record_json.hpp"
+#include "core/json/record_writer.hpp"
 #include "reports/diff/diff_fields.hpp"
 #include "reports/model/format.hpp"
 

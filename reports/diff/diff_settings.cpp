@@ -6,7 +6,7 @@
 
 #include "core/base/errors.hpp"
 #include "core/base/spelling.hpp"
-#include "core/json/record_json.hpp"
+#include "core/json/record_reader.hpp"
 
 namespace mapproof {
 

@@ -7,7 +7,8 @@
 
 #include "core/base/csv.hpp"
 #include "core/base/errors.hpp"
-#include "core/json/record_json.hpp"
+#include "core/json/record_reader.hpp"
+#include "core/json/record_writer.hpp"
 #include "reports/history/shown_names.hpp"
 
 namespace mapproof {

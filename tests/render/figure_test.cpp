@@ -135,7 +135,7 @@ TEST(FigureJson, NamesThePlaceOfWhatItCannotRead) {
             "f.json: line 1, column 2: the file is truncated: it ends within a value");
   EXPECT_EQ(message_of("[1e999]"),
             "f.json: line 1, column 6: the number \"1e999\" is beyond what a double holds");
-  EXPECT_TRUE(message_of("[]").starts_with("f.json: /: says not what it is"));
+  EXPECT_TRUE(message_of("[]").starts_with("f.json: /: does not state its format"));
   EXPECT_EQ(message_of(replaced(text, "\"alt\"", "\"other\"")), "f.json: /: unknown key \"other\"");
   EXPECT_EQ(message_of(replaced(text, "mapproof.figure", "other")),
             "f.json: /schema/name: expected \"mapproof.figure\", got \"other\"");

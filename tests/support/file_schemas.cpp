@@ -8,7 +8,7 @@
 #include "core/records/studies/run_json.hpp"
 #include "core/records/studies/slam_fields.hpp"
 #include "core/records/studies/timings_jsonl.hpp"
-#include "core/records/studies/trial_fields.hpp"
+#include "core/records/studies/trial_json.hpp"
 #include "tests/support/record_schema.hpp"
 
 namespace mapproof::test {

@@ -6,7 +6,8 @@
 #include <utility>
 #include <vector>
 
-#include "core/json/record_json.hpp"
+#include "core/json/record_outline.hpp"
+#include "core/json/record_writer.hpp"
 
 namespace mapproof {
 

@@ -28,7 +28,7 @@ Eigen::VectorXd canonical_angles(const Eigen::MatrixXd& A, const Eigen::MatrixXd
 double subspace_error_bound(Eigen::Index landmarks, Eigen::Index steps, double noise_constant,
                             double smallest_eigenvalue);
 
-/// A world with its ranges, to hold a map against.
+/// A world with its ranges, with which a map is compared.
 struct TrueRanges {
   Points landmarks_m;        ///< N x 2.
   Points positions_m;        ///< T x 2.
@@ -46,18 +46,20 @@ struct ModelErrorOptions {
 struct ModelError {
   Eigen::Index steps = 0;
   double observation = 0.0;  ///< Frobenius norm of C-hat - C.
-  double landmarks_m = 0.0;  ///< Mean distance of landmarks from their places, known ones too.
+  double landmarks_m =
+      0.0;  ///< Mean distance of landmarks from their true positions, known ones too.
   double positions_m = 0.0;  ///< Mean distance of positions, by localise(), from theirs.
   double condition = 1.0;  ///< Of the known landmarks (see map_from_known_landmarks()): where they
                            ///< happen to lie near a circle errors are great, and so their mean.
   double sine = 0.0;       ///< Of the largest canonical angle between U and C.
 };
 
-/// Maps the world from its first steps and the places of known landmarks, for each number of steps.
+/// Maps the world from its first steps and the positions of known landmarks, for each number of
+/// steps.
 /// @param steps  Each 4 to T.
-/// @return One error a number of steps, less those that no map came out of.
+/// @return One error for each number of steps for which a map was found.
 /// @throws InvalidInput if a bound is broken.
-/// @note O(N^2) time a step.
+/// @note O(N^2) time per step.
 std::vector<ModelError> model_errors(const TrueRanges& world, std::span<const Eigen::Index> steps,
                                      const ModelErrorOptions& options = {});
 

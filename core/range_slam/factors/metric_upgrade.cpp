@@ -10,7 +10,7 @@
 namespace mapproof {
 namespace {
 
-/// States that settle a quadric of n variables up to a pencil: all coefficients but two.
+/// States that determine a quadric of n variables up to a pencil: all coefficients but two.
 constexpr Eigen::Index fitted_states(Eigen::Index n) { return n * (n + 1) / 2 - 2; }
 /// From this condition number on the last dimension is rounding.
 constexpr double kFlat = 1e12;
@@ -41,7 +41,8 @@ QuadricCloud on_paraboloid(const Eigen::MatrixXd& X) {
   return cloud;
 }
 
-/// U V = (V' U')', whose landmarks and poses have changed places and the signs of their positions.
+/// U V = (V' U')', whose landmarks and poses have been exchanged, and so have the signs of their
+/// positions.
 Factorization with_sides_changed(const Factorization& factors) {
   Factorization changed = factors;
   changed.U = factors.V.transpose();

@@ -20,12 +20,12 @@ struct QuadricCloud {
   Eigen::MatrixXd Q;       ///< (d + 2) x (d + 2).
 };
 
-/// A map known up to a motion and a mirror, and the quadric that fixed it.
+/// A map defined up to a rigid motion and a reflection, and the quadric that fixed it.
 struct MetricUpgrade {
   SpectralMap map;
   Eigen::MatrixXd S;  ///< V = S X; empty if no map came out.
   /// Of the whitened monomials, descending: the last is the misfit of the quadric, the last but one
-  /// what tells it from another.
+  /// separates it from the next best.
   Eigen::VectorXd monomial_values;
   QuadricCloud before;  ///< Whitened states of the fitted side in their plane of scale 1.
   QuadricCloud after;   ///< The same as (p, |p|^2/2), on the paraboloid.
@@ -40,7 +40,7 @@ struct MetricUpgrade {
 /// other side, and of those the one that the other side fits best.
 /// @param factors  Of rank 4, for a map of the plane, or 5, for one of space.
 /// @return An empty map with kTooFewObservations below the side's bounds, and with
-///         kDegenerateGeometry where no quadric of the cone's signature fits; kUndetermined beside
+///         kDegenerateGeometry where no quadric of the cone's signature fits; kUndetermined with
 ///         a map where another quadric fits nearly as well. `condition` is the largest over the
 ///         least of the monomials' singular values that must not vanish.
 /// @throws InvalidInput unless the rank is 4 or 5.

@@ -18,7 +18,7 @@ namespace mapproof {
 namespace {
 
 constexpr Eigen::Index kRank = 4;
-/// Steps that settle a quadric.
+/// Steps that determine a quadric.
 constexpr Eigen::Index kLeastStepsToMap = 8;
 /// Coordinates whose fourth moments are kept.
 constexpr Eigen::Index kFrame = 8;

@@ -10,8 +10,8 @@ namespace mapproof {
 /// @return (dimension + 2) x (dimension + 2).
 Eigen::MatrixXd state_cone(Eigen::Index dimension = 2);
 
-/// The products v_i v_j, i <= j, of each column; unequal pairs times sqrt(2), so that a turn of the
-/// coordinates turns the products.
+/// The products v_i v_j, i <= j, of each column; unequal pairs times sqrt(2), so that a rotation of
+/// the coordinates rotates the products.
 /// @param V  q x T.
 /// @return T x q (q + 1) / 2: 10 of 4, 15 of 5.
 Eigen::MatrixXd quadratic_monomials(const Eigen::MatrixXd& V);

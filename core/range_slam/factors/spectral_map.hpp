@@ -15,7 +15,7 @@ struct SpectralMap {
   Eigen::MatrixXd C =
       Eigen::MatrixXd(0, 4);  ///< N x (d + 2), as landmark_states(); no row: no map came out.
   Eigen::MatrixXd X = Eigen::MatrixXd(4, 0);  ///< (d + 2) x T, as robot_states(); or no column.
-  double range_scale = 1.0;           ///< Measured range over distance, where it can be told.
+  double range_scale = 1.0;           ///< Measured range over distance, where it can be determined.
   std::optional<double> condition{};  ///< Of the regression or upgrade that fixed the coordinates.
   std::vector<Status> statuses{};     ///< Empty if all went well.
 

@@ -20,7 +20,7 @@ namespace {
 /// What a metric upgrade needs.
 constexpr Eigen::Index kLeastLandmarks = 4;
 constexpr Eigen::Index kLeastSteps = 8;
-/// OdometryFit::agreement below which a mirror is arbitrary.
+/// OdometryFit::agreement below which the reflection is arbitrary.
 constexpr double kLeastAgreement = 0.02;
 
 /// The poses of a path at some of its rows.
@@ -45,7 +45,7 @@ std::vector<Eigen::Index> rows_apart(const Trajectory& path, double step_m) {
   return rows;
 }
 
-/// What a map says of the direction of motion at some poses, beside what odometry says of it.
+/// The direction of motion at some poses, by the map and by odometry.
 struct Directions {
   std::vector<Eigen::Index> rows;  ///< Of the path, ascending.
   Eigen::VectorXd map_rad;
@@ -111,7 +111,8 @@ Mapped mapped_without_heading(SpectralSlam& result, const SpectralSlamOptions& o
 
 /// Turns a map that may be mirrored and of a wrong scale into one that odometry agrees with; the
 /// ranges are left to refer_to_path().
-/// @param window  Poses in a window: long enough to tell a mirror image; a quarter tells scale.
+/// @param window  Poses in a window: long enough to determine the reflection; a quarter determines
+/// the scale.
 /// @return Whether it was mirrored.
 bool settle_by_odometry(SlamEstimate& estimate, const Points& odometry_m, Eigen::Index window) {
   const Points& positions = estimate.path.positions_m;
@@ -127,8 +128,8 @@ bool settle_by_odometry(SlamEstimate& estimate, const Points& odometry_m, Eigen:
   return turns.mirrored;
 }
 
-/// Landmarks and scale of the ranges as a path of the odometry's scale tells them. Of those of the
-/// upgrade the ratio to the path is the least sure.
+/// Landmarks and scale of the ranges as a path of the odometry's scale determines them. Of those
+/// of the upgrade the ratio to the path is the least certain.
 void refer_to_path(SpectralSlam& result) {
   SlamEstimate& estimate = result.estimate;
   if (!(planarity(estimate.path.positions_m) > kFlatPlanarity)) return;
@@ -155,13 +156,13 @@ void check(const RangeLog& log, const Trajectory& odometry, const SpectralSlamOp
     throw InvalidInput(problem);
 }
 
-/// The landmark that is told at the fewest of the odometry's times, and at how many.
+/// The landmark that is determined at the fewest of the odometry's times, and at how many.
 auto worst_landmark(const RangeLog& log, const WindowedRanges& ranges) {
   const auto least = std::ranges::min_element(ranges.told);
   return std::pair(log.landmarks[static_cast<std::size_t>(least - ranges.told.begin())], *least);
 }
 
-/// Ranges at the odometry's times, those into `result.Y` at which all are told.
+/// Ranges at the odometry's times, those into `result.Y` at which all are determined.
 /// @return The poses at these times; none, with a status, if they are too few for a map.
 Trajectory take_ranges(SpectralSlam& result, const RangeLog& log, const Trajectory& odometry,
                        const SpectralSlamOptions& options) {

@@ -28,20 +28,21 @@ struct SpectralSlam {
   Eigen::MatrixXd Y;      ///< 1/2 d^2 at the times of the path, m^2: N x its size.
 };
 
-/// Spectral SLAM on a log of single readings [boots2013]: windowed ranges at the odometry's times,
-/// factorisation, map, and positions by localise().
+/// Spectral SLAM on a log of single measurements [boots2013]: windowed ranges at the odometry's
+/// times, factorisation, map, and positions by localise().
 ///
-/// No landmark known: odometry settles the mirror and the scale, and the map is free to move. No
-/// ground truth is looked at.
+/// No landmark known: odometry determines the reflection and the scale, and the map is defined up
+/// to a rigid motion. No ground truth is used.
 /// @param odometry  The dead-reckoned path, with headings where `with_heading`.
-/// @return `path` at those times of odometry at which every landmark's range is told (kUndetermined
-///         tells of the others). With known landmarks positions are localise() of the map and Y;
+/// @return `path` at those times of odometry at which every landmark's range is determined
+/// (kUndetermined
+///         counts the others). With known landmarks positions are localise() of the map and Y;
 ///         without, odometry gives them their scale, and they the landmarks and the ranges theirs.
 ///         `range_scale` is that of the window times this correction, and Y is free of it;
-///         `upgrade` is as it came. kUndetermined also where odometry does not tell the map from
-///         its mirror image. Empty path, NaN landmarks and a status where no map came out:
-///         kTooFewObservations if too few poses are told; kDegenerateGeometry beside a map whose
-///         landmarks lie nearly on one line.
+///         `upgrade` is as it came. kUndetermined also where odometry does not distinguish the map
+///         from its mirror image. Empty path, NaN landmarks and a status where no map came out:
+///         kTooFewObservations if too few poses are determined; kDegenerateGeometry with a map
+///         whose landmarks lie nearly on one line.
 /// @throws InvalidInput if a bound is broken: for ranges that check_ranges() refuses, a
 ///         path_problem(), a known_problem(), a windowed_size_problem().
 SpectralSlam spectral_slam(const RangeLog& log, const Trajectory& odometry,

@@ -4,7 +4,7 @@
 
 namespace mapproof {
 
-/// Standard deviation of one range reading at distance d: the root of sigma_m^2 + (share d)^2.
+/// Standard deviation of one range measurement at distance d: the root of sigma_m^2 + (share d)^2.
 struct RangeNoise {
   double sigma_m = 0.0;  ///< >= 0.
   double share = 0.0;    ///< Of the distance, >= 0.

@@ -83,7 +83,7 @@ SynchronousRanges synchronous_ranges(const std::vector<RangeReading>& ranges,
     Eigen::VectorXd column = Eigen::VectorXd::Constant(landmarks, kNaN);
     for (; i < ranges.size() && ranges[i].time_s == time_s; ++i) {
       if (ranges[i].landmark < 0 || ranges[i].landmark >= landmarks)
-        throw InvalidInput("a reading of no landmark");
+        throw InvalidInput("a measurement of no landmark");
       column(ranges[i].landmark) = ranges[i].range_m;
     }
     if (column.allFinite()) {

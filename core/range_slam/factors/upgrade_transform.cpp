@@ -140,8 +140,8 @@ std::optional<Candidate> best_of_pencil(const Eigen::MatrixXd& V, const Eigen::V
   const Eigen::MatrixXd A = quadric_of(V.col(last - 1)), B = quadric_of(V.col(last));
   std::optional<Candidate> best;
   double least = kInfinity;
-  // The dual vanishes on the plane of scale 1, which settles all but a path along a conic, and on
-  // every state of the other side, which settles that too.
+  // The dual vanishes on the plane of scale 1, which determines all but a path along a conic, and
+  // on every state of the other side, which determines that too.
   for (const Eigen::VectorXd& zero : {w, Eigen::VectorXd(U.row(0).transpose())})
     for (const Eigen::Vector2d& root : pencil_roots(A, B, zero)) {
       const Eigen::Vector2d share = root.normalized();

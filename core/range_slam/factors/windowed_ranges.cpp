@@ -20,33 +20,41 @@ namespace mapproof {
 namespace {
 
 constexpr Eigen::Index kTurns = 5;
-/// Blocks of held-out readings to a window.
+/// Blocks of held-out measurements per window.
 constexpr double kBlocks = 6.0;
 /// Lengths tried: down to 1/181 of all the time.
 constexpr int kLengths = 16;
 /// Coverage is judged on about this many of the times.
 constexpr Eigen::Index kCoverageTimes = 500;
-/// Held-out readings that no window tells beyond this share make a length unusable.
+/// A length is unusable if no window determines more than this share of held-out ranges.
 constexpr double kUntold = 0.02;
 
-/// Sum of absolute errors over the readings told, and how many were and were not.
+/// Sum of absolute errors over the determined ranges, and how many ranges were determined or not.
 struct HeldOut {
   double error_m = 0.0;
   Eigen::Index told = 0;
   Eigen::Index untold = 0;
 };
 
-/// @param phase  Shifts the blocks, so that landmarks are not held out at the same times.
-void hold_out(const LandmarkReadings& readings, Eigen::Index turn, Eigen::Index phase,
-              const WindowOptions& options, double first_s, HeldOut& result) {
+/// The blocks of consecutive measurements that are held out together.
+struct HeldOutBlocks {
+  Eigen::Index turn = 0;   ///< From 0 to kTurns - 1.
+  Eigen::Index phase = 0;  ///< Shifts the blocks: landmarks are not held out at the same times.
+  double first_s = 0.0;    ///< Start of the first block.
+};
+
+void hold_out(const LandmarkReadings& readings, const HeldOutBlocks& blocks,
+              const WindowOptions& options, HeldOut& result) {
   std::vector<Eigen::Index> kept, out;
   for (Eigen::Index i = 0; i < readings.size(); ++i) {
-    const double block = std::floor((readings.time_s(i) - first_s) * kBlocks / options.length_s);
-    const bool is_out = std::fmod(block + static_cast<double>(phase), kTurns) == double(turn);
+    const double block =
+        std::floor((readings.time_s(i) - blocks.first_s) * kBlocks / options.length_s);
+    const bool is_out =
+        std::fmod(block + static_cast<double>(blocks.phase), kTurns) == double(blocks.turn);
     (is_out ? out : kept).push_back(i);
   }
   const LandmarkReadings asked = readings.at(out);
-  // Asked at all readings, so that the windows lie as they do for the whole.
+  // Evaluated at all measurements, so that the windows lie as they do for the whole.
   const Eigen::VectorXd half_squares =
       windowed_half_squares(readings.at(kept), readings.time_s, readings.positions_m, options);
   const double scale = options.range_scale;
@@ -70,7 +78,8 @@ WindowTrial tried(const std::vector<LandmarkReadings>& readings, const Trajector
   HeldOut held_out;
   for (Eigen::Index n = 0; n < std::ssize(readings); ++n)
     for (Eigen::Index turn = 0; turn < kTurns; ++turn)
-      hold_out(readings[static_cast<std::size_t>(n)], turn, n, options, first_s, held_out);
+      hold_out(readings[static_cast<std::size_t>(n)],
+               {.turn = turn, .phase = n, .first_s = first_s}, options, held_out);
   const auto covered = windowed_ranges(readings, path, some_s, options).columns.size();
   const bool usable =
       held_out.told > 0 && double(held_out.untold) <= kUntold * double(held_out.told);
@@ -89,7 +98,8 @@ constexpr double kRidge = 1e-9;
 
 /// Share of the typical range that is added to each before it is inverted.
 constexpr double kNear = 0.05;
-/// Share of the squared distances that the others must leave unexplained if they are to tell scale.
+/// Share of the squared distances that the others must leave unexplained if they are to determine
+/// the scale.
 constexpr double kLeastBend = 1e-6;
 
 /// Weights of r^2: the inverse of its error, but not without bound where the robot passes a
@@ -140,12 +150,12 @@ struct CentredFrame {
 
 /// Windows that lie over any one time.
 constexpr double kOverlap = 4.0;
-/// Readings that a window needs.
+/// Measurements that a window needs.
 constexpr Eigen::Index kReadingsToInterpolate = 6;
 
 /// Windows to a landmark.
 constexpr double kMostWindows = 1e6;
-/// A window's least say in a mean, at its ends.
+/// A window's least weight in a mean, at its ends.
 constexpr double kLeastSay = 1e-3;
 
 /// Windows of one length, evenly over a stretch of time.

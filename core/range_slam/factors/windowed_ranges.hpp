@@ -12,7 +12,7 @@
 
 namespace mapproof {
 
-/// Readings of one landmark, with where dead reckoning puts the robot at them.
+/// Measurements of one landmark, with the dead-reckoned positions of the robot.
 struct LandmarkReadings {
   Eigen::VectorXd time_s;   ///< R, ascending.
   Points positions_m;       ///< R x 2.
@@ -24,33 +24,33 @@ struct LandmarkReadings {
 };
 
 /// Squared range to one landmark around one stretch of a path, r^2 = a^2 |p - c|^2 + an affine
-/// function of p: exact where dead reckoning is, whatever the landmark's place.
+/// function of p: exact where dead reckoning is, wherever the landmark is.
 struct LocalRange {
   Eigen::RowVector2d center_m;   ///< c.
   double unit_m = 1.0;           ///< Spread of the positions about it.
   double squared_scale = 1.0;    ///< a^2.
   Eigen::Vector3d coefficients;  ///< On [1, (p - c) / unit], m^2.
-  Eigen::Matrix3d covariance;    ///< Of the coefficients, up to the readings' variance.
+  Eigen::Matrix3d covariance;    ///< Of the coefficients, up to the measurements' variance.
 
   /// r^2 at a position, m^2.
   double squared_range(const Eigen::RowVector2d& position) const;
-  /// Variance of that, up to the readings' variance.
+  /// Variance of that, up to the measurements' variance.
   double variance(const Eigen::RowVector2d& position) const;
 };
 
-/// Robust fit to readings `first` to `first + count`: iterated Huber weights, 1.5 scaled medians of
-/// the residuals, over 1 / r, since the error of r^2 grows with r.
+/// Robust fit to measurements `first` to `first + count`: iterated Huber weights, 1.5 scaled
+/// medians of the residuals, over 1 / r, since the error of r^2 grows with r.
 /// @param range_scale  a: measured range over distance, > 0.
 /// @param count  4 or more.
 /// @throws InvalidInput if there are fewer.
-/// @note O(count) time a round.
+/// @note O(count) time per round.
 LocalRange fit_local_range(const LandmarkReadings& readings, Eigen::Index first, Eigen::Index count,
                            double range_scale);
 
-/// What readings say about a^2 on their own: a weighted mean adds up.
+/// What measurements determine of a^2 on their own: a weighted mean adds up.
 struct ScaleEvidence {
   double squared_scale = 0.0;
-  double weight = 0.0;  ///< Inverse variance, up to the readings' variance; 0: nothing.
+  double weight = 0.0;  ///< Inverse variance, up to the measurements' variance; 0: nothing.
 };
 
 /// The same fit with a^2 free. No weight where the positions are on a line or circle.
@@ -61,23 +61,24 @@ struct WindowOptions {
   double range_scale = 1.0;  ///< Measured range over distance, > 0.
 };
 
-/// Squared ranges of all landmarks at common times, from readings that never come together.
+/// Squared ranges of all landmarks at common times, from measurements that never come together.
 struct WindowedRanges {
-  Eigen::MatrixXd Y;                  ///< N x columns: 1/2 r^2 over range_scale^2, m^2.
-  std::vector<Eigen::Index> columns;  ///< The times asked for that every landmark is told at.
-  std::vector<Eigen::Index> told;     ///< N: how many of the times asked for each is told at.
+  Eigen::MatrixXd Y;  ///< N x columns: 1/2 r^2 over range_scale^2, m^2.
+  std::vector<Eigen::Index>
+      columns;                     ///< The times asked for at which every landmark is determined.
+  std::vector<Eigen::Index> told;  ///< N: at how many of the times each is determined.
 };
 
 /// Landmarks times times beyond which the matrix is refused: 400 MB, and some copies of it.
 inline constexpr double kMostWindowedRanges = 5e7;
 
-/// That so many landmarks at so many times are too many, in a sentence; empty if they are not.
+/// A sentence if so many landmarks at so many times are too many; empty if they are not.
 std::string windowed_size_problem(Eigen::Index landmarks, Eigen::Index times);
 
-/// Readings by landmark, with positions on the path; those before its first pose or after its last
-/// are left out.
+/// Measurements by landmark, with positions on the path; those before its first pose or after its
+/// last are left out.
 /// @throws InvalidInput for ranges that check_ranges() refuses, or a path_problem().
-/// @note O(T + R log T) time for R readings.
+/// @note O(T + R log T) time for R measurements.
 std::vector<LandmarkReadings> readings_by_landmark(const std::vector<RangeReading>& ranges,
                                                    Eigen::Index landmarks, const Trajectory& path);
 
@@ -85,7 +86,7 @@ std::vector<LandmarkReadings> readings_by_landmark(const std::vector<RangeReadin
 /// dead-reckoned path, and of the windows over a time the mean, by their variance and how central
 /// it is.
 /// @param path_m  Positions at the times.
-/// @return As many as times, over range_scale^2; NaN where no window has 6 readings.
+/// @return As many as times, over range_scale^2; NaN where no window has 6 measurements.
 Eigen::VectorXd windowed_half_squares(const LandmarkReadings& readings,
                                       const Eigen::VectorXd& time_s, const Points& path_m,
                                       const WindowOptions& options);
@@ -94,13 +95,13 @@ Eigen::VectorXd windowed_half_squares(const LandmarkReadings& readings,
 /// @param path    Dead-reckoned.
 /// @param time_s  Ascending, T of them, within the path's.
 /// @throws InvalidInput if a bound is broken, or N T is above kMostWindowedRanges.
-/// @note O(R + N T) time for R readings, O(N T) memory.
+/// @note O(R + N T) time for R measurements, O(N T) memory.
 WindowedRanges windowed_ranges(const std::vector<LandmarkReadings>& readings,
                                const Trajectory& path, const Eigen::VectorXd& time_s,
                                const WindowOptions& options);
 
 /// Scale of the ranges against odometry, from how r^2 curves along the path in windows of that
-/// length; 1 where paths are too straight or round to tell.
+/// length; 1 where paths are too straight or round to determine it.
 /// @param first_s, last_s  The time that matters.
 /// @param length_s         > 0.
 /// @throws InvalidInput unless times and length are finite, first_s <= last_s, and windows are at
@@ -112,22 +113,23 @@ double range_scale_of(const std::vector<LandmarkReadings>& readings, double firs
 struct WindowTrial {
   double length_s = 0.0;
   double range_scale = 1.0;  ///< Of range_scale_of().
-  double error_m = 0.0;  ///< Mean absolute error of ranges held out; NaN: too many are not told.
-  double covered = 0.0;  ///< Share of the times asked for that every landmark is told at.
+  double error_m =
+      0.0;  ///< Mean absolute error of held-out ranges; NaN: too many are not determined.
+  double covered = 0.0;  ///< Share of the times asked for at which every landmark is determined.
 };
 
 /// A window length chosen by what it predicts, without ground truth.
 struct WindowSearch {
   WindowOptions options;
   std::vector<WindowTrial> trials;  ///< By descending length.
-  bool all_covered = true;          ///< False: no length tells all times; the best of those that
-                                    ///< tell the most was taken.
+  bool all_covered = true;          ///< False: no length covers all times; the best of those that
+                                    ///< cover the most was taken.
 };
 
 /// Tries lengths from all the time down by factors of sqrt(2), and takes the one of least error of
-/// held-out ranges among those that cover the most times. Held out, in five turns, are blocks of
-/// consecutive readings of one landmark, a sixth of a window long, so that a window has to carry a
-/// prediction over a gap as it has to in the data.
+/// held-out ranges among those that cover the most times. Held out, in five rounds, are blocks of
+/// consecutive measurements of one landmark, a sixth of a window long, so that a window has to
+/// carry a prediction over missing data as it has to in the log.
 /// @param path    Dead-reckoned.
 /// @param time_s  Ascending, at least 2: the times that are to be covered.
 /// @throws InvalidInput if a bound is broken.

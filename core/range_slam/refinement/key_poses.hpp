@@ -15,22 +15,23 @@ struct OdometryNoise {
   double sideways_m = 0.02;
   double turn_rad = 0.005;
 
-  /// Says that they must be positive unless they are; else empty.
+  /// The problem if one is not positive; empty otherwise.
   std::string problem() const;
 };
 
-/// The way from one key pose to the next, in the frame of the first: forward, left, turn.
+/// The way from one key pose to the next, in the frame of the first: forward, left, heading change.
 struct KeyMotion {
   Eigen::Vector3d step = Eigen::Vector3d::Zero();
   Eigen::Matrix3d root_information = Eigen::Matrix3d::Identity();  ///< W, W'W the information.
 };
 
-/// A place on the path as the two key poses around it give it: (1 - share) of the one reckoned
+/// A pose on the path as the two key poses around it give it: (1 - share) of the one reckoned
 /// ahead from the pose before, share of the one reckoned back from the pose after.
 struct BetweenPoses {
   Eigen::Index before = 0;  ///< Key pose; the other is the next one.
   double share = 0.0;
-  Eigen::Vector3d ahead = Eigen::Vector3d::Zero();   ///< Forward, left, turn from the pose before.
+  Eigen::Vector3d ahead =
+      Eigen::Vector3d::Zero();  ///< Forward, left, heading change from the pose before.
   Eigen::Vector3d behind = Eigen::Vector3d::Zero();  ///< The same from the pose after.
 
   /// x, y and heading. @param first, second  The two key poses, their headings not wrapped.

@@ -116,7 +116,7 @@ void take_covariances(const Solution& solution, Eigen::Index count, SlamEstimate
     estimate.statuses.push_back(status_of<StatusReason::kCovariancesOfFirstPose>());
 }
 
-/// What a usable solution says.
+/// The result of a usable solution.
 void take_solution(const Solution& solution, const RefineOptions& options, SlamEstimate& estimate) {
   estimate.path = path_about(solution.keys, solution.state.poses);
   for (Eigen::Index n = 0; n < estimate.landmarks_m.rows(); ++n)

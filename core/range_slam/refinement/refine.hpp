@@ -18,12 +18,12 @@ namespace mapproof {
 /// loss of (scale * distance + offset - range) / sigma. A range between two poses sees both.
 ///
 /// Without known landmarks the first pose stays where the start has it, and covariances are those
-/// after a rigid fit of the landmarks; with fewer than two places of landmarks, relative to the
+/// after a rigid fit of the landmarks; with fewer than two landmark positions, relative to the
 /// first pose. Known landmarks tie the frame, to which the start is moved first, if two of them are
-/// heard that are in different places. A mirrored start ends in a mirrored map.
+/// heard that are in different positions. A mirrored start ends in a mirrored map.
 /// @param start  Any path within the time of the odometry, with headings or not; N landmarks, NaN
 ///               rows: found from that path.
-/// @return The path at all of odometry's times. Landmarks without a place: kLandmarkUnseen;
+/// @return The path at all of odometry's times. Landmarks without a position: kLandmarkUnseen;
 ///         kNotConverged at the limit; kUndetermined if known landmarks do not tie the frame, which
 ///         is then as without them, if covariances are relative to the first pose, or if there are
 ///         none since some direction is not determined; kFailed if no step could be taken: the

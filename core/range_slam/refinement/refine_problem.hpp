@@ -48,7 +48,7 @@ class ChainInformation {
   Eigen::MatrixXd C_;
 };
 
-/// What a motion of the odometry says about the poses before and after it, whitened.
+/// The residual of a motion of the odometry in the poses before and after it, whitened.
 class MotionResidual : public ceres::SizedCostFunction<3, 3, 3> {
  public:
   explicit MotionResidual(const KeyMotion& motion) : motion_(motion) {}
@@ -59,8 +59,8 @@ class MotionResidual : public ceres::SizedCostFunction<3, 3, 3> {
   KeyMotion motion_;
 };
 
-/// What a range says about the two key poses around it, the landmark, the scale and the landmark's
-/// offset: (scale * distance + offset - range) / sigma.
+/// The residual of a range in the two key poses around it, the landmark, the scale and the
+/// landmark's offset: (scale * distance + offset - range) / sigma.
 class RangeResidual : public ceres::SizedCostFunction<1, 3, 3, 2, 1, 1> {
  public:
   RangeResidual(const BetweenPoses& place, double range_m, double sigma_m)
@@ -108,7 +108,7 @@ class RefineProblem {
     int iterations = 0;
   };
   /// @note The first call silences glog, through which Ceres speaks, below fatal errors for the
-  ///       whole process: its level has no other place. Calls from several threads are safe.
+  ///       whole process: its level has no other location. Calls from several threads are safe.
   Outcome solve(RefineState& state) const;
 
   /// Covariances about a solution, from its J'J with Huber's weights.
@@ -138,9 +138,9 @@ class RefineProblem {
   void add_ranges(const RefineState& state, const Shared& shared,
                   ChainInformation& information) const;
 
-  /// Where landmarks and poses are free to move together: the share of the first pose's whims in
-  /// the covariance is taken out.
-  /// @return False if fewer than two places of landmarks are free: nothing is taken out.
+  /// Where landmarks and poses are free to move together: the share of the first pose's error in
+  /// the covariance is removed.
+  /// @return False if fewer than two landmark positions are free: nothing is removed.
   bool free_of_frame(const RefineState& state, const Shared& shared,
                      ChainInformation::Covariance& covariance) const;
 

@@ -21,10 +21,10 @@
 namespace mapproof {
 namespace {
 
-/// Way on either side of a pose over which a turn is fitted.
+/// Way on either side of a pose over which a rotation is fitted.
 constexpr double kAround_m = 10.0;
 
-/// The turn under which the ways of odometry fit those of the path around each of its poses.
+/// The rotation under which the ways of odometry fit those of the path around each of its poses.
 Eigen::VectorXd fitted_headings(const Trajectory& path, const Trajectory& odometry) {
   using Complex = std::complex<double>;
   const Eigen::Index n = path.size();
@@ -79,7 +79,7 @@ Trajectory part_within(const Trajectory& path, const Trajectory& odometry) {
   return part;
 }
 
-/// What turns odometry's headings to those of the path, without jumps by full turns.
+/// The rotation from odometry's headings to those of the path, without jumps by full turns.
 Eigen::VectorXd turns_to(const Trajectory& path, const Trajectory& odometry) {
   Eigen::VectorXd turns =
       path.heading_rad.size() > 0
@@ -101,10 +101,10 @@ void check(const Trajectory& path, const Trajectory& odometry) {
     throw InvalidInput("a path is carried along odometry with headings");
 }
 
-/// Known landmarks nearer to each other than this fix no turn.
+/// Known landmarks nearer to each other than this fix no rotation.
 constexpr double kOnePlace_m = 1e-3;
 
-/// How many known landmarks are heard, and whether two of them are in different places.
+/// How many known landmarks are heard, and whether two of them are at different positions.
 struct Ties {
   int heard = 0;
   bool fix_the_frame = false;
@@ -207,7 +207,7 @@ PlacedStart placed_start(const RangeLog& log, const Trajectory& odometry, const 
     for (Eigen::Index n = 0; n < placed.landmarks_m.rows(); ++n)
       if (!placed.landmarks_m.row(n).allFinite()) placed.landmarks_m.row(n) = found.row(n);
   }
-  // Without a reading a place is nobody's finding.
+  // Without a measurement a position has no source.
   const std::vector<bool> is_heard =
       heard_between(log, odometry.time_s(0), odometry.time_s(odometry.size() - 1));
   for (Eigen::Index n = 0; n < placed.landmarks_m.rows(); ++n)

@@ -30,14 +30,14 @@ Trajectory carried_along(const Trajectory& path, const Trajectory& odometry);
 /// A start as refine() begins from it.
 struct PlacedStart {
   Trajectory path;     ///< At all of odometry's times.
-  Points landmarks_m;  ///< N x 2; NaN rows: no place, or never heard within that time.
+  Points landmarks_m;  ///< N x 2; NaN rows: no position, or never measured within that time.
   std::optional<KnownLandmarks> known;  ///< What ties the frame; empty: the first pose does.
   std::vector<Status> statuses;         ///< kUndetermined if known landmarks cannot tie it.
 };
 
-/// Carries a start along the odometry, finds the landmarks that it does not place, and moves all
+/// Carries a start along the odometry, estimates the landmarks that it does not hold, and moves all
 /// into the frame of the known landmarks where the start places two of them. Known landmarks tie
-/// the frame if two are heard that are in different places; else none of them is held.
+/// the frame if two are heard that are in different positions; else none of them is held.
 /// @param odometry  From dead_reckoned().
 /// @param known     Without a known_problem().
 /// @throws InvalidInput for what carried_along() or trilaterated() refuse.

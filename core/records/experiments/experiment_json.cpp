@@ -9,7 +9,8 @@
 
 #include <fmt/format.h>
 
-#include "core/json/record_json.hpp"
+#include "core/json/record_reader.hpp"
+#include "core/json/record_writer.hpp"
 #include "core/json/text_input.hpp"
 #include "core/records/experiments/profiles.hpp"
 #include "core/records/limits.hpp"
@@ -20,18 +21,18 @@ namespace {
 using Fault = std::optional<RecordFault>;
 
 /// Discs dropped at random, one after another, jam when they cover some 0.547 of the plane
-/// [feder1980]; above this share it takes too long to find a place for the next.
+/// [feder1980]; above this share it takes too long to find a position for the next.
 constexpr double kDensest = 0.45;
 constexpr double kMostSubsteps = 1e4;        ///< Of one step.
 constexpr double kMostSubstepsOfWalk = 1e9;  ///< Some minutes.
 
-/// What keeps landmarks from being scattered over the room; empty: nothing.
+/// Why landmarks cannot be scattered over the room; empty: they can.
 std::string room_problem(const WorldOptions& world) {
   const double spacing_m = world.landmark_diameter_m + world.gap_m;
   const double free_side_m = world.side_m - 2.0 * world.wall_margin_m - world.landmark_diameter_m;
   if (free_side_m <= 0.0)
     return fmt::format(
-        "a room of {} m has no place for a landmark of {} m that keeps {} m from the walls",
+        "a room of {} m has no space for a landmark of {} m that keeps {} m from the walls",
         world.side_m, world.landmark_diameter_m, world.wall_margin_m);
   const double room = (free_side_m + spacing_m) * (free_side_m + spacing_m);
   const double each = std::numbers::pi / 4.0 * spacing_m * spacing_m;
@@ -104,7 +105,7 @@ Fault sensors_fault(const Experiment& experiment) {
   return std::nullopt;
 }
 
-/// That two sensors' tables get one id, those that go with them included.
+/// Whether two sensors' tables get one id, those that go with them included.
 Fault table_ids_fault(const Experiment& experiment) {
   for (const SensorStudy& study : experiment.sensors)
     for (const SensorStudy& other : experiment.sensors) {
@@ -142,7 +143,7 @@ Fault variation_fault(const Variation& variation, const Experiment& experiment,
   return grids_fault(grids_of(variation.settings), experiment.world.landmarks, pointer);
 }
 
-/// What keeps one of an experiment's runs from being simulated and mapped; empty: nothing.
+/// Why one of an experiment's runs cannot be simulated and mapped; empty: it can.
 std::string run_problem(const Experiment& experiment) {
   if (std::string problem = anchors_problem(experiment); !problem.empty()) return problem;
   if (std::string problem = room_problem(experiment.world); !problem.empty()) return problem;

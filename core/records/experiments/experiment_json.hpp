@@ -21,14 +21,14 @@ namespace mapproof {
 /// @param source   What to call the file in errors.
 /// @param profile  The profile whose merge patch (RFC 7396) is applied first; "" for none.
 /// @return Methods in the order of all_methods(), sensors in that of the enumeration.
-/// @throws IoError with the place if the text is no such experiment or lacks that profile.
+/// @throws IoError with the location if the text is no such experiment or lacks that profile.
 Experiment parse_experiment(std::string_view text, const std::string& source,
                             const std::string& profile = "");
 
 /// The file that parses to exactly this experiment: canonical, every default written out.
 std::string experiment_json(const Experiment& experiment);
 
-/// What no single value of a record shows to be wrong, and where: "walk/wall_margin_m".
+/// What is wrong with a record beyond its single values, and where: "walk/wall_margin_m".
 struct RecordFault {
   std::string pointer;
   std::string what;
@@ -167,7 +167,7 @@ void fields(Visitor& v, PublishedValue& value) {
 template <typename Visitor>
 void fields(Visitor& v, Published& published) {
   v.type("published");
-  v.about("Numbers that a paper printed, shown beside ours.");
+  v.about("Numbers that a paper printed, compared with ours.");
   v.field("source", published.source, {.not_empty = true, .max_bytes = 200});
   v.field("table", published.table,
           {.description = "Id of the table that has ours beside them; others go with it.",

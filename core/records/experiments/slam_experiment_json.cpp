@@ -2,7 +2,8 @@
 
 #include <fmt/format.h>
 
-#include "core/json/record_json.hpp"
+#include "core/json/record_reader.hpp"
+#include "core/json/record_writer.hpp"
 #include "core/records/experiments/profiles.hpp"
 
 namespace mapproof {

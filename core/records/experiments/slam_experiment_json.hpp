@@ -192,7 +192,7 @@ void fields(Visitor& v, SlamOrder& head) {
 /// (docs/file-formats.md), every bound checked.
 /// @param source, profile  As parse_experiment().
 /// @return Methods in the order of all_slam_methods() and all_methods().
-/// @throws IoError with the place if the text is no such experiment or lacks that profile.
+/// @throws IoError with the location if the text is no such experiment or lacks that profile.
 SlamExperiment parse_slam_experiment(std::string_view text, const std::string& source,
                                      const std::string& profile = "");
 

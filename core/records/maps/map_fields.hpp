@@ -153,7 +153,7 @@ void map_fields(Visitor& v, MapRecord& map, const MapRecord* shared) {
   v.field("statuses", map.statuses, kStatuses);
   landmark_fields(v, map, shared);
   v.field("estimate", map.estimate,
-          {.description = "In metres if the frame is that of the truth.",
+          {.description = "In metres if the frame is that of the ground truth.",
            .nullable = true,
            .max_items = kMostLandmarks});
   check_row_count(v, "estimate", map.estimate, map);
@@ -168,7 +168,7 @@ void fields(Visitor& v, MapRecord& map) {
 template <typename Visitor>
 void fields(Visitor& v, MapCertainty& certainty) {
   v.type("certainty");
-  v.about("Ellipses of a map: (x - place)' C^-1 (x - place) up to squared_radius.");
+  v.about("Ellipses of a map: (x - position)' C^-1 (x - position) up to squared_radius.");
   v.field("confidence", certainty.confidence, {.minimum = 0.0, .maximum = 1.0});
   v.field("squared_radius", certainty.squared_radius, {.minimum = 0.0, .maximum = 1e300});
   v.field("replicates", certainty.replicates, {.minimum = 0, .maximum = 1e6});

@@ -4,7 +4,8 @@
 #include <numbers>
 
 #include "core/base/csv.hpp"
-#include "core/json/record_json.hpp"
+#include "core/json/record_reader.hpp"
+#include "core/json/record_writer.hpp"
 #include "core/records/maps/map_fields.hpp"
 
 namespace mapproof {

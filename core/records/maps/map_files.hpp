@@ -16,7 +16,8 @@ namespace mapproof {
 std::string map_json(const MapRecord& map, const std::optional<MapCertainty>& certainty = {},
                      const std::optional<MapSensors>& sensors = {});
 
-/// @param source  What to call the file in errors. @throws IoError with the place, of what is wrong
+/// @param source  What to call the file in errors. @throws IoError with the location, of what is
+/// wrong
 ///                with its certainty or sensors, too.
 MapRecord parse_map(std::string_view text, const std::string& source);
 
@@ -24,9 +25,10 @@ MapRecord parse_map(std::string_view text, const std::string& source);
 std::optional<MapCertainty> parse_map_certainty(std::string_view text, const std::string& source);
 
 /// One map as RFC 4180: name,x_m,y_m,true_x_m,true_y_m,error_m,anchor; empty where unknown.
-/// Without the frame of the truth the columns are x,y and there is no error. With a certainty the
-/// half axes of the ellipse and the turn of the longer one from the x axis follow. Names are kept
-/// as they are, so a spreadsheet may take one that starts with = + - or @ for a formula.
+/// Without the frame of the ground truth the columns are x,y and there is no error. With a
+/// certainty the half axes of the ellipse and the angle of the longer one from the x axis follow.
+/// Names are kept as they are, so a spreadsheet may take one that starts with = + - or @ for a
+/// formula.
 std::string map_csv(const MapRecord& map, const std::optional<MapCertainty>& certainty = {});
 
 }  // namespace mapproof

@@ -15,7 +15,8 @@ std::string observation_problem(Sensor sensor, double value);
 
 inline double in_radians(double degrees) { return degrees * std::numbers::pi / 180.0; }
 
-/// A cell as an observation, NaN if it is missing. Empty if it is wrong: cell_problem() says how.
+/// A cell as an observation, NaN if it is missing. Empty if it is wrong: cell_problem() gives the
+/// reason.
 std::optional<double> observation_in(std::string_view cell, Sensor sensor);
 std::string cell_problem(std::string_view cell, Sensor sensor);
 
@@ -24,7 +25,7 @@ void check_size(const std::string& source, const std::string& place, std::size_t
                 std::size_t steps);
 
 /// A cell as a range in metres or a bearing in radians, NaN if it is missing. Empty if it is wrong:
-/// detection_problem() says how.
+/// detection_problem() gives the reason.
 std::optional<double> detection_value(std::string_view cell, Sensor sensor, AngleUnit unit);
 std::string detection_problem(std::string_view cell, Sensor sensor, AngleUnit unit);
 

@@ -21,12 +21,13 @@ Detection DetectionRows::detection_of(const TableRow& row) {
   if (label.empty())
     scans_.fail(
         row.line,
-        "a detection without a label: which landmark it shows is not told from scans; leave "
-        "such rows out");
+        "a detection without a landmark ID: the data association of scans is not estimated; "
+        "leave such rows out");
   if (label == kUnlabelledMark)
-    scans_.fail(row.line,
-                "a reading without a label (?): whose such are is estimated of long tables of one "
-                "kind of value, up to some 64 MB");
+    scans_.fail(
+        row.line,
+        "a measurement without a landmark ID (?): the data association is estimated for long "
+        "tables of one sensor's values, up to some 64 MB");
   Detection seen;
   seen.landmark = static_cast<int>(names_.find_or_add(label, row.line));
   const DetectionColumns& columns = scans_.columns();
@@ -42,10 +43,10 @@ double DetectionRows::value(const TableRow& row, DetectionColumn column, Sensor 
   return scans_.value(row, column, sensor, scans_.columns().unit.value_or(format_.unit));
 }
 
-/// What the column `value` holds was said beforehand.
+/// The caller gave what the column `value` holds.
 void DetectionRows::take_value(const TableRow& row, Detection& seen) const {
   if (!format_.value)
-    scans_.fail(row.line, "a column of values does not say what they are: range or bearing?");
+    scans_.fail(row.line, "a column of values does not state what they are: range or bearing?");
   if (*format_.value == Sensor::kRange)
     seen.range_m = value(row, DetectionColumn::kValue, Sensor::kRange);
   else if (*format_.value == Sensor::kBearing)

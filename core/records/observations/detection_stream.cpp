@@ -29,7 +29,7 @@ void ScanGatherer::open(const ScanKey& scan, const TableRow& row) {
   if (!last.detections.empty() && last.scan == scan) return;
   if (!last.detections.empty() && scan.key < last.scan.key)
     throw IoError(source_, fmt::format("line {}", row.line),
-                  fmt::format("{} after {}: a file that is followed lists a robot's scans in "
+                  fmt::format("{} after {}: a streamed file lists a robot's scans in "
                               "ascending order",
                               rows_.scans().words(scan.key), rows_.scans().words(last.scan.key)));
   close(last);

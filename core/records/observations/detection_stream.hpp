@@ -66,7 +66,7 @@ class DetectionStream {
     table_.take(bytes, [this](const TableRow& row) { gatherer_.take(row); });
   }
 
-  /// Forgets a line whose end has not come, as of a file that is still written to.
+  /// Forgets a line whose end has not come, as of a file that is still being written.
   void drop_half_line() { table_.drop_half_line(); }
 
   /// There will be no more: the last line needs no end. @throws IoError as take().
@@ -77,7 +77,7 @@ class DetectionStream {
 
   std::vector<StreamedScan> scans() { return gatherer_.scans(); }
 
-  /// What has to be said after end(), a sentence each.
+  /// Remarks after end(), a sentence each.
   std::vector<std::string> remarks() const;
 
   bool is_timed() const { return gatherer_.rows().scans().is_timed(); }

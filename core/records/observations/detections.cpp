@@ -9,7 +9,6 @@
 
 #include "core/base/errors.hpp"
 #include "core/base/input_file.hpp"
-#include "core/json/record_json.hpp"
 #include "core/json/text_input.hpp"
 #include "core/records/limits.hpp"
 #include "core/records/observations/cells.hpp"

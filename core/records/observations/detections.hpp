@@ -18,9 +18,9 @@ namespace mapproof {
 ///
 /// A row of CSV is a landmark in a scan: step or time, landmark, range, bearing, where a scan's
 /// rows have one step or time; a robot's name too, whose scans are then its own. The columns are
-/// told by their names, in any case and order; without a header they are step, landmark, range,
-/// bearing. Columns of other names are not read, and remarked. The scans are pooled robot by robot
-/// in order of step or time. Cells may be empty: not measured.
+/// recognised by their names, in any case and order; without a header they are step, landmark,
+/// range, bearing. Columns of other names are not read, and remarked. The scans are pooled robot by
+/// robot in order of step or time. Cells may be empty: not measured.
 /// @throws IoError naming file and line if a number is out of its bounds (|rad| <= 2 pi or |deg| <=
 ///         360; 0 <= m <= 1e6), a landmark is twice in one scan, or for more than 5000 landmarks,
 ///         1e6 scans or 5e7 rows.

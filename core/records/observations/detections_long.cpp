@@ -66,7 +66,7 @@ class LongDetections {
     reserve(row);
   }
 
-  /// After some rows a file's size tells about how many there will be.
+  /// Estimates the number of rows from the file's size after some of them.
   void reserve(const TableRow& row) {
     constexpr std::size_t kSample = 20'000;
     if (log_.detections.size() > kSample) return;

@@ -13,7 +13,7 @@ namespace {
 
 constexpr std::size_t kLongestLine = 1 << 20;
 
-/// What is wrong with one line, said of its place in the file.
+/// What is wrong with one line, with its location in the file.
 template <typename Read>
 void at_place(const std::string& source, std::size_t line, const char* what, Read read) {
   try {

@@ -11,7 +11,7 @@ namespace mapproof {
 
 /// The rows of a table whose bytes come piece by piece, as of a file that grows, or a pipe. A row
 /// is one line, and there once the line's end is; else rows are as TableReader has them, and the
-/// first one says what separates the cells of all.
+/// first one determines what separates the cells of all.
 class GrowingTable {
  public:
   using TakeRow = std::function<void(const TableRow& row)>;
@@ -26,14 +26,14 @@ class GrowingTable {
   ///         the line's end, a line of more than 1 MiB; and what `take_row` throws.
   void take(std::string_view bytes, const TakeRow& take_row);
 
-  /// Forgets a line whose end has not come, as of a file that is still written to.
+  /// Forgets a line whose end has not come, as of a file that is still being written.
   void drop_half_line() { pending_.clear(); }
 
   /// There will be no more: the last line needs no end. One that has none and cannot be read is
   /// left out, unless it is the first.
   void end(const TakeRow& take_row);
 
-  /// After end(): what has to be said of a last line without an end; null if it had one.
+  /// After end(): the remark on a last line without an end; null if it had one.
   const char* cut_remark() const { return cut_remark_; }
 
   const std::string& source() const { return source_; }

@@ -71,7 +71,7 @@ std::string robot_in(const fs::path& path) {
 /// One row of a robot's file.
 struct Row {
   double time_s;
-  int subject;  ///< 0: nobody's barcode.
+  int subject;  ///< 0: unknown barcode.
   double range_m;
   double bearing_rad;
 };
@@ -121,7 +121,7 @@ class Scans {
     };
     if (!empty_files_.empty())
       remarks.push_back(fmt::format("Empty files: {}", fmt::join(empty_files_, ", ")));
-    add("Rows dropped with barcodes of nobody", of_nobody_, " (" + unknown_barcodes() + ")");
+    add("Rows dropped with unknown barcodes", of_nobody_, " (" + unknown_barcodes() + ")");
     add("Rows dropped that show other robots", of_robots_);
     add("Rows dropped that show a landmark a second time in one scan", repeated_);
     add("Scans dropped that show no landmark", empty_scans_);
@@ -191,7 +191,7 @@ class Scans {
   std::size_t empty_scans_ = 0;
 };
 
-/// The truth in the order of `names`; NaN rows for those that the file does not hold.
+/// The ground truth in the order of `names`; NaN rows for those that the file does not hold.
 std::optional<Points> read_truth(const fs::path& path, const std::vector<std::string>& names,
                                  std::vector<std::string>& remarks) {
   std::error_code error;

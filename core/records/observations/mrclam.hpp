@@ -11,14 +11,14 @@ namespace mapproof {
 ///
 /// The scans of all robots are pooled, robot by robot and in order of time: rows of one robot with
 /// one time stamp are one step. Landmarks are the subjects above 5, named by their number. Dropped
-/// and remarked: rows with barcodes of nobody, rows of robots (subjects 1 to 5), a landmark's
+/// and remarked: rows with unknown barcodes, rows of robots (subjects 1 to 5), a landmark's
 /// second row in one scan, and scans that then show no landmark, since a step at which nothing
-/// is seen tells nothing about any two landmarks. A robot's file that is empty is remarked, a truth
-/// that is not there as well.
+/// is seen holds no information about any two landmarks. An empty file of a robot is remarked, and
+/// so is a missing ground truth.
 /// @throws IoError naming file and line.
 DetectionSource read_mrclam_detections(const std::filesystem::path& folder);
 
-/// What one kind of sensor of the set saw.
+/// What one sensor of the set observed.
 /// @return Visibility: 0 where a landmark was not seen. Bearing and range: NaN there.
 /// @throws IoError as above.
 ObservationSource read_mrclam(const std::filesystem::path& folder, Sensor sensor);

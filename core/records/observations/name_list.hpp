@@ -24,7 +24,7 @@ class NameList {
   /// Adds a name that must be new. @throws IoError at `line`, naming the other line too.
   Eigen::Index add(std::string_view name, std::size_t line);
 
-  /// The place of a name, added if it is new. @throws IoError as add().
+  /// The index of a name, added if it is new. @throws IoError as add().
   Eigen::Index find_or_add(std::string_view name, std::size_t line);
 
   const std::vector<std::string>& names() const { return names_; }

@@ -24,7 +24,7 @@ class NumberRows {
   std::size_t line() const { return row_.line; }
   double operator[](std::size_t i) const { return values_[i]; }
   const std::vector<double>& values() const { return values_; }
-  /// A number of somebody or something: an integer from 0. @throws IoError if it is none.
+  /// An identifying number: an integer from 0. @throws IoError if it is none.
   int id(std::size_t i) const;
 
  private:

@@ -5,7 +5,8 @@
 #include <fmt/format.h>
 
 #include "core/base/errors.hpp"
-#include "core/json/record_json.hpp"
+#include "core/json/record_reader.hpp"
+#include "core/json/record_writer.hpp"
 #include "core/records/observations/cells.hpp"
 
 namespace mapproof {

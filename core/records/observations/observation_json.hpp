@@ -34,8 +34,7 @@ struct ObservationsFile {
 
 template <typename Visitor>
 void fields(Visitor& v, ObservationsFile& file) {
-  v.file("mapproof.observations",
-         "What was observed of M landmarks over N steps by one kind of sensor.");
+  v.file("mapproof.observations", "What one sensor observed of M landmarks over N steps.");
   v.field("sensor", file.history.sensor);
   v.field("unit", file.unit,
           {.description = "Of bearings; rad if left out.",
@@ -91,7 +90,7 @@ void fields(Visitor& v, DetectionsFile& file) {
 }
 
 /// mapproof.observations from the text of a file. @param kind  What the values are, if the caller
-/// knows: another one is refused. @throws IoError with the place.
+/// knows: another one is refused. @throws IoError with the location.
 ObservationSource parse_observations(std::string_view text, const std::string& source,
                                      std::optional<Sensor> kind);
 

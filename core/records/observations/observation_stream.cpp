@@ -51,7 +51,7 @@ void ObservationStream::read_row(const TableRow& row) {
   if (detections_) return detections_->take(row);
   if (first && values_.begin(row)) {
     if (values_.scans().columns()[DetectionColumn::kRobot])
-      values_.scans().fail(row.line, "a file that is followed is of one robot");
+      values_.scans().fail(row.line, "a streamed file is of one robot");
     return;
   }
   add(values_.reading(row));
@@ -61,7 +61,7 @@ void ObservationStream::begin_step(const ValueRows::Reading& reading) {
   const ScanRows& scans = values_.scans();
   const double step = reading.scan.key;
   if (open_ && step < open_->step)
-    scans.fail(reading.line, fmt::format("{} after {}: a file that is followed lists its scans in "
+    scans.fail(reading.line, fmt::format("{} after {}: a streamed file lists its scans in "
                                          "ascending order",
                                          scans.words(step), scans.words(open_->step)));
   if (open_ && step == open_->step) return;
@@ -76,7 +76,8 @@ void ObservationStream::add(const ValueRows::Reading& reading) {
   const ScanRows& scans = values_.scans();
   if (reading.landmark < 0)
     scans.fail(reading.line,
-               "a reading without a label (?): whose such are is estimated of whole files");
+               "a measurement without a landmark ID (?): the data association is estimated for "
+               "whole files");
   begin_step(reading);
   const auto row = static_cast<std::size_t>(reading.landmark);
   if (row >= listed_.size()) listed_.resize(row + 1, false);

@@ -42,7 +42,7 @@ class ObservationStream {
     table_.take(bytes, [this](const TableRow& row) { read_row(row); });
   }
 
-  /// Forgets a line whose end has not come, as of a file that is still written to.
+  /// Forgets a line whose end has not come, as of a file that is still being written.
   void drop_half_line() { table_.drop_half_line(); }
 
   /// There will be no more: the last line needs no end, and the last step is complete.
@@ -52,7 +52,7 @@ class ObservationStream {
   /// The steps that became complete since the last call, ascending.
   std::vector<StreamedStep> steps();
 
-  /// What has to be said after end(), a sentence each.
+  /// Remarks after end(), a sentence each.
   std::vector<std::string> remarks() const;
 
   /// Of all landmarks so far, in the order in which they came.

@@ -10,7 +10,6 @@
 #include "core/base/errors.hpp"
 #include "core/base/input_file.hpp"
 #include "core/base/not_finite.hpp"
-#include "core/json/record_json.hpp"
 #include "core/json/text_input.hpp"
 #include "core/records/limits.hpp"
 #include "core/records/observations/cells.hpp"
@@ -152,7 +151,7 @@ std::vector<ScanKey> distinct_scans(const std::vector<Reading>& readings) {
                             rows.scans().words(repeat.scan.key), first->line));
 }
 
-/// @param others  What stands where nothing is listed.
+/// @param others  The value where nothing is listed.
 Eigen::MatrixXd arrange(const std::vector<Reading>& readings, const ValueRows& rows, double others,
                         const std::string& source) {
   const std::vector<ScanKey> steps = distinct_scans(readings);
@@ -235,7 +234,7 @@ ObservationSource read_long(std::string_view text, const std::string& source, Se
                            .unlabelled = unlabelled_in(readings)};
   if (lists_detections)
     result.remarks.push_back(
-        "Only detections are listed: all other readings are taken as not seen");
+        "Only detections are listed: all other landmarks are taken as not seen");
   return result;
 }
 
@@ -268,7 +267,8 @@ ObservationSource read_observations(ByteSource& source, std::optional<Sensor> ki
   const std::string_view text = checked_text(bytes, name);
   if (holds_json) return parse_observations(text, name, kind);
   if (!kind)
-    throw IoError(name, "does not say what it holds: visibility, bearing or range has to be given");
+    throw IoError(name,
+                  "does not state what it holds: visibility, bearing or range has to be given");
   if (layout == Layout::kAuto) layout = has_long_header(text, name) ? Layout::kLong : Layout::kWide;
   ObservationSource result = layout == Layout::kLong ? read_long(text, name, *kind, unit)
                                                      : read_wide(text, name, *kind, unit);

@@ -14,13 +14,14 @@
 namespace mapproof {
 
 /// Observations from CSV (wide or long) or mapproof's JSON. Of detections (see detections.hpp),
-/// what one kind of sensor saw.
+/// what one sensor observed.
 ///
-/// Rows without any observation are kept: whether they are trouble is for the caller to say.
+/// Rows without any observation are kept: whether they are a problem is for the caller to decide.
 ///
 /// @param kind  What the values are. Required for CSV; must agree with a JSON file.
-/// @param unit  Of bearings in CSV; JSON says it itself.
-/// @throws IoError naming file and place if the source cannot be read as such, breaks the bounds of
+/// @param unit  Of bearings in CSV; a JSON file states it.
+/// @throws IoError naming file and location if the source cannot be read as such, breaks the bounds
+/// of
 ///         its kind (0 or 1; |rad| <= 2 pi; 0 <= m <= 1e6), repeats a name or a (step, landmark),
 ///         or exceeds 5000 landmarks, 1e6 steps or 2e8 entries.
 /// @note Linear in the size of the file; about 0.2 s for 50 x 100,000 entries.

@@ -20,7 +20,7 @@ enum class DetectionColumn { kStep, kTime, kRobot, kLandmark, kRange, kBearing, 
 struct DetectionColumns {
   std::array<std::optional<std::size_t>, 7> cell;  ///< By DetectionColumn.
   std::size_t width = 0;                           ///< Cells of a row.
-  std::optional<AngleUnit> unit;                   ///< Of the bearings, if the header says it.
+  std::optional<AngleUnit> unit;                   ///< Of the bearings, if the header states it.
   std::vector<std::string> unread;                 ///< Columns of other names.
 
   std::optional<std::size_t> operator[](DetectionColumn column) const {
@@ -47,7 +47,7 @@ DetectionColumns detection_columns(const TableRow& header, const std::string& so
 DetectionColumns usual_detection_columns(const TableRow& first, const std::string& source);
 
 /// What the rows of every long table have in common: each is one landmark in one scan, and the
-/// columns say which scan that is.
+/// columns determine which scan that is.
 class ScanRows {
  public:
   /// @param source  What to call the table in errors; must outlive the object.
@@ -65,19 +65,19 @@ class ScanRows {
   /// @throws IoError with the line for anything else.
   double value(const TableRow& row, DetectionColumn column, Sensor sensor, AngleUnit unit) const;
 
-  /// The landmark's label. @pre After scan_of() of the row.
+  /// The landmark's ID. @pre After scan_of() of the row.
   std::string_view label(const TableRow& row) const {
     return row.cells[*columns_[DetectionColumn::kLandmark]];
   }
 
   bool is_timed() const { return !columns_[DetectionColumn::kStep]; }
-  /// Names of the robots, by ScanKey::robot; none if no column tells them apart.
+  /// Names of the robots, by ScanKey::robot; none if no column distinguishes them.
   const std::vector<std::string>& robots() const { return robots_.names(); }
 
   /// "step 3" or "time 3.5", as errors name a scan.
   std::string words(double key) const;
 
-  /// What has to be said of the columns, a sentence each.
+  /// Remarks on the columns, a sentence each.
   std::vector<std::string> remarks() const;
 
   [[noreturn]] void fail(std::size_t line, const std::string& what) const;

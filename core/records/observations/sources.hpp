@@ -17,13 +17,13 @@ struct DetectionSource {
   DetectionLog log;
   std::optional<Points> truth_m;     ///< M x 2, if the source holds it; NaN rows: unknown.
   std::vector<std::string> remarks;  ///< What was dropped or assumed, a sentence each.
-  std::vector<std::string> places;   ///< M; where a landmark stands: "line 7".
+  std::vector<std::string> places;   ///< M; where the file holds the landmark: "line 7".
   std::string path;                  ///< For errors: the file or folder that was read.
 };
 
 /// How a file of detections is to be understood.
 struct DetectionFormat {
-  AngleUnit unit = AngleUnit::kRadians;  ///< Where the file does not say it.
+  AngleUnit unit = AngleUnit::kRadians;  ///< Where the file does not state it.
   /// What a column `value` holds; visibility: 1, seen.
   std::optional<Sensor> value;
 };
@@ -37,7 +37,7 @@ enum class Layout {
           ///< then its own.
 };
 
-/// A reading of which nobody says whose it is.
+/// A measurement without a landmark ID.
 struct UnlabelledReading {
   Eigen::Index step = 0;  ///< Column of the history.
   double number = 0.0;    ///< Step or time, as the file has it.
@@ -45,28 +45,29 @@ struct UnlabelledReading {
   std::size_t line = 0;
 };
 
-/// The landmark of such a reading in a long table.
+/// The landmark of such a measurement in a long table.
 inline constexpr std::string_view kUnlabelledMark = "?";
 
-/// A person's own observations, with what is needed to talk about the file they came from.
+/// A user's observations, with what is needed to talk about the file they came from.
 struct ObservationSource {
   ObservationHistory history;
   std::optional<Points> truth_m;     ///< M x 2, if the source holds it; NaN rows: unknown.
   std::vector<std::string> remarks;  ///< What was dropped or assumed, a sentence each.
-  std::vector<std::string> places;   ///< M; where a landmark stands: "line 7", "/values/6".
-  std::string path;                  ///< For errors: the file or folder that was read.
+  std::vector<std::string>
+      places;        ///< M; where the file holds the landmark: "line 7", "/values/6".
+  std::string path;  ///< For errors: the file or folder that was read.
   /// Of a long table, in the order of its lines; they are not in the history.
   std::vector<UnlabelledReading> unlabelled = {};
 };
 
-/// Landmarks with known positions: anchors, or the truth.
+/// Landmarks with known positions: anchors, or the ground truth.
 struct NamedPoints {
   std::vector<std::string> names;   ///< M, all different.
   Points positions_m;               ///< M x 2, finite.
-  std::vector<std::string> places;  ///< M; where a landmark stands: "line 7".
+  std::vector<std::string> places;  ///< M; where the file holds the landmark: "line 7".
 };
 
-/// What one kind of sensor saw of detections.
+/// What one sensor observed of detections.
 /// @throws IoError if that were more than 2e8 entries, or there is nothing of that kind.
 ObservationSource observations_of(DetectionSource source, Sensor sensor);
 

@@ -13,10 +13,10 @@ struct TableRow {
   std::vector<std::string_view> cells;
 };
 
-/// What is said of a table whose last row has no line end.
+/// The remark on a table whose last row has no line end.
 inline constexpr const char* kCutRemark = "The last line has no line end: it may be cut.";
 
-/// And if nothing can be made of that row, where it does not stop the reading.
+/// And if nothing can be made of that row, where it does not stop the reader.
 inline constexpr const char* kCutOffRemark =
     "The last line has no line end and cannot be read: it is cut, and left out.";
 

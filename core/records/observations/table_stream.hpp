@@ -12,7 +12,7 @@ namespace mapproof {
 
 /// Whether a table's first row is of some sort. The table stays unread; comments before the row do
 /// not count. False if there is no row, or if it does not end within 16 MB.
-/// @param separator  Of the cells; empty: as TableReader tells it.
+/// @param separator  Of the cells; empty: as TableReader determines it.
 /// @throws IoError if the source is empty, cannot be read, or begins with what is not a text.
 bool first_row_is(ByteSource& source, const std::function<bool(const TableRow& row)>& sort,
                   std::optional<char> separator = std::nullopt);

@@ -25,7 +25,7 @@ std::string trajectory_csv(const Trajectory& path);
 
 /// Landmarks as CSV with the columns name, x_m, y_m, which read_landmarks() takes.
 /// @throws InvalidInput if `positions_m` has other than `names.size()` rows.
-/// @note A landmark without a place is left out.
+/// @note A landmark without a position is left out.
 std::string landmarks_csv(const std::vector<std::string>& names, const Points& positions_m);
 
 }  // namespace mapproof

@@ -12,9 +12,9 @@ namespace mapproof {
 /// Understands the rows of a long table of one sensor's values: step or time, landmark, value.
 class ValueRows {
  public:
-  /// What one row says.
+  /// The content of one row.
   struct Reading {
-    Eigen::Index landmark;  ///< Row among the names; -1: without a label, see kUnlabelledMark.
+    Eigen::Index landmark;  ///< Row among the names; -1: without an ID, see kUnlabelledMark.
     ScanKey scan;
     double value;  ///< NaN: missing.
     std::size_t line;
@@ -24,7 +24,7 @@ class ValueRows {
   ValueRows(const std::string& source, Sensor sensor, AngleUnit unit);
 
   /// Learns the columns from the first row; without a header they are step, landmark, value.
-  /// @return Whether it is a header, and no reading. @throws IoError as detection_columns().
+  /// @return Whether it is a header, and not a measurement. @throws IoError as detection_columns().
   bool begin(const TableRow& first);
 
   /// @throws IoError with the line for a row that is none of the table's.

@@ -161,7 +161,7 @@ NamedPoints read_true_landmarks(const fs::path& path) {
   return landmarks_in(read_table(path, {kX, kY}, &kLandmark));
 }
 
-/// What stands beside ranges.csv.
+/// The files next to ranges.csv.
 void take_folder(const fs::path& folder, OdometrySource wanted, RangeLogParts& parts) {
   const fs::path recovered = file_in(folder, "odometry_drp.csv");
   const fs::path given = file_in(folder, "odometry.csv");

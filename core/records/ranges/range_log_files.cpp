@@ -24,7 +24,7 @@ constexpr std::array<std::string_view, 2> kTextEnds = {"_DR.txt", "_TD.txt"};
 
 bool is_ranges_csv(const fs::path& path) { return unpacked_name(path).filename() == "ranges.csv"; }
 
-/// What a name promises.
+/// The form that a name suggests.
 Form form_named(const fs::path& path) {
   const fs::path extension = unpacked_name(path).extension();
   if (is_ranges_csv(path)) return Form::kCsv;
@@ -42,14 +42,14 @@ bool is_ranges_text(const TableRow& row) {
          std::ranges::all_of(row.cells, [](auto cell) { return number_in(cell).has_value(); });
 }
 
-/// What the first bytes show.
+/// The form that the first bytes show.
 Form form_seen(ByteSource& source) {
   if (source.peek().starts_with("MATLAB")) return Form::kMat;
   try {
     if (first_row_is(source, names_range_columns)) return Form::kCsv;
     if (first_row_is(source, is_pyfg, TableReader::kBlanks)) return Form::kPyfg;
     if (first_row_is(source, is_ranges_text, TableReader::kBlanks)) return Form::kText;
-  } catch (const IoError&) {  // No text: whoever reads it says what is wrong.
+  } catch (const IoError&) {  // No text: its reader reports what is wrong.
   }
   return Form::kNone;
 }

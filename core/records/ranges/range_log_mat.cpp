@@ -51,8 +51,8 @@ Eigen::VectorXd step_headings(const Points& steps_m, const Eigen::VectorXd& sign
   return headings;
 }
 
-/// The odometry that integrates to the positions of `path`, whose headings are not looked at: each
-/// pose heads for the next one, so the last turn is 0.
+/// The odometry that integrates to the positions of `path`, whose headings are not used: each
+/// pose heads for the next one, so the last heading change is 0.
 ///
 /// @param path  T >= 2 poses.
 /// @param distances_m  T - 1, for their signs: where one is negative, the robot drove backwards.
@@ -160,7 +160,7 @@ NumberTable read_table(mat_t* file, matvar_t* variable, const std::string& sourc
   std::iota(table.rows.begin(), table.rows.end(), std::size_t{1});
   table.values.resize(static_cast<Eigen::Index>(rows), static_cast<Eigen::Index>(columns));
   if (table.values.size() == 0) return table;
-  // Where a damaged file gives fewer numbers than it says, matio leaves the rest as it was.
+  // Where a damaged file gives fewer numbers than it declares, matio leaves the rest as it was.
   table.values.setConstant(kNaN);
   std::array<int, 2> start = {0, 0};
   std::array<int, 2> stride = {1, 1};
@@ -189,7 +189,7 @@ std::map<std::string, NumberTable> read_mat_tables(ByteSource& input) {
   const MatFile file(Mat_Open(path_of(seekable).c_str(), MAT_ACC_RDONLY));
   if (!file) throw IoError(source, "is not a MATLAB file");
 
-  // All heads first: reading numbers moves the place from which matio reads the next head.
+  // All heads first: reading numbers moves the position from which matio reads the next head.
   std::vector<MatVariable> variables;
   for (std::size_t i = 0; i < count; ++i) {
     variables.emplace_back(Mat_VarReadNextInfo(file.get()));

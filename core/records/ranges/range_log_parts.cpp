@@ -14,15 +14,16 @@
 #include "core/base/not_finite.hpp"
 #include "core/base/words.hpp"
 #include "core/records/limits.hpp"
+#include "core/records/ranges/range_log_readers.hpp"
 
 namespace mapproof {
 namespace {
 
 /// Mean cosine of heading and travel below which headings are off by half a turn.
 constexpr double kTurnedAbout = -0.5;
-/// Turns that differ by less are the same to the last digit.
+/// Heading changes that differ by less are the same to the last digit.
 constexpr double kSameTurn_rad = 1e-9;
-/// A log without a turn above this does not turn.
+/// A log without a heading change above this does not turn.
 constexpr double kSomeTurn_rad = 1e-3;
 
 /// A name as letters and the number behind them; empty if it is none such.
@@ -79,7 +80,7 @@ void take_true_landmarks(const RangeLogParts& parts, RangeLog& log) {
   if (truth.names.empty()) return;
   if (truth.names.size() > kMostLandmarks)
     throw IoError(parts.source,
-                  fmt::format("true places of more than {} landmarks", kMostLandmarks));
+                  fmt::format("true positions of more than {} landmarks", kMostLandmarks));
   const std::map<std::string_view, Eigen::Index> rows = rows_by_name(log.landmarks);
   log.true_landmarks = Points::Constant(static_cast<Eigen::Index>(log.landmarks.size()), 2, kNaN);
   std::vector<std::string> unheard;
@@ -98,7 +99,7 @@ void take_true_landmarks(const RangeLogParts& parts, RangeLog& log) {
     if (!log.true_landmarks->row(static_cast<Eigen::Index>(i)).allFinite())
       unsurveyed.push_back(log.landmarks[i]);
   if (!unsurveyed.empty())
-    log.remarks.push_back("No true place is given of the landmarks " +
+    log.remarks.push_back("No true position is given for the landmarks " +
                           printable(listed(unsurveyed, 10), 1000) + ".");
 }
 
@@ -195,7 +196,7 @@ RangeLog assemble(RangeLogParts parts, const RangeLogOptions& options) {
   count_outside(log);
   if (log.truth && turns_are_the_truths(log.odometry, *log.truth))
     log.remarks.push_back(
-        "The turns of the odometry are those of the true heading: a result "
+        "The heading changes of the odometry are those of the true heading: a result "
         "that uses them is not honest.");
   check_true_heading(log);
   if (!log.truth) log.remarks.push_back("The true path is not known.");

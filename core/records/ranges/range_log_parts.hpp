@@ -23,18 +23,17 @@ struct RangeLogParts {
 };
 
 /// Puts the landmarks in order (of the letters of their names and then of the number behind them if
-/// all names end in a number, else as they first come), sorts the readings by time, turns true
+/// all names end in a number, else as they first come), sorts the measurements by time, turns true
 /// headings that are off by half a turn, and remarks on all of it and on what is missing or not to
 /// be trusted.
 /// @param options  Whose files stand in for what was gathered.
-/// @throws IoError if there is no reading, there are more than 5000 landmarks with readings or with
-///         true places, or the start is not before the first motion.
+/// @throws IoError if there is no measurement, there are more than 5000 landmarks with measurements
+/// or
+///         with true positions, or the start is not before the first motion.
 RangeLog assemble(RangeLogParts parts, const RangeLogOptions& options);
 
-/// Reads the files that the options name in place of what was gathered. @throws IoError.
-void take_named_files(const RangeLogOptions& options, RangeLogParts& parts);
-
-/// Whether the turns are the increments of the true heading to the last digit, and turn at all.
+/// Whether the heading changes are the increments of the true heading to the last digit, and not
+/// all 0.
 bool turns_are_the_truths(const std::vector<Motion>& motions, const Trajectory& truth);
 
 }  // namespace mapproof

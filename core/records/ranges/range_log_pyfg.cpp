@@ -77,7 +77,7 @@ class PyfgLines {
  private:
   struct Step {
     std::size_t line;
-    std::array<double, 3> step;  ///< Forward, turn, sideways.
+    std::array<double, 3> step;  ///< Forward, heading change, sideways.
   };
 
   static NumberTable filled(NumberTable table, const std::vector<double>& values,

@@ -53,8 +53,8 @@ RangeLog read_range_log_text(ByteSource& source, const RangeLogOptions& options)
     ByteSource odometry(odometry_path);
     parts.odometry = motions_in(read_numbers(odometry, 3));
     parts.remarks.push_back(
-        "The odometry is DR as it stands; whether its turns are the robot's own cannot be told "
-        "without the truth.");
+        "The odometry is DR as it stands; whether its heading changes are the robot's own "
+        "cannot be determined without the ground truth.");
   }
   return assemble(std::move(parts), options);
 }

@@ -79,7 +79,7 @@ std::vector<Motion> motions_in(const NumberTable& table) {
   motions.reserve(static_cast<std::size_t>(table.values.rows()));
   for (Eigen::Index i = 0; i < table.values.rows(); ++i) {
     check_bound(table, i, 1, kLongestRange_m, "a distance in metres");
-    check_bound(table, i, 2, kMostTurn_rad, "a turn in radians");
+    check_bound(table, i, 2, kMostTurn_rad, "a heading change in radians");
     if (has_sideways) check_bound(table, i, 3, kLongestRange_m, "a distance in metres");
     motions.push_back({.time_s = table.values(i, 0),
                        .distance_m = table.values(i, 1),
@@ -135,10 +135,9 @@ NumberTable selected(const NumberTable& table, const std::vector<Eigen::Index>& 
 void check_one_sender(const NumberTable& table, Eigen::Index column) {
   for (Eigen::Index i = 1; i < table.values.rows(); ++i)
     if (table.values(i, column) != table.values(0, column))
-      table.fail(i,
-                 fmt::format("a reading of robot {:g} after those of robot {:g}: give the readings "
-                             "of one robot",
-                             table.values(i, column), table.values(0, column)));
+      table.fail(i, fmt::format("a measurement of robot {:g} after those of robot {:g}: give the "
+                                "measurements of one robot",
+                                table.values(i, column), table.values(0, column)));
 }
 
 }  // namespace mapproof

@@ -10,7 +10,7 @@
 
 namespace mapproof {
 
-/// A table of numbers out of some file, with what is needed to say where a wrong one stands.
+/// A table of numbers out of some file, with what is needed to report the location of a wrong one.
 struct NumberTable {
   std::string source;                   ///< The file.
   std::string row_word = "line";        ///< What `rows` counts: "line", "variable GT, row".
@@ -26,7 +26,7 @@ struct NumberTable {
   [[noreturn]] void fail(Eigen::Index row, const std::string& what) const;
 };
 
-/// A reading whose landmark has no row yet.
+/// A measurement whose landmark has no row yet.
 struct NamedReading {
   double time_s;
   std::string landmark;
@@ -34,11 +34,11 @@ struct NamedReading {
 };
 
 /// The columns of a table as values. All throw IoError at the row that breaks a bound: times within
-/// 1e12 s and, but for readings, ascending; coordinates within 1e9 m; ranges from 0 to 1e6 m.
+/// 1e12 s and, but for measurements, ascending; coordinates within 1e9 m; ranges from 0 to 1e6 m.
 ///
 /// @param table  Columns time, x, y and perhaps heading.
 Trajectory trajectory_in(const NumberTable& table);
-/// @param table  Columns time, distance, turn and perhaps the way sideways.
+/// @param table  Columns time, distance, heading change and perhaps the sideways distance.
 std::vector<Motion> motions_in(const NumberTable& table);
 /// @param table  Columns time, range; with names.
 std::vector<NamedReading> readings_in(const NumberTable& table);

@@ -16,7 +16,7 @@ class FolderLock {
   ///         folder cannot be opened.
   explicit FolderLock(const std::filesystem::path& folder);
 
-  /// Waits until nobody else holds the folder.
+  /// Waits until no other lock holds the folder.
   /// @param busy  Called once, before the wait, if there is one.
   /// @throws IoError if the folder cannot be opened.
   FolderLock(const std::filesystem::path& folder, const std::function<void()>& busy);

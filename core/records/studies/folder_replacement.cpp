@@ -30,7 +30,7 @@ constexpr const char* kWaiting = "old";
   throw IoError(path.string(), std::string(what) + ": " + std::strerror(errno));
 }
 
-/// The path ".NAME.mapproof-MORE" beside the folder.
+/// The path ".NAME.mapproof-MORE" next to the folder.
 fs::path beside(const fs::path& folder, const std::string& more) {
   return folder.parent_path() / ("." + folder.filename().string() + ".mapproof-" + more);
 }
@@ -44,7 +44,7 @@ struct stat facts_of(const fs::path& path) {
   return facts;
 }
 
-/// Makes a folder with a new name beside the folder.
+/// Makes a folder with a new name next to the folder.
 fs::path make_beside(const fs::path& folder, mode_t mode) {
   for (int i = 0;; ++i) {
     const fs::path made = beside(folder, std::to_string(::getpid()) + "-" + std::to_string(i));
@@ -154,7 +154,7 @@ bool is_missing_call(int error) {
 }
 
 /// Exchanges by renames, where the file system cannot do it in one step.
-/// @return False if that failed; errno says why.
+/// @return False if that failed; errno holds the reason.
 bool exchange_in_two(const fs::path& folder, const fs::path& copy) {
   const fs::path waiting = waiting_place(folder);
   if (::rename(folder.c_str(), waiting.c_str()) != 0) return false;

@@ -13,7 +13,7 @@ namespace mapproof {
 /// cannot exchange two folders, a kill may leave the old one as .NAME.mapproof-old, from where
 /// recover_folder() puts it back.
 ///
-/// The copy is made beside the folder, as .NAME.mapproof-PID-N. Files that are neither written nor
+/// The copy is made next to the folder, as .NAME.mapproof-PID-N. Files that are neither written nor
 /// removed get hard links in it, whoever owns them, and are copied where no hard link can be made.
 /// Folders and files keep their modes.
 class FolderReplacement {
@@ -55,7 +55,7 @@ class FolderReplacement {
 };
 
 /// Puts back a folder that a killed replacement left under another name, and removes the copies
-/// that killed replacements left beside it, except those that another process has locked.
+/// that killed replacements left next to it, except those that another process has locked.
 /// @param folder  As real_path() gives it.
 /// @throws IoError if the folder cannot be put back.
 void recover_folder(const std::filesystem::path& folder);

@@ -8,7 +8,7 @@
 
 #include "core/base/errors.hpp"
 #include "core/base/files.hpp"
-#include "core/json/record_json.hpp"
+#include "core/json/record_reader.hpp"
 #include "core/json/text_input.hpp"
 #include "core/records/maps/map_csv.hpp"
 #include "core/records/observations/trajectory_files.hpp"

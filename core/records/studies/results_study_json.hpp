@@ -15,7 +15,7 @@
 
 namespace mapproof {
 
-/// The schema of a study.json that stands beside a results.csv and nothing else.
+/// The schema of a study.json that goes with a results.csv and nothing else.
 inline constexpr std::string_view kResultsStudy = "mapproof.results_study";
 
 /// The name of a study of that schema that has none.
@@ -23,20 +23,21 @@ inline constexpr std::string_view kNamelessResults = "results";
 
 /// Reads a study.json of that schema (docs/file-formats.md); the rows and the labels of what it
 /// does not name are missing.
-/// @throws IoError with the place.
+/// @throws IoError with the location.
 ResultsStudy parse_results_study(std::string_view text, const std::string& source);
 
 /// Reads study.json and results.csv of the folder.
-/// @throws IoError with the place: also if the table has no row, or if study.json names a setup, a
+/// @throws IoError with the location: also if the table has no row, or if study.json names a setup,
+/// a
 ///         method or a factor that no row has.
 ResultsStudy read_results_study(const std::filesystem::path& folder);
 
-/// The maps in maps/NAME.csv, by name as ids. @throws IoError with the place.
+/// The maps in maps/NAME.csv, by name as ids. @throws IoError with the location.
 std::vector<MapRecord> read_given_maps(const std::filesystem::path& folder);
 
 /// The paths in paths/NAME.tum, by name, with the ground truth in paths/NAME.truth.tum and the
 /// alignment to it that study.json asks for; as they were given.
-/// @throws IoError with the place; also for a ground truth of no path.
+/// @throws IoError with the location; also for a ground truth of no path.
 std::vector<GivenPath> read_given_paths(const std::filesystem::path& folder);
 
 /// Every file of a study of results, below the folder: study.json, results.csv, maps and paths.
@@ -49,7 +50,7 @@ std::vector<std::string> passed_over_files(const std::filesystem::path& folder);
 /// Whether the folder's study.json is of that schema, be the rest readable or not.
 bool is_results_study(const std::filesystem::path& folder);
 
-// The fields of the study.json beside a results.csv (core/json/fields.hpp).
+// The fields of the study.json of a results.csv (core/json/fields.hpp).
 
 /// How paths are aligned to their ground truths.
 enum class PathAlignment { kNone, kRigid, kSimilarity };
@@ -104,7 +105,7 @@ void fields(Visitor& v, ResultsHead& head) {
     study.results.are_repeats = true;
   }
   v.file("mapproof.results_study",
-         "study.json beside a results.csv that any program wrote: a title and what the ids in the "
+         "study.json of a results.csv that any program wrote: a title and what the ids in the "
          "table stand for.");
   v.field(
       "name", study.name,

@@ -192,7 +192,7 @@ class ResultsReader {
     }
   }
 
-  /// Throws if two rows say the same.
+  /// Throws if two rows are of the same quantity.
   void check_apart() {
     for (std::size_t i = 1; i < rows_.size(); ++i)
       if (!comes_before(rows_[i - 1].second, rows_[i].second)) {

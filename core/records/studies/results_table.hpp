@@ -19,8 +19,8 @@ std::string results_csv(const std::vector<Result>& rows);
 /// @return In order.
 /// @throws IoError with the line: columns that are missing, unknown or there twice, a row of
 ///         another length, a cell that is not a number, a level beyond 1e100, a factor with numbers
-///         and texts within one setup, a quantity that `quantities` lacks, a row that says again
-///         what another says, a run in two groups.
+///         and texts within one setup, a quantity that `quantities` lacks, a row that repeats
+///         another one, a run in two groups.
 std::vector<Result> parse_results_csv(std::string_view text, const std::string& source,
                                       const Quantities& quantities);
 

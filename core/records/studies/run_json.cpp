@@ -1,6 +1,7 @@
 #include "core/records/studies/run_json.hpp"
 
-#include "core/json/record_json.hpp"
+#include "core/json/record_reader.hpp"
+#include "core/json/record_writer.hpp"
 #include "core/records/experiments/experiment_json.hpp"
 #include "core/records/maps/map_fields.hpp"
 

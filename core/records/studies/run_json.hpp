@@ -199,7 +199,8 @@ struct RunMaps {
   std::vector<MapRecord> maps;
 };
 
-/// maps/layout-1-pose-2.json (mapproof.maps): names, truth and anchors once, not in every map.
+/// maps/layout-1-pose-2.json (mapproof.maps): names, ground truth and anchors once, not in every
+/// map.
 std::string maps_json(const RunMaps& maps);
 RunMaps parse_maps(std::string_view text, const std::string& source);
 

@@ -81,7 +81,7 @@ void fields(Visitor& v, SpaceRun& run) {
     const SpaceEstimate& estimate = run.records[i].estimate;
     if (estimate.landmarks_m.rows() != run.landmarks_m.rows())
       v.refuse(fmt::format("records/{}/landmarks_m", i),
-               "expected a place, or null, for each landmark");
+               "expected a position, or null, for each landmark");
     if (!estimate.empty() && estimate.positions_m.rows() != run.positions_m.rows())
       v.refuse(fmt::format("records/{}/positions_m", i), "expected a position a step, or none");
   }
@@ -163,7 +163,7 @@ void fields(Visitor& v, RangeLog& log) {
   v.field("truth", log.truth);
   const auto landmarks = std::ssize(log.landmarks);
   if (log.true_landmarks && log.true_landmarks->rows() != landmarks)
-    v.refuse("true_landmarks_m", "expected a place, or null, for each landmark");
+    v.refuse("true_landmarks_m", "expected a position, or null, for each landmark");
   for (std::size_t i = 0; i < log.ranges.size(); ++i)
     if (log.ranges[i].landmark >= landmarks)
       v.refuse("ranges/landmark", i,
@@ -264,7 +264,7 @@ void fields(Visitor& v, SlamRun& run) {
     const SlamEstimate& estimate = run.records[i].estimate;
     if (estimate.landmarks_m.rows() != landmarks)
       v.refuse(fmt::format("records/{}/landmarks_m", i),
-               "expected a place, or null, for each landmark");
+               "expected a position, or null, for each landmark");
     if (std::ssize(estimate.landmark_cov_m2) > landmarks)
       v.refuse(fmt::format("records/{}/landmark_cov_m2", i),
                fmt::format("expected at most {} elements, got {}", landmarks,
@@ -334,7 +334,7 @@ void fields(Visitor& v, RangeHistoryStudy& histories) {
   for (std::size_t i = 0; i < histories.maps.size(); ++i)
     if (histories.maps[i].positions_m.rows() != histories.landmarks_m.rows())
       v.refuse(fmt::format("maps/{}/positions_m", i),
-               "expected a place, or null, for each landmark");
+               "expected a position, or null, for each landmark");
 }
 
 }  // namespace mapproof

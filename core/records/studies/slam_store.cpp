@@ -7,11 +7,12 @@
 
 #include "core/base/errors.hpp"
 #include "core/base/files.hpp"
-#include "core/json/record_json.hpp"
+#include "core/json/record_reader.hpp"
+#include "core/json/record_writer.hpp"
 #include "core/records/experiments/slam_experiment_json.hpp"
 #include "core/records/observations/trajectory_files.hpp"
-#include "core/records/studies/slam_files.hpp"
-#include "core/records/studies/slam_run_json.hpp"
+#include "core/records/studies/slam_fields.hpp"
+#include "core/records/studies/study_folder.hpp"
 #include "core/records/studies/timings_jsonl.hpp"
 
 namespace mapproof {
@@ -65,7 +66,7 @@ std::optional<SlamRun> read_slam_run(const SlamFiles& files, const std::string& 
   const fs::path path = files.run(id);
   if (!is_there(path)) return std::nullopt;
   SlamRun run = parse_slam_run(read_file(path), path.string());
-  if (run.id != id) throw IoError(path.string(), "/id", "says that it is " + run.id);
+  if (run.id != id) throw IoError(path.string(), "/id", "states that it is " + run.id);
   return run;
 }
 
@@ -88,11 +89,37 @@ void read_convergence(const SlamFiles& files, const SlamExperiment& experiment, 
     if (!is_there(path)) continue;
     study.convergence.push_back(parse_convergence(read_file(path), path.string()));
     if (study.convergence.back().id != noise.id)
-      throw IoError(path.string(), "/id", "says that it is " + study.convergence.back().id);
+      throw IoError(path.string(), "/id", "states that it is " + study.convergence.back().id);
   }
 }
 
 }  // namespace
+
+std::string slam_run_json(const SlamRun& run) { return to_json_text(run); }
+
+SlamRun parse_slam_run(std::string_view text, const std::string& source) {
+  return from_json_text<SlamRun>(text, source);
+}
+
+std::string convergence_json(const ConvergenceCurve& curve) { return to_json_text(curve); }
+
+ConvergenceCurve parse_convergence(std::string_view text, const std::string& source) {
+  return from_json_text<ConvergenceCurve>(text, source);
+}
+
+std::string range_histories_json(const RangeHistoryStudy& histories) {
+  return to_json_text(histories);
+}
+
+RangeHistoryStudy parse_range_histories(std::string_view text, const std::string& source) {
+  return from_json_text<RangeHistoryStudy>(text, source);
+}
+
+std::string space_run_json(const SpaceRun& run) { return to_json_text(run); }
+
+SpaceRun parse_space_run(std::string_view text, const std::string& source) {
+  return from_json_text<SpaceRun>(text, source);
+}
 
 StudyStart study_start(const SlamExperiment& experiment, const Provenance& provenance) {
   return {.text = slam_study_json(experiment, provenance),

@@ -20,9 +20,9 @@ struct PlacedPoints {
   std::string quantity = "landmark_m";  ///< Quantity::id.
   Frame frame = Frame::kTruth;
   bool is_free =
-      false;  ///< In metres, in a frame known up to a rotation, a shift and a reflection.
-  std::vector<std::string> names;  ///< One a row; empty: rows are counted from 1.
-  Points points;                   ///< n x 2; NaN rows: no place.
+      false;  ///< In metres, in a frame defined up to a rotation, a translation and a reflection.
+  std::vector<std::string> names;  ///< One per row; empty: rows are counted from 1.
+  Points points;                   ///< n x 2; NaN rows: no position.
   std::optional<Points> truth;     ///< n x 2; NaN rows: not known.
 };
 
@@ -32,7 +32,7 @@ struct RecordProblem {
   std::string what;
 };
 
-/// What a folder of records holds, whatever kind of study they are of.
+/// What a folder of records holds, of any kind of study.
 struct StudyContents {
   std::string kind;  ///< "mapproof.study", "mapproof.slam_study", "mapproof.trial_study",
                      ///< "mapproof.results_study", "mapproof.map", "mapproof.slam_run": the schema
@@ -40,7 +40,7 @@ struct StudyContents {
   Provenance provenance;
   StudyLabels labels;  ///< Of studies that declare them; mapproof's own methods are known.
   Results results;
-  /// Whoever made it chose its groups: they are the units of every test, however few.
+  /// Its author chose its groups: they are the units of every test, however few.
   bool draws_groups = false;
   std::vector<Result> seconds;                 ///< Of its parts: they vary from run to run.
   std::map<std::string, std::string> runs;     ///< Id of each, and its group; of one that cannot be

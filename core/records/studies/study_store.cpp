@@ -8,10 +8,10 @@
 
 #include "core/base/errors.hpp"
 #include "core/base/files.hpp"
-#include "core/json/record_json.hpp"
+#include "core/json/record_writer.hpp"
 #include "core/records/experiments/experiment_json.hpp"
 #include "core/records/studies/run_json.hpp"
-#include "core/records/studies/study_files.hpp"
+#include "core/records/studies/study_folder.hpp"
 #include "core/records/studies/timings_jsonl.hpp"
 
 namespace mapproof {
@@ -81,7 +81,7 @@ Study read_study(const fs::path& folder) {
                                 study.experiment.layouts, study.experiment.poses));
     study.runs.push_back(parse_run(read_file(path), path));
     if (study.runs.back().id != id)
-      throw IoError(path, "/run", "says that it is " + slug(study.runs.back().id));
+      throw IoError(path, "/run", "states that it is " + slug(study.runs.back().id));
   }
   return study;
 }
@@ -92,14 +92,14 @@ std::optional<RunDetails> read_details(const fs::path& folder, const RunId& run)
   if (!fs::exists(path, error)) return std::nullopt;
   RunDetails details = parse_details(read_file(path), path.string());
   if (details.id != run)
-    throw IoError(path.string(), "/run", "says that it is " + slug(details.id));
+    throw IoError(path.string(), "/run", "states that it is " + slug(details.id));
   return details;
 }
 
 std::vector<MapRecord> read_maps(const fs::path& folder, const RunId& run) {
   const std::string path = StudyFiles{folder}.map(run).string();
   RunMaps maps = parse_maps(read_file(path), path);
-  if (maps.run != run) throw IoError(path, "/run", "says that it is " + slug(maps.run));
+  if (maps.run != run) throw IoError(path, "/run", "states that it is " + slug(maps.run));
   return std::move(maps.maps);
 }
 

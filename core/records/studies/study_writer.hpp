@@ -10,7 +10,7 @@
 
 namespace mapproof {
 
-/// What a study.json says, whatever the kind of study.
+/// The content of a study.json, of any kind of study.
 struct StudyHead {
   std::string experiment;  ///< As JSON: canonical, every default written out.
   std::string solver_digest;
@@ -19,7 +19,7 @@ struct StudyHead {
 /// What a study's folder begins with.
 struct StudyStart {
   std::string text;  ///< Of study.json.
-  /// Reads such a text. @throws IoError with the place.
+  /// Reads such a text. @throws IoError with the location.
   std::function<StudyHead(const std::string& text, const std::string& source)> read_head;
   /// Files and folders, below the study's, that parts are written to.
   std::vector<std::filesystem::path> records;
@@ -33,12 +33,13 @@ struct PartFile {
 
 /// What one task of a study gave.
 struct StudyPart {
-  std::vector<PartFile> files = {};  ///< As they are written: the last one says that all are there.
-  std::string timings = {};          ///< Lines of timings.jsonl.
+  std::vector<PartFile> files =
+      {};                    ///< As they are written: the last one marks the part as complete.
+  std::string timings = {};  ///< Lines of timings.jsonl.
   std::filesystem::path emptied = {};  ///< A folder of its own, below the study's, emptied first.
 };
 
-/// Writes the folder of a study, of whatever kind (docs/file-formats.md says what is in it).
+/// Writes the folder of a study of any kind (docs/file-formats.md says what is in it).
 ///
 /// One process at a time: the folder is locked as long as the writer lives. The bytes of every file
 /// but timings.jsonl depend only on what is written, not on the order or the number of tries.

@@ -9,7 +9,8 @@
 #include "core/base/errors.hpp"
 #include "core/base/files.hpp"
 #include "core/json/json_text.hpp"
-#include "core/json/record_json.hpp"
+#include "core/json/record_reader.hpp"
+#include "core/json/record_writer.hpp"
 
 namespace mapproof {
 namespace {

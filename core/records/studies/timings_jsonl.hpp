@@ -74,7 +74,7 @@ void fields(Visitor& v, Session& session) {
 /// A line behind the first one.
 using TimingLine = std::variant<Timing, SlamTiming, FactorizationCost, TrialSeconds, Session>;
 
-/// timings.jsonl: one JSON object a line: the schema, then {"kind": "map", ...},
+/// timings.jsonl: one JSON object per line: the schema, then {"kind": "map", ...},
 /// {"kind": "slam", ...}, {"kind": "factorization", ...}, {"kind": "trial", ...} or
 /// {"kind": "session", ...}.
 ///

@@ -4,10 +4,10 @@
 
 #include <fmt/format.h>
 
-#include "core/json/record_json.hpp"
+#include "core/json/record_reader.hpp"
+#include "core/json/record_writer.hpp"
 #include "core/json/text_input.hpp"
 #include "core/records/experiments/profiles.hpp"
-#include "core/records/studies/trial_fields.hpp"
 
 namespace mapproof {
 namespace {

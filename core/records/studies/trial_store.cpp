@@ -5,10 +5,9 @@
 
 #include "core/base/errors.hpp"
 #include "core/base/files.hpp"
-#include "core/json/record_json.hpp"
+#include "core/json/record_writer.hpp"
 #include "core/records/studies/study_folder.hpp"
 #include "core/records/studies/timings_jsonl.hpp"
-#include "core/records/studies/trial_fields.hpp"
 #include "core/records/studies/trial_json.hpp"
 
 namespace mapproof {
@@ -105,7 +104,7 @@ TrialStudy read_trial_study(const fs::path& folder) {
     if (!fs::exists(path, error)) continue;
     study.parts.push_back(parse_trial_part(read_file(path), path.string(), &study.design).part);
     if (study.parts.back().id != id)
-      throw IoError(path.string(), "/id", "says that it is " + study.parts.back().id);
+      throw IoError(path.string(), "/id", "states that it is " + study.parts.back().id);
   }
   add_seconds(files.timings(), study);
   return study;

@@ -17,7 +17,7 @@
 #include "core/base/paths.hpp"
 #include "core/base/spelling.hpp"
 #include "core/json/json_cursor.hpp"
-#include "core/json/record_json.hpp"
+#include "core/json/record_reader.hpp"
 #include "core/records/studies/folder_replacement.hpp"
 #include "core/records/studies/study_folder.hpp"
 #include "core/topics/study_kind.hpp"

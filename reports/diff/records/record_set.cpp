@@ -15,10 +15,10 @@
 #include "core/base/files.hpp"
 #include "core/base/input_file.hpp"
 #include "core/json/json_cursor.hpp"
-#include "core/json/record_json.hpp"
+#include "core/json/record_writer.hpp"
 #include "core/records/maps/map_files.hpp"
 #include "core/records/observations/input_kind.hpp"
-#include "core/records/studies/slam_run_json.hpp"
+#include "core/records/studies/slam_store.hpp"
 #include "core/topics/study_kind.hpp"
 
 namespace mapproof {

@@ -1,4 +1,5 @@
-#include "core/json/record_json.hpp"
+#include "core/json/record_reader.hpp"
+#include "core/json/record_writer.hpp"
 
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
@@ -68,7 +69,7 @@ constexpr TextForm kWord = {"^[a-z]+$",
                             },
                             "lower-case letters"};
 
-/// Some fruits have a stone, whose size is then told.
+/// Some fruits have a stone, whose size is then given.
 struct Basket {
   Fruit fruit = Fruit::kPlum;
   double stone = 0.0;
@@ -152,7 +153,7 @@ Everything read(const std::string& text) {
   return from_json_value<Everything>(document.cursor());
 }
 
-/// What the reader says once `from` is replaced by `to` in a sound file.
+/// The error of the reader once `from` is replaced by `to` in a sound file.
 std::string refusal(const std::string& from, const std::string& to) {
   std::string text = text_of(filled());
   const std::size_t at = text.find(from);

@@ -7,7 +7,7 @@ namespace mapproof::test {
 /// A drive of 200 s at 1 m/s along a path that curves this way and that, with single ranges to six
 /// landmarks in turn, 5 a second.
 struct Drive {
-  RangeLog log;         ///< With the truth.
+  RangeLog log;         ///< With the ground truth.
   Trajectory odometry;  ///< The path by odometry, in a frame of its own.
 };
 

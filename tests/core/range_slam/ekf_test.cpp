@@ -20,7 +20,7 @@ using test::mean_error_m;
 using test::slam_world;
 using test::turned_world;
 
-/// One step of 2 m straight at a landmark 10 m ahead, then a reading of 7.5 m instead of 8.
+/// One step of 2 m straight at a landmark 10 m ahead, then a measurement of 7.5 m instead of 8.
 RangeLog one_step() {
   RangeLog log;
   log.landmarks = {"ahead"};

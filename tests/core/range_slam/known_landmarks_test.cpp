@@ -40,7 +40,8 @@ RC_GTEST_PROP(KnownLandmarks, GiveBackAnyWorldWithoutNoise, (std::uint64_t seed)
   const Eigen::RowVector2d center(random.uniform(-500.0, 500.0), random.uniform(-500.0, 500.0));
   const Points landmarks = points_about(*rc::gen::inRange(4, 12), random, 10.0, center);
   const Points path = points_about(*rc::gen::inRange(5, 300), random, 10.0, center);
-  // A world that tells: neither four landmarks nor the path nearly on a line or circle.
+  // A world that determines the map: neither four landmarks nor the path nearly on a line or
+  // circle.
   RC_PRE(spread_of(landmarks.topRows(4)) < 1e3 && spread_of(path) < 1e3);
   const SpectralMap map = map_of(landmarks, path, {0, 1, 2, 3});
   RC_ASSERT(!map.empty() && map.statuses.empty());

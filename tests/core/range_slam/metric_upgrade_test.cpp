@@ -27,7 +27,7 @@ MetricUpgrade upgrade_of(const Points& landmarks, const Points& path,
   return metric_upgrade(factorize(half_squared_ranges(ranges_between(landmarks, path)), 4), side);
 }
 
-/// Largest distance of any landmark or position after the best motion or mirror.
+/// Largest distance of any landmark or position after the best motion or reflection.
 double gap(const MetricUpgrade& upgrade, const Points& landmarks, const Points& path) {
   return procrustes_gap(stacked(landmarks, path),
                         stacked(landmarks_of(upgrade.map.C), positions_of(upgrade.map.X)));
@@ -39,7 +39,7 @@ RC_GTEST_PROP(MetricUpgrade, GivesBackAnyWorldUpToAMotionOrMirror, (std::uint64_
   const Eigen::RowVector2d center(random.uniform(-20.0, 20.0) * size, 0.0);
   const Points landmarks = points_about(*rc::gen::inRange(4, 12), random, size, center);
   const Points path = points_about(*rc::gen::inRange(9, 300), random, size, center);
-  // A world that tells: landmarks near no line or circle, the path near no conic.
+  // A world that determines the map: landmarks near no line or circle, the path near no conic.
   RC_PRE(spread_of(landmarks) < 100.0 && conic_condition(path) < 300.0);
   const MetricUpgrade upgrade = upgrade_of(landmarks, path);
   RC_ASSERT(!upgrade.map.empty());
@@ -128,7 +128,7 @@ TEST(MetricUpgrade, OfAPathOnALineOrCircleSaysSo) {
     EXPECT_TRUE(upgrade.map.empty());
     EXPECT_TRUE(has(upgrade.map.statuses, StatusCode::kRankDeficient));
     EXPECT_TRUE(has(upgrade.map.statuses, StatusCode::kDegenerateGeometry));
-    // Landmarks in such a place are no better.
+    // Landmarks in such positions are no better.
     EXPECT_TRUE(has(upgrade_of(path, landmarks).map.statuses, StatusCode::kTooFewObservations));
     EXPECT_TRUE(has(upgrade_of(path, points_about(40, random)).map.statuses,
                     StatusCode::kDegenerateGeometry));

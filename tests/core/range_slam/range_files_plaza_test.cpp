@@ -12,7 +12,7 @@ namespace {
 using test::expect_same;
 using test::remarks_hold;
 
-/// Facts of the published sets, where the variable says that they can be had.
+/// Facts of the published sets, where the variable names their folder.
 class PlazaFiles : public ::testing::Test {
  protected:
   void SetUp() override {

@@ -22,7 +22,7 @@ using test::expect_same;
 using test::remarks_hold;
 using test::sample_log;
 
-/// What reading `path` says is wrong, behind the path.
+/// The error of reading `path`, without the path.
 std::string error_of(const fs::path& path) {
   try {
     read_range_log(path);
@@ -113,7 +113,8 @@ TEST(RangeLogFiles, ATrueHeadingAgainstTheTravelIsTurned) {
 }
 
 TEST(RangeLogFiles, OdometryWithTheTruthsTurnsIsNamed) {
-  const RangeLog log = sample_log();  // Without noise the turns are the truth's.
+  const RangeLog log =
+      sample_log();  // Without noise the heading changes are those of the ground truth.
   const test::TemporaryFolder folder;
   EXPECT_TRUE(remarks_hold(read_range_log(csv_folder(folder, log)), "is not honest"));
   test::write_mat(log, folder / "a.mat", true);
@@ -142,7 +143,7 @@ TEST(RangeLogFiles, LandmarksWithoutRangesOrWithoutAPlaceAreNamed) {
   folder.file("set/landmarks.csv", "id,x,y\n5,1,2\n8,0,0\n0,3,4\n");
   const RangeLog read = read_range_log(set);
   EXPECT_TRUE(remarks_hold(read, "no range to them: landmarks 8"));
-  EXPECT_TRUE(remarks_hold(read, "No true place is given of the landmarks 1"));
+  EXPECT_TRUE(remarks_hold(read, "No true position is given for the landmarks 1"));
   EXPECT_EQ((*read.true_landmarks)(2, 1), 2.0);
   EXPECT_TRUE(std::isnan((*read.true_landmarks)(1, 0)));
 }
@@ -167,7 +168,8 @@ TEST(RangeLogFiles, WhatIsWrongInACsvIsNamedWithItsLine) {
             "line 1: no column of ranges: expected range, range_m in the header");
   EXPECT_EQ(with("t,beacon,range\n"), "holds no ranges");
   EXPECT_EQ(with("t,robot,beacon,range\n1,1,a,2\n2,2,a,2\n"),
-            "line 3: a reading of robot 2 after those of robot 1: give the readings of one robot");
+            "line 3: a measurement of robot 2 after those of robot 1: give the measurements of one "
+            "robot");
   EXPECT_EQ(with(""), "is empty");
 }
 
@@ -242,7 +244,7 @@ TEST(RangeLogFiles, TrueLandmarksBeyondAnyMapAreRefused) {
   std::string landmarks = "id,x,y\n";
   for (int i = 0; i <= 5000; ++i) landmarks += std::to_string(i) + ",0,0\n";
   folder.file("landmarks.csv", landmarks);
-  EXPECT_NE(error_of(folder.path()).find("true places of more than 5000 landmarks"),
+  EXPECT_NE(error_of(folder.path()).find("true positions of more than 5000 landmarks"),
             std::string::npos);
 }
 
@@ -250,7 +252,8 @@ TEST(RangeLogFiles, SeveralSendersAreRefused) {
   const test::TemporaryFolder folder;
   const fs::path path = folder.file("a_TD.txt", "1 2 0 5\n2 3 0 5\n");
   EXPECT_EQ(error_of(path),
-            "line 2: a reading of robot 3 after those of robot 2: give the readings of one robot");
+            "line 2: a measurement of robot 3 after those of robot 2: give the measurements of one "
+            "robot");
   EXPECT_EQ(error_of(folder.file("a_TD.txt", "1 2 0.5 5\n")),
             "line 1: expected a landmark's number without decimals, got 0.5");
 }

@@ -99,8 +99,8 @@ TEST(Refine, KnownLandmarksTieTheFrame) {
   EXPECT_GT(refined.landmark_cov_m2[1].trace(), 0.0);
 }
 
-/// One known landmark, or two in one place, leave the world free to turn: said, and the first pose
-/// is held in their stead.
+/// One known landmark, or two in one position, leave the world free to rotate: reported, and the
+/// first pose is held in their stead.
 TEST(Refine, KnownLandmarksThatDoNotTieTheFrameAreSaidNotTo) {
   const RangeLog log = noisy_world(8);
   RefineOptions options{.range_sigma_m = 0.2, .covariances = 2};

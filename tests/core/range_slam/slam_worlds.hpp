@@ -15,8 +15,8 @@ struct SlamWorldOptions {
   bool is_straight = false;
 };
 
-/// A drive on a wavy round of half-metre steps, with a reading of one landmark in turn at each
-/// pose. Odometry errs by the sigmas given; the truth is kept.
+/// A drive on a wavy round of half-metre steps, with a measurement of one landmark in turn at each
+/// pose. Odometry errs by the sigmas given; the ground truth is kept.
 RangeLog slam_world(std::uint64_t seed, const SlamWorldOptions& options = {});
 
 /// One with noise, and ranges 5 % long.

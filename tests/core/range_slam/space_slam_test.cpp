@@ -43,8 +43,8 @@ KnownSpaceLandmarks first_known(const SpacePoints& landmarks, Eigen::Index count
   return known;
 }
 
-/// Largest distance of a landmark or position from its truth, as it came or after the best motion
-/// or mirror; infinite without a map.
+/// Largest distance of a landmark or position from its true one, as it came or after the best
+/// motion or reflection; infinite without a map.
 double gap(const SpaceEstimate& estimate, const SpacePoints& landmarks, const SpacePoints& path,
            bool aligned) {
   if (estimate.empty()) return HUGE_VAL;

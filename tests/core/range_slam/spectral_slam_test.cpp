@@ -233,7 +233,7 @@ TEST(SpectralSlam, GivesCovariancesThatCoverTheErrorsOfItsLandmarks) {
   for (const Eigen::Index n : {4, 5}) {
     const double sigma_m = std::sqrt(estimate.landmark_cov_m2[std::size_t(n)].trace());
     const double error_m = (estimate.landmarks_m.row(n) - d.log.true_landmarks->row(n)).norm();
-    // 167 ranges of 0.2 m cannot tell it much better, nor worse than one of them.
+    // 167 ranges of 0.2 m cannot determine it much better, nor worse than one of them.
     EXPECT_GT(sigma_m, 0.2 / std::sqrt(167.0) / 4.0);
     EXPECT_LT(sigma_m, 0.2);
     EXPECT_LT(error_m, 10.0 * sigma_m);

@@ -57,7 +57,7 @@ RC_GTEST_PROP(Rigid, UndoesTheMotionOfItsKind, ()) {
   }
 }
 
-/// Rigid motions a little beside the fitted one fit worse.
+/// Rigid motions a little off the fitted one fit worse.
 TEST(Rigid, NoNeighbouringMotionFitsBetter) {
   Random random(5);
   const Points from = random_points(30, random);

@@ -95,7 +95,7 @@ const std::vector<Input>& inputs() {
   return all;
 }
 
-/// Empty if the reader took the bytes, else what it said. Any other exception passes through.
+/// Empty if the reader took the bytes, else its message. Any other exception passes through.
 std::string said(const Input& input, const std::string& bytes) {
   try {
     input.read(bytes);

@@ -96,7 +96,7 @@ std::string mat_bytes() {
   return read_file(folder / "a.mat");
 }
 
-/// Longer than what is looked at first, so that much of it is not.
+/// Longer than what is read first, so that much of it is not.
 std::string long_table() {
   std::string text = "step,landmark,value\n";
   for (int step = 0; step < 9000; ++step)

@@ -84,7 +84,7 @@ TEST(DetectionStream, NamesTheLineOfWhatIsWrong) {
   };
   EXPECT_EQ(error("0,a,1,0\n0,a,2,0\n"), "f: line 2: landmark \"a\" is in that scan already");
   EXPECT_EQ(error("time,landmark,range,bearing\n5,a,1,0\n4.5,a,1,0\n"),
-            "f: line 3: time 4.5 after time 5: a file that is followed lists a robot's scans in "
+            "f: line 3: time 4.5 after time 5: a streamed file lists a robot's scans in "
             "ascending order");
   EXPECT_EQ(error("0,a,1\n"),
             "f: line 1: has 3 cells; a table of detections has a header, or the columns step, "

@@ -127,9 +127,10 @@ TEST(Detections, NameTheLineThatIsWrong) {
             "line 5: landmark \"oak\" is in that scan already, on line 4");
   EXPECT_EQ(error_with("step,landmark,range\n0,elm,3\n0,oak,3\n1,elm,3\n0,ash,4\n0,oak,4\n"),
             "from line 5 on: landmark \"oak\" is in that scan already, from line 2 on");
-  EXPECT_EQ(error_with("step,landmark,range,bearing\n0,oak,3,0\n1,,4,1\n"),
-            "line 3: a detection without a label: which landmark it shows is not told from scans; "
-            "leave such rows out");
+  EXPECT_EQ(
+      error_with("step,landmark,range,bearing\n0,oak,3,0\n1,,4,1\n"),
+      "line 3: a detection without a landmark ID: the data association of scans is not estimated; "
+      "leave such rows out");
   EXPECT_EQ(error_with("landmark,range,bearing\noak,3,0\n"),
             "line 1: no column is named step or time: which rows are one scan?");
   EXPECT_EQ(error_with("step,landmark,range [ft],bearing\n0,oak,3,0\n"),

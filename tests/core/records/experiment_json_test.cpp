@@ -234,7 +234,7 @@ TEST(ExperimentJson, RefusesLandmarksThatDoNotFitTheRoom) {
             "e.json: /world: 5000 landmarks of 0.048 m, 0.01 m apart, do not fit into a room of "
             "1.5 m: at most 292 do");
   EXPECT_EQ(experiment_error("/world/side_m", 0.2),
-            "e.json: /world: a room of 0.2 m has no place for a landmark of 0.048 m that keeps "
+            "e.json: /world: a room of 0.2 m has no space for a landmark of 0.048 m that keeps "
             "0.1 m from the walls");
 }
 

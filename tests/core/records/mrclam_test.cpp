@@ -36,7 +36,7 @@ TEST(Mrclam, PoolsTheScansOfAllRobots) {
 TEST(Mrclam, SaysWhatItDropped) {
   EXPECT_EQ(
       read_mrclam(data_file("mrclam"), Sensor::kRange).remarks,
-      (std::vector<std::string>{"Rows dropped with barcodes of nobody: 2 (barcodes 99)",
+      (std::vector<std::string>{"Rows dropped with unknown barcodes: 2 (barcodes 99)",
                                 "Rows dropped that show other robots: 2",
                                 "Rows dropped that show a landmark a second time in one scan: 1",
                                 "Scans dropped that show no landmark: 2"}));
@@ -92,7 +92,7 @@ TEST(Mrclam, NamesTheLineThatIsWrong) {
             "line 2: landmark \"6\" is already on line 1");
 }
 
-/// Facts of a real set, where the variable says that it can be had.
+/// Facts of a real set, where the variable names its folder.
 TEST(MrclamData, HoldsFifteenLandmarksSeenInSomeTwentyThousandScans) {
   const char* folder = std::getenv("MAPPROOF_MRCLAM");
   if (folder == nullptr) GTEST_SKIP() << "MAPPROOF_MRCLAM does not name the folder of the sets";

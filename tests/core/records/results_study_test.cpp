@@ -24,7 +24,7 @@ ResultsStudy study_of(const std::string& head, const std::string& table) {
   return read_results_study(folder.path());
 }
 
-/// What reading says is wrong, without the folder's name.
+/// The error of reading, without the folder's name.
 std::string problem(const std::string& head, const std::string& table) {
   const test::TemporaryFolder folder;
   write_file(folder / "study.json", head);
@@ -118,7 +118,7 @@ TEST(ResultsStudy, SaysWhichLabelsAreTheSame) {
       R"(, "methods": [{"id": "b", "label": "EKF"}, {"id": "a", "label": "EKF"}]})";
   EXPECT_EQ(label_remarks_of(study_of(kHead + kOwn + methods, kTable)),
             std::vector<std::string>{"methods: b and a have the same label \"EKF\": figures and "
-                                     "tables do not tell them apart"});
+                                     "tables do not distinguish them"});
   EXPECT_EQ(label_remarks_of(
                 study_of(kHead + kOwn + R"(, "methods": [{"id": "b", "label": "a"}]})", kTable))
                 .size(),

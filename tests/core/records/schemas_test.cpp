@@ -13,7 +13,7 @@
 #include "core/records/observations/detections.hpp"
 #include "core/records/observations/observation_json.hpp"
 #include "core/records/observations/observations.hpp"
-#include "core/records/studies/slam_run_json.hpp"
+#include "core/records/studies/slam_store.hpp"
 #include "core/records/studies/timings_jsonl.hpp"
 #include "core/topics/validate.hpp"
 #include "tests/core/records/samples.hpp"

@@ -5,7 +5,7 @@
 
 namespace mapproof::test {
 
-/// A run with something in every field; what is not known is missing in one place or another.
+/// A run with something in every field; what is not known is missing in one field or another.
 SlamRun made_up_slam_run(const std::string& id);
 
 ConvergenceCurve made_up_convergence(const std::string& id);

@@ -7,7 +7,6 @@
 #include "core/base/errors.hpp"
 #include "core/base/files.hpp"
 #include "core/records/experiments/slam_experiment_json.hpp"
-#include "core/records/studies/slam_run_json.hpp"
 #include "core/records/studies/study_store.hpp"
 #include "core/topics/validate.hpp"
 #include "tests/core/records/samples.hpp"

@@ -249,7 +249,7 @@ TEST(StudyReader, NoticesAFileUnderAnotherRunsName) {
   open_store(folder.path()).write(part_of(made_up_result({1, 1})));
   fs::rename(folder / "runs/layout-1-pose-1.json", folder / "runs/layout-2-pose-2.json");
   fs::rename(folder / "maps/layout-1-pose-1.json", folder / "maps/layout-2-pose-2.json");
-  EXPECT_NE(error_of([&] { read_study(folder.path()); }).find("says that it is layout-1-pose-1"),
+  EXPECT_NE(error_of([&] { read_study(folder.path()); }).find("states that it is layout-1-pose-1"),
             std::string::npos);
   EXPECT_NE(error_of([&] {
               read_maps(folder.path(), {2, 2});

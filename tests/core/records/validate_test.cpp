@@ -122,7 +122,7 @@ TEST(Validate, SaysWhatItDoesNotKnow) {
   const TemporaryFolder folder;
   EXPECT_NE(only(folder.file("a.png", "x")).problem.find("is not a file that mapproof"),
             std::string::npos);
-  EXPECT_NE(only(folder.file("b.json", "{}")).problem.find("says not what it is"),
+  EXPECT_NE(only(folder.file("b.json", "{}")).problem.find("does not state its format"),
             std::string::npos);
   EXPECT_NE(only(folder.file("c.json", R"({"schema": {"name": "x", "version": 1}})"))
                 .problem.find("unknown schema \"x\""),

@@ -184,7 +184,7 @@ TEST(SweepTopic, RefusesWhatCannotBeInOneLine) {
   EXPECT_EQ(refusal(R"({"anchors": [4, 16]})"),
             "s.json: /sweeps/0: anchors = 16: 16 anchors leave none of 16 landmarks to be mapped");
   EXPECT_EQ(refusal(R"({"steps": [50]}, {"landmark_diameter_m": [0.05, 3]})"),
-            "s.json: /sweeps/1: landmark_diameter_m = 3: a room of 2.5 m has no place for a "
+            "s.json: /sweeps/1: landmark_diameter_m = 3: a room of 2.5 m has no space for a "
             "landmark of 3 m that keeps 0.1 m from the walls");
   EXPECT_NE(refusal(R"({"side_m": [0.5, 2], "landmarks": [10, 200]})")
                 .find("landmarks = 200, side_m = 0.5: 200 landmarks"),

@@ -102,8 +102,8 @@ void add_records(Files& files) {
             [](const fs::path& folder) { truncate(folder / "study.json"); });
   files.add("study.json deleted", "records", Verdict::kMissing, {"no records"}, true,
             [](const fs::path& folder) { fs::remove(folder / "study.json"); });
-  files.add("two runs swapped", "records", Verdict::kUnreadable, {"says that it is layout-4"}, true,
-            [](const fs::path& folder) {
+  files.add("two runs swapped", "records", Verdict::kUnreadable, {"states that it is layout-4"},
+            true, [](const fs::path& folder) {
               swap(folder / "runs/layout-3-pose-1.json", folder / "runs/layout-4-pose-1.json");
             });
 }

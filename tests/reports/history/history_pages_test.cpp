@@ -4,7 +4,7 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
-#include "core/json/record_json.hpp"
+#include "core/json/record_writer.hpp"
 #include "core/records/value_fields.hpp"
 #include "reports/history/history_export.hpp"
 #include "reports/history/history_pages.hpp"

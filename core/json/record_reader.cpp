@@ -1,7 +1,9 @@
-#include "core/json/record_json.hpp"
+#include "core/json/record_reader.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
+#include <span>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -9,17 +11,10 @@
 #include "core/base/spelling.hpp"
 #include "core/json/text_input.hpp"
 
-namespace mapproof {
-namespace record_json {
+namespace mapproof::record_json {
 namespace {
 
-constexpr double kExact = 0x1p53;
 constexpr std::size_t kMostNamesShown = 5;
-
-bool is_whole(double number) {
-  return std::abs(number) < kExact && number == std::trunc(number) &&
-         !(number == 0.0 && std::signbit(number));
-}
 
 void check_number(const JsonCursor& json, double number, const FieldRule& rule) {
   if (rule.above_minimum && number == rule.minimum)
@@ -40,40 +35,12 @@ std::string spaced(std::string_view type) {
 
 }  // namespace
 
-void Outline::check(const JsonCursor& json) const {
-  json.allow_only(keys);
-  if (json.size() < least_keys)
-    json.fail(fmt::format("expected at least {} of {}, got {}", least_keys, fmt::join(keys, ", "),
-                          json.size()));
-  if (json.size() > most_keys)
-    json.fail(fmt::format("expected at most {} of {}, got {}", most_keys, fmt::join(keys, ", "),
-                          json.size()));
-}
-
 std::optional<JsonCursor> Reader::find(std::string_view key, const FieldRule& rule) const {
   const std::string name(key);
   if (rule.when && is_required(rule)) return json_.at(name);
   const auto found = json_.find(name);
   if (found && !rule.when) json_.fail("unknown key \"" + name + '"');
   return found;
-}
-
-FieldRule item_rule(const FieldRule& rule) {
-  if (rule.items != nullptr) return *rule.items;
-  FieldRule item = rule;
-  item.description = {};
-  item.min_items = 0;
-  item.max_items = std::numeric_limits<std::size_t>::max();
-  item.unique = item.ascending = false;
-  item.key = Key::kRequired;
-  return item;
-}
-
-Json number_json(double number, const FieldRule& rule) {
-  if (!std::isfinite(number)) return nullptr;
-  if ((rule.whole_as_integers || rule.integer) && is_whole(number))
-    return static_cast<std::int64_t>(number);
-  return number;
 }
 
 double read_number(const JsonCursor& json, const FieldRule& rule) {
@@ -97,7 +64,7 @@ std::vector<double> read_numbers(const JsonCursor& json, const FieldRule& rule,
   if (numbers.size() < rule.min_items || numbers.size() > rule.max_items) read_items(json, rule);
   for (std::size_t i = 0; i < numbers.size(); ++i)
     if ((std::isnan(numbers[i]) && !rule.nullable) || rule.above_minimum)
-      read_number(json.element(i), rule);  // Says what is wrong with it.
+      read_number(json.element(i), rule);  // Throws, with the problem in its message.
   return numbers;
 }
 
@@ -149,34 +116,4 @@ void refuse_tag(const JsonCursor& tag, const std::vector<std::string_view>& know
                        meant.empty() ? "" : fmt::format(": did you mean \"{}\"?", meant)));
 }
 
-}  // namespace record_json
-namespace {
-
-bool is_plain(const nlohmann::ordered_json& value) {
-  return !value.is_structured() ||
-         (value.is_array() &&
-          std::ranges::none_of(value, [](const auto& item) { return item.is_structured(); }));
-}
-
-void flatten(const nlohmann::ordered_json& value, const std::string& pointer,
-             std::vector<std::pair<std::string, std::string>>& out) {
-  if (is_plain(value)) {
-    out.emplace_back(pointer,
-                     value.dump(-1, ' ', false, nlohmann::ordered_json::error_handler_t::replace));
-  } else if (value.is_array()) {
-    for (std::size_t i = 0; i < value.size(); ++i)
-      flatten(value[i], fmt::format("{}/{}", pointer, i), out);
-  } else {
-    for (const auto& [key, item] : value.items()) flatten(item, pointer + '/' + key, out);
-  }
-}
-
-}  // namespace
-
-std::vector<std::pair<std::string, std::string>> flattened(const nlohmann::ordered_json& value) {
-  std::vector<std::pair<std::string, std::string>> values;
-  flatten(value, "", values);
-  return values;
-}
-
-}  // namespace mapproof
+}  // namespace mapproof::record_json

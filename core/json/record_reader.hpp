@@ -1,269 +1,22 @@
 #pragma once
 
-#include <algorithm>
-#include <array>
-#include <cmath>
-#include <concepts>
 #include <cstdint>
 #include <limits>
 #include <map>
 #include <optional>
 #include <string>
 #include <string_view>
-#include <tuple>
-#include <type_traits>
-#include <utility>
 #include <variant>
 #include <vector>
 
 #include <Eigen/Core>
-#include <nlohmann/json.hpp>
 
 #include "core/base/not_finite.hpp"
-#include "core/json/fields.hpp"
 #include "core/json/json_cursor.hpp"
-#include "core/json/json_text.hpp"
+#include "core/json/record_outline.hpp"
 
 namespace mapproof {
-
-// What is made of fields() (fields.hpp): the JSON of a record and the record of a JSON. The schema
-// is made by tests/support/record_schema.hpp.
-
 namespace record_json {
-
-using Json = nlohmann::ordered_json;
-
-template <typename T>
-concept Enumeration = requires(T value) {
-  enum_names(value);
-};
-template <typename T>
-concept AsTuple = requires(T& value) {
-  as_tuple(value);
-};
-template <typename T>
-concept List = requires(T& value) {
-  value.clear();
-  value.emplace_back();
-  value.begin();
-}
-    && !std::same_as<T, std::string>;
-template <typename T>
-concept Matrix = std::derived_from<T, Eigen::MatrixBase<T>>;
-template <typename T>
-concept Vector = Matrix<T> && (T::ColsAtCompileTime == 1);
-
-template <typename T>
-struct Kind {
-  static constexpr bool is_optional = false, is_tuple = false, is_variant = false, is_map = false;
-};
-template <typename T>
-struct Kind<std::optional<T>> : Kind<void> {
-  static constexpr bool is_optional = true;
-};
-template <typename T, std::size_t N>
-struct Kind<std::array<T, N>> : Kind<void> {
-  static constexpr bool is_tuple = true;
-};
-template <typename A, typename B>
-struct Kind<std::pair<A, B>> : Kind<void> {
-  static constexpr bool is_tuple = true;
-};
-template <typename... T>
-struct Kind<std::variant<T...>> : Kind<void> {
-  static constexpr bool is_variant = true;
-};
-template <typename T>
-struct Kind<std::map<std::string, T>> : Kind<void> {
-  static constexpr bool is_map = true;  // An object of any keys.
-};
-
-template <Matrix T>
-constexpr std::size_t triangle_size() {
-  return static_cast<std::size_t>(T::RowsAtCompileTime * (T::RowsAtCompileTime + 1) / 2);
-}
-
-/// Calls `use(element)` for each element of an array, a pair or what has as_tuple().
-template <typename T, typename Use>
-void for_each_element(T& value, Use use) {
-  const auto all = [&](auto&... elements) { (use(elements), ...); };
-  if constexpr (AsTuple<T>) {
-    auto elements = as_tuple(value);
-    std::apply(all, elements);
-  } else {
-    std::apply(all, value);
-  }
-}
-
-template <typename T>
-constexpr std::size_t element_count() {
-  if constexpr (AsTuple<T>)
-    return std::tuple_size_v<decltype(as_tuple(std::declval<T&>()))>;
-  else
-    return std::tuple_size_v<T>;
-}
-
-inline bool is_required(const FieldRule& rule) {
-  return rule.key == Key::kRequired || rule.key == Key::kNotNull;
-}
-inline bool is_never_null(const FieldRule& rule) {
-  return rule.key == Key::kIfAny || rule.key == Key::kNotNull;
-}
-
-/// For the items of what the rule holds for.
-FieldRule item_rule(const FieldRule& rule);
-
-/// The keys of a record, and what it is.
-struct Outline : FieldVisitor {
-  std::vector<std::string_view> keys;
-  std::string_view file_schema, tag_key, tag_name;
-  std::size_t least_keys = 0, most_keys = std::numeric_limits<std::size_t>::max();
-
-  void file(std::string_view name, std::string_view) {
-    file_schema = name;
-    keys.push_back("schema");
-  }
-  void tag(std::string_view key, std::string_view name) {
-    keys.push_back(tag_key = key);
-    tag_name = name;
-  }
-  template <typename T>
-  void field(std::string_view key, T&, const FieldRule& = {}) {
-    keys.push_back(key);
-  }
-  template <typename Fields>
-  void group(std::string_view key, Fields, const FieldRule& = {}) {
-    keys.push_back(key);
-  }
-  void key_count(std::size_t least, std::size_t most) {
-    least_keys = least;
-    most_keys = most;
-  }
-
-  /// @throws IoError unless the object has such keys.
-  void check(const JsonCursor& json) const;
-};
-
-template <typename T>
-concept Record = requires(Outline& outline, T& value) {
-  fields(outline, value);
-};
-
-template <typename T>
-Outline outline_of(T& value) {
-  Outline outline;
-  fields(outline, value);
-  return outline;
-}
-
-// ---- Writing
-
-Json number_json(double number, const FieldRule& rule);
-
-template <typename T>
-Json value_json(const T& value, const FieldRule& rule);
-
-template <typename T>
-bool is_none(const T& value) {
-  if constexpr (Kind<T>::is_optional)
-    return !value;
-  else if constexpr (requires { value.empty(); })
-    return value.empty();
-  else
-    return false;
-}
-
-struct Writer : FieldVisitor {
-  Json json = Json::object();
-
-  void file(std::string_view name, std::string_view) { json["schema"] = schema_value(name); }
-  void tag(std::string_view key, std::string_view name) { json[std::string(key)] = name; }
-  template <typename T>
-  void field(std::string_view key, T& value, const FieldRule& rule = {}) {
-    if (rule.when && rule.written && !(is_never_null(rule) && is_none(value)))
-      json[std::string(key)] = value_json(value, rule);
-  }
-  template <typename Fields>
-  void group(std::string_view key, Fields visit, const FieldRule& rule = {}) {
-    if (!rule.when || !rule.written) return;
-    Writer writer;
-    visit(writer);
-    json[std::string(key)] = std::move(writer.json);
-  }
-};
-
-template <Matrix T>
-Json matrix_json(const T& matrix, const FieldRule& rule) {
-  Json rows = Json::array();
-  if (rule.upper_triangle) {
-    if (rule.nullable && !matrix.allFinite()) return nullptr;
-    for (Eigen::Index i = 0; i < matrix.rows(); ++i)
-      for (Eigen::Index k = i; k < matrix.cols(); ++k)
-        rows.push_back(number_json(matrix(i, k), rule));
-    return rows;
-  }
-  for (Eigen::Index i = 0; i < matrix.rows(); ++i) {
-    if constexpr (Vector<T>) {
-      rows.push_back(number_json(matrix(i), rule));
-    } else if (rule.nullable && !matrix.row(i).allFinite()) {
-      rows.push_back(nullptr);
-    } else {
-      Json& row = rows.emplace_back(Json::array());
-      for (const double number : matrix.row(i)) row.push_back(number_json(number, rule));
-    }
-  }
-  return rows;
-}
-
-template <List T>
-Json list_json(const T& list, const FieldRule& rule) {
-  Json items = Json::array();
-  for (const auto& item : list) items.push_back(value_json(item, item_rule(rule)));
-  if constexpr (Record<typename T::value_type>)
-    if (rule.as_columns) {
-      Json columns = Json::object();
-      typename T::value_type none{};
-      for (const std::string_view key : outline_of(none).keys)
-        for (Json& column = columns[std::string(key)] = Json::array(); const Json& item : items)
-          column.push_back(item[std::string(key)]);
-      return columns;
-    }
-  return items;
-}
-
-template <typename T>
-Json value_json(const T& value, const FieldRule& rule) {
-  if constexpr (std::floating_point<T>) {
-    return number_json(value, rule);
-  } else if constexpr (std::is_arithmetic_v<T> || std::same_as<T, std::string>) {
-    return value;
-  } else if constexpr (Enumeration<T>) {
-    return name_in_files(value);
-  } else if constexpr (Kind<T>::is_optional) {
-    return value ? value_json(*value, rule) : Json();
-  } else if constexpr (Kind<T>::is_variant) {
-    return std::visit([&](const auto& one) { return value_json(one, rule); }, value);
-  } else if constexpr (Matrix<T>) {
-    return matrix_json(value, rule);
-  } else if constexpr (List<T>) {
-    return list_json(value, rule);
-  } else if constexpr (Kind<T>::is_map) {
-    Json members = Json::object();
-    for (const auto& [key, member] : value) members[key] = value_json(member, rule);
-    return members;
-  } else if constexpr (Kind<T>::is_tuple || AsTuple<T>) {
-    Json items = Json::array();
-    for_each_element(const_cast<T&>(value),
-                     [&](const auto& item) { items.push_back(value_json(item, item_rule(rule))); });
-    return items;
-  } else {
-    Writer writer;
-    visit_fields(writer, value);
-    return std::move(writer.json);
-  }
-}
-
-// ---- Reading
 
 double read_number(const JsonCursor& json, const FieldRule& rule);
 std::string read_text(const JsonCursor& json, const FieldRule& rule);
@@ -492,13 +245,7 @@ void read_value(const JsonCursor& json, T& value, const FieldRule& rule) {
 
 }  // namespace record_json
 
-/// The JSON of a record: keys in the order of its fields.
-template <typename T>
-nlohmann::ordered_json to_json_value(const T& record) {
-  return record_json::value_json(record, {});
-}
-
-/// The record that a JSON value holds. @throws IoError with file and place.
+/// The record that a JSON value holds. @throws IoError with the file and the pointer.
 template <typename T>
 T from_json_value(const JsonCursor& json) {
   T value{};
@@ -506,18 +253,11 @@ T from_json_value(const JsonCursor& json) {
   return value;
 }
 
-/// A file that holds one record.
-template <typename T>
-std::string to_json_text(const T& record) {
-  return json_text(to_json_value(record));
-}
+/// The record of a file that holds one. @throws IoError as from_json_value().
 template <typename T>
 T from_json_text(std::string_view text, const std::string& source) {
   const JsonDocument document = parse_json(text, source);
   return from_json_value<T>(document.cursor());
 }
-
-/// Every value of a JSON by its pointer, as text; an array of plain values is one value.
-std::vector<std::pair<std::string, std::string>> flattened(const nlohmann::ordered_json& value);
 
 }  // namespace mapproof
