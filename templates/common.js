@@ -62,6 +62,15 @@ function addThemeSwitch(place) {
   place.append(button);
 }
 
+// Downloads a file that the page makes itself.
+function save(name, blob) {
+  const link = document.createElement("a");
+  link.href = URL.createObjectURL(blob);
+  link.download = name;
+  link.click();
+  setTimeout(() => URL.revokeObjectURL(link.href), 10000);
+}
+
 // Long tables are folded on the screen and whole on paper; so are the places of a few statuses.
 function foldOnScreen() {
   const tables = document.querySelectorAll(".folded > details");

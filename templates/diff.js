@@ -10,16 +10,6 @@ const shown = (element) => !element.hidden;
 const entryOf = new Map(Array.from(document.querySelectorAll(".index li"),
   (entry) => [entry.querySelector("a").getAttribute("href").slice(1), entry]));
 
-function makeStage(stage) {
-  stage.tabIndex = 0;
-  arrange(stage);
-  for (const image of stage.querySelectorAll("img")) {
-    image.addEventListener("load", () => arrange(stage));
-  }
-  followPointers(stage);
-  addDivider(stage);
-}
-
 function makeClusterButton(cluster) {
   const stage = cluster.closest("article").querySelector(".stage");
   const button = document.createElement("button");
@@ -41,8 +31,8 @@ function makeToolbar() {
     button.addEventListener("click", () => chooseMode(button.dataset.mode));
   }
   const withStage = (act) => () => { if (stageAtHand()) act(stageAtHand()); };
-  by("zoom-in").addEventListener("click", withStage((stage) => zoomBy(stage, 1.5)));
-  by("zoom-out").addEventListener("click", withStage((stage) => zoomBy(stage, 1 / 1.5)));
+  by("zoom-in").addEventListener("click", withStage((stage) => viewOf(stage).zoom(kZoomStep)));
+  by("zoom-out").addEventListener("click", withStage((stage) => viewOf(stage).zoom(1 / kZoomStep)));
   by("fit").addEventListener("click", withStage(fit));
   by("cut").addEventListener("input", () => setCut(Number(by("cut").value)));
   by("opacity").addEventListener("input", () => root.style.setProperty("--opacity", by("opacity").value / 100));

@@ -72,11 +72,7 @@ function approvals() {
 }
 
 function download() {
-  const link = document.createElement("a");
-  link.href = URL.createObjectURL(new Blob([approvals()], { type: "application/json" }));
-  link.download = "mapproof-approvals.json";
-  link.click();
-  setTimeout(() => URL.revokeObjectURL(link.href), 10000);
+  save("mapproof-approvals.json", new Blob([approvals()], { type: "application/json" }));
   by("told").textContent = "Then: mapproof approve BASELINE CURRENT --from mapproof-approvals.json";
 }
 

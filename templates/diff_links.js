@@ -11,8 +11,7 @@ function setAtHand(item) {
   const link = entryOf.get(item.id)?.querySelector("a");
   link?.setAttribute("aria-current", "true");
   link?.scrollIntoView({ block: "nearest" });
-  const stage = item.querySelector(".stage");
-  by("zoom").value = `${Math.round(100 * (stage ? viewOf(stage).zoom : 1))} %`;
+  showZoom(stageAtHand());
 }
 
 let held = false;  // Scrolling by a program says nothing about what is read.

@@ -30,7 +30,7 @@ function setMode(mode) {
   }
   for (const tools of document.querySelectorAll("[data-for]")) tools.hidden = tools.dataset.for !== mode;
   if (mode !== "blink") setBlinking(false);
-  if (stageAtHand()) applyView(stageAtHand());
+  if (stageAtHand()) viewOf(stageAtHand()).show();
 }
 
 function chooseMode(mode) {

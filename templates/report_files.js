@@ -1,13 +1,5 @@
 // What is in the page can be saved and copied from it; the rest lies beside it.
 
-function save(name, blob) {
-  const link = document.createElement("a");
-  link.href = URL.createObjectURL(blob);
-  link.download = name;
-  link.click();
-  setTimeout(() => URL.revokeObjectURL(link.href), 10000);
-}
-
 function svgUrl(text) {
   return `data:image/svg+xml;charset=utf-8,${encodeURIComponent(text)}`;
 }

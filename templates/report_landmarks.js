@@ -52,15 +52,15 @@ function isWithin({ x, y, width, height }, place) {
 // The landmark of that key in the panel that is looked at, if it is in one.
 function entryOf(svg, key) {
   const all = landmarks.get(svg).filter((entry) => keyOf(svg, entry) === key);
-  return all.find((entry) => isWithin(viewOf(svg).marks, entry.places.at(-1))) ?? all[0];
+  return all.find((entry) => isWithin(panelOf(svg), entry.places.at(-1))) ?? all[0];
 }
 
 function addRings(svg, entry) {
   const layer = svg.querySelector("g.lit") ??
     svg.appendChild(document.createElementNS(svg.namespaceURI, "g"));
   layer.setAttribute("class", "lit");
-  const { marks } = viewOf(svg);  // A step shows one panel alone.
-  for (const { x, y } of entry.places.filter((place) => isWithin(marks, place))) {
+  const panel = panelOf(svg);
+  for (const { x, y } of entry.places.filter((place) => isWithin(panel, place))) {
     const ring = document.createElementNS(svg.namespaceURI, "circle");
     for (const [name, value] of [["cx", x], ["cy", y], ["r", 6]]) ring.setAttribute(name, value);
     layer.append(ring);
@@ -121,11 +121,11 @@ function followView(svg) {
 }
 
 function nearest(svg, event) {
-  const at = pointOf(svg, event);
+  const at = pointOf(svg, { x: event.clientX, y: event.clientY });
   const reach = kReach / svg.getScreenCTM().a;
   let best = null, least = reach;
   for (const entry of landmarks.get(svg)) {
-    for (const { x, y } of entry.places.filter((place) => isWithin(viewOf(svg).marks, place))) {
+    for (const { x, y } of entry.places.filter((place) => isWithin(panelOf(svg), place))) {
       const distance = Math.hypot(x - at.x, y - at.y);
       if (distance < least) [best, least] = [entry, distance];
     }

@@ -9,9 +9,9 @@
 namespace mapproof {
 
 /// Sets what every page's head asks for: "policy", "style_element" and "script_element", of what
-/// pages have in common (common.css, common.js) and of the page's own: NAME.css, NAME.js and,
-/// before them, their parts (NAME_*.js). The policy lets in that style sheet, that script, images
-/// within the page, and nothing else.
+/// pages have in common (common.css, common.js and its parts common_*.js) and of the page's own:
+/// NAME.css, NAME.js and, before them, their parts (NAME_*.js). The policy lets in that style
+/// sheet, that script, images within the page, and nothing else.
 void set_page_frame(kainjow::mustache::data& page, const std::string& name,
                     const Templates& templates);
 
