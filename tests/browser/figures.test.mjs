@@ -106,6 +106,23 @@ test("a drag moves what is zoomed, and two fingers pinch", async () => {
   await close();
 });
 
+test("a drag that ends outside of the drawing is over", async () => {
+  const { page, close } = await open();
+  const shown = await figure(page, kMap);
+  const box = await shown.locator(".drawing").boundingBox();
+  await page.mouse.move(box.x + 100, box.y + 100);
+  await page.mouse.down();
+  await page.mouse.move(5, 5, { steps: 3 });
+  await page.mouse.up();
+  await shown.locator(".drawing").focus();
+  await page.keyboard.press("+");
+  const zoomed = await viewBox(shown);
+  await page.mouse.move(box.x + 100, box.y + 100);
+  await page.mouse.move(box.x + 160, box.y + 120, { steps: 3 });
+  assert.deepEqual(await viewBox(shown), zoomed);
+  await close();
+});
+
 test("a figure fills the screen and comes back, also where the browser refuses", async () => {
   const { page, close } = await open();
   const shown = await figure(page, kMap);
