@@ -1,5 +1,5 @@
-// A comparison: what its parts (diff_*.js, which stand before this in the page) share, and its start.
-// Nothing in them makes markup of a text.
+// The page of a comparison: what its parts (diff_*.js, which precede this file in the page) share,
+// and its start. None of them turns a text into markup.
 const root = document.documentElement;
 const main = document.querySelector("main");
 const items = Array.from(document.querySelectorAll("article.item"));
@@ -35,8 +35,10 @@ function makeToolbar() {
   by("zoom-out").addEventListener("click", withStage((stage) => viewOf(stage).zoom(1 / kZoomStep)));
   by("fit").addEventListener("click", withStage(fit));
   by("cut").addEventListener("input", () => setCut(Number(by("cut").value)));
-  by("opacity").addEventListener("input", () => root.style.setProperty("--opacity", by("opacity").value / 100));
-  by("difference").addEventListener("change", () => root.toggleAttribute("data-difference", by("difference").checked));
+  by("opacity").addEventListener("input",
+    () => root.style.setProperty("--opacity", by("opacity").value / 100));
+  by("difference").addEventListener("change",
+    () => root.toggleAttribute("data-difference", by("difference").checked));
   by("play").addEventListener("click", () => setBlinking(!blinking));
   by("flip").addEventListener("click", flip);
   by("help").addEventListener("click", () => by("keys").showModal());

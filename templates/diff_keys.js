@@ -1,4 +1,4 @@
-// Keyboard.
+// The keyboard of a comparison.
 
 function onKey(event) {
   if (event.ctrlKey || event.metaKey || event.altKey || by("keys").open) return;

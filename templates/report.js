@@ -1,6 +1,6 @@
-// Starts what the parts of the script (report_*.js) do; the table of contents follows its reader.
+// Starts the parts of the script (report_*.js); the table of contents follows the reader.
 
-// Within a list that is longer than the window, without moving the page.
+// Scrolls a list that is longer than the window, without moving the page.
 function keepInSight(link) {
   const list = link.closest(".contents");
   const { top, bottom } = link.getBoundingClientRect(), box = list.getBoundingClientRect();
@@ -8,7 +8,7 @@ function keepInSight(link) {
   if (bottom > box.bottom) list.scrollTop += bottom - box.bottom;
 }
 
-// The entry of the section being read stands out in the table of contents.
+// Marks the section that is being read in the table of contents.
 function followReading() {
   const links = new Map();
   for (const link of document.querySelectorAll(".contents a")) {

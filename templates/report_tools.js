@@ -1,16 +1,16 @@
 // The row of controls under a drawing.
 
-function addButton(place, text, label, act) {
+function addButton(parent, text, label, act) {
   const button = document.createElement("button");
   button.type = "button";
   button.textContent = text;
   if (label) button.setAttribute("aria-label", label);
   button.addEventListener("click", () => act(button));
-  place.append(button);
+  parent.append(button);
   return button;
 }
 
-// The page's one voice for what happens without a word on the screen.
+// Screen readers read this text when it changes.
 function announce(text) {
   let status = document.querySelector("#status");
   if (!status) {
@@ -31,8 +31,8 @@ function addTools(figure, svg) {
   const box = figure.querySelector(".drawing");
   box.tabIndex = 0;
   box.setAttribute("role", "group");
-  box.setAttribute("aria-label", `${titleOf(figure)}: + and - zoom, 0 fits, arrows move, ` +
-    "n and p go through the landmarks");
+  box.setAttribute("aria-label", `${titleOf(figure)}: press + and - to zoom, 0 to fit, arrows to ` +
+    "move, n and p to step through the landmarks");
   const tools = document.createElement("div");
   tools.className = "tools";
   tools.setAttribute("role", "toolbar");
