@@ -45,6 +45,17 @@ test("the contents follow the reader, also if they are longer than the window", 
   await close();
 });
 
+test("at the head of the page the contents start with their first entry", async () => {
+  const { page, close } = await open({ viewport: { width: 1400, height: 300 } });
+  await page.locator("main > section").last().evaluate((section) => section.scrollIntoView());
+  await page.waitForFunction(() => document.querySelector(".contents").scrollTop > 0);
+  await page.evaluate(() => scrollTo(0, 0));
+  await page.waitForFunction(() => document.querySelector(".contents").scrollTop === 0,
+    undefined, { timeout: 5000 });
+  assert.equal(await page.locator(".contents a[aria-current]").count(), 0);
+  await close();
+});
+
 test("every entry of the contents links to its section", async () => {
   const { page, close } = await open();
   const links = await page.locator(".contents a").evaluateAll(
