@@ -1,6 +1,6 @@
 "use strict";
-// What every page gains from a script: sortable tables, a light/dark switch, whole tables on paper.
-// Without it everything is still there to be read.
+// What the script adds to every page: sortable tables, a light/dark switch, whole tables on paper.
+// Without it a reader still sees all content.
 
 // A cell's sort key is the number behind its text; a missing value has an empty one and goes last.
 function sortKey(row, column) {
@@ -42,7 +42,7 @@ function makeSortable(table) {
   }
 }
 
-function addThemeSwitch(place) {
+function addThemeSwitch(parent) {
   const root = document.documentElement;
   const system = window.matchMedia("(prefers-color-scheme: dark)");
   const isDark = () => (root.dataset.theme ?? (system.matches ? "dark" : "light")) === "dark";
@@ -59,19 +59,29 @@ function addThemeSwitch(place) {
   });
   system.addEventListener("change", label);
   label();
-  place.append(button);
+  parent.append(button);
 }
 
-// Long tables are folded on the screen and whole on paper; so are the places of a few statuses.
+// Downloads a file that the page makes itself.
+function save(name, blob) {
+  const link = document.createElement("a");
+  link.href = URL.createObjectURL(blob);
+  link.download = name;
+  link.click();
+  setTimeout(() => URL.revokeObjectURL(link.href), 10000);
+}
+
+// Long tables are folded on the screen and whole on paper. So are the runs that a warning affects,
+// unless there are many warnings.
 function foldOnScreen() {
   const tables = document.querySelectorAll(".folded > details");
-  const places = document.querySelectorAll(".statuses details");
-  const mostPlaces = 12;
+  const affected = document.querySelectorAll(".warnings details");
+  const mostOnPaper = 12;
   const open = (all, value) => { for (const details of all) details.open = value; };
   open(tables, false);
   window.addEventListener("beforeprint", () => {
     open(tables, true);
-    if (places.length <= mostPlaces) open(places, true);
+    if (affected.length <= mostOnPaper) open(affected, true);
   });
   window.addEventListener("afterprint", () => open(tables, false));
 }

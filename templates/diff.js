@@ -1,5 +1,5 @@
-// A comparison: what its parts (diff_*.js, which stand before this in the page) share, and its start.
-// Nothing in them makes markup of a text.
+// The page of a comparison: what its parts (diff_*.js, which precede this file in the page) share,
+// and its start. None of them turns a text into markup.
 const root = document.documentElement;
 const main = document.querySelector("main");
 const items = Array.from(document.querySelectorAll("article.item"));
@@ -9,16 +9,6 @@ let atHand = items[0] ?? null;
 const shown = (element) => !element.hidden;
 const entryOf = new Map(Array.from(document.querySelectorAll(".index li"),
   (entry) => [entry.querySelector("a").getAttribute("href").slice(1), entry]));
-
-function makeStage(stage) {
-  stage.tabIndex = 0;
-  arrange(stage);
-  for (const image of stage.querySelectorAll("img")) {
-    image.addEventListener("load", () => arrange(stage));
-  }
-  followPointers(stage);
-  addDivider(stage);
-}
 
 function makeClusterButton(cluster) {
   const stage = cluster.closest("article").querySelector(".stage");
@@ -41,12 +31,14 @@ function makeToolbar() {
     button.addEventListener("click", () => chooseMode(button.dataset.mode));
   }
   const withStage = (act) => () => { if (stageAtHand()) act(stageAtHand()); };
-  by("zoom-in").addEventListener("click", withStage((stage) => zoomBy(stage, 1.5)));
-  by("zoom-out").addEventListener("click", withStage((stage) => zoomBy(stage, 1 / 1.5)));
+  by("zoom-in").addEventListener("click", withStage((stage) => viewOf(stage).zoom(kZoomStep)));
+  by("zoom-out").addEventListener("click", withStage((stage) => viewOf(stage).zoom(1 / kZoomStep)));
   by("fit").addEventListener("click", withStage(fit));
   by("cut").addEventListener("input", () => setCut(Number(by("cut").value)));
-  by("opacity").addEventListener("input", () => root.style.setProperty("--opacity", by("opacity").value / 100));
-  by("difference").addEventListener("change", () => root.toggleAttribute("data-difference", by("difference").checked));
+  by("opacity").addEventListener("input",
+    () => root.style.setProperty("--opacity", by("opacity").value / 100));
+  by("difference").addEventListener("change",
+    () => root.toggleAttribute("data-difference", by("difference").checked));
   by("play").addEventListener("click", () => setBlinking(!blinking));
   by("flip").addEventListener("click", flip);
   by("help").addEventListener("click", () => by("keys").showModal());

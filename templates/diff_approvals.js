@@ -1,6 +1,6 @@
-// Ticks, the file of approvals and the command that does the same.
+// Ticks, the file of approvals, and the command that approves the same items.
 
-// Names travel byte by byte; one that is not UTF-8 cannot stand in a file of JSON.
+// The page holds names byte by byte; JSON cannot hold one that is not UTF-8.
 function decoded(text) {
   try {
     return decodeURIComponent(text);
@@ -9,7 +9,8 @@ function decoded(text) {
   }
 }
 
-// One word of a POSIX shell; control characters, which a terminal might act on, by $'…'.
+// Quotes one word for a POSIX shell. Control characters, on which a terminal might act, are written
+// as $'…'.
 function quoted(word) {
   if (/^[A-Za-z0-9_.\/=,:+@%-]+$/.test(word)) return word;
   if (!/[\u0000-\u001f\u007f-\u009f]/.test(word)) return `'${word.replaceAll("'", "'\\''")}'`;
@@ -19,7 +20,7 @@ function quoted(word) {
   return `$'${bytes.join("")}'`;
 }
 
-// A folder whose name looks like an option.
+// Quotes a folder, also one whose name looks like an option.
 const path = (text) => quoted(text.startsWith("-") ? `./${text}` : text);
 
 const tickOf = (item) => item.querySelector(".tick input");
@@ -37,20 +38,22 @@ function command() {
   return [...words, ...(dashed ? ["--"] : []), ...ids.map(quoted)].join(" ");
 }
 
-// Some go with the records alone, some not at all: a command that fails is never offered.
-function settleTicks() {
+// Some items can be approved only together with the records, some not at all: the page offers no
+// command that would fail.
+function updateTicks() {
   const whole = tickedItems().some(isRecords);
   for (const item of items) {
     const tick = tickOf(item);
     if (!tick || tick.dataset.needs === undefined) continue;
-    tick.disabled = !whole || tick.dataset.needs !== "records" || decoded(item.dataset.code) === null;
+    const isReadable = decoded(item.dataset.code) !== null;
+    tick.disabled = !whole || tick.dataset.needs !== "records" || !isReadable;
     if (tick.disabled) tick.checked = false;
     by(tick.getAttribute("aria-describedby")).hidden = !tick.disabled;
   }
 }
 
-function tellTicks() {
-  settleTicks();
+function updateApprovals() {
+  updateTicks();
   const count = tickedItems().length;
   by("ticked").value = String(count);
   document.querySelector(".approvals").hidden = items.every((item) => !tickOf(item));
@@ -59,7 +62,7 @@ function tellTicks() {
   by("command").textContent = count === 0 ? "" : command();
   by("command").hidden = by("command").textContent === "";
   document.querySelector(".approvals").classList.toggle("some", count > 0);
-  by("told").textContent = "";
+  by("notice").textContent = "";
 }
 
 function approvals() {
@@ -72,30 +75,27 @@ function approvals() {
 }
 
 function download() {
-  const link = document.createElement("a");
-  link.href = URL.createObjectURL(new Blob([approvals()], { type: "application/json" }));
-  link.download = "mapproof-approvals.json";
-  link.click();
-  setTimeout(() => URL.revokeObjectURL(link.href), 10000);
-  by("told").textContent = "Then: mapproof approve BASELINE CURRENT --from mapproof-approvals.json";
+  save("mapproof-approvals.json", new Blob([approvals()], { type: "application/json" }));
+  by("notice").textContent =
+    "Next, run: mapproof approve BASELINE CURRENT --from mapproof-approvals.json";
 }
 
 async function copy() {
   try {
     await navigator.clipboard.writeText(by("command").textContent);
-    by("told").textContent = "Copied.";
+    by("notice").textContent = "Copied.";
   } catch {
     getSelection().selectAllChildren(by("command"));
-    by("told").textContent = "Selected: press Ctrl+C.";
+    by("notice").textContent = "Selected: press Ctrl+C.";
   }
 }
 
 function tickAll(all, value) {
   for (const some of [all.filter(isRecords), all]) {
-    for (const item of some) if (tickOf(item) && !tickOf(item).disabled) tickOf(item).checked = value;
-    settleTicks();
+    for (const tick of some.map(tickOf)) if (tick && !tick.disabled) tick.checked = value;
+    updateTicks();
   }
-  tellTicks();
+  updateApprovals();
 }
 
 function makeTicks() {
@@ -104,12 +104,12 @@ function makeTicks() {
     if (!tick) continue;
     tick.closest("label").hidden = false;
     tick.disabled = decoded(item.dataset.code) === null;
-    if (tick.disabled) tick.title = "Its name is not UTF-8: approve it by hand";
-    tick.addEventListener("change", tellTicks);
+    if (tick.disabled) tick.title = "The name is not UTF-8: approve this item by hand";
+    tick.addEventListener("change", updateApprovals);
   }
   by("tick-shown").addEventListener("click", () => tickAll(items.filter(shown), true));
   by("untick").addEventListener("click", () => tickAll(items, false));
   by("download").addEventListener("click", download);
   by("copy").addEventListener("click", copy);
-  tellTicks();
+  updateApprovals();
 }

@@ -1,4 +1,4 @@
-// Filter by verdict, search by id.
+// Filter by verdict, search by ID.
 
 const wanted = new Set();
 
@@ -10,7 +10,8 @@ function applyFilter() {
   for (const element of entries) element.hidden = !fits(element);
   const all = document.querySelectorAll(".item, .identical li");
   const count = Array.from(all).filter(shown).length;
-  document.querySelector(".found").textContent = count === all.length ? "" : `${count} of ${all.length} shown`;
+  const isWhole = count === all.length;
+  document.querySelector(".found").textContent = isWhole ? "" : `${count} of ${all.length} shown`;
   const identical = by("identical");
   if (identical) identical.hidden = !identical.querySelector("li:not([hidden])");
   if (atHand && !shown(atHand)) {
@@ -22,7 +23,9 @@ function applyFilter() {
 function clearFilter() {
   wanted.clear();
   by("search").value = "";
-  for (const chip of document.querySelectorAll(".counts button")) chip.setAttribute("aria-pressed", "false");
+  for (const chip of document.querySelectorAll(".counts button")) {
+    chip.setAttribute("aria-pressed", "false");
+  }
   applyFilter();
 }
 

@@ -1,4 +1,4 @@
-// Keyboard.
+// The keyboard of a comparison.
 
 function onKey(event) {
   if (event.ctrlKey || event.metaKey || event.altKey || by("keys").open) return;
@@ -14,17 +14,15 @@ function onKey(event) {
     a: () => tickOf(atHand)?.click(),
     b: () => { if (root.dataset.mode !== "blink") chooseMode("blink"); setBlinking(!blinking); },
     f: () => { if (root.dataset.mode !== "blink") chooseMode("blink"); flip(); },
-    "+": () => stage && zoomBy(stage, 1.5), "=": () => stage && zoomBy(stage, 1.5),
-    "-": () => stage && zoomBy(stage, 1 / 1.5), 0: () => stage && fit(stage),
+    0: () => stage && fit(stage),
     "/": () => by("search").focus(),
     "?": () => by("keys").showModal(),
   };
   modes.forEach((mode, index) => { acts[index + 1] = () => chooseMode(mode); });
-  if (stage && viewOf(stage).zoom > 1 && !target.matches?.("input, .scroll, .long, pre")) {
-    Object.assign(acts, {
-      ArrowLeft: () => moveBy(stage, 0.1, 0), ArrowRight: () => moveBy(stage, -0.1, 0),
-      ArrowUp: () => moveBy(stage, 0, 0.1), ArrowDown: () => moveBy(stage, 0, -0.1),
-    });
+  const zoomAct = stage && actOfKey(event.key, viewOf(stage));
+  const scrolls = event.key.startsWith("Arrow") && target.matches?.("input, .scroll, .long, pre");
+  if (zoomAct && !scrolls && !Object.hasOwn(acts, event.key)) {
+    acts[event.key] = () => zoomAct(viewOf(stage));
   }
   if (!Object.hasOwn(acts, event.key)) {
     held = held && !["PageDown", "PageUp", "ArrowDown", "ArrowUp", " "].includes(event.key);

@@ -1,4 +1,4 @@
-// The item at hand, and links to it.
+// The current item ("at hand"), and links to it.
 
 const linkTo = (item) => item.id + (root.dataset.mode === "side" ? "" : `:${root.dataset.mode}`);
 
@@ -11,18 +11,17 @@ function setAtHand(item) {
   const link = entryOf.get(item.id)?.querySelector("a");
   link?.setAttribute("aria-current", "true");
   link?.scrollIntoView({ block: "nearest" });
-  const stage = item.querySelector(".stage");
-  by("zoom").value = `${Math.round(100 * (stage ? viewOf(stage).zoom : 1))} %`;
+  showZoom(stageAtHand());
 }
 
-let held = false;  // Scrolling by a program says nothing about what is read.
+let held = false;  // While the script scrolls, the position does not show what is being read.
 
 function show(item) {
   if (!shown(item)) clearFilter();
   if (item.matches("article")) setAtHand(item);
   held = true;
   item.scrollIntoView({ block: "start" });
-  // What lies above is laid out only now, and may have another height than was guessed.
+  // The browser lays out what is above only now; its height may differ from the estimate.
   requestAnimationFrame(() => item.scrollIntoView({ block: "start" }));
   (item.querySelector("h2") ?? item).focus({ preventScroll: true });
 }
@@ -38,7 +37,7 @@ function followHash() {
 function step(count) {
   const visible = items.filter(shown);
   const at = visible.indexOf(atHand);
-  // From above the first item, "next" is the first one.
+  // Above the first item, "next" leads to the first item.
   const above = count > 0 && at === 0 && location.hash === "" && !held;
   const target = at < 0 || above ? visible[0] : visible[at + count];
   if (!target) return;

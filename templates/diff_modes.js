@@ -1,4 +1,4 @@
-// The ways in which the two pictures of an item are shown.
+// The modes in which the two images of an item are shown.
 
 const modes = ["side", "slider", "blink", "overlay", "heat"];
 let blinking = null;
@@ -15,7 +15,7 @@ function setShown(side) {
 
 const flip = () => setShown(root.dataset.shown === "baseline" ? "current" : "baseline");
 
-// Never by itself: only a button or a key starts it, and 0.7 flips a second are not flashing.
+// Only a button or a key starts it. At 0.7 flips per second it does not flash.
 function setBlinking(on) {
   clearInterval(blinking);
   blinking = on ? setInterval(flip, 1400) : null;
@@ -28,9 +28,11 @@ function setMode(mode) {
   for (const button of document.querySelectorAll(".modes button")) {
     button.setAttribute("aria-pressed", String(button.dataset.mode === mode));
   }
-  for (const tools of document.querySelectorAll("[data-for]")) tools.hidden = tools.dataset.for !== mode;
+  for (const tools of document.querySelectorAll("[data-for]")) {
+    tools.hidden = tools.dataset.for !== mode;
+  }
   if (mode !== "blink") setBlinking(false);
-  if (stageAtHand()) applyView(stageAtHand());
+  if (stageAtHand()) viewOf(stageAtHand()).show();
 }
 
 function chooseMode(mode) {
@@ -40,7 +42,7 @@ function chooseMode(mode) {
 
 const nextMode = () => chooseMode(modes[(modes.indexOf(root.dataset.mode) + 1) % modes.length]);
 
-// The line between the two of the slider.
+// The line between the two images in slider mode.
 function addDivider(stage) {
   const view = stage.querySelector(".baseline .view");
   if (!view || !stage.classList.contains("both")) return;

@@ -1,6 +1,6 @@
-// Starts what the parts of the script (report_*.js) do; the table of contents follows its reader.
+// Starts the parts of the script (report_*.js); the table of contents follows the reader.
 
-// Within a list that is longer than the window, without moving the page.
+// Scrolls a list that is longer than the window, without moving the page.
 function keepInSight(link) {
   const list = link.closest(".contents");
   const { top, bottom } = link.getBoundingClientRect(), box = list.getBoundingClientRect();
@@ -8,22 +8,36 @@ function keepInSight(link) {
   if (bottom > box.bottom) list.scrollTop += bottom - box.bottom;
 }
 
-// The entry of the section being read stands out in the table of contents.
+// Marks the section that is being read in the table of contents; at the head of the page, none.
 function followReading() {
+  const contents = document.querySelector(".contents");
   const links = new Map();
-  for (const link of document.querySelectorAll(".contents a")) {
+  for (const link of contents.querySelectorAll("a")) {
     links.set(link.getAttribute("href").slice(1), link);
   }
-  const observer = new IntersectionObserver((entries) => {
-    for (const entry of entries) {
-      if (!entry.isIntersecting) continue;
-      for (const link of links.values()) link.removeAttribute("aria-current");
-      const link = links.get(entry.target.id);
-      link?.setAttribute("aria-current", "true");
-      if (link) keepInSight(link);
-    }
-  }, { rootMargin: "-10% 0px -80% 0px" });
-  for (const section of document.querySelectorAll("main > section")) observer.observe(section);
+  const sections = [...document.querySelectorAll("main > section")];
+  let current;
+  const update = () => {
+    const read = sections.findLast(
+      (section) => section.getBoundingClientRect().top <= innerHeight / 5);
+    const link = links.get(read?.id);
+    if (link === current) return;
+    current?.removeAttribute("aria-current");
+    link?.setAttribute("aria-current", "true");
+    current = link;
+    if (link) keepInSight(link);
+    else contents.scrollTop = 0;
+  };
+  let isWaiting = false;
+  addEventListener("scroll", () => {
+    if (isWaiting) return;
+    isWaiting = true;
+    requestAnimationFrame(() => {
+      isWaiting = false;
+      update();
+    });
+  }, { passive: true });
+  update();
 }
 
 const figures = document.querySelectorAll("figure[data-id]");

@@ -1,18 +1,10 @@
-// What is in the page can be saved and copied from it; the rest lies beside it.
-
-function save(name, blob) {
-  const link = document.createElement("a");
-  link.href = URL.createObjectURL(blob);
-  link.download = name;
-  link.click();
-  setTimeout(() => URL.revokeObjectURL(link.href), 10000);
-}
+// A reader can save and copy what the page holds; links lead to the other files.
 
 function svgUrl(text) {
   return `data:image/svg+xml;charset=utf-8,${encodeURIComponent(text)}`;
 }
 
-// As many pixels as the file beside the page has: two for each point.
+// It has as many pixels as the PNG file of the report: two per point.
 async function pngOf(text) {
   const image = new Image();
   image.src = svgUrl(text);
@@ -31,12 +23,13 @@ async function saveDrawing(figure, format) {
   save(`${figure.dataset.id}.${format}`, blob);
 }
 
-// The links to files that the page can make itself give them from there.
+// Links to files that the page can make itself save them from the page.
 function linkFiles(figure) {
   const links = figure.querySelectorAll("a[data-format]");
   if (links.length === 0 || sourceOf(figure) === "") return;
   const where = figure.querySelector(".files .where");
-  where.textContent = `SVG and PNG from this page; PDF and data lie ${where.textContent.trim()}`;
+  where.textContent = "SVG and PNG are made by this page; PDF and data are in the folder " +
+    `${where.dataset.folder}/ next to it.`;
   for (const link of links) {
     link.download = `${figure.dataset.id}.${link.dataset.format}`;
     link.addEventListener("click", (event) => {
@@ -46,7 +39,7 @@ function linkFiles(figure) {
   }
 }
 
-// Where a page may not reach the clipboard, the older way may still work.
+// Where a page has no access to the clipboard, the older command may still work.
 function copyByHand(text) {
   const area = document.createElement("textarea");
   area.value = text;
@@ -66,17 +59,18 @@ async function copyText(text, button) {
     done = copyByHand(text);
   }
   button.dataset.label ??= button.textContent;
-  button.textContent = done ? "Copied" : "Not allowed here";
-  announce(done ? `${button.dataset.label}: copied` : "The browser does not allow copying here");
+  button.textContent = done ? "Copied" : "Copying not allowed";
+  announce(done ? `${button.dataset.label}: copied`
+    : "The browser does not allow this page to copy");
   button.focus();
   setTimeout(() => { button.textContent = button.dataset.label; }, 2000);
 }
 
-function addCopyButton(place, text, label) {
-  addButton(place, "Copy", label, (button) => copyText(text, button));
+function addCopyButton(parent, text, label) {
+  addButton(parent, "Copy", label, (button) => copyText(text, button));
 }
 
-// The command of a figure is that of "A figure alone", with its id.
+// The command of a figure is the one under "A figure alone", with the ID of this figure.
 function addCommand(figure, command) {
   const files = figure.querySelector("details.files");
   if (!files) return;
@@ -92,16 +86,16 @@ function addCommand(figure, command) {
   }, { once: true });
 }
 
-// The commands among the facts that a section lists, and those beside figures.
+// Copy buttons for the commands under "Provenance" and below figures.
 function addCommands(figures) {
   const names = new Map([["Command", "of this report"], ["A figure alone", "of a figure"]]);
   let single = "";
   for (const fact of document.querySelectorAll('[id$="provenance"] .facts > div')) {
-    const code = fact.querySelector("dd > code");
+    const value = fact.querySelector("dd"), code = value.querySelector(":scope > code");
     const name = fact.querySelector("dt").textContent;
     if (!code || !names.has(name)) continue;
     if (name === "A figure alone") single ||= code.textContent;
-    addCopyButton(fact.querySelector("dd"), code.textContent, `Copy the command ${names.get(name)}`);
+    addCopyButton(value, code.textContent, `Copy the command ${names.get(name)}`);
   }
   if (single) figures.forEach((figure) => addCommand(figure, single));
 }

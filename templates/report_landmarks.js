@@ -1,66 +1,70 @@
-// A landmark under the pointer, or chosen by name or key, is named with its true place, its estimate
-// and its error, and lights up in every map that has it.
+// A landmark under the pointer, or chosen by name or key, gets a tip with its ground truth, its
+// estimate and its error, and is highlighted in every map of the same world.
 
 const landmarks = new Map();  // <svg> → its landmarks.
-const kReach = 14;  // Pixels from a mark that still mean it.
-let lit = "";  // The key of the landmark that is lit.
-let tipIn = null;  // The <svg> that names it.
-let isPinned = false;  // It stays when the pointer leaves.
+const kReach = 14;  // Greatest distance of the pointer from a mark, in pixels.
+let lit = "";  // The key of the highlighted landmark.
+let tipIn = null;  // The <svg> that shows its tip.
+let isPinned = false;  // Whether it stays when the pointer leaves.
 
 // Marks of one landmark in one panel have ids "FIGURE[-PANEL]-KIND-ROW".
 function readLandmarks(svg) {
   const found = new Map();
   for (const mark of svg.querySelectorAll("use[data-landmark]")) {
     const { landmark: name, kind, x, y, error } = mark.dataset;
-    const place = mark.id.replace(`-${kind}-`, "#");
-    const entry = found.get(place) ?? { name, places: [] };
-    found.set(place, entry);
-    entry.places.push({ x: Number(mark.getAttribute("x")), y: Number(mark.getAttribute("y")) });
-    if (kind === "true" || kind === "anchor") entry.truth = [x, y];
+    const key = mark.id.replace(`-${kind}-`, "#");
+    const entry = found.get(key) ?? { name, marks: [] };
+    found.set(key, entry);
+    entry.marks.push({ x: Number(mark.getAttribute("x")), y: Number(mark.getAttribute("y")) });
+    if (kind === "true" || kind === "anchor") entry.groundTruth = [x, y];
+    if (kind === "anchor") entry.isAnchor = true;
     if (kind === "estimate") entry.estimate = [x, y];
     if (error !== undefined) entry.error = error;
   }
   return [...found.values()];
 }
 
-// The same landmark elsewhere: of the same name at the same true place. A name alone may stand for
-// another landmark in another world.
+// Marks show the same landmark if its name and its true position are the same: two worlds may use
+// one name.
 function keyOf(svg, entry) {
-  return `${entry.name}\n${entry.truth?.join() ?? svg.id}`;
+  return `${entry.name}\n${entry.groundTruth?.join() ?? svg.id}`;
 }
 
+// Three significant digits.
 function metres(text) {
   const value = Number(text);
-  return value === 0 ? "0" : value.toFixed(Math.max(0, Math.min(6, 2 - Math.floor(Math.log10(Math.abs(value))))));
+  if (value === 0) return "0";
+  return value.toFixed(clamp(2 - Math.floor(Math.log10(Math.abs(value))), 0, 6));
 }
 
 function linesOf(entry) {
   const point = ([x, y]) => `(${Number(x).toFixed(3)}, ${Number(y).toFixed(3)})`;
-  const unit = entry.truth ? " m" : "";
+  const unit = entry.groundTruth ? " m" : "";
   const lines = [];
-  if (entry.truth) lines.push(`true ${point(entry.truth)} m`);
+  if (entry.groundTruth) lines.push(`ground truth ${point(entry.groundTruth)} m`);
   if (entry.estimate) lines.push(`estimate ${point(entry.estimate)}${unit}`);
   if (entry.error !== undefined) lines.push(`error ${metres(entry.error)} m`);
-  if (entry.truth && !entry.estimate) lines.push("an anchor, or without a place");
+  if (entry.isAnchor) lines.push("an anchor: its position is given");
+  else if (entry.groundTruth && !entry.estimate) lines.push("not in the map");
   return lines;
 }
 
-function isWithin({ x, y, width, height }, place) {
-  return place.x >= x && place.x <= x + width && place.y >= y && place.y <= y + height;
+function isWithin({ x, y, width, height }, point) {
+  return point.x >= x && point.x <= x + width && point.y >= y && point.y <= y + height;
 }
 
-// The landmark of that key in the panel that is looked at, if it is in one.
+// The landmark with that key, in the visible panel if that panel has it.
 function entryOf(svg, key) {
   const all = landmarks.get(svg).filter((entry) => keyOf(svg, entry) === key);
-  return all.find((entry) => isWithin(viewOf(svg).marks, entry.places.at(-1))) ?? all[0];
+  return all.find((entry) => isWithin(panelOf(svg), entry.marks.at(-1))) ?? all[0];
 }
 
 function addRings(svg, entry) {
   const layer = svg.querySelector("g.lit") ??
     svg.appendChild(document.createElementNS(svg.namespaceURI, "g"));
   layer.setAttribute("class", "lit");
-  const { marks } = viewOf(svg);  // A step shows one panel alone.
-  for (const { x, y } of entry.places.filter((place) => isWithin(marks, place))) {
+  const panel = panelOf(svg);
+  for (const { x, y } of entry.marks.filter((mark) => isWithin(panel, mark))) {
     const ring = document.createElementNS(svg.namespaceURI, "circle");
     for (const [name, value] of [["cx", x], ["cy", y], ["r", 6]]) ring.setAttribute(name, value);
     layer.append(ring);
@@ -79,7 +83,7 @@ function showTip(svg, entry) {
     part.textContent = line;
     tip.append(part);
   }
-  const { x, y } = entry.places.at(-1);
+  const { x, y } = entry.marks.at(-1);
   const at = new DOMPoint(x, y).matrixTransform(svg.getScreenCTM());
   const frame = box.getBoundingClientRect();
   const right = at.x - frame.left > frame.width / 2, low = at.y - frame.top > frame.height / 2;
@@ -111,21 +115,21 @@ function light(svg, entry) {
   if (entry) showTip(svg, entry);
 }
 
-// What is shown of the drawing has changed: the words go with their landmark.
+// After a change of the view the tip stays with its landmark.
 function followView(svg) {
   lightIn(svg);
   svg.parentElement.querySelector(".tip")?.remove();
   if (tipIn !== svg) return;
   const entry = entryOf(svg, lit);
-  if (entry && isWithin(viewOf(svg).now, entry.places.at(-1))) showTip(svg, entry);
+  if (entry && isWithin(viewOf(svg).now, entry.marks.at(-1))) showTip(svg, entry);
 }
 
 function nearest(svg, event) {
-  const at = pointOf(svg, event);
+  const at = pointOf(svg, { x: event.clientX, y: event.clientY });
   const reach = kReach / svg.getScreenCTM().a;
   let best = null, least = reach;
   for (const entry of landmarks.get(svg)) {
-    for (const { x, y } of entry.places.filter((place) => isWithin(viewOf(svg).marks, place))) {
+    for (const { x, y } of entry.marks.filter((mark) => isWithin(panelOf(svg), mark))) {
       const distance = Math.hypot(x - at.x, y - at.y);
       if (distance < least) [best, least] = [entry, distance];
     }
@@ -139,7 +143,7 @@ function chooseLandmark(svg, entry) {
   announce(entry ? [entry.name, ...linesOf(entry)].join(", ") : "");
 }
 
-// Every landmark's key once, by name: "L2" before "L10".
+// The key of each landmark once, ordered by name: "L2" before "L10".
 function keysByName(svg) {
   const names = new Map(landmarks.get(svg).map((entry) => [keyOf(svg, entry), entry.name]));
   return [...names].sort(([, a], [, b]) => a.localeCompare(b, "en", { numeric: true }));
@@ -152,7 +156,7 @@ function stepLandmark(svg, count) {
   chooseLandmark(svg, entryOf(svg, keys[(next + keys.length) % keys.length]));
 }
 
-// By name, for those who use no pointer.
+// A list of names, for readers without a pointer.
 function addLandmarkList(figure, svg) {
   const list = document.createElement("select");
   list.className = "landmark";

@@ -1,5 +1,5 @@
-// Drawings stand in the page as text, within <noscript>, and are put in when the reader comes near:
-// a page of hundreds opens as fast as one of a few. Without a script the browser shows them itself.
+// The page holds drawings as text within <noscript>, and inserts them when the reader comes near: a
+// page of hundreds opens as fast as a page of a few. Without a script the browser shows them.
 
 const sources = new WeakMap();  // A figure → the text of its SVG.
 const whenPutIn = [];  // Called with each figure and its <svg>.
@@ -12,8 +12,8 @@ function sourceOf(figure) {
   return sources.get(figure);
 }
 
-// Gives a drawing that is not yet in its place, so that nothing moves when it comes.
-function reservePlace(figure) {
+// Reserves the space of a drawing, so that nothing moves when it is inserted.
+function reserveSpace(figure) {
   const size = /viewBox="0 0 ([\d.]+) ([\d.]+)"/.exec(sourceOf(figure).slice(0, 500));
   if (size) figure.querySelector(".drawing").style.aspectRatio = `${size[1]} / ${size[2]}`;
 }
@@ -24,7 +24,7 @@ function putIn(figure) {
   const text = sourceOf(figure);
   const svg = new DOMParser().parseFromString(text, "image/svg+xml").documentElement;
   if (svg.localName !== "svg") return;
-  // A drawing is one image with a title and a description: its words are not elements of their own.
+  // A drawing is one image with a title and a description; its texts are not separate elements.
   for (const words of svg.querySelectorAll("g[aria-label]")) words.removeAttribute("aria-label");
   holder.replaceWith(document.adoptNode(svg));
   for (const each of whenPutIn) each(figure, svg);
@@ -39,9 +39,9 @@ function putInWhenNear(figures) {
     }
   }, { rootMargin: "60% 0px" });
   for (const figure of figures) {
-    reservePlace(figure);
+    reserveSpace(figure);
     observer.observe(figure);
   }
-  // Paper shows all.
+  // Paper shows all drawings.
   addEventListener("beforeprint", () => figures.forEach(putIn));
 }

@@ -1,4 +1,4 @@
-// Small drawings beside the links at the head of the page, made of those that it holds.
+// Thumbnails for the links at the head of the page, from the drawings that the page holds.
 
 function addThumbnails() {
   for (const link of document.querySelectorAll(".thumbnails a")) {
@@ -6,7 +6,7 @@ function addThumbnails() {
     const text = figure ? sourceOf(figure) : "";
     if (text === "") continue;
     const image = new Image();
-    image.alt = "";  // The link says it in words.
+    image.alt = "";  // The link has the title.
     image.src = svgUrl(text);
     link.prepend(image);
   }

@@ -1,9 +1,9 @@
-// A figure whose panels are one map at several times can be gone through step by step: each panel
-// fills the box in turn, with the axes that all share, so that the map forms in one place.
+// A figure whose panels are one map at several times has a slider. Each step fills the box with one
+// panel and the axes that all panels share, so that the map forms in front of the reader.
 
-const kRoomAbove = 40, kRoomBelow = 24, kRoomBeside = 10;  // Of a panel's frame, in points.
+const kRoomAbove = 40, kRoomBelow = 24, kRoomRight = 10;  // Around a panel's frame, in points.
 
-// Frames of the panels, in their order; none if they are not all there.
+// The frames of the panels in their order; empty if one is missing.
 function panelFrames(figure, svg, count) {
   const frames = [];
   for (let i = 0; i < count; ++i) {
@@ -16,8 +16,7 @@ function panelFrames(figure, svg, count) {
   return frames;
 }
 
-// What a drawing is made of: the parts of each panel, from its heading on; the names of the axes;
-// the rest.
+// The parts of a drawing: those of each panel, from its heading on; the labels of the axes; others.
 function partsOf(svg) {
   const parts = { panels: [], axes: [], rest: [] };
   for (const part of svg.querySelectorAll(":scope > g")) {
@@ -30,17 +29,18 @@ function partsOf(svg) {
   return parts;
 }
 
-function placeOf(label) {
-  const [, x, y] = /translate\(([-\d.]+)(?:[ ,]([-\d.]+))?\)/.exec(label.getAttribute("transform")) ?? [];
+function positionOf(label) {
+  const pattern = /translate\(([-\d.]+)(?:[ ,]([-\d.]+))?\)/;
+  const [, x, y] = pattern.exec(label.getAttribute("transform")) ?? [];
   return { x: Number(x ?? 0), y: Number(y ?? 0) };
 }
 
-// The numbers at a panel's axes: beside its frame, and below it.
-function numbersOf(panel, frame) {
+// The tick labels of a panel: those left of its frame, and those below it.
+function tickLabelsOf(panel, frame) {
   const all = panel.filter((part) => part.classList.contains("tick-label"))
     .flatMap((part) => [...part.children]);
-  const isBelow = (label) => placeOf(label).y > frame.bottom + 8;
-  return { beside: all.filter((label) => !isBelow(label)), below: all.filter(isBelow) };
+  const isBelow = (label) => positionOf(label).y > frame.bottom + 8;
+  return { left: all.filter((label) => !isBelow(label)), below: all.filter(isBelow) };
 }
 
 function addCopy(layer, label, right, down) {
@@ -50,20 +50,21 @@ function addCopy(layer, label, right, down) {
   moved.append(label.cloneNode(true));
 }
 
-// The axes of a panel that it has in common with others: their names and numbers, moved to it.
+// The labels of the axes that a panel shares with others, moved to this panel.
 function sharedAxes(svg, parts, frames, step) {
   const layer = document.createElementNS(svg.namespaceURI, "g");
   layer.setAttribute("class", "step-axes");
   const frame = frames[step];
-  const numbers = parts.panels.map((panel, i) => numbersOf(panel, frames[i]));
-  for (const side of ["beside", "below"]) {
+  const numbers = parts.panels.map((panel, i) => tickLabelsOf(panel, frames[i]));
+  for (const side of ["left", "below"]) {
     const from = numbers.findIndex((each) => each[side].length > 0);
     if (from < 0 || numbers[step][side].length > 0) continue;
     for (const label of numbers[from][side]) {
       addCopy(layer, label, frame.x - frames[from].x, frame.y - frames[from].y);
     }
   }
-  const left = Math.min(...frames.map((each) => each.x)), top = Math.min(...frames.map((each) => each.y));
+  const left = Math.min(...frames.map((each) => each.x));
+  const top = Math.min(...frames.map((each) => each.y));
   const right = Math.max(...frames.map((each) => each.right));
   const bottom = Math.max(...frames.map((each) => each.bottom));
   for (const name of parts.axes) {
@@ -74,17 +75,17 @@ function sharedAxes(svg, parts, frames, step) {
   return layer;
 }
 
-// The part of the drawing that holds one panel whole, with its heading and its axes.
+// The box of the drawing that holds one panel with its heading and its axes.
 function stepBox(parts, frames, step) {
   const frame = frames[step];
   const left = Math.min(...frames.map((each) => each.x));
   const bottom = Math.max(...frames.map((each) => each.bottom));
-  const lowest = Math.max(bottom + kRoomBelow, ...parts.axes.map((name) => placeOf(name).y + 6));
-  return { x: frame.x - left, y: frame.y - kRoomAbove, width: left + frame.width + kRoomBeside,
+  const lowest = Math.max(bottom + kRoomBelow, ...parts.axes.map((name) => positionOf(name).y + 6));
+  return { x: frame.x - left, y: frame.y - kRoomAbove, width: left + frame.width + kRoomRight,
     height: kRoomAbove + frame.height + lowest - bottom };
 }
 
-// Shows one panel alone, or, with -1, all side by side.
+// Shows one panel alone, or with -1 all side by side.
 function showStep(svg, parts, frames, home, step) {
   svg.querySelector(":scope > .step-axes")?.remove();
   parts.panels.forEach((panel, i) => panel.forEach(
@@ -97,8 +98,8 @@ function showStep(svg, parts, frames, home, step) {
 }
 
 function addSteps(figure, svg) {
-  const words = Array.from(figure.querySelectorAll(".steps > li"), (item) => item.textContent);
-  const frames = panelFrames(figure, svg, words.length);
+  const steps = Array.from(figure.querySelectorAll(".steps > li"), (item) => item.textContent);
+  const frames = panelFrames(figure, svg, steps.length);
   const parts = partsOf(svg);
   if (frames.length < 2 || parts.panels.length !== frames.length) return;
   const { home } = viewOf(svg);
@@ -106,15 +107,15 @@ function addSteps(figure, svg) {
   label.className = "step";
   const slider = document.createElement("input");
   Object.assign(slider, { type: "range", min: 0, max: frames.length, value: 0 });
-  const said = document.createElement("output");
+  const shown = document.createElement("output");
   const show = () => {
     const step = Number(slider.value);
     showStep(svg, parts, frames, home, step - 1);
-    said.textContent = step === 0 ? "All side by side" : words[step - 1];
-    slider.setAttribute("aria-valuetext", said.textContent);
+    shown.textContent = step === 0 ? "All steps side by side" : steps[step - 1];
+    slider.setAttribute("aria-valuetext", shown.textContent);
   };
   slider.addEventListener("input", show);
-  label.append("Step ", slider, said);
+  label.append("Step ", slider, shown);
   figure.querySelector(".tools").after(label);
   show();
 }

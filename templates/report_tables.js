@@ -1,6 +1,6 @@
-// Tables are filtered by their first column, and copied as they then stand.
+// Tables are filtered by their first column, and copied as filtered and sorted.
 
-const kFewRows = 4;  // Fewer need no filter.
+const kFewRows = 7;  // A table of so few rows needs no filter.
 
 function shownRows(table) {
   return Array.from(table.tBodies[0].rows).filter((row) => !row.hidden);
@@ -13,7 +13,7 @@ function filterRows(table, wanted) {
   }
 }
 
-// Every line of the text that the tables' writer made stands with its row.
+// Each row holds its line of the CSV and the LaTeX file.
 function copyOf(holder, table, format) {
   const rows = shownRows(table).map((row) => row.dataset[format]);
   const data = holder.dataset;
@@ -21,7 +21,11 @@ function copyOf(holder, table, format) {
   return `${data.latexHead}${rows.map((row) => `${row}\n`).join("")}${data.latexTail}`;
 }
 
-function addFilter(place, holder, table) {
+function lowered(text) {
+  return /^[A-Z][a-z]/.test(text) ? text[0].toLowerCase() + text.slice(1) : text;
+}
+
+function addFilter(parent, holder, table) {
   const rows = Array.from(table.tBodies[0].rows);
   const heading = table.tHead.querySelector('th[data-column="0"]');
   const names = [...new Set(rows.map((row) => row.cells[0].textContent.trim()))];
@@ -32,33 +36,35 @@ function addFilter(place, holder, table) {
   const field = document.createElement("input");
   field.type = "search";
   field.setAttribute("list", list.id);
-  const said = document.createElement("output");
+  const found = document.createElement("output");
   const details = holder.querySelector(":scope > details");
   field.addEventListener("input", () => {
     filterRows(table, field.value);
     const count = shownRows(table).length;
-    said.textContent = count === rows.length ? "" : `${count} of ${rows.length} rows`;
+    found.textContent = count === rows.length ? "" : `${count} of ${rows.length} rows`;
     if (details && field.value !== "") details.open = true;
   });
-  label.append(`${heading?.textContent.trim() || "Name"} has `, field);
-  place.append(label, list, said);
+  const column = heading?.textContent.trim().replace(/\s+/g, " ") || "Name";
+  label.append(`Filter by ${lowered(column)} `, field);
+  parent.append(label, list, found);
 }
 
 function addTableTools(holder) {
   const table = holder.querySelector("table");
   const caption = holder.querySelector("h3");
-  const place = document.createElement("div");
-  place.className = "table-tools";
-  if (table.tBodies[0].rows.length > kFewRows) addFilter(place, holder, table);
+  const tools = document.createElement("div");
+  tools.className = "table-tools";
+  if (table.tBodies[0].rows.length > kFewRows) addFilter(tools, holder, table);
   if ("csvHead" in holder.dataset) {
     const name = caption.textContent;
-    addButton(place, "Copy CSV", `Copy CSV of ${name}`,
+    addButton(tools, "Copy CSV", `Copy CSV of ${name}`,
       (button) => copyText(copyOf(holder, table, "csv"), button));
-    addButton(place, "Copy LaTeX", `Copy LaTeX of ${name}`,
+    addButton(tools, "Copy LaTeX", `Copy LaTeX of ${name}`,
       (button) => copyText(copyOf(holder, table, "latex"), button));
   }
-  caption.after(place);
+  caption.after(tools);
+  const filter = () => tools.querySelector("input")?.value ?? "";
   // Paper shows all rows.
   addEventListener("beforeprint", () => filterRows(table, ""));
-  addEventListener("afterprint", () => filterRows(table, place.querySelector("input")?.value ?? ""));
+  addEventListener("afterprint", () => filterRows(table, filter()));
 }

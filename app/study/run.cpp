@@ -42,8 +42,8 @@ Action run_command(CLI::App& app) {
   app.description("Run an experiment and write its records, nothing else");
   app.footer(
       "Examples:\n"
-      "  mapproof run templates/experiments/yairi2007.json --profile quick --out out/study\n"
-      "  mapproof run templates/experiments/boots2013.json --plaza plaza --out out/range\n\n"
+      "  mapproof run experiments/yairi2007.json --profile quick --out out/study\n"
+      "  mapproof run experiments/boots2013.json --plaza plaza --out out/range\n\n"
       "docs/file-formats.md says what an experiment's file holds.\n");
   app.add_option("EXPERIMENT", arguments->experiment,
                  "The experiment's JSON file, or a name that reproduce takes")

@@ -13,13 +13,21 @@ std::string policy(const std::string& style, const std::string& script) {
          policy_hash(script) + "'; img-src data:; base-uri 'none'; form-action 'none'";
 }
 
-/// common.EXT, the parts NAME_*.EXT in the order of their names, NAME.EXT.
+/// The parts NAME_*.EXT in the order of their names, each with a line feed after it.
+std::string parts_of(const std::string& name, const std::string& extension,
+                     const Templates& templates) {
+  std::string all;
+  for (const auto& [file, text] : templates.files)
+    if (file.starts_with(name + "_") && file.ends_with(extension)) all += text + "\n";
+  return all;
+}
+
+/// common.EXT and its parts, then the parts of the page, then NAME.EXT.
 std::string joined(const std::string& name, const std::string& extension,
                    const Templates& templates) {
-  std::string all = templates.files.at("common" + extension);
-  for (const auto& [file, text] : templates.files)
-    if (file.starts_with(name + "_") && file.ends_with(extension)) all += "\n" + text;
-  return all + "\n" + templates.files.at(name + extension);
+  return templates.files.at("common" + extension) + "\n" +
+         parts_of("common", extension, templates) + parts_of(name, extension, templates) +
+         templates.files.at(name + extension);
 }
 
 }  // namespace

@@ -11,7 +11,7 @@ namespace {
 namespace fs = std::filesystem;
 
 const fs::path kSource = MAPPROOF_SOURCE_DIR;
-const fs::path kExamples = kSource / "docs/nightly";
+const fs::path kExamples = kSource / "examples/nightly";
 
 std::string replaced(std::string text, const std::string& what, const std::string& by) {
   const std::size_t at = text.find(what);

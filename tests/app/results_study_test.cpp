@@ -15,14 +15,13 @@ namespace {
 namespace fs = std::filesystem;
 using nlohmann::json;
 
-/// A study that a program of someone else made: tests/data/results_study/make.py.
+/// A study that a program of someone else made: examples/results/localisers.py.
 class StudyOfAnotherProgram : public ::testing::Test {
  protected:
   void SetUp() override { make("mine"); }
 
   void make(const std::string& name, const std::string& worse = "0") {
-    const std::string script =
-        std::string(MAPPROOF_SOURCE_DIR) + "/tests/data/results_study/make.py";
+    const std::string script = std::string(MAPPROOF_SOURCE_DIR) + "/examples/results/localisers.py";
     const Outcome made = run_program({"python3", script, folder_ / name, worse});
     if (made.exit_code == 127) GTEST_SKIP() << "python3 is not installed";
     ASSERT_EQ(made.exit_code, 0) << made.error;

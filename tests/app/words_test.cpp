@@ -63,8 +63,8 @@ bool is_text(const fs::path& file) {
 std::vector<fs::path> texts() {
   const fs::path root = MAPPROOF_SOURCE_DIR;
   std::vector<fs::path> files = {"README.md", "CONTRIBUTING.md", "CMakeLists.txt"};
-  for (const char* folder :
-       {"app", "core", "render", "reports", "templates", "docs", "scripts", "tests"})
+  for (const char* folder : {"app", "core", "render", "reports", "templates", "experiments",
+                             "examples", "docs", "scripts", "tests"})
     for (auto entry = fs::recursive_directory_iterator(root / folder); entry != fs::end(entry);
          ++entry) {
       const std::string name = entry->path().filename().string();

@@ -9,7 +9,7 @@ const kFilm = "forming-bearing";
 const viewBox = async (shown) =>
   (await shown.locator("svg").getAttribute("viewBox")).split(" ").map(Number);
 
-test("drawings are put in only when the reader comes near, and all of them for paper", async () => {
+test("drawings are inserted when the reader comes near, and all of them for paper", async () => {
   const { page, close } = await open();
   const held = await page.locator("figure .drawing").count();
   assert.ok(held > 50);
@@ -20,14 +20,15 @@ test("drawings are put in only when the reader comes near, and all of them for p
   await close();
 });
 
-test("nothing moves when a drawing comes into its place", async () => {
+test("nothing moves when a drawing is inserted", async () => {
   const { page, close } = await open();
   const before = await page.evaluate(() => {
     const box = document.querySelector("#figure-map-bearing-isomap .drawing");
     return [box.clientWidth, box.clientHeight];
   });
   const shown = await figure(page, kMap);
-  const after = await shown.locator(".drawing").evaluate((box) => [box.clientWidth, box.clientHeight]);
+  const after = await shown.locator(".drawing").evaluate(
+    (box) => [box.clientWidth, box.clientHeight]);
   assert.ok(Math.abs(before[0] - after[0]) <= 1 && Math.abs(before[1] - after[1]) <= 2,
     `${before} became ${after}`);
   await close();
@@ -54,7 +55,7 @@ test("buttons and keys zoom, arrows move, and Fit shows the whole", async () => 
   await close();
 });
 
-test("the wheel zooms where it is with Ctrl or after a click, and else scrolls the page", async () => {
+test("the wheel zooms at the pointer after a click, and else scrolls the page", async () => {
   const { page, close } = await open();
   const shown = await figure(page, kMap);
   const box = await shown.locator(".drawing").boundingBox();
@@ -70,7 +71,7 @@ test("the wheel zooms where it is with Ctrl or after a click, and else scrolls t
   await page.mouse.wheel(0, -240);
   await page.waitForFunction(() => document.querySelector("#figure-map-bearing-isomap .zoomed"));
   const [x, y, width, height] = await viewBox(shown);
-  // What was under the pointer still is.
+  // The point under the pointer stays there.
   assert.ok(Math.abs(x + width / 4 - whole[2] / 4) < 3, `${x} ${width}`);
   assert.ok(Math.abs(y + height / 4 - whole[3] / 4) < 3, `${y} ${height}`);
   await close();
@@ -106,6 +107,23 @@ test("a drag moves what is zoomed, and two fingers pinch", async () => {
   await close();
 });
 
+test("a drag that ends outside of the drawing is over", async () => {
+  const { page, close } = await open();
+  const shown = await figure(page, kMap);
+  const box = await shown.locator(".drawing").boundingBox();
+  await page.mouse.move(box.x + 100, box.y + 100);
+  await page.mouse.down();
+  await page.mouse.move(5, 5, { steps: 3 });
+  await page.mouse.up();
+  await shown.locator(".drawing").focus();
+  await page.keyboard.press("+");
+  const zoomed = await viewBox(shown);
+  await page.mouse.move(box.x + 100, box.y + 100);
+  await page.mouse.move(box.x + 160, box.y + 120, { steps: 3 });
+  assert.deepEqual(await viewBox(shown), zoomed);
+  await close();
+});
+
 test("a figure fills the screen and comes back, also where the browser refuses", async () => {
   const { page, close } = await open();
   const shown = await figure(page, kMap);
@@ -114,7 +132,9 @@ test("a figure fills the screen and comes back, also where the browser refuses",
   await page.waitForFunction(() => document.fullscreenElement?.dataset.id === "map-bearing-isomap");
   await shown.getByRole("button", { name: "Leave full screen" }).click();
   await page.waitForFunction(() => !document.fullscreenElement);
-  await shown.evaluate((each) => { each.requestFullscreen = () => Promise.reject(new Error("no")); });
+  await shown.evaluate((each) => {
+    each.requestFullscreen = () => Promise.reject(new Error("no"));
+  });
   await button.click();
   await shown.and(page.locator(".filling")).waitFor();
   assert.equal(await button.textContent(), "Leave full screen");
@@ -126,12 +146,12 @@ test("a figure fills the screen and comes back, also where the browser refuses",
   await close();
 });
 
-test("the step slider forms the map in one place", async () => {
+test("the step slider shows one panel at a time", async () => {
   const { page, close } = await open();
   const shown = await figure(page, kFilm);
   const slider = shown.getByRole("slider");
   const height = await shown.locator(".drawing").evaluate((box) => box.clientHeight);
-  assert.equal(await shown.locator(".step output").textContent(), "All side by side");
+  assert.equal(await shown.locator(".step output").textContent(), "All steps side by side");
   const seen = [];
   await slider.focus();
   for (let step = 1; step <= 3; ++step) {
@@ -142,29 +162,30 @@ test("the step slider forms the map in one place", async () => {
   }
   assert.ok(seen[0].startsWith("500 steps") && seen[2].startsWith("2000 steps"), seen.join());
   assert.equal(await shown.locator(".drawing").evaluate((box) => box.clientHeight), height);
-  // One panel alone, whole within what is shown, with the names and numbers of both axes.
+  // One panel alone, with the labels and tick labels of both axes, all within the box.
   const parts = await shown.locator("svg").evaluate((svg) => {
     const { x, y, width, height } = svg.viewBox.baseVal;
     const isWhole = (part) => {
       const box = part.getBBox();
-      return x <= box.x && y <= box.y && box.x + box.width <= x + width && box.y + box.height <= y + height;
+      return x <= box.x && box.x + box.width <= x + width &&
+        y <= box.y && box.y + box.height <= y + height;
     };
     const seen = (kind) => [...svg.querySelectorAll(`:scope > .${kind}`)]
       .filter((part) => getComputedStyle(part).display !== "none");
-    const whole = ["panel-title", "frame", "tick-label", "step-axes"].map((kind) => seen(kind).map(isWhole));
+    const kinds = ["panel-title", "frame", "tick-label", "step-axes"];
+    const whole = kinds.map((kind) => seen(kind).map(isWhole));
     return { whole: whole.map(String), others: seen("title").length + seen("legend-text").length,
       axes: svg.querySelectorAll(".step-axes > g").length };
   });
   assert.deepEqual(parts.whole, ["true", "true", "true", "true"]);
   assert.equal(parts.others, 0);
-  assert.ok(parts.axes >= 4, `${parts.axes}`);  // Two names, and the numbers of one axis at least.
+  assert.ok(parts.axes >= 4, `${parts.axes}`);  // Two labels, and two tick labels at least.
   await slider.fill("0");
   assert.equal(await shown.locator(".off, .step-axes").count(), 0);
-  // The landmarks stand still while it forms: their true places are the same in every panel.
   await close();
 });
 
-test("SVG and PNG are saved from the page, PDF and data lead to the files beside it", async () => {
+test("the page saves SVG and PNG, and links to the PDF and data files", async () => {
   const { page, close } = await open();
   const shown = await figure(page, kMap);
   await shown.locator("summary").click();
@@ -179,14 +200,15 @@ test("SVG and PNG are saved from the page, PDF and data lead to the files beside
   const png = await saved("PNG");
   assert.equal(png.name, `${kMap}.png`);
   assert.equal(png.bytes.subarray(1, 4).toString(), "PNG");
-  const beside = readFileSync(`${study}/figures/${kMap}.png`);
-  assert.deepEqual(png.bytes.subarray(16, 24), beside.subarray(16, 24));  // Width and height.
+  const file = readFileSync(`${study}/figures/${kMap}.png`);
+  assert.deepEqual(png.bytes.subarray(16, 24), file.subarray(16, 24));  // Width and height.
   for (const [name, end] of [["PDF", "pdf"], ["data", "figure.json"]]) {
     const href = await shown.getByRole("link", { name, exact: true }).getAttribute("href");
     assert.equal(href, `figures/${kMap}.${end}`);
     assert.ok(textOf(href).length > 1000);
   }
-  assert.match(await shown.locator(".where").textContent(), /beside this page, in figures/);
+  const where = await shown.locator(".where").textContent();
+  assert.match(where, /PDF and data are in the folder figures\//);
   await close();
 });
 
@@ -198,7 +220,8 @@ test("the command of a figure is shown, copied, and draws it again", async () =>
   const command = await shown.locator(".command code").textContent();
   assert.match(command, /^mapproof render .*--figure map-bearing-isomap$/);
   await shown.getByRole("button", { name: `Copy the command of ${kMap}` }).click();
-  await page.waitForFunction(() => document.querySelector("#status")?.textContent.includes("copied"));
+  await page.waitForFunction(
+    () => document.querySelector("#status")?.textContent.includes("copied"));
   assert.equal(await page.evaluate(() => navigator.clipboard.readText()), command);
   await close();
 });

@@ -8,13 +8,14 @@ const rings = (page) => page.evaluate(() => Array.from(document.querySelectorAll
 // A landmark of the map that is not an anchor, with what its marks hold.
 const sample = (shown) => shown.locator("svg").evaluate((svg) => {
   const mark = svg.querySelector("use[data-kind=estimate]");
-  const truth = svg.querySelector(`use[data-kind=true][data-landmark="${mark.dataset.landmark}"]`);
+  const groundTruth = svg.querySelector(
+    `use[data-kind=true][data-landmark="${mark.dataset.landmark}"]`);
   const at = mark.getBoundingClientRect();
-  return { name: mark.dataset.landmark, error: Number(mark.dataset.error), x: Number(truth.dataset.x),
-    left: at.x + at.width / 2, top: at.y + at.height / 2 };
+  return { name: mark.dataset.landmark, error: Number(mark.dataset.error),
+    x: Number(groundTruth.dataset.x), left: at.x + at.width / 2, top: at.y + at.height / 2 };
 });
 
-test("a landmark under the pointer is named with truth, estimate and error", async () => {
+test("a landmark under the pointer has a tip with ground truth, estimate and error", async () => {
   const { page, close } = await open();
   const shown = await figure(page, "map-bearing-isomap");
   const landmark = await sample(shown);
@@ -23,17 +24,18 @@ test("a landmark under the pointer is named with truth, estimate and error", asy
   await tip.waitFor();
   const words = await tip.innerText();
   assert.ok(words.startsWith(landmark.name), words);
-  assert.ok(words.includes(`true (${landmark.x.toFixed(3)}`), words);
+  assert.ok(words.includes(`ground truth (${landmark.x.toFixed(3)}`), words);
   assert.match(words, /estimate \(/);
-  const said = Number(/error ([\d.]+) m/.exec(words)[1]);
-  assert.ok(Math.abs(said - landmark.error) < 0.005 * landmark.error, `${said} ${landmark.error}`);
+  const shownError = Number(/error ([\d.]+) m/.exec(words)[1]);
+  assert.ok(Math.abs(shownError - landmark.error) < 0.005 * landmark.error,
+    `${shownError} ${landmark.error}`);
   await page.mouse.move(5, 5);
   await tip.waitFor({ state: "detached" });
   assert.deepEqual(await rings(page), []);
   await close();
 });
 
-test("the same landmark lights up in all maps of its world and in no other", async () => {
+test("the same landmark is highlighted in all maps of its world and in no other", async () => {
   const { page, close } = await open();
   await page.evaluate(() => dispatchEvent(new Event("beforeprint")));
   const shown = await figure(page, "map-bearing-isomap");
@@ -57,7 +59,7 @@ test("the same landmark lights up in all maps of its world and in no other", asy
   await close();
 });
 
-test("n and p go through the landmarks and say them, Escape ends it", async () => {
+test("n and p step through the landmarks and announce them, Escape ends it", async () => {
   const { page, close } = await open();
   const shown = await figure(page, "map-bearing-isomap");
   await shown.locator(".drawing").focus();
@@ -73,7 +75,7 @@ test("n and p go through the landmarks and say them, Escape ends it", async () =
   await close();
 });
 
-test("the words of a chosen landmark stay while it is in view, and come back with it", async () => {
+test("the tip of a chosen landmark is there while the landmark is in view", async () => {
   const { page, close } = await open();
   const shown = await figure(page, "map-bearing-isomap");
   const names = (await shown.locator("select.landmark option").allTextContents()).slice(1);
@@ -81,21 +83,21 @@ test("the words of a chosen landmark stay while it is in view, and come back wit
   await shown.getByRole("combobox").selectOption({ label: names[4] });
   for (let i = 0; i < 12; ++i) {
     await shown.getByRole("button", { name: "Zoom in" }).click();
-    const { inView, told } = await shown.locator("svg").evaluate((svg) => {
+    const { inView, tips } = await shown.locator("svg").evaluate((svg) => {
       const { x, y, width, height } = svg.viewBox.baseVal;
       const at = svg.querySelector("g.lit circle:last-child");
       const [cx, cy] = ["cx", "cy"].map((name) => Number(at.getAttribute(name)));
       return { inView: cx >= x && cx <= x + width && cy >= y && cy <= y + height,
-        told: svg.parentElement.querySelectorAll(".tip").length };
+        tips: svg.parentElement.querySelectorAll(".tip").length };
     });
-    assert.equal(told, inView ? 1 : 0);
+    assert.equal(tips, inView ? 1 : 0);
   }
   await shown.getByRole("button", { name: "Fit the whole figure" }).click();
   assert.equal(await shown.locator(".tip bdi").textContent(), names[4]);
   await close();
 });
 
-test("a landmark can be chosen by its name, and drawings put in later have it lit", async () => {
+test("a landmark chosen by name is highlighted in drawings that are inserted later", async () => {
   const { page, close } = await open();
   const shown = await figure(page, "map-bearing-isomap");
   const { name } = await sample(shown);

@@ -4,13 +4,15 @@ import { join } from "node:path";
 import { test } from "node:test";
 import { comparison, figure, open, study, violations } from "./support.mjs";
 
-// Some of every kind: axe-core looks at each element of each.
-const putSomeIn = (page) => page.evaluate(() =>
-  document.querySelectorAll("figure[data-id]").forEach((figure, i) => { if (i % 6 === 0) putIn(figure); }));
+// One figure in six: axe-core examines each element of a drawing.
+const insertSome = (page) => page.evaluate(() =>
+  document.querySelectorAll("figure[data-id]").forEach((figure, i) => {
+    if (i % 6 === 0) putIn(figure);
+  }));
 
-const putAllIn = (page) => page.evaluate(() => dispatchEvent(new Event("beforeprint")));
+const insertAll = (page) => page.evaluate(() => dispatchEvent(new Event("beforeprint")));
 
-test("the first screen says what was run and found, and leads to figures", async () => {
+test("the first screen reports the findings and links to figures", async () => {
   const { page, errors, requests, close } = await open();
   const opening = page.locator("#opening");
   assert.match(await opening.innerText(), /Best by visibility: [\d.]+\sm mean position error/);
@@ -21,7 +23,7 @@ test("the first screen says what was run and found, and leads to figures", async
   for (const image of await links.locator("img").all()) {
     assert.ok(await image.evaluate((each) => each.decode().then(() => each.naturalWidth > 0)));
   }
-  // No earlier night is known: nothing is said about one.
+  // There is no earlier nightly run to compare with.
   assert.equal(await page.locator(".standing").count(), 0);
   const target = (await links.nth(1).getAttribute("href")).slice(1);
   await links.nth(1).click();
@@ -31,19 +33,30 @@ test("the first screen says what was run and found, and leads to figures", async
   await close();
 });
 
-test("the contents follow their reader, also where they are longer than the window", async () => {
+test("the contents follow the reader, also if they are longer than the window", async () => {
   const { page, close } = await open({ viewport: { width: 1400, height: 300 } });
   await page.locator("main > section").last().evaluate((section) => section.scrollIntoView());
   await page.waitForFunction(() => {
     const link = document.querySelector(".contents a[aria-current]")?.getBoundingClientRect();
     const list = document.querySelector(".contents").getBoundingClientRect();
-    return link && list.height < 300 && link.top >= list.top - 1 && link.bottom <= list.bottom + 1 &&
-      document.querySelector(".contents").scrollTop > 0;
+    return link && list.height < 300 && document.querySelector(".contents").scrollTop > 0 &&
+      link.top >= list.top - 1 && link.bottom <= list.bottom + 1;
   });
   await close();
 });
 
-test("every entry of the contents leads to its section", async () => {
+test("at the head of the page the contents start with their first entry", async () => {
+  const { page, close } = await open({ viewport: { width: 1400, height: 300 } });
+  await page.locator("main > section").last().evaluate((section) => section.scrollIntoView());
+  await page.waitForFunction(() => document.querySelector(".contents").scrollTop > 0);
+  await page.evaluate(() => scrollTo(0, 0));
+  await page.waitForFunction(() => document.querySelector(".contents").scrollTop === 0,
+    undefined, { timeout: 5000 });
+  assert.equal(await page.locator(".contents a[aria-current]").count(), 0);
+  await close();
+});
+
+test("every entry of the contents links to its section", async () => {
   const { page, close } = await open();
   const links = await page.locator(".contents a").evaluateAll(
     (all) => all.map((link) => link.getAttribute("href").slice(1)));
@@ -54,15 +67,15 @@ test("every entry of the contents leads to its section", async () => {
 
 for (const [name, options] of [["light", {}], ["dark", { colorScheme: "dark" }],
   ["phone", { viewport: { width: 390, height: 844 } }]]) {
-  test(`axe-core finds nothing against the report: ${name}`, async () => {
+  test(`axe-core finds no violation in the report: ${name}`, async () => {
     const { page, close } = await open(options);
-    await putSomeIn(page);
+    await insertSome(page);
     assert.deepEqual(await violations(page), []);
     await close();
   });
 }
 
-test("axe-core finds nothing against a figure that is zoomed, lit and steps", async () => {
+test("axe-core finds no violation in a figure that is zoomed and highlighted", async () => {
   const { page, close } = await open();
   const film = await figure(page, "forming-bearing");
   await film.getByRole("slider").fill("2");
@@ -75,7 +88,7 @@ test("axe-core finds nothing against a figure that is zoomed, lit and steps", as
   await close();
 });
 
-test("axe-core finds nothing against the page of a comparison", { skip: !comparison }, async () => {
+test("axe-core finds no violation in the page of a comparison", { skip: !comparison }, async () => {
   for (const options of [{}, { colorScheme: "dark" }]) {
     const { page, close } = await open(options, comparison, "diff.html");
     assert.deepEqual(await violations(page), []);
@@ -83,14 +96,14 @@ test("axe-core finds nothing against the page of a comparison", { skip: !compari
   }
 });
 
-test("the page is not a wider than a phone", async () => {
+test("the page is not wider than a phone", async () => {
   const { page, close } = await open({ viewport: { width: 390, height: 844 } });
-  await putAllIn(page);
+  await insertAll(page);
   assert.ok(await page.evaluate(() => document.documentElement.scrollWidth) <= 390);
   await close();
 });
 
-test("without a script every figure still shows", async () => {
+test("without a script every figure is shown", async () => {
   const { page, close } = await open({ javaScriptEnabled: false });
   const shown = await page.locator(".drawing noscript > svg").count();
   assert.ok(shown > 50);
@@ -103,18 +116,21 @@ test("without a script every figure still shows", async () => {
 test("every control can be reached by Tab and has a name", async () => {
   const { page, close } = await open();
   await figure(page, "map-bearing-isomap");
-  const nameless = await page.evaluate(() => Array.from(
-    document.querySelectorAll("button, input, select, a[href], summary")).filter((each) =>
-    each.tabIndex < 0 || !(each.textContent.trim() || each.ariaLabel || each.labels?.length)).length);
+  const nameless = await page.evaluate(() => {
+    const isNamed = (each) => each.textContent.trim() || each.ariaLabel || each.labels?.length;
+    return Array.from(document.querySelectorAll("button, input, select, a[href], summary"))
+      .filter((each) => each.tabIndex < 0 || !isNamed(each)).length;
+  });
   assert.equal(nameless, 0);
   const drawing = page.locator("#figure-map-bearing-isomap .drawing");
   await drawing.focus();
   await page.keyboard.press("Tab");
-  assert.equal(await page.evaluate(() => document.activeElement.getAttribute("aria-label")), "Zoom out");
+  const label = await page.evaluate(() => document.activeElement.getAttribute("aria-label"));
+  assert.equal(label, "Zoom out");
   await close();
 });
 
-test("on paper all figures are there, and none is cut", async () => {
+test("the printed report has all figures", async () => {
   const { page, close } = await open();
   const held = await page.locator("figure .drawing").count();
   const pdf = (await page.pdf({ format: "A4" })).toString("latin1");
@@ -124,10 +140,10 @@ test("on paper all figures are there, and none is cut", async () => {
   await close();
 });
 
-test("the report is one file of at most 10 MB that asks for nothing", async () => {
+test("the report is one file of at most 10 MB that loads nothing else", async () => {
   assert.ok(statSync(join(study, "report.html")).size <= 10e6);
   const { page, requests, errors, close } = await open();
-  await putAllIn(page);
+  await insertAll(page);
   await page.waitForTimeout(500);
   assert.deepEqual(requests, []);
   assert.deepEqual(errors, []);

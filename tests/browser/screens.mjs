@@ -1,5 +1,5 @@
-// screens.mjs FOLDER: how the report scans, as PNG files, and in made-by.txt by which browser and
-// fonts; without these two the pictures of two machines cannot be compared.
+// screens.mjs FOLDER: screenshots of the report as PNG files, and in made-by.txt the browser and
+// the fonts that made them: only screenshots of the same browser and fonts can be compared.
 import { execFileSync } from "node:child_process";
 import { mkdirSync, writeFileSync } from "node:fs";
 import { join } from "node:path";
@@ -30,7 +30,7 @@ async function showMap(page) {
   await map.scrollIntoViewIfNeeded();
   await map.locator("svg").waitFor();
   await map.evaluate((figure) => figure.scrollIntoView({ block: "start" }));
-  await page.waitForTimeout(500);  // Those beside it come in, too.
+  await page.waitForTimeout(500);  // Its neighbours are inserted, too.
   await map.getByRole("combobox").selectOption({ label: "L10" });
 }
 
@@ -41,7 +41,7 @@ await take("wide", {});
 await take("dark", { colorScheme: "dark" }, showTable);
 await take("landmark", {}, showMap);
 await take("phone", { viewport: { width: 390, height: 844 } });
-// As on A4, 180 mm between its margins.
+// As on A4, with 180 mm between the margins.
 await take("print", { viewport: { width: 680, height: 990 } }, async (page) => {
   await page.emulateMedia({ media: "print" });
   await page.evaluate(() => dispatchEvent(new Event("beforeprint")));

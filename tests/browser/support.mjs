@@ -1,4 +1,4 @@
-// What the tests share: one Chromium a file, a fresh page a test, on the report of a real study.
+// What the tests share: one Chromium per file, and a new page of a real report per test.
 import { readFileSync } from "node:fs";
 import { join } from "node:path";
 import { after, before } from "node:test";
@@ -21,8 +21,8 @@ before(async () => {
 });
 after(() => browser.close());
 
-/// Opens a file of a folder, by default the report; what it asks for beyond itself, and what goes
-/// wrong in it, is kept.
+/// Opens a file of a folder, by default the report. Returns its requests for other files and its
+/// errors, too.
 export async function open(options = {}, folder = study, file = "report.html", hash = "") {
   const context = await browser.newContext({ viewport: { width: 1400, height: 900 }, ...options });
   const page = await context.newPage();
@@ -30,8 +30,8 @@ export async function open(options = {}, folder = study, file = "report.html", h
   const requests = [], errors = [];
   const own = pathToFileURL(join(folder, file)).href;
   page.on("request", (request) => {
-    const url = request.url();
-    if (!url.startsWith("data:") && !url.startsWith("blob:") && url.split("#")[0] !== own) requests.push(url);
+    const url = request.url(), isInside = /^(data|blob):/.test(url);
+    if (!isInside && url.split("#")[0] !== own) requests.push(url);
   });
   page.on("pageerror", (error) => errors.push(String(error)));
   page.on("console", (message) => { if (message.type() === "error") errors.push(message.text()); });
@@ -39,7 +39,7 @@ export async function open(options = {}, folder = study, file = "report.html", h
   return { page, requests, errors, context, close: () => context.close() };
 }
 
-/// A figure of the report, put in.
+/// A figure of the report, with its drawing inserted.
 export async function figure(page, id) {
   const found = page.locator(`#figure-${id}`);
   await found.scrollIntoViewIfNeeded();
@@ -47,10 +47,11 @@ export async function figure(page, id) {
   return found;
 }
 
-/// What axe-core holds against the page, in words; it is run beside the page's own policy.
+/// The violations that axe-core finds in the page, in words; the page keeps its own policy.
 export async function violations(page) {
   await page.evaluate(axe.source);
-  const result = await page.evaluate(() => window.axe.run(document, { resultTypes: ["violations"] }));
+  const result = await page.evaluate(
+    () => window.axe.run(document, { resultTypes: ["violations"] }));
   return result.violations.map(({ id, nodes }) =>
     `${id}: ${nodes.length}: ${nodes[0].html.slice(0, 160)} ${nodes[0].failureSummary}`);
 }

@@ -12,17 +12,19 @@ const clipboard = (page) => page.evaluate(() => navigator.clipboard.readText());
 
 async function copied(page, holder, name) {
   await holder.getByRole("button", { name }).click();
-  await page.waitForFunction(() => document.querySelector("#status")?.textContent.includes("copied"));
+  await page.waitForFunction(
+    () => document.querySelector("#status")?.textContent.includes("copied"));
   return clipboard(page);
 }
 
-test("a heading sorts its table both ways and says so", async () => {
+test("a heading sorts its table both ways and sets aria-sort", async () => {
   const { page, close } = await open();
   const { holder } = await firstTable(page);
   const heading = holder.locator("th[data-column]:not([class~=text])").last();
   const column = Number(await heading.getAttribute("data-column"));
-  const keys = () => holder.locator("tbody tr").evaluateAll((rows, index) => rows.map(
-    (row) => Number(row.cells[index].dataset.sort || NaN)).filter((key) => !Number.isNaN(key)), column);
+  const keys = () => holder.locator("tbody tr").evaluateAll(
+    (rows, index) => rows.map((row) => Number(row.cells[index].dataset.sort || NaN))
+      .filter((key) => !Number.isNaN(key)), column);
   await heading.getByRole("button").click();
   assert.equal(await heading.getAttribute("aria-sort"), "ascending");
   const up = await keys();
@@ -33,7 +35,7 @@ test("a heading sorts its table both ways and says so", async () => {
   await close();
 });
 
-test("a table is filtered by method, says how many rows are left, and is whole on paper", async () => {
+test("a table is filtered by method, counts its rows, and is whole on paper", async () => {
   const { page, close } = await open();
   const { holder } = await firstTable(page);
   const rows = await holder.locator("tbody tr").count();
@@ -50,7 +52,7 @@ test("a table is filtered by method, says how many rows are left, and is whole o
   await close();
 });
 
-test("intervals and the paper's values stand in the tables", async () => {
+test("the tables have intervals and the paper's values", async () => {
   const { page, close } = await open();
   const { holder } = await firstTable(page);
   const words = await holder.locator("thead").innerText();
@@ -59,7 +61,7 @@ test("intervals and the paper's values stand in the tables", async () => {
   await close();
 });
 
-test("copies are the files' bytes, and follow filter and order", async () => {
+test("copies equal the files, and follow filter and order", async () => {
   const { page, close } = await open({ permissions: ["clipboard-read", "clipboard-write"] });
   const { holder, id } = await firstTable(page);
   assert.equal(await copied(page, holder, /Copy CSV/), textOf(`tables/${id}.csv`));
@@ -70,11 +72,13 @@ test("copies are the files' bytes, and follow filter and order", async () => {
   const lines = (await copied(page, holder, /Copy CSV/)).trimEnd().split("\r\n");
   const names = await holder.locator("tbody tr:not([hidden]) th").allTextContents();
   assert.equal(lines.length, 1 + names.length);
-  names.forEach((name, i) => assert.ok(lines[i + 1].replaceAll('"', "").startsWith(name), lines[i + 1]));
+  names.forEach((name, i) => {
+    assert.ok(lines[i + 1].replaceAll('"', "").startsWith(name), lines[i + 1]);
+  });
   await close();
 });
 
-test("where the clipboard is out of reach the older way copies", async () => {
+test("without access to the clipboard the older command copies", async () => {
   const { page, close } = await open({ permissions: ["clipboard-read", "clipboard-write"] });
   const { holder, id } = await firstTable(page);
   await page.evaluate(() => {

@@ -1,5 +1,5 @@
-// time_to_interactive.mjs FILE...: a line "FILE MILLISECONDS" each: from the start of loading to the
-// first moment when the page is loaded, drawn and idle; the median of three fresh starts.
+// time_to_interactive.mjs FILE...: prints a line "FILE MILLISECONDS" per file: the time from the
+// start of loading until the page is loaded, drawn and idle; the median of three new browsers.
 import { resolve } from "node:path";
 import { pathToFileURL } from "node:url";
 import { chromium } from "playwright-core";

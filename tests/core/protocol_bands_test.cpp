@@ -55,8 +55,7 @@ const MethodBands kBands[] = {
 
 /// The paper's experiment on 40 layouts x 5 poses, at the settings of the bands alone.
 Experiment banded_experiment() {
-  const std::string path =
-      std::string(MAPPROOF_SOURCE_DIR) + "/templates/experiments/yairi2007.json";
+  const std::string path = std::string(MAPPROOF_SOURCE_DIR) + "/experiments/yairi2007.json";
   Experiment experiment = parse_experiment(read_file(path), path);
   experiment.layouts = 40;
   experiment.affine_fit = AffineFit::kLeastSquares;

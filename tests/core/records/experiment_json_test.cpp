@@ -19,7 +19,7 @@ using nlohmann::json;
 using test::error_of;
 
 const std::filesystem::path kTemplate =
-    std::filesystem::path(MAPPROOF_SOURCE_DIR) / "templates/experiments/yairi2007.json";
+    std::filesystem::path(MAPPROOF_SOURCE_DIR) / "experiments/yairi2007.json";
 
 /// The error for small.json with one value replaced, or removed if it is null.
 std::string experiment_error(const std::string& pointer, const json& value) {

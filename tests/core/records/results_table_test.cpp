@@ -100,7 +100,7 @@ TEST(ResultsTable, OfEveryTopicReadsBackAsItsResults) {
   int topics = 0;
   for (const Topic* topic : all_topics()) {
     const std::string file =
-        fmt::format("{}/templates/experiments/{}.json", MAPPROOF_SOURCE_DIR, topic->name);
+        fmt::format("{}/experiments/{}.json", MAPPROOF_SOURCE_DIR, topic->name);
     const Results results = results_of(
         made_up_trials(parse_trial_experiment(read_file(file), file, input_of_topics())));
     ASSERT_FALSE(results.rows.empty()) << topic->name;

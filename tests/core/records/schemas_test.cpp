@@ -75,7 +75,7 @@ TEST(Schemas, HoldForMapsAndObservations) {
 TEST(Schemas, HoldForEveryExperimentInTheTemplatesAndTheirProfiles) {
   int count = 0;
   for (const fs::path& folder :
-       {fs::path(MAPPROOF_SOURCE_DIR) / "templates/experiments", test::data_file("experiments")})
+       {fs::path(MAPPROOF_SOURCE_DIR) / "experiments", test::data_file("experiments")})
     for (const auto& entry : fs::directory_iterator(folder)) {
       const std::string text = read_file(entry.path());
       const json value = json::parse(text);
@@ -93,7 +93,7 @@ TEST(Schemas, HoldForEveryExperimentInTheTemplatesAndTheirProfiles) {
 }
 
 TEST(Schemas, HoldForTheRangeOnlyExperimentAndItsProfiles) {
-  const fs::path path = fs::path(MAPPROOF_SOURCE_DIR) / "templates/experiments/boots2013.json";
+  const fs::path path = fs::path(MAPPROOF_SOURCE_DIR) / "experiments/boots2013.json";
   const std::string text = read_file(path);
   for (const std::string& profile :
        profile_names(text, path.string(), "mapproof.slam_experiment")) {

@@ -35,7 +35,7 @@ void PrintTo(const ShortStudy& study, std::ostream* out) { *out << study.name; }
 
 std::vector<ShortStudy> every_topic() {
   std::vector<ShortStudy> studies;
-  for (const auto& entry : fs::directory_iterator(MAPPROOF_SOURCE_DIR "/templates/experiments")) {
+  for (const auto& entry : fs::directory_iterator(MAPPROOF_SOURCE_DIR "/experiments")) {
     const std::string text = read_file(entry.path());
     const StudyKind& kind = kind_of_experiment(text, entry.path().string());
     if (kind.needs_data == nullptr || !kind.needs_data(text, entry.path().string()))

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Writes a study that no part of mapproof made: make.py FOLDER [WORSE]
+"""Writes a study that no part of mapproof made: localisers.py FOLDER [WORSE]
 
 Three localisers on 40 runs in 10 rooms, at three noises; WORSE is added to one method's error."""
 import csv

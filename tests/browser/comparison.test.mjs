@@ -1,0 +1,78 @@
+import assert from "node:assert/strict";
+import { test } from "node:test";
+import { comparison, open } from "./support.mjs";
+
+const options = { skip: !comparison };
+const openComparison = (more = {}) => open(more, comparison, "diff.html");
+
+// Magnification and translation of each visible image of the first item, as the browser shows them.
+const matrices = (page) => page.locator(".stage").first().evaluate((stage) =>
+  Array.from(stage.querySelectorAll(".canvas"))
+    .filter((canvas) => canvas.getClientRects().length > 0)
+    .map((canvas) => {
+      const { a, e, f } = new DOMMatrix(getComputedStyle(canvas).transform);
+      return [a, e, f].map((value) => Math.round(value * 100) / 100);
+    }));
+
+const stageOf = async (page) => {
+  const stage = page.locator(".stage").first();
+  await stage.scrollIntoViewIfNeeded();
+  return { stage, box: await stage.locator(".view").first().boundingBox() };
+};
+
+test("keys and buttons zoom both images of a comparison alike", options, async () => {
+  const { page, errors, close } = await openComparison();
+  const { stage } = await stageOf(page);
+  await stage.focus();
+  await page.keyboard.press("+");
+  const [first, second] = await matrices(page);
+  assert.equal(first[0], 1.5);
+  assert.deepEqual(second, first);
+  await page.keyboard.press("ArrowRight");
+  assert.ok((await matrices(page))[0][1] < first[1]);
+  await page.locator("#fit").click();
+  assert.deepEqual((await matrices(page))[0], [1, 0, 0]);
+  await page.locator("#zoom-in").click();
+  assert.equal(await page.locator("#zoom").textContent(), "150 %");
+  await page.locator("#zoom-out").click();
+  assert.equal(await page.locator(".stage.zoomed").count(), 0);
+  assert.deepEqual(errors, []);
+  await close();
+});
+
+test("the wheel zooms a comparison at the pointer, and a drag moves it", options, async () => {
+  const { page, close } = await openComparison();
+  const { stage, box } = await stageOf(page);
+  await stage.focus();
+  await page.mouse.move(box.x + box.width / 4, box.y + box.height / 4);
+  await page.mouse.wheel(0, -200);
+  await page.locator(".stage.zoomed").first().waitFor();
+  const [zoomed] = await matrices(page);
+  assert.ok(zoomed[0] > 1.5 && zoomed[1] < 0, `${zoomed}`);
+  await page.mouse.down();
+  await page.mouse.move(box.x + box.width / 4 - 40, box.y + box.height / 4 - 20, { steps: 3 });
+  await page.mouse.up();
+  const [moved, other] = await matrices(page);
+  assert.ok(Math.abs(moved[1] - zoomed[1] + 40) < 1, `${zoomed} became ${moved}`);
+  assert.ok(Math.abs(moved[2] - zoomed[2] + 20) < 1, `${zoomed} became ${moved}`);
+  assert.deepEqual(other, moved);
+  await close();
+});
+
+test("a pinch of two fingers zooms a comparison between them", options, async () => {
+  const { page, close } = await openComparison({ hasTouch: true });
+  const { box } = await stageOf(page);
+  const session = await page.context().newCDPSession(page);
+  const touch = (type, ...points) => session.send("Input.dispatchTouchEvent", {
+    type, touchPoints: points.map(([x, y], id) => ({ x: box.x + x, y: box.y + y, id })) });
+  await touch("touchStart", [150, 100], [190, 100]);
+  for (const reach of [10, 20, 30]) {
+    await touch("touchMove", [150 - reach, 100], [190 + reach, 100]);
+  }
+  await touch("touchEnd");
+  await page.locator(".stage.zoomed").first().waitFor();
+  const [first, second] = await matrices(page);
+  assert.ok(Math.abs(first[0] - 2.5) < 0.05, `${first}`);
+  assert.deepEqual(second, first);
+  await close();
+});
