@@ -7,7 +7,6 @@
 
 #include "core/labels/label_search.hpp"
 #include "core/labels/place_costs.hpp"
-#include "core/labels/scan_by_scan.hpp"
 #include "core/labels/scan_costs.hpp"
 #include "core/labels/two_places.hpp"
 

@@ -5,7 +5,7 @@
 
 #include "core/labels/labelled_scans.hpp"
 #include "core/labels/robust_map.hpp"
-#include "core/labels/scan_by_scan.hpp"
+#include "core/labels/scan_costs.hpp"
 
 namespace mapproof {
 

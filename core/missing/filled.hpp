@@ -4,10 +4,131 @@
 #include <string_view>
 #include <vector>
 
-#include "core/missing/pca.hpp"
+#include <Eigen/Core>
+
+#include "core/model/status.hpp"
+#include "core/observe/features.hpp"
 #include "core/observe/proximities.hpp"
 
 namespace mapproof {
+
+/// A plane of few dimensions near the columns of a matrix: a column y of M rows is W x + mean, and
+/// a residual.
+struct LowRankModel {
+  Eigen::MatrixXd loadings;  ///< W, M x q.
+  Eigen::VectorXd mean;      ///< M.
+  /// What is added to the diagonal where a column's x is solved for: PPCA's variance of noise, the
+  /// penalty of regularised PCA.
+  double ridge = 0.0;
+};
+
+/// Columns of which the same rows were observed: they share one factor.
+struct ColumnGroup {
+  std::vector<Eigen::Index> rows;  ///< Observed ones, ascending; may be empty.
+  std::vector<Eigen::Index> columns;
+};
+
+/// @note O(M C log C) time.
+std::vector<ColumnGroup> column_groups(const Features& matrix);
+
+/// The coordinates of one group's columns in the plane, given their observed rows.
+struct GroupFit {
+  Eigen::MatrixXd x;             ///< q x columns.
+  Eigen::MatrixXd inverse;       ///< (W_o' W_o + ridge I)^-1 with W_o of the observed rows.
+  double log_determinant = 0.0;  ///< Of the matrix inverted.
+  double squared_left = 0.0;     ///< |y|^2 - y' W_o x over the centred observed entries.
+};
+
+GroupFit fit_group(const Features& matrix, const ColumnGroup& group, const LowRankModel& model);
+
+/// Sums over the columns that the rows' regression on x needs.
+struct Moments {
+  Moments(Eigen::Index rows, Eigen::Index dimensions);
+
+  /// @param spread  Posterior variance of each of the group's x; zero: x is taken as known.
+  void add(const Features& matrix, const ColumnGroup& group, const GroupFit& fit,
+           const Eigen::MatrixXd& spread);
+
+  /// The row's loadings and mean that fit its observed entries best, with a penalty on the
+  /// loadings; returns its residual sum of squares.
+  double regress(Eigen::Index row, double penalty, LowRankModel& model) const;
+
+  Eigen::MatrixXd products;  ///< (q + 1)^2 x M: sums of (x, 1)(x, 1)' of each row, column-major.
+  Eigen::MatrixXd values;    ///< q + 1 x M: sums of (x, 1) y of each row.
+  Eigen::VectorXd squares;   ///< M: sums of y^2.
+  Eigen::MatrixXd all;       ///< (q + 1)^2: sums of (x, 1)(x, 1)' over all columns.
+};
+
+/// @throws InvalidInput unless 1 <= q < M, every row was observed once or more, `observed` is empty
+///         or of the size of `values`, and all of these are finite.
+void require_low_rank(const Features& matrix, Eigen::Index dimensions);
+
+double observed_entries(const Features& matrix);
+
+/// Lower bound of the variance of noise: a small share of the mean square of an observed entry.
+/// Data of fewer dimensions than q have no noise, and no greatest likelihood.
+double least_noise(const Features& matrix);
+
+/// A start for either method: mean and leading eigenvectors of the rows' covariance, each entry of
+/// which is taken over the columns that both rows have.
+/// @param dimensions  1 <= q < M.
+/// @return `ridge` is the mean of the eigenvalues beyond q, at least least_noise().
+LowRankModel pairwise_start(const Features& matrix, Eigen::Index dimensions);
+
+/// How PCA of incomplete data is fitted.
+struct RegularisedPcaOptions {
+  int dimensions = 10;  ///< q, 1 <= q < M.
+  /// Penalty on the squares of W and x, as a share of the largest singular value that the matrix
+  /// would have if it were complete, > 0.
+  double penalty_share = 0.003;
+  double least_fall = 1e-4;  ///< Stop once an iteration reduces the loss by less than this share.
+  int max_iterations = 300;  ///< >= 1.
+};
+
+/// The plane that fits the observed entries best.
+struct RegularisedPca {
+  LowRankModel model;
+  std::vector<double> losses;    ///< Of each iteration, never rising.
+  std::vector<Status> statuses;  ///< kNotConverged if the limit of iterations came first.
+};
+
+/// PCA of a matrix with missing entries: least sum over the observed entries of (y - W x - mean)^2
+/// + penalty (|W|^2 + |x|^2), by alternating least squares [ilin2010]. Without the penalty, entries
+/// that are hardly constrained diverge.
+///
+/// The penalty is that of the nuclear norm of W X [hastie2015].
+/// @param matrix  M x C, every row observed once or more.
+/// @throws InvalidInput if the bounds above are broken.
+/// @note As costly as ppca(). Deterministic.
+RegularisedPca regularised_pca(const Features& matrix, const RegularisedPcaOptions& options = {});
+
+/// How probabilistic PCA is fitted.
+struct PpcaOptions {
+  int dimensions = 10;  ///< q, 1 <= q < M.
+  /// Stop once an iteration raises the log likelihood by less than this for each observed entry,
+  /// >= 0.
+  double least_rise = 2e-4;
+  int max_iterations = 300;  ///< >= 1.
+};
+
+/// Columns y = W x + mean + noise with x ~ N(0, I_q) and noise ~ N(0, noise I).
+struct Ppca {
+  LowRankModel model;            ///< Its ridge is the variance of the noise.
+  double log_likelihood = 0.0;   ///< Of the observed entries, under `model`, nats.
+  std::vector<double> rises;     ///< Of the log likelihood, an iteration each.
+  std::vector<Status> statuses;  ///< kNotConverged if the limit of iterations came first.
+};
+
+/// Probabilistic PCA of a matrix with missing entries by EM [tipping1999] [ilin2010]: each column
+/// is a sample of M variables, partly observed. Missing entries count as missing at random.
+///
+/// Every iteration is followed by the change of coordinates that makes the x of all columns white,
+/// which leaves fit and likelihood no worse and EM much faster [liu1998].
+/// @param matrix  M x C, every row observed once or more.
+/// @throws InvalidInput if the bounds above are broken.
+/// @note O(E q^2 + C q^3) time an iteration for E observed entries, less where columns show the
+///       same rows. Deterministic: it starts from pairwise_start().
+Ppca ppca(const Features& matrix, const PpcaOptions& options = {});
 
 /// What replaces missing entries before distances are computed.
 enum class Filling {

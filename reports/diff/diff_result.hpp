@@ -8,6 +8,7 @@
 #include "reports/diff/figures/figure_diff.hpp"
 #include "reports/diff/images/picture_changes.hpp"
 #include "reports/diff/records/record_diff.hpp"
+#include "reports/diff/records/record_tie.hpp"
 #include "reports/diff/verdict/verdict.hpp"
 
 namespace mapproof {
@@ -57,5 +58,11 @@ struct DiffResult {
 
 /// The number of items of each verdict, in the order of kVerdicts.
 std::vector<int> counts_of(const DiffResult& result);
+
+/// Combines the judgement of a figure's value with what its images show. Without a value the images
+/// alone decide.
+/// @param has_value  Whether the figure's value was compared.
+Judgement judge_pictures(const Judgement& value, bool has_value,
+                         const std::vector<PictureFile>& pictures, const RecordContext& context);
 
 }  // namespace mapproof

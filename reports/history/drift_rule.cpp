@@ -4,7 +4,7 @@
 
 #include <fmt/format.h>
 
-#include "core/statistics/change_point.hpp"
+#include "core/statistics/robust_noise.hpp"
 #include "core/statistics/signed_rank.hpp"
 #include "reports/history/regression_rules.hpp"
 #include "reports/history/shown_names.hpp"

@@ -5,9 +5,9 @@
 #include <optional>
 #include <utility>
 
-#include "core/linalg/cholesky.hpp"
 #include "core/linalg/decompositions.hpp"
 #include "core/linalg/gram.hpp"
+#include "core/linalg/packed_product.hpp"
 
 namespace mapproof::unfolding {
 

@@ -9,7 +9,7 @@
 #include "core/embed/connected_graph.hpp"
 #include "core/embed/sde/csdp.hpp"
 #include "core/embed/sde/interior_point.hpp"
-#include "core/embed/sde/low_rank.hpp"
+#include "core/embed/sde/lagrangian.hpp"
 #include "core/graph/shortest_paths.hpp"
 #include "core/linalg/centering.hpp"
 #include "core/linalg/sign.hpp"

@@ -14,7 +14,6 @@
 #include "core/base/not_finite.hpp"
 #include "core/base/words.hpp"
 #include "core/records/limits.hpp"
-#include "core/records/ranges/range_log_readers.hpp"
 
 namespace mapproof {
 namespace {

@@ -36,4 +36,7 @@ RangeLog assemble(RangeLogParts parts, const RangeLogOptions& options);
 /// all 0.
 bool turns_are_the_truths(const std::vector<Motion>& motions, const Trajectory& truth);
 
+/// Reads the files that the options name in place of what was gathered. @throws IoError.
+void take_named_files(const RangeLogOptions& options, RangeLogParts& parts);
+
 }  // namespace mapproof

@@ -6,7 +6,6 @@
 #include "core/model/range_log.hpp"
 #include "core/records/observations/table_reader.hpp"
 #include "core/records/ranges/range_log_options.hpp"
-#include "core/records/ranges/range_log_parts.hpp"
 
 namespace mapproof {
 
@@ -16,9 +15,6 @@ RangeLog read_range_log_csv(ByteSource& source, const RangeLogOptions& options);
 RangeLog read_range_log_mat(ByteSource& source, const RangeLogOptions& options);
 RangeLog read_range_log_pyfg(ByteSource& source, const RangeLogOptions& options);
 RangeLog read_range_log_text(ByteSource& source, const RangeLogOptions& options);
-
-/// Reads the files that the options name in place of what was gathered. @throws IoError.
-void take_named_files(const RangeLogOptions& options, RangeLogParts& parts);
 
 /// Whether a table's first row names the columns of ranges: time, landmark, range.
 bool names_range_columns(const TableRow& row);

@@ -13,7 +13,6 @@
 #include "reports/diff/figures/figure_log.hpp"
 #include "reports/diff/figures/figure_match.hpp"
 #include "reports/diff/figures/figure_places.hpp"
-#include "reports/diff/figures/layer_diff.hpp"
 #include "reports/diff/records/number_words.hpp"
 
 namespace mapproof {

@@ -1,12 +1,54 @@
 #include "reports/diff/figures/figure_log.hpp"
 
 #include <algorithm>
+#include <cmath>
+#include <cstdlib>
+#include <iterator>
 #include <utility>
 
+#include <fmt/format.h>
+
+#include "core/base/errors.hpp"
+#include "core/base/words.hpp"
 #include "reports/diff/records/number_words.hpp"
 
 namespace mapproof {
+
 namespace {
+
+constexpr double kWritten = 2e-5;  // Relative: data-* hold six digits.
+
+/// The name of one point.
+std::string point_text(const LayerView& layer, std::size_t point) {
+  if (layer.has_mark_a_point()) {
+    const std::string_view landmark = data_of(layer.marks[point], "landmark");
+    if (!landmark.empty()) return "landmark " + printable(std::string(landmark));
+    if (!layer.marks[point].id.empty()) return layer.marks[point].id;
+  }
+  if (!layer.texts.empty()) return "\"" + printable(layer.texts[point]) + "\"";
+  return fmt::format("point {}", point + 1);
+}
+
+/// "m" of "x [m]"; empty if the label names no unit.
+std::string unit_of(const Axis& axis) {
+  const std::size_t open = axis.label.rfind('['), close = axis.label.rfind(']');
+  if (open == std::string::npos || close == std::string::npos || close < open) return "";
+  return printable(axis.label.substr(open + 1, close - open - 1));
+}
+
+/// The unit of the axis along which a point moved, or of both.
+std::string unit_of_move(const Panel& panel, Point before, Point after) {
+  const std::string x = unit_of(panel.x), y = unit_of(panel.y);
+  if (before.x == after.x) return y;
+  return before.y == after.y || x == y ? x : "";
+}
+
+/// The whole text as a number.
+std::optional<double> number_of(const std::string& text) {
+  char* end = nullptr;
+  const double value = std::strtod(text.c_str(), &end);
+  return end != text.c_str() && *end == '\0' ? std::optional(value) : std::nullopt;
+}
 
 constexpr std::size_t kMostEntries = 200;
 
@@ -78,6 +120,198 @@ FigureDiff FigureLog::take() {
   if (diff_.changes.size() > kMostEntries) diff_.changes.resize(kMostEntries);
   keep_farthest(diff_.moves);
   return std::move(diff_);
+}
+
+std::string LayerDiff::place(const LayerView& layer) const {
+  std::string text =
+      panel_.figure.panels.size() > 1 ? fmt::format("panel {}, ", panel_.panel + 1) : "";
+  text += layer.kind;
+  std::string name = layer.label;
+  if (name.empty() && layer.is_whole) name = layer.marks[0].id;
+  if (!name.empty()) text += " \"" + printable(name) + "\"";
+  return text;
+}
+
+/// Points without names appear and disappear with the data.
+bool LayerDiff::may_vary(const LayerView& layer, std::size_t point) const {
+  if (panel_.shared == nullptr) return false;
+  if (!layer.has_mark_a_point()) return true;
+  const std::string& name = layer.marks[point].id;
+  return name.empty() || panel_.shared->contains(name);
+}
+
+void LayerDiff::lone(const Layer& layer, bool removed) {
+  const LayerView view = view_of(layer);
+  bool all_vary = panel_.shared != nullptr && !view.is_whole;
+  for (std::size_t i = 0; i < view.points(); ++i) all_vary = all_vary && may_vary(view, i);
+  if (all_vary) {
+    log_.mask();
+    return;
+  }
+  const std::string what = counted(static_cast<long long>(view.points()), "point");
+  // An empty layer shows nothing.
+  log_.change(is_empty(layer) ? ChangeKind::kMetadata : ChangeKind::kData, place(view),
+              removed ? "layer removed" : "layer added", removed ? what : "", removed ? "" : what);
+}
+
+void LayerDiff::compare(const LayerView& a, const LayerView& b) {
+  place_ = place(a);
+  log_.change(ChangeKind::kStyle, place_, "label", a.label, b.label);
+  for (std::size_t i = 0; i < a.styles.size(); ++i)
+    log_.change(ChangeKind::kStyle, place_, a.styles[i].what, a.styles[i].value, b.styles[i].value);
+  for (std::size_t i = 0; i < a.extents.size(); ++i)
+    if (!panel_.options.position.holds(a.extents[i].value, b.extents[i].value))
+      log_.change(ChangeKind::kData, place_, a.extents[i].what,
+                  fmt::format("{}", a.extents[i].value), fmt::format("{}", b.extents[i].value));
+  if (a.is_whole) compare_data(a.marks[0], b.marks[0]);
+  long removed = 0, added = 0;
+  std::string first_removed, first_added;
+  const std::vector<Match> matches = match_points(a, b);
+  for (const Match& match : matches) {
+    if (match.baseline && match.current) {
+      compare_point(a, *match.baseline, b, *match.current);
+    } else if (match.baseline ? may_vary(a, *match.baseline) : may_vary(b, *match.current)) {
+      log_.mask();
+    } else if (match.baseline) {
+      if (removed++ == 0) first_removed = point_text(a, *match.baseline);
+    } else if (added++ == 0) {
+      first_added = point_text(b, *match.current);
+    }
+  }
+  lone_points("removed", removed, first_removed);
+  lone_points("added", added, first_added);
+  compare_values(a, b, matches);
+  add_errors(a, b);
+}
+
+void LayerDiff::lone_points(const char* what, long count, const std::string& first) {
+  if (count == 0) return;
+  const std::string text = count == 1 ? first : fmt::format("{} and {} more", first, count - 1);
+  const bool removed = what[0] == 'r';
+  log_.change(ChangeKind::kData, place_, fmt::format("{} {}", counted(count, "point"), what),
+              removed ? text : "", removed ? "" : text);
+}
+
+void LayerDiff::compare_point(const LayerView& a, std::size_t i, const LayerView& b,
+                              std::size_t j) {
+  std::optional<MarkMove> farthest;
+  bool is_within = false;
+  for (const Places& at : a.places) {
+    const Point before{a.coordinates[at.x].values[i], a.coordinates[at.y].values[i]};
+    const Point after{b.coordinates[at.x].values[j], b.coordinates[at.y].values[j]};
+    const Movement movement =
+        panel_.places.movement(panel_.panel, before, after, panel_.options.position);
+    is_within |= movement == Movement::kWithin;
+    if (movement != Movement::kBeyond) continue;
+    MarkMove move = mark_move(a, i, before, after);
+    if (!farthest || move.distance > farthest->distance) farthest = std::move(move);
+  }
+  if (i < a.texts.size() && j < b.texts.size() && panel_.shared == nullptr)
+    // Labels are names of points; texts may be the values of cells.
+    log_.change(a.kind == "labels" || !same_numbers(a.texts[i], b.texts[j]) ? ChangeKind::kData
+                                                                            : ChangeKind::kStyle,
+                place_, "text", a.texts[i], b.texts[j]);
+  if (farthest) {
+    log_.move(*std::move(farthest));
+    return;
+  }
+  if (is_within) log_.within();
+  if (a.has_mark_a_point() && b.has_mark_a_point()) compare_data(a.marks[i], b.marks[j]);
+}
+
+MarkMove LayerDiff::mark_move(const LayerView& layer, std::size_t point, Point before,
+                              Point after) const {
+  MarkMove move{.place = place_,
+                .mark = "",
+                .landmark = "",
+                .curve = "",
+                .point = point,
+                .baseline = before,
+                .current = after,
+                .distance = std::hypot(after.x - before.x, after.y - before.y),
+                .unit = unit_of_move(panel_.figure.panels[panel_.panel], before, after),
+                .distance_px = panel_.places.distance_px(panel_.panel, before, after)};
+  if (layer.has_mark_a_point() || layer.is_whole) {
+    const Mark& mark = layer.is_whole ? layer.marks[0] : layer.marks[point];
+    move.mark = mark.id;
+    move.landmark = data_of(mark, "landmark");
+    move.curve = data_of(mark, "curve");
+  }
+  return move;
+}
+
+/// Compares coordinates that are not positions: half axes, angles, cells.
+void LayerDiff::compare_values(const LayerView& a, const LayerView& b,
+                               const std::vector<Match>& matches) {
+  for (std::size_t c = 0; c < a.coordinates.size(); ++c) {
+    if (std::ranges::any_of(a.places, [&](Places at) { return at.x == c || at.y == c; })) continue;
+    long count = 0;
+    double first = 0.0, second = 0.0;
+    for (const Match& match : matches) {
+      if (!match.baseline || !match.current) continue;
+      const double before = a.coordinates[c].values[*match.baseline];
+      const double after = b.coordinates[c].values[*match.current];
+      if (before == after || (std::isnan(before) && std::isnan(after))) continue;
+      if (panel_.options.position.holds(before, after)) {
+        log_.within();
+      } else if (count++ == 0) {
+        first = before;
+        second = after;
+      }
+    }
+    if (count > 0)
+      log_.change(ChangeKind::kData, place_,
+                  fmt::format("{} of {}", a.coordinates[c].name, counted(count, "point")),
+                  fmt::format("{}", first), fmt::format("{}", second));
+  }
+}
+
+void LayerDiff::compare_data(const Mark& a, const Mark& b) {
+  log_.change(ChangeKind::kMetadata, place_, "id of a mark", a.id, b.id);
+  if (a.data == b.data) return;
+  for (const auto& [key, value] : a.data) {
+    const std::string other(data_of(b, key));
+    const auto first = number_of(value), second = number_of(other);
+    if (first && second && Tolerance{1e-9, kWritten}.holds(*first, *second)) continue;
+    const bool is_data = (first && second) || key == "landmark";
+    log_.change(is_data ? ChangeKind::kData : ChangeKind::kStyle, place_, "data-" + key, value,
+                other);
+  }
+  for (const auto& [key, value] : b.data)
+    if (std::ranges::none_of(a.data, [&](const auto& item) { return item.first == key; }))
+      log_.change(ChangeKind::kMetadata, place_, "data-" + key, "", value);
+}
+
+void LayerDiff::add_errors(const LayerView& a, const LayerView& b) {
+  // The segments of a map repeat the errors of its points.
+  if (!a.has_mark_a_point() || !b.has_mark_a_point() || a.kind == "segments") return;
+  double first = 0.0, second = 0.0, count = 0.0;
+  for (const Match& match : match_points(a, b)) {
+    if (!match.baseline || !match.current) continue;
+    const auto before = number_of(std::string(data_of(a.marks[*match.baseline], "error")));
+    const auto after = number_of(std::string(data_of(b.marks[*match.current], "error")));
+    if (!before || !after || !std::isfinite(*before) || !std::isfinite(*after)) continue;
+    first += *before;
+    second += *after;
+    count += 1.0;
+  }
+  log_.errors(first, second, count);
+}
+
+std::set<std::string> shared_names(const Panel& a, const Panel& b) {
+  const auto names_of = [](const Panel& panel) {
+    std::set<std::string> names;
+    for (const Layer& layer : panel.layers) {
+      const LayerView view = view_of(layer);
+      if (!view.has_mark_a_point()) continue;
+      for (const Mark& mark : view.marks) names.insert(mark.id);
+    }
+    return names;
+  };
+  const std::set<std::string> first = names_of(a), second = names_of(b);
+  std::set<std::string> shared;
+  std::ranges::set_intersection(first, second, std::inserter(shared, shared.end()));
+  return shared;
 }
 
 }  // namespace mapproof

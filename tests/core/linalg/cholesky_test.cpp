@@ -1,4 +1,4 @@
-#include "core/linalg/cholesky.hpp"
+#include "core/linalg/packed_product.hpp"
 
 #include <gtest/gtest.h>
 #include <Eigen/Cholesky>

@@ -3,7 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "core/base/random.hpp"
-#include "core/linalg/cholesky.hpp"
+#include "core/linalg/packed_product.hpp"
 
 namespace mapproof {
 namespace {

@@ -1,4 +1,4 @@
-#include "core/missing/pca.hpp"
+#include "core/missing/filled.hpp"
 
 #include <cmath>
 

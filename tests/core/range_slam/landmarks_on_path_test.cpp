@@ -1,4 +1,4 @@
-#include "core/range_slam/upgraded_path.hpp"
+#include "core/range_slam/factors/spectral_slam.hpp"
 
 #include <cmath>
 

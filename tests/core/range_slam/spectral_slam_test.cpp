@@ -7,7 +7,6 @@
 #include "core/base/errors.hpp"
 #include "core/range_slam/factors/squared_ranges.hpp"
 #include "core/range_slam/localise.hpp"
-#include "core/range_slam/upgraded_path.hpp"
 #include "tests/core/range_slam/drives.hpp"
 #include "tests/core/range_slam/range_worlds.hpp"
 #include "tests/support/slam_checks.hpp"

@@ -5,7 +5,6 @@
 
 #include "core/base/errors.hpp"
 #include "core/base/random.hpp"
-#include "core/statistics/change_point.hpp"
 #include "core/statistics/paired_change.hpp"
 #include "core/statistics/robust_noise.hpp"
 

@@ -10,7 +10,6 @@
 #include "render/image/png.hpp"
 #include "render/plot/layout.hpp"
 #include "render/svg/svg.hpp"
-#include "reports/diff/images/image_diff.hpp"
 #include "tests/support/baselines.hpp"
 #include "tests/support/sample_figures.hpp"
 #include "tests/support/temporary_folder.hpp"

@@ -7,7 +7,7 @@
 
 #include "core/base/files.hpp"
 #include "render/image/png.hpp"
-#include "reports/diff/images/image_diff.hpp"
+#include "reports/diff/images/picture_diff.hpp"
 #include "tests/reports/diff/mutations.hpp"
 
 namespace mapproof::test {

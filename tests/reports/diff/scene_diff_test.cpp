@@ -1,4 +1,4 @@
-#include "reports/diff/figures/scene_diff.hpp"
+#include "reports/diff/item_diff.hpp"
 
 #include <functional>
 
