@@ -4,6 +4,8 @@
 #include <string>
 #include <string_view>
 
+#include "core/base/words.hpp"  // trimmed(), lower_case()
+
 namespace mapproof {
 
 /// The text without its byte order mark, fit to be read as UTF-8.
@@ -30,11 +32,5 @@ bool is_missing(std::string_view cell);
 
 /// `cell` in quotes, short enough for an error's line.
 std::string in_quotes(std::string_view cell);
-
-/// Without spaces, tabs and carriage returns at both ends.
-std::string_view trimmed(std::string_view text);
-
-/// ASCII letters in lower case.
-std::string lower_case(std::string_view text);
 
 }  // namespace mapproof

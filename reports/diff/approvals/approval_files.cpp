@@ -11,7 +11,7 @@
 #include "reports/diff/item_files.hpp"
 #include "reports/diff/records/record_files.hpp"
 #include "reports/diff/records/record_set.hpp"
-#include "reports/diff/svg/svg_tree.hpp"
+#include "reports/diff/svg/svg_parser.hpp"
 
 namespace mapproof {
 

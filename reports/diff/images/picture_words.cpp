@@ -4,6 +4,7 @@
 
 #include "core/base/words.hpp"
 #include "reports/diff/item_diff.hpp"
+#include "reports/diff/svg/svg_diff.hpp"
 
 namespace mapproof {
 namespace {
