@@ -1,22 +1,13 @@
 #include "app/nightly/nightly_study.hpp"
 
-#include <sys/prctl.h>
-#include <sys/wait.h>
-#include <unistd.h>
-
-#include <algorithm>
-#include <cerrno>
-#include <csignal>
-#include <cstdio>
-#include <cstring>
 #include <map>
-#include <system_error>
 #include <utility>
 
 #include <fmt/format.h>
 
 #include "app/failures.hpp"
 #include "app/study/study_run.hpp"
+#include "core/base/child_process.hpp"
 #include "core/base/errors.hpp"
 #include "core/records/studies/results_study_json.hpp"
 #include "core/records/studies/study_folder.hpp"
@@ -75,26 +66,18 @@ std::vector<StudyNight> planned_studies(const std::vector<StudyOrder>& orders) {
 
 int make_apart(const StudyOrder& order, const fs::path& folder, int jobs,
                const std::string& command, const Console& console) {
-  // Nothing buffered is to be written twice, and no thread runs yet that the copy would lack.
-  std::fflush(nullptr);
-  const pid_t parent = ::getpid();
-  const pid_t child = ::fork();
-  if (child < 0) throw IoError(folder.string(), std::string("no process: ") + std::strerror(errno));
-  if (child == 0) {
-    // A night that is killed takes its study with it: its locks are free at once.
-    ::prctl(PR_SET_PDEATHSIG, SIGKILL);
-    if (::getppid() != parent) ::_exit(kInternal);
-    const auto make = [&] { return make_study(order, folder, jobs, command, console), kDone; };
-    const int code = exit_code_of(make, order.name + ": ");
-    std::fflush(nullptr);
-    ::_exit(code);
+  const auto make = [&] { return make_study(order, folder, jobs, command, console), kDone; };
+  try {
+    // No thread runs yet that the copy would lack. A night that is killed takes its study with it:
+    // its locks are free at once.
+    ChildProcess process([&] { return exit_code_of(make, order.name + ": "); });
+    const ProcessEnd end = process.wait();
+    if (end.signal == 0) return end.exit_code;
+    console.warning(fmt::format("{}: {}", order.name, end.text()));
+    return kInternal;
+  } catch (const ProcessError& error) {
+    throw IoError(folder.string(), error.what());
   }
-  int status = 0;
-  while (::waitpid(child, &status, 0) < 0)
-    if (errno != EINTR) throw IoError(folder.string(), std::strerror(errno));
-  if (WIFEXITED(status)) return WEXITSTATUS(status);
-  console.warning(fmt::format("{}: ended by signal {}", order.name, WTERMSIG(status)));
-  return kInternal;
 }
 
 }  // namespace mapproof

@@ -4,6 +4,8 @@
 #include <string>
 #include <string_view>
 
+#include "core/base/words.hpp"  // trimmed(), lower_case()
+
 namespace mapproof {
 
 /// The text without its byte order mark, fit to be read as UTF-8.

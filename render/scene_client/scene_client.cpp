@@ -1,23 +1,18 @@
 #include "render/scene_client/scene_client.hpp"
 
-#include <signal.h>
-#include <sys/mman.h>
 #include <sys/socket.h>
 #include <sys/time.h>
-#include <sys/wait.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <array>
 #include <cerrno>
-#include <cstdlib>
 #include <cstring>
 #include <string_view>
-#include <system_error>
 #include <utility>
 
 #include <fmt/format.h>
 
+#include "core/base/child_process.hpp"
 #include "core/base/errors.hpp"
 #include "render/scene/scene_json.hpp"
 #include "render/scene/scene_request.hpp"
@@ -25,21 +20,10 @@
 namespace mapproof {
 namespace {
 
-constexpr time_t kPatience_s = 600;  // Far longer than the largest image takes.
-
-/// In the child: runs the program, with the socket as its input and output. Makes only calls that
-/// are allowed in the child of a process with threads.
-[[noreturn]] void become(const char* program, int socket, int messages) {
-  ::dup2(socket, STDIN_FILENO);
-  ::dup2(socket, STDOUT_FILENO);
-  ::dup2(messages, STDERR_FILENO);
-  ::execl(program, program, static_cast<char*>(nullptr));
-  constexpr int kNotStarted = 127;
-  ::_exit(kNotStarted);
-}
+constexpr std::size_t kLongestMessage = 4096;
 
 /// Sends all bytes, without a signal that would end this program. @return False if the other end is
-/// closed.
+/// closed, or takes none for too long (errno: EAGAIN).
 bool send_all(int socket, std::string_view bytes) {
   while (!bytes.empty()) {
     const ssize_t count = ::send(socket, bytes.data(), bytes.size(), MSG_NOSIGNAL);
@@ -50,73 +34,58 @@ bool send_all(int socket, std::string_view bytes) {
   return true;
 }
 
-/// The last line of a file of messages that is not empty.
-std::string last_line(int file) {
-  std::array<char, 4096> block{};
-  const off_t size = ::lseek(file, 0, SEEK_END);
-  const off_t from = std::max<off_t>(0, size - static_cast<off_t>(block.size()));
-  const ssize_t count = ::pread(file, block.data(), block.size(), from);
-  std::string text(block.data(), count > 0 ? static_cast<std::size_t>(count) : 0);
-  while (!text.empty() && text.back() == '\n') text.pop_back();
-  return text.substr(text.rfind('\n') + 1);
-}
-
 }  // namespace
 
 std::filesystem::path scenes_program() {
-  if (const char* named = std::getenv("MAPPROOF_SCENES"); named != nullptr && *named != '\0')
-    return named;
-  std::error_code error;
-  const auto self = std::filesystem::read_symlink("/proc/self/exe", error);
-  return self.parent_path() / "mapproof-scenes";
+  return program_beside("MAPPROOF_SCENES", "mapproof-scenes");
 }
 
-SceneClient::SceneClient(std::filesystem::path program) : program_(std::move(program)) {}
+SceneClient::SceneClient(std::filesystem::path program, std::chrono::seconds patience)
+    : program_(std::move(program)), patience_(patience) {}
 
 SceneClient::~SceneClient() {
-  socket_.close();  // The program reads the end of its input, and ends.
-  if (process_ > 0) ::waitpid(process_, nullptr, 0);
+  try {
+    ending();
+  } catch (const ProcessError&) {
+    // It is killed with the object.
+  }
 }
 
 void SceneClient::start() {
-  if (::access(program_.c_str(), X_OK) != 0 && !MAPPROOF_HAS_SCENES)
+  if (!MAPPROOF_HAS_SCENES && !is_program(program_))
     throw SceneError(
         "3-D figures are left out: this program was built without them (MAPPROOF_SCENES=OFF)");
-  if (::access(program_.c_str(), X_OK) != 0)
-    throw SceneError(fmt::format("scenes cannot be drawn: {} is not a program: {}",
-                                 program_.string(), std::strerror(errno)));
   std::array<int, 2> ends{};
   if (::socketpair(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0, ends.data()) != 0)
     throw SceneError(fmt::format("scenes cannot be drawn: no socket: {}", std::strerror(errno)));
-  const timeval patience{.tv_sec = kPatience_s, .tv_usec = 0};
-  ::setsockopt(ends[0], SOL_SOCKET, SO_RCVTIMEO, &patience, sizeof(patience));
-  Descriptor theirs(ends[1]);
+  const Descriptor theirs(ends[1]);
   socket_ = Descriptor(ends[0]);
-  messages_ = Descriptor(::memfd_create("mapproof-scenes", MFD_CLOEXEC));
+  const timeval patience{.tv_sec = patience_.count(), .tv_usec = 0};
+  for (const int limit : {SO_RCVTIMEO, SO_SNDTIMEO})
+    ::setsockopt(socket_.get(), SOL_SOCKET, limit, &patience, sizeof(patience));
   unread_.clear();
-  process_ = ::fork();
-  if (process_ == 0) become(program_.c_str(), theirs.get(), messages_.get());
-  if (process_ < 0) fail(fmt::format("no process: {}", std::strerror(errno)));
+  messages_ = memory_file("mapproof-scenes");
+  process_.emplace(
+      ProgramCall{program_},
+      StandardStreams{.input = theirs.get(), .output = theirs.get(), .messages = messages_.get()});
 }
 
 std::string SceneClient::ending() {
-  socket_.close();
-  if (process_ <= 0) return {};
-  int status = 0;
-  ::waitpid(std::exchange(process_, -1), &status, 0);
-  if (WIFSIGNALED(status))
-    return fmt::format("it was ended by signal {}, perhaps for want of memory", WTERMSIG(status));
-  return fmt::format("it ended with exit code {}", WEXITSTATUS(status));
+  socket_.close();  // The program reads the end of its input, and ends.
+  if (!process_) return {};
+  ChildProcess process = *std::exchange(process_, std::nullopt);
+  const ProcessEnd end = process.wait();
+  return end.text() + (end.signal != 0 ? ", perhaps for want of memory" : "");
 }
 
 void SceneClient::give_up() {
-  ::kill(process_, SIGKILL);
-  fail(fmt::format("it gave no answer within {} s", kPatience_s));
+  process_.reset();
+  fail(fmt::format("it gave no answer within {} s", patience_.count()));
 }
 
 void SceneClient::fail(const std::string& what) {
   const std::string end = ending();
-  std::string said = messages_.get() >= 0 ? last_line(messages_.get()) : std::string();
+  std::string said = last_line(content_of(messages_, kLongestMessage));
   const std::string name = program_.filename().string();
   if (said.starts_with(name + ": ")) said.erase(0, name.size() + 2);
   std::string text = "scenes cannot be drawn: " + name + ": " + (said.empty() ? what : said);
@@ -165,10 +134,19 @@ Image SceneClient::draw(const Scene& scene, std::size_t view, int width, int hei
   if (samples < 0 || samples > kMostSamples)
     throw InvalidInput(fmt::format("scene {}: {} samples per pixel", scene.id, samples));
   const std::lock_guard lock(mutex_);
-  if (process_ < 0) start();
-  const SceneRequest request = scene_request(view, width, height, samples, theme);
-  if (!send_all(socket_.get(), request_to_line(request) + scene_to_line(scene)))
+  try {
+    return ask(scene_request(view, width, height, samples, theme), scene);
+  } catch (const ProcessError& error) {
+    throw SceneError(printable(fmt::format("scenes cannot be drawn: {}", error.what()), 500));
+  }
+}
+
+Image SceneClient::ask(const SceneRequest& request, const Scene& scene) {
+  if (!process_) start();
+  if (!send_all(socket_.get(), request_to_line(request) + scene_to_line(scene))) {
+    if (errno == EAGAIN) give_up();
     fail("it takes no scene");
+  }
   SceneReply reply;
   try {
     reply = reply_from_line(read_line(), program_.filename().string());
@@ -179,10 +157,11 @@ Image SceneClient::draw(const Scene& scene, std::size_t view, int width, int hei
     ending();
     throw SceneError(printable("scenes cannot be drawn: " + reply.error, 500));
   }
-  if (reply.width != width || reply.height != height) fail("it drew another size");
+  if (reply.width != request.width || reply.height != request.height) fail("it drew another size");
   renderer_ = reply.renderer;
-  Image image{width, height, {}};
-  image.pixels.resize(static_cast<std::size_t>(width) * height);
+  Image image{reply.width, reply.height, {}};
+  image.pixels.resize(static_cast<std::size_t>(reply.width) *
+                      static_cast<std::size_t>(reply.height));
   read_bytes(reinterpret_cast<char*>(image.pixels.data()), 4 * image.pixels.size());
   return image;
 }

@@ -1,18 +1,21 @@
 #pragma once
 
-#include <sys/types.h>
-
+#include <chrono>
 #include <filesystem>
 #include <mutex>
+#include <optional>
 #include <stdexcept>
 #include <string>
 
+#include "core/base/child_process.hpp"
 #include "core/base/descriptor.hpp"
 #include "render/image/image.hpp"
 #include "render/scene/scene.hpp"
 #include "render/theme/theme.hpp"
 
 namespace mapproof {
+
+struct SceneRequest;
 
 /// A scene could not be drawn: the program that draws is missing, has no context, or ended. One
 /// line.
@@ -33,7 +36,9 @@ class SceneClient {
   static constexpr int kLargestSide = 8192;  ///< Pixels.
   static constexpr int kMostSamples = 16;    ///< Per pixel.
 
-  explicit SceneClient(std::filesystem::path program = scenes_program());
+  /// @param patience  For each answer; far longer than the largest image takes.
+  explicit SceneClient(std::filesystem::path program = scenes_program(),
+                       std::chrono::seconds patience = std::chrono::minutes(10));
   ~SceneClient();
   SceneClient(const SceneClient&) = delete;
   SceneClient& operator=(const SceneClient&) = delete;
@@ -51,6 +56,8 @@ class SceneClient {
   std::string renderer();
 
  private:
+  /// @throws SceneError, ProcessError.
+  Image ask(const SceneRequest& request, const Scene& scene);
   void start();
   std::string read_line();
   void read_bytes(char* to, std::size_t count);
@@ -59,8 +66,9 @@ class SceneClient {
   std::string ending();
 
   std::filesystem::path program_;
+  std::chrono::seconds patience_;
   std::mutex mutex_;
-  pid_t process_ = -1;
+  std::optional<ChildProcess> process_;
   Descriptor socket_{-1};
   Descriptor messages_{-1};  ///< The standard error of the program, as a file in memory.
   std::string unread_;

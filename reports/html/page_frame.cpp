@@ -44,7 +44,7 @@ void set_page_frame(kainjow::mustache::data& page, const std::string& name,
 std::string rendered(const std::string& name, const Templates& templates,
                      const kainjow::mustache::data& page) {
   const std::string file = name + ".mustache";
-  kainjow::mustache::mustache root(assembled(file, templates.files));
+  kainjow::mustache::mustache root(assembled(file, templates.files, templates.sources));
   root.set_custom_escape(html_escaped);
   std::string html;
   // Not into a stream, which stops without an error if memory runs out.

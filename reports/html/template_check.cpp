@@ -1,14 +1,15 @@
 #include "reports/html/template_check.hpp"
 
 #include <algorithm>
-#include <iterator>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include <fmt/format.h>
 #include <kainjow/mustache.hpp>
 
 #include "core/base/errors.hpp"
+#include "core/base/words.hpp"
 
 namespace mapproof {
 namespace {
@@ -16,7 +17,6 @@ namespace {
 constexpr int kDeepest = 50;  ///< Sections within sections.
 constexpr int kMostIncludes = 1000;
 constexpr std::size_t kLargestPage = std::size_t{16} << 20;
-constexpr std::string_view kBlank = " \t\r\n";
 
 struct Tag {
   char kind;  ///< '#', '^', '/', '>', '=', '!' or another.
@@ -28,12 +28,6 @@ struct Tag {
 
 std::string place(std::size_t line) { return fmt::format("line {}", line); }
 
-std::string trimmed(std::string_view text) {
-  const std::size_t first = text.find_first_not_of(kBlank);
-  if (first == std::string_view::npos) return "";
-  return std::string(text.substr(first, text.find_last_not_of(kBlank) - first + 1));
-}
-
 std::vector<Tag> tags(const std::string& source, const std::string& text) {
   std::vector<Tag> found;
   std::size_t line = 1;
@@ -42,9 +36,11 @@ std::vector<Tag> tags(const std::string& source, const std::string& text) {
     for (; counted < at; ++counted) line += text[counted] == '\n' ? 1 : 0;
     const std::size_t end = text.find("}}", at);
     if (end == std::string::npos) throw IoError(source, place(line), "the tag is not closed");
-    const std::string content = trimmed(std::string_view(text).substr(at + 2, end - at - 2));
+    const std::string_view content =
+        trimmed(std::string_view(text).substr(at + 2, end - at - 2), kWhiteSpace);
     const char kind = content.empty() ? ' ' : content[0];
-    found.push_back({kind, content.empty() ? "" : trimmed(content.substr(1)), line, at, end + 2});
+    const std::string_view name = content.substr(content.empty() ? 0 : 1);
+    found.push_back({kind, std::string(trimmed(name, kWhiteSpace)), line, at, end + 2});
     at = end + 2;
   }
   return found;
@@ -70,62 +66,59 @@ void check_sections(const std::string& source, const std::vector<Tag>& tags) {
                   "the section \"" + printable(open.back()->name) + "\" is not closed");
 }
 
-/// Which templates a template includes, and where.
-using Includes = std::map<std::string, std::vector<Tag>>;
-
-enum class Visit { kNever, kOpen, kDone };
-
-void check_includes(const std::string& name, const Includes& includes,
-                    const std::map<std::string, std::string>& sources,
-                    std::map<std::string, Visit>& visits) {
-  visits[name] = Visit::kOpen;
-  for (const Tag& tag : includes.at(name)) {
-    const std::string included = tag.name + ".mustache";
-    if (!includes.contains(included))
-      throw IoError(sources.at(name), place(tag.line),
-                    "there is no template \"" + printable(tag.name) + "\" to include");
-    if (visits[included] == Visit::kOpen)
-      throw IoError(sources.at(name), place(tag.line),
-                    "\"" + tag.name + "\" would include itself without end");
-    if (visits[included] == Visit::kNever) check_includes(included, includes, sources, visits);
-  }
-  visits[name] = Visit::kDone;
-}
-
-std::string lower(std::string text) {
-  for (char& c : text)
-    if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
-  return text;
-}
-
 void refuse(const std::string& source, const std::string& text, std::string_view what) {
-  const std::size_t at = lower(text).find(what);
+  const std::size_t at = lower_case(text).find(what);
   if (at == std::string::npos) return;
   const auto line = static_cast<std::size_t>(
       1 + std::count(text.begin(), text.begin() + static_cast<std::ptrdiff_t>(at), '\n'));
   throw IoError(source, place(line), fmt::format("\"{}\" would end its element in the page", what));
 }
 
-void assemble(const std::string& name, const std::map<std::string, std::string>& files, int& count,
-              std::string& out) {
-  const std::string& text = files.at(name);
-  std::size_t done = 0;
-  for (const Tag& tag : tags(name, text)) {
-    if (tag.kind != '>') continue;
-    out.append(text, done, tag.begin - done);
-    if (++count > kMostIncludes || out.size() > kLargestPage)
-      throw IoError(name, "the templates include one another too often");
-    assemble(tag.name + ".mustache", files, count, out);
-    done = tag.end;
+/// Puts a template together with those that it includes.
+class Assembler {
+ public:
+  Assembler(const std::map<std::string, std::string>& files,
+            const std::map<std::string, std::string>& sources)
+      : files_(files), sources_(sources) {}
+
+  void add(const std::string& name) {
+    const std::string& text = files_.at(name);
+    const std::string& source = sources_.at(name);
+    open_.push_back(name);
+    std::size_t done = 0;
+    for (const Tag& tag : tags(source, text)) {
+      if (tag.kind != '>') continue;
+      const std::string included = tag.name + ".mustache";
+      if (!files_.contains(included))
+        throw IoError(source, place(tag.line),
+                      "there is no template \"" + printable(tag.name) + "\" to include");
+      if (std::ranges::find(open_, included) != open_.end())
+        throw IoError(source, place(tag.line),
+                      "\"" + tag.name + "\" would include itself without end");
+      page_.append(text, done, tag.begin - done);
+      if (++count_ > kMostIncludes || page_.size() > kLargestPage)
+        throw IoError(source, "the templates include one another too often");
+      add(included);
+      done = tag.end;
+    }
+    page_.append(text, done);
+    open_.pop_back();
   }
-  out.append(text, done);
-}
+
+  std::string page() { return std::move(page_); }
+
+ private:
+  const std::map<std::string, std::string>& files_;
+  const std::map<std::string, std::string>& sources_;
+  std::vector<std::string> open_;  ///< Templates that include one another, the outer one first.
+  int count_ = 0;
+  std::string page_;
+};
 
 }  // namespace
 
 void check_templates(const std::map<std::string, std::string>& files,
                      const std::map<std::string, std::string>& sources) {
-  Includes includes;
   for (const auto& [name, text] : files) {
     const std::string& source = sources.at(name);
     if (name.ends_with(".css")) refuse(source, text, "</style");
@@ -134,24 +127,19 @@ void check_templates(const std::map<std::string, std::string>& files,
       refuse(source, text, "<!--");
     }
     if (!name.ends_with(".mustache")) continue;
-    const std::vector<Tag> found = tags(source, text);
-    check_sections(source, found);
+    check_sections(source, tags(source, text));
     const kainjow::mustache::mustache parsed(text);
     if (!parsed.is_valid()) throw IoError(source, parsed.error_message());
-    auto& included = includes[name];
-    std::ranges::copy_if(found, std::back_inserter(included),
-                         [](const Tag& tag) { return tag.kind == '>'; });
   }
-  std::map<std::string, Visit> visits;
-  for (const auto& [name, included] : includes)
-    if (visits[name] == Visit::kNever) check_includes(name, includes, sources, visits);
+  for (const auto& [name, text] : files)
+    if (name.ends_with(".mustache")) assembled(name, files, sources);
 }
 
-std::string assembled(const std::string& name, const std::map<std::string, std::string>& files) {
-  std::string out;
-  int count = 0;
-  assemble(name, files, count, out);
-  return out;
+std::string assembled(const std::string& name, const std::map<std::string, std::string>& files,
+                      const std::map<std::string, std::string>& sources) {
+  Assembler assembler(files, sources);
+  assembler.add(name);
+  return assembler.page();
 }
 
 }  // namespace mapproof

@@ -184,5 +184,14 @@ TEST(Sha256, OfThreeLettersIsThatOfTheStandard) {
   EXPECT_EQ(sha256_hex("abc"), "ba7816bf8f01cfea414140de5dae2223b00361a396177a9cb410ff61f20015ad");
 }
 
+TEST(Words, AreTrimmedOfWhatIsNamed) {
+  EXPECT_EQ(trimmed(" \t a b \r"), "a b");
+  EXPECT_EQ(trimmed("\n a \n"), "\n a \n");
+  EXPECT_EQ(trimmed("\n a\n b\f\v\n", kWhiteSpace), "a\n b");
+  EXPECT_EQ(trimmed(" \t "), "");
+  EXPECT_EQ(trimmed(""), "");
+  EXPECT_EQ(lower_case("ABC xyz \u00C4 1"), "abc xyz \u00C4 1");
+}
+
 }  // namespace
 }  // namespace mapproof

@@ -1,6 +1,7 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <chrono>
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
@@ -16,6 +17,7 @@
 #include "tests/support/baselines.hpp"
 #include "tests/support/environment.hpp"
 #include "tests/support/sample_scenes.hpp"
+#include "tests/support/temporary_folder.hpp"
 
 namespace mapproof::test {
 namespace {
@@ -183,6 +185,44 @@ TEST_P(ScenePixelsByEachWay, AreNotThereWithoutAContextWhichIsSaidInOneLine) {
 TEST(SceneClient, SaysThatTheProgramEndedWithoutAnAnswer) {
   SceneClient one("/bin/false");
   EXPECT_THROW(drawn(one, small_scene()), SceneError);
+}
+
+/// A program of these lines of the shell.
+std::filesystem::path script(const TemporaryFolder& folder, const std::string& lines) {
+  const std::filesystem::path path = folder.file("script", "#!/bin/sh\n" + lines + "\n");
+  std::filesystem::permissions(path, std::filesystem::perms::owner_all);
+  return path;
+}
+
+/// What is said of a scene that a script cannot draw.
+std::string complaint(const std::string& lines, const Scene& scene = small_scene()) {
+  const TemporaryFolder folder;
+  SceneClient one(script(folder, lines), std::chrono::seconds(1));
+  try {
+    drawn(one, scene);
+    return "nothing";
+  } catch (const SceneError& error) {
+    return error.what();
+  }
+}
+
+TEST(SceneClient, SaysHowTheProgramEnded) {
+  EXPECT_EQ(complaint("read line; exit 3"),
+            "scenes cannot be drawn: script: it gave no answer; it ended with exit code 3");
+  EXPECT_EQ(complaint("read line; kill -9 $$"),
+            "scenes cannot be drawn: script: it gave no answer; it was ended by signal 9, perhaps "
+            "for want of memory");
+  EXPECT_EQ(complaint("echo one >&2; echo 'script: two' >&2; read line; exit 1"),
+            "scenes cannot be drawn: script: two");
+}
+
+TEST(SceneClient, DoesNotWaitForEverForAProgramThatHangs) {
+  const std::string hangs = "scenes cannot be drawn: script: it gave no answer within 1 s";
+  EXPECT_EQ(complaint("exec sleep 100"), hangs);
+  Scene large = small_scene();  // More than a socket holds that nobody reads.
+  large.parts.push_back(
+      Spheres{.at = std::vector<Point3>(100'000, Point3{0, 0, 0}), .radius = 0.1});
+  EXPECT_EQ(complaint("exec sleep 100", large), hangs);
 }
 
 TEST(SceneClient, RefusesWhatCannotBeDrawnAndGoesOn) {

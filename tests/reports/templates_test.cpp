@@ -78,18 +78,21 @@ TEST(Templates, ReportWhereATagIsBroken) {
 TEST(Templates, MayNotIncludeThemselvesNeitherDirectlyNorThroughAnother) {
   EXPECT_NE(complaint("table.mustache", "{{> table}}").find("without end"), std::string::npos);
   EXPECT_NE(complaint("table.mustache", "{{> section}}").find("without end"), std::string::npos);
+  EXPECT_EQ(complaint("table.mustache", "{{> paragraph}}{{> paragraph}}"), "");
 }
 
 TEST(Templates, CannotMakeTheProgramRunOutOfStackOrTime) {
   EXPECT_NE(complaint("table.mustache", repeated("{{#a}}", 100000)).find("deep"),
+            std::string::npos);
+  EXPECT_NE(complaint("table.mustache", repeated("{{#a}}", 20000) + repeated("{{/a}}", 20000))
+                .find("deep"),
             std::string::npos);
   EXPECT_EQ(complaint("table.mustache", repeated("{{a}}", 100000)), "");
   const fs::path folder = fresh_folder();
   write_file(folder / "report.mustache", repeated("{{> gallery}}", 20000));
   write_file(folder / "gallery.mustache", repeated("{{> figure}}", 20000));
   write_file(folder / "figure.mustache", "");
-  const Templates templates = load_templates(folder);
-  EXPECT_THROW(report_html({"t", "", {}, ""}, templates, {}), IoError);
+  EXPECT_THROW(load_templates(folder), IoError);
 }
 
 TEST(Templates, CannotEndTheStyleSheetOrTheScriptWithinIt) {

@@ -10,7 +10,7 @@
 #include "render/scene/scene_json.hpp"
 #include "reports/diff/item_files.hpp"
 #include "reports/diff/records/record_set.hpp"
-#include "reports/diff/svg/svg_tree.hpp"
+#include "reports/diff/svg/svg_parser.hpp"
 
 namespace mapproof {
 

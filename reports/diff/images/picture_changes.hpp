@@ -5,6 +5,7 @@
 #include <string>
 #include <string_view>
 #include <vector>
+#include "reports/diff/svg/svg_diff.hpp"
 
 namespace mapproof {
 
@@ -59,26 +60,6 @@ struct PixelDiff {
   double largest_colour_difference = 0.0;  ///< 0 to 1, black to white is 1 [kotsarenko2010].
   double largest_mean_shift = 0.0;         ///< Of 255, of any window of flat pixels.
   double largest_displacement_px = 0.0;    ///< Of any window whose difference is a movement.
-};
-
-enum class SvgChangeKind { kGeometry, kStyle, kText, kStructure, kMetadata };
-
-/// One difference of two SVG files.
-struct SvgChange {
-  SvgChangeKind kind = SvgChangeKind::kStructure;
-  std::string element;   ///< "svg/g#marks/circle#m17"; "[2]": the second of its name without an id.
-  std::string what;      ///< "cx", "style: fill", "text", "added", "removed", "moved".
-  std::string baseline;  ///< At most 120 characters of each value.
-  std::string current;
-  double distance = 0.0;  ///< User units, or of 255 for colours; 0 if it is not about numbers.
-  bool tolerated = false;
-};
-
-struct SvgDiff {
-  std::vector<SvgChange> changes;  ///< The first 200, those beyond tolerance first.
-  std::int64_t total = 0;          ///< Of all kinds, with those within tolerance.
-  std::int64_t tolerated = 0;
-  std::int64_t geometry = 0, style = 0, text = 0, structure = 0, metadata = 0;
 };
 
 struct PictureDiff {

@@ -19,7 +19,7 @@
 #include "reports/diff/diff_settings.hpp"
 #include "reports/diff/images/image_judgement.hpp"
 #include "reports/diff/images/tile_evidence.hpp"
-#include "reports/diff/svg/svg_diff.hpp"
+#include "reports/diff/svg/svg_parser.hpp"
 
 namespace mapproof {
 
@@ -333,7 +333,8 @@ void compare_svgs(std::string_view before, std::string_view after, const Picture
   diff.current_renderer = printable(current.tree.generator, 200);
   diff.reason = unreadable(baseline.reason, current.reason);
   if (!diff.reason.empty()) return;
-  diff.svg = svg_diff(baseline.tree, current.tree, options);
+  diff.svg = svg_diff(baseline.tree, current.tree,
+                      {.distance_px = options.svg_distance, .colour = options.svg_colour});
   diff.state = diff.svg->total == 0                     ? PictureState::kIdentical
                : diff.svg->total == diff.svg->tolerated ? PictureState::kWithinTolerance
                                                         : PictureState::kDifferent;

@@ -1,16 +1,16 @@
 #include "reports/diff/svg/svg_diff.hpp"
 
 #include <algorithm>
+#include <iterator>
 #include <map>
-#include <set>
+#include <string_view>
+#include <utility>
 
 #include <fmt/format.h>
 
 #include "core/base/errors.hpp"
-#include "reports/diff/diff_settings.hpp"
 #include "reports/diff/documents/excerpts.hpp"
-#include "reports/diff/svg/svg_match.hpp"
-#include "reports/diff/svg/svg_units.hpp"
+#include "reports/diff/svg/svg_tree.hpp"
 #include "reports/diff/svg/svg_values.hpp"
 
 namespace mapproof {
@@ -21,54 +21,41 @@ constexpr std::size_t kMostShown = 120;  // Characters of a value.
 constexpr double kStyleNumber = 0.001;
 constexpr double kTurn = 1e-4;  // Of a transform's matrix: a tenth of a pixel over 1000.
 
-bool is_one_of(const std::string& name, const std::set<std::string_view>& names) {
-  return names.contains(name);
-}
+// Names of attributes, with a blank before and after each.
+constexpr std::string_view kGeometry =
+    " d points transform x y x1 y1 x2 y2 cx cy r rx ry dx dy width height fx fy viewBox "
+    "patternTransform gradientTransform ";
+constexpr std::string_view kUnseen =
+    " role version baseProfile space lang aria-label aria-labelledby aria-describedby aria-hidden "
+    "focusable tabindex ";
 
-bool is_geometry(const std::string& name) {
-  return is_one_of(name, {"d",
-                          "points",
-                          "transform",
-                          "x",
-                          "y",
-                          "x1",
-                          "y1",
-                          "x2",
-                          "y2",
-                          "cx",
-                          "cy",
-                          "r",
-                          "rx",
-                          "ry",
-                          "dx",
-                          "dy",
-                          "width",
-                          "height",
-                          "fx",
-                          "fy",
-                          "viewBox",
-                          "patternTransform",
-                          "gradientTransform"});
+bool is_one_of(std::string_view name, std::string_view names) {
+  return names.find(" " + std::string(name) + " ") != std::string_view::npos;
 }
 
 /// Names and values that nobody sees.
-bool is_remark(const std::string& name) {
-  return name == "aria-label" || name.starts_with("data-") || name.starts_with("{") ||
-         name == "role" ||
-         is_one_of(name, {"version", "baseProfile", "space", "lang", "aria-labelledby",
-                          "aria-describedby", "aria-hidden", "focusable", "tabindex"});
+bool is_remark(std::string_view name) {
+  return name.starts_with("data-") || name.starts_with("{") || is_one_of(name, kUnseen);
 }
 
 bool is_remark_element(const SvgElement& element) {
-  return element.name.starts_with("{") || is_one_of(element.name, {"metadata", "title", "desc"});
+  const std::string& name = element.name;
+  return name.starts_with("{") || name == "metadata" || name == "title" || name == "desc";
 }
+
+/// The value of an attribute, or the text, of an element of the baseline in both files.
+struct Value {
+  int element = 0;
+  std::string_view name;
+  const std::string &before, &after;
+};
 
 class Differ {
  public:
-  Differ(const SvgTree& a, const SvgTree& b, const PictureOptions& options)
+  Differ(const SvgTree& a, const SvgTree& b, const SvgTolerances& tolerances)
       : a_(a),
         b_(b),
-        options_(options),
+        tolerances_(tolerances),
         match_(match_svgs(a, b)),
         units_(svg_units(a)),
         moved_(a.elements.size(), 0.0) {
@@ -119,51 +106,58 @@ class Differ {
            .current = b_.path(j),
            .tolerated = is_remark_here});
     const bool is_nudged = nudge(i, a, b);
-    if (a.id != b.id) add_value(i, "id", a.id, b.id, SvgChangeKind::kMetadata, {}, true);
-    if (a.text != b.text) compare_text(i, a, b, is_remark_here);
+    if (a.id != b.id) add_value({i, "id", a.id, b.id}, SvgChangeKind::kMetadata, {}, true);
+    if (a.text != b.text) compare_text({i, "text", a.text, b.text}, a.name, is_remark_here);
+    for_each_difference(
+        a, b, [&](std::string_view name, const std::string& before, const std::string& after) {
+          compare_value({i, name, before, after}, is_remark_here, is_nudged);
+        });
+  }
+
+  /// Calls `what` with each name, in their order, that one of both lacks or whose values differ,
+  /// and with the values; empty: none.
+  template <typename What>
+  static void for_each_difference(const SvgElement& a, const SvgElement& b, const What& what) {
+    static const std::string none;
     auto one = a.values.begin();
     auto other = b.values.begin();
-    static const std::string none;
     while (one != a.values.end() || other != b.values.end()) {
       const bool only_a =
           other == b.values.end() || (one != a.values.end() && one->first < other->first);
       const bool only_b = !only_a && (one == a.values.end() || other->first < one->first);
-      const std::string& name = only_b ? other->first : one->first;
       if (only_a || only_b || one->second != other->second)
-        compare_value(i, name, only_b ? none : one->second, only_a ? none : other->second,
-                      is_remark_here, is_nudged);
+        what(only_b ? other->first : one->first, only_b ? none : one->second,
+             only_a ? none : other->second);
       if (!only_b) ++one;
       if (!only_a) ++other;
     }
   }
 
-  void compare_text(int i, const SvgElement& a, const SvgElement& b, bool is_remark_here) {
-    if (a.name == "style")
-      add_value(i, "text", a.text, b.text, SvgChangeKind::kStyle,
-                value_distance("", a.text, b.text), false);
+  void compare_text(const Value& text, std::string_view of_element, bool is_remark_here) {
+    if (of_element == "style")
+      add_value(text, SvgChangeKind::kStyle, value_distance("", text.before, text.after), false);
     else
-      add_value(i, "text", a.text, b.text,
-                is_remark_here ? SvgChangeKind::kMetadata : SvgChangeKind::kText, {},
+      add_value(text, is_remark_here ? SvgChangeKind::kMetadata : SvgChangeKind::kText, {},
                 is_remark_here);
   }
 
-  void compare_value(int i, const std::string& name, const std::string& before,
-                     const std::string& after, bool is_remark_here, bool is_nudged) {
+  void compare_value(const Value& value, bool is_remark_here, bool is_nudged) {
     // That of the root tells of the whole; below it stands for text drawn as outlines.
-    if (name == "aria-label" && i > 0 && !is_remark_here)
-      return add_value(i, name, before, after, SvgChangeKind::kText, {}, false);
-    if (is_remark_here || is_remark(name))
-      return add_value(i, name, before, after, SvgChangeKind::kMetadata, {}, true);
-    if (with_new_ids(before) == after) return;
-    const ValueDistance found = value_distance(name, before, after);
+    if (value.name == "aria-label" && value.element > 0 && !is_remark_here)
+      return add_value(value, SvgChangeKind::kText, {}, false);
+    if (is_remark_here || is_remark(value.name))
+      return add_value(value, SvgChangeKind::kMetadata, {}, true);
+    if (with_new_ids(value.before) == value.after) return;
+    const ValueDistance found = value_distance(value.name, value.before, value.after);
     if (found.is_number && found.distance == 0.0) return;
-    const SvgChangeKind kind = is_geometry(name) ? SvgChangeKind::kGeometry : SvgChangeKind::kStyle;
+    const SvgChangeKind kind =
+        is_one_of(value.name, kGeometry) ? SvgChangeKind::kGeometry : SvgChangeKind::kStyle;
     const bool is_near =
-        name == "transform" ? is_nudged
+        value.name == "transform" ? is_nudged
         : kind == SvgChangeKind::kGeometry
-            ? is_near_enough(i, name, before, after, found)
-            : found.distance <= (found.is_colour ? options_.svg_colour : kStyleNumber);
-    add_value(i, name, before, after, kind, found, found.is_number && is_near);
+            ? is_near_enough(value, found)
+            : found.distance <= (found.is_colour ? tolerances_.colour : kStyleNumber);
+    add_value(value, kind, found, found.is_number && is_near);
   }
 
   /// Whether the element's transform moves it by so little that nobody sees it, all that its groups
@@ -174,20 +168,21 @@ class Differ {
     const auto distance = transform_distance(before == a.values.end() ? "" : before->second,
                                              after == b.values.end() ? "" : after->second);
     const double moved = distance ? moved_[i] + distance->shift * units_.outer[i] : 0.0;
-    const bool is_nudged = distance && distance->linear <= kTurn && moved <= options_.svg_distance;
+    const bool is_nudged =
+        distance && distance->linear <= kTurn && moved <= tolerances_.distance_px;
     moved_[i] = is_nudged ? moved : 0.0;
     return is_nudged;
   }
 
-  bool is_near_enough(int i, const std::string& name, const std::string& before,
-                      const std::string& after, const ValueDistance& found) const {
+  bool is_near_enough(const Value& value, const ValueDistance& found) const {
     double distance = found.distance;
-    if (name.ends_with("Transform")) {
-      const auto apart = transform_distance(before, after);
+    if (value.name.ends_with("Transform")) {
+      const auto apart = transform_distance(value.before, value.after);
       if (!apart || apart->linear > kTurn) return false;
       distance = apart->shift;
     }
-    return moved_[i] + distance * units_.inner[i] <= options_.svg_distance;
+    return moved_[value.element] + distance * units_.inner[value.element] <=
+           tolerances_.distance_px;
   }
 
   /// The value with references to elements of the baseline led to what they are now.
@@ -200,18 +195,16 @@ class Differ {
                                   : value.substr(0, hash) + found->second + value.substr(end);
   }
 
-  void add_value(int i, const std::string& name, const std::string& before,
-                 const std::string& after, SvgChangeKind kind, const ValueDistance& found,
+  void add_value(const Value& value, SvgChangeKind kind, const ValueDistance& found,
                  bool is_tolerated) {
     if (!count_one(kind, is_tolerated)) return;
-    const double distance = found.is_number ? found.distance : 0.0;
-    const auto [first, second] = excerpts(before, after, kMostShown);
+    const auto [before, after] = excerpts(value.before, value.after, kMostShown);
     add({.kind = kind,
-         .element = a_.path(i),
-         .what = name,
-         .baseline = first,
-         .current = second,
-         .distance = distance,
+         .element = a_.path(value.element),
+         .what = std::string(value.name),
+         .baseline = before,
+         .current = after,
+         .distance = found.is_number ? found.distance : 0.0,
          .tolerated = is_tolerated});
   }
 
@@ -262,7 +255,7 @@ class Differ {
   }
 
   const SvgTree &a_, &b_;
-  const PictureOptions& options_;
+  const SvgTolerances& tolerances_;
   SvgMatch match_;
   SvgUnits units_;             ///< Of the baseline.
   std::vector<double> moved_;  ///< Pixels, by transforms that are within tolerance.
@@ -274,10 +267,11 @@ class Differ {
 
 }  // namespace
 
-SvgDiff svg_diff(const SvgTree& baseline, const SvgTree& current, const PictureOptions& options) {
-  if (const std::string problem = problem_of(options); !problem.empty())
-    throw InvalidInput(problem);
-  return Differ(baseline, current, options).run();
+SvgDiff svg_diff(const SvgTree& baseline, const SvgTree& current, const SvgTolerances& tolerances) {
+  if (!(tolerances.distance_px >= 0.0))
+    throw InvalidInput("svg_distance is not a number from 0 on");
+  if (!(tolerances.colour >= 0.0)) throw InvalidInput("svg_colour is not a number from 0 on");
+  return Differ(baseline, current, tolerances).run();
 }
 
 }  // namespace mapproof

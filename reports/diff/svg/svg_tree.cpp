@@ -2,235 +2,278 @@
 
 #include <algorithm>
 #include <array>
-#include <cctype>
 #include <charconv>
-#include <exception>
+#include <cmath>
 #include <functional>
-#include <memory>
-#include <new>
+#include <optional>
+#include <set>
+#include <string_view>
+#include <utility>
 
-#include <expat.h>
 #include <fmt/format.h>
 
-#include "core/base/errors.hpp"
-#include "reports/diff/svg/xml_place.hpp"
+#include "reports/diff/svg/svg_values.hpp"
 
 namespace mapproof {
 namespace {
 
-constexpr std::string_view kSvg = "http://www.w3.org/2000/svg|";
+constexpr std::size_t kMostPairs = std::size_t{1} << 22;
 
-std::string_view trimmed(std::string_view text) {
-  while (!text.empty() && std::isspace(static_cast<unsigned char>(text.front())))
-    text.remove_prefix(1);
-  while (!text.empty() && std::isspace(static_cast<unsigned char>(text.back())))
-    text.remove_suffix(1);
-  return text;
-}
-
-/// White space as one blank, none at the ends.
-std::string spaced(std::string_view text) {
-  std::string out;
-  for (const char c : trimmed(text)) {
-    const bool is_space = std::isspace(static_cast<unsigned char>(c));
-    if (!is_space)
-      out += c;
-    else if (out.back() != ' ')
-      out += ' ';
+/// Digests of elements with all below them; children come after their parents.
+std::vector<std::uint64_t> digests(const SvgTree& tree) {
+  const auto mix = [](std::uint64_t seed, std::uint64_t value) {
+    return (seed ^ (value + 0x9E3779B97F4A7C15u + (seed << 6) + (seed >> 2))) * 0xFF51AFD7ED558CCDu;
+  };
+  const std::hash<std::string> hash;
+  std::vector<std::uint64_t> of(tree.elements.size());
+  for (std::size_t i = tree.elements.size(); i-- > 0;) {
+    const SvgElement& element = tree.elements[i];
+    std::uint64_t digest = mix(hash(element.name), hash(element.text));
+    for (const auto& [name, value] : element.values)
+      digest = mix(mix(digest, hash(name)), hash(value));
+    for (const int child : element.children) digest = mix(digest, of[child]);
+    of[i] = digest;
   }
-  return out;
+  return of;
 }
 
-std::string lower(std::string_view text) {
-  std::string out(text);
-  std::ranges::transform(out, out.begin(), [](unsigned char c) { return std::tolower(c); });
-  return out;
+/// "line2d_12" without its number.
+std::string_view stem(std::string_view id) {
+  const std::size_t last = id.find_last_not_of("0123456789");
+  return id.substr(0, last == id.npos ? 0 : last + 1);
 }
 
-/// "name" of SVG's name space or of none, "{space}name" of another.
-std::string short_name(std::string_view name) {
-  if (name.starts_with(kSvg)) return std::string(name.substr(kSvg.size()));
-  const std::size_t bar = name.rfind('|');
-  if (bar == std::string_view::npos) return std::string(name);
-  return fmt::format("{{{}}}{}", name.substr(0, bar), name.substr(bar + 1));
-}
+/// How many ids of each stem, the least number and the largest. Numbers too long for one are names.
+struct Numbers {
+  std::uint32_t count = 0, least = UINT32_MAX, largest = 0;
+  bool operator==(const Numbers&) const = default;
+  bool are_counted() const { return count > 0 && largest - least + 1 == count; }
+};
 
-/// Whether a value loads something: url(...) of anything but a part of the file, or an @import.
-bool loads(std::string_view value) {
-  const std::string text = lower(value);
-  if (text.find("@import") != std::string::npos) return true;
-  for (std::size_t at = text.find("url("); at != std::string::npos;
-       at = text.find("url(", at + 1)) {
-    const std::size_t start = text.find_first_not_of(" \t\r\n\"'", at + 4);
-    if (start == std::string::npos) return true;
-    if (text[start] != '#' && text.compare(start, 5, "data:") != 0) return true;
+std::map<std::string_view, Numbers> numbers_of(const SvgTree& tree) {
+  std::map<std::string_view, Numbers> found;
+  for (const SvgElement& element : tree.elements) {
+    const std::string_view of = stem(element.id),
+                           digits = std::string_view(element.id).substr(of.size());
+    std::uint32_t number = 0;
+    if (digits.empty() || digits.size() > 9) continue;
+    std::from_chars(digits.data(), digits.data() + digits.size(), number);
+    Numbers& numbers = found[of];
+    ++numbers.count;
+    numbers.least = std::min(numbers.least, number);
+    numbers.largest = std::max(numbers.largest, number);
   }
-  return false;
+  return found;
 }
 
-class Builder {
+/// Stems whose numbers only count, without a gap, to another end: where one of their elements is
+/// gone, those after it bear other numbers, and an id says nothing.
+std::set<std::string_view> renumbered_stems(const SvgTree& a, const SvgTree& b) {
+  std::set<std::string_view> stems;
+  const auto others = numbers_of(b);
+  for (const auto& [of, numbers] : numbers_of(a))
+    if (const auto other = others.find(of); other != others.end() && other->second != numbers &&
+                                            other->second.are_counted() && numbers.are_counted() &&
+                                            other->second.least == numbers.least)
+      stems.insert(of);
+  return stems;
+}
+
+class Matcher {
  public:
-  explicit Builder(XML_Parser parser) : parser_(parser) {
-    XML_SetUserData(parser, this);
-    XML_SetElementHandler(
-        parser,
-        [](void* self, const char* name, const char** attributes) {
-          guarded(self, [&](Builder& builder) { builder.open(name, attributes); });
-        },
-        [](void* self, const char*) { guarded(self, &Builder::close); });
-    XML_SetCharacterDataHandler(parser, [](void* self, const char* text, int length) {
-      const std::string_view words(text, static_cast<std::size_t>(length));
-      guarded(self, [&](Builder& builder) { builder.characters(words); });
-    });
-    XML_SetCommentHandler(parser, [](void* self, const char* text) {
-      guarded(self, [&](Builder& builder) { builder.comment(text); });
-    });
-    XML_SetStartDoctypeDeclHandler(
-        parser, [](void* self, const char*, const char*, const char*, int has_declarations) {
-          if (has_declarations)
-            guarded(self, [](Builder& builder) { builder.refuse("declares entities or types"); });
-        });
-    XML_SetEntityDeclHandler(parser, [](void* self, const char*, int, const char*, int, const char*,
-                                        const char*, const char*, const char*) {
-      guarded(self, [](Builder& builder) { builder.refuse("declares an entity"); });
-    });
+  Matcher(const SvgTree& a, const SvgTree& b)
+      : a_(a), b_(b), digest_a_(digests(a)), digest_b_(digests(b)) {
+    match_.partner.assign(a.elements.size(), -1);
+    match_.back.assign(b.elements.size(), -1);
+    match_.is_reordered.assign(a.elements.size(), false);
   }
 
-  SvgTree tree;
-  std::string refusal;
-  std::exception_ptr failure;  ///< Of a handler.
+  SvgMatch run() {
+    pair(0, 0);
+    pair_by_id();
+    // Parents come before their children, and are matched before them.
+    for (int i = 0; i < static_cast<int>(a_.elements.size()); ++i)
+      if (match_.partner[i] >= 0) match_children(i, match_.partner[i]);
+    return std::move(match_);
+  }
 
  private:
-  /// Nothing is thrown through expat.
-  template <typename Handler>
-  static void guarded(void* self, const Handler& handler) noexcept {
-    auto& builder = *static_cast<Builder*>(self);
-    try {
-      std::invoke(handler, builder);
-    } catch (...) {
-      builder.failure = std::current_exception();
-      XML_StopParser(builder.parser_, XML_FALSE);
+  void pair(int i, int j) {
+    match_.partner[i] = j;
+    match_.back[j] = i;
+  }
+
+  /// Elements by their id; -1 where two share one.
+  static std::map<std::string_view, int> by_id(const SvgTree& tree) {
+    std::map<std::string_view, int> found;
+    for (std::size_t i = 1; i < tree.elements.size(); ++i)
+      if (const std::string& id = tree.elements[i].id; !id.empty())
+        if (const auto [place, is_new] = found.emplace(id, static_cast<int>(i)); !is_new)
+          place->second = -1;
+    return found;
+  }
+
+  void pair_by_id() {
+    const auto others = by_id(b_);
+    const auto renumbered = renumbered_stems(a_, b_);
+    for (const auto& [id, i] : by_id(a_))
+      if (const auto other = others.find(id);
+          i > 0 && !renumbered.contains(stem(id)) && other != others.end() && other->second > 0 &&
+          a_.elements[i].name == b_.elements[other->second].name)
+        pair(i, other->second);
+  }
+
+  void match_children(int parent_a, int parent_b) {
+    const auto &all_a = a_.elements[parent_a].children, &all_b = b_.elements[parent_b].children;
+    std::vector<int> free_a, free_b;
+    for (const int i : all_a)
+      if (match_.partner[i] < 0) free_a.push_back(i);
+    for (const int j : all_b)
+      if (match_.back[j] < 0) free_b.push_back(j);
+    match_runs(free_a, free_b);
+    find_reordered(all_a, parent_b);
+  }
+
+  /// Equal children at both ends need no search.
+  void match_runs(std::vector<int> a, std::vector<int> b) {
+    const auto equal = [&](int i, int j) { return digest_a_[i] == digest_b_[j]; };
+    while (!a.empty() && !b.empty() && equal(a.back(), b.back())) {
+      pair(a.back(), b.back());
+      a.pop_back(), b.pop_back();
+    }
+    std::size_t first = 0;
+    while (first < std::min(a.size(), b.size()) && equal(a[first], b[first])) {
+      pair(a[first], b[first]);
+      ++first;
+    }
+    a.erase(a.begin(), a.begin() + first);
+    b.erase(b.begin(), b.begin() + first);
+    if (a.empty() || b.empty()) return;
+    if (a.size() * b.size() <= pairs_left_)
+      align(a, b);
+    else
+      for (std::size_t i = 0; i < std::min(a.size(), b.size()); ++i)
+        if (a_.elements[a[i]].name == b_.elements[b[i]].name) pair(a[i], b[i]);
+  }
+
+  /// What it costs to take one for the other: 0 if equal, more than removing and adding if they
+  /// have nothing in common.
+  float cost(int i, int j) const {
+    if (digest_a_[i] == digest_b_[j]) return 0.0f;
+    const SvgElement &a = a_.elements[i], &b = b_.elements[j];
+    if (a.name != b.name) return 3.0f;
+    float different = a.text == b.text ? 0.0f : 1.0f, all = 1.0f;
+    for (const auto& [name, value] : a.values) {
+      const auto other = b.values.find(name);
+      ++all;
+      different += other == b.values.end() || other->second != value;
+    }
+    different +=
+        std::abs(static_cast<float>(a.children.size()) - static_cast<float>(b.children.size())) > 0;
+    return 0.1f + 1.5f * different / (all + 1.0f);
+  }
+
+  /// The alignment in order that costs least; leaving one out costs 1.
+  void align(const std::vector<int>& a, const std::vector<int>& b) {
+    const std::size_t n = a.size(), m = b.size();
+    pairs_left_ -= n * m;
+    std::vector<float> best((n + 1) * (m + 1));
+    const auto at = [&](std::size_t i, std::size_t j) -> float& { return best[i * (m + 1) + j]; };
+    for (std::size_t i = 0; i <= n; ++i)
+      for (std::size_t j = 0; j <= m; ++j) {
+        if (i == 0 || j == 0) {
+          at(i, j) = static_cast<float>(i + j);
+          continue;
+        }
+        at(i, j) = std::min({at(i - 1, j - 1) + cost(a[i - 1], b[j - 1]), at(i - 1, j) + 1.0f,
+                             at(i, j - 1) + 1.0f});
+      }
+    for (std::size_t i = n, j = m; i > 0 && j > 0;) {
+      if (at(i, j) == at(i - 1, j) + 1.0f) {
+        --i;
+      } else if (at(i, j) == at(i, j - 1) + 1.0f) {
+        --j;
+      } else {
+        pair(a[--i], b[--j]);
+      }
     }
   }
 
-  void refuse(const std::string& why) {
-    if (!refusal.empty()) return;
-    refusal = fmt::format("line {}: {}", line_of(parser_), why);
-    XML_StopParser(parser_, XML_FALSE);
-  }
-
-  void open(std::string_view full_name, const char** attributes) {
-    if (!refusal.empty()) return;
-    const int index = static_cast<int>(tree.elements.size());
-    if (tree.elements.size() >= kMostSvgElements)
-      return refuse(fmt::format("more than {} elements", kMostSvgElements));
-    if (open_.size() >= kMostSvgDepth)
-      return refuse(fmt::format("elements nested more than {} deep", kMostSvgDepth));
-    SvgElement element;
-    element.name = short_name(full_name);
-    if (index == 0 && element.name != "svg") return refuse("its root is not a svg element");
-    if (lower(element.name) == "script" || element.name == "foreignObject")
-      return refuse("a " + element.name + " element");
-    for (; *attributes; attributes += 2)
-      if (!add(element, short_name(attributes[0]), attributes[1])) return;
-    if (animates_reference(element)) return refuse("an animation of a reference or of a handler");
-    if (!open_.empty()) {
-      element.parent = open_.back();
-      tree.elements[element.parent].children.push_back(index);
-      element.place = ++places_.back()[element.name];
+  /// Of children that stayed below the parent, all but a longest run in the old order.
+  void find_reordered(const std::vector<int>& children, int parent_b) {
+    std::vector<int> stayed;
+    for (const int i : children)
+      if (const int j = match_.partner[i]; j >= 0 && b_.elements[j].parent == parent_b)
+        stayed.push_back(i);
+    if (std::ranges::is_sorted(stayed, {}, [&](int i) { return match_.partner[i]; })) return;
+    // Patience sorting: the last of the least runs of each length, and who came before it.
+    std::vector<int> tails;
+    std::map<int, int> before;
+    for (const int i : stayed) {
+      const auto place = std::ranges::lower_bound(tails, match_.partner[i], {},
+                                                  [&](int k) { return match_.partner[k]; });
+      before[i] = place == tails.begin() ? -1 : *(place - 1);
+      place == tails.end() ? tails.push_back(i) : void(*place = i);
     }
-    open_.push_back(index);
-    places_.emplace_back();
-    tree.elements.push_back(std::move(element));
+    for (const int i : stayed) match_.is_reordered[i] = true;
+    for (int i = tails.back(); i >= 0; i = before[i]) match_.is_reordered[i] = false;
   }
 
-  void close() {
-    if (open_.empty()) return;
-    std::string& text = tree.elements[open_.back()].text;
-    text = spaced(text);
-    if (tree.elements[open_.back()].name == "style" && loads(text))
-      refuse("a style that loads another file");
-    open_.pop_back();
-    places_.pop_back();
-  }
-
-  void characters(std::string_view text) {
-    if (!open_.empty()) tree.elements[open_.back()].text += text;
-  }
-
-  void comment(std::string_view text) {
-    if (tree.elements.empty() && tree.generator.empty()) tree.generator = spaced(text);
-  }
-
-  /// Whether a value of geometry holds a word for no number, or one too large for any.
-  static bool is_no_number(const std::string& name, std::string_view value) {
-    static constexpr std::array<std::string_view, 14> kGeometry = {
-        "x", "y", "x1", "y1", "x2", "y2", "cx", "cy", "r", "rx", "ry", "d", "points", "transform"};
-    if (std::ranges::find(kGeometry, name) == kGeometry.end()) return false;
-    const std::string text = lower(value);
-    if (text.find("nan") != std::string::npos || text.find("inf") != std::string::npos) return true;
-    for (std::size_t at = text.find('e'); at != std::string::npos; at = text.find('e', at + 1)) {
-      int exponent = 0;
-      const char* begin = text.data() + at + 1;
-      if (*begin == '+') ++begin;
-      const auto [end, error] = std::from_chars(begin, text.data() + text.size(), exponent);
-      if (error == std::errc::result_out_of_range || (error == std::errc() && exponent > 300))
-        return true;
-    }
-    return false;
-  }
-
-  /// Whether it sets, later, what would be refused at once.
-  static bool animates_reference(const SvgElement& element) {
-    const auto target = element.values.find("attributeName");
-    if (target == element.values.end()) return false;
-    const std::string name = lower(target->second);
-    return name == "href" || name.ends_with(":href") || name.starts_with("on");
-  }
-
-  /// False if the attribute is refused.
-  bool add(SvgElement& element, const std::string& name, std::string_view value) {
-    if (lower(name).starts_with("on")) return refuse("an event handler: " + name), false;
-    if (is_no_number(name, value))
-      return refuse(fmt::format("{} of a {} is not a finite number: {}", name, element.name,
-                                printable(std::string(value), 40))),
-             false;
-    const bool is_reference = name == "href" || name.ends_with("}href");
-    const std::string_view target = trimmed(value);
-    if (is_reference && element.name != "a" && !target.starts_with('#') &&
-        !target.starts_with("data:image/"))
-      return refuse("a reference to another file"), false;
-    if (is_reference && lower(target).starts_with("javascript:"))
-      return refuse("a reference that runs a script"), false;
-    if (loads(value)) return refuse("a reference to another file"), false;
-    if (name == "id") {
-      element.id = value;
-    } else if (name == "style") {
-      add_style(element, value);
-    } else if (!styled_.contains(name) || styled_[name] != tree.elements.size()) {
-      element.values[is_reference ? "href" : name] = spaced(value);
-    }
-    return true;
-  }
-
-  void add_style(SvgElement& element, std::string_view style) {
-    while (!style.empty()) {
-      const std::size_t stop = std::min(style.find(';'), style.size());
-      const std::string_view one = style.substr(0, stop);
-      style.remove_prefix(std::min(stop + 1, style.size()));
-      const std::size_t colon = one.find(':');
-      if (colon == std::string_view::npos) continue;
-      const std::string name = lower(trimmed(one.substr(0, colon)));
-      element.values[name] = spaced(one.substr(colon + 1));
-      styled_[name] = tree.elements.size();
-    }
-  }
-
-  XML_Parser parser_;
-  std::vector<int> open_;
-  std::vector<std::map<std::string, int>> places_;
-  std::map<std::string, std::size_t> styled_;  ///< Which element's style set a property last.
+  const SvgTree &a_, &b_;
+  std::vector<std::uint64_t> digest_a_, digest_b_;
+  SvgMatch match_;
+  std::size_t pairs_left_ = kMostPairs;
 };
+
+std::string_view value_of(const SvgElement& element, const std::string& name) {
+  const auto found = element.values.find(name);
+  return found == element.values.end() ? std::string_view() : std::string_view(found->second);
+}
+
+/// A length in pixels; empty for shares of something that is not known.
+std::optional<double> pixels(std::string_view length) {
+  using Unit = std::pair<std::string_view, double>;
+  constexpr std::array kUnits = {Unit{"", 1.0},          Unit{"px", 1.0},  Unit{"pt", 96.0 / 72.0},
+                                 Unit{"pc", 16.0},       Unit{"in", 96.0}, Unit{"cm", 96.0 / 2.54},
+                                 Unit{"mm", 96.0 / 25.4}};
+  double number = 0.0;
+  const std::size_t used = read_number(length, number);
+  if (used == 0) return std::nullopt;
+  for (const auto& [unit, size] : kUnits)
+    if (length.substr(used) == unit) return number * size;
+  return std::nullopt;
+}
+
+/// Width and height of the viewBox; zero: none.
+std::array<double, 2> view_box(std::string_view text) {
+  std::array<double, 4> box{};
+  for (double& number : box) {
+    while (text.starts_with(' ') || text.starts_with(',')) text.remove_prefix(1);
+    const std::size_t used = read_number(text, number);
+    if (used == 0) return {};
+    text.remove_prefix(used);
+  }
+  return {box[2], box[3]};
+}
+
+double root_unit(const SvgElement& root) {
+  const std::array<double, 2> box = view_box(value_of(root, "viewBox"));
+  double unit = 0.0;
+  for (const auto& [side, length] : {std::pair("width", box[0]), {"height", box[1]}}) {
+    const std::optional<double> size = pixels(value_of(root, side));
+    if (!size || *size <= 0.0 || length <= 0.0) continue;
+    unit = unit > 0.0 ? std::min(unit, *size / length) : *size / length;
+  }
+  return unit > 0.0 ? unit : 1.0;
+}
+
+/// How much longer the transform makes what it makes longest.
+double scale_of(std::string_view transform) {
+  const auto matrix = matrix_numbers(transform);
+  if (!matrix) return 1.0;
+  const std::vector<double>& m = matrix->numbers;
+  return std::max(std::hypot(m[0], m[1]), std::hypot(m[2], m[3]));
+}
 
 }  // namespace
 
@@ -248,22 +291,20 @@ std::string SvgTree::path(int element) const {
   return path;
 }
 
-SvgTree parse_svg(std::string_view bytes) {
-  if (bytes.size() > kMostSvgBytes)
-    throw InvalidInput(fmt::format("more than {} bytes", kMostSvgBytes));
-  const std::unique_ptr<XML_ParserStruct, decltype(&XML_ParserFree)> parser(
-      XML_ParserCreateNS(nullptr, '|'), &XML_ParserFree);
-  if (!parser) throw std::bad_alloc();
-  Builder builder(parser.get());
-  const XML_Status status =
-      XML_Parse(parser.get(), bytes.data(), static_cast<int>(bytes.size()), XML_TRUE);
-  if (builder.failure) std::rethrow_exception(builder.failure);
-  if (!builder.refusal.empty()) throw InvalidInput(builder.refusal);
-  if (XML_GetErrorCode(parser.get()) == XML_ERROR_NO_MEMORY) throw std::bad_alloc();
-  if (status != XML_STATUS_OK)
-    throw InvalidInput(fmt::format("line {}: {}", line_of(parser.get()),
-                                   XML_ErrorString(XML_GetErrorCode(parser.get()))));
-  return std::move(builder.tree);
+SvgMatch match_svgs(const SvgTree& baseline, const SvgTree& current) {
+  return Matcher(baseline, current).run();
+}
+
+SvgUnits svg_units(const SvgTree& tree) {
+  SvgUnits units;
+  for (const SvgElement& element : tree.elements) {
+    const bool is_root = element.parent < 0;
+    const double outer = is_root ? 1.0 : units.inner[static_cast<std::size_t>(element.parent)];
+    units.outer.push_back(outer);
+    units.inner.push_back(is_root ? root_unit(element)
+                                  : outer * scale_of(value_of(element, "transform")));
+  }
+  return units;
 }
 
 }  // namespace mapproof

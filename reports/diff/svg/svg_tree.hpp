@@ -2,7 +2,6 @@
 
 #include <map>
 #include <string>
-#include <string_view>
 #include <vector>
 
 namespace mapproof {
@@ -29,14 +28,29 @@ struct SvgTree {
   std::string path(int element) const;
 };
 
-inline constexpr std::size_t kMostSvgBytes = std::size_t{1} << 26;
-inline constexpr std::size_t kMostSvgElements = std::size_t{1} << 19;
-inline constexpr std::size_t kMostSvgDepth = 256;
+/// Which elements of two SVG files are the same one.
+struct SvgMatch {
+  std::vector<int> partner;  ///< Of each element of the baseline, in the current file; -1: removed.
+  std::vector<int> back;     ///< The other way; -1: added.
+  std::vector<bool>
+      is_reordered;  ///< Of the baseline: it is drawn before or after others it was not.
+};
 
-/// @throws InvalidInput with the reason if it is not a well-formed SVG or exceeds the limits above,
-/// or
-///         holds what runs or loads something: entities, scripts, event handlers, references to
-///         other files. A DOCTYPE without declarations is allowed and not followed.
-SvgTree parse_svg(std::string_view bytes);
+/// Matches by id where both files have it, on elements of the same name, unless ids only count
+/// ("line2d_7") and to another end; else below matched parents: first equal ones in order, then
+/// what lies between them, so that the least differs. One element that is gone leaves the others
+/// matched.
+/// @note O(n) for files that agree but for little; at most 2^22 pairs of children are compared, the
+///       rest is matched in order alone.
+SvgMatch match_svgs(const SvgTree& baseline, const SvgTree& current);
+
+/// How many pixels (1/96 inch) a user unit is long when a file is drawn in its own size, by
+/// element: viewBox and size of the root, and transforms. A root without a size counts one a unit.
+struct SvgUnits {
+  std::vector<double> outer;  ///< Where the element is placed: its transform moves it by these.
+  std::vector<double> inner;  ///< Within it: of its own geometry and of its children.
+};
+
+SvgUnits svg_units(const SvgTree& tree);
 
 }  // namespace mapproof

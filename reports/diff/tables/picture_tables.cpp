@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include "core/base/words.hpp"
+#include "reports/diff/svg/svg_diff.hpp"
 #include "reports/diff/tables/table_parts.hpp"
 #include "reports/model/format.hpp"
 

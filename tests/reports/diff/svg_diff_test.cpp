@@ -1,6 +1,7 @@
 #include "reports/diff/svg/svg_diff.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <string>
 
 #include <fmt/format.h>
@@ -11,6 +12,7 @@
 #include "render/figures/maps/map.hpp"
 #include "render/plot/layout.hpp"
 #include "render/svg/svg.hpp"
+#include "reports/diff/svg/svg_parser.hpp"
 #include "reports/diff/svg/svg_values.hpp"
 #include "tests/support/sample_figures.hpp"
 
@@ -22,7 +24,7 @@ std::string svg(const std::string& body) {
          body + "</svg>";
 }
 
-SvgDiff diff_of(const std::string& a, const std::string& b, const PictureOptions& options = {}) {
+SvgDiff diff_of(const std::string& a, const std::string& b, const SvgTolerances& options = {}) {
   return svg_diff(parse_svg(a), parse_svg(b), options);
 }
 
@@ -151,9 +153,20 @@ TEST(SvgDiff, ColoursHaveADistance) {
   EXPECT_EQ(found.style, 1);
   EXPECT_DOUBLE_EQ(found.changes.at(0).distance, 4.0);
   EXPECT_FALSE(found.changes[0].tolerated);
-  EXPECT_EQ(diff_of(svg(R"(<g fill="#102030"/>)"), svg(R"(<g fill="#102034"/>)"), {.svg_colour = 4})
+  EXPECT_EQ(diff_of(svg(R"(<g fill="#102030"/>)"), svg(R"(<g fill="#102034"/>)"), {.colour = 4})
                 .tolerated,
             1);
+}
+
+TEST(SvgDiff, TakesNoToleranceBelowZero) {
+  const SvgTree tree = parse_svg(svg(""));
+  EXPECT_THROW(svg_diff(tree, tree, {.distance_px = -0.1}), InvalidInput);
+  EXPECT_THROW(svg_diff(tree, tree, {.colour = std::nan("")}), InvalidInput);
+}
+
+TEST(SvgDiff, AnEmptyRemarkThatIsNewIsListed) {
+  EXPECT_EQ(body_diff("<g/>", "<g data-p=''/>").metadata, 1);
+  EXPECT_EQ(body_diff("<g/>", "<g fill=''/>").total, 0);
 }
 
 TEST(SvgDiff, TextAndRemarksAreToldApart) {
@@ -224,6 +237,41 @@ TEST(SvgParser, RefusesWhatRunsOrLoadsOrBlowsUp) {
     EXPECT_THROW(parse_svg(text), InvalidInput) << text.substr(0, 200);
 }
 
+/// pugixml takes each of these but the last three (docs/decisions/0012).
+TEST(SvgParser, RefusesWhatIsNotWellFormedWithItsLine) {
+  const std::string start = "<svg xmlns='http://www.w3.org/2000/svg'>\n", end = "\n</svg>";
+  for (const std::string& middle : {
+           std::string("<text>&nope;</text>"),
+           std::string("<text>a & b</text>"),
+           std::string("<g x='1' x='2'/>"),
+           std::string("<text>\xC3\x28</text>"),
+           std::string("<g\xFF/>"),
+           std::string("<g xlink:href='#a'/>"),
+           std::string("<g x='a<b'/>"),
+           std::string("<text>\x01</text>"),
+           std::string("<text>&#0;</text>"),
+           std::string("<text>&#xD800;</text>"),
+           std::string("<!-- a -- b -->"),
+           std::string("<text>a ]]> b</text>"),
+           std::string("<g xmlns:xml='urn:x'/>"),
+           std::string("<g></rect>"),
+           std::string("<g x=1/>"),
+           std::string("<1g/>"),
+       }) {
+    std::string said = "nothing";
+    try {
+      parse_svg(start + middle + end);
+    } catch (const InvalidInput& error) {
+      said = error.what();
+    }
+    EXPECT_TRUE(said.starts_with("line 2: ")) << middle << ": " << said;
+  }
+  for (const std::string& text : {start + end + start + end, start + end + "x", "x" + start + end,
+                                  "<!DOCTYPE svg [<!FOO>]>" + start + end,
+                                  "<?xml version='1.0' encoding='foo'?>" + start + end})
+    EXPECT_THROW(parse_svg(text), InvalidInput) << text;
+}
+
 TEST(SvgParser, TakesWhatOtherProgramsWrite) {
   EXPECT_NO_THROW(parse_svg(
       "<?xml version='1.0' standalone='no'?><!DOCTYPE svg PUBLIC '-//W3C//DTD SVG 1.1//EN' "
@@ -234,7 +282,10 @@ TEST(SvgParser, TakesWhatOtherProgramsWrite) {
 
 TEST(SvgValues, NamesOfColoursAreKnown) {
   EXPECT_EQ(css_colour("rebeccapurple"), (std::array<double, 3>{0x66, 0x33, 0x99}));
-  EXPECT_EQ(css_colour("none"), std::nullopt);
+  EXPECT_EQ(css_colour("AliceBlue"), (std::array<double, 3>{0xF0, 0xF8, 0xFF}));
+  EXPECT_EQ(css_colour("yellowgreen"), (std::array<double, 3>{0x9A, 0xCD, 0x32}));
+  for (const char* other : {"none", "", "red blue", "ff0000", "FF0000", "gree", "reen", "green1"})
+    EXPECT_EQ(css_colour(other), std::nullopt) << other;
   EXPECT_EQ(css_colour("#12345"), std::nullopt);
 }
 
