@@ -4,143 +4,181 @@
 
 #include <fmt/format.h>
 
+#include "app/command_line.hpp"
+#include "app/map/option_table.hpp"
 #include "core/base/errors.hpp"
+#include "core/base/input_file.hpp"
 #include "core/base/words.hpp"
+#include "core/missing/filled.hpp"
 
 namespace mapproof {
 namespace {
 
-/// The option that the parameter was given by, and its value; none: the usual value is taken.
-struct GivenParameter {
-  std::string_view option;
-  double value;
-};
-
-/// An option for the parameter of a name, as that of the other methods: "--sigma2".
-struct ParameterOption {
-  std::string_view symbol;
-  std::string_view option;
-  std::optional<double> MapArguments::*value;
-};
-
-constexpr ParameterOption kParameterOptions[] = {{"K", "-K", &MapArguments::neighbours},
-                                                 {"sigma2", "--sigma2", &MapArguments::variance},
-                                                 {"d", "--degree", &MapArguments::degree}};
-
-/// @throws InvalidInput for an option of another method's parameter.
-std::optional<GivenParameter> given_parameter(const MapArguments& arguments,
-                                              const MethodInfo& method) {
-  std::optional<GivenParameter> given;
-  if (arguments.parameter) given = {"--parameter", *arguments.parameter};
-  std::string_view usual;
-  for (const ParameterOption& option : kParameterOptions)
-    if (method.parameter && method.parameter->symbol == option.symbol) usual = option.option;
-  for (const ParameterOption& option : kParameterOptions) {
-    const std::optional<double>& value = arguments.*option.value;
-    if (!value) continue;
-    if (method.parameter && option.option != usual)
-      throw InvalidInput(fmt::format("{}: the method {} has the parameter {}; did you mean {}?",
-                                     option.option, method.name, method.parameter->shown, usual));
-    given = {option.option, *value};
-  }
-  if (given && !method.parameter)
-    throw InvalidInput(fmt::format("{}: the method {} has none", given->option, method.name));
-  return given;
-}
-
-/// The way that range and bearing are mapped has no parameter and no use for other kinds.
-void require_pairs(const MapArguments& arguments) {
-  const bool of_both = arguments.input.kind == kRangeBearing;
-  if (of_both && !arguments.method.empty() && arguments.method != kPairs)
-    throw InvalidInput(
-        fmt::format("--method {}: range and bearing together are mapped by pairs; for others say "
-                    "--sensor range, "
-                    "bearing or visibility",
-                    printable(arguments.method)));
-  if (!of_both && arguments.method == kPairs)
-    throw InvalidInput("--method pairs: it maps observations of --sensor range-bearing");
-  if (of_both &&
-      (arguments.parameter || arguments.neighbours || arguments.variance || arguments.degree))
-    throw InvalidInput("the method pairs has no parameter");
-  if (of_both && arguments.options.missing.way != MissingChoice().way)
-    throw InvalidInput("--missing: pairs that were not measured are not filled in");
-  if (of_both && arguments.options.submaps > 0)
-    throw InvalidInput("--submaps: a map of pairs is made as a whole");
-  if (arguments.options.overlap && arguments.options.submaps == 0)
-    throw InvalidInput("--overlap: it is of sub-maps; add --submaps SIZE");
-  if (!of_both && arguments.input.rigid)
-    throw InvalidInput("--fit rigid: only a map of range and bearing has a scale of its own");
-}
-
-/// Fills in the other sensors' files. @throws InvalidInput for what does not go with them.
-void take_others(MapArguments& arguments) {
-  if (arguments.with.size() != arguments.with_kind.size())
-    throw InvalidInput("--with: each file needs a --with-sensor of its own");
-  for (std::size_t k = 0; k < arguments.with.size(); ++k)
-    arguments.input.others.push_back({arguments.with[k], arguments.with_kind[k]});
-  if (!arguments.input.unsure.empty() &&
-      (arguments.follow || !arguments.with.empty() || arguments.input.kind == kRangeBearing))
-    throw InvalidInput(
-        "--uncertain-ids: of one kind of value that every landmark has at every step; not with "
-        "--follow, --with or range-bearing (see --check-ids)");
-  if (arguments.with.empty()) return;
-  const MapOptions& options = arguments.options;
-  if (arguments.input.kind == kRangeBearing)
-    throw InvalidInput(
-        "--with: range and bearing together are mapped by pairs; name one of them by --sensor");
-  if (options.choose || options.submaps > 0 || options.ellipse_replicates > 0 ||
-      options.missing.way != MissingChoice().way || arguments.follow ||
-      arguments.input.labels.asked())
-    throw InvalidInput(
-        "--with: not with --method auto, --submaps, --ellipses, --missing, --follow or labels that "
-        "are checked");
-}
-
-/// The method, and its parameter if one was given.
-MethodSetting chosen_setting(const MapArguments& arguments) {
-  if (arguments.options.submaps > 0 &&
-      (arguments.options.choose || arguments.options.ellipse_replicates > 0))
-    throw InvalidInput("--submaps: not with --method auto or --ellipses");
-  if (arguments.options.choose) {
-    if (arguments.parameter || arguments.neighbours || arguments.variance || arguments.degree)
-      throw InvalidInput("--method auto chooses the parameter, too; leave it out");
-    return {Method::kIsomap, std::nullopt};
-  }
-  const std::string name = arguments.method.empty() ? "isomap" : lower_case(arguments.method);
-  const std::optional<Method> method = method_named(name);
-  if (!method)
-    throw InvalidInput(fmt::format("--method: unknown method \"{}\"; did you mean \"{}\"?",
-                                   printable(arguments.method),
-                                   nearest_method_name(arguments.method)));
-  const std::optional<GivenParameter> given = given_parameter(arguments, info(*method));
-  if (!given) return {*method, std::nullopt};
-  const ParameterInfo& parameter = *info(*method).parameter;
+/// The method, and its parameter if one was given. @throws InvalidInput for an unknown method, or a
+/// parameter out of its bounds.
+MethodSetting chosen_setting(const MapJob& job) {
+  if (job.chooses_method()) return {Method::kIsomap, std::nullopt};
+  const Method method = *method_of(job);
+  const std::optional<GivenParameter> given = given_parameter(job);
+  if (!given) return {method, std::nullopt};
+  const ParameterInfo& parameter = *info(method).parameter;
   if (!(given->value >= parameter.minimum && given->value <= parameter.maximum) ||
       (parameter.integer && given->value != std::floor(given->value)))
     throw InvalidInput(fmt::format(
         "{}: {} = {:g} is not {} from {:g} to {:g}", given->option, parameter.shown, given->value,
         parameter.integer ? "an integer" : "a number", parameter.minimum, parameter.maximum));
-  return {*method, given->value};
+  return {method, given->value};
+}
+
+/// Opens the observations, and looks into them for their kind where that was not given:
+/// range-bearing of detections. @throws IoError if they cannot be read.
+void open_observations(MapJob& job) {
+  if (is_folder(job.path)) return;
+  job.source = std::make_shared<ByteSource>(job.path);
+  if (job.kind.empty() && job.table_layout() == Layout::kAuto && is_detections(*job.source))
+    job.kind = kRangeBearing;
+}
+
+/// What is mapped, where to, and by which method.
+void add_method_options(CLI::App& app, MapJob& job) {
+  app.add_option("OBSERVATIONS", job.path, "File or folder")->required();
+  add_out_option(app, job.out, "Folder for map, figure and report")->required();
+  app.add_option(
+      "--method", job.method,
+      "The embedding method, see \"mapproof methods\" (default: isomap; pairs for range-bearing). "
+      "auto: the best one, judged without ground truth");
+  CLI::Option_group* parameter =
+      app.add_option_group("Parameter of the method", "One of these, see \"mapproof methods\"");
+  parameter->require_option(0, 1);
+  parameter->add_option("--parameter", job.parameter, "The parameter, whatever the method");
+  parameter->add_option("-K,--neighbours", job.neighbours,
+                        "Number of nearest neighbours (default: 6, or what there can be)");
+  parameter->add_option("--sigma2", job.variance,
+                        "Variance of the Gaussian kernel (default: the median squared distance)");
+  parameter->add_option("--degree", job.degree, "Degree of the polynomial kernel (default: 2)");
+}
+
+/// What was observed, and what is known of it.
+void add_observation_options(CLI::App& app, MapJob& job) {
+  app.add_option(
+         "--sensor", job.kind,
+         "What the values are: visibility (0/1), bearing [rad], range [m], or range-bearing; "
+         "needed for CSV but detections")
+      ->check(CLI::IsMember({"visibility", "bearing", "range", "range-bearing"}));
+  app.add_option(
+         "--with", job.with,
+         "Observations of the same landmarks by another sensor, for one joint map. Landmarks "
+         "are matched by name; the steps may differ")
+      ->take_all();
+  app.add_option("--with-sensor", job.with_kind, "The sensor of each --with")
+      ->check(CLI::IsMember({"visibility", "bearing", "range"}))
+      ->take_all();
+  app.add_flag("--degrees", job.degrees, "Bearings in CSV files are in degrees");
+  app.add_option("--layout", job.layout, "Layout of a CSV file")
+      ->check(CLI::IsMember({"auto", "wide", "long"}))
+      ->capture_default_str();
+  app.add_option("--anchors", job.anchors,
+                 "Known positions of three or more landmarks: CSV with name, x [m], y [m]");
+  app.add_option("--ground-truth,--truth", job.truth,
+                 "True positions, to compute errors: CSV as for --anchors");
+  app.add_option("--steps", job.steps, "Use only the first N steps")->check(CLI::Range(1, 1000000));
+  app.add_option(
+         "--fit", job.fit,
+         "How to fit the map to the anchors by an affine map. rigid: a map of range-bearing "
+         "keeps its scale and shape")
+      ->check(CLI::IsMember({"least-distances", "least-squares", "rigid"}))
+      ->capture_default_str();
+  app.add_flag("--drop-unseen", job.drop_unseen, "Leave out landmarks that were never observed");
+  app.add_flag("--only-seen-together", job.embedder.only_seen_together,
+               "Visibility: no edge of the graph joins landmarks that were never seen together");
+}
+
+/// Missing data, sub-maps, ellipses.
+void add_capability_options(CLI::App& app, MapJob& job) {
+  app.add_option(
+         "--missing", job.missing,
+         "Strategy for missing data: distances over common steps, entries filled in by PPCA "
+         "or PCA, or distances of covisible landmarks alone. auto: by the pattern of what "
+         "is missing")
+      ->check(CLI::IsMember(missing_ways()))
+      ->capture_default_str();
+  app.add_option("--dimensions", job.dimensions,
+                 "Dimensions of PPCA and PCA (default: 10, or one fewer than landmarks)")
+      ->check(CLI::Range(1, 1000));
+  app.add_option("--submaps", job.submaps,
+                 "Map overlapping groups of at most N landmarks separately, and join them")
+      ->check(CLI::Range(6, 5000));
+  app.add_option("--overlap", job.overlap,
+                 "Share of each sub-map that it has from its neighbours (default: 0.5)")
+      ->check(CLI::Range(0.0, 0.8));
+  app.add_option("--ellipses", job.ellipse_replicates,
+                 "Draw the 95 % confidence ellipse of each landmark, from N bootstrap resamples of "
+                 "the steps (default: 200)")
+      ->expected(0, 1)
+      ->default_str("200")
+      ->check(CLI::Range(10, 10000));
+}
+
+/// Files that grow, landmark IDs, templates.
+void add_incremental_options(CLI::App& app, MapJob& job) {
+  app.add_flag(
+      "--follow", job.follow,
+      "Read long CSV or detections while the file grows (-: standard input), and update map "
+      "and figure until it ends, or until SIGINT or SIGTERM. Not with --method auto, "
+      "--ellipses, --missing, --submaps, --steps, --drop-unseen, --check-ids or "
+      "--repair-ids");
+  app.add_option("--every", job.every,
+                 "With --follow: update after so many steps (100) or seconds (2s)")
+      ->capture_default_str();
+  app.add_flag(
+      "--check-ids", job.check_ids,
+      "Range and bearing: report landmark IDs that contradict the others, or the known positions");
+  app.add_flag("--repair-ids", job.repair_ids, "Correct these IDs before mapping");
+  app.add_flag("--find-moved", job.find_moved,
+               "Range and bearing: report landmarks that moved, and map both positions. With "
+               "--follow, as soon as a move is significant");
+  app.add_option(
+         "--uncertain-ids", job.uncertain_ids,
+         "Landmark IDs that may be confused with one another, a,b,...: their data association "
+         "is estimated together with the map, as that of the landmark ? in long CSV")
+      ->delimiter(',');
+  app.add_option("--templates", job.templates, "Folder whose templates replace the embedded ones")
+      ->check(names_folder());
 }
 
 }  // namespace
 
-void settle(MapArguments& arguments) {
-  MapInput& input = arguments.input;
-  input.layout = arguments.layout == "wide"   ? Layout::kWide
-                 : arguments.layout == "long" ? Layout::kLong
-                                              : Layout::kAuto;
-  input.unit = arguments.degrees ? AngleUnit::kDegrees : AngleUnit::kRadians;
-  input.rigid = arguments.fit == "rigid";
-  if (input.kind.empty() && arguments.method == kPairs) input.kind = kRangeBearing;
-  arguments.options.choose = lower_case(arguments.method) == "auto";
+bool MapJob::chooses_method() const { return lower_case(method) == "auto"; }
+
+AffineFit MapJob::affine_fit() const {
+  return fit == "least-squares" ? AffineFit::kLeastSquares : AffineFit::kLeastDistances;
+}
+
+Layout MapJob::table_layout() const {
+  return layout == "wide" ? Layout::kWide : layout == "long" ? Layout::kLong : Layout::kAuto;
+}
+
+std::vector<std::string> missing_ways() {
+  return {std::string(name(Filling::kCommonSteps)), std::string(name(Filling::kPpca)),
+          std::string(name(Filling::kPca)), "covisible", "auto"};
+}
+
+void add_map_options(CLI::App& app, MapJob& job) {
+  add_method_options(app, job);
+  add_observation_options(app, job);
+  add_capability_options(app, job);
+  add_incremental_options(app, job);
+}
+
+void settle(MapJob& job) {
+  if (job.kind.empty() && job.method == kPairs) job.kind = kRangeBearing;
   // What grows cannot be looked into first.
-  if (!arguments.follow) open_observations(input);
-  take_others(arguments);
-  require_pairs(arguments);
-  if (input.kind != kRangeBearing) arguments.options.setting = chosen_setting(arguments);
-  arguments.options.fit =
-      arguments.fit == "least-squares" ? AffineFit::kLeastSquares : AffineFit::kLeastDistances;
+  if (!job.follow) open_observations(job);
+  require_known_method(job);
+  require_compatible(job);
+  if (!job.is_range_bearing()) job.setting = chosen_setting(job);
+  job.known_anchors = read_points(job.anchors);
+  job.known_truth = read_points(job.truth);
 }
 
 }  // namespace mapproof

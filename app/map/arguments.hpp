@@ -1,39 +1,88 @@
 #pragma once
 
+#include <functional>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
 
-#include "app/map/observations.hpp"
-#include "core/records/observations/landmarks_csv.hpp"
+#include <CLI/CLI.hpp>
+
+#include "app/map/reference.hpp"
+#include "core/base/byte_source.hpp"
+#include "core/embed/embedder.hpp"
+#include "core/model/experiment.hpp"
+#include "core/model/map_record.hpp"
+#include "core/records/observations/detections.hpp"
+#include "core/records/observations/observations.hpp"
 
 namespace mapproof {
 
-/// What `mapproof map` was told.
-struct MapArguments {
-  std::string out;
-  std::vector<std::string> with;       ///< Files of other sensors,
-  std::vector<std::string> with_kind;  ///< and what each holds.
-  std::string method;                  ///< Empty: isomap, or pairs of range and bearing.
-  MapInput input;
+/// What `mapproof map` is asked for: the words of the command line, and what settle() makes of
+/// them. Which of them go together stands in option_table.
+struct MapJob {
+  std::string path;                         ///< Of the observations.
+  std::shared_ptr<ByteSource> source = {};  ///< Opened by settle(); none: the path is a folder.
+  std::string kind;  ///< A sensor's name, kRangeBearing, or empty: as the file says.
   std::string layout = "auto";
   bool degrees = false;
+  std::vector<std::string> with;       ///< Files of other sensors,
+  std::vector<std::string> with_kind;  ///< and what each holds.
   std::string anchors;
   std::string truth;
+  int steps = 0;             ///< The first so many observations; 0: all.
+  bool drop_unseen = false;  ///< Map the others where a landmark was never observed.
   std::string fit = "least-distances";
+
+  std::string method;               ///< Empty: isomap, or pairs of range and bearing.
   std::optional<double> parameter;  ///< One of these four.
   std::optional<double> neighbours;
   std::optional<double> variance;
   std::optional<double> degree;
-  std::optional<std::string> templates;
+  EmbedderOptions embedder;
+
+  std::string missing = "common-steps";  ///< One of missing_ways().
+  std::optional<int> dimensions;         ///< Of PPCA or PCA.
+  int submaps = 0;                       ///< Most landmarks of a sub-map, 6 or more; 0: one map.
+  std::optional<double> overlap;  ///< Share that a sub-map borrows, in [0, 0.8]; empty: the usual.
+  int ellipse_replicates = 0;     ///< Resamples for each landmark's ellipse; 0: none.
+  bool check_ids = false;
+  bool repair_ids = false;
+  bool find_moved = false;
+  std::vector<std::string> uncertain_ids;
+
   bool follow = false;
   std::string every = "1s";
-  MapOptions options;
+  std::string out;
+  std::optional<std::string> templates;
+
+  MethodSetting setting;  ///< Without a parameter: the usual one of these data.
+  std::optional<NamedPointsFile> known_anchors;
+  std::optional<NamedPointsFile> known_truth;
+  /// Asked before anything is computed, of what is known of the map by then; may throw. Its setting
+  /// lacks what is not known yet: a usual parameter.
+  std::function<void(const MapRecord&)> begin = {};
+
+  bool is_range_bearing() const { return kind == kRangeBearing; }
+  bool chooses_method() const;
+  bool judges_ids() const { return check_ids || repair_ids || find_moved; }
+  bool is_rigid() const { return fit == "rigid"; }
+  AffineFit affine_fit() const;
+  Layout table_layout() const;
+  AngleUnit unit() const { return degrees ? AngleUnit::kDegrees : AngleUnit::kRadians; }
 };
 
-/// Fills in what the words ask for: input, options and setting. Unless the file is followed, it is
-/// opened, and looked into where nothing says what it holds.
-/// @throws InvalidInput for what does not go together; IoError if the file cannot be read.
-void settle(MapArguments& arguments);
+/// "common-steps", "ppca", "pca", "covisible", "auto": strategies for missing data.
+std::vector<std::string> missing_ways();
+
+/// Adds all options of `map` to its command; they fill in the job.
+void add_map_options(CLI::App& app, MapJob& job);
+
+/// Makes a job of the words: unless the file is followed, opens it and looks into it where nothing
+/// says what it holds; checks what goes together, and method and parameter; reads anchors and
+/// truth.
+/// @throws InvalidInput for what does not go together, or an unknown method or parameter; IoError
+///         if a file cannot be read.
+void settle(MapJob& job);
 
 }  // namespace mapproof

@@ -1,10 +1,9 @@
-#include "app/map/data_association.hpp"
-
 #include <algorithm>
 #include <cmath>
 
 #include <fmt/format.h>
 
+#include "app/map/pipeline.hpp"
 #include "core/base/csv.hpp"
 #include "core/base/errors.hpp"
 #include "core/base/words.hpp"
@@ -12,6 +11,25 @@
 
 namespace mapproof {
 namespace {
+
+constexpr std::string_view kLabelsFile = "labels.csv";
+
+/// Whose a reading was found to be.
+struct AssignedReading {
+  double step = 0.0;     ///< Number of the step, as the file has it, or the column from 0.
+  std::size_t line = 0;  ///< Of the file; 0: not known.
+  std::string given;     ///< The label in the file: "?" if it had none.
+  std::string found;     ///< The landmark.
+  double value = 0.0;    ///< As the history has it: rad, m, or 0 and 1.
+  bool clear = false;    ///< No exchange within its step would be nearly as likely.
+};
+
+/// What came of estimating labels.
+struct EstimatedLabels {
+  std::vector<AssignedReading> readings;  ///< Of unlabelled ones all, of unsure ones the changed.
+  std::vector<std::string> remarks;
+  std::vector<std::string> warnings;
+};
 
 using Mask = Eigen::Array<bool, Eigen::Dynamic, Eigen::Dynamic>;
 using Lines = Eigen::Array<Eigen::Index, Eigen::Dynamic, Eigen::Dynamic>;
@@ -141,11 +159,14 @@ void report(const ObservationSource& source, const Mask& doubtful, const Corresp
         listed(names, 10)));
 }
 
-}  // namespace
-
+/// Finds, together with the map, whose the readings without a label are, and those under labels
+/// that are confused with one another (see estimated_correspondence), and puts them in their place.
+/// @param unsure  Labels any of whose readings may be of any other of them; empty: none.
+/// @throws IoError naming the line or the step for what cannot be estimated: an entry that is
+///         missing though there is no reading for it, more readings than landmarks without one,
+///         a label that is not there; or for fewer than two unsure labels.
 EstimatedLabels estimate_labels(ObservationSource& source, const std::vector<std::string>& unsure) {
   EstimatedLabels labels;
-  if (source.unlabelled.empty() && unsure.empty()) return labels;
   Dealt dealt = deal(source);
   require_complete(source);
   if (source.history.landmarks() < 3)
@@ -159,6 +180,7 @@ EstimatedLabels estimate_labels(ObservationSource& source, const std::vector<std
   return labels;
 }
 
+/// RFC 4180: step,line,given,landmark,value,clear.
 std::string labels_csv(const EstimatedLabels& labels) {
   std::string csv = "step,line,given,landmark,value,clear\r\n";
   for (const AssignedReading& one : labels.readings)
@@ -167,5 +189,20 @@ std::string labels_csv(const EstimatedLabels& labels) {
                        csv_field(one.found), csv_number(one.value), one.clear ? 1 : 0);
   return csv;
 }
+
+MapDraft associate(MapDraft draft, const MapJob& job) {
+  auto* source = std::get_if<ObservationSource>(&draft.observed);
+  if (source == nullptr || (source->unlabelled.empty() && job.uncertain_ids.empty())) return draft;
+  const EstimatedLabels labels = estimate_labels(*source, job.uncertain_ids);
+  MapResult& result = draft.result;
+  result.remarks.insert(result.remarks.end(), labels.remarks.begin(), labels.remarks.end());
+  result.warnings.insert(result.warnings.end(), labels.warnings.begin(), labels.warnings.end());
+  result.files.push_back({std::string(kLabelsFile), labels_csv(labels)});
+  return draft;
+}
+
+}  // namespace
+
+const MapStep kDataAssociation{.take = associate, .file = kLabelsFile};
 
 }  // namespace mapproof

@@ -1,11 +1,14 @@
 #pragma once
 
+#include <memory>
 #include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
 
-#include "app/map/one_sensor.hpp"
+#include "app/map/alignment.hpp"
+#include "app/map/map_result.hpp"
+#include "app/map/reference.hpp"
 #include "core/follow/incremental_map.hpp"
 #include "core/model/sensor.hpp"
 #include "core/records/observations/detections.hpp"
@@ -20,8 +23,7 @@ struct FollowedTable {
   FollowOptions options = {};                   ///< Of one sensor.
   std::optional<NamedPointsFile> anchors = {};  ///< Fitted to once three of them are on the map.
   std::optional<NamedPointsFile> truth = {};    ///< For scores, of what is known of it so far.
-  AffineFit fit = AffineFit::kLeastDistances;
-  bool rigid = false;       ///< Range and bearing: turn and shift alone.
+  FrameFit fit = {};
   bool find_moved = false;  ///< Range and bearing: notice landmarks that moved.
 };
 
@@ -47,5 +49,17 @@ class Follower {
   /// The map of all there was, with all that is to be said of it.
   virtual MapResult last_update() = 0;
 };
+
+/// Follows a long table of one sensor.
+std::unique_ptr<Follower> value_follower(const FollowedTable& table);
+
+/// Follows detections of range and bearing.
+std::unique_ptr<Follower> pair_follower(const FollowedTable& table);
+
+/// Follows a table of ranges that are taken together: step or time, landmark, range in metres. Each
+/// update is the spectral map (core/range_slam/factors/online) of all steps so far that have a
+/// range to every landmark of the first one. From four anchors on the map is that of known
+/// landmarks. `sensor` and `options` of the table do not count.
+std::unique_ptr<Follower> range_follower(const FollowedTable& table);
 
 }  // namespace mapproof

@@ -1,13 +1,22 @@
 #include "app/map/incremental_map.hpp"
 
+#include <poll.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <array>
+#include <cerrno>
 #include <chrono>
 #include <cmath>
+#include <csignal>
+#include <cstring>
 #include <memory>
 
 #include <fmt/format.h>
 
-#include "app/map/growing_file.hpp"
+#include "core/base/descriptor.hpp"
 #include "core/base/errors.hpp"
+#include "core/base/input_file.hpp"
 #include "core/base/unpacker.hpp"
 #include "core/json/text_input.hpp"
 
@@ -17,6 +26,107 @@ namespace {
 using Clock = std::chrono::steady_clock;
 
 constexpr double kWait_s = 0.2;  ///< Between two looks at a file that does not grow.
+
+volatile std::sig_atomic_t g_asked = 0;
+
+extern "C" void ask_to_end(int) { g_asked = 1; }
+
+/// A file that others write to while it is read, a pipe or a device.
+class GrowingFile {
+ public:
+  /// @param path  "-": standard input. @throws IoError if it cannot be opened.
+  explicit GrowingFile(const std::string& path);
+
+  enum class State {
+    kMore,      ///< Bytes came.
+    kNothing,   ///< None now; there may be more.
+    kEnd,       ///< There will be none: a pipe was closed.
+    kReplaced,  ///< The file was cut short, removed or replaced by another: what follows is none
+                ///< of it.
+  };
+
+  /// Reads what is there, at most 64 KiB. Waits for a pipe up to `seconds`, for a signal less.
+  /// @throws IoError if it cannot be read.
+  State read(std::string& bytes, double seconds);
+
+  const std::string& name() const { return name_; }
+
+ private:
+  bool replaced() const;
+
+  std::string path_;
+  std::string name_;
+  Descriptor file_;
+  bool regular_ = false;
+  long long at_ = 0;
+};
+
+/// Takes SIGINT and SIGTERM as long as it lives: they ask to end, instead of ending the program.
+class EndSignals {
+ public:
+  EndSignals();
+  ~EndSignals();
+  EndSignals(const EndSignals&) = delete;
+  EndSignals& operator=(const EndSignals&) = delete;
+
+  bool asked() const;
+
+ private:
+  struct sigaction interrupt_;
+  struct sigaction terminate_;
+};
+
+GrowingFile::GrowingFile(const std::string& path)
+    : path_(path), name_(input_name(path)), file_(open_followed(path)) {
+  struct stat status {};
+  if (::fstat(file_.get(), &status) != 0) throw IoError(name_, std::strerror(errno));
+  regular_ = S_ISREG(status.st_mode);
+}
+
+GrowingFile::State GrowingFile::read(std::string& bytes, double seconds) {
+  bytes.clear();
+  pollfd wait{.fd = file_.get(), .events = POLLIN, .revents = 0};
+  // A regular file is always ready: only others are waited for here.
+  if (!regular_ && ::poll(&wait, 1, static_cast<int>(std::ceil(1000.0 * seconds))) <= 0)
+    return State::kNothing;
+  std::array<char, 65536> buffer;
+  const ssize_t count = ::read(file_.get(), buffer.data(), buffer.size());
+  if (count < 0 && (errno == EINTR || errno == EAGAIN)) return State::kNothing;
+  if (count < 0) throw IoError(name_, std::strerror(errno));
+  at_ += count;
+  bytes.assign(buffer.data(), static_cast<std::size_t>(count));
+  if (count > 0) return State::kMore;
+  if (!regular_) return State::kEnd;
+  if (replaced()) return State::kReplaced;
+  // Standard input that is a file does not grow for us: it ends here.
+  if (path_ == "-") return State::kEnd;
+  ::poll(nullptr, 0, static_cast<int>(std::ceil(1000.0 * seconds)));
+  return State::kNothing;
+}
+
+bool GrowingFile::replaced() const {
+  struct stat here {
+  }, there{};
+  if (::fstat(file_.get(), &here) != 0 || here.st_size < at_) return true;
+  if (path_ == "-") return false;
+  return ::stat(path_.c_str(), &there) != 0 || here.st_ino != there.st_ino ||
+         here.st_dev != there.st_dev;
+}
+
+EndSignals::EndSignals() {
+  g_asked = 0;
+  struct sigaction ask {};
+  ask.sa_handler = ask_to_end;
+  ::sigaction(SIGINT, &ask, &interrupt_);
+  ::sigaction(SIGTERM, &ask, &terminate_);
+}
+
+EndSignals::~EndSignals() {
+  ::sigaction(SIGINT, &interrupt_, nullptr);
+  ::sigaction(SIGTERM, &terminate_, nullptr);
+}
+
+bool EndSignals::asked() const { return g_asked != 0; }
 
 /// Whether it is time for an update.
 class Due {
@@ -41,6 +151,69 @@ class Due {
   Clock::time_point last_ = Clock::now();
 };
 
+/// A file that is followed, and what came of it so far.
+struct FollowedFile {
+  GrowingFile file;
+  Unpacker unpacker;
+  std::unique_ptr<Follower> follower;
+  std::vector<std::string> remarks = {};  ///< On how it ended.
+};
+
+/// Takes in what comes, and calls `update` whenever it is time.
+/// @return Whether the file came to its end; else it was replaced, or a signal came.
+template <typename Update>
+bool follow_to_end(FollowedFile& followed, const FollowInterval& every, const EndSignals& signals,
+                   const Update& update) {
+  Due due(every);
+  std::string bytes;
+  while (!signals.asked()) {
+    const GrowingFile::State state = followed.file.read(bytes, kWait_s);
+    if (state == GrowingFile::State::kEnd) return true;
+    if (state == GrowingFile::State::kReplaced) {
+      followed.remarks.push_back(
+          followed.file.name() +
+          " was cut short, removed or replaced: the map is that of what was read "
+          "before. Start again to follow the new file.");
+      return false;
+    }
+    followed.follower->take(followed.unpacker.take(bytes));
+    if (!due.after(followed.follower->take_steps())) continue;
+    update(followed.follower->update());
+    due.done();
+  }
+  return false;
+}
+
+/// Takes in the rest. @throws IoError if there were no observations at all.
+void take_rest(FollowedFile& followed, bool ended) {
+  Follower& follower = *followed.follower;
+  if (ended) {
+    followed.unpacker.end();
+    follower.take(followed.unpacker.take({}));
+  }
+  const bool is_cut = followed.unpacker.is_cut();
+  if (ended && is_cut)
+    followed.remarks.push_back(
+        fmt::format("{} is {}'ed and stops before its end: the map is of what there was.",
+                    followed.file.name(), followed.unpacker.packing()));
+  if (!ended || is_cut) follower.drop_half_line();
+  follower.end();
+  follower.take_steps();
+  if (follower.steps() == 0) throw IoError(followed.file.name(), "held no observations");
+}
+
+/// The map of all there was, explained.
+MapResult last_map(FollowedFile& followed) {
+  MapResult last = followed.follower->last_update();
+  last.remarks.insert(last.remarks.begin(), followed.remarks.begin(), followed.remarks.end());
+  last.facts = {{"Observations", followed.file.name()},
+                {"Sensor", sensor_label(last.record)},
+                {"Landmarks", std::to_string(last.record.names.size())},
+                {"Steps followed", std::to_string(last.record.step)},
+                {"Method", method_label(last.record)}};
+  return last;
+}
+
 }  // namespace
 
 FollowInterval follow_interval(const std::string& text) {
@@ -55,51 +228,26 @@ FollowInterval follow_interval(const std::string& text) {
                  : FollowInterval{.steps = static_cast<long>(*number), .seconds = 0.0};
 }
 
-MapResult follow_map(const FollowOrder& order, const Console& console, const WriteFollowed& write) {
+int write_followed(const FollowOrder& order, const MapPlace& place, const Invocation& invocation) {
+  const MapFolder folder(place.out);
+  const Console& console = invocation.console;
   const EndSignals signals;
-  GrowingFile file(order.path);
-  Unpacker unpacker(file.name());
+  FollowedFile followed{.file = GrowingFile(order.path),
+                        .unpacker = Unpacker(input_name(order.path)),
+                        .follower = nullptr};
   FollowedTable table = order.table;
-  table.source = file.name();
-  const std::unique_ptr<Follower> follower = order.follower(table);
-  Due due(order.every);
-  std::vector<std::string> remarks;
-  std::string bytes;
-  bool ended = false;
-  while (!signals.asked()) {
-    const GrowingFile::State state = file.read(bytes, kWait_s);
-    ended = state == GrowingFile::State::kEnd;
-    if (ended) break;
-    if (state == GrowingFile::State::kReplaced) {
-      remarks.push_back(file.name() +
-                        " was cut short, removed or replaced: the map is that of what was read "
-                        "before. Start again to follow the new file.");
-      break;
-    }
-    follower->take(unpacker.take(bytes));
-    if (!due.after(follower->take_steps())) continue;
-    const MapResult map = follower->update();
-    write(map, false);
+  table.source = followed.file.name();
+  followed.follower = order.follower(table);
+  const bool ended = follow_to_end(followed, order.every, signals, [&](const MapResult& map) {
+    write_map(folder, place, map, false);
     for (const std::string& remark : map.remarks) console.warning(remark);
     console.detail(fmt::format("{} steps, {} landmarks", map.record.step, map.record.names.size()));
-    due.done();
-  }
-  if (ended) {
-    unpacker.end();
-    follower->take(unpacker.take({}));
-  }
-  if (ended && unpacker.is_cut())
-    remarks.push_back(
-        fmt::format("{} is {}'ed and stops before its end: the map is of what there was.",
-                    file.name(), unpacker.packing()));
-  if (!ended || unpacker.is_cut()) follower->drop_half_line();
-  follower->end();
-  follower->take_steps();
-  if (follower->steps() == 0) throw IoError(file.name(), "held no observations");
-  MapResult last = follower->last_update();
-  last.remarks.insert(last.remarks.begin(), remarks.begin(), remarks.end());
-  write(last, true);
-  return last;
+  });
+  take_rest(followed, ended);
+  const MapResult last = last_map(followed);
+  write_map(folder, place, last);
+  for (const std::string& remark : last.remarks) console.warning(remark);
+  return report_map(last, place, invocation);
 }
 
 }  // namespace mapproof

@@ -1,11 +1,11 @@
 #pragma once
 
-#include <functional>
 #include <memory>
 #include <string>
 
-#include "app/console.hpp"
+#include "app/command_line.hpp"
 #include "app/map/incremental.hpp"
+#include "app/map/outputs.hpp"
 
 namespace mapproof {
 
@@ -26,15 +26,14 @@ struct FollowOrder {
   FollowInterval every;
 };
 
-/// What is written after an update; `last`: no other comes.
-using WriteFollowed = std::function<void(const MapResult& map, bool last)>;
-
-/// Follows a growing file to its end, or to SIGINT or SIGTERM, and writes its map again and again.
-/// A file that is cut short or replaced ends it, too, with a remark. Without anchors each map is
-/// aligned to the one before, so that it does not jump. What is noticed meanwhile goes to the
-/// console.
-/// @return The last map.
-/// @throws IoError for what cannot be read.
-MapResult follow_map(const FollowOrder& order, const Console& console, const WriteFollowed& write);
+/// Follows a growing file to its end, or to SIGINT or SIGTERM, and writes its map again and again:
+/// map.json, map.csv and the figure after every update, each at once, and tables and report after
+/// the last. A file that is cut short or replaced ends it, too, with a remark. Without anchors each
+/// map is aligned to the one before, so that it does not jump. What is noticed meanwhile goes to
+/// the console. The folder is locked meanwhile; a map that was there is replaced.
+/// @return The command's exit code.
+/// @throws IoError for what cannot be read, or if the folder holds something else, or another
+///         process writes there.
+int write_followed(const FollowOrder& order, const MapPlace& place, const Invocation& invocation);
 
 }  // namespace mapproof

@@ -102,6 +102,10 @@ void check_may_become(const fs::path& folder, const MapRecord& map, bool any_met
   refuse_other(folder, there, here);
 }
 
+MapFolder::MapFolder(const fs::path& folder) : path_(folder), lock_(made_map_folder(folder)) {
+  remove_leftovers(folder);
+}
+
 MapFolder::MapFolder(const fs::path& folder, const MapRecord& map)
     : path_(folder), lock_(made_map_folder(folder)) {
   check_same_map(folder, map);

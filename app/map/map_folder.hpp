@@ -31,7 +31,9 @@ void check_may_become(const std::filesystem::path& folder, const MapRecord& map,
 /// left behind.
 class MapFolder {
  public:
-  /// @throws IoError as the checks above, or if another process writes there.
+  /// For any map. @throws IoError as check_map_folder(), or if another process writes there.
+  explicit MapFolder(const std::filesystem::path& folder);
+  /// For this one. @throws IoError as the checks above, or if another process writes there.
   MapFolder(const std::filesystem::path& folder, const MapRecord& map);
 
   const std::filesystem::path& path() const { return path_; }

@@ -1,15 +1,36 @@
-#include "app/map/method_choice.hpp"
-
 #include <algorithm>
 #include <cmath>
 
 #include <fmt/format.h>
 
+#include "app/map/pipeline.hpp"
 #include "app/result_json.hpp"
 #include "core/base/words.hpp"
+#include "core/choice/judged_maps.hpp"
 
 namespace mapproof {
 namespace {
+
+/// What `--method auto` compared, and by what it picked.
+struct MethodChoice {
+  std::vector<JudgedMap> maps;     ///< All candidates.
+  Criterion criterion;             ///< That the pick is the best by.
+  std::vector<std::size_t> order;  ///< Rows of `maps` that gave a map, best first.
+};
+
+/// Judges the usual candidates for the first `steps` observations, by the criterion that picks best
+/// with anchors, or without.
+/// @param options  Its settings are filled in here.
+MethodChoice choose_method(const ObservationHistory& history, Eigen::Index steps,
+                           const CertaintyFrame& frame, ChoiceOptions options) {
+  const HistoryEmbedder usual(history, steps, options.embedder, options.rule);
+  options.settings = usual_candidates(usual, history.landmarks());
+  const MapJudge judge(history, steps, options);
+  MethodChoice choice{
+      .maps = judge.in(frame), .criterion = usual_criterion(!frame.anchors.empty()), .order = {}};
+  choice.order = ranked(choice.maps, choice.criterion);
+  return choice;
+}
 
 bool told(const MethodChoice& choice, Criterion criterion) {
   return std::ranges::any_of(choice.maps, [&](const JudgedMap& map) {
@@ -42,19 +63,7 @@ Table ranking_table(const MethodChoice& choice) {
   return table;
 }
 
-}  // namespace
-
-MethodChoice choose_method(const ObservationHistory& history, Eigen::Index steps,
-                           const CertaintyFrame& frame, ChoiceOptions options) {
-  const HistoryEmbedder usual(history, steps, options.embedder, options.rule);
-  options.settings = usual_candidates(usual, history.landmarks());
-  const MapJudge judge(history, steps, options);
-  MethodChoice choice{
-      .maps = judge.in(frame), .criterion = usual_criterion(!frame.anchors.empty()), .order = {}};
-  choice.order = ranked(choice.maps, choice.criterion);
-  return choice;
-}
-
+/// The ranking as a table, and in words what was done.
 Section choice_section(const MethodChoice& choice) {
   const CriterionInfo& criterion = info(choice.criterion);
   Section section{"choice", "Why this method", {}};
@@ -66,6 +75,7 @@ Section choice_section(const MethodChoice& choice) {
   return section;
 }
 
+/// The same for --json: criterion, and method, parameter and values of each candidate.
 nlohmann::ordered_json choice_json(const MethodChoice& choice) {
   nlohmann::ordered_json candidates = nlohmann::ordered_json::array();
   for (const std::size_t m : choice.order) {
@@ -79,5 +89,21 @@ nlohmann::ordered_json choice_json(const MethodChoice& choice) {
   }
   return {{"criterion", info(choice.criterion).name}, {"candidates", std::move(candidates)}};
 }
+
+MapDraft choose(MapDraft draft, const MapJob& job) {
+  if (!job.chooses_method()) return draft;
+  const MethodChoice choice = choose_method(
+      std::get<ObservationSource>(draft.observed).history, draft.result.record.step,
+      {draft.reference.positions_m, draft.reference.anchors},
+      {.embedder = job.embedder, .rule = draft.distances.of_others, .fit = job.affine_fit()});
+  if (!choice.order.empty()) draft.setting = choice.maps[choice.order.front()].setting;
+  draft.result.sections.push_back(choice_section(choice));
+  draft.result.members.push_back({"choice", choice_json(choice)});
+  return draft;
+}
+
+}  // namespace
+
+const MapStep kMethodChoice{choose};
 
 }  // namespace mapproof

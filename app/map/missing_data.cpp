@@ -1,10 +1,8 @@
-#include "app/map/missing_data.hpp"
-
 #include <algorithm>
 
 #include <fmt/format.h>
 
-#include "core/base/errors.hpp"
+#include "app/map/pipeline.hpp"
 #include "core/base/words.hpp"
 #include "core/missing/covisible.hpp"
 #include "core/missing/filled.hpp"
@@ -22,20 +20,19 @@ Eigen::Index infinite_pairs(const Proximities& proximities) {
   return (!proximities.squared_distances.array().isFinite()).count() / 2;
 }
 
-ProximityRule covisible_rule(MissingOutcome& outcome) {
-  return [&outcome](const ObservationHistory& history, Eigen::Index steps) {
+ProximityRule covisible_rule(const std::shared_ptr<DistanceNotes>& notes) {
+  return [notes](const ObservationHistory& history, Eigen::Index steps) {
     const CovisibleOptions options;
-    if (!outcome.told)
-      outcome.remarks.push_back(
+    if (notes->remarks.empty())
+      notes->remarks.push_back(
           fmt::format("Distances are those of landmarks often observed together: the {} of each "
                       "that share most "
                       "of its steps, {} or more of them; others take the shortest path.",
                       options.neighbours, options.least_common));
-    outcome.told = true;
     Proximities result = covisible_proximities(history, steps, options);
     const Eigen::Index left_out = infinite_pairs(result);
     if (left_out > 0)
-      outcome.completed = status_of<StatusReason::kNotCovisible>(
+      notes->completed = status_of<StatusReason::kNotCovisible>(
           left_out, infinite_pairs(proximities(history, steps)));
     return result;
   };
@@ -72,19 +69,19 @@ std::string advice_words(GapReason why, const GapPattern& pattern) {
   return "";
 }
 
-ProximityRule filling_rule(Filling filling, int dimensions, MissingOutcome& outcome) {
-  return [=, &outcome](const ObservationHistory& history, Eigen::Index steps) {
+ProximityRule filling_rule(Filling filling, int dimensions,
+                           const std::shared_ptr<DistanceNotes>& notes) {
+  return [=](const ObservationHistory& history, Eigen::Index steps) {
     FillingOptions options;
     options.filling = filling;
     options.ppca.dimensions = options.pca.dimensions = dimensions;
     FilledProximities filled = filled_proximities(history, steps, options);
     for (const Status& status : filled.statuses)
-      if (std::ranges::find(outcome.statuses, status) == outcome.statuses.end())
-        outcome.statuses.push_back(status);
+      if (std::ranges::find(notes->statuses, status) == notes->statuses.end())
+        notes->statuses.push_back(status);
     const auto missing = history.values.leftCols(steps).array().isNaN().count();
-    if (filled.model.loadings.size() > 0 && !outcome.told) {
-      outcome.told = true;
-      outcome.remarks.push_back(fmt::format(
+    if (filled.model.loadings.size() > 0 && notes->remarks.empty()) {
+      notes->remarks.push_back(fmt::format(
           "Entries filled in by {2} of {1}: {0}. Distances over them differ from those over common "
           "steps, where pairs have some, by {3:.1f} % in the median.",
           missing, counted(filled.model.loadings.cols(), "dimension"),
@@ -95,15 +92,18 @@ ProximityRule filling_rule(Filling filling, int dimensions, MissingOutcome& outc
   };
 }
 
-}  // namespace
+/// What a person wants done about missing entries.
+struct MissingChoice {
+  std::string way;  ///< One of missing_ways().
+  std::optional<int> dimensions;
+};
 
-std::vector<std::string> missing_ways() {
-  return {std::string(name(Filling::kCommonSteps)), std::string(name(Filling::kPpca)),
-          std::string(name(Filling::kPca)), kCovisible, kAuto};
-}
-
+/// What the pattern of the gaps advises against in what was chosen, and, for "auto", the choice.
+/// Entries that are all there, or too many to be judged in short, are not judged.
+/// @param history  Landmarks that were never observed count for nothing.
+/// @return The choice with a way to be taken.
 MissingChoice judged_choice(MissingChoice choice, const ObservationHistory& history,
-                            Eigen::Index steps, MissingOutcome& outcome) {
+                            Eigen::Index steps, MapResult& result) {
   const std::vector<Eigen::Index> unseen = unseen_landmarks(history, steps);
   std::vector<Eigen::Index> rows;
   for (Eigen::Index i = 0; i < history.landmarks(); ++i)
@@ -118,35 +118,48 @@ MissingChoice judged_choice(MissingChoice choice, const ObservationHistory& hist
   if (is_auto) {
     choice.way = name(advice.way);
     if (choice.dimensions && advice.way != GapWay::kPpca) choice.dimensions.reset();
-    outcome.remarks.push_back(fmt::format("Missing entries: {} was taken, as {}.", choice.way,
-                                          advice_words(advice.why, pattern)));
+    result.remarks.push_back(fmt::format("Missing entries: {} was taken, as {}.", choice.way,
+                                         advice_words(advice.why, pattern)));
   } else if (const bool both_fill = advice.way == GapWay::kPpca && choice.way == "pca";
              choice.way != name(advice.way) && !both_fill && pattern.dispersion > 0.0 &&
              history.sensor != Sensor::kVisibility && worth_a_warning(pattern, choice.way)) {
-    outcome.warnings.push_back(
+    result.warnings.push_back(
         fmt::format("--missing {} is not what serves these gaps best: {}. --missing {} is likely "
                     "to give a better map.",
                     choice.way, advice_words(advice.why, pattern), name(advice.way)));
   }
   if (pattern.few_share > kFewPairs)
-    outcome.warnings.push_back(fmt::format(
+    result.warnings.push_back(fmt::format(
         "{:.0f} % of the pairs of landmarks have fewer than five steps in common, {:.0f} % none: "
         "their distances have little ground.",
         100.0 * pattern.few_share, 100.0 * pattern.apart_share));
   return choice;
 }
 
-ProximityRule proximity_rule(const MissingChoice& choice, Sensor sensor, MissingOutcome& outcome) {
+/// From observations to proximities as it was chosen; empty: as always.
+/// @param choice  Not "auto" (see judged_choice).
+/// @param notes   Filled once the rule is called.
+ProximityRule proximity_rule(const MissingChoice& choice,
+                             const std::shared_ptr<DistanceNotes>& notes) {
   const std::optional<Filling> filling = filling_named(choice.way);
-  const bool fills = filling == Filling::kPpca || filling == Filling::kPca;
-  if (choice.dimensions && !fills)
-    throw InvalidInput(fmt::format("--dimensions: --missing {} has none", choice.way));
-  if (fills) return filling_rule(*filling, choice.dimensions.value_or(10), outcome);
-  if (choice.way != kCovisible) return {};
-  if (sensor == Sensor::kVisibility)
-    throw InvalidInput(
-        "--missing covisible: it is for bearings and ranges; visibility itself says what was seen");
-  return covisible_rule(outcome);
+  if (filling == Filling::kPpca || filling == Filling::kPca)
+    return filling_rule(*filling, choice.dimensions.value_or(10), notes);
+  if (choice.way == kCovisible) return covisible_rule(notes);
+  return {};
 }
+
+MapDraft judge_missing(MapDraft draft, const MapJob& job) {
+  const auto* source = std::get_if<ObservationSource>(&draft.observed);
+  if (source == nullptr) return draft;
+  const MissingChoice choice = judged_choice({job.missing, job.dimensions}, source->history,
+                                             draft.result.record.step, draft.result);
+  draft.distances.of_map = proximity_rule(choice, draft.distances.notes);
+  draft.distances.of_others = proximity_rule(choice, std::make_shared<DistanceNotes>());
+  return draft;
+}
+
+}  // namespace
+
+const MapStep kMissingData{judge_missing};
 
 }  // namespace mapproof

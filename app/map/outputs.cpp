@@ -3,22 +3,22 @@
 #include <algorithm>
 #include <filesystem>
 #include <map>
-#include <optional>
-#include <utility>
 #include <vector>
 
+#include <fmt/format.h>
+
 #include "app/build_facts.hpp"
-#include "app/map/joint_map_report.hpp"
-#include "app/map/map_folder.hpp"
-#include "app/map/title.hpp"
+#include "app/map/pipeline.hpp"
+#include "app/result_json.hpp"
 #include "core/base/files.hpp"
 #include "core/base/input_file.hpp"
 #include "core/records/maps/map_files.hpp"
 #include "render/figures/maps/map.hpp"
 #include "render/figures/maps/map_ellipses.hpp"
-#include "render/figures/maps/submaps.hpp"
+#include "render/figures/score_words.hpp"
+#include "render/figures/status_words.hpp"
 #include "render/output/write_figure.hpp"
-#include "reports/sections/certainty_section.hpp"
+#include "reports/html/report_html.hpp"
 #include "reports/sections/map_report.hpp"
 #include "reports/sections/study_figures.hpp"
 #include "reports/tables/write_tables.hpp"
@@ -28,92 +28,130 @@ namespace {
 
 namespace fs = std::filesystem;
 
-std::vector<std::pair<std::string, std::string>> facts(const MapArguments& arguments,
-                                                       const MapResult& map) {
-  const MapRecord& record = map.record;
-  std::vector<std::pair<std::string, std::string>> items = {
-      {"Observations", input_name(arguments.input.path)}, {"Sensor", sensor_label(map.record)}};
-  items.insert(items.end(), map.read.begin(), map.read.end());
-  items.emplace_back("Method", method_label(map.record));
-  if (record.anchors.empty()) {
-    items.emplace_back("Anchors", "none");
-  } else {
-    std::string names;
-    for (const Eigen::Index row : record.anchors)
-      names += (names.empty() ? "" : ", ") + record.names[static_cast<std::size_t>(row)];
-    items.emplace_back(
-        "Anchors",
-        names + (arguments.anchors.empty() ? " (the furthest out along the diagonals)" : ""));
-    items.emplace_back(arguments.input.rigid ? "Fit to the anchors" : "Affine fit to the anchors",
-                       arguments.fit);
-  }
-  return items;
+/// "Map of seen.csv", for a report.
+std::string map_title(const std::string& observations) {
+  const bool has_place = !handed_in(observations);
+  return "Map of " + (has_place ? std::filesystem::path(observations).filename().string()
+                                : input_name(observations));
 }
 
 /// The map first, as drawn with what is known of it, then the others.
 std::vector<Figure> figures_of(const MapResult& map) {
   std::vector<Figure> figures = {map_figure(map.record, "map")};
   if (map.certainty) add_ellipses(map.record, *map.certainty, figures.front());
-  if (map.joined) figures.push_back(submaps_figure(*map.joined, map.record.names, "submaps"));
-  if (map.mixed)
-    if (std::optional<Figure> figure = mixed_figure(*map.mixed))
-      figures.push_back(std::move(*figure));
+  figures.insert(figures.end(), map.figures.begin(), map.figures.end());
   return figures;
 }
 
-Report report_of(const MapArguments& arguments, const MapResult& map,
-                 const std::vector<Figure>& figures, const std::string& command) {
-  std::vector<Section> sections;
-  if (map.mixed) sections.push_back(mixed_section(*map.mixed));
-  if (map.choice) sections.push_back(choice_section(*map.choice));
-  if (map.certainty) sections.push_back(certainty_section(map.record, *map.certainty));
+Report report_of(const MapPlace& place, const MapResult& map, const std::vector<Figure>& figures) {
   std::vector<FigureBlock> more;
   for (std::size_t k = 1; k < figures.size(); ++k) more.push_back(figure_block(figures[k]));
   return map_report({.record = map.record,
-                     .title = map_title(arguments.input.path),
-                     .facts = facts(arguments, map),
+                     .title = map_title(place.observations),
+                     .facts = map.facts,
                      .remarks = map.remarks,
                      .warnings = map.warnings,
                      .figure = figure_block(figures.front()),
                      .more_figures = std::move(more),
                      .provenance = build_provenance(),
-                     .command = command,
-                     .more = std::move(sections)});
+                     .command = place.command,
+                     .more = map.sections});
 }
 
-/// Removes what an earlier map in this folder had and this one has not.
-void remove_stale(const fs::path& out, const std::vector<Figure>& figures, const MapResult& map) {
-  for (const char* id : {"submaps", "sensors"})
-    if (std::ranges::find(figures, id, &Figure::id) == figures.end())
+/// Removes what a step gave to an earlier map in this folder and not to this one.
+void remove_stale(const fs::path& out, const MapResult& map) {
+  for (const MapStep* step : map_steps()) {
+    if (!step->figure.empty() &&
+        std::ranges::find(map.figures, step->figure, &Figure::id) == map.figures.end())
       for (const char* ending : {".svg", ".png", ".pdf", ".figure.json"})
-        fs::remove(out / "figures" / (std::string(id) + ending));
-  if (!map.estimated) fs::remove(out / "labels.csv");
+        fs::remove(out / "figures" / (std::string(step->figure) + ending));
+    if (!step->file.empty() &&
+        std::ranges::find(map.files, step->file, &NamedPart<std::string>::name) == map.files.end())
+      fs::remove(out / step->file);
+  }
+}
+
+nlohmann::ordered_json landmark_json(const MapResult& map, Eigen::Index i) {
+  const MapRecord& record = map.record;
+  const std::string unit = record.frame == Frame::kTruth ? "_m" : "";
+  nlohmann::ordered_json landmark{{"name", record.names[static_cast<std::size_t>(i)]},
+                                  {"x" + unit, number_or_null(record.estimate(i, 0))},
+                                  {"y" + unit, number_or_null(record.estimate(i, 1))}};
+  if (!map.certainty) return landmark;
+  landmark["ellipse"] = nullptr;
+  if (const std::optional<Ellipse> ellipse = confidence_ellipse(*map.certainty, i))
+    landmark["ellipse"] = {
+        {"a" + unit, ellipse->a}, {"b" + unit, ellipse->b}, {"turn_rad", ellipse->turn_rad}};
+  return landmark;
+}
+
+/// What a map came to, as one JSON object. @param out  The folder that it was written to.
+nlohmann::ordered_json result_json(const MapResult& map, const fs::path& out) {
+  const MapRecord& record = map.record;
+  const MethodSetting* setting = setting_of(record);
+  nlohmann::ordered_json object{
+      {"sensor", sensor_name(record)},
+      {"method", method_name(record)},
+      {"parameter", setting != nullptr ? parameter_json(*setting) : nullptr},
+      {"steps", record.step},
+      {"frame", name(record.frame)},
+      {"score", nullptr},
+      {"landmarks", nlohmann::ordered_json::array()},
+      {"statuses", statuses_json(record.statuses)},
+      {"labels", nlohmann::ordered_json::array()},
+      {"remarks", map.remarks},
+      {"warnings", map.warnings},
+      {"map", (out / kMapFile).string()},
+      {"report", (out / "report.html").string()}};
+  if (record.score)
+    object["score"] = {
+        {"mpe_m", number_or_null(record.score->mpe_m)},
+        {"moe_percent", number_or_null(record.score->moe_percent)},
+        {"mpe_all_fitted_m", number_or_null(record.score->mpe_all_fitted_m)},
+        {"moe_unmirrored_percent", number_or_null(record.score->moe_unmirrored_percent)}};
+  for (Eigen::Index i = 0; i < record.estimate.rows(); ++i)
+    object["landmarks"].push_back(landmark_json(map, i));
+  for (const auto& [name, value] : map.members) object[name] = value;
+  return object;
+}
+
+/// The same in two lines: method, step and errors, and the report.
+std::string map_text(const MapResult& map, const fs::path& out) {
+  const MapRecord& record = map.record;
+  std::string text =
+      fmt::format("{}, {}, {} steps", method_label(record), sensor_label(record), record.step);
+  if (record.score)
+    if (const std::string score = score_words(*record.score); !score.empty()) text += ": " + score;
+  return text + "\n" + (out / "report.html").string() + "\n";
 }
 
 }  // namespace
 
-void write_outputs(const MapArguments& arguments, const MapResult& map, const Templates& page,
-                   const std::string& command) {
-  const std::vector<Figure> figures = figures_of(map);
-  const Report report = report_of(arguments, map, figures, command);
-  const MapFolder folder(arguments.out, map.record);
+void write_map(const MapFolder& folder, const MapPlace& place, const MapResult& map, bool last) {
   const fs::path& out = folder.path();
+  const std::vector<Figure> figures = figures_of(map);
   // The file that marks the folder as a map's comes first: a killed command can then be repeated.
-  write_file(out / kMapFile,
-             map_json(map.record, map.certainty,
-                      map.mixed ? std::optional(map.mixed->sensors) : std::nullopt));
+  write_file(out / kMapFile, map_json(map.record, map.certainty, map.sensors));
   write_file(out / "map.csv", map_csv(map.record, map.certainty));
-  remove_stale(out, figures, map);
-  if (map.estimated) write_file(out / "labels.csv", labels_csv(*map.estimated));
+  remove_stale(out, map);
+  for (const auto& [name, text] : map.files) write_file(out / name, text);
   std::map<std::string, std::string> drawn;
   for (const Figure& figure : figures)
     drawn[figure.id] = write_figure(figure, report_theme(), out / "figures");
+  if (!last) return;
+  const Report report = report_of(place, map, figures);
   write_tables(report, out / "tables");
-  const std::string html = report_html(report, page, [&](const std::string& id) {
-    const auto found = drawn.find(id);
-    return found == drawn.end() ? std::string() : found->second;
-  });
-  write_file(out / "report.html", html);
+  write_file(out / "report.html", report_html(report, place.page, [&](const std::string& id) {
+               const auto found = drawn.find(id);
+               return found == drawn.end() ? std::string() : found->second;
+             }));
+}
+
+int report_map(const MapResult& map, const MapPlace& place, const Invocation& invocation) {
+  for (const Status& status : map.record.statuses)
+    invocation.console.warning(fmt::format("{}: {}", name(status.code), status_words(status)));
+  invocation.console.result(map_text(map, place.out), result_json(map, place.out));
+  return map.record.estimate.array().isNaN().all() ? kNo : kDone;
 }
 
 }  // namespace mapproof

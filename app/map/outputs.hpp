@@ -2,15 +2,28 @@
 
 #include <string>
 
-#include "app/map/arguments.hpp"
-#include "app/map/one_sensor.hpp"
-#include "reports/html/report_html.hpp"
+#include "app/command_line.hpp"
+#include "app/map/map_folder.hpp"
+#include "app/map/map_result.hpp"
+#include "reports/html/templates.hpp"
 
 namespace mapproof {
 
-/// Writes a map's record, tables, figures and report into the folder that the arguments name.
-/// @param command  The one that makes the map again. @throws IoError.
-void write_outputs(const MapArguments& arguments, const MapResult& map, const Templates& page,
-                   const std::string& command);
+/// Where a map goes, and what its report says of where it came from.
+struct MapPlace {
+  std::string out;
+  std::string observations;
+  std::string command;  ///< The one that makes the map again.
+  Templates page;
+};
+
+/// The step write: map.json, map.csv, figures, and what else the steps contributed.
+/// @param last  With tables and report; else another map of the same observations comes.
+/// @throws IoError.
+void write_map(const MapFolder& folder, const MapPlace& place, const MapResult& map,
+               bool last = true);
+
+/// Shows a map's warnings and its result. @return The command's exit code: kNo if there is no map.
+int report_map(const MapResult& map, const MapPlace& place, const Invocation& invocation);
 
 }  // namespace mapproof

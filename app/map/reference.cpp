@@ -12,12 +12,9 @@
 #include "core/base/not_finite.hpp"
 #include "core/base/words.hpp"
 #include "core/linalg/planarity.hpp"
-#include "core/score/map_score.hpp"
 
 namespace mapproof {
 namespace {
-
-constexpr double kFarOut = 2.0;  ///< The median landmark so many times as far out as any anchor.
 
 /// The row of each landmark by its name.
 std::map<std::string, Eigen::Index> rows_of(const MappedLandmarks& source) {
@@ -81,14 +78,6 @@ std::vector<Eigen::Index> matched_anchors(const MappedLandmarks& source,
   return chosen;
 }
 
-/// Errors of a map that no anchors tie to the truth: those that need none.
-std::optional<Score> anchor_free_score(const Points& coordinates, const Points& truth_m,
-                                       AffineFit fit) {
-  std::optional<Score> score = score_map(coordinates, truth_m, {}, fit);
-  if (score) score->mpe_m = score->moe_percent = kNaN;
-  return score;
-}
-
 /// The anchors of a source that brings its truth, chosen among the landmarks that were observed;
 /// none, with a remark, if they lie on one line.
 std::vector<Eigen::Index> diagonal_anchors_of(const MappedLandmarks& source, Points positions_m,
@@ -111,6 +100,27 @@ void remark_disagreement(const Points& truth_m, const Reference& known,
         fmt::format("Anchors that the truth puts elsewhere: {}. The anchors' own "
                     "positions are used.",
                     moved));
+}
+
+/// Writes the positions of the landmarks that there are. @return Their rows, ascending.
+std::vector<Eigen::Index> matched_so_far(const MapRecord& record, const NamedPoints& points,
+                                         Points& positions_m) {
+  std::vector<Eigen::Index> rows;
+  for (std::size_t i = 0; i < points.names.size(); ++i) {
+    const auto found = std::ranges::find(record.names, points.names[i]);
+    if (found == record.names.end()) continue;
+    rows.push_back(found - record.names.begin());
+    positions_m.row(rows.back()) = points.positions_m.row(static_cast<Eigen::Index>(i));
+  }
+  std::ranges::sort(rows);
+  return rows;
+}
+
+std::vector<std::string> never_seen(const MapRecord& record, const NamedPoints& points) {
+  std::vector<std::string> names;
+  for (const std::string& name : points.names)
+    if (std::ranges::find(record.names, name) == record.names.end()) names.push_back(name);
+  return names;
 }
 
 }  // namespace
@@ -143,59 +153,42 @@ Reference reference_of(const MappedLandmarks& source, const std::optional<NamedP
   return known;
 }
 
-void align_and_score(MapRecord& record, const Points& coordinates, const Reference& reference,
-                     AffineFit fit) {
-  record.frame = Frame::kSimilarity;
-  record.estimate = coordinates;
-  record.anchors = reference.anchors;
-  if (reference.has_truth || !reference.anchors.empty()) record.truth_m = reference.positions_m;
-  if (!reference.anchors.empty()) {
-    AlignedMap aligned =
-        align_to_anchors(coordinates, reference.positions_m, reference.anchors, fit);
-    record.statuses.insert(record.statuses.end(), aligned.statuses.begin(), aligned.statuses.end());
-    if (aligned.aligned) {
-      record.frame = Frame::kTruth;
-      record.estimate = std::move(aligned.positions_m);
-    }
-  }
-  if (!reference.has_truth) return;
-  record.score = record.frame == Frame::kTruth
-                     ? score_map(record.estimate, reference.positions_m, reference.anchors, fit)
-                     : anchor_free_score(record.estimate, reference.positions_m, fit);
+Reference known_so_far(MapRecord& record, const std::optional<NamedPointsFile>& anchors,
+                       const std::optional<NamedPointsFile>& truth) {
+  const auto M = static_cast<Eigen::Index>(record.names.size());
+  Reference known{.positions_m = Points::Constant(M, 2, kNaN), .has_truth = false, .anchors = {}};
+  if (truth) known.has_truth = !matched_so_far(record, truth->points, known.positions_m).empty();
+  if (!anchors) return known;
+  known.anchors = matched_so_far(record, anchors->points, known.positions_m);
+  std::erase_if(known.anchors,
+                [&](Eigen::Index row) { return !record.estimate.row(row).allFinite(); });
+  if (known.anchors.size() >= 3 &&
+      planarity(known.positions_m(known.anchors, Eigen::all)) > kFlatPlanarity)
+    return known;
+  record.statuses.push_back(status_of<StatusReason::kFewAnchorsSoFar>(known.anchors.size()));
+  known.anchors.clear();
+  return known;
 }
 
-std::vector<std::string> frame_warnings(const MapRecord& record) {
-  if (record.frame != Frame::kTruth || record.anchors.empty() || !record.truth_m) return {};
-  const Points anchors_m = (*record.truth_m)(record.anchors, Eigen::all);
-  const Eigen::RowVector2d centre = anchors_m.colwise().mean();
-  std::vector<double> away;
-  double trivial_m = 0.0;
-  int known = 0;
-  for (Eigen::Index i = 0; i < record.estimate.rows(); ++i) {
-    if (!record.estimate.row(i).allFinite() || std::ranges::count(record.anchors, i) > 0) continue;
-    away.push_back((record.estimate.row(i) - centre).norm());
-    if (!record.truth_m->row(i).allFinite()) continue;
-    trivial_m += (record.truth_m->row(i) - centre).norm();
-    ++known;
-  }
-  if (away.empty()) return {};
-  if (record.score && known > 0 && std::isfinite(record.score->mpe_m)) {
-    trivial_m /= known;
-    if (record.score->mpe_m < trivial_m) return {};
-    return {
-        fmt::format("The map is worth nothing in metres: its MPE is {:.3g} m, and all landmarks "
-                    "put at the mean "
-                    "of the anchors would have one of {:.3g} m.",
-                    record.score->mpe_m, trivial_m)};
-  }
-  const double reach_m = (anchors_m.rowwise() - centre).rowwise().norm().maxCoeff();
-  const auto middle = away.begin() + std::ssize(away) / 2;
-  std::ranges::nth_element(away, middle);
-  if (*middle < kFarOut * reach_m) return {};
-  return {fmt::format(
-      "Half of the landmarks lie {:.3g} m or more from the anchors' mean, no anchor beyond {:.3g} "
-      "m: the map, or its fit to the anchors, is likely to be worth nothing.",
-      *middle, reach_m)};
+std::vector<std::string> remarks_of_reference(const MapRecord& record,
+                                              const std::optional<NamedPointsFile>& anchors,
+                                              const std::optional<NamedPointsFile>& truth) {
+  std::vector<std::string> remarks;
+  const auto add = [&](const std::optional<NamedPointsFile>& file, const char* what) {
+    if (!file) return;
+    if (const auto names = never_seen(record, file->points); !names.empty())
+      remarks.push_back(fmt::format("{} of landmarks that were not observed, not used: {}.", what,
+                                    listed(names, 11)));
+  };
+  add(anchors, "Anchors");
+  add(truth, "True positions");
+  if (!truth) return remarks;
+  const std::ptrdiff_t known =
+      std::ssize(truth->points.names) - std::ssize(never_seen(record, truth->points));
+  if (const std::ptrdiff_t left = std::ssize(record.names) - known; left > 0)
+    remarks.push_back(
+        fmt::format("The true position of {} is not known.", counted(left, "landmark")));
+  return remarks;
 }
 
 }  // namespace mapproof

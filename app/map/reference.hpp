@@ -47,14 +47,16 @@ Reference reference_of(const MappedLandmarks& source, const std::optional<NamedP
                        const std::optional<NamedPointsFile>& truth,
                        std::vector<std::string>& remarks);
 
-/// Brings the coordinates into the frame of the anchors, if there are any that serve, and judges
-/// them by the truth, if there is one.
-void align_and_score(MapRecord& record, const Points& coordinates, const Reference& reference,
-                     AffineFit fit);
+/// What files say of the landmarks that a growing map holds so far. Anchors that are not on it are
+/// left out, and all of them, with a status, while those that are do not span the plane.
+/// @param record  Names and estimate are read; statuses are added to.
+Reference known_so_far(MapRecord& record, const std::optional<NamedPointsFile>& anchors,
+                       const std::optional<NamedPointsFile>& truth);
 
-/// What a person should know of a map in the frame of its anchors that is worth little: errors as
-/// large as if all landmarks were put at the anchors' mean, or, without a truth, landmarks far
-/// outside of what the anchors span. A sentence each.
-std::vector<std::string> frame_warnings(const MapRecord& record);
+/// What has to be said of the files in the end, a sentence each: names that never came, landmarks
+/// whose truth is not known.
+std::vector<std::string> remarks_of_reference(const MapRecord& record,
+                                              const std::optional<NamedPointsFile>& anchors,
+                                              const std::optional<NamedPointsFile>& truth);
 
 }  // namespace mapproof

@@ -1,14 +1,16 @@
-#include "app/map/submaps.hpp"
-
 #include <algorithm>
 
 #include <fmt/format.h>
 
+#include "app/map/pipeline.hpp"
 #include "core/base/words.hpp"
 #include "core/submaps/submap_embedding.hpp"
+#include "render/figures/maps/submaps.hpp"
 
 namespace mapproof {
 namespace {
+
+constexpr std::string_view kSubmapsFigure = "submaps";
 
 std::string remark_on(const SubmapEmbedding& parts, Method method) {
   const auto in_tree = std::ranges::count(parts.joined.joins, true, &SubmapJoin::in_tree);
@@ -20,28 +22,29 @@ std::string remark_on(const SubmapEmbedding& parts, Method method) {
       counted(std::ssize(parts.joined.joins), "overlap"), 100.0 * parts.median_residual);
 }
 
+/// Embeds overlapping groups of landmarks, and joins them.
+MapDraft embed_groups(MapDraft draft, const MapJob& job) {
+  if (job.submaps == 0) return draft;
+  const ObservationHistory& history = std::get<ObservationSource>(draft.observed).history;
+  const Eigen::Index steps = draft.result.record.step;
+  MethodSetting& setting = draft.setting;
+  if (!setting.parameter)
+    setting = HistoryEmbedder(history, steps, job.embedder).usual_setting(setting.method);
+  SubmapOptions options{.groups = {}, .embedder = job.embedder, .rule = draft.distances.of_map};
+  options.groups.size = job.submaps;
+  if (job.overlap) options.groups.overlap_share = *job.overlap;
+  const SubmapEmbedding parts = embed_submaps(history, steps, setting, options);
+  take_embedding(draft, parts.embedding);
+  MapResult& result = draft.result;
+  if (parts.joined.submaps.size() > 1) result.remarks.push_back(remark_on(parts, setting.method));
+  if (!parts.joined.submaps.empty())
+    result.figures.push_back(
+        submaps_figure(parts.joined, history.names, std::string(kSubmapsFigure)));
+  return draft;
+}
+
 }  // namespace
 
-MapEmbedding embed_observations(const ObservationHistory& history, Eigen::Index steps,
-                                MethodSetting setting, const EmbedderOptions& options,
-                                const ProximityRule& rule, int submaps,
-                                std::optional<double> overlap) {
-  if (submaps == 0) {
-    HistoryEmbedder embedder(history, steps, options, rule);
-    if (!setting.parameter) setting = embedder.usual_setting(setting.method);
-    return {.embedding = embedder.embed(setting), .setting = setting, .joined = {}, .remarks = {}};
-  }
-  if (!setting.parameter)
-    setting = HistoryEmbedder(history, steps, options).usual_setting(setting.method);
-  SubmapOptions parts_options{.groups = {}, .embedder = options, .rule = rule};
-  parts_options.groups.size = submaps;
-  if (overlap) parts_options.groups.overlap_share = *overlap;
-  SubmapEmbedding parts = embed_submaps(history, steps, setting, parts_options);
-  MapEmbedding made{.embedding = {}, .setting = setting, .joined = {}, .remarks = {}};
-  if (parts.joined.submaps.size() > 1) made.remarks.push_back(remark_on(parts, setting.method));
-  made.embedding = std::move(parts.embedding);
-  if (!parts.joined.submaps.empty()) made.joined = std::move(parts.joined);
-  return made;
-}
+const MapStep kSubmaps{.take = embed_groups, .figure = kSubmapsFigure};
 
 }  // namespace mapproof

@@ -1,51 +1,52 @@
-#include "app/map/uncertainty.hpp"
-
 #include <algorithm>
 
 #include <fmt/format.h>
 
+#include "app/map/pipeline.hpp"
+#include "core/certainty/history_certainty.hpp"
+#include "core/certainty/pair_certainty.hpp"
+#include "reports/sections/certainty_section.hpp"
+
 namespace mapproof {
 namespace {
 
-bool is_empty(const MapRecord& record, std::vector<std::string>& remarks) {
-  const bool empty = record.estimate.array().isNaN().all();
-  if (empty) remarks.emplace_back("No map came out: there are no ellipses.");
-  return empty;
+MapCertainty certainty_of(const MapDraft& draft, const MapJob& job) {
+  if (const auto* scans = std::get_if<DetectionSource>(&draft.observed))
+    return pair_certainty(scans->log, draft.frame,
+                          {.replicates = job.ellipse_replicates, .fit = job.affine_fit()});
+  return history_certainty(std::get<ObservationSource>(draft.observed).history,
+                           draft.result.record.step, draft.frame,
+                           {.setting = draft.setting,
+                            .embedder = job.embedder,
+                            .rule = draft.distances.of_others,
+                            .replicates = job.ellipse_replicates,
+                            .fit = job.affine_fit()});
 }
 
-void remark_without(const MapCertainty& certainty, std::vector<std::string>& remarks) {
+/// Ellipses of all landmarks, in the frame that the map is in, from bootstrap resamples of the
+/// steps; a remark of those without one.
+MapDraft estimate_uncertainty(MapDraft draft, const MapJob& job) {
+  if (job.ellipse_replicates == 0) return draft;
+  MapResult& result = draft.result;
+  if (result.record.estimate.array().isNaN().all()) {
+    result.remarks.emplace_back("No map came out: there are no ellipses.");
+    return draft;
+  }
+  const MapCertainty certainty = certainty_of(draft, job);
   const auto without = std::ranges::count_if(
       certainty.covariances, [](const Eigen::Matrix2d& C) { return !C.allFinite(); });
   if (without > 0)
-    remarks.push_back(
+    result.remarks.push_back(
         fmt::format("{} of {} landmarks have no ellipse: fewer than half of the {} maps of steps "
                     "drawn anew hold them.",
                     without, certainty.covariances.size(), certainty.maps));
+  result.sections.push_back(certainty_section(result.record, certainty));
+  result.certainty = certainty;
+  return draft;
 }
 
 }  // namespace
 
-std::optional<MapCertainty> map_uncertainty(const MapRecord& record,
-                                            const ObservationHistory& history,
-                                            const HistoryCertaintyOptions& options,
-                                            std::vector<std::string>& remarks) {
-  if (is_empty(record, remarks)) return std::nullopt;
-  const bool tied = record.frame == Frame::kTruth;
-  const CertaintyFrame frame{.positions_m = tied ? *record.truth_m : record.estimate,
-                             .anchors = tied ? record.anchors : std::vector<Eigen::Index>{}};
-  MapCertainty certainty = history_certainty(history, record.step, frame, options);
-  remark_without(certainty, remarks);
-  return certainty;
-}
-
-std::optional<MapCertainty> pair_map_uncertainty(const MapRecord& record, const DetectionLog& log,
-                                                 const CertaintyFrame& frame,
-                                                 const PairCertaintyOptions& options,
-                                                 std::vector<std::string>& remarks) {
-  if (is_empty(record, remarks)) return std::nullopt;
-  MapCertainty certainty = pair_certainty(log, frame, options);
-  remark_without(certainty, remarks);
-  return certainty;
-}
+const MapStep kUncertainty{estimate_uncertainty};
 
 }  // namespace mapproof

@@ -7,10 +7,8 @@
 #include "app/commands.hpp"
 #include "app/input_streams.hpp"
 #include "app/map/incremental_map.hpp"
-#include "app/map/incremental_outputs.hpp"
 #include "app/map/map_folder.hpp"
 #include "app/result_json.hpp"
-#include "app/slam/incremental_ranges.hpp"
 #include "app/slam/range_map.hpp"
 #include "app/slam/slam_json.hpp"
 #include "app/study/slam_outputs.hpp"
@@ -119,17 +117,17 @@ void require_followable(const SlamArguments& arguments) {
 int follow_ranges(const SlamArguments& arguments, const Templates& page,
                   const Invocation& invocation) {
   require_followable(arguments);
-  const MapResult map = follow_map({.path = arguments.data,
-                                    .table = {.anchors = read_points(arguments.known),
-                                              .truth = read_points(arguments.true_landmarks)},
-                                    .follower = range_follower,
-                                    .every = follow_interval(arguments.every)},
-                                   invocation.console,
-                                   followed_outputs({.out = arguments.out,
-                                                     .observations = arguments.data,
-                                                     .command = invocation.command,
-                                                     .page = page}));
-  return report_followed(map, arguments.out, invocation);
+  return write_followed({.path = arguments.data,
+                         .table = {.anchors = read_points(arguments.known),
+                                   .truth = read_points(arguments.true_landmarks),
+                                   .fit = {.is_metric = true, .is_rigid = true}},
+                         .follower = range_follower,
+                         .every = follow_interval(arguments.every)},
+                        {.out = arguments.out,
+                         .observations = arguments.data,
+                         .command = invocation.command,
+                         .page = page},
+                        invocation);
 }
 
 int map_ranges(SlamArguments arguments, const Invocation& invocation) {

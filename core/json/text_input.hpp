@@ -4,7 +4,7 @@
 #include <string>
 #include <string_view>
 
-#include "core/base/words.hpp"  // trimmed(), lower_case()
+#include "core/base/words.hpp"
 
 namespace mapproof {
 

@@ -1,13 +1,14 @@
 #pragma once
 
-#include <optional>
 #include <string>
 #include <vector>
 
-#include "app/map/reference.hpp"
+#include <nlohmann/json.hpp>
+
+#include "core/labels/anchor_labels.hpp"
+#include "core/labels/mislabelled.hpp"
+#include "core/labels/moved.hpp"
 #include "core/model/detection_log.hpp"
-#include "core/records/observations/detections.hpp"
-#include "core/records/observations/observations.hpp"
 
 namespace mapproof {
 
@@ -48,22 +49,17 @@ struct LabelOutcome {
 LabelOutcome with_labels_checked(const DetectionLog& log, const LabelChoice& choice,
                                  const Points& known_m);
 
-/// What was found in a source's labels, and what makes its map doubtful.
-struct CheckedLabels {
-  std::vector<LabelFact> facts = {};
-  std::vector<std::string> warnings = {};
-};
+/// What was found, for the member "labels" of --json.
+nlohmann::ordered_json labels_json(const std::vector<LabelFact>& facts);
 
-/// The same of a source, its truth, and the places that files name.
-CheckedLabels check_labels_of(DetectionSource& source, const LabelChoice& choice,
-                              const std::optional<NamedPointsFile>& anchors,
-                              const std::optional<NamedPointsFile>& truth);
+/// A sentence: "7 and 12 look swapped from step 1200 on (310 detections): loss 0.410 -> 0.130 m".
+std::string described(const LabelFinding& finding, const DetectionLog& log);
 
-/// The same of a source that was read from a folder of MRCLAM: its history is made anew from what
-/// came of the detections.
-/// @throws IoError for any other source: one kind of value alone tells nothing of labels.
-CheckedLabels check_labels_of(ObservationSource& source, const LabelChoice& choice,
-                              const std::optional<NamedPointsFile>& anchors,
-                              const std::optional<NamedPointsFile>& truth);
+/// A sentence: "7 moved by 0.21 m between step 1198 and step 1204 (p = 0.015)".
+std::string described(const MovedLandmark& moved, const DetectionLog& log);
+
+/// A sentence: "3 and 10 look exchanged in all detections: known places missed by 1.930 m, then by
+/// 0.120 m".
+std::string described(const AnchorExchange& exchange, const DetectionLog& log);
 
 }  // namespace mapproof

@@ -1,11 +1,12 @@
-#include "app/map/data_association_check.hpp"
+#include "app/map/id_check.hpp"
 
 #include <algorithm>
 #include <utility>
 
 #include <fmt/format.h>
 
-#include "app/map/data_association_words.hpp"
+#include "app/map/pipeline.hpp"
+#include "app/result_json.hpp"
 #include "core/base/errors.hpp"
 #include "core/base/input_file.hpp"
 #include "core/base/not_finite.hpp"
@@ -15,6 +16,37 @@
 
 namespace mapproof {
 namespace {
+
+/// How a scan is called, by its file's own step or time: "step 1200", "12.5 s".
+std::string scan_words(const DetectionLog& log, int step) {
+  const auto scan = static_cast<std::size_t>(step);
+  if (scan < log.times_s.size()) return fmt::format("{:.1f} s", log.times_s[scan]);
+  if (scan < log.scans.size()) return fmt::format("step {:.15g}", log.scans[scan].key);
+  return fmt::format("step {}", step + 1);
+}
+
+/// Whose scan it was, " of robot 3"; empty for the log of one robot.
+std::string robot_words(const DetectionLog& log, int step) {
+  const auto scan = static_cast<std::size_t>(step);
+  if (log.robots.size() < 2 || scan >= log.scans.size()) return "";
+  return " of robot " + printable(log.robots[static_cast<std::size_t>(log.scans[scan].robot)]);
+}
+
+/// "from step 12 to step 90 of robot 3", "throughout", "in all scans of robot 3".
+std::string when_words(const LabelFinding& finding, const DetectionLog& log) {
+  if (finding.to_the_end && finding.from_the_start) return "throughout";
+  // Times of all robots' scans are of one clock: whose scan it was says nothing.
+  const auto robot = [&](int step) { return finding.by_time ? "" : robot_words(log, step); };
+  const std::string of_first = robot(finding.first_step);
+  const std::string of_last = robot(finding.last_step);
+  if (finding.all_of_robot && !of_first.empty()) return "in all scans" + of_first;
+  const std::string first = scan_words(log, finding.first_step);
+  const std::string last = scan_words(log, finding.last_step);
+  if (finding.to_the_end) return "from " + first + of_first + " on";
+  if (finding.from_the_start) return "up to " + last + of_last;
+  return of_first == of_last ? "from " + first + " to " + last + of_last
+                             : "from " + first + of_first + " to " + last + of_last;
+}
 
 /// Times the loss that known places may be missed by: on sound logs it is less than the loss.
 constexpr double kMissed = 3.0;
@@ -193,14 +225,13 @@ void split_moved(LabelOutcome& outcome) {
 }
 
 /// Checks the log of a source, and makes room for the second places of what moved: where those
-/// are, no survey says.
-template <class Source>
-LabelOutcome checked(Source& source, const DetectionLog& log, const LabelChoice& choice,
-                     const std::optional<NamedPointsFile>& anchors,
-                     const std::optional<NamedPointsFile>& truth) {
-  LabelOutcome outcome =
-      with_labels_checked(log, choice, known_places(log, source.truth_m, anchors, truth));
-  source.remarks.insert(source.remarks.end(), outcome.remarks.begin(), outcome.remarks.end());
+/// are, no survey says. @return The log to be mapped.
+template <typename Source>
+DetectionLog checked_log(Source& source, const DetectionLog& log, const MapJob& job,
+                         MapResult& result) {
+  LabelOutcome outcome = with_labels_checked(
+      log, {.check = job.check_ids, .repair = job.repair_ids, .find_moved = job.find_moved},
+      known_places(log, source.truth_m, job.known_anchors, job.known_truth));
   const std::size_t landmarks = outcome.log.names.size();
   source.places.resize(landmarks, source.places.empty() ? std::string() : source.places.front());
   if (source.truth_m) {
@@ -208,10 +239,36 @@ LabelOutcome checked(Source& source, const DetectionLog& log, const LabelChoice&
     truth_m.topRows(source.truth_m->rows()) = *source.truth_m;
     source.truth_m = truth_m;
   }
-  return outcome;
+  result.remarks.insert(result.remarks.end(), outcome.remarks.begin(), outcome.remarks.end());
+  result.warnings = std::move(outcome.warnings);
+  result.members.push_back({"labels", labels_json(outcome.facts)});
+  return std::move(outcome.log);
+}
+
+/// Range and bearing seen together tell; of one kind of value, those of a folder of MRCLAM, whose
+/// history is then made anew.
+MapDraft check_ids(MapDraft draft, const MapJob& job) {
+  if (!job.judges_ids()) return draft;
+  if (auto* scans = std::get_if<DetectionSource>(&draft.observed)) {
+    scans->log = checked_log(*scans, scans->log, job, draft.result);
+    return draft;
+  }
+  auto& source = std::get<ObservationSource>(draft.observed);
+  if (!is_folder(source.path) || !is_mrclam(source.path))
+    throw IoError(source.path,
+                  fmt::format("{} by range and bearing seen together: detections mapped with "
+                              "--sensor range-bearing, or a folder of MRCLAM",
+                              job.check_ids || job.repair_ids ? "labels are checked"
+                                                              : "a landmark that moved is found"));
+  const DetectionLog log =
+      checked_log(source, read_mrclam_detections(source.path).log, job, draft.result);
+  source.history = history_of(log, source.history.sensor);
+  return draft;
 }
 
 }  // namespace
+
+const MapStep kIdCheck{check_ids};
 
 LabelOutcome with_labels_checked(const DetectionLog& log, const LabelChoice& choice,
                                  const Points& known_m) {
@@ -221,29 +278,51 @@ LabelOutcome with_labels_checked(const DetectionLog& log, const LabelChoice& cho
   return outcome;
 }
 
-CheckedLabels check_labels_of(DetectionSource& source, const LabelChoice& choice,
-                              const std::optional<NamedPointsFile>& anchors,
-                              const std::optional<NamedPointsFile>& truth) {
-  if (!choice.asked()) return {};
-  LabelOutcome outcome = checked(source, source.log, choice, anchors, truth);
-  source.log = std::move(outcome.log);
-  return {std::move(outcome.facts), std::move(outcome.warnings)};
+nlohmann::ordered_json labels_json(const std::vector<LabelFact>& facts) {
+  nlohmann::ordered_json labels = nlohmann::ordered_json::array();
+  for (const LabelFact& fact : facts)
+    labels.push_back({{"what", fact.what},
+                      {"first", fact.first},
+                      {"second", fact.second},
+                      {"found", fact.sentence},
+                      {"before_m", number_or_null(fact.before_m)},
+                      {"after_m", number_or_null(fact.after_m)},
+                      {"repaired", fact.repaired}});
+  return labels;
 }
 
-CheckedLabels check_labels_of(ObservationSource& source, const LabelChoice& choice,
-                              const std::optional<NamedPointsFile>& anchors,
-                              const std::optional<NamedPointsFile>& truth) {
-  if (!choice.asked()) return {};
-  if (!is_folder(source.path) || !is_mrclam(source.path))
-    throw IoError(source.path,
-                  fmt::format("{} by range and bearing seen together: detections mapped with "
-                              "--sensor range-bearing, or a folder of MRCLAM",
-                              choice.check || choice.repair ? "labels are checked"
-                                                            : "a landmark that moved is found"));
-  LabelOutcome outcome =
-      checked(source, read_mrclam_detections(source.path).log, choice, anchors, truth);
-  source.history = history_of(outcome.log, source.history.sensor);
-  return {std::move(outcome.facts), std::move(outcome.warnings)};
+std::string described(const LabelFinding& finding, const DetectionLog& log) {
+  const auto label = [&](int k) { return printable(log.names[static_cast<std::size_t>(k)]); };
+  const std::string what =
+      finding.fault == LabelFault::kSwapped
+          ? fmt::format("{} and {} look swapped{}", label(finding.first), label(finding.second),
+                        finding.scattered || finding.in_part ? " in single scans" : "")
+      : finding.fault == LabelFault::kWrong
+          ? fmt::format("{} looks like {}{}", label(finding.first), label(finding.second),
+                        finding.in_part ? " in single scans" : "")
+          : fmt::format("some of {} look like {}", label(finding.first), label(finding.second));
+  return fmt::format("{} {} ({}): loss {:.3f} -> {:.3f} m", what, when_words(finding, log),
+                     counted(finding.detections, "detection"), finding.loss_before_m,
+                     finding.loss_after_m);
+}
+
+std::string described(const MovedLandmark& moved, const DetectionLog& log) {
+  const std::string earliest = scan_words(log, moved.earliest_step);
+  const std::string latest = scan_words(log, moved.latest_step);
+  return fmt::format("{} moved by {:.2f} m {} (p = {:.3g}): loss {:.3f} -> {:.3f} m",
+                     printable(log.names[static_cast<std::size_t>(moved.landmark)]),
+                     moved.distance_m,
+                     earliest == latest ? "at " + latest : "between " + earliest + " and " + latest,
+                     moved.p, moved.loss_before_m, moved.loss_after_m);
+}
+
+std::string described(const AnchorExchange& exchange, const DetectionLog& log) {
+  const auto label = [&](int k) { return printable(log.names[static_cast<std::size_t>(k)]); };
+  return fmt::format(
+      "{} and {} look exchanged in all detections: known places missed by {:.3f} m, then by {:.3f} "
+      "m",
+      label(exchange.first), label(exchange.second), exchange.misfit_before_m,
+      exchange.misfit_after_m);
 }
 
 }  // namespace mapproof

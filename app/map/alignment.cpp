@@ -1,0 +1,132 @@
+#include "app/map/alignment.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+#include <fmt/format.h>
+
+#include "core/align/rigid.hpp"
+#include "core/base/not_finite.hpp"
+#include "core/score/map_score.hpp"
+
+namespace mapproof {
+namespace {
+
+constexpr double kFarOut = 2.0;  ///< The median landmark so many times as far out as any anchor.
+
+/// Errors of a map that no anchors tie to the truth: those that need none.
+std::optional<Score> anchor_free_score(const Points& coordinates, const Points& truth_m,
+                                       AffineFit fit) {
+  std::optional<Score> score = score_map(coordinates, truth_m, {}, fit);
+  if (score) score->mpe_m = score->moe_percent = kNaN;
+  return score;
+}
+
+/// Turns, shifts and perhaps mirrors the map onto those of the rows that it holds.
+bool lay_rigidly(MapRecord& record, const Points& known_m, const std::vector<Eigen::Index>& rows) {
+  std::vector<Eigen::Index> both;
+  for (const Eigen::Index row : rows)
+    if (record.estimate.row(row).allFinite() && known_m.row(row).allFinite()) both.push_back(row);
+  if (both.size() < 3) {
+    record.statuses.push_back(status_of<StatusReason::kFewKnownMapped>(both.size()));
+    return false;
+  }
+  record.estimate = fit_similarity(record.estimate(both, Eigen::all), known_m(both, Eigen::all),
+                                   Alignment::kRigidWithReflection)(record.estimate);
+  return true;
+}
+
+/// Of a map in metres.
+CertaintyFrame align_metric(MapResult& result, const Reference& known, const FrameFit& fit) {
+  const bool rigid = fit.is_rigid;
+  MapRecord& record = result.record;
+  const Points own = record.estimate;
+  if (!rigid && !known.anchors.empty()) align_and_score(record, own, known, fit.affine);
+  if (record.frame == Frame::kTruth && !rigid && !known.anchors.empty())
+    return {known.positions_m, known.anchors, false};
+  record.frame = Frame::kTruth;
+  record.anchors = known.anchors;
+  if (known.anchors.empty() && !known.has_truth) return {own, {}, true};
+  std::vector<Eigen::Index> all(record.names.size());
+  std::iota(all.begin(), all.end(), Eigen::Index{0});
+  if (!lay_rigidly(record, known.positions_m, known.anchors.empty() ? all : known.anchors))
+    return {own, {}, true};
+  record.truth_m = known.positions_m;
+  if (known.anchors.empty())
+    result.remarks.push_back(
+        "No anchors: for its errors the map was turned and shifted onto the truth, its scale "
+        "kept.");
+  if (known.has_truth)
+    record.score = score_map(record.estimate, known.positions_m, known.anchors, fit.affine);
+  if (known.anchors.empty()) return {record.estimate, {}, true};
+  return {known.positions_m, known.anchors, true};
+}
+
+}  // namespace
+
+CertaintyFrame align(MapResult& result, const Reference& reference, const FrameFit& fit) {
+  if (fit.is_metric) return align_metric(result, reference, fit);
+  MapRecord& record = result.record;
+  align_and_score(record, Points(record.estimate), reference, fit.affine);
+  const bool tied = record.frame == Frame::kTruth;
+  return {.positions_m = tied ? *record.truth_m : record.estimate,
+          .anchors = tied ? record.anchors : std::vector<Eigen::Index>{}};
+}
+
+void align_and_score(MapRecord& record, const Points& coordinates, const Reference& reference,
+                     AffineFit fit) {
+  record.frame = Frame::kSimilarity;
+  record.estimate = coordinates;
+  record.anchors = reference.anchors;
+  if (reference.has_truth || !reference.anchors.empty()) record.truth_m = reference.positions_m;
+  if (!reference.anchors.empty()) {
+    AlignedMap aligned =
+        align_to_anchors(coordinates, reference.positions_m, reference.anchors, fit);
+    record.statuses.insert(record.statuses.end(), aligned.statuses.begin(), aligned.statuses.end());
+    if (aligned.aligned) {
+      record.frame = Frame::kTruth;
+      record.estimate = std::move(aligned.positions_m);
+    }
+  }
+  if (!reference.has_truth) return;
+  record.score = record.frame == Frame::kTruth
+                     ? score_map(record.estimate, reference.positions_m, reference.anchors, fit)
+                     : anchor_free_score(record.estimate, reference.positions_m, fit);
+}
+
+std::vector<std::string> frame_warnings(const MapRecord& record) {
+  if (record.frame != Frame::kTruth || record.anchors.empty() || !record.truth_m) return {};
+  const Points anchors_m = (*record.truth_m)(record.anchors, Eigen::all);
+  const Eigen::RowVector2d centre = anchors_m.colwise().mean();
+  std::vector<double> away;
+  double trivial_m = 0.0;
+  int known = 0;
+  for (Eigen::Index i = 0; i < record.estimate.rows(); ++i) {
+    if (!record.estimate.row(i).allFinite() || std::ranges::count(record.anchors, i) > 0) continue;
+    away.push_back((record.estimate.row(i) - centre).norm());
+    if (!record.truth_m->row(i).allFinite()) continue;
+    trivial_m += (record.truth_m->row(i) - centre).norm();
+    ++known;
+  }
+  if (away.empty()) return {};
+  if (record.score && known > 0 && std::isfinite(record.score->mpe_m)) {
+    trivial_m /= known;
+    if (record.score->mpe_m < trivial_m) return {};
+    return {
+        fmt::format("The map is worth nothing in metres: its MPE is {:.3g} m, and all landmarks "
+                    "put at the mean "
+                    "of the anchors would have one of {:.3g} m.",
+                    record.score->mpe_m, trivial_m)};
+  }
+  const double reach_m = (anchors_m.rowwise() - centre).rowwise().norm().maxCoeff();
+  const auto middle = away.begin() + std::ssize(away) / 2;
+  std::ranges::nth_element(away, middle);
+  if (*middle < kFarOut * reach_m) return {};
+  return {fmt::format(
+      "Half of the landmarks lie {:.3g} m or more from the anchors' mean, no anchor beyond {:.3g} "
+      "m: the map, or its fit to the anchors, is likely to be worth nothing.",
+      *middle, reach_m)};
+}
+
+}  // namespace mapproof

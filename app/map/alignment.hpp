@@ -1,0 +1,36 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "app/map/map_result.hpp"
+#include "app/map/reference.hpp"
+#include "core/certainty/history_certainty.hpp"
+#include "core/model/experiment.hpp"
+
+namespace mapproof {
+
+/// How a map comes into the frame of its anchors.
+struct FrameFit {
+  AffineFit affine = AffineFit::kLeastDistances;
+  bool is_metric = false;  ///< The map is in metres before: its scale is worth keeping.
+  bool is_rigid = false;   ///< And it keeps it: rotated, shifted and perhaps reflected.
+};
+
+/// The steps align and score: brings a map into the frame of its anchors, if there are any that
+/// serve, and computes its errors if there is a ground truth. A metric map is in metres without
+/// anchors, too; its position and heading are then arbitrary, or those of the ground truth.
+/// @param result  `record.estimate` in a frame of its own; names and statuses.
+/// @return How other maps of the landmarks are brought to the same frame.
+CertaintyFrame align(MapResult& result, const Reference& reference, const FrameFit& fit);
+
+/// The same of a map that is not metric, without what it says of itself.
+void align_and_score(MapRecord& record, const Points& coordinates, const Reference& reference,
+                     AffineFit fit);
+
+/// What a person should know of a map in the frame of its anchors that is worth little: errors as
+/// large as if all landmarks were put at the anchors' mean, or, without a truth, landmarks far
+/// outside of what the anchors span. A sentence each.
+std::vector<std::string> frame_warnings(const MapRecord& record);
+
+}  // namespace mapproof

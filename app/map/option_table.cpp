@@ -1,0 +1,244 @@
+#include "app/map/option_table.hpp"
+
+#include <algorithm>
+
+#include <fmt/format.h>
+
+#include "core/base/errors.hpp"
+#include "core/base/words.hpp"
+
+namespace mapproof {
+namespace {
+
+using Job = const MapJob&;
+
+/// An option for the parameter of a symbol, as that of the methods that have it: "--sigma2".
+struct ParameterOption {
+  std::string_view symbol;
+  std::string_view option;
+  std::optional<double> MapJob::*value;
+};
+
+constexpr ParameterOption kParameterOptions[] = {{"K", "-K", &MapJob::neighbours},
+                                                 {"sigma2", "--sigma2", &MapJob::variance},
+                                                 {"d", "--degree", &MapJob::degree}};
+
+/// The parameter that the job's method has; null: none.
+const ParameterInfo* parameter_of(Job job) {
+  const std::optional<Method> method = method_of(job);
+  return method && info(*method).parameter ? &*info(*method).parameter : nullptr;
+}
+
+bool has_parameter(Job job, std::string_view symbol) {
+  const ParameterInfo* parameter = parameter_of(job);
+  return parameter != nullptr && parameter->symbol == symbol;
+}
+
+bool is_filled_in(Job job) {
+  return job.missing == "ppca" || job.missing == "pca" || job.missing == "auto";
+}
+
+const std::vector<MapOption>& all_options() {
+  static const std::vector<MapOption> options = {
+      {"--sensor", [](Job job) { return !job.kind.empty(); }},
+      {"--sensor bearing", [](Job job) { return job.kind == "bearing"; }, {"--sensor", "bearing"}},
+      {"--sensor range", [](Job job) { return job.kind == "range"; }, {"--sensor", "range"}},
+      {"--sensor visibility",
+       [](Job job) { return job.kind == "visibility"; },
+       {"--sensor", "visibility"}},
+      {"--sensor range-bearing",
+       [](Job job) { return job.is_range_bearing(); },
+       {"--sensor", "range-bearing"}},
+      {"--method",
+       [](Job job) { return !job.method.empty() && job.method != kPairs && !job.chooses_method(); },
+       {"--method", "isomap"}},
+      {"--method auto", [](Job job) { return job.chooses_method(); }, {"--method", "auto"}},
+      {"--method pairs", [](Job job) { return job.method == kPairs; }, {"--method", "pairs"}},
+      {"--parameter", [](Job job) { return job.parameter.has_value(); }, {"--parameter", "3"}},
+      {"-K", [](Job job) { return job.neighbours.has_value(); }, {"--neighbours", "3"}},
+      {"--sigma2", [](Job job) { return job.variance.has_value(); }, {"--sigma2", "3"}},
+      {"--degree", [](Job job) { return job.degree.has_value(); }, {"--degree", "3"}},
+      {"a method with a parameter", [](Job job) { return parameter_of(job) != nullptr; }},
+      {"a method with K", [](Job job) { return has_parameter(job, "K"); }},
+      {"a method with sigma2", [](Job job) { return has_parameter(job, "sigma2"); }},
+      {"a method with d", [](Job job) { return has_parameter(job, "d"); }},
+      {"--with", [](Job job) { return !job.with.empty() || !job.with_kind.empty(); }, {"--with"}},
+      {"a --with-sensor for each", [](Job job) { return job.with.size() == job.with_kind.size(); }},
+      {"--degrees", [](Job job) { return job.degrees; }, {"--degrees"}},
+      {"--layout wide", [](Job job) { return job.layout == "wide"; }, {"--layout", "wide"}},
+      {"--anchors", [](Job job) { return !job.anchors.empty(); }, {"--anchors"}},
+      {"--ground-truth", [](Job job) { return !job.truth.empty(); }, {"--ground-truth"}},
+      {"--steps", [](Job job) { return job.steps > 0; }, {"--steps", "20"}},
+      {"--fit", [](Job job) { return job.fit == "least-squares"; }, {"--fit", "least-squares"}},
+      {"--fit rigid", [](Job job) { return job.is_rigid(); }, {"--fit", "rigid"}},
+      {"--drop-unseen", [](Job job) { return job.drop_unseen; }, {"--drop-unseen"}},
+      {"--only-seen-together",
+       [](Job job) { return job.embedder.only_seen_together; },
+       {"--only-seen-together"}},
+      {"--missing", [](Job job) { return job.missing != MapJob().missing; }, {"--missing", "ppca"}},
+      {"--missing covisible",
+       [](Job job) { return job.missing == "covisible"; },
+       {"--missing", "covisible"}},
+      {"--missing ppca, pca or auto", is_filled_in},
+      {"--dimensions", [](Job job) { return job.dimensions.has_value(); }, {"--dimensions", "3"}},
+      {"--submaps", [](Job job) { return job.submaps > 0; }, {"--submaps", "6"}},
+      {"--overlap", [](Job job) { return job.overlap.has_value(); }, {"--overlap", "0.5"}},
+      {"--ellipses", [](Job job) { return job.ellipse_replicates > 0; }, {"--ellipses", "10"}},
+      {"--follow", [](Job job) { return job.follow; }, {"--follow"}},
+      {"--every", [](Job job) { return job.every != MapJob().every; }, {"--every", "5"}},
+      {"--check-ids", [](Job job) { return job.check_ids; }, {"--check-ids"}},
+      {"--repair-ids", [](Job job) { return job.repair_ids; }, {"--repair-ids"}},
+      {"--find-moved", [](Job job) { return job.find_moved; }, {"--find-moved"}},
+      {"--find-moved of one kind of value",
+       [](Job job) { return job.find_moved && !job.is_range_bearing(); }},
+      {"--uncertain-ids",
+       [](Job job) { return !job.uncertain_ids.empty(); },
+       {"--uncertain-ids", "L1,L2"}},
+      {"--templates", [](Job job) { return job.templates.has_value(); }, {"--templates"}},
+  };
+  return options;
+}
+
+constexpr std::string_view kNoParameter = "the method pairs has no parameter";
+constexpr std::string_view kChosen = "it chooses the parameter, too; leave it out";
+constexpr std::string_view kOneSensor = "one map of several sensors is made by distances alone";
+constexpr std::string_view kAllScans =
+    "labels are judged by all scans together; check the file as a whole";
+constexpr std::string_view kComplete =
+    "data association is estimated for one kind of value that every landmark has at every step (of "
+    "range and bearing, see --check-ids)";
+
+/// Options that do not go together.
+constexpr OptionPair kApart[] = {
+    {"--method", "--sensor range-bearing",
+     "range and bearing together are mapped by pairs; for others say --sensor range, bearing or "
+     "visibility"},
+    {"--method auto", "--sensor range-bearing",
+     "range and bearing together are mapped by pairs; for others say --sensor range, bearing or "
+     "visibility"},
+    {"--parameter", "--sensor range-bearing", kNoParameter},
+    {"-K", "--sensor range-bearing", kNoParameter},
+    {"--sigma2", "--sensor range-bearing", kNoParameter},
+    {"--degree", "--sensor range-bearing", kNoParameter},
+    {"--missing", "--sensor range-bearing", "pairs that were not measured are not filled in"},
+    {"--submaps", "--sensor range-bearing", "a map of pairs is made as a whole"},
+    {"--with", "--sensor range-bearing",
+     "range and bearing together are mapped by pairs; name one of them by --sensor"},
+    {"--uncertain-ids", "--sensor range-bearing", kComplete},
+
+    {"--parameter", "--method auto", kChosen},
+    {"-K", "--method auto", kChosen},
+    {"--sigma2", "--method auto", kChosen},
+    {"--degree", "--method auto", kChosen},
+    {"--submaps", "--method auto", "the candidates are maps made as a whole"},
+    {"--submaps", "--ellipses", "resamples are mapped as a whole"},
+    {"--missing covisible", "--sensor visibility",
+     "it is for bearings and ranges; visibility itself says what was seen"},
+
+    {"--with", "--method auto", kOneSensor},
+    {"--with", "--submaps", kOneSensor},
+    {"--with", "--ellipses", kOneSensor},
+    {"--with", "--missing", kOneSensor},
+    {"--with", "--check-ids", kOneSensor},
+    {"--with", "--repair-ids", kOneSensor},
+    {"--with", "--find-moved", kOneSensor},
+    {"--with", "--uncertain-ids", kComplete},
+    {"--with", "--follow", "one file alone is read while it grows"},
+
+    {"--method auto", "--follow",
+     "it makes some twenty maps by each method, far more than an update may take; choose on a part "
+     "of the file, then follow by that method"},
+    {"--ellipses", "--follow",
+     "they come of hundreds of maps of steps drawn anew, far more than an update may take; map the "
+     "file as a whole"},
+    {"--missing", "--follow",
+     "filling entries in takes the whole history, and followed steps are not kept; a followed map "
+     "takes the distances over common steps"},
+    {"--submaps", "--follow", "a followed map is made as a whole"},
+    {"--steps", "--follow", "it takes every step that comes"},
+    {"--drop-unseen", "--follow", "landmarks come as they are observed, there are no others"},
+    {"--layout wide", "--follow", "only a long table grows step by step"},
+    {"--check-ids", "--follow", kAllScans},
+    {"--repair-ids", "--follow", kAllScans},
+    {"--find-moved of one kind of value", "--follow",
+     "one kind of value alone does not tell what moved; follow detections with --sensor "
+     "range-bearing"},
+    {"--uncertain-ids", "--follow", kComplete},
+};
+
+/// Options of which the first is of use with the second alone.
+constexpr OptionPair kNeeded[] = {
+    {"--follow", "--sensor",
+     "say by --sensor what the values are: visibility, bearing, range or range-bearing"},
+    {"--method pairs", "--sensor range-bearing", "it maps observations of --sensor range-bearing"},
+    {"--fit rigid", "--sensor range-bearing",
+     "only a map of range and bearing has a scale of its own"},
+    {"--with", "a --with-sensor for each", "each file needs a --with-sensor of its own"},
+    {"--parameter", "a method with a parameter", "the method {method} has {has}"},
+    {"-K", "a method with K", "the method {method} has {has}"},
+    {"--sigma2", "a method with sigma2", "the method {method} has {has}"},
+    {"--degree", "a method with d", "the method {method} has {has}"},
+    {"--dimensions", "--missing ppca, pca or auto", "--missing {missing} has none"},
+    {"--overlap", "--submaps", "it is of sub-maps; add --submaps SIZE"},
+};
+
+bool is_asked(std::string_view name, Job job) {
+  return std::ranges::find(all_options(), name, &MapOption::name)->is_asked(job);
+}
+
+/// "none", or the parameter of the job's method and its option.
+std::string parameter_words(Job job) {
+  const ParameterInfo* parameter = parameter_of(job);
+  if (parameter == nullptr) return "none";
+  const auto* option =
+      std::ranges::find(kParameterOptions, parameter->symbol, &ParameterOption::symbol);
+  return fmt::format("the parameter {}; did you mean {}?", parameter->shown,
+                     option == std::end(kParameterOptions) ? "--parameter" : option->option);
+}
+
+std::string reason(const OptionPair& pair, Job job) {
+  const std::optional<Method> method = method_of(job);
+  return fmt::format(fmt::runtime(pair.why),
+                     fmt::arg("method", method ? info(*method).name : std::string_view("pairs")),
+                     fmt::arg("has", parameter_words(job)), fmt::arg("missing", job.missing));
+}
+
+}  // namespace
+
+std::span<const MapOption> map_option_list() { return all_options(); }
+std::span<const OptionPair> options_apart() { return kApart; }
+std::span<const OptionPair> options_needed() { return kNeeded; }
+
+std::string refusal(const MapJob& job) {
+  for (const OptionPair& pair : kApart)
+    if (is_asked(pair.option, job) && is_asked(pair.other, job))
+      return fmt::format("{}: not with {}: {}", pair.option, pair.other, reason(pair, job));
+  for (const OptionPair& pair : kNeeded)
+    if (is_asked(pair.option, job) && !is_asked(pair.other, job))
+      return fmt::format("{}: {}", pair.option, reason(pair, job));
+  return "";
+}
+
+void require_compatible(const MapJob& job) {
+  if (const std::string words = refusal(job); !words.empty()) throw InvalidInput(words);
+}
+
+std::optional<GivenParameter> given_parameter(const MapJob& job) {
+  std::optional<GivenParameter> given;
+  if (job.parameter) given = {"--parameter", *job.parameter};
+  for (const ParameterOption& option : kParameterOptions)
+    if (const std::optional<double>& value = job.*option.value) given = {option.option, *value};
+  return given;
+}
+
+std::optional<Method> method_of(const MapJob& job) {
+  return method_named(job.method.empty() ? "isomap" : lower_case(job.method));
+}
+
+void require_known_method(const MapJob& job) {
+  if (job.chooses_method() || job.method == kPairs || method_of(job)) return;
+  throw InvalidInput(fmt::format("--method: unknown method \"{}\"; did you mean \"{}\"?",
+                                 printable(job.method), nearest_method_name(job.method)));
+}
+
+}  // namespace mapproof

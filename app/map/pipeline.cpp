@@ -1,0 +1,295 @@
+#include "app/map/pipeline.hpp"
+
+#include <algorithm>
+#include <array>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "app/map/alignment.hpp"
+#include "app/map/option_table.hpp"
+#include "core/base/errors.hpp"
+#include "core/base/input_file.hpp"
+#include "core/base/words.hpp"
+#include "core/observe/detected_proximities.hpp"
+#include "core/pairs/pair_map.hpp"
+
+namespace mapproof {
+namespace {
+
+// Read.
+
+ObservationSource read_values(const MapJob& job, std::optional<Sensor> sensor) {
+  return job.source ? read_observations(*job.source, sensor, job.table_layout(), job.unit())
+                    : read_observations(job.path, sensor, job.table_layout(), job.unit());
+}
+
+DetectionSource read_scans(const MapJob& job, std::optional<Sensor> value) {
+  const DetectionFormat format{.unit = job.unit(), .value = value};
+  return job.source ? read_detections(*job.source, format) : read_detections(job.path, format);
+}
+
+std::vector<ObservationSource> read_sensors(const MapJob& job, std::optional<Sensor> sensor) {
+  std::vector<ObservationSource> sources = {read_values(job, sensor)};
+  for (std::size_t k = 0; k < job.with.size(); ++k)
+    sources.push_back(read_observations(job.with[k], sensor_named(job.with_kind[k]),
+                                        job.table_layout(), job.unit()));
+  for (const ObservationSource& source : sources)
+    if (!source.unlabelled.empty())
+      throw IoError(source.path, fmt::format("line {}", source.unlabelled.front().line),
+                    "a reading without a label: not with --with");
+  return sources;
+}
+
+/// Whether a table may be mapped without an array of landmarks times steps: no step asks for one.
+bool may_be_long(const MapJob& job) {
+  return job.missing == MapJob().missing && job.submaps == 0 && !job.judges_ids() &&
+         job.uncertain_ids.empty() && !job.chooses_method() && job.ellipse_replicates == 0 &&
+         job.table_layout() != Layout::kWide && job.source != nullptr &&
+         is_large_long_table(*job.source);
+}
+
+Observed read(const MapJob& job) {
+  const std::optional<Sensor> sensor = job.kind.empty() ? std::nullopt : sensor_named(job.kind);
+  if (!job.with.empty()) return read_sensors(job, sensor);
+  if (job.is_range_bearing()) return read_scans(job, std::nullopt);
+  if (sensor && may_be_long(job)) return read_scans(job, sensor);
+  ObservationSource source = read_values(job, sensor);
+  MapJob known = job;
+  known.kind = name(source.history.sensor);
+  require_compatible(known);
+  return source;
+}
+
+// Check.
+
+void require_three(const std::string& path, std::ptrdiff_t landmarks) {
+  if (landmarks < 3)
+    throw IoError(path, fmt::format("{}; a map needs 3 or more", counted(landmarks, "landmark")));
+}
+
+/// Landmarks with nothing observed of them: an error at the first, or a remark.
+void check_unseen(const ObservationSource& source, const std::vector<Eigen::Index>& unseen,
+                  const MapJob& job, std::vector<std::string>& remarks) {
+  if (unseen.empty()) return;
+  const auto first = static_cast<std::size_t>(unseen.front());
+  const bool is_log = source.truth_m.has_value();
+  if (!job.drop_unseen && !is_log)
+    throw IoError(
+        source.path, source.places[first],
+        fmt::format("landmark {} is never observed{}; remove it, or pass --drop-unseen "
+                    "to map the others",
+                    quoted_name(source.history.names[first]),
+                    source.history.sensor == Sensor::kVisibility ? " (no 1 in its row)" : ""));
+  remarks.push_back(fmt::format("{} of {} landmarks were never observed and are left out.",
+                                unseen.size(), source.history.landmarks()));
+}
+
+void check_values(const ObservationSource& source, const MapJob& job, MapDraft& draft) {
+  const ObservationHistory& history = source.history;
+  const Eigen::Index steps = job.steps > 0 ? job.steps : history.steps();
+  require_steps(job, source.path, history.steps());
+  require_three(source.path, history.landmarks());
+  draft.landmarks = {.path = source.path,
+                     .names = history.names,
+                     .unseen = unseen_landmarks(history, steps),
+                     .truth_m = source.truth_m};
+  require_neighbours(job, draft.landmarks);
+  check_unseen(source, draft.landmarks.unseen, job, draft.result.remarks);
+  MapRecord& record = draft.result.record;
+  record.origin = FromSensor{history.sensor, job.setting};
+  record.step = static_cast<int>(steps);
+  const auto missing = static_cast<double>(history.values.array().isNaN().count());
+  const auto entries = static_cast<double>(history.values.size());
+  draft.result.read = {{"Landmarks", std::to_string(history.landmarks())},
+                       {"Steps used", fmt::format("{} of {}", steps, history.steps())},
+                       {"Missing entries", fmt::format("{:.1f} %", 100.0 * missing / entries)}};
+}
+
+/// Leaves the first scans, as many as the job asks for.
+void check_scans(DetectionSource& source, const MapJob& job, MapDraft& draft) {
+  DetectionLog& log = source.log;
+  require_three(source.path, std::ssize(log.names));
+  const int scans = log.steps;
+  require_steps(job, source.path, scans);
+  if (job.steps > 0) {
+    std::erase_if(log.detections, [&](const Detection& seen) { return seen.step >= job.steps; });
+    log.steps = job.steps;
+  }
+  draft.landmarks = {
+      .path = source.path, .names = log.names, .unseen = unseen_in(log), .truth_m = source.truth_m};
+  if (!job.is_range_bearing() && !draft.landmarks.unseen.empty())
+    throw IoError(source.path,
+                  fmt::format("{} of {} landmarks are not in the first {} scans",
+                              draft.landmarks.unseen.size(), log.names.size(), log.steps));
+  MapRecord& record = draft.result.record;
+  record.origin = FromPairs{};
+  if (!job.is_range_bearing()) record.origin = FromSensor{*sensor_named(job.kind), job.setting};
+  record.step = log.steps;
+  draft.result.read = {{"Landmarks", std::to_string(log.names.size())},
+                       {"Steps used", fmt::format("{} of {}", log.steps, scans)},
+                       {"Detections", std::to_string(log.detections.size())}};
+}
+
+/// Steps, landmarks and K; what was observed, in numbers.
+MapDraft check(MapDraft draft, const MapJob& job) {
+  if (const auto* source = std::get_if<ObservationSource>(&draft.observed))
+    check_values(*source, job, draft);
+  else if (auto* scans = std::get_if<DetectionSource>(&draft.observed))
+    check_scans(*scans, job, draft);
+  draft.setting = job.setting;
+  draft.result.record.id = "map";
+  draft.result.record.names = draft.landmarks.names;
+  return draft;
+}
+
+// Reference.
+
+/// Anchors and ground truth in the rows of the landmarks; then nothing but the map is unknown.
+MapDraft refer(MapDraft draft, const MapJob& job) {
+  draft.reference =
+      reference_of(draft.landmarks, job.known_anchors, job.known_truth, draft.result.remarks);
+  // Whether a map of pairs can be fitted to what is known turns out with the map.
+  if (!job.begin || job.is_range_bearing()) return draft;
+  MapRecord begun = draft.result.record;
+  begun.anchors = draft.reference.anchors;
+  if (draft.reference.has_truth || !begun.anchors.empty())
+    begun.truth_m = draft.reference.positions_m;
+  job.begin(begun);
+  return draft;
+}
+
+// Distances, and their embedding.
+
+void embed_values(const ObservationSource& source, const MapJob& job, MapDraft& draft) {
+  HistoryEmbedder embedder(source.history, draft.result.record.step, job.embedder,
+                           draft.distances.of_map);
+  if (!draft.setting.parameter) draft.setting = embedder.usual_setting(draft.setting.method);
+  take_embedding(draft, embedder.embed(draft.setting));
+}
+
+void embed_long_table(const DetectionSource& source, const MapJob& job, MapDraft& draft) {
+  Embedder embedder(detected_proximities(source.log, *sensor_named(job.kind)), job.embedder);
+  if (!draft.setting.parameter) draft.setting = embedder.usual_setting(draft.setting.method);
+  take_embedding(draft, embedder.embed(draft.setting));
+}
+
+void embed_pairs(const DetectionSource& source, MapDraft& draft) {
+  const PairMap map = pair_map_of(source.log);
+  take_embedding(draft, map.embedding);
+  const std::size_t M = source.log.names.size();
+  draft.result.read.emplace_back("Measured pairs",
+                                 fmt::format("{} of {}", map.pairs.size(), M * (M - 1) / 2));
+}
+
+/// Embeds the distances as a whole, unless a step before has embedded them otherwise.
+MapDraft embed(MapDraft draft, const MapJob& job) {
+  if (!draft.is_embedded) {
+    if (const auto* source = std::get_if<ObservationSource>(&draft.observed))
+      embed_values(*source, job, draft);
+    else if (const auto* scans = std::get_if<DetectionSource>(&draft.observed))
+      job.is_range_bearing() ? embed_pairs(*scans, draft) : embed_long_table(*scans, job, draft);
+  }
+  std::visit(
+      [&](auto& origin) {
+        if constexpr (requires { origin.setting; }) origin.setting = draft.setting;
+      },
+      draft.result.record.origin);
+  return draft;
+}
+
+// Align, score, explain.
+
+MapDraft align_to_reference(MapDraft draft, const MapJob& job) {
+  draft.frame = align(draft.result, draft.reference,
+                      {.affine = job.affine_fit(),
+                       .is_metric = job.is_range_bearing(),
+                       .is_rigid = job.is_rigid()});
+  return draft;
+}
+
+/// The head of the report, and what a person should know of the frame.
+MapDraft explain(MapDraft draft, const MapJob& job) {
+  MapResult& map = draft.result;
+  const MapRecord& record = map.record;
+  map.facts = {{"Observations", input_name(job.path)}, {"Sensor", sensor_label(record)}};
+  map.facts.insert(map.facts.end(), map.read.begin(), map.read.end());
+  map.facts.emplace_back("Method", method_label(record));
+  if (record.anchors.empty()) {
+    map.facts.emplace_back("Anchors", "none");
+  } else {
+    std::string names;
+    for (const Eigen::Index row : record.anchors)
+      names += (names.empty() ? "" : ", ") + record.names[static_cast<std::size_t>(row)];
+    map.facts.emplace_back(
+        "Anchors", names + (job.anchors.empty() ? " (the furthest out along the diagonals)" : ""));
+    map.facts.emplace_back(job.is_rigid() ? "Fit to the anchors" : "Affine fit to the anchors",
+                           job.fit);
+  }
+  for (std::string& warning : frame_warnings(record)) map.warnings.push_back(std::move(warning));
+  return draft;
+}
+
+constexpr MapStep kCheck{check}, kReference{refer}, kEmbedding{embed},
+    kAlignment{align_to_reference}, kExplanation{explain};
+
+/// A capability is deleted with its file, its line here and its options.
+constexpr std::array kSteps = {
+    &kIdCheck,          // Landmark IDs that contradict one another; what moved.
+    &kDataAssociation,  // Whose the measurements without a landmark ID are.
+    &kCheck,
+    &kCommonLandmarks,  // Several sensors: the landmarks of all files.
+    &kReference,
+    &kMissingData,   // Distances where entries are missing.
+    &kMethodChoice,  // --method auto.
+    &kSubmaps,       // Embeddings other than of the whole map of one sensor.
+    &kJointMap,        &kEmbedding,
+    &kAlignment,    // And the score.
+    &kUncertainty,  // Ellipses.
+    &kExplanation,
+};
+
+}  // namespace
+
+std::span<const MapStep* const> map_steps() { return kSteps; }
+
+MapResult make_map(const MapJob& job) {
+  MapDraft draft{.observed = read(job)};
+  if (const auto* source = std::get_if<ObservationSource>(&draft.observed))
+    draft.result.remarks = source->remarks;
+  else if (const auto* scans = std::get_if<DetectionSource>(&draft.observed))
+    draft.result.remarks = scans->remarks;
+  for (const MapStep* step : kSteps) draft = step->take(std::move(draft), job);
+  return std::move(draft.result);
+}
+
+void take_embedding(MapDraft& draft, const Embedding& embedding) {
+  const DistanceNotes& notes = *draft.distances.notes;
+  MapResult& result = draft.result;
+  MapRecord& record = result.record;
+  record.estimate = embedding.coordinates;
+  record.statuses = notes.statuses;
+  record.statuses.insert(record.statuses.end(), embedding.statuses.begin(),
+                         embedding.statuses.end());
+  if (notes.completed)
+    for (Status& status : record.statuses)
+      if (status.code == StatusCode::kDistancesCompleted) status = *notes.completed;
+  record.certificate = embedding.certificate;
+  result.remarks.insert(result.remarks.end(), notes.remarks.begin(), notes.remarks.end());
+  draft.is_embedded = true;
+}
+
+void require_neighbours(const MapJob& job, const MappedLandmarks& landmarks) {
+  const auto M = landmarks.landmarks();
+  const double K = job.setting.parameter.value_or(0.0);
+  if (on_graph(job.setting.method) && K >= static_cast<double>(M))
+    throw IoError(landmarks.path,
+                  fmt::format("K = {:g} needs more than {:g} landmarks, {} are there", K, K, M));
+}
+
+void require_steps(const MapJob& job, const std::string& path, Eigen::Index steps) {
+  if (job.steps > steps)
+    throw IoError(path, fmt::format("--steps {}: it holds {} observations", job.steps, steps));
+}
+
+}  // namespace mapproof

@@ -1,0 +1,88 @@
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <variant>
+#include <vector>
+
+#include "app/map/arguments.hpp"
+#include "app/map/map_result.hpp"
+#include "app/map/reference.hpp"
+#include "core/certainty/history_certainty.hpp"
+#include "core/embed/embedder.hpp"
+#include "core/records/observations/detections.hpp"
+#include "core/records/observations/observations.hpp"
+
+namespace mapproof {
+
+/// What was observed, in the form that the map is made from: values of one sensor; detections, of
+/// range and bearing, or of a table of one sensor that is too long for an array of landmarks times
+/// steps; values of several sensors, in common rows once they are checked.
+using Observed = std::variant<ObservationSource, DetectionSource, std::vector<ObservationSource>>;
+
+/// What a rule for distances has to say once it was called.
+struct DistanceNotes {
+  std::vector<Status> statuses;
+  std::vector<std::string> remarks;
+  /// Of pairs without a distance, if it is not that they share no step.
+  std::optional<Status> completed;
+};
+
+/// How distances come of observations.
+struct DistanceRule {
+  ProximityRule of_map = {};     ///< See HistoryEmbedder.
+  ProximityRule of_others = {};  ///< The same for candidates and resamples: it notes nothing.
+  std::shared_ptr<DistanceNotes> notes = std::make_shared<DistanceNotes>();  ///< Of `of_map`.
+};
+
+/// A map in the making: what the steps before have found out.
+struct MapDraft {
+  Observed observed;
+  MappedLandmarks landmarks = {};
+  Reference reference = {};
+  DistanceRule distances = {};
+  MethodSetting setting = {};  ///< Without a parameter: the usual one of these data.
+  bool is_embedded = false;    ///< The result's record holds an estimate.
+  CertaintyFrame frame = {};   ///< That other maps of the landmarks are brought to.
+  MapResult result = {};
+};
+
+/// A step of the pipeline: it takes a map in the making and returns it with what the step adds. It
+/// returns it as it is where nothing asks for the step.
+struct MapStep {
+  MapDraft (*take)(MapDraft draft, const MapJob& job);  ///< @throws IoError, InvalidInput.
+  std::string_view figure = {};                         ///< The id of the figure that it may add,
+  std::string_view file = {};                           ///< and the name of the file.
+};
+
+/// What `map` is capable of beside a plain map, a file each. Their places among the steps are in
+/// pipeline.cpp.
+extern const MapStep kIdCheck, kDataAssociation, kCommonLandmarks, kMissingData, kMethodChoice,
+    kSubmaps, kJointMap, kUncertainty;
+
+/// All steps, in their order.
+std::span<const MapStep* const> map_steps();
+
+/// Maps what a person observed: reads it, and takes the steps.
+///
+/// A source that holds its own truth (MRCLAM) is aligned, without anchors, to the four landmarks
+/// furthest out along the diagonals of the truth's extent.
+/// @throws IoError naming file and line for what the readers refuse; anchors that cannot serve
+///         (fewer than three, on one line, unknown, unobserved), a truth about other landmarks,
+///         landmarks never observed (unless dropped or read from a log, where no row can be
+///         removed), K >= M, too few landmarks. @throws InvalidInput as require_compatible().
+MapResult make_map(const MapJob& job);
+
+/// Takes an embedding, its statuses after those of the distances, and its certificate.
+void take_embedding(MapDraft& draft, const Embedding& embedding);
+
+/// @throws IoError if the job's K is not below the number of landmarks.
+void require_neighbours(const MapJob& job, const MappedLandmarks& landmarks);
+
+/// @throws IoError if the job asks for more steps than there are.
+void require_steps(const MapJob& job, const std::string& path, Eigen::Index steps);
+
+}  // namespace mapproof
