@@ -1,4 +1,4 @@
-#include "app/map/data_association_words.hpp"
+#include "app/map/id_check.hpp"
 
 #include <gtest/gtest.h>
 

@@ -5,7 +5,7 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
-#include "app/map/one_sensor.hpp"
+#include "app/map/pipeline.hpp"
 #include "core/align/diagonal_anchors.hpp"
 #include "core/records/observations/observation_json.hpp"
 #include "core/records/observations/observations.hpp"
