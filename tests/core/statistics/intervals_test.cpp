@@ -8,6 +8,7 @@
 #include <gtest/gtest.h>
 
 #include "core/base/errors.hpp"
+#include "core/base/median.hpp"
 
 namespace mapproof {
 namespace {
