@@ -155,7 +155,8 @@ MapDraft take_common_landmarks(MapDraft draft, const MapJob& job) {
   auto* sources = std::get_if<Sources>(&draft.observed);
   if (sources == nullptr) return draft;
   MapResult& result = draft.result;
-  draft.landmarks = {.path = sources->front().path, .names = joint_names(*sources)};
+  draft.landmarks.path = sources->front().path;
+  draft.landmarks.names = joint_names(*sources);
   const std::vector<std::string>& names = draft.landmarks.names;
   require_neighbours(job, draft.landmarks);
   for (const ObservationSource& source : *sources)

@@ -8,7 +8,7 @@
 #include <ft2build.h>
 #include FT_FREETYPE_H
 
-#include "render/cairo/cairo_backend.hpp"
+#include "render/cairo/cairo_painter.hpp"
 
 namespace mapproof::test {
 namespace {

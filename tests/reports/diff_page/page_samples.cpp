@@ -8,6 +8,7 @@
 #include "core/base/files.hpp"
 #include "render/image/png.hpp"
 #include "reports/diff/folder_diff.hpp"
+#include "reports/diff/images/picture_diff.hpp"
 
 namespace mapproof::test {
 namespace {
